@@ -1,0 +1,227 @@
+//! The clauses of the fields: the role that each one plays, and the word that says its shape.
+
+use super::attributes::{self, Clause, Place, Value};
+use super::context::Context;
+use super::names;
+use super::roles::ROLES;
+use super::scene::{self, CLAUSES};
+use super::shapes::{self, Reading};
+use super::{Role, Shape};
+use proc_macro2::{Ident, Span};
+use syn::{Attribute, Expr, ExprLit, FieldsNamed, Generics, Lit, Meta, Type};
+
+/// One field as written.
+pub(super) struct Field<'a> {
+    pub(super) ident: &'a Ident,
+    pub(super) ty: &'a Type,
+    pub(super) reading: Reading,
+    pub(super) role: Option<Claim>,
+    pub(super) documentation: String,
+}
+
+/// A role as written on a field.
+pub(super) struct Claim {
+    pub(super) role: Role,
+    pub(super) span: Span,
+    /// The word after `=`, when there is a valid one.
+    pub(super) form: Option<Form>,
+    /// The word after `=` was refused: then the shape is not asked for once more.
+    pub(super) malformed: bool,
+}
+
+/// The word after `=`.
+pub(super) struct Form {
+    pub(super) word: &'static str,
+    pub(super) shape: Shape,
+    pub(super) span: Span,
+}
+
+/// Every field, and what is known about the roles beyond them.
+pub(super) struct Reader<'a> {
+    pub(super) fields: Vec<Field<'a>>,
+    /// Roles that some clause means although it is wrong (misspelt, or second on its field); they are not missing too.
+    pub(super) meant: Vec<Role>,
+    /// A clause of a later version was written.
+    pub(super) unsupported: bool,
+}
+
+/// Reads the named fields of a struct.
+pub(super) fn read<'a>(
+    named: &'a FieldsNamed,
+    generics: &Generics,
+    context: &mut Context,
+) -> Reader<'a> {
+    let mut reader = Reader {
+        fields: Vec::new(),
+        meant: Vec::new(),
+        unsupported: false,
+    };
+    for field in &named.named {
+        // A field of a struct with named fields has a name.
+        let Some(ident) = &field.ident else { continue };
+        let mut role: Option<Claim> = None;
+        for clause in attributes::clauses(&field.attrs, Place::Field, context) {
+            let Some(claim) = reader.claim(&clause, context) else {
+                continue;
+            };
+            match &role {
+                None => role = Some(claim),
+                Some(first) if first.role == claim.role => context.error(
+                    claim.span,
+                    format!(
+                        "`{}` is written twice on the field `{ident}`; write it once",
+                        claim.role.word()
+                    ),
+                ),
+                Some(first) => {
+                    context.error(
+                        claim.span,
+                        format!(
+                            "the field `{ident}` has two roles, first `{}` and now `{}`; a field plays one role: \
+                             make a second field for `{}`",
+                            first.role.word(),
+                            claim.role.word(),
+                            claim.role.word()
+                        ),
+                    );
+                    reader.meant.push(claim.role);
+                }
+            }
+        }
+        reader.fields.push(Field {
+            ident,
+            ty: &field.ty,
+            reading: shapes::read(&field.ty, generics),
+            role,
+            documentation: documentation(&field.attrs),
+        });
+    }
+    reader
+}
+
+impl Reader<'_> {
+    /// The role that a clause gives to its field.
+    fn claim(&mut self, clause: &Clause, context: &mut Context) -> Option<Claim> {
+        let word = clause.word();
+        let span = clause.name.span();
+        let Some(&(_, role)) = ROLES.iter().find(|(name, _)| *name == word) else {
+            self.refuse(clause, &word, context);
+            return None;
+        };
+        let (form, malformed) = read_form(role, clause, context);
+        Some(Claim {
+            role,
+            span,
+            form,
+            malformed,
+        })
+    }
+
+    /// Notes why a clause is no role.
+    fn refuse(&mut self, clause: &Clause, word: &str, context: &mut Context) {
+        let span = clause.name.span();
+        if scene::is_unsupported(word) {
+            scene::refuse_unsupported(&clause.name, context);
+            self.unsupported = true;
+            return;
+        }
+        if CLAUSES.iter().any(|(name, _)| *name == word) {
+            let written = clause.written();
+            context.error(span, format!("`{word}` is a clause of the struct, not of a field; write `#[gauss({written})]` above `struct`"));
+            return;
+        }
+        let owners: Vec<Role> = ROLES
+            .iter()
+            .map(|&(_, role)| role)
+            .filter(|role| role.forms().iter().any(|(form, _)| *form == word))
+            .collect();
+        if !owners.is_empty() {
+            let choices: Vec<String> = owners
+                .iter()
+                .map(|role| format!("`{} = {word}`", role.word()))
+                .collect();
+            context.error(
+                span,
+                format!(
+                    "`{word}` is a form of a role, not a role; write {}",
+                    choices.join(" or ")
+                ),
+            );
+            self.meant.extend(owners);
+            return;
+        }
+        if let Err(Some(meant)) = names::resolve("role", &clause.name, ROLES, context) {
+            self.meant.push(meant);
+        }
+    }
+}
+
+/// The word after `=`, and whether something there was refused.
+fn read_form(role: Role, clause: &Clause, context: &mut Context) -> (Option<Form>, bool) {
+    let name = &clause.name;
+    let forms = role.forms();
+    match &clause.value {
+        Value::Absent => return (None, false),
+        Value::Malformed => return (None, true),
+        Value::Equals(tokens) if forms.is_empty() => {
+            if let Some(first) = tokens.first() {
+                context.error(
+                    attributes::start(first),
+                    format!("`{name}` takes no value; write `#[gauss({name})]`"),
+                );
+            }
+            return (None, true);
+        }
+        Value::Brackets(group) if forms.is_empty() => {
+            context.error(
+                group.span_open(),
+                format!("`{name}` takes nothing in brackets; write `#[gauss({name})]`"),
+            );
+            return (None, true);
+        }
+        Value::Equals(_) | Value::Brackets(_) => {}
+    }
+    let Some(word) = clause.bare_word(forms, context) else {
+        return (None, true);
+    };
+    let noun = format!("`{name}` form");
+    let Ok(shape) = names::resolve(&noun, &word.ident, forms, context) else {
+        return (None, true);
+    };
+    if let Some(arguments) = word.arguments {
+        let ident = &word.ident;
+        context.error(
+            arguments.span_open(),
+            format!("`{ident}` takes nothing in brackets; write `{name} = {ident}`"),
+        );
+        return (None, true);
+    }
+    let form = forms
+        .iter()
+        .find(|(_, form)| *form == shape)
+        .map(|&(form, _)| Form {
+            word: form,
+            shape,
+            span: word.ident.span(),
+        });
+    (form, false)
+}
+
+/// The doc comment of a field, each line trimmed, lines joined as they were.
+fn documentation(attributes: &[Attribute]) -> String {
+    let mut lines = Vec::new();
+    for attribute in attributes
+        .iter()
+        .filter(|attribute| attribute.path().is_ident("doc"))
+    {
+        if let Meta::NameValue(pair) = &attribute.meta
+            && let Expr::Lit(ExprLit {
+                lit: Lit::Str(text),
+                ..
+            }) = &pair.value
+        {
+            lines.extend(text.value().lines().map(|line| line.trim().to_string()));
+        }
+    }
+    lines.join("\n").trim().to_string()
+}

@@ -1,0 +1,243 @@
+//! The attribute language, read and checked: a struct with `#[gauss(…)]` goes in, a [`Model`] comes out.
+//!
+//! This is the only part of the derive that knows syn's input types. Nothing here panics on what a user can write;
+//! every mistake is collected in a [`Context`](context::Context) and all of them are reported together, each at the
+//! token that is wrong, with what was expected.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `attributes` | `#[gauss(…)]` → clauses `name`, `name = value`, `name(…)` |
+//! | `scene` | the clauses of the struct: `chart`, `motion`, `crate` |
+//! | `fields` | the clauses of the fields: their roles |
+//! | `roles` | what each role is called and which shapes it takes |
+//! | `shapes` | the written type of a field → shape and scalar |
+//! | `validate` | what must hold between fields: one scalar, no role missing or doubled |
+//! | `names` | the nearest valid word to a misspelt one |
+//! | `context` | the mistakes found so far |
+
+mod attributes;
+mod context;
+mod fields;
+mod names;
+mod roles;
+mod scene;
+mod shapes;
+#[cfg(test)]
+mod tests;
+mod validate;
+
+use context::Context;
+use proc_macro2::Span;
+use syn::{
+    Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics, Ident, Path, Visibility,
+};
+
+/// One rigid body as the user wrote it, checked.
+#[derive(Clone)]
+pub struct Model {
+    /// Name of the struct.
+    pub ident: Ident,
+    /// Visibility of the struct; the kernel gets the same.
+    pub visibility: Visibility,
+    /// Generics of the struct: type parameters only.
+    pub generics: Generics,
+    /// The one scalar of every field with a role.
+    pub scalar: Scalar,
+    /// Where the generated code finds the runtime: `::gauss_runtime`, or what `crate = path` says.
+    pub runtime: Path,
+    /// The quasi-velocities that the equations are written in.
+    pub chart: Chart,
+    /// What the body is free to do.
+    pub motion: Motion,
+    /// Every field of the struct, in order.
+    pub parameters: Vec<Parameter>,
+    /// Index of the mass m.
+    pub mass: usize,
+    /// Index of the centre of mass G − O, body axes; without it O is the centre of mass.
+    pub center_of_mass: Option<usize>,
+    /// Index of the inertia tensor about O, body axes.
+    pub inertia: usize,
+    /// Index of the added mass, body axes, pole O, order (u, ω); without it there is no fluid impulse.
+    pub added_mass: Option<usize>,
+    /// Index of gravity; without it the body has no weight.
+    pub gravity: Option<usize>,
+    /// Index of the mass of the displaced fluid: buoyancy is this mass times gravity, upwards.
+    pub displaced_mass: Option<usize>,
+    /// Index of the centre of buoyancy, body axes from O; without it buoyancy acts at O.
+    pub center_of_buoyancy: Option<usize>,
+}
+
+/// The number type that kernels compute with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Scalar {
+    /// `f32`.
+    F32,
+    /// `f64`.
+    F64,
+    /// A type parameter of the struct.
+    Parameter(Ident),
+}
+
+impl std::fmt::Display for Scalar {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Scalar::F32 => formatter.write_str("f32"),
+            Scalar::F64 => formatter.write_str("f64"),
+            Scalar::Parameter(ident) => ident.fmt(formatter),
+        }
+    }
+}
+
+/// The choice of quasi-velocities, row by row as in equations (2.2)–(2.6).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Chart {
+    /// u and ω in body axes, pole O.
+    LeftInvariant,
+    /// The velocity of the body point at Ω, and ω, in observer axes, pole Ω.
+    RightInvariant,
+    /// ḃ in observer axes, ω in body axes, pole O.
+    Hybrid,
+    /// Time derivatives of coordinates.
+    Jet(RotationChart),
+}
+
+/// Coordinates of the rotation in a jet chart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RotationChart {
+    /// R = R_a(α₀) R_b(α₁) R_c(α₂), axes counted from 0, no two neighbours equal.
+    Euler([u8; 3]),
+    /// tan(θ/2) n.
+    Rodrigues,
+    /// tan(θ/4) n.
+    ModifiedRodrigues,
+    /// θ, the one angle of planar motion.
+    Angle,
+}
+
+/// What the body is free to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Six degrees of freedom.
+    Free,
+    /// O stays at Ω: rotation only.
+    FixedPoint,
+    /// O stays in the plane k₁k₂ and the body turns about k₃.
+    Planar,
+}
+
+/// One field of the struct.
+#[derive(Clone)]
+pub struct Parameter {
+    /// Name of the field.
+    pub ident: Ident,
+    /// Span of the written type: where a mistake about the value belongs.
+    pub span: Span,
+    /// What the field means to the body; `None` for a plain parameter.
+    pub role: Option<Role>,
+    /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].
+    pub shape: Shape,
+    /// Its doc comment, trimmed; empty when it has none.
+    pub documentation: String,
+}
+
+/// Shape of a field's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// One number.
+    Scalar,
+    /// Three numbers.
+    Vector3,
+    /// Three by three.
+    Matrix3,
+    /// Six numbers, order (linear, angular).
+    Vector6,
+    /// Six by six, order (linear, angular).
+    Matrix6,
+    /// Anything else: only plain parameters have it.
+    Other,
+}
+
+/// What a field means to the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The mass m: scalar.
+    Mass,
+    /// G − O in body axes: vector.
+    CenterOfMass,
+    /// About O, body axes: scalar (spherical), vector (principal) or matrix (full).
+    Inertia,
+    /// Six by six about O, body axes: vector (diagonal) or matrix (full).
+    AddedMass,
+    /// Scalar along −k₃, or a vector in observer axes.
+    Gravity,
+    /// Mass of the displaced fluid: scalar.
+    DisplacedMass,
+    /// Where buoyancy acts, body axes from O: vector.
+    CenterOfBuoyancy,
+}
+
+/// Reads and checks a struct.
+///
+/// # Errors
+/// All mistakes of the struct combined, each at the token that is wrong.
+pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
+    let mut context = Context::default();
+    let scene = scene::read(&input.attrs, &mut context);
+    check_generics(&input.generics, &mut context);
+    let model = named_fields(input, &mut context).and_then(|named| {
+        validate::model(
+            input,
+            &scene,
+            fields::read(named, &input.generics, &mut context),
+            &mut context,
+        )
+    });
+    context.finish(model)
+}
+
+/// The fields of a struct with named fields; anything else is a mistake at its name.
+fn named_fields<'a>(input: &'a DeriveInput, context: &mut Context) -> Option<&'a FieldsNamed> {
+    let found = match &input.data {
+        Data::Struct(data) => match &data.fields {
+            Fields::Named(named) => return Some(named),
+            Fields::Unnamed(_) => "a tuple struct",
+            Fields::Unit => "a unit struct",
+        },
+        Data::Enum(_) => "an enum",
+        Data::Union(_) => "a union",
+    };
+    let name = &input.ident;
+    context.error(
+        name.span(),
+        format!(
+            "`GaussDynamics` is derived for structs with named fields, and `{name}` is {found}; \
+             write `struct {name} {{ #[gauss(mass)] mass: f64, #[gauss(inertia)] inertia: f64 }}`"
+        ),
+    );
+    None
+}
+
+/// A kernel holds numbers of one scalar type, so type parameters are all that it can carry over.
+fn check_generics(generics: &Generics, context: &mut Context) {
+    for parameter in &generics.params {
+        match parameter {
+            GenericParam::Type(_) => {}
+            GenericParam::Lifetime(parameter) => context.error_at(
+                &parameter.lifetime,
+                format!(
+                    "the lifetime parameter `{}` is not supported; \
+                     a kernel outlives the struct that it is made from: write fields that own their values",
+                    parameter.lifetime
+                ),
+            ),
+            GenericParam::Const(parameter) => context.error(
+                parameter.ident.span(),
+                format!(
+                    "the const parameter `{}` is not supported; \
+                     the shape of every role is fixed: write the number where it is used",
+                    parameter.ident
+                ),
+            ),
+        }
+    }
+}

@@ -1,0 +1,386 @@
+//! The clauses of the struct: which equations are wanted.
+//!
+//! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
+//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`.
+
+use super::attributes::{self, Clause, Place, Value, Word};
+use super::context::Context;
+use super::names::{self, Table};
+use super::roles::ROLES;
+use super::{Chart, Motion, RotationChart};
+use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use syn::ext::IdentExt;
+use syn::parse::Parser;
+use syn::{Attribute, Path, PathSegment};
+
+/// What the clauses of the struct say.
+pub(super) struct Scene {
+    pub(super) chart: Chart,
+    pub(super) motion: Motion,
+    pub(super) runtime: Path,
+    /// A clause of a later version was written: then the roles that this version needs are not missed.
+    pub(super) unsupported: bool,
+}
+
+/// Clauses of the language that this version does not derive yet; they are refused on structs and on fields alike.
+pub(super) const UNSUPPORTED: &Table<()> = &[
+    ("coordinates", ()),
+    ("speeds", ()),
+    ("kinematics", ()),
+    ("body", ()),
+    ("particle", ()),
+    ("force", ()),
+    ("potential", ()),
+    ("damping", ()),
+    ("input", ()),
+    ("constraint", ()),
+];
+
+/// Clauses of the struct.
+pub(super) const CLAUSES: &Table<Topic> = &[
+    ("chart", Topic::Chart),
+    ("motion", Topic::Motion),
+    ("crate", Topic::Runtime),
+];
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Topic {
+    Chart,
+    Motion,
+    Runtime,
+}
+
+/// `None` stands for `jet`, which needs to know the motion.
+const CHARTS: &Table<Option<Chart>> = &[
+    ("left_invariant", Some(Chart::LeftInvariant)),
+    ("right_invariant", Some(Chart::RightInvariant)),
+    ("hybrid", Some(Chart::Hybrid)),
+    ("jet", None),
+];
+
+const MOTIONS: &Table<Motion> = &[
+    ("free", Motion::Free),
+    ("fixed_point", Motion::FixedPoint),
+    ("planar", Motion::Planar),
+];
+
+const ROTATIONS: &Table<RotationChart> = &[
+    ("euler_zyx", RotationChart::Euler([2, 1, 0])),
+    ("euler_zxz", RotationChart::Euler([2, 0, 2])),
+    ("euler_zyz", RotationChart::Euler([2, 1, 2])),
+    ("euler_xyz", RotationChart::Euler([0, 1, 2])),
+    ("euler_xzy", RotationChart::Euler([0, 2, 1])),
+    ("euler_yxz", RotationChart::Euler([1, 0, 2])),
+    ("euler_yzx", RotationChart::Euler([1, 2, 0])),
+    ("euler_zxy", RotationChart::Euler([2, 0, 1])),
+    ("euler_xyx", RotationChart::Euler([0, 1, 0])),
+    ("euler_xzx", RotationChart::Euler([0, 2, 0])),
+    ("euler_yxy", RotationChart::Euler([1, 0, 1])),
+    ("euler_yzy", RotationChart::Euler([1, 2, 1])),
+    ("rodrigues", RotationChart::Rodrigues),
+    ("modified_rodrigues", RotationChart::ModifiedRodrigues),
+];
+
+/// A chart as written, before the motion is known.
+enum Written {
+    Known(Chart),
+    /// `jet`, with the word in its brackets if there are brackets.
+    Jet {
+        jet: Ident,
+        argument: Option<Ident>,
+    },
+}
+
+/// Reads the attributes of the struct.
+pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Scene {
+    let mut charts = Vec::new();
+    let mut motion = None;
+    let mut runtime = None;
+    let mut unsupported = false;
+    let mut first: Vec<(Topic, String)> = Vec::new();
+    for clause in attributes::clauses(attributes, Place::Struct, context) {
+        let word = clause.word();
+        let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) else {
+            unsupported |= refuse(&clause, &word, context);
+            continue;
+        };
+        if let Some((_, earlier)) = first.iter().find(|(other, _)| *other == topic) {
+            context.error(
+                clause.name.span(),
+                format!("`{word}` is given twice; it was given first as `{earlier}`: keep one of the two"),
+            );
+        } else {
+            first.push((topic, clause.written()));
+        }
+        // Of clauses given twice the first counts, but mistakes in the second are found all the same.
+        match topic {
+            Topic::Chart => charts.push(read_chart(&clause, context)),
+            Topic::Motion => motion = motion.or(Some(read_motion(&clause, context))),
+            Topic::Runtime => runtime = runtime.or(Some(read_runtime(&clause, context))),
+        }
+    }
+    // A clause left out means its default; a clause that could not be read is known to be unknown.
+    let motion = motion.unwrap_or(Some(Motion::Free));
+    let mut chart = None;
+    for written in charts.into_iter().flatten() {
+        let settled = settle(written, motion, context);
+        chart = chart.or(settled);
+    }
+    let chart = chart.unwrap_or(Chart::LeftInvariant);
+    Scene {
+        chart,
+        motion: motion.unwrap_or(Motion::Free),
+        runtime: runtime.flatten().unwrap_or_else(default_runtime),
+        unsupported,
+    }
+}
+
+/// Notes why a clause is none of the struct's; true if it is one of a later version.
+fn refuse(clause: &Clause, word: &str, context: &mut Context) -> bool {
+    let span = clause.name.span();
+    if is_unsupported(word) {
+        refuse_unsupported(&clause.name, context);
+        return true;
+    }
+    let message = if ROLES.iter().any(|(name, _)| *name == word) {
+        format!("`{word}` is the role of a field; write `#[gauss({word})]` on that field")
+    } else if CHARTS.iter().any(|(name, _)| *name == word) {
+        let chart = match &clause.value {
+            Value::Brackets(_) => clause.written(),
+            Value::Equals(tokens) if word == "jet" => {
+                format!("jet({})", attributes::written(tokens))
+            }
+            _ => word.into(),
+        };
+        format!("`{word}` is a chart; write `chart = {chart}`")
+    } else if MOTIONS.iter().any(|(name, _)| *name == word) {
+        format!("`{word}` is a motion; write `motion = {word}`")
+    } else if ROTATIONS.iter().any(|(name, _)| *name == word) {
+        format!("`{word}` is a rotation chart; write `chart = jet({word})`")
+    } else if let Some((name, _)) = names::nearest(word, CLAUSES) {
+        format!("unknown clause `{word}`; did you mean `{name}`?")
+    } else if let Some((name, ())) = names::nearest(word, UNSUPPORTED) {
+        format!("unknown clause `{word}`; the nearest, `{name}`, is not supported by this version")
+    } else {
+        format!("unknown clause `{word}`; expected {}", names::list(CLAUSES))
+    };
+    context.error(span, message);
+    false
+}
+
+/// Whether the word names a clause of a later version.
+pub(super) fn is_unsupported(word: &str) -> bool {
+    UNSUPPORTED.iter().any(|(name, ())| *name == word)
+}
+
+/// Notes a clause of a later version.
+pub(super) fn refuse_unsupported(name: &Ident, context: &mut Context) {
+    context.error(
+        name.span(),
+        format!(
+            "`{name}` is not supported by this version; \
+             it derives one rigid body with a `chart` and a `motion`, and roles for its fields: remove `{name}`"
+        ),
+    );
+}
+
+fn read_chart(clause: &Clause, context: &mut Context) -> Option<Written> {
+    let Word { ident, arguments } = clause.bare_word(CHARTS, context)?;
+    let chart = names::resolve("chart", &ident, CHARTS, context).ok()?;
+    match (chart, arguments) {
+        (Some(chart), None) => Some(Written::Known(chart)),
+        (Some(_), Some(arguments)) => {
+            let name = &clause.name;
+            context.error(
+                arguments.span_open(),
+                format!("the chart `{ident}` takes nothing in brackets; write `{name} = {ident}`"),
+            );
+            None
+        }
+        (None, None) => Some(Written::Jet {
+            jet: ident,
+            argument: None,
+        }),
+        (None, Some(arguments)) => {
+            let argument = read_argument(&ident, &arguments, context)?;
+            Some(Written::Jet {
+                jet: ident,
+                argument: Some(argument),
+            })
+        }
+    }
+}
+
+/// The one word in the brackets of `jet(…)`.
+fn read_argument(jet: &Ident, arguments: &Group, context: &mut Context) -> Option<Ident> {
+    let tokens = attributes::flat(arguments.stream());
+    let (word, rest) = match tokens.split_first() {
+        Some((TokenTree::Ident(word), rest)) => (word, rest),
+        Some((other, _)) => {
+            attributes::not_a_word(jet, None, other, ROTATIONS, context);
+            return None;
+        }
+        None => {
+            context.error(
+                arguments.span_open(),
+                "`jet()` has nothing in its brackets; write a rotation chart such as `jet(euler_zyx)`, or `jet` alone in planar motion",
+            );
+            return None;
+        }
+    };
+    match rest.first() {
+        None => Some(word.clone()),
+        Some(TokenTree::Punct(comma)) if comma.as_char() == ',' && rest.len() == 1 => {
+            Some(word.clone())
+        }
+        Some(extra) => {
+            context.error(
+                attributes::start(extra),
+                format!(
+                    "`jet` takes one rotation chart, found {} after `{word}`; write one word, such as `jet(euler_zyx)`",
+                    attributes::found(extra)
+                ),
+            );
+            None
+        }
+    }
+}
+
+/// The chart in this motion; `motion` is `None` where it could not be read.
+fn settle(written: Written, motion: Option<Motion>, context: &mut Context) -> Option<Chart> {
+    match (written, motion) {
+        (Written::Known(chart), _) => Some(chart),
+        (Written::Jet { argument: None, .. }, Some(Motion::Planar)) => {
+            Some(Chart::Jet(RotationChart::Angle))
+        }
+        (Written::Jet { argument: None, .. }, None) => None,
+        (
+            Written::Jet {
+                jet,
+                argument: None,
+            },
+            Some(_),
+        ) => {
+            context.error(
+                jet.span(),
+                format!(
+                    "`jet` needs a rotation chart unless the motion is planar; write `jet(…)` with {}",
+                    names::list(ROTATIONS)
+                ),
+            );
+            None
+        }
+        (
+            Written::Jet {
+                argument: Some(argument),
+                ..
+            },
+            Some(Motion::Planar),
+        ) => {
+            context.error(
+                argument.span(),
+                format!(
+                    "`jet({argument})` contradicts `motion = planar`, where the body turns through one angle only; \
+                     write `chart = jet`"
+                ),
+            );
+            None
+        }
+        (
+            Written::Jet {
+                argument: Some(argument),
+                ..
+            },
+            _,
+        ) => read_rotation(&argument, context).map(Chart::Jet),
+    }
+}
+
+fn read_rotation(ident: &Ident, context: &mut Context) -> Option<RotationChart> {
+    let word = ident.unraw().to_string();
+    // Two mistakes that edit distance cannot see: axes without `euler_`, and a sequence that repeats an axis.
+    let axes = word.strip_prefix("euler_").unwrap_or(&word);
+    if axes.len() == 3 && axes.chars().all(|axis| matches!(axis, 'x' | 'y' | 'z')) {
+        let full = format!("euler_{axes}");
+        let letters: Vec<char> = axes.chars().collect();
+        if let Some(pair) = letters.windows(2).find(|pair| pair[0] == pair[1]) {
+            context.error(
+                ident.span(),
+                format!(
+                    "`{word}` turns about {} twice in a row, which is one turn; \
+                     expected three axes with no two neighbours equal, such as `euler_zyx` or `euler_zxz`",
+                    pair[0]
+                ),
+            );
+            return None;
+        }
+        if full != word {
+            context.error(
+                ident.span(),
+                format!("unknown rotation chart `{word}`; did you mean `{full}`?"),
+            );
+            return None;
+        }
+    }
+    names::resolve("rotation chart", ident, ROTATIONS, context).ok()
+}
+
+fn read_motion(clause: &Clause, context: &mut Context) -> Option<Motion> {
+    let Word { ident, arguments } = clause.bare_word(MOTIONS, context)?;
+    let motion = names::resolve("motion", &ident, MOTIONS, context).ok()?;
+    if let Some(arguments) = arguments {
+        let name = &clause.name;
+        context.error(
+            arguments.span_open(),
+            format!("the motion `{ident}` takes nothing in brackets; write `{name} = {ident}`"),
+        );
+        return None;
+    }
+    Some(motion)
+}
+
+fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {
+    let tokens = match &clause.value {
+        Value::Equals(tokens) => tokens,
+        Value::Malformed => return None,
+        Value::Absent | Value::Brackets(_) => {
+            context.error(
+                clause.name.span(),
+                "`crate` needs the path to the runtime; write `crate = ::gauss_runtime`",
+            );
+            return None;
+        }
+    };
+    match Path::parse_mod_style.parse2(tokens.iter().cloned().collect::<TokenStream>()) {
+        Ok(path) => Some(path),
+        Err(_) => {
+            let first = tokens.first()?;
+            let remedy = match first {
+                TokenTree::Literal(literal) => {
+                    match syn::parse_str::<syn::LitStr>(&literal.to_string()) {
+                        Ok(text) => format!("write `crate = {}` without quotes", text.value()),
+                        Err(_) => "write `crate = ::gauss_runtime`".into(),
+                    }
+                }
+                _ => "write `crate = ::gauss_runtime`".into(),
+            };
+            context.error(
+                attributes::start(first),
+                format!(
+                    "`crate` takes the path to the runtime, found `{}`; {remedy}",
+                    attributes::written(tokens)
+                ),
+            );
+            None
+        }
+    }
+}
+
+/// `::gauss_runtime`.
+fn default_runtime() -> Path {
+    let segment = PathSegment::from(Ident::new("gauss_runtime", Span::mixed_site()));
+    Path {
+        leading_colon: Some(syn::Token![::](Span::mixed_site())),
+        segments: [segment].into_iter().collect(),
+    }
+}

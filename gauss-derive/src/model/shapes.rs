@@ -1,0 +1,285 @@
+//! The written type of a field → its shape and its scalar.
+//!
+//! A derive sees tokens, not types, so the last segment of the path decides: `nalgebra::Vector3<f64>` is a vector of
+//! three whatever `nalgebra` is. A name that says nothing is taken for an alias, and the role must say the shape.
+
+use super::{Scalar, Shape};
+use proc_macro2::Span;
+use quote::ToTokens;
+use syn::ext::IdentExt;
+use syn::{
+    AngleBracketedGenericArguments, Expr, ExprLit, GenericArgument, GenericParam, Generics, Lit,
+    Path, PathArguments, PathSegment, Stmt, Type,
+};
+
+/// What a written type shows.
+pub(super) struct Reading {
+    pub(super) kind: Kind,
+    pub(super) element: Element,
+    /// The type in a message: `` `Matrix6` `` or `a tuple`.
+    pub(super) name: String,
+}
+
+/// What a written type is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// One of the shapes that roles take.
+    Known(Shape),
+    /// A name that could stand for any of them.
+    Alias,
+    /// Certainly none of them.
+    Foreign,
+}
+
+/// The scalar that a written type shows.
+pub(super) enum Element {
+    /// A scalar and where it is written.
+    Shown(Scalar, Span),
+    /// None: it is behind an alias.
+    Hidden,
+    /// A type that is no scalar, and where it is written.
+    Wrong(String, Span),
+}
+
+/// Names that are certainly none of the shapes; any other name could be an alias of one.
+const FOREIGN: &[&str] = &[
+    "bool",
+    "char",
+    "str",
+    "u8",
+    "u16",
+    "u32",
+    "u64",
+    "u128",
+    "usize",
+    "i8",
+    "i16",
+    "i32",
+    "i64",
+    "i128",
+    "isize",
+    "String",
+    "Vec",
+    "VecDeque",
+    "Option",
+    "Result",
+    "Box",
+    "Rc",
+    "Arc",
+    "Cell",
+    "RefCell",
+    "Cow",
+    "PhantomData",
+    "HashMap",
+    "BTreeMap",
+    "Vector1",
+    "Vector2",
+    "Vector4",
+    "Vector5",
+    "Matrix1",
+    "Matrix2",
+    "Matrix4",
+    "Matrix5",
+    "RowVector3",
+    "RowVector6",
+    "DVector",
+    "DMatrix",
+    "Point2",
+    "Point3",
+    "Quaternion",
+    "UnitQuaternion",
+    "Rotation2",
+    "Rotation3",
+    "Isometry2",
+    "Isometry3",
+    "Translation2",
+    "Translation3",
+    "UnitVector3",
+];
+
+/// Reads a type.
+pub(super) fn read(ty: &Type, generics: &Generics) -> Reading {
+    let foreign = |name: &str| Reading {
+        kind: Kind::Foreign,
+        element: Element::Hidden,
+        name: name.into(),
+    };
+    match bare(ty) {
+        Type::Path(path) if path.qself.is_none() => read_path(&path.path, generics),
+        // `<A as B>::C` and `shape!()` are known to later passes of the compiler only.
+        Type::Path(_) => Reading {
+            kind: Kind::Alias,
+            ..foreign("an associated type")
+        },
+        Type::Macro(_) => Reading {
+            kind: Kind::Alias,
+            ..foreign("a macro")
+        },
+        Type::Array(_) | Type::Slice(_) => foreign("an array"),
+        Type::Tuple(_) => foreign("a tuple"),
+        Type::Reference(_) => foreign("a reference"),
+        Type::Ptr(_) => foreign("a pointer"),
+        Type::FnPtr(_) => foreign("a function"),
+        _ => foreign("a type of another kind"),
+    }
+}
+
+fn read_path(path: &Path, generics: &Generics) -> Reading {
+    let Some(last) = path.segments.last() else {
+        return Reading {
+            kind: Kind::Alias,
+            element: Element::Hidden,
+            name: "an empty path".into(),
+        };
+    };
+    let reading = |kind, element| Reading {
+        kind,
+        element,
+        name: format!("`{}`", last.ident),
+    };
+    if let Some(scalar) = scalar(path, generics) {
+        return reading(
+            Kind::Known(Shape::Scalar),
+            Element::Shown(scalar, last.ident.span()),
+        );
+    }
+    let kind = match last.ident.unraw().to_string().as_str() {
+        "Vector3" => Kind::Known(Shape::Vector3),
+        "Matrix3" => Kind::Known(Shape::Matrix3),
+        "Vector6" => Kind::Known(Shape::Vector6),
+        "Matrix6" => Kind::Known(Shape::Matrix6),
+        "SVector" => sized(&dimensions(last), 1),
+        "SMatrix" => sized(&dimensions(last), 2),
+        name if FOREIGN.contains(&name) => Kind::Foreign,
+        _ => {
+            // `Moments<f32>` hides the shape but shows the scalar; what else its arguments are is its own business.
+            let shown = types(last).find_map(|ty| match element(ty, generics) {
+                Element::Wrong(..) | Element::Hidden => None,
+                shown => Some(shown),
+            });
+            return reading(Kind::Alias, shown.unwrap_or(Element::Hidden));
+        }
+    };
+    match kind {
+        Kind::Known(_) | Kind::Alias => reading(
+            kind,
+            types(last)
+                .next()
+                .map_or(Element::Hidden, |ty| element(ty, generics)),
+        ),
+        Kind::Foreign => reading(kind, Element::Hidden),
+    }
+}
+
+/// Shape of `SVector<S, N>` or `SMatrix<S, R, C>`; a dimension that is not a number could be anything.
+fn sized(dimensions: &[Option<usize>], expected: usize) -> Kind {
+    if dimensions.len() != expected {
+        return Kind::Alias;
+    }
+    let mut numbers = dimensions.iter().copied();
+    let (Some(Some(rows)), Some(columns)) = (numbers.next(), numbers.next().unwrap_or(Some(1)))
+    else {
+        return Kind::Alias;
+    };
+    match (rows, columns) {
+        (3, 1) => Kind::Known(Shape::Vector3),
+        (3, 3) => Kind::Known(Shape::Matrix3),
+        (6, 1) => Kind::Known(Shape::Vector6),
+        (6, 6) => Kind::Known(Shape::Matrix6),
+        _ => Kind::Foreign,
+    }
+}
+
+/// The arguments after the first as numbers, `None` for those that are not written as numbers.
+fn dimensions(segment: &PathSegment) -> Vec<Option<usize>> {
+    arguments(segment)
+        .into_iter()
+        .flat_map(|arguments| arguments.args.iter().skip(1))
+        .map(number)
+        .collect()
+}
+
+/// `3` or `{ 3 }`.
+fn number(argument: &GenericArgument) -> Option<usize> {
+    let GenericArgument::Const(expression) = argument else {
+        return None;
+    };
+    let inner = match expression {
+        Expr::Block(block) => match block.block.stmts.as_slice() {
+            [Stmt::Expr(inner, None)] => inner,
+            _ => return None,
+        },
+        other => other,
+    };
+    match inner {
+        Expr::Lit(ExprLit {
+            lit: Lit::Int(number),
+            ..
+        }) => number.base10_parse().ok(),
+        _ => None,
+    }
+}
+
+/// The scalar that `ty` is, when it stands where a scalar belongs.
+fn element(ty: &Type, generics: &Generics) -> Element {
+    let ty = bare(ty);
+    let reading = read(ty, generics);
+    let span = ty
+        .to_token_stream()
+        .into_iter()
+        .next()
+        .map_or_else(Span::call_site, |token| token.span());
+    match (reading.kind, reading.element) {
+        (Kind::Known(Shape::Scalar), shown) => shown,
+        (Kind::Alias, _) => Element::Hidden,
+        (Kind::Known(_) | Kind::Foreign, _) => Element::Wrong(reading.name, span),
+    }
+}
+
+/// `f32` and `f64` however qualified, or a type parameter of the struct. Parameters come first: they shadow.
+fn scalar(path: &Path, generics: &Generics) -> Option<Scalar> {
+    let last = path.segments.last()?;
+    if !matches!(last.arguments, PathArguments::None) {
+        return None;
+    }
+    if let Some(ident) = path.get_ident() {
+        let parameter = generics.params.iter().any(|parameter| matches!(parameter, GenericParam::Type(parameter) if parameter.ident == *ident));
+        if parameter {
+            return Some(Scalar::Parameter(ident.clone()));
+        }
+    }
+    if last.ident == "f32" {
+        Some(Scalar::F32)
+    } else if last.ident == "f64" {
+        Some(Scalar::F64)
+    } else {
+        None
+    }
+}
+
+/// The type arguments of a segment.
+fn types(segment: &PathSegment) -> impl Iterator<Item = &Type> {
+    arguments(segment)
+        .into_iter()
+        .flat_map(|arguments| arguments.args.iter())
+        .filter_map(|argument| match argument {
+            GenericArgument::Type(ty) => Some(ty),
+            _ => None,
+        })
+}
+
+fn arguments(segment: &PathSegment) -> Option<&AngleBracketedGenericArguments> {
+    match &segment.arguments {
+        PathArguments::AngleBracketed(arguments) => Some(arguments),
+        _ => None,
+    }
+}
+
+/// The type without parentheses and without the invisible groups of `macro_rules!`.
+fn bare(ty: &Type) -> &Type {
+    match ty {
+        Type::Group(group) => bare(&group.elem),
+        Type::Paren(paren) => bare(&paren.elem),
+        other => other,
+    }
+}

@@ -1,0 +1,321 @@
+//! What must hold between the fields: shapes that fit their roles, one scalar, no role missing, doubled or alone.
+
+use super::context::Context;
+use super::fields::{Claim, Field, Reader};
+use super::names;
+use super::roles::ROLES;
+use super::scene::Scene;
+use super::shapes::{Element, Kind};
+use super::{Model, Parameter, Role, Scalar, Shape};
+use quote::ToTokens;
+use syn::spanned::Spanned;
+use syn::{DeriveInput, GenericParam};
+
+/// The checked model; `None` when something that it needs is missing, which is then noted.
+pub(super) fn model(
+    input: &DeriveInput,
+    scene: &Scene,
+    reader: Reader<'_>,
+    context: &mut Context,
+) -> Option<Model> {
+    let scalar = common_scalar(&reader.fields);
+    let name = scalar_name(scalar.as_ref(), input);
+    let mut parameters = Vec::new();
+    let mut owners: Vec<(Role, usize)> = Vec::new();
+    for (index, field) in reader.fields.iter().enumerate() {
+        let shape = match &field.role {
+            Some(claim) => {
+                check_duplicate(field, claim, &owners, &reader.fields, context);
+                if !owners.iter().any(|(role, _)| *role == claim.role) {
+                    owners.push((claim.role, index));
+                }
+                check_scalar(field, scalar.as_ref(), &reader.fields, context);
+                role_shape(field, claim, &name, context)
+            }
+            None => plain_shape(field, scalar.as_ref()),
+        };
+        parameters.push(Parameter {
+            ident: field.ident.clone(),
+            span: field.ty.span(),
+            role: field.role.as_ref().map(|claim| claim.role),
+            shape,
+            documentation: field.documentation.clone(),
+        });
+    }
+    let index = |role: Role| {
+        owners
+            .iter()
+            .find(|(owner, _)| *owner == role)
+            .map(|&(_, index)| index)
+    };
+    let known = |role: Role| index(role).is_some() || reader.meant.contains(&role);
+    if !scene.unsupported && !reader.unsupported {
+        for role in [Role::Mass, Role::Inertia] {
+            if !known(role) {
+                context.error(
+                    input.ident.span(),
+                    format!(
+                        "`{}` has no field with the role `{}`, which every body needs; add `{}`",
+                        input.ident,
+                        role.word(),
+                        role.example(&name)
+                    ),
+                );
+            }
+        }
+    }
+    for field in &reader.fields {
+        check_companion(field, known, &name, context);
+    }
+    let scalar = match scalar {
+        Some(scalar) => scalar,
+        None => return hidden_scalar(input, &reader.fields, context),
+    };
+    Some(Model {
+        ident: input.ident.clone(),
+        visibility: input.vis.clone(),
+        generics: input.generics.clone(),
+        scalar,
+        runtime: scene.runtime.clone(),
+        chart: scene.chart,
+        motion: scene.motion,
+        parameters,
+        mass: index(Role::Mass)?,
+        center_of_mass: index(Role::CenterOfMass),
+        inertia: index(Role::Inertia)?,
+        added_mass: index(Role::AddedMass),
+        gravity: index(Role::Gravity),
+        displaced_mass: index(Role::DisplacedMass),
+        center_of_buoyancy: index(Role::CenterOfBuoyancy),
+    })
+}
+
+/// The scalar that most fields with roles show, the first of equally frequent ones: the others are the odd ones.
+fn common_scalar(fields: &[Field<'_>]) -> Option<Scalar> {
+    let mut counts: Vec<(&Scalar, usize)> = Vec::new();
+    for (_, scalar) in shown(fields) {
+        match counts.iter_mut().find(|(other, _)| *other == scalar) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((scalar, 1)),
+        }
+    }
+    let most = counts.iter().map(|&(_, count)| count).max()?;
+    counts
+        .into_iter()
+        .find(|&(_, count)| count == most)
+        .map(|(scalar, _)| scalar.clone())
+}
+
+/// The fields with roles that show their scalar.
+fn shown<'a>(fields: &'a [Field<'_>]) -> impl Iterator<Item = (&'a Field<'a>, &'a Scalar)> {
+    fields
+        .iter()
+        .filter(|field| field.role.is_some())
+        .filter_map(|field| match &field.reading.element {
+            Element::Shown(scalar, _) => Some((field, scalar)),
+            Element::Hidden | Element::Wrong(..) => None,
+        })
+}
+
+/// The scalar in types that messages propose.
+fn scalar_name(scalar: Option<&Scalar>, input: &DeriveInput) -> String {
+    let parameter = input
+        .generics
+        .params
+        .iter()
+        .find_map(|parameter| match parameter {
+            GenericParam::Type(parameter) => Some(parameter.ident.to_string()),
+            GenericParam::Lifetime(_) | GenericParam::Const(_) => None,
+        });
+    scalar
+        .map(Scalar::to_string)
+        .or(parameter)
+        .unwrap_or_else(|| "f64".into())
+}
+
+/// A role belongs to one field.
+fn check_duplicate(
+    field: &Field<'_>,
+    claim: &Claim,
+    owners: &[(Role, usize)],
+    fields: &[Field<'_>],
+    context: &mut Context,
+) {
+    let first = owners
+        .iter()
+        .find(|(role, _)| *role == claim.role)
+        .and_then(|&(_, index)| fields.get(index));
+    if let Some(first) = first {
+        context.error(
+            claim.span,
+            format!(
+                "the role `{}` of the field `{}` is already that of the field `{}`; a body has one: remove one of the two",
+                claim.role.word(),
+                field.ident,
+                first.ident
+            ),
+        );
+    }
+}
+
+/// One scalar serves all roles, and it is a floating-point type or a type parameter.
+fn check_scalar(
+    field: &Field<'_>,
+    common: Option<&Scalar>,
+    fields: &[Field<'_>],
+    context: &mut Context,
+) {
+    match (&field.reading.element, common) {
+        (Element::Wrong(found, span), _) => context.error(
+            *span,
+            format!("the scalar of `{}` is {found}; expected `f64`, `f32` or a type parameter of the struct", field.ident),
+        ),
+        (Element::Shown(scalar, span), Some(common)) if scalar != common => {
+            let other = shown(fields).find(|(_, scalar)| *scalar == common).map_or(field.ident, |(other, _)| other.ident);
+            context.error(
+                *span,
+                format!(
+                    "the scalar of `{}` is `{scalar}`, but that of `{other}` is `{common}`; \
+                     one scalar serves the whole body: write `{common}`",
+                    field.ident
+                ),
+            );
+        }
+        _ => {}
+    }
+}
+
+/// The shape of a field with a role.
+fn role_shape(field: &Field<'_>, claim: &Claim, scalar: &str, context: &mut Context) -> Shape {
+    let role = claim.role;
+    let found = &field.reading.name;
+    match (field.reading.kind, &claim.form) {
+        (Kind::Known(shape), Some(form)) if shape != form.shape => {
+            // The word is right for some type and the type may be right for another word: both remedies are named.
+            let remedy = match role.forms().iter().find(|(_, other)| *other == shape) {
+                Some((word, _)) => format!(
+                    "write `{} = {word}` or make the field `{}`",
+                    role.word(),
+                    form.shape.written(scalar)
+                ),
+                None => format!("make the field `{}`", form.shape.written(scalar)),
+            };
+            context.error(
+                form.span,
+                format!(
+                    "`{} = {}` contradicts the type {found} of `{}`; {remedy}",
+                    role.word(),
+                    form.word,
+                    field.ident
+                ),
+            );
+            form.shape
+        }
+        (Kind::Known(shape), _) if role.takes(shape) => shape,
+        (Kind::Known(_) | Kind::Foreign, _) => {
+            context.error_at(
+                field.ty,
+                format!(
+                    "`{}` cannot be {}; {}: expected {}",
+                    role.word(),
+                    article(found),
+                    role.reason(),
+                    role.expected(scalar)
+                ),
+            );
+            Shape::Other
+        }
+        (Kind::Alias, Some(form)) => form.shape,
+        (Kind::Alias, None) => match role.only_shape() {
+            Some(shape) => shape,
+            None => {
+                if !claim.malformed {
+                    context.error_at(
+                        field.ty,
+                        format!(
+                            "the shape of `{}` cannot be read from {found}; say it in the role: write `{} = …` with {}",
+                            field.ident,
+                            role.word(),
+                            names::list(role.forms())
+                        ),
+                    );
+                }
+                Shape::Other
+            }
+        },
+    }
+}
+
+/// The type in a message, with the article that its name needs when it is read aloud.
+fn article(found: &str) -> String {
+    let vowels = ["A", "I", "O", "SV", "SM", "f3", "f6", "i"];
+    match found.strip_prefix('`') {
+        Some(name) if vowels.iter().any(|vowel| name.starts_with(vowel)) => format!("an {found}"),
+        Some(_) => format!("a {found}"),
+        None => found.into(),
+    }
+}
+
+/// The shape of a plain parameter: expressions can use it only if its scalar is that of the model.
+fn plain_shape(field: &Field<'_>, common: Option<&Scalar>) -> Shape {
+    match (field.reading.kind, &field.reading.element) {
+        (Kind::Known(shape), Element::Shown(scalar, _)) if Some(scalar) == common => shape,
+        (Kind::Known(shape), Element::Hidden) => shape,
+        _ => Shape::Other,
+    }
+}
+
+/// Roles that mean nothing without another.
+fn check_companion(
+    field: &Field<'_>,
+    known: impl Fn(Role) -> bool,
+    scalar: &str,
+    context: &mut Context,
+) {
+    let Some(claim) = &field.role else { return };
+    let (needed, why) = match claim.role {
+        Role::DisplacedMass => (
+            Role::Gravity,
+            "buoyancy is the displaced mass times gravity",
+        ),
+        Role::CenterOfBuoyancy => (
+            Role::DisplacedMass,
+            "without a displaced mass nothing acts there",
+        ),
+        _ => return,
+    };
+    if !known(needed) {
+        context.error(
+            claim.span,
+            format!(
+                "`{}` needs a field with the role `{}`; {why}: add `{}`",
+                claim.role.word(),
+                needed.word(),
+                needed.example(scalar)
+            ),
+        );
+    }
+}
+
+/// No field with a role shows its scalar. Said only if nothing else is wrong, since any other remedy may show it.
+fn hidden_scalar(
+    input: &DeriveInput,
+    fields: &[Field<'_>],
+    context: &mut Context,
+) -> Option<Model> {
+    if context.is_clean() {
+        let position = ROLES.iter().find_map(|&(_, role)| {
+            fields
+                .iter()
+                .find(|field| field.role.as_ref().is_some_and(|claim| claim.role == role))
+                .map(|field| field.ty)
+        });
+        let message = "the scalar cannot be read from any field with a role, since each type is behind an alias; \
+                       write `f64`, `f32` or a type parameter in one of them";
+        match position {
+            Some(ty) => context.error_at(ty.to_token_stream(), message),
+            None => context.error(input.ident.span(), message),
+        }
+    }
+    None
+}
