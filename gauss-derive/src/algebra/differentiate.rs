@@ -1,0 +1,61 @@
+//! Derivatives: one recursion serves partial derivatives and derivatives along a flow alike.
+
+use std::collections::HashMap;
+
+use super::graph::{Expr, Function, NodeView};
+use super::rational::Rational;
+
+impl<'g> Expr<'g> {
+    /// ∂self/∂symbol.
+    pub fn partial(self, symbol: Expr<'g>) -> Self {
+        let one = self.graph.one();
+        self.derivative(&HashMap::from([(symbol.id, one)]))
+    }
+
+    /// Derivative along a flow: `rates` maps each moving symbol (by key) to its rate; all others stand still.
+    pub fn derivative(self, rates: &HashMap<u32, Expr<'g>>) -> Self {
+        self.differentiate(rates, &mut HashMap::new())
+    }
+
+    fn differentiate(self, rates: &HashMap<u32, Expr<'g>>, memo: &mut HashMap<u32, Expr<'g>>) -> Self {
+        if let Some(&done) = memo.get(&self.id) {
+            return done;
+        }
+        let graph = self.graph;
+        let result = match self.view() {
+            NodeView::Number(_) | NodeView::Opaque(_) => graph.zero(),
+            NodeView::Symbol(_) => rates.get(&self.id).copied().unwrap_or_else(|| graph.zero()),
+            NodeView::Sum(terms) => {
+                let terms: Vec<_> = terms.into_iter().map(|(c, e)| (c, e.differentiate(rates, memo))).collect();
+                graph.sum(terms)
+            }
+            NodeView::Product(factors) => {
+                let mut terms = Vec::new();
+                for (k, &(factor, exponent)) in factors.iter().enumerate() {
+                    let rate = factor.differentiate(rates, memo);
+                    if rate.is_zero() {
+                        continue;
+                    }
+                    let rest = factors.iter().enumerate().map(|(j, &(f, n))| (f, if j == k { n - 1 } else { n }));
+                    let rest = rest.chain(std::iter::once((rate, 1)));
+                    terms.push((Rational::from_integer(i64::from(exponent)), graph.product(Rational::one(), rest)));
+                }
+                graph.sum(terms)
+            }
+            NodeView::Call(function, argument) => {
+                let rate = argument.differentiate(rates, memo);
+                if rate.is_zero() {
+                    rate
+                } else {
+                    rate * match function {
+                        Function::Sin => argument.cos(),
+                        Function::Cos => -argument.sin(),
+                    }
+                }
+            }
+            NodeView::Group(inner) => inner.differentiate(rates, memo),
+        };
+        memo.insert(self.id, result);
+        result
+    }
+}

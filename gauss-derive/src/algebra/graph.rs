@@ -1,0 +1,555 @@
+//! The expression graph: every distinct expression exists once, so equality is equality of indices and sharing is free.
+
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
+use std::fmt;
+use std::hash::{BuildHasherDefault, Hash, Hasher};
+use std::iter::Sum;
+use std::ops::{Add, Mul, Neg, Sub};
+use std::rc::Rc;
+
+use super::rational::Rational;
+
+/// A function of one argument that the language knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Function {
+    Sin,
+    Cos,
+}
+
+/// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
+#[derive(Clone, Debug)]
+pub struct Symbol {
+    /// Name in plain text.
+    pub text: String,
+    /// Name in LaTeX.
+    pub latex: String,
+    /// Fixed for a given set of parameters; everything made of such symbols alone is computed once.
+    pub constant: bool,
+}
+
+/// Index of a node in its graph. Children always have smaller indices than their parents.
+pub(super) type Id = u32;
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Node {
+    Number(Rational),
+    Symbol(u32),
+    /// Σ cᵢ eᵢ, sorted by index, coefficients nonzero; a constant term is a multiple of the number one.
+    Sum(Rc<[(Rational, Id)]>),
+    /// Π eᵢ^nᵢ, sorted by index, exponents nonzero; no numbers and no products among the factors.
+    Product(Rc<[(Id, i32)]>),
+    Call(Function, Id),
+    /// A sum that is to be computed once under a name: transparent for mathematics, a barrier for flattening.
+    Group(Id),
+    /// A constant that is to be computed once and never looked into again, not even by the normal form.
+    Opaque(Id),
+}
+
+/// What a node is, with its children as expressions.
+pub enum NodeView<'g> {
+    Number(Rational),
+    Symbol(u32),
+    Sum(Vec<(Rational, Expr<'g>)>),
+    Product(Vec<(Expr<'g>, i32)>),
+    Call(Function, Expr<'g>),
+    Group(Expr<'g>),
+    Opaque(Expr<'g>),
+}
+
+/// The arena of all expressions of one derivation.
+#[derive(Default)]
+pub struct Graph {
+    nodes: RefCell<Vec<Node>>,
+    index: RefCell<HashMap<Node, Id, BuildHasherDefault<NodeHasher>>>,
+    symbols: RefCell<Vec<Symbol>>,
+    overflow: Cell<bool>,
+}
+
+/// Multiply-and-rotate hashing: nodes are short sequences of small integers, and nobody chooses them to collide.
+#[derive(Default)]
+struct NodeHasher(u64);
+
+impl NodeHasher {
+    fn mix(&mut self, word: u64) {
+        self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x517c_c1b7_2722_0a95);
+    }
+}
+
+impl Hasher for NodeHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&b| self.mix(u64::from(b)));
+    }
+
+    fn write_u32(&mut self, n: u32) {
+        self.mix(u64::from(n));
+    }
+
+    fn write_i32(&mut self, n: i32) {
+        self.mix(n as u64);
+    }
+
+    fn write_i64(&mut self, n: i64) {
+        self.mix(n as u64);
+    }
+
+    fn write_usize(&mut self, n: usize) {
+        self.mix(n as u64);
+    }
+
+    fn write_isize(&mut self, n: isize) {
+        self.mix(n as u64);
+    }
+}
+
+/// An expression: a node of a graph. Copies are free and equality is structural.
+#[derive(Clone, Copy)]
+pub struct Expr<'g> {
+    pub(super) graph: &'g Graph,
+    pub(super) id: Id,
+}
+
+impl Graph {
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// True once a coefficient has left the range of 64-bit fractions, or was divided by zero; every result is then meaningless.
+    pub fn overflowed(&self) -> bool {
+        self.overflow.get()
+    }
+
+    /// A new symbol; two calls give two different symbols even when the names agree.
+    pub fn symbol(&self, text: impl Into<String>, latex: impl Into<String>, constant: bool) -> Expr<'_> {
+        let mut symbols = self.symbols.borrow_mut();
+        symbols.push(Symbol { text: text.into(), latex: latex.into(), constant });
+        let symbol = symbols.len() as u32 - 1;
+        drop(symbols);
+        self.intern(Node::Symbol(symbol))
+    }
+
+    /// Keys of all symbols made so far.
+    pub fn symbol_keys(&self) -> Vec<u32> {
+        let nodes = self.nodes.borrow();
+        (0..nodes.len() as Id).filter(|&id| matches!(nodes[id as usize], Node::Symbol(_))).collect()
+    }
+
+    pub(super) fn with_symbol<R>(&self, symbol: u32, read: impl FnOnce(&Symbol) -> R) -> R {
+        read(&self.symbols.borrow()[symbol as usize])
+    }
+
+    pub fn zero(&self) -> Expr<'_> {
+        self.number(Rational::zero())
+    }
+
+    pub fn one(&self) -> Expr<'_> {
+        self.number(Rational::one())
+    }
+
+    pub fn integer(&self, value: i64) -> Expr<'_> {
+        self.number(Rational::from_integer(value))
+    }
+
+    pub fn ratio(&self, numerator: i64, denominator: i64) -> Expr<'_> {
+        self.number(Rational::new(numerator, denominator))
+    }
+
+    pub fn number(&self, value: Rational) -> Expr<'_> {
+        if value.is_overflow() {
+            self.overflow.set(true);
+        }
+        self.intern(Node::Number(value))
+    }
+
+    pub(super) fn intern(&self, node: Node) -> Expr<'_> {
+        let mut index = self.index.borrow_mut();
+        if let Some(&id) = index.get(&node) {
+            return Expr { graph: self, id };
+        }
+        let mut nodes = self.nodes.borrow_mut();
+        let id = nodes.len() as Id;
+        nodes.push(node.clone());
+        index.insert(node, id);
+        Expr { graph: self, id }
+    }
+
+    pub(super) fn node(&self, id: Id) -> Node {
+        self.nodes.borrow()[id as usize].clone()
+    }
+
+    pub(super) fn expr(&self, id: Id) -> Expr<'_> {
+        Expr { graph: self, id }
+    }
+
+    /// Σ cᵢ eᵢ, flattened and collected.
+    pub fn sum<'g>(&'g self, terms: impl IntoIterator<Item = (Rational, Expr<'g>)>) -> Expr<'g> {
+        let mut flat: Vec<(Rational, Id)> = Vec::new();
+        for (coefficient, term) in terms {
+            if coefficient.is_zero() {
+                continue;
+            }
+            match self.node(term.id) {
+                Node::Number(value) => flat.push((coefficient * value, self.one().id)),
+                Node::Sum(inner) => {
+                    flat.extend(inner.iter().map(|(c, id)| (coefficient * *c, *id)));
+                }
+                _ => flat.push((coefficient, term.id)),
+            }
+        }
+        flat.sort_by_key(|&(_, id)| id);
+        let mut collected: Vec<(Rational, Id)> = Vec::with_capacity(flat.len());
+        for (coefficient, id) in flat {
+            match collected.last_mut() {
+                Some(last) if last.1 == id => last.0 = last.0.plus(coefficient),
+                _ => collected.push((coefficient, id)),
+            }
+        }
+        collected.retain(|(c, _)| !c.is_zero());
+        if collected.iter().any(|(c, _)| c.is_overflow()) {
+            self.overflow.set(true);
+        }
+        match collected.as_slice() {
+            [] => self.zero(),
+            [(c, id)] if *id == self.one().id => self.number(*c),
+            [(c, id)] if c.is_one() => self.expr(*id),
+            // A multiple of a sum distributes, so that `2·(a + b)` and `2·a + 2·b` are one node.
+            [(c, id)] => match self.node(*id) {
+                Node::Sum(inner) => {
+                    let terms = inner.iter().map(|&(d, id)| (*c * d, id)).collect();
+                    self.intern(Node::Sum(terms))
+                }
+                _ => self.intern(Node::Sum(collected.into())),
+            },
+            _ => self.intern(Node::Sum(collected.into())),
+        }
+    }
+
+    /// c · Π eᵢ^nᵢ, flattened and collected. A sum among the factors gives up its rational content and its sign, so
+    /// that `(a − b)·(b − a)⁻¹` is −1.
+    pub fn product<'g>(&'g self, coefficient: Rational, factors: impl IntoIterator<Item = (Expr<'g>, i32)>) -> Expr<'g> {
+        let mut coefficient = coefficient;
+        let mut flat: Vec<(Id, i32)> = Vec::new();
+        for (factor, exponent) in factors {
+            self.push_factor(&mut coefficient, &mut flat, factor.id, exponent);
+        }
+        flat.sort_by_key(|&(id, _)| id);
+        let mut collected: Vec<(Id, i32)> = Vec::with_capacity(flat.len());
+        for (id, exponent) in flat {
+            match collected.last_mut() {
+                Some(last) if last.0 == id => last.1 += exponent,
+                _ => collected.push((id, exponent)),
+            }
+        }
+        collected.retain(|&(_, n)| n != 0);
+        let base = match collected.as_slice() {
+            [] => return self.number(coefficient),
+            [(id, 1)] => self.expr(*id),
+            _ => self.intern(Node::Product(collected.into())),
+        };
+        self.sum([(coefficient, base)])
+    }
+
+    fn push_factor(&self, coefficient: &mut Rational, flat: &mut Vec<(Id, i32)>, id: Id, exponent: i32) {
+        match self.node(id) {
+            Node::Number(value) => {
+                *coefficient *= value.pow(exponent);
+            }
+            Node::Product(inner) => flat.extend(inner.iter().map(|&(id, n)| (id, n * exponent))),
+            Node::Sum(terms) => {
+                let content = self.content(&terms);
+                *coefficient *= content.pow(exponent);
+                if let [(_, only)] = terms.as_ref() {
+                    self.push_factor(coefficient, flat, *only, exponent);
+                } else {
+                    let scale = content.recip();
+                    let primitive = terms.iter().map(|&(c, id)| (scale * c, id)).collect();
+                    flat.push((self.intern(Node::Sum(primitive)).id, exponent));
+                }
+            }
+            _ => flat.push((id, exponent)),
+        }
+    }
+
+    /// The rational content of a sum: greatest common divisor of the coefficients, with the sign of the first.
+    fn content(&self, terms: &[(Rational, Id)]) -> Rational {
+        let mut numerator = 0;
+        let mut denominator = Rational::one();
+        for (c, _) in terms {
+            numerator = gcd(numerator, c.numer());
+            denominator *= Rational::from_integer(c.denom() / gcd(denominator.numer(), c.denom()).max(1));
+        }
+        let content = Rational::from_integer(numerator) / denominator;
+        if terms[0].0.is_negative() { -content } else { content }
+    }
+
+    /// A function of an expression, with the values at zero and the parity of sine and cosine taken care of.
+    pub fn call<'g>(&'g self, function: Function, argument: Expr<'g>) -> Expr<'g> {
+        if argument.is_zero() {
+            return match function {
+                Function::Sin => self.zero(),
+                Function::Cos => self.one(),
+            };
+        }
+        if let Node::Sum(terms) = self.node(argument.id)
+            && self.content(&terms).is_negative()
+        {
+            let positive = self.intern(Node::Call(function, (-argument).id));
+            return match function {
+                Function::Sin => -positive,
+                Function::Cos => positive,
+            };
+        }
+        self.intern(Node::Call(function, argument.id))
+    }
+}
+
+fn gcd(mut a: i64, mut b: i64) -> i64 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a.abs()
+}
+
+impl<'g> Expr<'g> {
+    pub fn graph(self) -> &'g Graph {
+        self.graph
+    }
+
+    /// The index of the node: a name for maps, smaller for what was built earlier.
+    pub fn key(self) -> u32 {
+        self.id
+    }
+
+    pub fn view(self) -> NodeView<'g> {
+        let at = |id| self.graph.expr(id);
+        match self.graph.node(self.id) {
+            Node::Number(value) => NodeView::Number(value),
+            Node::Symbol(symbol) => NodeView::Symbol(symbol),
+            Node::Sum(terms) => NodeView::Sum(terms.iter().map(|&(c, id)| (c, at(id))).collect()),
+            Node::Product(factors) => NodeView::Product(factors.iter().map(|&(id, n)| (at(id), n)).collect()),
+            Node::Call(function, id) => NodeView::Call(function, at(id)),
+            Node::Group(id) => NodeView::Group(at(id)),
+            Node::Opaque(id) => NodeView::Opaque(at(id)),
+        }
+    }
+
+    pub fn as_number(self) -> Option<Rational> {
+        match self.graph.node(self.id) {
+            Node::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    pub fn is_zero(self) -> bool {
+        self.as_number().is_some_and(|value| value.is_zero())
+    }
+
+    pub fn is_one(self) -> bool {
+        self.as_number().is_some_and(|value| value.is_one())
+    }
+
+    pub fn powi(self, exponent: i32) -> Self {
+        self.graph.product(Rational::one(), [(self, exponent)])
+    }
+
+    pub fn recip(self) -> Self {
+        self.powi(-1)
+    }
+
+    pub fn scale(self, factor: Rational) -> Self {
+        self.graph.sum([(factor, self)])
+    }
+
+    pub fn half(self) -> Self {
+        self.scale(Rational::new(1, 2))
+    }
+
+    pub fn sin(self) -> Self {
+        self.graph.call(Function::Sin, self)
+    }
+
+    pub fn cos(self) -> Self {
+        self.graph.call(Function::Cos, self)
+    }
+
+    /// The same value as a quantity of its own: sums around it do not take it apart, so it is computed once. Factors
+    /// that all its terms share are pulled out first, which lets a mass cancel later.
+    pub fn group(self) -> Self {
+        let Node::Sum(terms) = self.graph.node(self.id) else { return self };
+        if terms.len() < 2 {
+            return self;
+        }
+        let factors_of = |id: Id| match self.graph.node(id) {
+            Node::Product(factors) => factors.to_vec(),
+            _ => vec![(id, 1)],
+        };
+        let mut common = factors_of(terms[0].1);
+        for (_, id) in &terms[1..] {
+            let factors = factors_of(*id);
+            common = common
+                .into_iter()
+                .filter_map(|(f, n)| {
+                    let m = factors.iter().find(|(g, _)| *g == f)?.1;
+                    (n.signum() == m.signum()).then(|| (f, if n > 0 { n.min(m) } else { n.max(m) }))
+                })
+                .collect();
+        }
+        let common: Vec<_> = common.into_iter().map(|(id, n)| (self.graph.expr(id), n)).collect();
+        let content = self.graph.content(&terms);
+        let divisor = self.graph.product(content, common.iter().copied());
+        let inverse = divisor.recip();
+        let primitive = self.graph.sum(terms.iter().map(|&(c, id)| (c, self.graph.expr(id) * inverse)));
+        divisor * self.graph.intern(Node::Group(primitive.id))
+    }
+
+    /// The same value as a group, whatever it is; for passes that rebuild expressions.
+    pub fn group_as_is(self) -> Self {
+        match self.graph.node(self.id) {
+            Node::Sum(terms) if terms.len() > 1 => self.graph.intern(Node::Group(self.id)),
+            _ => self,
+        }
+    }
+
+    /// A number times something without one: `6·a·b` is 6 and `a·b`.
+    pub fn split_coefficient(self) -> (Rational, Self) {
+        match self.graph.node(self.id) {
+            Node::Number(value) => (value, self.graph.one()),
+            Node::Sum(terms) if terms.len() == 1 => (terms[0].0, self.graph.expr(terms[0].1)),
+            _ => (Rational::one(), self),
+        }
+    }
+
+    /// The same constant as a quantity of its own that even the normal form does not look into.
+    pub fn opaque(self) -> Self {
+        match self.graph.node(self.id) {
+            Node::Number(_) | Node::Symbol(_) | Node::Opaque(_) => self,
+            _ => self.graph.intern(Node::Opaque(self.id)),
+        }
+    }
+
+    /// Rebuilds the expression with some symbols replaced. Groups stay groups.
+    pub fn substitute(self, replacement: &HashMap<u32, Expr<'g>>) -> Self {
+        self.rebuild(&mut HashMap::new(), &|symbol| replacement.get(&symbol.id).copied())
+    }
+
+    pub(super) fn rebuild(self, memo: &mut HashMap<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
+        if let Some(&done) = memo.get(&self.id) {
+            return done;
+        }
+        let result = match self.view() {
+            NodeView::Number(_) => self,
+            NodeView::Symbol(_) => leaf(self).unwrap_or(self),
+            NodeView::Sum(terms) => {
+                let terms: Vec<_> = terms.into_iter().map(|(c, e)| (c, e.rebuild(memo, leaf))).collect();
+                self.graph.sum(terms)
+            }
+            NodeView::Product(factors) => {
+                let factors: Vec<_> = factors.into_iter().map(|(e, n)| (e.rebuild(memo, leaf), n)).collect();
+                self.graph.product(Rational::one(), factors)
+            }
+            NodeView::Call(function, argument) => self.graph.call(function, argument.rebuild(memo, leaf)),
+            NodeView::Group(inner) => inner.rebuild(memo, leaf).group(),
+            NodeView::Opaque(inner) => inner.rebuild(memo, leaf).opaque(),
+        };
+        memo.insert(self.id, result);
+        result
+    }
+
+    /// True when every symbol in it is constant.
+    pub fn is_constant(self, memo: &mut HashMap<u32, bool>) -> bool {
+        if let Some(&known) = memo.get(&self.id) {
+            return known;
+        }
+        let result = match self.view() {
+            NodeView::Number(_) => true,
+            NodeView::Symbol(symbol) => self.graph.with_symbol(symbol, |s| s.constant),
+            NodeView::Sum(terms) => terms.into_iter().all(|(_, e)| e.is_constant(memo)),
+            NodeView::Product(factors) => factors.into_iter().all(|(e, _)| e.is_constant(memo)),
+            NodeView::Call(_, e) | NodeView::Group(e) | NodeView::Opaque(e) => e.is_constant(memo),
+        };
+        memo.insert(self.id, result);
+        result
+    }
+
+    /// True when the symbol occurs in it.
+    pub fn contains(self, symbol: Expr<'g>) -> bool {
+        let mut seen = std::collections::HashSet::new();
+        let mut stack = vec![self];
+        while let Some(e) = stack.pop() {
+            if e == symbol {
+                return true;
+            }
+            if e.id < symbol.id || !seen.insert(e.id) {
+                continue;
+            }
+            match e.view() {
+                NodeView::Number(_) | NodeView::Symbol(_) => {}
+                NodeView::Sum(terms) => stack.extend(terms.into_iter().map(|(_, e)| e)),
+                NodeView::Product(factors) => stack.extend(factors.into_iter().map(|(e, _)| e)),
+                NodeView::Call(_, e) | NodeView::Group(e) | NodeView::Opaque(e) => stack.push(e),
+            }
+        }
+        false
+    }
+}
+
+impl PartialEq for Expr<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+}
+
+impl Eq for Expr<'_> {}
+
+impl Hash for Expr<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.id.hash(state);
+    }
+}
+
+impl fmt::Debug for Expr<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&super::print(*self, super::Notation::Text))
+    }
+}
+
+impl<'g> Add for Expr<'g> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.graph.sum([(Rational::one(), self), (Rational::one(), other)])
+    }
+}
+
+impl<'g> Sub for Expr<'g> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self.graph.sum([(Rational::one(), self), (-Rational::one(), other)])
+    }
+}
+
+impl<'g> Mul for Expr<'g> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        self.graph.product(Rational::one(), [(self, 1), (other, 1)])
+    }
+}
+
+impl Neg for Expr<'_> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.scale(-Rational::one())
+    }
+}
+
+/// Sum of a non-empty sequence; an empty one has no graph to live in.
+impl<'g> Sum for Expr<'g> {
+    fn sum<I: Iterator<Item = Self>>(mut terms: I) -> Self {
+        let first = terms.next().expect("a sum of expressions has at least one term");
+        let graph = first.graph;
+        graph.sum(std::iter::once(first).chain(terms).map(|e| (Rational::one(), e)))
+    }
+}

@@ -1,0 +1,28 @@
+//! Exact symbolic algebra: hash-consed expressions with rational coefficients, their derivatives, a polynomial normal
+//! form and printing. Nothing here knows about bodies, frames or charts.
+//!
+//! Two representations, for two purposes:
+//! - [`Expr`]: a node of a shared graph. Sums and products are kept as they were built (flattened and collected, never
+//!   multiplied out), so a quantity that occurs a hundred times exists once. Kernels are made from these.
+//! - [`Polynomial`]: the multiplied-out normal form modulo the relations of the atoms (`cos² = 1 − sin²`, denominators,
+//!   and in proofs the relations of a rotation matrix). Equal expressions have equal normal forms, so this one decides
+//!   identities, cancels what can cancel, and is what a reader wants to see printed.
+
+mod differentiate;
+mod evaluate;
+mod graph;
+#[cfg(test)]
+pub mod ideal;
+mod linear;
+mod polynomial;
+mod print;
+mod rational;
+#[cfg(test)]
+mod tests;
+
+pub use evaluate::Evaluation;
+pub use graph::{Expr, Function, Graph, NodeView};
+pub use linear::{inverse_of_symmetric, solve};
+pub use polynomial::Polynomial;
+pub use print::{Notation, print};
+pub use rational::Rational;

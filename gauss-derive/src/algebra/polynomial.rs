@@ -1,0 +1,376 @@
+//! The normal form: multiplied out, collected, and reduced modulo what the atoms satisfy.
+//!
+//! Atoms are symbols, function values with normalised arguments, opaque constants, and reciprocals of primitive sums.
+//! Two rewriting rules are always on: `cos²x → 1 − sin²x`, and `lm(S)·S⁻¹ → 1 − (S − lm(S))·S⁻¹` for a denominator S
+//! with leading monomial lm(S) (graded lexicographic order); both lower the order of the monomial, so they terminate.
+
+use std::collections::{BTreeMap, HashMap};
+use std::rc::Rc;
+
+use super::graph::{Expr, Function, Graph, Id, Node, NodeView};
+use super::rational::Rational;
+
+/// Π atomᵢ^nᵢ, sorted by atom, exponents nonzero.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
+pub struct Monomial(pub(super) Vec<(Id, i32)>);
+
+impl Monomial {
+    pub(super) fn times(&self, other: &Self) -> Self {
+        let (mut i, mut j) = (0, 0);
+        let mut factors = Vec::with_capacity(self.0.len() + other.0.len());
+        while i < self.0.len() && j < other.0.len() {
+            let (a, b) = (self.0[i], other.0[j]);
+            if a.0 < b.0 {
+                factors.push(a);
+                i += 1;
+            } else if b.0 < a.0 {
+                factors.push(b);
+                j += 1;
+            } else {
+                if a.1 + b.1 != 0 {
+                    factors.push((a.0, a.1 + b.1));
+                }
+                i += 1;
+                j += 1;
+            }
+        }
+        factors.extend_from_slice(&self.0[i..]);
+        factors.extend_from_slice(&other.0[j..]);
+        Self(factors)
+    }
+
+    pub(super) fn degree(&self) -> i32 {
+        self.0.iter().map(|&(_, n)| n).sum()
+    }
+
+    /// `self / divisor` when the exponents of the divisor's atoms allow it.
+    pub(super) fn over(&self, divisor: &Self) -> Option<Self> {
+        let mut factors = self.0.clone();
+        for &(atom, n) in &divisor.0 {
+            let factor = factors.iter_mut().find(|f| f.0 == atom)?;
+            if factor.1 < n {
+                return None;
+            }
+            factor.1 -= n;
+        }
+        factors.retain(|&(_, n)| n != 0);
+        Some(Self(factors))
+    }
+}
+
+/// Graded lexicographic order; an earlier atom counts as larger.
+impl Ord for Monomial {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.degree().cmp(&other.degree()).then_with(|| {
+            for (a, b) in self.0.iter().zip(&other.0) {
+                if a.0 != b.0 {
+                    // The one whose first differing atom comes earlier has it to a positive power, the other to none.
+                    return if a.0 < b.0 { a.1.cmp(&0) } else { 0.cmp(&b.1) };
+                }
+                if a.1 != b.1 {
+                    return a.1.cmp(&b.1);
+                }
+            }
+            let (n, m) = (self.0.len(), other.0.len());
+            match n.cmp(&m) {
+                std::cmp::Ordering::Equal => std::cmp::Ordering::Equal,
+                std::cmp::Ordering::Greater => self.0[m].1.cmp(&0),
+                std::cmp::Ordering::Less => 0.cmp(&other.0[n].1),
+            }
+        })
+    }
+}
+
+impl PartialOrd for Monomial {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Σ cᵢ · monomialᵢ in normal form.
+#[derive(Clone)]
+pub struct Polynomial<'g> {
+    graph: &'g Graph,
+    terms: BTreeMap<Monomial, Rational>,
+}
+
+impl PartialEq for Polynomial<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.terms == other.terms
+    }
+}
+
+/// Multiplies expressions out, remembering what it has seen.
+struct Expander<'g> {
+    graph: &'g Graph,
+    limit: usize,
+    memo: HashMap<Id, Option<Rc<Polynomial<'g>>>>,
+    denominators: HashMap<Id, Rc<Polynomial<'g>>>,
+}
+
+impl<'g> Expr<'g> {
+    /// The normal form, or `None` when more than `limit` terms would be needed on the way.
+    pub fn expand(self, limit: usize) -> Option<Polynomial<'g>> {
+        let mut expander =
+            Expander { graph: self.graph, limit, memo: HashMap::new(), denominators: HashMap::new() };
+        expander.expand(self).map(|p| (*p).clone())
+    }
+
+    /// The normal form written back as an expression: constants gathered in front of each monomial of what varies.
+    /// Stays as it is when more than `limit` terms would be needed.
+    pub fn collected(self, limit: usize) -> Self {
+        self.expand(limit).map_or(self, |p| p.collect())
+    }
+}
+
+impl<'g> Expander<'g> {
+    fn expand(&mut self, e: Expr<'g>) -> Option<Rc<Polynomial<'g>>> {
+        if let Some(done) = self.memo.get(&e.id) {
+            return done.clone();
+        }
+        let result = self.expand_new(e).map(Rc::new);
+        self.memo.insert(e.id, result.clone());
+        result
+    }
+
+    fn expand_new(&mut self, e: Expr<'g>) -> Option<Polynomial<'g>> {
+        match e.view() {
+            NodeView::Number(value) => Some(Polynomial::constant(self.graph, value)),
+            NodeView::Symbol(_) | NodeView::Opaque(_) => Some(Polynomial::atom(e, 1)),
+            NodeView::Group(inner) => self.expand(inner).map(|p| (*p).clone()),
+            NodeView::Sum(terms) => {
+                let mut result = Polynomial::zero(self.graph);
+                for (c, term) in terms {
+                    let term = self.expand(term)?;
+                    for (m, d) in &term.terms {
+                        result.add_term(m.clone(), c * *d);
+                    }
+                    if result.terms.len() > self.limit {
+                        return None;
+                    }
+                }
+                Some(result)
+            }
+            NodeView::Product(factors) => {
+                let mut result = Polynomial::constant(self.graph, Rational::one());
+                // Powers of atoms first: cheap, and denominators then cancel as early as possible.
+                for (factor, exponent) in factors {
+                    let factor = self.expand(factor)?;
+                    result = self.multiply_power(result, &factor, exponent)?;
+                }
+                Some(result)
+            }
+            NodeView::Call(function, argument) => {
+                let argument = self.expand(argument)?.to_expr();
+                let call = self.graph.call(function, argument);
+                match call.view() {
+                    NodeView::Call(..) => Some(Polynomial::atom(call, 1)),
+                    _ => self.expand(call).map(|p| (*p).clone()),
+                }
+            }
+        }
+    }
+
+    fn multiply_power(
+        &mut self,
+        base: Polynomial<'g>,
+        factor: &Polynomial<'g>,
+        exponent: i32,
+    ) -> Option<Polynomial<'g>> {
+        // A single monomial has every power, also the negative ones.
+        if let Some((monomial, coefficient)) = factor.as_single_term() {
+            let power = Monomial(monomial.0.iter().map(|&(a, n)| (a, n * exponent)).collect());
+            let single = Polynomial::term(self.graph, power, coefficient.pow(exponent));
+            return self.multiply(&base, &single);
+        }
+        if exponent > 0 {
+            let mut result = base;
+            for _ in 0..exponent {
+                result = self.multiply(&result, factor)?;
+            }
+            return Some(result);
+        }
+        // A denominator: its primitive part becomes an atom.
+        let sum = factor.to_expr();
+        let Node::Product(reciprocal) = self.graph.node(match sum.recip().view() {
+            NodeView::Sum(terms) => terms[0].1.id,
+            _ => sum.recip().id,
+        }) else {
+            return None;
+        };
+        let (atom, _) = reciprocal[0];
+        let primitive = Rc::new(factor.scaled_to(self.graph.expr(atom)));
+        let content = factor.ratio_to(&primitive);
+        self.denominators.insert(atom, primitive);
+        let single = Polynomial::term(self.graph, Monomial(vec![(atom, exponent)]), content.pow(exponent));
+        self.multiply(&base, &single)
+    }
+
+    fn multiply(&mut self, a: &Polynomial<'g>, b: &Polynomial<'g>) -> Option<Polynomial<'g>> {
+        let mut result = Polynomial::zero(self.graph);
+        for (m, c) in &a.terms {
+            for (n, d) in &b.terms {
+                self.add_reduced(&mut result, m.times(n), *c * *d);
+            }
+            if result.terms.len() > self.limit {
+                return None;
+            }
+        }
+        Some(result)
+    }
+
+    /// Adds a term after rewriting it by the rules of its atoms.
+    fn add_reduced(&self, result: &mut Polynomial<'g>, monomial: Monomial, coefficient: Rational) {
+        for (k, &(atom, n)) in monomial.0.iter().enumerate() {
+            if n >= 2
+                && let Node::Call(Function::Cos, argument) = self.graph.node(atom)
+            {
+                let sine = self.graph.call(Function::Sin, self.graph.expr(argument));
+                let mut rest = monomial.0.clone();
+                rest[k].1 -= 2;
+                rest.retain(|&(_, n)| n != 0);
+                let rest = Monomial(rest);
+                self.add_reduced(result, rest.times(&Monomial(vec![(sine.id, 2)])), -coefficient);
+                self.add_reduced(result, rest, coefficient);
+                return;
+            }
+            if n < 0
+                && let Some(denominator) = self.denominators.get(&atom)
+            {
+                let (leading, leading_coefficient) =
+                    denominator.terms.last_key_value().expect("a denominator has terms");
+                if let Some(rest) = monomial.over(leading) {
+                    let coefficient = (coefficient * leading_coefficient.recip());
+                    self.add_reduced(result, rest.times(&Monomial(vec![(atom, 1)])), coefficient);
+                    for (m, c) in &denominator.terms {
+                        if m != leading {
+                            let c = -(coefficient * *c);
+                            self.add_reduced(result, rest.times(m), c);
+                        }
+                    }
+                    return;
+                }
+            }
+        }
+        result.add_term(monomial, coefficient);
+    }
+}
+
+impl<'g> Polynomial<'g> {
+    pub fn zero(graph: &'g Graph) -> Self {
+        Self { graph, terms: BTreeMap::new() }
+    }
+
+    fn constant(graph: &'g Graph, value: Rational) -> Self {
+        Self::term(graph, Monomial::default(), value)
+    }
+
+    fn atom(e: Expr<'g>, exponent: i32) -> Self {
+        Self::term(e.graph, Monomial(vec![(e.id, exponent)]), Rational::one())
+    }
+
+    fn term(graph: &'g Graph, monomial: Monomial, coefficient: Rational) -> Self {
+        let mut p = Self::zero(graph);
+        p.add_term(monomial, coefficient);
+        p
+    }
+
+    pub(super) fn add_term(&mut self, monomial: Monomial, coefficient: Rational) {
+        if coefficient.is_zero() {
+            return;
+        }
+        match self.terms.entry(monomial) {
+            std::collections::btree_map::Entry::Vacant(place) => {
+                place.insert(coefficient);
+            }
+            std::collections::btree_map::Entry::Occupied(mut place) => {
+                let sum = place.get().plus(coefficient);
+                if sum.is_zero() {
+                    place.remove();
+                } else {
+                    *place.get_mut() = sum;
+                }
+            }
+        }
+    }
+
+    pub fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// Number of terms.
+    pub fn len(&self) -> usize {
+        self.terms.len()
+    }
+
+    #[cfg(test)]
+    pub(super) fn terms(&self) -> &BTreeMap<Monomial, Rational> {
+        &self.terms
+    }
+
+    #[cfg(test)]
+    pub(super) fn graph(&self) -> &'g Graph {
+        self.graph
+    }
+
+    fn as_single_term(&self) -> Option<(&Monomial, &Rational)> {
+        if self.terms.len() == 1 { self.terms.first_key_value() } else { None }
+    }
+
+    /// The same polynomial with the scale of the given primitive sum (which has the same terms up to a factor).
+    fn scaled_to(&self, primitive: Expr<'g>) -> Self {
+        let NodeView::Sum(terms) = primitive.view() else { return self.clone() };
+        let (c, e) = terms[0];
+        let monomial = match e.view() {
+            NodeView::Number(_) => Monomial::default(),
+            NodeView::Product(factors) => Monomial(factors.into_iter().map(|(f, n)| (f.id, n)).collect()),
+            _ => Monomial(vec![(e.id, 1)]),
+        };
+        let Some(own) = self.terms.get(&monomial) else { return self.clone() };
+        let scale = (c * own.recip());
+        let terms = self.terms.iter().map(|(m, d)| (m.clone(), scale * *d)).collect();
+        Self { graph: self.graph, terms }
+    }
+
+    fn ratio_to(&self, primitive: &Self) -> Rational {
+        let (m, c) = self.terms.first_key_value().expect("a denominator has terms");
+        (*c * primitive.terms[m].recip())
+    }
+
+    fn monomial_expr(&self, monomial: &Monomial) -> Expr<'g> {
+        self.graph.product(Rational::one(), monomial.0.iter().map(|&(id, n)| (self.graph.expr(id), n)))
+    }
+
+    /// Back to an expression, one term a monomial.
+    pub fn to_expr(&self) -> Expr<'g> {
+        self.graph.sum(self.terms.iter().map(|(m, c)| (*c, self.monomial_expr(m))))
+    }
+
+    /// Splits off the constants: a list of (coefficient made of constants, monomial of what varies), highest first.
+    pub fn by_variable_monomials(&self) -> Vec<(Polynomial<'g>, Expr<'g>)> {
+        let mut memo = HashMap::new();
+        let mut groups: BTreeMap<Monomial, Polynomial<'g>> = BTreeMap::new();
+        for (monomial, c) in &self.terms {
+            let (constant, variable): (Vec<_>, Vec<_>) =
+                monomial.0.iter().partition(|(id, _)| self.graph.expr(*id).is_constant(&mut memo));
+            groups
+                .entry(Monomial(variable))
+                .or_insert_with(|| Self::zero(self.graph))
+                .add_term(Monomial(constant), *c);
+        }
+        groups.into_iter().rev().map(|(m, p)| (p, self.monomial_expr(&m))).collect()
+    }
+
+    /// Back to an expression with the constants gathered in front of each monomial of what varies.
+    pub fn collect(&self) -> Expr<'g> {
+        let one = Rational::one();
+        self.graph.sum(
+            self.by_variable_monomials().into_iter().map(|(constant, variable)| (one, constant.to_expr().group() * variable)),
+        )
+    }
+
+    /// A sign that makes the leading coefficient positive, for printing.
+    pub fn leading_is_negative(&self) -> bool {
+        self.terms.last_key_value().is_some_and(|(_, c)| c.is_negative())
+    }
+}

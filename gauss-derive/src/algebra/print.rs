@@ -1,0 +1,141 @@
+//! Expressions for people: plain text and LaTeX.
+
+use super::graph::{Expr, Function, NodeView};
+use super::rational::Rational;
+
+/// How to write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Notation {
+    Text,
+    Latex,
+}
+
+/// An expression on one line. Groups are written out.
+pub fn print(e: Expr<'_>, notation: Notation) -> String {
+    Printer { notation }.sum(e)
+}
+
+struct Printer {
+    notation: Notation,
+}
+
+/// One printed term: its sign and its unsigned text.
+struct Term {
+    negative: bool,
+    text: String,
+}
+
+impl Printer {
+    fn latex(&self) -> bool {
+        self.notation == Notation::Latex
+    }
+
+    fn sum(&self, e: Expr<'_>) -> String {
+        let mut out = String::new();
+        for (k, term) in self.terms(e).into_iter().enumerate() {
+            match (k, term.negative) {
+                (0, true) => out.push('-'),
+                (0, false) => {}
+                (_, true) => out.push_str(" - "),
+                (_, false) => out.push_str(" + "),
+            }
+            out.push_str(&term.text);
+        }
+        out
+    }
+
+    fn terms(&self, e: Expr<'_>) -> Vec<Term> {
+        match e.view() {
+            NodeView::Group(inner) | NodeView::Opaque(inner) => self.terms(inner),
+            NodeView::Sum(terms) => {
+                let mut printed: Vec<Term> = terms.into_iter().map(|(c, e)| self.term(c, e)).collect();
+                // A positive term first where there is one: `a - b` rather than `-b + a`.
+                if printed[0].negative
+                    && let Some(k) = printed.iter().position(|t| !t.negative)
+                {
+                    let first = printed.remove(k);
+                    printed.insert(0, first);
+                }
+                printed
+            }
+            _ => vec![self.term(Rational::one(), e)],
+        }
+    }
+
+    fn term(&self, coefficient: Rational, e: Expr<'_>) -> Term {
+        let negative = coefficient.is_negative();
+        let coefficient = coefficient.abs();
+        let (mut above, mut below) = (Vec::new(), Vec::new());
+        let factors = match e.view() {
+            NodeView::Product(factors) => factors,
+            NodeView::Number(value) => {
+                return Term { negative: negative != value.is_negative(), text: self.number(&(value.abs() * coefficient)) };
+            }
+            _ => vec![(e, 1)],
+        };
+        // Constants first, as in a textbook: (I2 - I3)*w2*w3.
+        let mut memo = std::collections::HashMap::new();
+        let (mut factors, varying): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| e.is_constant(&mut memo));
+        factors.extend(varying);
+        let single = factors.len() == 1 && coefficient.is_one();
+        for (factor, exponent) in factors {
+            let base = self.factor(factor, single && exponent == 1);
+            let power = match exponent.abs() {
+                1 => base,
+                n if self.latex() => format!("{base}^{{{n}}}"),
+                n => format!("{base}^{n}"),
+            };
+            if exponent > 0 { above.push(power) } else { below.push(power) }
+        }
+        if coefficient.numer() != 1 || above.is_empty() {
+            above.insert(0, coefficient.numer().to_string());
+        }
+        if coefficient.denom() != 1 {
+            below.insert(0, coefficient.denom().to_string());
+        }
+        let times = if self.latex() { " \\, " } else { "*" };
+        let text = match (below.is_empty(), self.latex()) {
+            (true, _) => above.join(times),
+            (false, true) => format!("\\frac{{{}}}{{{}}}", above.join(times), below.join(times)),
+            (false, false) if below.len() == 1 => format!("{}/{}", above.join(times), below[0]),
+            (false, false) => format!("{}/({})", above.join(times), below.join(times)),
+        };
+        Term { negative, text }
+    }
+
+    fn factor(&self, e: Expr<'_>, alone: bool) -> String {
+        match e.view() {
+            NodeView::Symbol(symbol) => e.graph().with_symbol(symbol, |s| {
+                if self.latex() { s.latex.clone() } else { s.text.clone() }
+            }),
+            NodeView::Call(function, argument) => {
+                let name = match function {
+                    Function::Sin => "sin",
+                    Function::Cos => "cos",
+                };
+                match (self.latex(), matches!(argument.view(), NodeView::Symbol(_))) {
+                    (true, true) => format!("\\{name} {}", self.sum(argument)),
+                    (true, false) => format!("\\{name}\\left({}\\right)", self.sum(argument)),
+                    (false, _) => format!("{name}({})", self.sum(argument)),
+                }
+            }
+            NodeView::Number(value) => self.number(&value),
+            NodeView::Group(inner) | NodeView::Opaque(inner) if !matches!(inner.view(), NodeView::Sum(_)) => {
+                self.factor(inner, alone)
+            }
+            _ if alone => self.sum(e),
+            _ if self.latex() => format!("\\left({}\\right)", self.sum(e)),
+            _ => format!("({})", self.sum(e)),
+        }
+    }
+
+    fn number(&self, value: &Rational) -> String {
+        if value.is_integer() {
+            value.numer().to_string()
+        } else if self.latex() {
+            format!("\\frac{{{}}}{{{}}}", value.numer(), value.denom())
+        } else {
+            format!("{}/{}", value.numer(), value.denom())
+        }
+    }
+}
