@@ -1,0 +1,86 @@
+//! The Gauss condition (3.4), word for word: v_P, its derivatives, integrals over the body by moments.
+//!
+//! This is the definition that everything else is checked against: the equations that kernels are made from
+//! (`momentum`, `solution`) are arranged for speed, and must give the same residual.
+
+use std::collections::HashMap;
+
+use crate::algebra::Expr;
+
+use super::body::{AffineField, Body, integrate_product};
+use super::chart::Kinematics;
+use super::vector::{Axes, Triple, Vector, apply_block, dot};
+
+/// Body coordinates x of the point P, as formal symbols.
+fn body_point<'g>(kinematics: &Kinematics<'g>) -> Triple<'g> {
+    std::array::from_fn(|j| kinematics.frame.graph.symbol(format!("x{}", j + 1), format!("x_{{{}}}", j + 1), false))
+}
+
+/// v_P = d/dt (R x + b), observer's components (1.1), (2.2)–(2.6).
+pub fn velocity_field<'g>(kinematics: &Kinematics<'g>, x: &Triple<'g>) -> Triple<'g> {
+    let turned = kinematics.frame.to_space(x);
+    std::array::from_fn(|i| (turned[i] + kinematics.position[i]).derivative(&kinematics.rates))
+}
+
+/// `d/dt ∫v_P·∂v_P/∂z^α dm − ∫v_P·d/dt(∂v_P/∂z^α) dm − ∫∂v_P/∂z^α·dF` for every α, a function of (q, z, ż).
+pub fn gauss_condition<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>) -> Vec<Expr<'g>> {
+    let x = body_point(kinematics);
+    let along = kinematics.rates_with_accelerations();
+    let velocity = velocity_field(kinematics, &x);
+    let field = AffineField::of(&velocity, &x);
+    kinematics
+        .speeds
+        .iter()
+        .map(|&z| {
+            // w_α = ∂v_P/∂z^α and its rate: affine fields like v_P itself.
+            let partial = field.map(|e| e.partial(z));
+            let partial_rate = partial.map(|e| e.derivative(&along));
+            let momentum = integrate_product(body, &field, &partial);
+            let inertia = momentum.derivative(&along) - integrate_product(body, &field, &partial_rate);
+            inertia + fluid(kinematics, body, z, &along) - active_forces(body, &partial)
+        })
+        .collect()
+}
+
+/// `∫∂v_P/∂z^α·dF` of weight and buoyancy.
+fn active_forces<'g>(body: &Body<'g>, partial: &AffineField<'g>) -> Expr<'g> {
+    let Some(gravity) = body.gravity else { return body.mass.graph().zero() };
+    let weight = AffineField { constant: gravity, linear: [[body.mass.graph().zero(); 3]; 3] };
+    let work = integrate_product(body, &weight, partial);
+    match body.displaced {
+        Some((mass, center)) => work - mass * dot(&gravity, &partial.at(&center)),
+        None => work,
+    }
+}
+
+/// What the impulse (Q_f, Γ_f) = M_A (u, ω) of the fluid adds: it pairs with w_α as the body's own momentum does.
+fn fluid<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>, z: Expr<'g>, along: &HashMap<u32, Expr<'g>>) -> Expr<'g> {
+    let frame = &kinematics.frame;
+    let Some(added) = &body.added_mass else { return frame.graph.zero() };
+    let u = frame.resolve(&kinematics.velocity, Axes::Body);
+    let omega = frame.resolve(&kinematics.angular_velocity, Axes::Body);
+    let impulse = |row: usize| -> Vector<'g> {
+        let (linear, angular) = (apply_block(added, row, 0, &u), apply_block(added, row, 3, &omega));
+        frame.body_vector(std::array::from_fn(|i| linear[i] + angular[i]))
+    };
+    pairing(kinematics, &impulse(0), &impulse(3), z, along)
+}
+
+/// `d/dt p_α − [Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α]` with `p_α = Q·a_α + Γ_O·o_α`: the left-hand side of (3.4) for any
+/// momentum (Q, Γ_O) that pairs with rigid partial velocities.
+pub fn pairing<'g>(
+    kinematics: &Kinematics<'g>,
+    linear_momentum: &Vector<'g>,
+    angular_momentum: &Vector<'g>,
+    z: Expr<'g>,
+    along: &HashMap<u32, Expr<'g>>,
+) -> Expr<'g> {
+    let frame = &kinematics.frame;
+    let omega = &kinematics.angular_velocity;
+    let (a, o) = (kinematics.velocity.partial(z), omega.partial(z));
+    let a_rate = frame.derivative(&a, along, omega);
+    let o_rate = frame.derivative(&o, along, omega);
+    let momentum = frame.dot(linear_momentum, &a) + frame.dot(angular_momentum, &o);
+    let turning = a_rate.plus(&frame.cross(&kinematics.velocity, &o));
+    momentum.derivative(along) - frame.dot(linear_momentum, &turning) - frame.dot(angular_momentum, &o_rate)
+}

@@ -1,0 +1,449 @@
+//! Every method of a kernel as expressions of its arguments, in the chosen chart.
+
+use std::cmp::Ordering;
+use std::collections::HashMap;
+
+use crate::algebra::{Expr, Graph, solve};
+
+use super::body::{Body, BodyShape};
+use super::chart::{ConfigurationKind, Kinematics};
+use super::momentum::{
+    ARRANGEMENTS, Arrangement, Formal, KineticMatrix, LinearAcceleration, Weight, solve_balance, twist_of_momentum,
+};
+use super::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
+use crate::model::{Chart, Motion};
+
+/// The methods that a kernel has, in the order in which they are generated and counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Method {
+    Kinematics,
+    Acceleration,
+    Momentum,
+    Velocity,
+    MomentumRate,
+    MassMatrix,
+    KineticEnergy,
+    PotentialEnergy,
+    GaussResidual,
+    ConstraintFunction,
+    BodyTwist,
+    Speeds,
+    BodyMomentum,
+}
+
+/// The outputs of one method. Where the same result can be arranged in several ways, all are given, and the kernel
+/// takes the one that costs least.
+pub struct Formula<'g> {
+    pub method: Method,
+    pub arrangements: Vec<Vec<Expr<'g>>>,
+}
+
+/// Linear momentum and the like, in the axes in which the rows of the kinematics are written.
+#[derive(Clone, Copy)]
+struct Pair<'g> {
+    linear: Triple<'g>,
+    angular: Triple<'g>,
+}
+
+/// A scene: one rigid body in one chart.
+pub struct Scene<'g> {
+    pub kinematics: Kinematics<'g>,
+    pub body: Body<'g>,
+    pub matrix: KineticMatrix<'g>,
+    pub weight: Option<Weight<'g>>,
+    /// Formal arguments: momenta p, and a twist of O in body axes.
+    pub momenta: Vec<Expr<'g>>,
+    pub twist: [Expr<'g>; 6],
+    formal: Formal<'g>,
+    /// Axes in which v_O and ω depend on z most simply, and the rows ∂v_O/∂z, ∂ω/∂z there.
+    linear_in: Axes,
+    angular_in: Axes,
+    linear_rows: Vec<Triple<'g>>,
+    angular_rows: Vec<Triple<'g>>,
+}
+
+impl<'g> Scene<'g> {
+    pub fn new(graph: &'g Graph, motion: Motion, chart: Chart, shape: BodyShape) -> Self {
+        let up = if motion == Motion::Planar { 1 } else { 2 };
+        let body = Body::new(graph, shape, up);
+        let kinematics = Kinematics::new(graph, motion, chart);
+        let matrix = KineticMatrix::new(graph, &body, &kinematics.linear_axes());
+        let weight = Weight::new(&body);
+        let formal = Formal::new(&kinematics);
+        let momenta = kinematics
+            .momentum_names
+            .iter()
+            .map(|(text, latex)| graph.symbol(text.clone(), latex.clone(), false))
+            .collect();
+        let twist = std::array::from_fn(|k| {
+            let (name, latex) = if k < 3 { ("u", "u") } else { ("w", "\\omega") };
+            graph.symbol(format!("{name}{}", k % 3 + 1), format!("{latex}_{{{}}}", k % 3 + 1), false)
+        });
+        let rows = |velocity: &Vector<'g>| {
+            let in_axes = |axes| -> Vec<Triple<'g>> {
+                let resolved = kinematics.frame.resolve(velocity, axes);
+                kinematics.speeds.iter().map(|&z| resolved.map(|e| e.partial(z))).collect()
+            };
+            let (body, space) = (in_axes(Axes::Body), in_axes(Axes::Space));
+            let varying = |rows: &[Triple<'g>]| rows.iter().flatten().filter(|e| e.as_number().is_none()).count();
+            let natural = if is_zero(&velocity.body) { Axes::Space } else { Axes::Body };
+            match varying(&space).cmp(&varying(&body)) {
+                Ordering::Less => (Axes::Space, space),
+                Ordering::Equal if natural == Axes::Space => (Axes::Space, space),
+                _ => (Axes::Body, body),
+            }
+        };
+        let (linear_in, linear_rows) = rows(&kinematics.velocity);
+        let (angular_in, angular_rows) = rows(&kinematics.angular_velocity);
+        Self {
+            kinematics,
+            body,
+            matrix,
+            weight,
+            momenta,
+            twist,
+            formal,
+            linear_in,
+            angular_in,
+            linear_rows,
+            angular_rows,
+        }
+    }
+
+    pub fn formulas(&self) -> Vec<Formula<'g>> {
+        let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
+        let residuals: Vec<Vec<Expr<'g>>> = ARRANGEMENTS[..2].iter().map(|&a| self.residual(a)).collect();
+        let constraint = residuals.iter().map(|r| vec![self.constraint_function(r)]).collect();
+        let mut formulas = vec![
+            single(Method::Kinematics, self.configuration_rate()),
+            Formula {
+                method: Method::Acceleration,
+                arrangements: ARRANGEMENTS.iter().map(|&a| self.acceleration(a)).collect(),
+            },
+            single(Method::Momentum, self.momentum()),
+            single(Method::Velocity, self.velocity()),
+            single(Method::MomentumRate, self.momentum_rate()),
+            single(Method::MassMatrix, self.mass_matrix()),
+            single(Method::KineticEnergy, vec![self.kinetic_energy()]),
+            single(Method::PotentialEnergy, vec![self.potential_energy()]),
+            Formula { method: Method::GaussResidual, arrangements: residuals },
+            Formula { method: Method::ConstraintFunction, arrangements: constraint },
+            single(Method::BodyTwist, self.body_twist().to_vec()),
+            single(Method::Speeds, self.speeds()),
+            single(Method::BodyMomentum, self.body_momentum()),
+        ];
+        formulas.sort_by_key(|f| f.method);
+        formulas
+    }
+
+    fn in_body(&self, a: &Vector<'g>) -> Triple<'g> {
+        self.kinematics.frame.resolve(a, Axes::Body).map(Expr::group)
+    }
+
+    fn zero(&self) -> Triple<'g> {
+        [self.kinematics.frame.graph.zero(); 3]
+    }
+
+    /// `Σ linear_k ∂v_k/∂z^α + angular_k ∂ω_k/∂z^α` for every α: pairs what is dual to the twist with a_α and o_α.
+    fn project(&self, dual: Pair<'g>) -> Vec<Expr<'g>> {
+        self.linear_rows
+            .iter()
+            .zip(&self.angular_rows)
+            .map(|(a, o)| dot(a, &dual.linear) + dot(o, &dual.angular))
+            .collect()
+    }
+
+    /// z from the twist (or ż from its rate): solves `Σ_α (a_α, o_α) z^α = right` on the motion's axes.
+    fn lift(&self, right: Pair<'g>) -> Vec<Expr<'g>> {
+        let active = &self.kinematics.active;
+        let matrix: Vec<Vec<Expr<'g>>> = active
+            .iter()
+            .map(|&k| {
+                let rows = if k < 3 { &self.linear_rows } else { &self.angular_rows };
+                rows.iter().map(|row| row[k % 3]).collect()
+            })
+            .collect();
+        let right: Vec<Expr<'g>> =
+            active.iter().map(|&k| if k < 3 { right.linear[k] } else { right.angular[k - 3] }).collect();
+        solve(&matrix, &right).expect("every chart of a free body is regular")
+    }
+
+    /// The dual of `lift`: (Q, Γ) from p.
+    fn momentum_pair(&self, p: &[Expr<'g>]) -> Pair<'g> {
+        let active = &self.kinematics.active;
+        let matrix: Vec<Vec<Expr<'g>>> = (0..p.len())
+            .map(|alpha| {
+                let (a, o) = (&self.linear_rows[alpha], &self.angular_rows[alpha]);
+                active.iter().map(|&k| if k < 3 { a[k] } else { o[k - 3] }).collect()
+            })
+            .collect();
+        let solution = solve(&matrix, p).expect("every chart of a free body is regular");
+        let mut pair = Pair { linear: self.zero(), angular: self.zero() };
+        for (&k, value) in active.iter().zip(solution) {
+            if k < 3 { pair.linear[k] = value } else { pair.angular[k - 3] = value }
+        }
+        pair
+    }
+
+    fn vector(&self, axes: Axes, a: Triple<'g>) -> Vector<'g> {
+        match axes {
+            Axes::Body => self.kinematics.frame.body_vector(a),
+            Axes::Space => self.kinematics.frame.space_vector(a),
+        }
+    }
+
+    /// Components in the axes of the rows.
+    fn resolve(&self, linear: &Vector<'g>, angular: &Vector<'g>) -> Pair<'g> {
+        let frame = &self.kinematics.frame;
+        Pair { linear: frame.resolve(linear, self.linear_in), angular: frame.resolve(angular, self.angular_in) }
+    }
+
+    /// ψ: the twist (u, ω) of O in body axes for group-valued configurations, else q̇.
+    fn configuration_rate(&self) -> Vec<Expr<'g>> {
+        let kinematics = &self.kinematics;
+        if kinematics.kind == ConfigurationKind::Coordinates {
+            return kinematics.speeds.clone();
+        }
+        let twist = self.body_twist();
+        kinematics.active.iter().map(|&k| twist[k]).collect()
+    }
+
+    /// (u, ω), body axes, pole O.
+    fn body_twist(&self) -> [Expr<'g>; 6] {
+        let u = self.in_body(&self.kinematics.velocity);
+        let omega = self.in_body(&self.kinematics.angular_velocity);
+        [u[0], u[1], u[2], omega[0], omega[1], omega[2]]
+    }
+
+    /// z from (u, ω).
+    fn speeds(&self) -> Vec<Expr<'g>> {
+        let [u1, u2, u3, w1, w2, w3] = self.twist;
+        let frame = &self.kinematics.frame;
+        self.lift(self.resolve(&frame.body_vector([u1, u2, u3]), &frame.body_vector([w1, w2, w3])))
+    }
+
+    /// (Q, Γ_O) of body and fluid, body axes: all six components, also those that the motion's guide takes up.
+    fn body_momentum(&self) -> Vec<Expr<'g>> {
+        let (u, omega) = (self.in_body(&self.kinematics.velocity), self.in_body(&self.kinematics.angular_velocity));
+        let q = add(&self.matrix.block(0, 0, &u), &self.matrix.block(0, 3, &omega));
+        let gamma = self.matrix.angular_momentum(&u, &omega);
+        q.into_iter().chain(gamma).collect()
+    }
+
+    /// p_α = Q·a_α + Γ_O·o_α.
+    pub fn momentum(&self) -> Vec<Expr<'g>> {
+        let frame = &self.kinematics.frame;
+        let (u, omega) = (self.in_body(&self.kinematics.velocity), self.in_body(&self.kinematics.angular_velocity));
+        let q = self.matrix.linear_momentum(frame, &self.kinematics.velocity, &omega);
+        let gamma = frame.body_vector(self.matrix.angular_momentum(&u, &omega).map(Expr::group));
+        let pair = self.resolve(&q, &gamma);
+        self.project(Pair { linear: pair.linear.map(Expr::group), angular: pair.angular.map(Expr::group) })
+    }
+
+    /// z from (q, p): (Q, Γ) by duality, the twist by M⁻¹, z by the kinematics.
+    fn velocity(&self) -> Vec<Expr<'g>> {
+        let (_, speeds) = self.state_of_momentum();
+        speeds
+    }
+
+    fn state_of_momentum(&self) -> (Pair<'g>, Vec<Expr<'g>>) {
+        let pair = self.momentum_pair(&self.momenta);
+        let linear = self.vector(self.linear_in, pair.linear.map(Expr::group));
+        let gamma = self.in_body(&self.vector(self.angular_in, pair.angular.map(Expr::group)));
+        let (velocity, omega) = twist_of_momentum(&self.kinematics, &self.matrix, &linear, &gamma);
+        let omega = self.kinematics.frame.body_vector(omega);
+        (pair, self.lift(self.resolve(&velocity, &omega)))
+    }
+
+    /// ṗ_α = Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α + R·a_α + M_O·o_α, a function of (q, p).
+    fn momentum_rate(&self) -> Vec<Expr<'g>> {
+        let (pair, speeds) = self.state_of_momentum();
+        // The bracket is formed with formal Q, Γ and z, which are then replaced by what they are in terms of p.
+        let graph = self.kinematics.frame.graph;
+        let formal = |a: &Triple<'g>| a.map(|e| if e.is_zero() { e } else { graph.symbol("P", "P", false) });
+        let symbols = Pair { linear: formal(&pair.linear), angular: formal(&pair.angular) };
+        let bracket = self.bracket(symbols);
+        let mut replacement: HashMap<u32, Expr<'g>> = HashMap::new();
+        for (symbols, values) in [(symbols.linear, pair.linear), (symbols.angular, pair.angular)] {
+            replacement.extend(symbols.iter().zip(values).map(|(s, v)| (s.key(), v.group())));
+        }
+        replacement.extend(self.kinematics.speeds.iter().zip(speeds).map(|(z, value)| (z.key(), value.group())));
+        let forces = self.generalised_forces();
+        bracket.into_iter().zip(forces).map(|(b, f)| b.substitute(&replacement) + f).collect()
+    }
+
+    /// `Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α` along the flow with ż = 0; Q and Γ_O in the axes of the rows. Where a_α or o_α
+    /// turns with the body, `Q·(ω × a_α) = (Q × ω)·a_α`: one cross product serves all α.
+    fn bracket(&self, momentum: Pair<'g>) -> Vec<Expr<'g>> {
+        let kinematics = &self.kinematics;
+        let frame = &kinematics.frame;
+        let q = self.vector(self.linear_in, momentum.linear);
+        let gamma = self.vector(self.angular_in, momentum.angular);
+        let turning = |a: &Vector<'g>, axes: Axes| match axes {
+            Axes::Body => frame.resolve(&frame.cross(a, &kinematics.angular_velocity), Axes::Body),
+            Axes::Space => self.zero(),
+        };
+        let linear_dual = turning(&q, self.linear_in);
+        let moved = frame.resolve(&frame.cross(&q, &kinematics.velocity), self.angular_in);
+        let angular_dual = add(&moved, &turning(&gamma, self.angular_in));
+        let constant = self.project(Pair { linear: linear_dual, angular: angular_dual });
+        let rate = |row: &Triple<'g>| row.map(|e| e.derivative(&kinematics.rates));
+        self.linear_rows
+            .iter()
+            .zip(&self.angular_rows)
+            .zip(constant)
+            .map(|((a, o), turned)| {
+                turned + dot(&momentum.linear, &rate(a)) + dot(&momentum.angular, &rate(o))
+            })
+            .collect()
+    }
+
+    /// The bracket in terms of named momenta: p itself where (Q, Γ) follow from it without division, else Q and Γ_O.
+    pub fn printed_bracket(&self) -> Vec<Expr<'g>> {
+        if self.kinematics.kind != ConfigurationKind::Coordinates {
+            return self.bracket(self.momentum_pair(&self.momenta));
+        }
+        let graph = self.kinematics.frame.graph;
+        let named = |text: &str, latex: &str, axes: &[usize]| -> Triple<'g> {
+            std::array::from_fn(|i| {
+                if axes.contains(&i) {
+                    graph.symbol(format!("{text}{}", i + 1), format!("{latex}_{{{}}}", i + 1), false)
+                } else {
+                    graph.zero()
+                }
+            })
+        };
+        self.bracket(Pair {
+            linear: named("Q^", "\\hat{Q}", &self.kinematics.linear_axes()),
+            angular: named("G", "\\Gamma", &self.kinematics.angular_axes()),
+        })
+    }
+
+    /// ∂C/∂ż with what cancels gone.
+    pub fn collected_residual(&self) -> Vec<Expr<'g>> {
+        self.residual(Arrangement::Collected)
+    }
+
+    /// R·a_α + M_O·o_α.
+    pub fn generalised_forces(&self) -> Vec<Expr<'g>> {
+        let frame = &self.kinematics.frame;
+        let pair = match &self.weight {
+            Some(w) => Pair {
+                linear: frame.resolve(&w.resultant(frame), self.linear_in),
+                angular: w.torque(frame, self.angular_in),
+            },
+            None => Pair { linear: self.zero(), angular: self.zero() },
+        };
+        self.project(pair)
+    }
+
+    /// ż from the balance in body axes, through the rate of the kinematics.
+    fn acceleration(&self, arrangement: Arrangement) -> Vec<Expr<'g>> {
+        let kinematics = &self.kinematics;
+        let frame = &kinematics.frame;
+        let balance = solve_balance(kinematics, &self.matrix, self.weight.as_ref(), &self.formal, arrangement);
+        let real = self.formal.realisation(kinematics, self.weight.as_ref());
+        let realise = |e: Expr<'g>| e.substitute(&real);
+        let angular = frame.body_vector(balance.angular.map(realise).map(Expr::group));
+        let velocity = frame.resolve(&kinematics.velocity, self.linear_in);
+        let omega = frame.resolve(&kinematics.angular_velocity, self.angular_in);
+        // Rates of the components for ż = 0 go to the right-hand side.
+        let still = |a: &Triple<'g>| a.map(|e| e.derivative(&kinematics.rates));
+        let in_body = |a: &Vector<'g>| self.in_body(a);
+        let linear = match (balance.linear, self.linear_in) {
+            (LinearAcceleration::Observed(a), Axes::Space) => frame.resolve(&a.map(realise), Axes::Space),
+            (LinearAcceleration::Observed(a), Axes::Body) => {
+                let drift = cross(&in_body(&kinematics.angular_velocity), &in_body(&kinematics.velocity));
+                subtract(&frame.resolve(&a.map(realise), Axes::Body), &drift)
+            }
+            (LinearAcceleration::Relative(a), Axes::Body) => a.map(realise),
+            (LinearAcceleration::Relative(a), Axes::Space) => {
+                let drift = cross(&in_body(&kinematics.angular_velocity), &in_body(&kinematics.velocity));
+                frame.resolve(&frame.body_vector(add(&a.map(realise), &drift)), Axes::Space)
+            }
+        };
+        let angular = frame.resolve(&angular, self.angular_in);
+        let right = Pair {
+            linear: subtract(&linear, &still(&velocity)),
+            angular: subtract(&angular, &still(&omega)),
+        };
+        self.lift(right)
+    }
+
+    /// A: the upper triangle is derived, ∂p_α/∂z^β, and mirrored.
+    fn mass_matrix(&self) -> Vec<Expr<'g>> {
+        let momentum = self.momentum();
+        let n = momentum.len();
+        let speeds = &self.kinematics.speeds;
+        let mut matrix = vec![self.kinematics.frame.graph.zero(); n * n];
+        for row in 0..n {
+            for column in row..n {
+                let entry = momentum[row].partial(speeds[column]);
+                matrix[row * n + column] = entry;
+                matrix[column * n + row] = entry;
+            }
+        }
+        matrix
+    }
+
+    /// T = ½ (Q·v_O + Γ_O·ω).
+    fn kinetic_energy(&self) -> Expr<'g> {
+        let frame = &self.kinematics.frame;
+        let (u, omega) = (self.in_body(&self.kinematics.velocity), self.in_body(&self.kinematics.angular_velocity));
+        let q = self.matrix.linear_momentum(frame, &self.kinematics.velocity, &omega).map(Expr::group);
+        let gamma = self.matrix.angular_momentum(&u, &omega).map(Expr::group);
+        (frame.dot(&q, &self.kinematics.velocity) + dot(&gamma, &omega)).half()
+    }
+
+    fn potential_energy(&self) -> Expr<'g> {
+        let frame = &self.kinematics.frame;
+        self.weight.as_ref().map_or(frame.graph.zero(), |w| w.potential(frame, &self.kinematics.position))
+    }
+
+    /// ∂C/∂ż: `(dQ/dt − R)·a_α + (dΓ_O/dt + v_O × Q − M_O)·o_α` at a given ż.
+    fn residual(&self, arrangement: Arrangement) -> Vec<Expr<'g>> {
+        let kinematics = &self.kinematics;
+        let frame = &kinematics.frame;
+        let balance = solve_balance(kinematics, &self.matrix, self.weight.as_ref(), &self.formal, arrangement);
+        let real = self.formal.realisation(kinematics, self.weight.as_ref());
+        let bias = |a: Triple<'g>| a.map(|e| e.substitute(&real));
+        let along = kinematics.rates_with_accelerations();
+        let omega = &kinematics.angular_velocity;
+        let a = frame.derivative(&kinematics.velocity, &along, omega).map(Expr::group);
+        let angular_rate = frame.resolve(omega, self.angular_in).map(|e| e.derivative(&along).group());
+        let alpha = self.in_body(&self.vector(self.angular_in, angular_rate));
+        let drift = cross(&self.in_body(omega), &self.in_body(&kinematics.velocity));
+        let coupling = self.matrix.block(0, 3, &alpha);
+        let (linear, u_rate) = match self.matrix.isotropic {
+            Some(mu) => {
+                let weight = self.weight.as_ref().map_or(frame.zero(), |w| w.resultant(frame));
+                let in_body = add(&coupling, &bias(balance.linear_bias));
+                (a.times(mu).plus(&frame.body_vector(in_body)).minus(&weight), self.in_body(&a))
+            }
+            None => {
+                let u_rate = match self.linear_in {
+                    Axes::Body => frame.resolve(&kinematics.velocity, Axes::Body).map(|e| e.derivative(&along)),
+                    Axes::Space => subtract(&self.in_body(&a), &drift).map(Expr::group),
+                };
+                let inertia = add(&self.matrix.block(0, 0, &u_rate), &coupling);
+                (frame.body_vector(add(&inertia, &bias(balance.linear_bias))), u_rate)
+            }
+        };
+        let angular = add(&self.matrix.angular_momentum(&u_rate, &alpha), &bias(balance.angular_bias));
+        let linear = linear.map(Expr::group);
+        self.project(self.resolve(&linear, &frame.body_vector(angular.map(Expr::group))))
+    }
+
+    /// C up to a constant in ż: its gradient is linear in ż, so `C = ½ ż·(∂C/∂ż(ż) + ∂C/∂ż(0))`.
+    fn constraint_function(&self, residual: &[Expr<'g>]) -> Expr<'g> {
+        let graph = self.kinematics.frame.graph;
+        let at_rest: HashMap<u32, Expr<'g>> =
+            self.kinematics.speed_rates.iter().map(|dz| (dz.key(), graph.zero())).collect();
+        residual
+            .iter()
+            .zip(&self.kinematics.speed_rates)
+            .map(|(r, &dz)| dz * (*r + r.substitute(&at_rest)))
+            .sum::<Expr<'g>>()
+            .half()
+    }
+}

@@ -1,0 +1,28 @@
+//! From a scene to its equations: frames and vectors, charts, moments, the Gauss condition. Reads like the paper;
+//! knows nothing of tokens.
+//!
+//! - `vector`, `rotation`: components in the body's and the observer's axes, rotation matrices.
+//! - `body`: the parameters as symbols, integrals over the body by moments.
+//! - `chart`: ψ of each chart (3.2).
+//! - `gauss`: the Gauss condition (3.4) from v_P, word for word; the reference for all that follows.
+//! - `momentum`: the same through (Q, Γ), solved in body axes.
+//! - `methods`: every method of a kernel as expressions.
+//! - `equations`: the equations for people.
+
+mod body;
+mod chart;
+mod equations;
+mod gauss;
+mod methods;
+mod momentum;
+mod rotation;
+#[cfg(test)]
+pub mod tests;
+mod vector;
+
+pub use body::{AddedMassShape, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
+pub use chart::ConfigurationKind;
+pub use equations::Section;
+pub use gauss::{gauss_condition, velocity_field};
+pub use methods::{Formula, Method, Scene};
+pub use rotation::rotation_of_quaternion;

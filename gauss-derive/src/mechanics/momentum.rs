@@ -1,0 +1,329 @@
+//! Momentum of body and fluid, the forces that act, and the balance in body axes solved for the accelerations.
+
+use std::collections::HashMap;
+
+use crate::algebra::{Expr, Graph, inverse_of_symmetric};
+
+use super::body::{AffineField, Body, integrate_product};
+use super::chart::Kinematics;
+use super::vector::{Axes, Frame, Triple, Vector, add, apply_block, cross, cross_matrix, dot, is_zero, scale, subtract};
+
+/// Terms that a component of a balance may have before it is left as it is.
+const LIMIT: usize = 600;
+
+/// `(Q, Γ_O) = M (u, ω)`, body axes, pole O: the body's inertia by moments, plus the added mass.
+pub struct KineticMatrix<'g> {
+    pub entries: Vec<Vec<Expr<'g>>>,
+    /// μ when the translational block is μ·1 on the motion's axes: linear momentum then needs no body axes.
+    pub isotropic: Option<Expr<'g>>,
+}
+
+impl<'g> KineticMatrix<'g> {
+    /// M = ∂²T/∂(u, ω)∂(u, ω) of `T = ½∫|u + ω × x|² dm`, and the fluid's matrix on top.
+    pub fn new(graph: &'g Graph, body: &Body<'g>, linear_axes: &[usize]) -> Self {
+        let unit = |k: usize| -> AffineField<'g> {
+            let zero = [graph.zero(); 3];
+            let mut axis = zero;
+            axis[k % 3] = graph.one();
+            if k < 3 {
+                return AffineField { constant: axis, linear: [zero; 3] };
+            }
+            // ω × x is linear in x with the columns of [ω]×.
+            let turn = cross_matrix(&axis);
+            AffineField { constant: zero, linear: std::array::from_fn(|j| std::array::from_fn(|i| turn[i][j])) }
+        };
+        let entries: Vec<Vec<Expr<'g>>> = (0..6)
+            .map(|i| {
+                (0..6)
+                    .map(|j| {
+                        let rigid = integrate_product(body, &unit(i), &unit(j));
+                        let added = body.added_mass.as_ref().map_or(graph.zero(), |m| m[i][j]);
+                        (rigid + added).collected(LIMIT)
+                    })
+                    .collect()
+            })
+            .collect();
+        let isotropic = linear_axes.first().map(|&k| entries[k][k]).filter(|mu| {
+            linear_axes.iter().all(|&i| {
+                linear_axes.iter().all(|&j| entries[i][j] == if i == j { *mu } else { graph.zero() })
+            })
+        });
+        Self { entries, isotropic }
+    }
+
+    pub fn block(&self, row: usize, column: usize, a: &Triple<'g>) -> Triple<'g> {
+        apply_block(&self.entries, row, column, a)
+    }
+
+    /// A block times a factor that may cancel in its entries, applied to components.
+    fn scaled_block(&self, factor: Expr<'g>, row: usize, column: usize, a: &Triple<'g>) -> Triple<'g> {
+        std::array::from_fn(|i| (0..3).map(|j| factor * self.entries[row + i][column + j] * a[j]).sum())
+    }
+
+    /// Q, as `μ v_O + M₁₂ ω` when that is all there is, else in body axes.
+    pub fn linear_momentum(&self, frame: &Frame<'g>, velocity: &Vector<'g>, omega: &Triple<'g>) -> Vector<'g> {
+        let coupling = self.block(0, 3, omega);
+        match self.isotropic {
+            Some(mu) => velocity.times(mu).plus(&frame.body_vector(coupling)),
+            None => {
+                let u = frame.resolve(velocity, Axes::Body);
+                frame.body_vector(add(&self.block(0, 0, &u), &coupling))
+            }
+        }
+    }
+
+    /// Γ_O in body axes.
+    pub fn angular_momentum(&self, u: &Triple<'g>, omega: &Triple<'g>) -> Triple<'g> {
+        add(&self.block(3, 0, u), &self.block(3, 3, omega))
+    }
+
+    fn submatrix(&self, axes: &[usize]) -> Vec<Vec<Expr<'g>>> {
+        axes.iter().map(|&i| axes.iter().map(|&j| self.entries[i][j]).collect()).collect()
+    }
+}
+
+/// Weight and buoyancy: resultant `effective_mass ĝ` and torque about O `effective_moment × ĝ`.
+pub struct Weight<'g> {
+    pub gravity: Triple<'g>,
+    pub effective_mass: Expr<'g>,
+    /// Body axes.
+    pub effective_moment: Triple<'g>,
+}
+
+impl<'g> Weight<'g> {
+    pub fn new(body: &Body<'g>) -> Option<Self> {
+        let gravity = body.gravity?;
+        let (mut effective_mass, mut effective_moment) = (body.mass, body.first_moment());
+        if let Some((mass, center)) = body.displaced {
+            effective_mass = effective_mass - mass;
+            effective_moment = subtract(&effective_moment, &scale(mass, &center));
+        }
+        Some(Self { gravity, effective_mass, effective_moment })
+    }
+
+    pub fn resultant(&self, frame: &Frame<'g>) -> Vector<'g> {
+        frame.space_vector(self.gravity).times(self.effective_mass)
+    }
+
+    /// M_O with components in the given axes, turned where that is least work.
+    pub fn torque(&self, frame: &Frame<'g>, axes: Axes) -> Triple<'g> {
+        let arm = frame.resolve(&frame.body_vector(self.effective_moment), axes);
+        cross(&arm, &frame.resolve(&frame.space_vector(self.gravity), axes))
+    }
+
+    /// U with R = −∂U/∂b.
+    pub fn potential(&self, frame: &Frame<'g>, position: &Triple<'g>) -> Expr<'g> {
+        let gravity = frame.space_vector(self.gravity);
+        let height = self.effective_mass * dot(&self.gravity, position);
+        -(height + frame.dot(&frame.body_vector(self.effective_moment), &gravity))
+    }
+}
+
+/// Formal components in body axes, in which the balance is solved once for all charts.
+pub struct Formal<'g> {
+    pub u: Triple<'g>,
+    pub omega: Triple<'g>,
+    /// ĝ.
+    pub gravity: Triple<'g>,
+}
+
+impl<'g> Formal<'g> {
+    pub fn new(kinematics: &Kinematics<'g>) -> Self {
+        let graph = kinematics.frame.graph;
+        let on = |axes: &[usize], text: &str, latex: &str| -> Triple<'g> {
+            std::array::from_fn(|i| {
+                if axes.contains(&i) {
+                    graph.symbol(format!("{text}{}", i + 1), format!("{latex}_{{{}}}", i + 1), false)
+                } else {
+                    graph.zero()
+                }
+            })
+        };
+        Self {
+            u: on(&kinematics.linear_axes(), "u", "u"),
+            omega: on(&kinematics.angular_axes(), "w", "\\omega"),
+            gravity: on(&[0, 1, 2], "gb", "\\hat g"),
+        }
+    }
+
+    /// Replaces the formal components by what they are in a chart.
+    pub fn realisation(&self, kinematics: &Kinematics<'g>, weight: Option<&Weight<'g>>) -> HashMap<u32, Expr<'g>> {
+        let frame = &kinematics.frame;
+        let u = frame.resolve(&kinematics.velocity, Axes::Body);
+        let omega = frame.resolve(&kinematics.angular_velocity, Axes::Body);
+        let zero = frame.zero();
+        let gravity = weight.map_or(zero.body, |w| frame.resolve(&frame.space_vector(w.gravity), Axes::Body));
+        let mut map = HashMap::new();
+        for (formal, real) in [(&self.u, u), (&self.omega, omega), (&self.gravity, gravity)] {
+            map.extend(formal.iter().zip(real).filter(|(f, _)| !f.is_zero()).map(|(f, r)| (f.key(), r.group())));
+        }
+        map
+    }
+}
+
+/// What is made explicit while the balance is solved; the cheapest result wins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrangement {
+    /// Momentum and force components stay quantities of their own.
+    Structured,
+    /// Right-hand sides are multiplied out and collected: what cancels is gone.
+    Collected,
+    /// Collected once more after the solve, so that the inverse is folded into constant coefficients.
+    Folded,
+}
+
+pub const ARRANGEMENTS: [Arrangement; 3] = [Arrangement::Structured, Arrangement::Collected, Arrangement::Folded];
+
+/// The translational unknown of the balance, solved.
+pub enum LinearAcceleration<'g> {
+    /// dv_O/dt for the observer, each part in its natural axes.
+    Observed(Vector<'g>),
+    /// u̇: rates of the body components.
+    Relative(Triple<'g>),
+}
+
+/// Accelerations from the balance, in formal body components (see [`Formal`]).
+pub struct Balance<'g> {
+    /// What is left of `dQ/dt` and of `dΓ_O/dt + v_O × Q` when the unknown accelerations are zero, minus the forces;
+    /// body axes. Without the space part of the forces where the translation is isotropic.
+    pub linear_bias: Triple<'g>,
+    pub angular_bias: Triple<'g>,
+    pub linear: LinearAcceleration<'g>,
+    /// ω̇, body axes.
+    pub angular: Triple<'g>,
+}
+
+/// The balance `dQ/dt = R`, `dΓ_O/dt + v_O × Q = M_O` — what (3.4) says for rigid partial velocities — solved for the
+/// accelerations on the motion's axes.
+pub fn solve_balance<'g>(
+    kinematics: &Kinematics<'g>,
+    matrix: &KineticMatrix<'g>,
+    weight: Option<&Weight<'g>>,
+    formal: &Formal<'g>,
+    arrangement: Arrangement,
+) -> Balance<'g> {
+    let frame = &kinematics.frame;
+    let zero = frame.zero();
+    let tidy = |a: Triple<'g>| match arrangement {
+        Arrangement::Structured => a,
+        _ => a.map(|e| e.collected(LIMIT)),
+    };
+    let fold = |e: Expr<'g>| if arrangement == Arrangement::Folded { e.collected(LIMIT) } else { e };
+    let omega = frame.body_vector(formal.omega);
+    let torque = weight.map_or(zero.body, |w| cross(&w.effective_moment, &formal.gravity));
+    let coupling = matrix.block(0, 3, &formal.omega).map(Expr::group);
+    let q = add(&matrix.block(0, 0, &formal.u), &matrix.block(0, 3, &formal.omega)).map(Expr::group);
+    let gamma = matrix.angular_momentum(&formal.u, &formal.omega).map(Expr::group);
+    // Rates of the formal components while the unknowns are zero: u̇ = a − ω × u when the unknown is a = dv_O/dt.
+    let mut still = HashMap::new();
+    if matrix.isotropic.is_some() {
+        let drift = cross(&formal.u, &formal.omega);
+        still.extend(formal.u.iter().zip(drift).map(|(u, rate)| (u.key(), rate)));
+    }
+    let angular_rate = frame.derivative(&frame.body_vector(gamma), &still, &omega).body;
+    let angular_bias = tidy(subtract(&add(&angular_rate, &cross(&formal.u, &q)), &torque));
+    let angular_axes = kinematics.angular_axes();
+    let pick = |a: &Triple<'g>, axes: &[usize]| -> Vec<Expr<'g>> { axes.iter().map(|&k| a[k]).collect() };
+    let spread = |values: &[Expr<'g>], axes: &[usize]| -> Triple<'g> {
+        let mut a = zero.body;
+        axes.iter().zip(values).for_each(|(&k, v)| a[k] = *v);
+        a
+    };
+    let apply = |inverse: &[Vec<Expr<'g>>], right: &[Expr<'g>]| -> Vec<Expr<'g>> {
+        inverse.iter().map(|row| fold(-row.iter().zip(right).map(|(m, r)| *m * *r).sum::<Expr<'g>>()).group()).collect()
+    };
+    match matrix.isotropic {
+        // Translation eliminated first: a = (R − bias − M₁₂ ω̇)/μ.
+        Some(mu) => {
+            let linear_bias = tidy(frame.derivative(&frame.body_vector(coupling), &HashMap::new(), &omega).body);
+            let per_mass = mu.recip();
+            let weight_in_body =
+                weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
+            let inner = scale(per_mass, &subtract(&linear_bias, &weight_in_body));
+            let schur: Vec<Vec<Expr<'g>>> = angular_axes
+                .iter()
+                .map(|&i| angular_axes.iter().map(|&j| schur_entry(matrix, per_mass, i, j)).collect())
+                .collect();
+            let reduced = tidy(subtract(&angular_bias, &matrix.block(3, 0, &inner)));
+            let angular = spread(&apply(&inverse_of_symmetric(&schur), &pick(&reduced, &angular_axes)), &angular_axes);
+            let rest = add(&linear_bias, &matrix.block(0, 3, &angular));
+            let in_body = scale(-per_mass, &rest.map(Expr::group));
+            let observed = frame.body_vector(in_body);
+            let linear = match weight {
+                Some(w) => observed.plus(&w.resultant(frame).times(per_mass)),
+                None => observed,
+            };
+            let body_part = match linear.body {
+                a if is_zero(&a) => a,
+                a => a.map(Expr::group),
+            };
+            Balance { linear_bias, angular_bias, linear: LinearAcceleration::Observed(Vector { body: body_part, ..linear }), angular }
+        }
+        None => {
+            let weight_in_body = weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
+            let linear_rate = frame.derivative(&frame.body_vector(q), &HashMap::new(), &omega).body;
+            let linear_bias = tidy(subtract(&linear_rate, &weight_in_body));
+            let mut right = pick(&linear_bias, &kinematics.linear_axes());
+            right.extend(pick(&angular_bias, &angular_axes));
+            let solution = apply(&inverse_of_symmetric(&matrix.submatrix(&kinematics.active)), &right);
+            let (linear, angular) = solution.split_at(kinematics.linear_axes().len());
+            Balance {
+                linear_bias,
+                angular_bias,
+                linear: LinearAcceleration::Relative(spread(linear, &kinematics.linear_axes())),
+                angular: spread(angular, &angular_axes),
+            }
+        }
+    }
+}
+
+/// `M₂₂ − M₂₁ M₁₂/μ`: the inertia that is left when the translation is eliminated.
+fn schur_entry<'g>(matrix: &KineticMatrix<'g>, per_mass: Expr<'g>, i: usize, j: usize) -> Expr<'g> {
+    let eliminated: Expr<'g> = (0..3).map(|k| matrix.entries[3 + i][k] * per_mass * matrix.entries[k][3 + j]).sum();
+    (matrix.entries[3 + i][3 + j] - eliminated).collected(LIMIT).group()
+}
+
+/// Twist from momentum, both in formal body components: `v_O` (each part in natural axes) and ω.
+pub fn twist_of_momentum<'g>(
+    kinematics: &Kinematics<'g>,
+    matrix: &KineticMatrix<'g>,
+    linear_momentum: &Vector<'g>,
+    angular_momentum: &Triple<'g>,
+) -> (Vector<'g>, Triple<'g>) {
+    let frame = &kinematics.frame;
+    let angular_axes = kinematics.angular_axes();
+    let linear_axes = kinematics.linear_axes();
+    let mut omega = frame.zero().body;
+    if let Some(mu) = matrix.isotropic {
+        let per_mass = mu.recip();
+        let schur: Vec<Vec<Expr<'g>>> = angular_axes
+            .iter()
+            .map(|&i| angular_axes.iter().map(|&j| schur_entry(matrix, per_mass, i, j)).collect())
+            .collect();
+        let coupled = angular_axes.iter().any(|&i| linear_axes.iter().any(|&k| !matrix.entries[3 + i][k].is_zero()));
+        let reduced = if coupled {
+            let q = frame.resolve(linear_momentum, Axes::Body);
+            subtract(angular_momentum, &matrix.scaled_block(per_mass, 3, 0, &q))
+        } else {
+            *angular_momentum
+        };
+        let inverse = inverse_of_symmetric(&schur);
+        for (row, &i) in angular_axes.iter().enumerate() {
+            let terms = angular_axes.iter().enumerate().map(|(column, &j)| inverse[row][column] * reduced[j]);
+            omega[i] = terms.sum::<Expr<'g>>().group();
+        }
+        let coupling = matrix.scaled_block(-per_mass, 0, 3, &omega);
+        let velocity = linear_momentum.times(per_mass).plus(&frame.body_vector(coupling));
+        return (velocity, omega);
+    }
+    let q = frame.resolve(linear_momentum, Axes::Body);
+    let momentum: Vec<Expr<'g>> =
+        linear_axes.iter().map(|&k| q[k]).chain(angular_axes.iter().map(|&k| angular_momentum[k])).collect();
+    let inverse = inverse_of_symmetric(&matrix.submatrix(&kinematics.active));
+    let mut u = frame.zero().body;
+    for (row, &k) in kinematics.active.iter().enumerate() {
+        let component = inverse[row].iter().zip(&momentum).map(|(m, p)| *m * *p).sum::<Expr<'g>>().group();
+        if k < 3 { u[k] = component } else { omega[k - 3] = component }
+    }
+    (frame.body_vector(u), omega)
+}

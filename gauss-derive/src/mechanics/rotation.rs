@@ -1,0 +1,98 @@
+//! Rotations: the matrix of a unit quaternion's components, and R as a function of each rotation chart's coordinates.
+
+use crate::algebra::{Expr, Graph};
+use crate::model::RotationChart;
+
+use super::vector::{Triple, cross_matrix, dot};
+
+/// Names of a rotation chart's coordinates, text and LaTeX.
+pub fn coordinate_names(chart: RotationChart) -> Vec<(&'static str, &'static str)> {
+    match chart {
+        // Yaw, pitch, roll about z, y, x wherever they stand; precession, nutation, spin for the proper Euler angles.
+        RotationChart::Euler(axes) if axes[0] == axes[2] => {
+            vec![("phi", "\\varphi"), ("theta", "\\vartheta"), ("psi", "\\psi")]
+        }
+        RotationChart::Euler(axes) => axes
+            .iter()
+            .map(|axis| match axis {
+                0 => ("phi", "\\varphi"),
+                1 => ("theta", "\\vartheta"),
+                _ => ("psi", "\\psi"),
+            })
+            .collect(),
+        RotationChart::Rodrigues => vec![("g1", "g_1"), ("g2", "g_2"), ("g3", "g_3")],
+        RotationChart::ModifiedRodrigues => {
+            vec![("s1", "\\sigma_1"), ("s2", "\\sigma_2"), ("s3", "\\sigma_3")]
+        }
+        RotationChart::Angle => vec![("theta", "\\vartheta")],
+    }
+}
+
+/// R as a function of the chart's coordinates.
+pub fn rotation_of<'g>(graph: &'g Graph, chart: RotationChart, q: &[Expr<'g>]) -> [Triple<'g>; 3] {
+    match chart {
+        RotationChart::Euler(axes) => {
+            let turns = [0, 1, 2].map(|k| about_axis(graph, usize::from(axes[k]), q[k]));
+            product(&product(&turns[0], &turns[1]), &turns[2])
+        }
+        RotationChart::Angle => about_axis(graph, 2, q[0]),
+        // Quaternion (1, g)/√(1 + g²) with g = tan(θ/2) n.
+        RotationChart::Rodrigues => {
+            let g = [q[0], q[1], q[2]];
+            let norm = (graph.one() + dot(&g, &g)).group();
+            let half = cross_plus_square(graph, graph.one(), &g);
+            std::array::from_fn(|i| {
+                std::array::from_fn(|j| identity(graph, i, j) + (half[i][j] + half[i][j]) * norm.recip())
+            })
+        }
+        // Quaternion (1 − σ², 2σ)/(1 + σ²) with σ = tan(θ/4) n.
+        RotationChart::ModifiedRodrigues => {
+            let s = [q[0], q[1], q[2]];
+            let square = dot(&s, &s);
+            let norm = (graph.one() + square).group();
+            let two = graph.integer(2);
+            let half = cross_plus_square(graph, (graph.one() - square).group(), &s.map(|e| two * e));
+            std::array::from_fn(|i| {
+                std::array::from_fn(|j| identity(graph, i, j) + (half[i][j] + half[i][j]) * norm.powi(-2))
+            })
+        }
+    }
+}
+
+/// R of a unit quaternion (x, y, z, w). Doubled components are quantities of their own: nine products serve all entries.
+pub fn rotation_of_quaternion<'g>(graph: &'g Graph, [x, y, z, w]: [Expr<'g>; 4]) -> [Triple<'g>; 3] {
+    let half = cross_plus_square(graph, w, &[x, y, z]);
+    std::array::from_fn(|i| std::array::from_fn(|j| identity(graph, i, j) + half[i][j].scale(2.into())))
+}
+
+/// `w [v]× + [v]×²`: half of what a quaternion (v, w) adds to the identity.
+fn cross_plus_square<'g>(graph: &'g Graph, w: Expr<'g>, v: &Triple<'g>) -> [Triple<'g>; 3] {
+    let turn = cross_matrix(v);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let square: Expr<'g> = (0..3).map(|k| turn[i][k] * turn[k][j]).sum();
+            graph.one() * (w * turn[i][j] + square)
+        })
+    })
+}
+
+fn identity(graph: &Graph, i: usize, j: usize) -> Expr<'_> {
+    if i == j { graph.one() } else { graph.zero() }
+}
+
+/// Turn by an angle about an axis of the frame: `1 + sin α [k]× + (1 − cos α) [k]×²`.
+fn about_axis<'g>(graph: &'g Graph, axis: usize, angle: Expr<'g>) -> [Triple<'g>; 3] {
+    let unit: Triple<'g> = std::array::from_fn(|i| identity(graph, i, axis));
+    let turn = cross_matrix(&unit);
+    let (sine, rest) = (angle.sin(), graph.one() - angle.cos());
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let square: Expr<'g> = (0..3).map(|k| turn[i][k] * turn[k][j]).sum();
+            identity(graph, i, j) + sine * turn[i][j] + rest * square
+        })
+    })
+}
+
+fn product<'g>(a: &[Triple<'g>; 3], b: &[Triple<'g>; 3]) -> [Triple<'g>; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+}
