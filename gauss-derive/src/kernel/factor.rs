@@ -1,0 +1,120 @@
+//! Common factors: `a·b + a·c` becomes `a·(b + c)`, greedily, the most frequent factor first.
+
+use std::collections::HashMap;
+
+use crate::algebra::{Expr, NodeView, Rational};
+
+/// Rewrites every sum of an expression.
+#[derive(Default)]
+pub struct Factoring<'g> {
+    memo: HashMap<u32, Expr<'g>>,
+}
+
+/// A term of a sum while factors are looked for.
+#[derive(Clone)]
+struct Term<'g> {
+    coefficient: Rational,
+    factors: Vec<(Expr<'g>, i32)>,
+}
+
+impl<'g> Term<'g> {
+    fn exponent(&self, factor: Expr<'g>) -> i32 {
+        self.factors.iter().find(|(f, _)| *f == factor).map_or(0, |(_, n)| *n)
+    }
+
+    fn without(&self, factor: Expr<'g>, sign: i32) -> Self {
+        let mut factors = self.factors.clone();
+        if let Some(f) = factors.iter_mut().find(|(f, _)| *f == factor) {
+            f.1 -= sign;
+        }
+        factors.retain(|(_, n)| *n != 0);
+        Self { coefficient: self.coefficient, factors }
+    }
+
+    fn expr(&self, like: Expr<'g>) -> Expr<'g> {
+        like.graph().product(self.coefficient, self.factors.iter().copied())
+    }
+}
+
+impl<'g> Factoring<'g> {
+    pub fn rewrite(&mut self, e: Expr<'g>) -> Expr<'g> {
+        if let Some(&done) = self.memo.get(&e.key()) {
+            return done;
+        }
+        let graph = e.graph();
+        let result = match e.view() {
+            NodeView::Number(_) | NodeView::Symbol(_) => e,
+            NodeView::Call(function, argument) => {
+                let argument = self.rewrite(argument);
+                graph.call(function, argument)
+            }
+            NodeView::Group(inner) | NodeView::Opaque(inner) => self.rewrite(inner).group_as_is(),
+            NodeView::Product(factors) => {
+                let factors: Vec<_> = factors.into_iter().map(|(f, n)| (self.rewrite(f), n)).collect();
+                graph.product(Rational::one(), factors)
+            }
+            NodeView::Sum(terms) => {
+                let terms = terms
+                    .into_iter()
+                    .map(|(c, term)| {
+                        let (content, rest) = self.rewrite(term).split_coefficient();
+                        let factors = match rest.view() {
+                            NodeView::Product(factors) => factors,
+                            NodeView::Number(_) => Vec::new(),
+                            _ => vec![(rest, 1)],
+                        };
+                        Term { coefficient: c * content, factors }
+                    })
+                    .collect();
+                factor(e, terms)
+            }
+        };
+        self.memo.insert(e.key(), result);
+        result
+    }
+}
+
+/// The sum of the terms with common factors pulled out.
+fn factor<'g>(like: Expr<'g>, terms: Vec<Term<'g>>) -> Expr<'g> {
+    let graph = like.graph();
+    let mut count: HashMap<(u32, i32), (usize, Expr<'g>)> = HashMap::new();
+    for term in &terms {
+        for &(f, n) in &term.factors {
+            count.entry((f.key(), n.signum())).or_insert((0, f)).0 += 1;
+        }
+    }
+    let best = count.iter().filter(|(_, (n, _))| *n >= 2).max_by_key(|((key, sign), (n, _))| (*n, *sign, *key));
+    let Some((&(_, sign), &(_, shared))) = best else {
+        return shared_number(like, &terms);
+    };
+    let (inside, outside): (Vec<_>, Vec<_>) =
+        terms.into_iter().partition(|t| t.exponent(shared).signum() == sign);
+    let inside: Vec<_> = inside.iter().map(|t| t.without(shared, sign)).collect();
+    let inner = factor(like, inside).group_as_is();
+    let product = graph.product(Rational::one(), [(shared, sign), (inner, 1)]);
+    if outside.is_empty() {
+        return product;
+    }
+    // The product must not be taken for a sum again, so it joins the rest as one term.
+    let rest = factor(like, outside);
+    product + rest
+}
+
+/// Pulls out a number that several terms have in front: `1 − 2a − 2b` becomes `1 − 2(a + b)`.
+fn shared_number<'g>(like: Expr<'g>, terms: &[Term<'g>]) -> Expr<'g> {
+    let graph = like.graph();
+    let one = Rational::one();
+    let value = |t: &Term<'g>| if t.factors.is_empty() { one } else { t.coefficient.abs() };
+    let number = terms.iter().map(value).find(|c| !c.is_one() && terms.iter().filter(|t| value(t) == *c).count() >= 2);
+    let Some(number) = number else {
+        return graph.sum(terms.iter().map(|t| (one, t.expr(like))));
+    };
+    let (inside, outside): (Vec<_>, Vec<_>) = terms.iter().partition(|t| value(t) == number);
+    let inner = graph.sum(inside.iter().map(|t| (t.coefficient / number, t_without_number(t).expr(like))));
+    let rest = outside.iter().map(|t| (one, t.expr(like)));
+    graph.sum(rest.chain([(number, inner.group_as_is())]))
+}
+
+fn t_without_number<'g>(t: &Term<'g>) -> Term<'g> {
+    Term { coefficient: Rational::one(), factors: t.factors.clone() }
+}

@@ -1,0 +1,115 @@
+//! Hoisting: every part that depends on parameters alone is replaced by a constant.
+
+use std::collections::HashMap;
+
+use crate::algebra::{Expr, Graph, NodeView, Rational};
+
+/// Terms up to which two definitions are compared in normal form.
+const LIMIT: usize = 64;
+
+/// Rewrites expressions and gathers the constants they need.
+pub struct Hoister<'g> {
+    graph: &'g Graph,
+    memo: HashMap<u32, Expr<'g>>,
+    constant: HashMap<u32, bool>,
+    /// (symbol, definition), in order of creation.
+    constants: Vec<(Expr<'g>, Expr<'g>)>,
+    /// Normal form of a definition → its symbol.
+    known: HashMap<u32, Expr<'g>>,
+}
+
+impl<'g> Hoister<'g> {
+    pub fn new(graph: &'g Graph) -> Self {
+        Self { graph, memo: HashMap::new(), constant: HashMap::new(), constants: Vec::new(), known: HashMap::new() }
+    }
+
+    pub fn hoist(&mut self, outputs: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        outputs.iter().map(|&e| self.visit(e)).collect()
+    }
+
+    pub fn into_constants(self) -> Vec<(Expr<'g>, Expr<'g>)> {
+        self.constants
+    }
+
+    fn is_constant(&mut self, e: Expr<'g>) -> bool {
+        e.is_constant(&mut self.constant)
+    }
+
+    fn visit(&mut self, e: Expr<'g>) -> Expr<'g> {
+        if let Some(&done) = self.memo.get(&e.key()) {
+            return done;
+        }
+        let result = self.visit_new(e);
+        self.memo.insert(e.key(), result);
+        result
+    }
+
+    fn visit_new(&mut self, e: Expr<'g>) -> Expr<'g> {
+        if self.is_constant(e) {
+            return self.constant(e);
+        }
+        match e.view() {
+            NodeView::Number(_) | NodeView::Symbol(_) | NodeView::Opaque(_) => e,
+            NodeView::Call(function, argument) => {
+                let argument = self.visit(argument);
+                self.graph.call(function, argument)
+            }
+            NodeView::Group(inner) => self.visit(inner).group_as_is(),
+            NodeView::Product(_) => self.term(Rational::one(), e),
+            NodeView::Sum(terms) => {
+                let (constant, variable): (Vec<_>, Vec<_>) =
+                    terms.into_iter().partition(|(_, e)| self.is_constant(*e));
+                let mut parts: Vec<Expr<'g>> = variable.into_iter().map(|(c, e)| self.term(c, e)).collect();
+                if !constant.is_empty() {
+                    let constant = self.graph.sum(constant);
+                    parts.push(self.constant(constant));
+                }
+                parts.into_iter().sum()
+            }
+        }
+    }
+
+    /// c · e for a varying e: number and constant factors become one constant.
+    fn term(&mut self, c: Rational, e: Expr<'g>) -> Expr<'g> {
+        let NodeView::Product(factors) = e.view() else {
+            return self.visit(e).scale(c);
+        };
+        let (constant, variable): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| self.is_constant(*e));
+        // A rational content that a visited factor gives up belongs to the constant too, so visit first.
+        let variable: Vec<_> = variable.into_iter().map(|(e, n)| (self.visit(e), n)).collect();
+        let variable = self.graph.product(c, variable);
+        if constant.is_empty() {
+            return variable;
+        }
+        let (content, rest) = variable.split_coefficient();
+        let constant = self.graph.product(content, constant);
+        self.constant(constant) * rest
+    }
+
+    /// The symbol of a constant, up to sign.
+    fn constant(&mut self, e: Expr<'g>) -> Expr<'g> {
+        if e.as_number().is_some() {
+            return e;
+        }
+        let normal = e.expand(LIMIT).map_or(e, |p| p.to_expr());
+        if normal.as_number().is_some() {
+            return normal;
+        }
+        let negative = match normal.view() {
+            NodeView::Sum(terms) => terms[0].0.is_negative(),
+            _ => false,
+        };
+        let (key, definition) = if negative { (-normal, -e) } else { (normal, e) };
+        let symbol = match self.known.get(&key.key()) {
+            Some(&symbol) => symbol,
+            None => {
+                let name = format!("k{}", self.constants.len());
+                let symbol = self.graph.symbol(name.clone(), name, false);
+                self.constants.push((symbol, definition));
+                self.known.insert(key.key(), symbol);
+                symbol
+            }
+        };
+        if negative { -symbol } else { symbol }
+    }
+}

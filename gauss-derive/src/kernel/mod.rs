@@ -1,0 +1,101 @@
+//! From expressions to straight-line programs: constants hoisted, common factors pulled out, common parts shared,
+//! multiply-adds fused, everything counted.
+//!
+//! - `hoist`: what depends on parameters alone becomes a constant, computed once.
+//! - `factor`: common factors of the terms of a sum are pulled out.
+//! - `network`: sums and products of many terms; parts that occur more than once are split off.
+//! - `program`: single-assignment instructions, their counts, and an interpreter to check them with.
+//!
+//! Knows nothing of frames or bodies. Every program is checked against the expressions it was made from before it is
+//! handed out (see [`Kernel::lower`]).
+
+mod factor;
+mod hoist;
+mod network;
+mod program;
+#[cfg(test)]
+mod tests;
+
+use std::collections::HashMap;
+
+use crate::algebra::{Evaluation, Expr, Graph};
+
+use hoist::Hoister;
+pub use program::{Counts, Instruction, Operand, Operation, Program};
+
+/// Programs of a set of functions that share their constants.
+pub struct Kernel<'g> {
+    /// Computes the constants from the parameters; its outputs are the constants in order.
+    pub constants: Program<'g>,
+    /// One program a function, in the order given; the symbols of constants among their inputs are listed below.
+    pub functions: Vec<Program<'g>>,
+    /// The constants as symbols, in the order of the outputs of `constants`.
+    pub constant_symbols: Vec<Expr<'g>>,
+}
+
+/// A program does not compute what its expressions say: an error of this crate, never of its user.
+#[derive(Debug)]
+pub struct Miscompiled {
+    pub function: usize,
+    pub output: usize,
+    pub expected: f64,
+    pub found: f64,
+}
+
+impl<'g> Kernel<'g> {
+    /// Lowers functions given as lists of outputs, each in one or more equivalent arrangements, of which the cheapest
+    /// is taken. Every program is then run at a pseudo-random point and compared with its expressions.
+    pub fn lower(graph: &'g Graph, functions: &[Vec<Vec<Expr<'g>>>]) -> Result<Self, Miscompiled> {
+        let mut hoister = Hoister::new(graph);
+        let mut programs = Vec::with_capacity(functions.len());
+        let mut chosen = Vec::with_capacity(functions.len());
+        for arrangements in functions {
+            let cheapest = match arrangements.as_slice() {
+                [only] => only,
+                several => several
+                    .iter()
+                    .min_by_key(|outputs| Program::lower(&Hoister::new(graph).hoist(outputs)).counts().cost())
+                    .expect("a function has at least one arrangement"),
+            };
+            programs.push(Program::lower(&hoister.hoist(cheapest)));
+            chosen.push(cheapest);
+        }
+        let (constant_symbols, definitions): (Vec<_>, Vec<_>) = hoister.into_constants().into_iter().unzip();
+        let kernel = Self { constants: Program::lower(&definitions), functions: programs, constant_symbols };
+        kernel.check(graph, &chosen)?;
+        Ok(kernel)
+    }
+
+    /// Runs every program at a pseudo-random point against the expressions that it was lowered from.
+    fn check(&self, graph: &'g Graph, functions: &[&Vec<Expr<'g>>]) -> Result<(), Miscompiled> {
+        let point = sample_point(graph);
+        let mut values = point.clone();
+        let constants = self.constants.run(&point);
+        values.extend(self.constant_symbols.iter().zip(constants).map(|(s, v)| (s.key(), v)));
+        let mut evaluation = Evaluation::new(&point);
+        for (function, (program, outputs)) in self.functions.iter().zip(functions).enumerate() {
+            for (output, (found, e)) in program.run(&values).into_iter().zip(outputs.iter()).enumerate() {
+                let expected = evaluation.value(*e);
+                // Inputs are of order one; hundreds of roundings stay far below, a wrong term far above this.
+                if !((found - expected).abs() <= 1e-6 * (1.0 + expected.abs())) {
+                    return Err(Miscompiled { function, output, expected, found });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A value of order one for every symbol, different for each.
+fn sample_point(graph: &Graph) -> HashMap<u32, f64> {
+    graph
+        .symbol_keys()
+        .into_iter()
+        .enumerate()
+        .map(|(k, key)| {
+            // Multiples of the golden ratio are spread evenly and never equal.
+            let fraction = ((k + 1) as f64 * 0.618_033_988_749_894_9).fract();
+            (key, 0.6 + fraction)
+        })
+        .collect()
+}

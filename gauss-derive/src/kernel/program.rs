@@ -1,0 +1,336 @@
+//! Straight-line programs: single assignment, no loops, no branches.
+
+use std::collections::HashMap;
+
+use crate::algebra::{Expr, Function, Rational};
+
+use super::factor::Factoring;
+use super::network::{Network, Node, Place};
+
+/// What an instruction works on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operand<'g> {
+    /// An argument of the function or a constant, by its symbol.
+    Symbol(Expr<'g>),
+    Number(Rational),
+    /// The result of an earlier instruction.
+    Value(usize),
+    /// Sine or cosine out of a pair computed by an earlier instruction.
+    Sine(usize),
+    Cosine(usize),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operation<'g> {
+    Add(Operand<'g>, Operand<'g>),
+    Subtract(Operand<'g>, Operand<'g>),
+    Multiply(Operand<'g>, Operand<'g>),
+    /// a·b + c.
+    MultiplyAdd(Operand<'g>, Operand<'g>, Operand<'g>),
+    /// c − a·b.
+    MultiplySubtract(Operand<'g>, Operand<'g>, Operand<'g>),
+    Divide(Operand<'g>, Operand<'g>),
+    Negate(Operand<'g>),
+    /// Sine and cosine of one angle.
+    SineCosine(Operand<'g>),
+}
+
+/// One step; its result is `Value(index of the instruction)`.
+pub type Instruction<'g> = Operation<'g>;
+
+impl<'g> Operation<'g> {
+    fn operands(&self) -> impl Iterator<Item = Operand<'g>> + use<'g> {
+        let (a, b, c) = match *self {
+            Operation::Add(a, b) | Operation::Subtract(a, b) | Operation::Multiply(a, b) | Operation::Divide(a, b) => {
+                (a, Some(b), None)
+            }
+            Operation::MultiplyAdd(a, b, c) | Operation::MultiplySubtract(a, b, c) => (a, Some(b), Some(c)),
+            Operation::Negate(a) | Operation::SineCosine(a) => (a, None, None),
+        };
+        [Some(a), b, c].into_iter().flatten()
+    }
+}
+
+/// How much a program computes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    pub additions: u32,
+    pub multiplications: u32,
+    pub divisions: u32,
+    pub roots: u32,
+    pub transcendentals: u32,
+}
+
+impl Counts {
+    /// A single figure to compare arrangements by: latency-like weights in units of one addition.
+    pub fn cost(&self) -> u32 {
+        self.additions + self.multiplications + 4 * (self.divisions + self.roots) + 15 * self.transcendentals
+    }
+}
+
+/// A function as a list of instructions.
+#[derive(Clone, Debug)]
+pub struct Program<'g> {
+    pub instructions: Vec<Instruction<'g>>,
+    pub outputs: Vec<Operand<'g>>,
+}
+
+impl<'g> Program<'g> {
+    /// Factors, shares, and writes out.
+    pub fn lower(outputs: &[Expr<'g>]) -> Self {
+        let mut factoring = Factoring::default();
+        let outputs: Vec<_> = outputs.iter().map(|&e| factoring.rewrite(e)).collect();
+        Writer::new(Network::new(&outputs)).write()
+    }
+
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        for instruction in &self.instructions {
+            match instruction {
+                Operation::Add(..) | Operation::Subtract(..) => counts.additions += 1,
+                Operation::Multiply(..) => counts.multiplications += 1,
+                Operation::MultiplyAdd(..) | Operation::MultiplySubtract(..) => {
+                    counts.additions += 1;
+                    counts.multiplications += 1;
+                }
+                Operation::Divide(..) => counts.divisions += 1,
+                Operation::Negate(_) => {}
+                Operation::SineCosine(_) => counts.transcendentals += 2,
+            }
+        }
+        counts
+    }
+
+    /// Everything that the program reads, repeatedly where it is read repeatedly.
+    pub fn operands(&self) -> impl Iterator<Item = Operand<'g>> {
+        self.instructions.iter().flat_map(Operation::operands).chain(self.outputs.iter().copied())
+    }
+
+    /// The symbols that the program reads.
+    pub fn symbols(&self) -> Vec<Expr<'g>> {
+        let mut symbols: Vec<Expr<'g>> = Vec::new();
+        for operand in self.operands() {
+            if let Operand::Symbol(e) = operand
+                && !symbols.contains(&e)
+            {
+                symbols.push(e);
+            }
+        }
+        symbols
+    }
+
+    /// Interprets the program in double precision.
+    pub fn run(&self, symbols: &HashMap<u32, f64>) -> Vec<f64> {
+        let mut values: Vec<(f64, f64)> = Vec::with_capacity(self.instructions.len());
+        let get = |operand: &Operand<'g>, values: &[(f64, f64)]| match operand {
+            Operand::Symbol(e) => symbols.get(&e.key()).copied().unwrap_or(f64::NAN),
+            Operand::Number(value) => value.to_f64(),
+            Operand::Value(k) | Operand::Sine(k) => values[*k].0,
+            Operand::Cosine(k) => values[*k].1,
+        };
+        for instruction in &self.instructions {
+            let at = |operand: &Operand<'g>| get(operand, &values);
+            let value = match instruction {
+                Operation::Add(a, b) => (at(a) + at(b), 0.0),
+                Operation::Subtract(a, b) => (at(a) - at(b), 0.0),
+                Operation::Multiply(a, b) => (at(a) * at(b), 0.0),
+                Operation::MultiplyAdd(a, b, c) => (at(a) * at(b) + at(c), 0.0),
+                Operation::MultiplySubtract(a, b, c) => (at(c) - at(a) * at(b), 0.0),
+                Operation::Divide(a, b) => (at(a) / at(b), 0.0),
+                Operation::Negate(a) => (-at(a), 0.0),
+                Operation::SineCosine(a) => at(a).sin_cos(),
+            };
+            values.push(value);
+        }
+        self.outputs.iter().map(|o| get(o, &values)).collect()
+    }
+}
+
+/// Writes a network as instructions, each node where it is first needed: values are short-lived that way.
+struct Writer<'g> {
+    network: Network<'g>,
+    /// How many nodes and outputs use each node.
+    uses: Vec<usize>,
+    written: HashMap<Place, Operand<'g>>,
+    negated: HashMap<usize, Operand<'g>>,
+    instructions: Vec<Instruction<'g>>,
+}
+
+impl<'g> Writer<'g> {
+    fn new(network: Network<'g>) -> Self {
+        let mut uses = vec![0; network.nodes.len()];
+        let mut reached = vec![false; network.nodes.len()];
+        let mut open: Vec<Place> = network.outputs.iter().map(|&(_, place)| place).collect();
+        while let Some(place) = open.pop() {
+            uses[place] += 1;
+            if std::mem::replace(&mut reached[place], true) {
+                continue;
+            }
+            match &network.nodes[place] {
+                Node::Number(_) | Node::Leaf(_) => {}
+                Node::Sum(terms) => open.extend(terms.iter().map(|t| t.1)),
+                Node::Product(factors) => open.extend(factors),
+                Node::Reciprocal(a) => open.push(*a),
+                Node::Call(_, a) => open.push(*a),
+            }
+        }
+        Self { network, uses, written: HashMap::new(), negated: HashMap::new(), instructions: Vec::new() }
+    }
+
+    fn write(mut self) -> Program<'g> {
+        let outputs = self.network.outputs.clone();
+        let outputs = outputs
+            .into_iter()
+            .map(|(c, place)| {
+                let value = self.operand(place);
+                self.scaled(c, value)
+            })
+            .collect();
+        Program { instructions: self.instructions, outputs }
+    }
+
+    fn push(&mut self, instruction: Instruction<'g>) -> Operand<'g> {
+        self.instructions.push(instruction);
+        Operand::Value(self.instructions.len() - 1)
+    }
+
+    fn operand(&mut self, place: Place) -> Operand<'g> {
+        if let Some(&done) = self.written.get(&place) {
+            return done;
+        }
+        let result = match self.network.nodes[place].clone() {
+            Node::Number(value) => Operand::Number(value),
+            Node::Leaf(e) => Operand::Symbol(e),
+            Node::Product(factors) => self.product(&factors),
+            Node::Reciprocal(a) => {
+                let a = self.operand(a);
+                self.push(Operation::Divide(Operand::Number(Rational::one()), a))
+            }
+            Node::Call(function, a) => {
+                let a = self.operand(a);
+                let pair = Operation::SineCosine(a);
+                let index = match self.instructions.iter().position(|i| *i == pair) {
+                    Some(index) => index,
+                    None => {
+                        self.push(pair);
+                        self.instructions.len() - 1
+                    }
+                };
+                match function {
+                    Function::Sin => Operand::Sine(index),
+                    Function::Cos => Operand::Cosine(index),
+                }
+            }
+            Node::Sum(terms) => self.sum(&terms),
+        };
+        self.written.insert(place, result);
+        result
+    }
+
+    /// A product; reciprocals that nobody else needs become one division.
+    fn product(&mut self, factors: &[Place]) -> Operand<'g> {
+        let (below, above): (Vec<Place>, Vec<Place>) = factors.iter().partition(|&&f| {
+            matches!(self.network.nodes[f], Node::Reciprocal(_)) && self.uses[f] == 1 && !self.written.contains_key(&f)
+        });
+        if below.is_empty() || above.is_empty() {
+            return self.multiply(factors);
+        }
+        let below: Vec<Place> = below
+            .into_iter()
+            .filter_map(|f| if let Node::Reciprocal(a) = self.network.nodes[f] { Some(a) } else { None })
+            .collect();
+        let (above, below) = (self.multiply(&above), self.multiply(&below));
+        self.push(Operation::Divide(above, below))
+    }
+
+    fn multiply(&mut self, factors: &[Place]) -> Operand<'g> {
+        let mut product = self.operand(factors[0]);
+        for &factor in &factors[1..] {
+            let factor = self.operand(factor);
+            product = self.push(Operation::Multiply(product, factor));
+        }
+        product
+    }
+
+    /// c · value.
+    fn scaled(&mut self, c: Rational, value: Operand<'g>) -> Operand<'g> {
+        if c.is_one() {
+            return value;
+        }
+        if let Operand::Number(n) = value {
+            return Operand::Number(c * n);
+        }
+        if (-c).is_one() {
+            if let Operand::Value(k) = value
+                && let Some(&done) = self.negated.get(&k)
+            {
+                return done;
+            }
+            let result = self.push(Operation::Negate(value));
+            if let Operand::Value(k) = value {
+                self.negated.insert(k, result);
+            }
+            return result;
+        }
+        if c == Rational::from_integer(2) {
+            return self.push(Operation::Add(value, value));
+        }
+        self.push(Operation::Multiply(Operand::Number(c), value))
+    }
+
+    /// The two sides of a product that nobody else needs, so that it can be fused with an addition.
+    fn fusible(&mut self, place: Place) -> Option<(Operand<'g>, Operand<'g>)> {
+        if self.uses[place] != 1 || self.written.contains_key(&place) {
+            return None;
+        }
+        let Node::Product(factors) = self.network.nodes[place].clone() else { return None };
+        if factors.iter().any(|&f| matches!(self.network.nodes[f], Node::Reciprocal(_)) && self.uses[f] == 1) {
+            return None;
+        }
+        let (last, rest) = factors.split_last()?;
+        Some((self.multiply(rest), self.operand(*last)))
+    }
+
+    fn sum(&mut self, terms: &[(Rational, Place)]) -> Operand<'g> {
+        // Terms that are only added come first, a positive one at the head; products are fused onto them.
+        let mut order: Vec<usize> = (0..terms.len()).collect();
+        let plain = |k: &usize| {
+            let (c, place) = terms[*k];
+            let fusible = self.uses[place] == 1 && matches!(self.network.nodes[place], Node::Product(_));
+            let scaled = !c.abs().is_one() && !matches!(self.network.nodes[place], Node::Number(_));
+            (fusible || scaled, c.is_negative(), *k)
+        };
+        order.sort_by_key(plain);
+        let (c, place) = terms[order[0]];
+        let first = self.operand(place);
+        let mut sum = self.scaled(c, first);
+        for &k in &order[1..] {
+            let (c, place) = terms[k];
+            if c.abs().is_one()
+                && let Some((a, b)) = self.fusible(place)
+            {
+                sum = self.push(if c.is_negative() {
+                    Operation::MultiplySubtract(a, b, sum)
+                } else {
+                    Operation::MultiplyAdd(a, b, sum)
+                });
+                continue;
+            }
+            let value = self.operand(place);
+            sum = match (c.abs().is_one(), c.is_negative(), value) {
+                (_, _, Operand::Number(n)) => self.push(Operation::Add(sum, Operand::Number(c * n))),
+                (true, false, _) => self.push(Operation::Add(sum, value)),
+                (true, true, _) => self.push(Operation::Subtract(sum, value)),
+                (false, negative, _) => {
+                    let factor = Operand::Number(c.abs());
+                    self.push(if negative {
+                        Operation::MultiplySubtract(factor, value, sum)
+                    } else {
+                        Operation::MultiplyAdd(factor, value, sum)
+                    })
+                }
+            };
+        }
+        sum
+    }
+}
