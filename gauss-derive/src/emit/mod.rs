@@ -1,0 +1,15 @@
+//! Programs as Rust, equations as documentation.
+//!
+//! - `program`: instructions as `let` statements.
+//! - `arguments`: where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel.
+//! - `parameters`: `kernel()`: the parameters read, checked, and turned into constants.
+//! - `kernel`: the kernel struct and its implementations of the runtime's traits.
+//! - `documentation`: equations and costs as text, LaTeX and rustdoc.
+
+mod arguments;
+mod documentation;
+mod kernel;
+mod parameters;
+mod program;
+
+pub use kernel::{Derived, emit};

@@ -1,0 +1,125 @@
+//! Instructions as `let` statements: no loops, no branches, no allocation.
+
+use std::collections::HashMap;
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::algebra::Rational;
+use crate::kernel::{Operand, Operation, Program};
+use crate::model::Scalar;
+
+/// How numbers are written for a scalar type.
+pub struct ScalarTokens<'a> {
+    pub scalar: &'a Scalar,
+    /// `::gauss_runtime::real::Real`.
+    pub real: TokenStream,
+}
+
+impl ScalarTokens<'_> {
+    pub fn ty(&self) -> TokenStream {
+        match self.scalar {
+            Scalar::F64 => quote!(::core::primitive::f64),
+            Scalar::F32 => quote!(::core::primitive::f32),
+            Scalar::Parameter(name) => quote!(#name),
+        }
+    }
+
+    /// A number, exactly where the scalar can hold it.
+    pub fn number(&self, value: &Rational) -> TokenStream {
+        let (real, ty) = (&self.real, self.ty());
+        let (numerator, denominator) = (value.numer(), value.denom());
+        match self.scalar {
+            Scalar::F64 if value.is_dyadic() => {
+                let literal = Literal::f64_suffixed(value.to_f64().abs());
+                if value.is_negative() { quote!((-#literal)) } else { quote!(#literal) }
+            }
+            Scalar::F32 if value.is_dyadic() => {
+                let literal = Literal::f32_suffixed(value.to_f64().abs() as f32);
+                if value.is_negative() { quote!((-#literal)) } else { quote!(#literal) }
+            }
+            _ if numerator == 0 => quote!(<#ty as #real>::zero()),
+            _ if numerator == 1 && denominator == 1 => quote!(<#ty as #real>::one()),
+            _ => quote!(<#ty as #real>::ratio(#numerator, #denominator)),
+        }
+    }
+}
+
+/// Name of the result of an instruction.
+fn value(k: usize) -> Ident {
+    format_ident!("v{}", k, span = Span::mixed_site())
+}
+
+fn sine(k: usize) -> Ident {
+    format_ident!("s{}", k, span = Span::mixed_site())
+}
+
+fn cosine(k: usize) -> Ident {
+    format_ident!("c{}", k, span = Span::mixed_site())
+}
+
+/// The statements of a program, and its outputs as expressions. `symbols` says how each symbol is written.
+pub fn statements(
+    program: &Program<'_>,
+    symbols: &HashMap<u32, TokenStream>,
+    scalar: &ScalarTokens<'_>,
+) -> (TokenStream, Vec<TokenStream>) {
+    let real = &scalar.real;
+    let write = |operand: &Operand<'_>| -> TokenStream {
+        match operand {
+            Operand::Symbol(e) => symbols.get(&e.key()).cloned().unwrap_or_else(|| {
+                // A program reads only symbols that its caller declared; anything else is a bug in this crate.
+                let message = format!("bug in gauss-derive: the symbol `{e:?}` has no source");
+                quote!(::core::compile_error!(#message))
+            }),
+            Operand::Number(n) => scalar.number(n),
+            Operand::Value(k) => {
+                let name = value(*k);
+                quote!(#name)
+            }
+            Operand::Sine(k) => {
+                let name = sine(*k);
+                quote!(#name)
+            }
+            Operand::Cosine(k) => {
+                let name = cosine(*k);
+                quote!(#name)
+            }
+        }
+    };
+    let mut body = TokenStream::new();
+    for (k, instruction) in program.instructions.iter().enumerate() {
+        let name = value(k);
+        let statement = match instruction {
+            Operation::Add(a, b) => binary(&name, &write(a), &quote!(+), &write(b)),
+            Operation::Subtract(a, b) => binary(&name, &write(a), &quote!(-), &write(b)),
+            Operation::Multiply(a, b) => binary(&name, &write(a), &quote!(*), &write(b)),
+            Operation::Divide(a, b) => binary(&name, &write(a), &quote!(/), &write(b)),
+            Operation::MultiplyAdd(a, b, c) => {
+                let (a, b, c) = (write(a), write(b), write(c));
+                quote!(let #name = #real::fma(#a, #b, #c);)
+            }
+            Operation::MultiplySubtract(a, b, c) => {
+                let (a, b, c) = (write(a), write(b), write(c));
+                quote!(let #name = #real::fma(-#a, #b, #c);)
+            }
+            Operation::Negate(a) => {
+                let a = write(a);
+                quote!(let #name = -#a;)
+            }
+            Operation::SineCosine(a) => {
+                let (a, s, c) = (write(a), sine(k), cosine(k));
+                let read = |wanted: Operand<'_>| program.operands().any(|o| o == wanted);
+                let s = if read(Operand::Sine(k)) { quote!(#s) } else { quote!(_) };
+                let c = if read(Operand::Cosine(k)) { quote!(#c) } else { quote!(_) };
+                quote!(let (#s, #c) = #real::sin_cos(#a);)
+            }
+        };
+        body.extend(statement);
+    }
+    (body, program.outputs.iter().map(write).collect())
+}
+
+fn binary(name: &Ident, a: &TokenStream, operator: &TokenStream, b: &TokenStream) -> TokenStream {
+    quote!(let #name = #a #operator #b;)
+}
