@@ -3,11 +3,11 @@
 use proc_macro2::TokenStream;
 use syn::DeriveInput;
 
-use crate::algebra::{Expr, Graph};
+use crate::algebra::{Expr, Graph, Map};
 use crate::emit::{Derived, emit};
 use crate::kernel::Kernel;
 use crate::mechanics::{
-    AddedMassShape, BodyShape, ConfigurationKind, Formula, GravityShape, InertiaShape, Scene, rotation_of_quaternion,
+    AddedMassShape, BodyShape, ConfigurationKind, GravityShape, InertiaShape, Scene, rotation_of_quaternion,
 };
 use crate::model::{self, Model, Shape};
 
@@ -21,8 +21,9 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let shape = body_shape(&model);
     let scene = Scene::new(&graph, model.motion, model.chart, shape);
     let formulas = scene.formulas();
-    let (quaternion, functions) = in_terms_of_quaternion(&graph, &scene, &formulas);
-    let kernel = Kernel::lower(&graph, &functions).map_err(|error| bug(&model, &error))?;
+    let (quaternion, rotation) = rotation_entries(&graph, &scene);
+    let functions: Vec<_> = formulas.iter().map(|f| f.arrangements.clone()).collect();
+    let kernel = Kernel::lower(&graph, &functions, &rotation).map_err(|error| bug(&model, &error))?;
     if graph.overflowed() {
         return Err(bug(&model, &"a coefficient left the range of 64-bit fractions"));
     }
@@ -37,7 +38,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
 }
 
 /// What the scene has, from the fields that the struct has.
-fn body_shape(model: &Model) -> BodyShape {
+pub fn body_shape(model: &Model) -> BodyShape {
     let shape = |index: usize| model.parameters[index].shape;
     BodyShape {
         inertia: match shape(model.inertia) {
@@ -59,29 +60,16 @@ fn body_shape(model: &Model) -> BodyShape {
     }
 }
 
-/// Outputs of every function, arrangement by arrangement.
-type Functions<'g> = Vec<Vec<Vec<Expr<'g>>>>;
-
-/// Entries of R that are coordinates are stored as a unit quaternion: writes them in its components.
-fn in_terms_of_quaternion<'g>(
-    graph: &'g Graph,
-    scene: &Scene<'g>,
-    formulas: &[Formula<'g>],
-) -> (Option<[Expr<'g>; 4]>, Functions<'g>) {
+/// Entries of R that are coordinates are stored as a unit quaternion: its components, and the entries in terms of them.
+pub fn rotation_entries<'g>(graph: &'g Graph, scene: &Scene<'g>) -> (Option<[Expr<'g>; 4]>, Map<u32, Expr<'g>>) {
     let kinematics = &scene.kinematics;
-    let quaternion = matches!(kinematics.kind, ConfigurationKind::Pose | ConfigurationKind::Rotation)
-        .then(|| ["x", "y", "z", "w"].map(|name| graph.symbol(name, name, false)));
-    let entries = quaternion.map(|q| rotation_of_quaternion(graph, q));
-    let replacement = entries
-        .iter()
-        .flatten()
-        .flatten()
-        .zip(&kinematics.configuration)
-        .map(|(entry, symbol)| (symbol.key(), entry.group()))
-        .collect();
-    let rewrite = |outputs: &Vec<Expr<'g>>| outputs.iter().map(|e| e.substitute(&replacement)).collect();
-    let functions = formulas.iter().map(|f| f.arrangements.iter().map(rewrite).collect()).collect();
-    (quaternion, functions)
+    if !matches!(kinematics.kind, ConfigurationKind::Pose | ConfigurationKind::Rotation) {
+        return (None, Map::default());
+    }
+    let quaternion = ["x", "y", "z", "w"].map(|name| graph.symbol(name, name, false));
+    let entries = rotation_of_quaternion(graph, quaternion);
+    let symbols = kinematics.configuration.iter().map(|symbol| symbol.key());
+    (Some(quaternion), symbols.zip(entries.into_iter().flatten().map(Expr::group)).collect())
 }
 
 /// A mistake of this crate, said as such at the name of the struct.

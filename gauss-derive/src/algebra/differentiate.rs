@@ -1,23 +1,22 @@
 //! Derivatives: one recursion serves partial derivatives and derivatives along a flow alike.
 
-use std::collections::HashMap;
-
 use super::graph::{Expr, Function, NodeView};
+use super::map::Map;
 use super::rational::Rational;
 
 impl<'g> Expr<'g> {
     /// ∂self/∂symbol.
     pub fn partial(self, symbol: Expr<'g>) -> Self {
         let one = self.graph.one();
-        self.derivative(&HashMap::from([(symbol.id, one)]))
+        self.derivative(&Map::from_iter([(symbol.id, one)]))
     }
 
     /// Derivative along a flow: `rates` maps each moving symbol (by key) to its rate; all others stand still.
-    pub fn derivative(self, rates: &HashMap<u32, Expr<'g>>) -> Self {
-        self.differentiate(rates, &mut HashMap::new())
+    pub fn derivative(self, rates: &Map<u32, Expr<'g>>) -> Self {
+        self.differentiate(rates, &mut Map::default())
     }
 
-    fn differentiate(self, rates: &HashMap<u32, Expr<'g>>, memo: &mut HashMap<u32, Expr<'g>>) -> Self {
+    fn differentiate(self, rates: &Map<u32, Expr<'g>>, memo: &mut Map<u32, Expr<'g>>) -> Self {
         if let Some(&done) = memo.get(&self.id) {
             return done;
         }

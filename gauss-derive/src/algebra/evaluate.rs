@@ -1,19 +1,18 @@
 //! Numerical values of expressions, for checking one form of a result against another.
 
-use std::collections::HashMap;
-
 use super::graph::{Expr, Function, NodeView};
+use super::map::Map;
 
 /// Evaluates expressions at a point, each node once.
 pub struct Evaluation<'a> {
-    symbols: &'a HashMap<u32, f64>,
-    values: HashMap<u32, f64>,
+    symbols: &'a Map<u32, f64>,
+    values: Map<u32, f64>,
 }
 
 impl<'a> Evaluation<'a> {
     /// `symbols` gives the value of every symbol, by key.
-    pub fn new(symbols: &'a HashMap<u32, f64>) -> Self {
-        Self { symbols, values: HashMap::new() }
+    pub fn new(symbols: &'a Map<u32, f64>) -> Self {
+        Self { symbols, values: Map::default() }
     }
 
     /// The value of an expression; NaN where a symbol has none.
@@ -24,9 +23,7 @@ impl<'a> Evaluation<'a> {
         let value = match e.view() {
             NodeView::Number(value) => value.to_f64(),
             NodeView::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(f64::NAN),
-            NodeView::Sum(terms) => {
-                terms.into_iter().map(|(c, e)| c.to_f64() * self.value(e)).sum()
-            }
+            NodeView::Sum(terms) => terms.into_iter().map(|(c, e)| c.to_f64() * self.value(e)).sum(),
             NodeView::Product(factors) => factors.into_iter().map(|(e, n)| self.value(e).powi(n)).product(),
             NodeView::Call(Function::Sin, e) => self.value(e).sin(),
             NodeView::Call(Function::Cos, e) => self.value(e).cos(),

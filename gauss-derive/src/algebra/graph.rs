@@ -1,13 +1,13 @@
 //! The expression graph: every distinct expression exists once, so equality is equality of indices and sharing is free.
 
 use std::cell::{Cell, RefCell};
-use std::collections::HashMap;
 use std::fmt;
-use std::hash::{BuildHasherDefault, Hash, Hasher};
+use std::hash::{Hash, Hasher};
 use std::iter::Sum;
 use std::ops::{Add, Mul, Neg, Sub};
 use std::rc::Rc;
 
+use super::map::{Map, Set};
 use super::rational::Rational;
 
 /// A function of one argument that the language knows.
@@ -61,49 +61,9 @@ pub enum NodeView<'g> {
 #[derive(Default)]
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
-    index: RefCell<HashMap<Node, Id, BuildHasherDefault<NodeHasher>>>,
+    index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
     overflow: Cell<bool>,
-}
-
-/// Multiply-and-rotate hashing: nodes are short sequences of small integers, and nobody chooses them to collide.
-#[derive(Default)]
-struct NodeHasher(u64);
-
-impl NodeHasher {
-    fn mix(&mut self, word: u64) {
-        self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x517c_c1b7_2722_0a95);
-    }
-}
-
-impl Hasher for NodeHasher {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&b| self.mix(u64::from(b)));
-    }
-
-    fn write_u32(&mut self, n: u32) {
-        self.mix(u64::from(n));
-    }
-
-    fn write_i32(&mut self, n: i32) {
-        self.mix(n as u64);
-    }
-
-    fn write_i64(&mut self, n: i64) {
-        self.mix(n as u64);
-    }
-
-    fn write_usize(&mut self, n: usize) {
-        self.mix(n as u64);
-    }
-
-    fn write_isize(&mut self, n: isize) {
-        self.mix(n as u64);
-    }
 }
 
 /// An expression: a node of a graph. Copies are free and equality is structural.
@@ -230,7 +190,11 @@ impl Graph {
 
     /// c · Π eᵢ^nᵢ, flattened and collected. A sum among the factors gives up its rational content and its sign, so
     /// that `(a − b)·(b − a)⁻¹` is −1.
-    pub fn product<'g>(&'g self, coefficient: Rational, factors: impl IntoIterator<Item = (Expr<'g>, i32)>) -> Expr<'g> {
+    pub fn product<'g>(
+        &'g self,
+        coefficient: Rational,
+        factors: impl IntoIterator<Item = (Expr<'g>, i32)>,
+    ) -> Expr<'g> {
         let mut coefficient = coefficient;
         let mut flat: Vec<(Id, i32)> = Vec::new();
         for (factor, exponent) in factors {
@@ -414,6 +378,20 @@ impl<'g> Expr<'g> {
         }
     }
 
+    /// True when it is its own normal form for a reason that can be seen: a sum of products of symbols.
+    pub fn is_normal(self) -> bool {
+        let leaf = |id: Id| matches!(self.graph.node(id), Node::Symbol(_) | Node::Opaque(_));
+        let monomial = |id: Id| match self.graph.node(id) {
+            Node::Product(factors) => factors.iter().all(|&(f, _)| leaf(f)),
+            Node::Number(_) => true,
+            _ => leaf(id),
+        };
+        match self.graph.node(self.id) {
+            Node::Sum(terms) => terms.iter().all(|&(_, id)| monomial(id)),
+            _ => monomial(self.id),
+        }
+    }
+
     /// A number times something without one: `6·a·b` is 6 and `a·b`.
     pub fn split_coefficient(self) -> (Rational, Self) {
         match self.graph.node(self.id) {
@@ -432,11 +410,11 @@ impl<'g> Expr<'g> {
     }
 
     /// Rebuilds the expression with some symbols replaced. Groups stay groups.
-    pub fn substitute(self, replacement: &HashMap<u32, Expr<'g>>) -> Self {
-        self.rebuild(&mut HashMap::new(), &|symbol| replacement.get(&symbol.id).copied())
+    pub fn substitute(self, replacement: &Map<u32, Expr<'g>>) -> Self {
+        self.rebuild(&mut Map::default(), &|symbol| replacement.get(&symbol.id).copied())
     }
 
-    pub(super) fn rebuild(self, memo: &mut HashMap<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
+    pub(super) fn rebuild(self, memo: &mut Map<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
         if let Some(&done) = memo.get(&self.id) {
             return done;
         }
@@ -460,7 +438,7 @@ impl<'g> Expr<'g> {
     }
 
     /// True when every symbol in it is constant.
-    pub fn is_constant(self, memo: &mut HashMap<u32, bool>) -> bool {
+    pub fn is_constant(self, memo: &mut Map<u32, bool>) -> bool {
         if let Some(&known) = memo.get(&self.id) {
             return known;
         }
@@ -477,7 +455,7 @@ impl<'g> Expr<'g> {
 
     /// True when the symbol occurs in it.
     pub fn contains(self, symbol: Expr<'g>) -> bool {
-        let mut seen = std::collections::HashSet::new();
+        let mut seen = Set::default();
         let mut stack = vec![self];
         while let Some(e) = stack.pop() {
             if e == symbol {

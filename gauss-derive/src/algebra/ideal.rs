@@ -2,8 +2,8 @@
 //! are equal exactly when their normal forms are.
 
 use super::graph::{Expr, Graph};
-use super::rational::Rational;
 use super::polynomial::{Monomial, Polynomial};
+use super::rational::Rational;
 
 /// A Gröbner basis (graded lexicographic order).
 pub struct Ideal<'g> {
@@ -98,9 +98,7 @@ fn subtract<'g>(from: &mut Polynomial<'g>, g: &Polynomial<'g>, monomial: &Monomi
 fn s_polynomial<'g>(a: &Polynomial<'g>, b: &Polynomial<'g>) -> Option<Polynomial<'g>> {
     let ((la, ca), (lb, cb)) = (leading(a), leading(b));
     let shared = Monomial(
-        la.0.iter()
-            .filter_map(|&(atom, n)| lb.0.iter().find(|f| f.0 == atom).map(|f| (atom, n.min(f.1))))
-            .collect(),
+        la.0.iter().filter_map(|&(atom, n)| lb.0.iter().find(|f| f.0 == atom).map(|f| (atom, n.min(f.1)))).collect(),
     );
     if shared.0.is_empty() {
         return None;

@@ -1,8 +1,7 @@
 //! Small linear systems with symbolic entries.
 
-use std::collections::HashMap;
-
 use super::graph::Expr;
+use super::map::Map;
 
 /// Terms that an entry may have while a determinant is brought to normal form.
 const LIMIT: usize = 400;
@@ -51,7 +50,11 @@ fn smallest_block(rows: &[usize], unknowns: impl Fn(usize) -> Vec<usize>) -> Opt
         let mut found = unknowns(start);
         while taken.len() < found.len() {
             let fresh = |row: usize| unknowns(row).iter().filter(|j| !found.contains(j)).count();
-            let next = rows.iter().copied().filter(|r| !taken.contains(r) && !unknowns(*r).is_empty()).min_by_key(|&r| fresh(r))?;
+            let next = rows
+                .iter()
+                .copied()
+                .filter(|r| !taken.contains(r) && !unknowns(*r).is_empty())
+                .min_by_key(|&r| fresh(r))?;
             for j in unknowns(next) {
                 if !found.contains(&j) {
                     found.push(j);
@@ -71,10 +74,7 @@ fn cramer<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Option<Vec<Expr<'
     let n = right.len();
     let graph = right[0].graph();
     let minor = |i: usize, j: usize| -> Vec<Vec<Expr<'g>>> {
-        (0..n)
-            .filter(|&r| r != i)
-            .map(|r| (0..n).filter(|&c| c != j).map(|c| matrix[r][c]).collect())
-            .collect()
+        (0..n).filter(|&r| r != i).map(|r| (0..n).filter(|&c| c != j).map(|c| matrix[r][c]).collect()).collect()
     };
     let det = determinant(matrix, graph.one()).collected(LIMIT);
     if det.is_zero() {
@@ -147,7 +147,7 @@ fn connected_blocks(matrix: &[Vec<Expr<'_>>]) -> Vec<Vec<usize>> {
             }
         }
     }
-    let mut blocks: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut blocks: Map<usize, Vec<usize>> = Map::default();
     for (i, l) in label.into_iter().enumerate() {
         blocks.entry(l).or_default().push(i);
     }

@@ -14,6 +14,7 @@ mod graph;
 #[cfg(test)]
 pub mod ideal;
 mod linear;
+mod map;
 mod polynomial;
 mod print;
 mod rational;
@@ -23,6 +24,7 @@ mod tests;
 pub use evaluate::Evaluation;
 pub use graph::{Expr, Function, Graph, NodeView};
 pub use linear::{inverse_of_symmetric, solve};
+pub use map::Map;
 pub use polynomial::Polynomial;
 pub use print::{Notation, print};
 pub use rational::Rational;

@@ -4,7 +4,8 @@
 //! Two rewriting rules are always on: `cos²x → 1 − sin²x`, and `lm(S)·S⁻¹ → 1 − (S − lm(S))·S⁻¹` for a denominator S
 //! with leading monomial lm(S) (graded lexicographic order); both lower the order of the monomial, so they terminate.
 
-use std::collections::{BTreeMap, HashMap};
+use super::map::Map;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::graph::{Expr, Function, Graph, Id, Node, NodeView};
@@ -104,15 +105,14 @@ impl PartialEq for Polynomial<'_> {
 struct Expander<'g> {
     graph: &'g Graph,
     limit: usize,
-    memo: HashMap<Id, Option<Rc<Polynomial<'g>>>>,
-    denominators: HashMap<Id, Rc<Polynomial<'g>>>,
+    memo: Map<Id, Option<Rc<Polynomial<'g>>>>,
+    denominators: Map<Id, Rc<Polynomial<'g>>>,
 }
 
 impl<'g> Expr<'g> {
     /// The normal form, or `None` when more than `limit` terms would be needed on the way.
     pub fn expand(self, limit: usize) -> Option<Polynomial<'g>> {
-        let mut expander =
-            Expander { graph: self.graph, limit, memo: HashMap::new(), denominators: HashMap::new() };
+        let mut expander = Expander { graph: self.graph, limit, memo: Map::default(), denominators: Map::default() };
         expander.expand(self).map(|p| (*p).clone())
     }
 
@@ -240,7 +240,7 @@ impl<'g> Expander<'g> {
                 let (leading, leading_coefficient) =
                     denominator.terms.last_key_value().expect("a denominator has terms");
                 if let Some(rest) = monomial.over(leading) {
-                    let coefficient = (coefficient * leading_coefficient.recip());
+                    let coefficient = coefficient * leading_coefficient.recip();
                     self.add_reduced(result, rest.times(&Monomial(vec![(atom, 1)])), coefficient);
                     for (m, c) in &denominator.terms {
                         if m != leading {
@@ -327,14 +327,14 @@ impl<'g> Polynomial<'g> {
             _ => Monomial(vec![(e.id, 1)]),
         };
         let Some(own) = self.terms.get(&monomial) else { return self.clone() };
-        let scale = (c * own.recip());
+        let scale = c * own.recip();
         let terms = self.terms.iter().map(|(m, d)| (m.clone(), scale * *d)).collect();
         Self { graph: self.graph, terms }
     }
 
     fn ratio_to(&self, primitive: &Self) -> Rational {
         let (m, c) = self.terms.first_key_value().expect("a denominator has terms");
-        (*c * primitive.terms[m].recip())
+        *c * primitive.terms[m].recip()
     }
 
     fn monomial_expr(&self, monomial: &Monomial) -> Expr<'g> {
@@ -348,15 +348,12 @@ impl<'g> Polynomial<'g> {
 
     /// Splits off the constants: a list of (coefficient made of constants, monomial of what varies), highest first.
     pub fn by_variable_monomials(&self) -> Vec<(Polynomial<'g>, Expr<'g>)> {
-        let mut memo = HashMap::new();
+        let mut memo = Map::default();
         let mut groups: BTreeMap<Monomial, Polynomial<'g>> = BTreeMap::new();
         for (monomial, c) in &self.terms {
             let (constant, variable): (Vec<_>, Vec<_>) =
                 monomial.0.iter().partition(|(id, _)| self.graph.expr(*id).is_constant(&mut memo));
-            groups
-                .entry(Monomial(variable))
-                .or_insert_with(|| Self::zero(self.graph))
-                .add_term(Monomial(constant), *c);
+            groups.entry(Monomial(variable)).or_insert_with(|| Self::zero(self.graph)).add_term(Monomial(constant), *c);
         }
         groups.into_iter().rev().map(|(m, p)| (p, self.monomial_expr(&m))).collect()
     }
@@ -365,7 +362,9 @@ impl<'g> Polynomial<'g> {
     pub fn collect(&self) -> Expr<'g> {
         let one = Rational::one();
         self.graph.sum(
-            self.by_variable_monomials().into_iter().map(|(constant, variable)| (one, constant.to_expr().group() * variable)),
+            self.by_variable_monomials()
+                .into_iter()
+                .map(|(constant, variable)| (one, constant.to_expr().group() * variable)),
         )
     }
 

@@ -1,6 +1,7 @@
 //! Expressions for people: plain text and LaTeX.
 
 use super::graph::{Expr, Function, NodeView};
+use super::map::Map;
 use super::rational::Rational;
 
 /// How to write.
@@ -69,14 +70,23 @@ impl Printer {
         let factors = match e.view() {
             NodeView::Product(factors) => factors,
             NodeView::Number(value) => {
-                return Term { negative: negative != value.is_negative(), text: self.number(&(value.abs() * coefficient)) };
+                return Term {
+                    negative: negative != value.is_negative(),
+                    text: self.number(&(value.abs() * coefficient)),
+                };
             }
             _ => vec![(e, 1)],
         };
         // Constants first, as in a textbook: (I2 - I3)*w2*w3.
-        let mut memo = std::collections::HashMap::new();
+        let mut memo = Map::default();
         let (mut factors, varying): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| e.is_constant(&mut memo));
         factors.extend(varying);
+        // A difference takes the sign of its term in: (I3 - I1)*w1*w3 rather than -(I1 - I3)*w1*w3.
+        let mut negative = negative;
+        if negative && let Some(factor) = factors.iter_mut().find(|(e, n)| *n == 1 && is_difference(*e)) {
+            factor.0 = -ungrouped(factor.0);
+            negative = false;
+        }
         let single = factors.len() == 1 && coefficient.is_one();
         for (factor, exponent) in factors {
             let base = self.factor(factor, single && exponent == 1);
@@ -105,9 +115,9 @@ impl Printer {
 
     fn factor(&self, e: Expr<'_>, alone: bool) -> String {
         match e.view() {
-            NodeView::Symbol(symbol) => e.graph().with_symbol(symbol, |s| {
-                if self.latex() { s.latex.clone() } else { s.text.clone() }
-            }),
+            NodeView::Symbol(symbol) => {
+                e.graph().with_symbol(symbol, |s| if self.latex() { s.latex.clone() } else { s.text.clone() })
+            }
             NodeView::Call(function, argument) => {
                 let name = match function {
                     Function::Sin => "sin",
@@ -137,5 +147,21 @@ impl Printer {
         } else {
             format!("{}/{}", value.numer(), value.denom())
         }
+    }
+}
+
+fn ungrouped(e: Expr<'_>) -> Expr<'_> {
+    match e.view() {
+        NodeView::Group(inner) => inner,
+        _ => e,
+    }
+}
+
+fn is_difference(e: Expr<'_>) -> bool {
+    match ungrouped(e).view() {
+        NodeView::Sum(terms) => {
+            terms.iter().any(|(c, _)| c.is_negative()) && terms.iter().any(|(c, _)| !c.is_negative())
+        }
+        _ => false,
     }
 }

@@ -1,0 +1,166 @@
+//! Algebra against itself and against numbers.
+
+use super::Map;
+use super::ideal::Ideal;
+use super::{Evaluation, Expr, Graph, Notation, Rational, inverse_of_symmetric, print, solve};
+
+fn symbols<'g, const N: usize>(graph: &'g Graph, names: [&str; N]) -> [Expr<'g>; N] {
+    names.map(|name| graph.symbol(name, name, false))
+}
+
+fn text(e: Expr<'_>) -> String {
+    print(e, Notation::Text)
+}
+
+#[test]
+fn equal_expressions_are_one_node() {
+    let graph = Graph::new();
+    let [a, b, c] = symbols(&graph, ["a", "b", "c"]);
+    assert_eq!(a + b + c, c + (b + a));
+    assert_eq!(a * (b * c), (c * a) * b);
+    assert_eq!((a - b) * (b - a).recip(), graph.integer(-1));
+    assert_eq!((a + a).half(), a);
+    assert!((a * b - b * a).is_zero());
+    assert_eq!((-a).sin(), -a.sin());
+    assert_eq!((-a).cos(), a.cos());
+}
+
+#[test]
+fn groups_give_up_their_common_factors_and_nothing_else() {
+    let graph = Graph::new();
+    let [m, a, b] = symbols(&graph, ["m", "a", "b"]);
+    let grouped = (m * a + m * b).group();
+    assert_eq!(grouped * m.recip(), (a + b).group());
+    // A sum around a group does not take it apart, the normal form does.
+    assert_ne!((a + b).group() - a, b);
+    assert_eq!(((a + b).group() - a).collected(10), b);
+}
+
+#[test]
+fn normal_forms_decide_identities() {
+    let graph = Graph::new();
+    let [x, y] = symbols(&graph, ["x", "y"]);
+    let zero = |e: Expr<'_>| e.expand(1000).is_some_and(|p| p.is_zero());
+    assert!(zero((x + y).powi(3) - x.powi(3) - y.powi(3) - graph.integer(3) * x * y * (x + y)));
+    assert!(zero(x.sin().powi(2) + x.cos().powi(2) - graph.one()));
+    assert!(zero((x + y).sin().powi(4) - (graph.one() - (y + x).cos().powi(2)).powi(2)));
+    // Denominators: (x² − y²)/(x − y) = x + y, and 1/(1 + x²) + x²/(1 + x²) = 1.
+    assert!(zero((x.powi(2) - y.powi(2)) * (x - y).recip() - x - y));
+    let norm = graph.one() + x.powi(2);
+    assert!(zero(norm.recip() + x.powi(2) * norm.recip() - graph.one()));
+    assert!(!zero(norm.recip() - graph.one()));
+    // Too long is said, not computed.
+    assert!((x + y).powi(9).expand(5).is_none());
+}
+
+#[test]
+fn derivatives_agree_with_differences() {
+    let graph = Graph::new();
+    let [x, y] = symbols(&graph, ["x", "y"]);
+    let f = (x * y).sin() * (graph.one() + x.powi(2) * y).recip() + (y - x).cos().powi(3);
+    let at = |dx: f64| Map::from_iter([(x.key(), 0.7 + dx), (y.key(), 1.3)]);
+    let value = |e: Expr<'_>, dx: f64| Evaluation::new(&at(dx)).value(e);
+    let h = 1e-5;
+    let difference = (value(f, h) - value(f, -h)) / (2.0 * h);
+    // Central differences: h²·f‴/6 is about 1e-9 here, rounding 1e-11.
+    assert!((value(f.partial(x), 0.0) - difference).abs() < 1e-8);
+    // Along a flow: df/dt = ∂f/∂x ẋ + ∂f/∂y ẏ.
+    let rates = Map::from_iter([(x.key(), y), (y.key(), -x)]);
+    let chain = f.partial(x) * y - f.partial(y) * x;
+    assert!((value(f.derivative(&rates), 0.0) - value(chain, 0.0)).abs() < 1e-14);
+}
+
+#[test]
+fn the_ideal_of_rotations_has_the_functions_of_so3_left_over() {
+    let graph = Graph::new();
+    let names: Vec<String> = (0..9).map(|k| format!("r{k}")).collect();
+    let entries: Vec<Expr<'_>> = names.iter().map(|n| graph.symbol(n.as_str(), n.as_str(), false)).collect();
+    let r: [[Expr<'_>; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entries[3 * i + j]));
+    let ideal = Ideal::of_rotation(&graph, &r);
+    // det R = 1 follows from what was put in.
+    let minor = |i: usize, j: usize| r[1][i] * r[2][j] - r[1][j] * r[2][i];
+    let det = r[0][0] * minor(1, 2) - r[0][1] * minor(0, 2) + r[0][2] * minor(0, 1);
+    assert!(ideal.annihilates(det - graph.one()));
+    assert!(!ideal.annihilates(r[0][0] - graph.one()));
+    // Peter–Weyl: polynomials of degree d on SO(3) modulo lower ones have dimension (2d + 1)².
+    let mut monomials = vec![graph.one()];
+    for degree in 1..=3 {
+        let mut next: Vec<Expr<'_>> = monomials.iter().flat_map(|m| entries.iter().map(move |e| *m * *e)).collect();
+        next.sort_by_key(|e| e.key());
+        next.dedup();
+        monomials = next;
+        let standard = monomials
+            .iter()
+            .filter(|m| {
+                let p = m.expand(10).expect("a monomial");
+                ideal.reduce(&p) == p
+            })
+            .count();
+        assert_eq!(standard, (2 * degree + 1) * (2 * degree + 1), "degree {degree}");
+    }
+}
+
+#[test]
+fn linear_systems_are_solved_block_by_block() {
+    let graph = Graph::new();
+    let [a, b, c, p, q, r] = symbols(&graph, ["a", "b", "c", "p", "q", "r"]);
+    let (zero, one) = (graph.zero(), graph.one());
+    // A rotation in the first two unknowns: its determinant must collapse to one.
+    let matrix = vec![vec![a.cos(), -a.sin(), zero], vec![a.sin(), a.cos(), zero], vec![b, c, one]];
+    let x = solve(&matrix, &[p, q, r]).expect("regular");
+    let back = |row: &Vec<Expr<'_>>, right: Expr<'_>| {
+        let sum: Expr<'_> = row.iter().zip(&x).map(|(m, x)| *m * *x).sum();
+        (sum - right).expand(1000).is_some_and(|e| e.is_zero())
+    };
+    assert!(back(&matrix[0], p) && back(&matrix[1], q) && back(&matrix[2], r));
+    assert_eq!(x[0].collected(100), a.cos() * p + a.sin() * q);
+    assert!(solve(&[vec![a, a], vec![b, b]], &[p, q]).is_none());
+}
+
+#[test]
+fn inverses_of_symmetric_matrices_invert() {
+    let graph = Graph::new();
+    let [a, b, c, d] = ["a", "b", "c", "d"].map(|n| graph.symbol(n, n, true));
+    let zero = graph.zero();
+    let matrix = vec![vec![a, b, zero], vec![b, c, zero], vec![zero, zero, d]];
+    let inverse = inverse_of_symmetric(&matrix);
+    assert_eq!(inverse[2][2], d.recip());
+    assert!(inverse[0][2].is_zero());
+    let at = Map::from_iter([(a.key(), 2.0), (b.key(), 0.5), (c.key(), 3.0), (d.key(), 4.0)]);
+    let mut evaluation = Evaluation::new(&at);
+    for i in 0..3 {
+        for j in 0..3 {
+            let product: f64 = (0..3).map(|k| evaluation.value(matrix[i][k]) * evaluation.value(inverse[k][j])).sum();
+            let expected = if i == j { 1.0 } else { 0.0 };
+            assert!((product - expected).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn coefficients_overflow_into_a_mark_and_never_panic() {
+    let graph = Graph::new();
+    let [x] = symbols(&graph, ["x"]);
+    assert!(!graph.overflowed());
+    let large = graph.integer(i64::MAX);
+    let _ = large * x + large * x;
+    assert!(graph.overflowed());
+    assert!((Rational::new(1, i64::MAX) * Rational::new(1, 3)).is_overflow());
+    assert!(Rational::zero().recip().is_overflow());
+    assert_eq!(Rational::new(6, -4), Rational::new(-3, 2));
+    assert!(Rational::new(1, 3) < Rational::new(1, 2));
+}
+
+#[test]
+fn printing_reads_like_a_textbook() {
+    let graph = Graph::new();
+    let [i1, i3] = ["I1", "I3"].map(|n| graph.symbol(n, n, true));
+    let [w1, w3] = symbols(&graph, ["w1", "w3"]);
+    let e = (i3 * w1 * w3 - i1 * w1 * w3).collected(10);
+    assert_eq!(text(e), "(I3 - I1)*w1*w3");
+    assert_eq!(text((w1 - w3).half()), "w1/2 - w3/2");
+    assert_eq!(text(w1.powi(-2) * w3), "w3/w1^2");
+    assert_eq!(text((w1 + w3).recip()), "1/(w1 + w3)");
+    assert_eq!(print((w1 * w3.recip()).half(), Notation::Latex), "\\frac{w1}{2 \\, w3}");
+    assert_eq!(print((w1 + w3).sin(), Notation::Latex), "\\sin\\left(w1 + w3\\right)");
+}

@@ -1,11 +1,9 @@
 //! Where the symbols of a program come from: the arguments of a method taken apart, the fields of the kernel.
 
-use std::collections::HashMap;
-
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::Expr;
+use crate::algebra::{Expr, Map};
 use crate::kernel::Program;
 
 /// An array of scalars and the symbols that its elements are.
@@ -15,11 +13,7 @@ pub struct Argument<'g> {
 }
 
 /// `let` statements that name the elements which the program reads, and how each symbol is then written.
-pub fn declare(
-    program: &Program<'_>,
-    arguments: &[Argument<'_>],
-    names: &mut HashMap<u32, TokenStream>,
-) -> TokenStream {
+pub fn declare(program: &Program<'_>, arguments: &[Argument<'_>], names: &mut Map<u32, TokenStream>) -> TokenStream {
     let read = program.symbols();
     let mut statements = TokenStream::new();
     for (a, argument) in arguments.iter().enumerate() {

@@ -7,33 +7,24 @@ use crate::mechanics::{Method, Section};
 use super::kernel::Derived;
 
 /// The equations as plain text.
-pub fn text(derived: &Derived<'_, '_>) -> String {
+pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     let mut out = format!("{}: {}\n", derived.model.ident, description(derived));
-    for Section { title, lines } in derived.scene.equations(Notation::Text) {
-        if lines.is_empty() {
-            continue;
-        }
-        out.push_str(&format!("\n{title}\n"));
-        for line in lines {
-            out.push_str(&format!("  {line}\n"));
+    for section in sections {
+        out.push_str(&format!("\n{}\n", section.title.text));
+        for row in &section.rows {
+            out.push_str(&format!("  {}\n", row.print(Notation::Text)));
         }
     }
     out
 }
 
 /// The equations as one LaTeX environment.
-pub fn latex(derived: &Derived<'_, '_>) -> String {
+pub fn latex(sections: &[Section<'_>]) -> String {
     let mut out = String::from("\\begin{align*}\n");
-    for Section { title, lines } in derived.scene.equations(Notation::Latex) {
-        if lines.is_empty() {
-            continue;
-        }
-        // Titles are plain text with ASCII formulas; LaTeX has its own words for the same thing.
-        let title = title.split(':').next().unwrap_or_default().replace("p = dT/dz", "$p = \\partial T/\\partial z$");
-        let title = title.replace("A dz/dt = r", "$A \\dot z = r$");
-        out.push_str(&format!("&\\text{{{title}}} \\\\\n"));
-        for line in lines {
-            out.push_str(&format!("{} \\\\\n", line.replacen(" = ", " &= ", 1)));
+    for section in sections {
+        out.push_str(&format!("&\\text{{{}}} \\\\\n", section.title.latex));
+        for row in &section.rows {
+            out.push_str(&format!("{} \\\\\n", row.print(Notation::Latex).replacen(" = ", " &= ", 1)));
         }
     }
     out.push_str("\\end{align*}\n");
@@ -48,16 +39,15 @@ fn description(derived: &Derived<'_, '_>) -> String {
 }
 
 /// Rustdoc of the kernel: what it is, its equations, its costs.
-pub fn rustdoc(derived: &Derived<'_, '_>) -> String {
+pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     let mut out = format!(
         "Equations of motion of [`{name}`], derived from the Gauss condition (Massa & Vignolo, eq. 3.4).\n\n\
          {description}.\n\n\
-         Components marked `^` are in observer's axes k, the others in body axes e; (u, w) is the twist of O, \
-         (Q, G) the momentum about O (about the observer's origin where both are marked).\n\n\
+         Components with a hat are in the observer's axes k, the others in body axes e; (u, ω) is the twist of O, \
+         (Q, Γ) the momentum, about O, or about Ω where both have hats; (R, M) the resultant and torque of the forces.\n\n\
          ```text\n{equations}```\n\n# Cost\n\n| method | operations |\n|---|---|\n",
         name = derived.model.ident,
         description = description(derived),
-        equations = text(derived),
     );
     for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
         out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), operations(program.counts())));
@@ -73,8 +63,7 @@ fn operations(counts: Counts) -> String {
         (counts.roots, "sqrt"),
         (counts.transcendentals, "sin/cos"),
     ];
-    let parts: Vec<String> =
-        parts.into_iter().filter(|(n, _)| *n > 0).map(|(n, name)| format!("{n} {name}")).collect();
+    let parts: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(n, name)| format!("{n} {name}")).collect();
     if parts.is_empty() { "none".to_owned() } else { parts.join(", ") }
 }
 

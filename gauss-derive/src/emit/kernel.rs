@@ -1,11 +1,9 @@
 //! The kernel struct and its implementations of the runtime's traits.
 
-use std::collections::HashMap;
-
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::Expr;
+use crate::algebra::{Expr, Map};
 use crate::kernel::{Counts, Kernel, Program};
 use crate::mechanics::{ConfigurationKind, Formula, InertiaShape, Method, Scene};
 use crate::model::{Chart, Model, Motion, RotationChart, Scalar};
@@ -72,10 +70,8 @@ impl<'g> Derived<'_, 'g> {
     fn configuration_arguments(&self) -> Vec<Argument<'g>> {
         let private = self.private();
         let symbols = &self.scene.kinematics.configuration;
-        let quaternion = |array: TokenStream| Argument {
-            array,
-            symbols: self.quaternion.map(|q| q.to_vec()).unwrap_or_default(),
-        };
+        let quaternion =
+            |array: TokenStream| Argument { array, symbols: self.quaternion.map(|q| q.to_vec()).unwrap_or_default() };
         match self.scene.kinematics.kind {
             ConfigurationKind::Pose => vec![
                 quaternion(quote!(#private::isometry3(q).0)),
@@ -111,7 +107,7 @@ impl<'g> Derived<'_, 'g> {
         arguments.push(vector(quote!(p), &self.scene.momenta));
         arguments.push(vector(quote!(acceleration), &kinematics.speed_rates));
         arguments.push(vector(quote!(twist), &self.scene.twist));
-        let mut names: HashMap<u32, TokenStream> = HashMap::new();
+        let mut names: Map<u32, TokenStream> = Map::default();
         for (symbol, field) in self.kernel.constant_symbols.iter().zip(self.constant_fields()) {
             names.insert(symbol.key(), quote!(self.#field));
         }
@@ -174,7 +170,7 @@ impl<'g> Derived<'_, 'g> {
         let private = self.private();
         let chart = self.rotation_chart_tokens();
         match (self.scene.kinematics.kind, self.model.motion) {
-            (ConfigurationKind::Pose, _) => (quote!(*q), quote!(::core::result::Result::Ok(*pose))),
+            (ConfigurationKind::Pose, _) => (quote!(*q), quote!(#private::free_pose(pose))),
             (ConfigurationKind::Rotation, _) => {
                 (quote!(#private::pose_of_rotation(q)), quote!(#private::rotation_of_pose(pose)))
             }
@@ -226,7 +222,9 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         quote!(#(#predicates,)*)
     });
     let bound = generic.then(|| quote!(#ty: #real,));
-    let (documentation, text, latex) = (rustdoc(derived), text(derived), latex(derived));
+    let sections = derived.scene.equations();
+    let (text, latex) = (text(derived, &sections), latex(&sections));
+    let documentation = rustdoc(derived, &text);
     let kernel_body = kernel_body(derived);
     let chart = derived.chart_tokens();
     let configuration = derived.configuration_type();

@@ -11,5 +11,7 @@ mod documentation;
 mod kernel;
 mod parameters;
 mod program;
+#[cfg(test)]
+mod tests;
 
 pub use kernel::{Derived, emit};

@@ -1,10 +1,9 @@
 //! `kernel()`: the fields of the user's struct read, checked, and turned into the constants of the kernel.
 
-use std::collections::HashMap;
-
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
+use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
 use crate::mechanics::{InertiaShape, ParameterSymbol, Quantity};
 use crate::model::{Model, Motion, Parameter};
@@ -76,7 +75,7 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
             _ => quote!(let #name = #private::entries(&self.#ident);),
         });
     }
-    let symbols: HashMap<u32, TokenStream> =
+    let symbols: Map<u32, TokenStream> =
         derived.scene.body.parameters.iter().map(|p| (p.symbol.key(), element(derived, p))).collect();
     let checks = checks(derived, &symbols);
     let (compute, outputs) = statements(&derived.kernel.constants, &symbols, &derived.scalar());
@@ -91,15 +90,15 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
 }
 
 /// What makes a set of parameters a body: all violations are reported together.
-fn checks(derived: &Derived<'_, '_>, symbols: &HashMap<u32, TokenStream>) -> TokenStream {
+fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let (model, runtime) = (derived.model, &derived.model.runtime);
     let scalar = derived.scalar();
     let ty = scalar.ty();
     let name_of = |quantity| field(model, quantity).map(|p| p.ident.to_string()).unwrap_or_default();
     let body = &derived.scene.body;
-    let entry = |e: crate::algebra::Expr<'_>| match symbols.get(&e.key()) {
+    let entry = |e: Expr<'_>| match symbols.get(&e.key()) {
         Some(tokens) => tokens.clone(),
-        None => scalar.number(&crate::algebra::Rational::zero()),
+        None => scalar.number(&Rational::zero()),
     };
     let has = |quantity| field(model, quantity).is_some();
     let mut checks = TokenStream::new();
@@ -123,13 +122,25 @@ fn checks(derived: &Derived<'_, '_>, symbols: &HashMap<u32, TokenStream>) -> Tok
     let planar = model.motion == Motion::Planar;
     let rows = (0..3).map(|i| {
         let row = (0..3).map(|j| {
-            if planar && i == j { entry(body.inertia[2][2]) } else if planar { entry(body.mass.graph().zero()) } else { entry_as_written(derived, i, j, &entry) }
+            if planar && i == j {
+                entry(body.inertia[2][2])
+            } else if planar {
+                entry(body.mass.graph().zero())
+            } else {
+                entry_as_written(derived, i, j, &entry)
+            }
         });
         quote!([#(#row),*])
     });
     checks.extend(quote!(let inertia = [#(#rows),*]; check.inertia(#inertia_name, &inertia);));
     if planar {
-        let all = derived.scene.body.parameters.iter().filter(|p| p.quantity == Quantity::Inertia).map(|p| element(derived, p));
+        let all = derived
+            .scene
+            .body
+            .parameters
+            .iter()
+            .filter(|p| p.quantity == Quantity::Inertia)
+            .map(|p| element(derived, p));
         checks.extend(quote!(check.finite(#inertia_name, &[#(#all),*]);));
     }
     if model.motion == Motion::Free && has(Quantity::CenterOfMass) {
@@ -146,8 +157,11 @@ fn checks(derived: &Derived<'_, '_>, symbols: &HashMap<u32, TokenStream>) -> Tok
     if has(Quantity::AddedMass) || (planar && has(Quantity::CenterOfMass)) {
         let field = if has(Quantity::AddedMass) { name_of(Quantity::AddedMass) } else { inertia_name };
         let active = &derived.scene.kinematics.active;
-        let entries: Vec<_> =
-            active.iter().flat_map(|&i| active.iter().map(move |&j| (i, j))).map(|(i, j)| derived.scene.matrix.entries[i][j]).collect();
+        let entries: Vec<_> = active
+            .iter()
+            .flat_map(|&i| active.iter().map(move |&j| (i, j)))
+            .map(|(i, j)| derived.scene.matrix.entries[i][j])
+            .collect();
         let (compute, outputs) = statements(&Program::lower(&entries), symbols, &scalar);
         let rows = outputs.chunks(active.len()).map(|row| quote!([#(#row),*]));
         checks.extend(quote!({
@@ -167,7 +181,7 @@ fn entry_as_written(
     derived: &Derived<'_, '_>,
     i: usize,
     j: usize,
-    entry: &impl Fn(crate::algebra::Expr<'_>) -> TokenStream,
+    entry: &impl Fn(Expr<'_>) -> TokenStream,
 ) -> TokenStream {
     if derived.inertia == InertiaShape::Full {
         let name = local(Quantity::Inertia);

@@ -1,11 +1,9 @@
 //! Instructions as `let` statements: no loops, no branches, no allocation.
 
-use std::collections::HashMap;
-
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::Rational;
+use crate::algebra::{Map, Rational};
 use crate::kernel::{Operand, Operation, Program};
 use crate::model::Scalar;
 
@@ -61,7 +59,7 @@ fn cosine(k: usize) -> Ident {
 /// The statements of a program, and its outputs as expressions. `symbols` says how each symbol is written.
 pub fn statements(
     program: &Program<'_>,
-    symbols: &HashMap<u32, TokenStream>,
+    symbols: &Map<u32, TokenStream>,
     scalar: &ScalarTokens<'_>,
 ) -> (TokenStream, Vec<TokenStream>) {
     let real = &scalar.real;

@@ -1,13 +1,11 @@
 //! Common factors: `a·b + a·c` becomes `a·(b + c)`, greedily, the most frequent factor first.
 
-use std::collections::HashMap;
-
-use crate::algebra::{Expr, NodeView, Rational};
+use crate::algebra::{Expr, Map, NodeView, Rational};
 
 /// Rewrites every sum of an expression.
 #[derive(Default)]
 pub struct Factoring<'g> {
-    memo: HashMap<u32, Expr<'g>>,
+    memo: Map<u32, Expr<'g>>,
 }
 
 /// A term of a sum while factors are looked for.
@@ -77,7 +75,7 @@ impl<'g> Factoring<'g> {
 /// The sum of the terms with common factors pulled out.
 fn factor<'g>(like: Expr<'g>, terms: Vec<Term<'g>>) -> Expr<'g> {
     let graph = like.graph();
-    let mut count: HashMap<(u32, i32), (usize, Expr<'g>)> = HashMap::new();
+    let mut count: Map<(u32, i32), (usize, Expr<'g>)> = Map::default();
     for term in &terms {
         for &(f, n) in &term.factors {
             count.entry((f.key(), n.signum())).or_insert((0, f)).0 += 1;
@@ -87,8 +85,7 @@ fn factor<'g>(like: Expr<'g>, terms: Vec<Term<'g>>) -> Expr<'g> {
     let Some((&(_, sign), &(_, shared))) = best else {
         return shared_number(like, &terms);
     };
-    let (inside, outside): (Vec<_>, Vec<_>) =
-        terms.into_iter().partition(|t| t.exponent(shared).signum() == sign);
+    let (inside, outside): (Vec<_>, Vec<_>) = terms.into_iter().partition(|t| t.exponent(shared).signum() == sign);
     let inside: Vec<_> = inside.iter().map(|t| t.without(shared, sign)).collect();
     let inner = factor(like, inside).group_as_is();
     let product = graph.product(Rational::one(), [(shared, sign), (inner, 1)]);

@@ -1,26 +1,33 @@
 //! Hoisting: every part that depends on parameters alone is replaced by a constant.
 
-use std::collections::HashMap;
-
-use crate::algebra::{Expr, Graph, NodeView, Rational};
+use crate::algebra::{Expr, Graph, Map, NodeView, Rational};
 
 /// Terms up to which two definitions are compared in normal form.
 const LIMIT: usize = 64;
 
 /// Rewrites expressions and gathers the constants they need.
-pub struct Hoister<'g> {
+pub struct Hoister<'a, 'g> {
     graph: &'g Graph,
-    memo: HashMap<u32, Expr<'g>>,
-    constant: HashMap<u32, bool>,
+    memo: Map<u32, Expr<'g>>,
+    constant: Map<u32, bool>,
     /// (symbol, definition), in order of creation.
     constants: Vec<(Expr<'g>, Expr<'g>)>,
     /// Normal form of a definition → its symbol.
-    known: HashMap<u32, Expr<'g>>,
+    known: Map<u32, Expr<'g>>,
+    /// Symbols that stand for expressions of the arguments.
+    definitions: &'a Map<u32, Expr<'g>>,
 }
 
-impl<'g> Hoister<'g> {
-    pub fn new(graph: &'g Graph) -> Self {
-        Self { graph, memo: HashMap::new(), constant: HashMap::new(), constants: Vec::new(), known: HashMap::new() }
+impl<'a, 'g> Hoister<'a, 'g> {
+    pub fn new(graph: &'g Graph, definitions: &'a Map<u32, Expr<'g>>) -> Self {
+        Self {
+            graph,
+            memo: Map::default(),
+            constant: Map::default(),
+            constants: Vec::new(),
+            known: Map::default(),
+            definitions,
+        }
     }
 
     pub fn hoist(&mut self, outputs: &[Expr<'g>]) -> Vec<Expr<'g>> {
@@ -49,7 +56,11 @@ impl<'g> Hoister<'g> {
             return self.constant(e);
         }
         match e.view() {
-            NodeView::Number(_) | NodeView::Symbol(_) | NodeView::Opaque(_) => e,
+            NodeView::Symbol(_) => match self.definitions.get(&e.key()) {
+                Some(&definition) => self.visit(definition),
+                None => e,
+            },
+            NodeView::Number(_) | NodeView::Opaque(_) => e,
             NodeView::Call(function, argument) => {
                 let argument = self.visit(argument);
                 self.graph.call(function, argument)
@@ -57,8 +68,7 @@ impl<'g> Hoister<'g> {
             NodeView::Group(inner) => self.visit(inner).group_as_is(),
             NodeView::Product(_) => self.term(Rational::one(), e),
             NodeView::Sum(terms) => {
-                let (constant, variable): (Vec<_>, Vec<_>) =
-                    terms.into_iter().partition(|(_, e)| self.is_constant(*e));
+                let (constant, variable): (Vec<_>, Vec<_>) = terms.into_iter().partition(|(_, e)| self.is_constant(*e));
                 let mut parts: Vec<Expr<'g>> = variable.into_iter().map(|(c, e)| self.term(c, e)).collect();
                 if !constant.is_empty() {
                     let constant = self.graph.sum(constant);
@@ -91,7 +101,7 @@ impl<'g> Hoister<'g> {
         if e.as_number().is_some() {
             return e;
         }
-        let normal = e.expand(LIMIT).map_or(e, |p| p.to_expr());
+        let normal = if e.is_normal() { e } else { e.expand(LIMIT).map_or(e, |p| p.to_expr()) };
         if normal.as_number().is_some() {
             return normal;
         }

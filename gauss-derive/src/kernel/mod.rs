@@ -16,9 +16,7 @@ mod program;
 #[cfg(test)]
 mod tests;
 
-use std::collections::HashMap;
-
-use crate::algebra::{Evaluation, Expr, Graph};
+use crate::algebra::{Evaluation, Expr, Graph, Map};
 
 use hoist::Hoister;
 pub use program::{Counts, Instruction, Operand, Operation, Program};
@@ -44,31 +42,46 @@ pub struct Miscompiled {
 
 impl<'g> Kernel<'g> {
     /// Lowers functions given as lists of outputs, each in one or more equivalent arrangements, of which the cheapest
-    /// is taken. Every program is then run at a pseudo-random point and compared with its expressions.
-    pub fn lower(graph: &'g Graph, functions: &[Vec<Vec<Expr<'g>>>]) -> Result<Self, Miscompiled> {
-        let mut hoister = Hoister::new(graph);
+    /// is taken. `definitions` are symbols that stand for expressions of the arguments. Every program is then run at a
+    /// pseudo-random point and compared with its expressions.
+    pub fn lower(
+        graph: &'g Graph,
+        functions: &[Vec<Vec<Expr<'g>>>],
+        definitions: &Map<u32, Expr<'g>>,
+    ) -> Result<Self, Miscompiled> {
+        let mut hoister = Hoister::new(graph, definitions);
         let mut programs = Vec::with_capacity(functions.len());
         let mut chosen = Vec::with_capacity(functions.len());
         for arrangements in functions {
-            let cheapest = match arrangements.as_slice() {
-                [only] => only,
-                several => several
-                    .iter()
-                    .min_by_key(|outputs| Program::lower(&Hoister::new(graph).hoist(outputs)).counts().cost())
-                    .expect("a function has at least one arrangement"),
-            };
-            programs.push(Program::lower(&hoister.hoist(cheapest)));
-            chosen.push(cheapest);
+            let lowered = arrangements.iter().map(|outputs| (Program::lower(&hoister.hoist(outputs)), outputs));
+            let (program, outputs) = lowered
+                .min_by_key(|(program, _)| program.counts().cost())
+                .expect("a function has at least one arrangement");
+            programs.push(program);
+            chosen.push(outputs);
         }
-        let (constant_symbols, definitions): (Vec<_>, Vec<_>) = hoister.into_constants().into_iter().unzip();
-        let kernel = Self { constants: Program::lower(&definitions), functions: programs, constant_symbols };
-        kernel.check(graph, &chosen)?;
+        // Constants that only a dearer arrangement wanted are dropped.
+        let read: Vec<Expr<'g>> = programs.iter().flat_map(Program::symbols).collect();
+        let constants = hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(symbol));
+        let (constant_symbols, values): (Vec<_>, Vec<_>) = constants.unzip();
+        let kernel = Self { constants: Program::lower(&values), functions: programs, constant_symbols };
+        kernel.check(graph, &chosen, definitions)?;
         Ok(kernel)
     }
 
     /// Runs every program at a pseudo-random point against the expressions that it was lowered from.
-    fn check(&self, graph: &'g Graph, functions: &[&Vec<Expr<'g>>]) -> Result<(), Miscompiled> {
-        let point = sample_point(graph);
+    fn check(
+        &self,
+        graph: &'g Graph,
+        functions: &[&Vec<Expr<'g>>],
+        definitions: &Map<u32, Expr<'g>>,
+    ) -> Result<(), Miscompiled> {
+        let mut point = sample_point(graph);
+        let defined: Vec<(u32, f64)> = {
+            let mut evaluation = Evaluation::new(&point);
+            definitions.iter().map(|(&symbol, e)| (symbol, evaluation.value(*e))).collect()
+        };
+        point.extend(defined);
         let mut values = point.clone();
         let constants = self.constants.run(&point);
         values.extend(self.constant_symbols.iter().zip(constants).map(|(s, v)| (s.key(), v)));
@@ -87,7 +100,7 @@ impl<'g> Kernel<'g> {
 }
 
 /// A value of order one for every symbol, different for each.
-fn sample_point(graph: &Graph) -> HashMap<u32, f64> {
+fn sample_point(graph: &Graph) -> Map<u32, f64> {
     graph
         .symbol_keys()
         .into_iter()

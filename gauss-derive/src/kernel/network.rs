@@ -1,8 +1,6 @@
 //! Sums and products of many terms as a network of nodes, with the parts that several of them contain split off.
 
-use std::collections::HashMap;
-
-use crate::algebra::{Expr, Function, NodeView, Rational};
+use crate::algebra::{Expr, Function, Map, NodeView, Rational};
 
 /// Index of a node of a network.
 pub type Place = usize;
@@ -26,14 +24,13 @@ pub struct Network<'g> {
     pub nodes: Vec<Node<'g>>,
     /// (coefficient, node) of every output.
     pub outputs: Vec<(Rational, Place)>,
-    index: HashMap<Node<'g>, Place>,
-    memo: HashMap<u32, (Rational, Place)>,
+    index: Map<Node<'g>, Place>,
+    memo: Map<u32, (Rational, Place)>,
 }
 
 impl<'g> Network<'g> {
     pub fn new(outputs: &[Expr<'g>]) -> Self {
-        let mut network =
-            Self { nodes: Vec::new(), outputs: Vec::new(), index: HashMap::new(), memo: HashMap::new() };
+        let mut network = Self { nodes: Vec::new(), outputs: Vec::new(), index: Map::default(), memo: Map::default() };
         network.outputs = outputs.iter().map(|&e| network.visit(e)).collect();
         network.share_products();
         network.share_sums();
@@ -120,7 +117,7 @@ impl<'g> Network<'g> {
     /// Splits the most frequent pair of factors off all products that have it, until no pair occurs twice.
     fn share_products(&mut self) {
         loop {
-            let mut count: HashMap<(Place, Place), usize> = HashMap::new();
+            let mut count: Map<(Place, Place), usize> = Map::default();
             for node in &self.nodes {
                 let Node::Product(factors) = node else { continue };
                 let mut seen = Vec::new();
@@ -135,7 +132,10 @@ impl<'g> Network<'g> {
                     *count.entry(pair).or_default() += 1;
                 }
             }
-            let best = count.into_iter().filter(|&(_, n)| n >= 2).max_by_key(|&((a, b), n)| (n, usize::MAX - a, usize::MAX - b));
+            let best = count
+                .into_iter()
+                .filter(|&(_, n)| n >= 2)
+                .max_by_key(|&((a, b), n)| (n, usize::MAX - a, usize::MAX - b));
             let Some(((a, b), _)) = best else { return };
             let pair = self.place(Node::Product(vec![a, b]));
             let mut progress = false;
@@ -173,14 +173,17 @@ impl<'g> Network<'g> {
             pairs
         };
         loop {
-            let mut count: HashMap<Pair, usize> = HashMap::new();
+            let mut count: Map<Pair, usize> = Map::default();
             for node in &self.nodes {
                 let Node::Sum(terms) = node else { continue };
                 for pair in pairs(terms) {
                     *count.entry(pair).or_default() += 1;
                 }
             }
-            let best = count.into_iter().filter(|&(_, n)| n >= 2).max_by_key(|&((a, b, r), n)| (n, usize::MAX - a, usize::MAX - b, r));
+            let best = count
+                .into_iter()
+                .filter(|&(_, n)| n >= 2)
+                .max_by_key(|&((a, b, r), n)| (n, usize::MAX - a, usize::MAX - b, r));
             let Some(((a, b, ratio), _)) = best else { return };
             let pair = self.place(Node::Sum(vec![(Rational::one(), a), (ratio, b)]));
             let mut progress = false;
@@ -189,8 +192,7 @@ impl<'g> Network<'g> {
                 if place == pair || terms.len() < 3 {
                     continue;
                 }
-                let (Some(i), Some(j)) =
-                    (terms.iter().position(|t| t.1 == a), terms.iter().position(|t| t.1 == b))
+                let (Some(i), Some(j)) = (terms.iter().position(|t| t.1 == a), terms.iter().position(|t| t.1 == b))
                 else {
                     continue;
                 };

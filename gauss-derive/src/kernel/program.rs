@@ -1,8 +1,6 @@
 //! Straight-line programs: single assignment, no loops, no branches.
 
-use std::collections::HashMap;
-
-use crate::algebra::{Expr, Function, Rational};
+use crate::algebra::{Expr, Function, Map, Rational};
 
 use super::factor::Factoring;
 use super::network::{Network, Node, Place};
@@ -120,7 +118,7 @@ impl<'g> Program<'g> {
     }
 
     /// Interprets the program in double precision.
-    pub fn run(&self, symbols: &HashMap<u32, f64>) -> Vec<f64> {
+    pub fn run(&self, symbols: &Map<u32, f64>) -> Vec<f64> {
         let mut values: Vec<(f64, f64)> = Vec::with_capacity(self.instructions.len());
         let get = |operand: &Operand<'g>, values: &[(f64, f64)]| match operand {
             Operand::Symbol(e) => symbols.get(&e.key()).copied().unwrap_or(f64::NAN),
@@ -151,8 +149,8 @@ struct Writer<'g> {
     network: Network<'g>,
     /// How many nodes and outputs use each node.
     uses: Vec<usize>,
-    written: HashMap<Place, Operand<'g>>,
-    negated: HashMap<usize, Operand<'g>>,
+    written: Map<Place, Operand<'g>>,
+    negated: Map<usize, Operand<'g>>,
     instructions: Vec<Instruction<'g>>,
 }
 
@@ -174,7 +172,7 @@ impl<'g> Writer<'g> {
                 Node::Call(_, a) => open.push(*a),
             }
         }
-        Self { network, uses, written: HashMap::new(), negated: HashMap::new(), instructions: Vec::new() }
+        Self { network, uses, written: Map::default(), negated: Map::default(), instructions: Vec::new() }
     }
 
     fn write(mut self) -> Program<'g> {

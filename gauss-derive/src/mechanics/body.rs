@@ -122,8 +122,7 @@ impl<'g> Body<'g> {
         let zero = graph.zero();
         let mut symbols = Symbols { graph, list: Vec::new() };
         let mass = symbols.scalar("m", "m", Quantity::Mass);
-        let center_of_mass =
-            if shape.center_of_mass { symbols.vector("c", Quantity::CenterOfMass) } else { [zero; 3] };
+        let center_of_mass = if shape.center_of_mass { symbols.vector("c", Quantity::CenterOfMass) } else { [zero; 3] };
         let inertia = match shape.inertia {
             InertiaShape::Spherical => diagonal(graph, &[symbols.scalar("I", "I", Quantity::Inertia); 3]),
             InertiaShape::Principal => diagonal(graph, &symbols.vector::<3>("I", Quantity::Inertia)),
@@ -143,11 +142,8 @@ impl<'g> Body<'g> {
         });
         let displaced = shape.displaced_mass.then(|| {
             let mass = symbols.scalar("md", "m_d", Quantity::DisplacedMass);
-            let center = if shape.center_of_buoyancy {
-                symbols.vector("h", Quantity::CenterOfBuoyancy)
-            } else {
-                [zero; 3]
-            };
+            let center =
+                if shape.center_of_buoyancy { symbols.vector("h", Quantity::CenterOfBuoyancy) } else { [zero; 3] };
             (mass, center)
         });
         Self { mass, center_of_mass, inertia, added_mass, gravity, displaced, parameters: symbols.list }

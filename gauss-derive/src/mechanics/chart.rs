@@ -1,10 +1,9 @@
 //! Charts: each one is a choice of ψ in q̇ = ψ(q, z) (3.2) and nothing else.
 
-use std::collections::HashMap;
-
-use crate::algebra::{Expr, Graph};
+use crate::algebra::{Expr, Graph, Map};
 use crate::model::{Chart, Motion, RotationChart};
 
+use super::names::Name;
 use super::rotation::{coordinate_names, rotation_of};
 use super::vector::{Axes, Frame, Triple, Vector, cross_matrix};
 
@@ -34,10 +33,10 @@ pub struct Kinematics<'g> {
     /// The quasi-velocities z and, formally, their rates ż.
     pub speeds: Vec<Expr<'g>>,
     pub speed_rates: Vec<Expr<'g>>,
-    /// Names of the momenta ∂T/∂z, text and LaTeX.
-    pub momentum_names: Vec<(String, String)>,
+    /// Names of the momenta ∂T/∂z.
+    pub momentum_names: Vec<Name>,
     /// ψ: the rate of every symbol of the configuration.
-    pub rates: HashMap<u32, Expr<'g>>,
+    pub rates: Map<u32, Expr<'g>>,
     /// v_O, in the axes of the chart.
     pub velocity: Vector<'g>,
     /// ω, in the axes of the chart.
@@ -55,7 +54,7 @@ impl<'g> Kinematics<'g> {
     }
 
     /// ψ together with ż, for derivatives of what depends on z.
-    pub fn rates_with_accelerations(&self) -> HashMap<u32, Expr<'g>> {
+    pub fn rates_with_accelerations(&self) -> Map<u32, Expr<'g>> {
         let mut rates = self.rates.clone();
         rates.extend(self.speeds.iter().zip(&self.speed_rates).map(|(z, dz)| (z.key(), *dz)));
         rates
@@ -87,12 +86,16 @@ impl<'g> Builder<'g> {
         self.graph.symbol(text, latex, false)
     }
 
-    fn indexed(&self, name: (&str, &str), indices: &[usize]) -> Triple<'g> {
+    fn indexed(&self, name: &Name, indices: &[usize]) -> Triple<'g> {
         let mut triple = [self.graph.zero(); 3];
         for &i in indices {
-            triple[i] = self.variable(&format!("{}{}", name.0, i + 1), &format!("{}_{{{}}}", name.1, i + 1));
+            triple[i] = self.symbol(&name.index(i));
         }
         triple
+    }
+
+    fn symbol(&self, name: &Name) -> Expr<'g> {
+        self.graph.symbol(name.text.clone(), name.latex.clone(), false)
     }
 
     fn build(&self) -> Kinematics<'g> {
@@ -103,7 +106,7 @@ impl<'g> Builder<'g> {
             Motion::Planar => (&[0, 1], &[2]),
         };
         let active = translations.iter().copied().chain(rotations.iter().map(|k| k + 3)).collect();
-        let position = self.indexed(("b", "b"), translations);
+        let position = self.indexed(&Name::new("b", "b"), translations);
         match self.chart {
             Chart::Jet(rotation) => self.jet(rotation, translations, position, active),
             _ => self.group(translations, rotations, position, active),
@@ -122,8 +125,8 @@ impl<'g> Builder<'g> {
         let (graph, zero, one) = (self.graph, self.graph.zero(), self.graph.one());
         let planar = self.motion == Motion::Planar;
         let rotation: [Triple<'g>; 3] = if planar {
-            let cos = self.variable("cos(theta)", "\\cos\\vartheta");
-            let sin = self.variable("sin(theta)", "\\sin\\vartheta");
+            let cos = self.variable("cos(θ)", "\\cos\\vartheta");
+            let sin = self.variable("sin(θ)", "\\sin\\vartheta");
             [[cos, -sin, zero], [sin, cos, zero], [zero, zero, one]]
         } else {
             std::array::from_fn(|i| {
@@ -132,36 +135,30 @@ impl<'g> Builder<'g> {
                 })
             })
         };
-        let mut configuration: Vec<Expr<'g>> = if planar {
-            vec![rotation[0][0], rotation[1][0]]
-        } else {
-            rotation.iter().flatten().copied().collect()
-        };
+        let mut configuration: Vec<Expr<'g>> =
+            if planar { vec![rotation[0][0], rotation[1][0]] } else { rotation.iter().flatten().copied().collect() };
         configuration.extend(translations.iter().map(|&i| position[i]));
 
-        let hat = |text: &str, latex: &str| (format!("{text}^"), format!("\\hat{{{latex}}}"));
-        let (linear_name, angular_name, linear_momentum, angular_momentum, axes_linear, axes_angular) = match self.chart
-        {
-            Chart::LeftInvariant => {
-                (pair("u", "u"), pair("w", "\\omega"), pair("Q", "Q"), pair("G", "\\Gamma"), Axes::Body, Axes::Body)
-            }
+        let (u, omega, q, gamma) =
+            (Name::new("u", "u"), Name::new("ω", "\\omega"), Name::new("Q", "Q"), Name::new("Γ", "\\Gamma"));
+        // About k₃ = e₃ an angular velocity needs no hat.
+        let omega_hat = if planar { omega.clone() } else { omega.hat() };
+        let (names, momenta, axes_linear, axes_angular) = match self.chart {
+            Chart::LeftInvariant => ([u, omega], [q, gamma], Axes::Body, Axes::Body),
             Chart::RightInvariant => {
-                let angular = if planar { pair("w", "\\omega") } else { hat("w", "\\omega") };
-                (hat("xi", "\\xi"), angular, hat("Q", "Q"), hat("G", "\\Gamma"), Axes::Space, Axes::Space)
+                ([Name::new("ξ", "\\xi").hat(), omega_hat], [q.hat(), gamma.hat()], Axes::Space, Axes::Space)
             }
-            _ => {
-                let linear = pair("db", "\\dot b");
-                (linear, pair("w", "\\omega"), hat("Q", "Q"), pair("G", "\\Gamma"), Axes::Space, Axes::Body)
-            }
+            _ => ([Name::new("b", "b").dot(), omega], [q.hat(), gamma], Axes::Space, Axes::Body),
         };
-        let linear = self.indexed((&linear_name.0, &linear_name.1), translations);
-        let angular = if planar {
-            [zero, zero, self.variable(&angular_name.0, &angular_name.1)]
-        } else {
-            self.indexed((&angular_name.0, &angular_name.1), rotations)
+        let named = |[linear, angular]: [&Name; 2]| -> Vec<Name> {
+            let angular = rotations.iter().map(|&i| if planar { angular.clone() } else { angular.index(i) });
+            translations.iter().map(|&i| linear.index(i)).chain(angular).collect()
         };
-        let speeds: Vec<Expr<'g>> =
-            translations.iter().map(|&i| linear[i]).chain(rotations.iter().map(|&i| angular[i])).collect();
+        let speed_names = named([&names[0], &names[1]]);
+        let speeds: Vec<Expr<'g>> = speed_names.iter().map(|name| self.symbol(name)).collect();
+        let (mut linear, mut angular) = ([zero; 3], [zero; 3]);
+        translations.iter().zip(&speeds).for_each(|(&i, z)| linear[i] = *z);
+        rotations.iter().zip(&speeds[translations.len()..]).for_each(|(&i, z)| angular[i] = *z);
 
         let frame = Frame { graph, rotation };
         let vector = |axes: Axes, a: Triple<'g>| match axes {
@@ -178,7 +175,7 @@ impl<'g> Builder<'g> {
             _ => vector(axes_linear, linear),
         };
         // ψ: Ṙ = R [ω]× = [ω̂]× R (Poisson), ḃ = v_O.
-        let mut rates = HashMap::new();
+        let mut rates = Map::default();
         let turn = cross_matrix(&angular);
         for (i, row) in rotation.iter().enumerate() {
             for (j, entry) in row.iter().enumerate() {
@@ -196,18 +193,13 @@ impl<'g> Builder<'g> {
         for &i in translations {
             rates.insert(position[i].key(), in_space[i]);
         }
-        let index = |name: &(String, String), i: usize| (format!("{}{}", name.0, i + 1), format!("{}_{{{}}}", name.1, i + 1));
-        let momentum_names = translations
-            .iter()
-            .map(|&i| index(&linear_momentum, i))
-            .chain(rotations.iter().map(|&i| index(&angular_momentum, i)))
-            .collect();
+        let momentum_names = named([&momenta[0], &momenta[1]]);
         let kind = match self.motion {
             Motion::Free => ConfigurationKind::Pose,
             Motion::FixedPoint => ConfigurationKind::Rotation,
             Motion::Planar => ConfigurationKind::PlanePose,
         };
-        let speed_rates = self.speed_rates(&speeds);
+        let speed_rates = speed_names.iter().map(|name| self.symbol(&name.rate())).collect();
         Kinematics {
             motion: self.motion,
             chart: self.chart,
@@ -235,17 +227,14 @@ impl<'g> Builder<'g> {
     ) -> Kinematics<'g> {
         let graph = self.graph;
         let mut coordinates: Vec<Expr<'g>> = translations.iter().map(|&i| position[i]).collect();
-        let mut names: Vec<(String, String)> =
-            translations.iter().map(|&i| pair(&format!("b{}", i + 1), &format!("b_{{{}}}", i + 1))).collect();
-        for (text, latex) in coordinate_names(chart) {
-            coordinates.push(self.variable(text, latex));
-            names.push(pair(text, latex));
+        let mut names: Vec<Name> = translations.iter().map(|&i| Name::new("b", "b").index(i)).collect();
+        for name in coordinate_names(chart) {
+            coordinates.push(self.symbol(&name));
+            names.push(name);
         }
-        let speeds: Vec<Expr<'g>> = names
-            .iter()
-            .map(|(text, latex)| self.variable(&format!("d{text}"), &format!("\\dot {{{latex}}}")))
-            .collect();
-        let rates: HashMap<u32, Expr<'g>> = coordinates.iter().zip(&speeds).map(|(q, z)| (q.key(), *z)).collect();
+        let speed_names: Vec<Name> = names.iter().map(Name::dot).collect();
+        let speeds: Vec<Expr<'g>> = speed_names.iter().map(|name| self.symbol(name)).collect();
+        let rates: Map<u32, Expr<'g>> = coordinates.iter().zip(&speeds).map(|(q, z)| (q.key(), *z)).collect();
         let rotation = rotation_of(graph, chart, &coordinates[translations.len()..]);
         let spin: [Triple<'g>; 3] = std::array::from_fn(|i| {
             std::array::from_fn(|j| {
@@ -258,9 +247,8 @@ impl<'g> Builder<'g> {
         let frame = Frame { graph, rotation };
         let velocity = frame.space_vector(position.map(|e| e.derivative(&rates)));
         let angular_velocity = frame.body_vector(omega);
-        let momentum_names =
-            names.iter().map(|(text, latex)| (format!("p_{text}"), format!("p_{{{latex}}}"))).collect();
-        let speed_rates = self.speed_rates(&speeds);
+        let momentum_names = names.iter().map(|name| Name::new("p", "p").of(name)).collect();
+        let speed_rates = speed_names.iter().map(|name| self.symbol(&name.rate())).collect();
         Kinematics {
             motion: self.motion,
             chart: self.chart,
@@ -277,24 +265,4 @@ impl<'g> Builder<'g> {
             active,
         }
     }
-
-    fn speed_rates(&self, speeds: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        use crate::algebra::{Notation, print};
-        speeds
-            .iter()
-            .map(|&z| {
-                let (text, latex) = (print(z, Notation::Text), print(z, Notation::Latex));
-                let text = if text.starts_with('d') { format!("d{text}") } else { format!("d{text}/dt") };
-                let latex = latex.strip_prefix("\\dot ").map_or_else(
-                    || format!("\\dot {{{latex}}}"),
-                    |base| format!("\\ddot {base}"),
-                );
-                self.variable(&text, &latex)
-            })
-            .collect()
-    }
-}
-
-fn pair(text: &str, latex: &str) -> (String, String) {
-    (text.to_owned(), latex.to_owned())
 }

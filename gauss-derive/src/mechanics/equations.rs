@@ -1,151 +1,162 @@
 //! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is short.
 
-use std::collections::HashMap;
-
-use crate::algebra::{Expr, Notation, Polynomial, print};
+use crate::algebra::{Expr, Map, Notation, Polynomial, print};
 use crate::model::Chart;
 
 use super::methods::Scene;
+use super::names::Name;
 
-/// Terms up to which a quantity is printed multiplied out.
-const LIMIT: usize = 2000;
+/// Terms up to which a quantity is multiplied out to see how long it is.
+const LIMIT: usize = 400;
 /// Terms up to which a row is worth reading.
-const READABLE: usize = 40;
+const READABLE: usize = 24;
 
-/// A heading and its lines, in one notation.
-pub struct Section {
-    pub title: String,
-    pub lines: Vec<String>,
+/// One line.
+pub enum Row<'g> {
+    /// name = value.
+    Definition(Name, Expr<'g>),
+    /// d(momentum)/dt = bracket + force.
+    Balance { momentum: Name, bracket: Expr<'g>, force: Name },
+    /// left = right.
+    Equation(Expr<'g>, Expr<'g>),
+}
+
+impl Row<'_> {
+    pub fn print(&self, notation: Notation) -> String {
+        let name = |name: &Name| if notation == Notation::Latex { name.latex.clone() } else { name.text.clone() };
+        match self {
+            Row::Definition(left, right) => format!("{} = {}", name(left), print(*right, notation)),
+            Row::Balance { momentum, bracket, force } => {
+                let (rate, force) = (name(&momentum.time_derivative()), name(force));
+                if bracket.is_zero() {
+                    format!("{rate} = {force}")
+                } else {
+                    format!("{rate} = {} + {force}", print(*bracket, notation))
+                }
+            }
+            Row::Equation(left, right) => format!("{} = {}", print(*left, notation), print(*right, notation)),
+        }
+    }
+}
+
+/// A heading and its rows.
+pub struct Section<'g> {
+    pub title: Name,
+    pub rows: Vec<Row<'g>>,
+}
+
+/// The normal form of an expression if it is short enough to read.
+fn readable<'g>(e: Expr<'g>) -> Option<Polynomial<'g>> {
+    e.expand(LIMIT).filter(|p| p.len() <= READABLE)
+}
+
+/// An expression as a reader wants it.
+fn tidy(e: Expr<'_>) -> Expr<'_> {
+    readable(e).map_or(e, |p| p.collect())
 }
 
 impl<'g> Scene<'g> {
-    /// The equations in one notation, section by section.
-    pub fn equations(&self, notation: Notation) -> Vec<Section> {
-        let writer = Writer { scene: self, notation };
+    /// The equations, section by section; sections with nothing to say are left out.
+    pub fn equations(&self) -> Vec<Section<'g>> {
         let mut sections = vec![
-            writer.section("velocity of O and angular velocity", writer.velocities()),
-            writer.section("momenta p = dT/dz", writer.momenta()),
-            writer.section("Gauss condition (3.4): dp/dt - [Q.(da/dt + v_O x o) + G.do/dt] = R.a + M.o", writer.balance()),
-            writer.section("active forces", writer.forces()),
+            Section {
+                title: Name::new("velocity of O and angular velocity", "velocity of $O$ and angular velocity"),
+                rows: self.velocity_rows(),
+            },
+            Section {
+                title: Name::new("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$"),
+                rows: self.momentum_rows(),
+            },
+            Section { title: Name::new("Gauss condition (3.4)", "Gauss condition (3.4)"), rows: self.balance_rows() },
+            Section {
+                title: Name::new("active forces (generalised)", "active forces (generalised)"),
+                rows: self.force_rows(),
+            },
+            Section {
+                title: Name::new("velocity form A dz/dt = r", "velocity form $A \\dot z = r$"),
+                rows: self.velocity_form_rows().unwrap_or_default(),
+            },
         ];
-        if let Some(rows) = writer.velocity_form() {
-            sections.push(writer.section("velocity form A dz/dt = r", rows));
-        }
+        sections.retain(|s| !s.rows.is_empty());
         sections
     }
-}
 
-struct Writer<'a, 'g> {
-    scene: &'a Scene<'g>,
-    notation: Notation,
-}
-
-impl<'g> Writer<'_, 'g> {
-    fn section(&self, title: &str, lines: Vec<String>) -> Section {
-        Section { title: title.to_owned(), lines }
-    }
-
-    fn show(&self, e: Expr<'g>) -> String {
-        let tidy = match e.expand(LIMIT) {
-            Some(p) if p.len() <= READABLE => p.collect(),
-            _ => e,
-        };
-        print(tidy, self.notation)
-    }
-
-    fn equation(&self, left: &str, right: &str) -> String {
-        format!("{left} = {right}")
-    }
-
-    fn latex(&self) -> bool {
-        self.notation == Notation::Latex
-    }
-
-    /// A component of a vector as a name: `Q^1` or `\hat{Q}_{1}`; hatted in observer's axes.
-    fn velocities(&self) -> Vec<String> {
-        let kinematics = &self.scene.kinematics;
-        let mut lines = Vec::new();
-        let names = if self.latex() {
-            [("u", "\\hat u"), ("\\omega", "\\hat\\omega")]
-        } else {
-            [("u", "u^"), ("w", "w^")]
-        };
-        for ((body, space), vector) in names.into_iter().zip([&kinematics.velocity, &kinematics.angular_velocity]) {
-            for (name, components) in [(body, vector.body), (space, vector.space)] {
-                for (i, component) in components.into_iter().enumerate().filter(|(_, e)| !e.is_zero()) {
-                    let name = if self.latex() { format!("{name}_{{{}}}", i + 1) } else { format!("{name}{}", i + 1) };
-                    let value = self.show(component);
-                    // In its own chart a component is a quasi-velocity: nothing to say.
-                    if name.replace(' ', "") != value.replace(' ', "") {
-                        lines.push(self.equation(&name, &value));
+    /// Components of the velocities that are not quasi-velocities themselves.
+    fn velocity_rows(&self) -> Vec<Row<'g>> {
+        let kinematics = &self.kinematics;
+        let (u, omega) = (Name::new("u", "u"), Name::new("ω", "\\omega"));
+        let mut rows = Vec::new();
+        for (name, vector) in [(u, &kinematics.velocity), (omega, &kinematics.angular_velocity)] {
+            for (name, components) in [(name.clone(), vector.body), (name.hat(), vector.space)] {
+                for (i, component) in components.into_iter().enumerate() {
+                    if !component.is_zero() && !kinematics.speeds.contains(&component) {
+                        rows.push(Row::Definition(name.index(i), tidy(component)));
                     }
                 }
             }
         }
-        lines
+        rows
     }
 
-    fn momenta(&self) -> Vec<String> {
-        let names = self.momentum_names();
-        let momenta = self.scene.momentum();
-        names.iter().zip(momenta).map(|(name, p)| self.equation(name, &self.show(p))).collect()
-    }
-
-    fn momentum_names(&self) -> Vec<String> {
-        let names = &self.scene.kinematics.momentum_names;
-        names.iter().map(|(text, latex)| if self.latex() { latex.clone() } else { text.clone() }).collect()
-    }
-
-    /// R̂₁ … M₃, or one generalised force a coordinate.
-    fn force_names(&self) -> Vec<String> {
-        self.momentum_names()
-            .iter()
-            .map(|name| match self.scene.kinematics.chart {
-                Chart::Jet(_) => name.replacen('p', "F", 1),
-                _ => name.replace("\\Gamma", "M").replace('G', "M").replace('Q', "R"),
-            })
+    fn momentum_rows(&self) -> Vec<Row<'g>> {
+        let names = self.kinematics.momentum_names.iter().cloned();
+        let momenta: Option<Vec<_>> = self.momentum().into_iter().map(readable).collect();
+        if let Some(momenta) = momenta {
+            return names.zip(momenta).map(|(name, p)| Row::Definition(name, p.collect())).collect();
+        }
+        // Link by link: z → (u, ω) → (Q, Γ) → p.
+        let chain = self.printed_momenta();
+        let triples = [("u", "u"), ("ω", "\\omega"), ("Q", "Q"), ("Γ", "\\Gamma")];
+        let components = chain.twist.into_iter().chain(chain.linear).chain(chain.angular);
+        let body = components.enumerate().filter(|(k, _)| self.kinematics.active.contains(&(k % 6))).map(|(k, e)| {
+            let (text, latex) = triples[k / 3];
+            (Name::new(text, latex).index(k % 3), e)
+        });
+        // In a chart where a link is trivial it says x = x.
+        body.chain(names.zip(chain.conjugate))
+            .map(|(name, e)| (name, tidy(e)))
+            .filter(|(name, e)| print(*e, Notation::Text) != name.text)
+            .map(|(name, e)| Row::Definition(name, e))
             .collect()
     }
 
-    fn balance(&self) -> Vec<String> {
-        let bracket = self.scene.printed_bracket();
-        let rows = self.momentum_names().into_iter().zip(self.force_names()).zip(bracket);
-        rows.map(|((p, force), bracket)| {
-            let rate = if self.latex() { format!("\\frac{{d}}{{dt}} {p}") } else { format!("d{p}/dt") };
-            let right = if bracket.expand(LIMIT).is_some_and(|p| p.is_zero()) {
-                force
-            } else {
-                format!("{} + {force}", self.show(bracket))
-            };
-            self.equation(&rate, &right)
-        })
-        .collect()
+    /// dp/dt = [Q·(ȧ + v_O × o) + Γ·ȯ] + force.
+    fn balance_rows(&self) -> Vec<Row<'g>> {
+        let names = self.kinematics.momentum_names.iter().cloned().zip(self.force_names());
+        names
+            .zip(self.printed_bracket())
+            .map(|((momentum, force), bracket)| Row::Balance { momentum, bracket: tidy(bracket), force })
+            .collect()
     }
 
-    fn forces(&self) -> Vec<String> {
-        let forces = self.scene.generalised_forces();
-        self.force_names().iter().zip(forces).map(|(name, f)| self.equation(name, &self.show(f))).collect()
+    fn force_rows(&self) -> Vec<Row<'g>> {
+        let forces = self.generalised_forces().into_iter().map(tidy);
+        self.force_names().into_iter().zip(forces).map(|(name, f)| Row::Definition(name, f)).collect()
     }
 
     /// The rows with everything multiplied out; `None` when one would be too long to read.
-    fn velocity_form(&self) -> Option<Vec<String>> {
-        let kinematics = &self.scene.kinematics;
-        let graph = kinematics.frame.graph;
-        let residual = self.scene.collected_residual();
-        let at_rest: HashMap<u32, Expr<'g>> =
-            kinematics.speed_rates.iter().map(|dz| (dz.key(), graph.zero())).collect();
-        residual
+    fn velocity_form_rows(&self) -> Option<Vec<Row<'g>>> {
+        let zero = self.kinematics.frame.graph.zero();
+        let at_rest: Map<u32, Expr<'g>> = self.kinematics.speed_rates.iter().map(|dz| (dz.key(), zero)).collect();
+        self.collected_residual()
             .into_iter()
             .map(|row| {
-                let still = row.substitute(&at_rest).expand(LIMIT)?;
-                let whole = row.expand(LIMIT)?;
-                if whole.len() > READABLE {
-                    return None;
-                }
-                let moving = (whole.collect() - still.collect()).expand(LIMIT)?;
-                let show = |p: Polynomial<'g>| print(p.collect(), self.notation);
-                Some(self.equation(&show(moving), &show((-still.collect()).expand(LIMIT)?)))
+                let whole = readable(row)?.collect();
+                let still = whole.substitute(&at_rest);
+                Some(Row::Equation((whole - still).collected(LIMIT), (-still).collected(LIMIT)))
             })
             .collect()
+    }
+
+    /// R̂ and M where the momenta are Q̂ and Γ; F_θ where they are p_θ.
+    fn force_names(&self) -> Vec<Name> {
+        let renamed = |name: &Name| match self.kinematics.chart {
+            Chart::Jet(_) => Name::new(&name.text.replacen('p', "F", 1), &name.latex.replacen('p', "F", 1)),
+            _ => Name::new(
+                &name.text.replace('Γ', "M").replace('Q', "R"),
+                &name.latex.replace("\\Gamma", "M").replace('Q', "R"),
+            ),
+        };
+        self.kinematics.momentum_names.iter().map(renamed).collect()
     }
 }

@@ -3,9 +3,7 @@
 //! This is the definition that everything else is checked against: the equations that kernels are made from
 //! (`momentum`, `solution`) are arranged for speed, and must give the same residual.
 
-use std::collections::HashMap;
-
-use crate::algebra::Expr;
+use crate::algebra::{Expr, Map};
 
 use super::body::{AffineField, Body, integrate_product};
 use super::chart::Kinematics;
@@ -54,7 +52,7 @@ fn active_forces<'g>(body: &Body<'g>, partial: &AffineField<'g>) -> Expr<'g> {
 }
 
 /// What the impulse (Q_f, Γ_f) = M_A (u, ω) of the fluid adds: it pairs with w_α as the body's own momentum does.
-fn fluid<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>, z: Expr<'g>, along: &HashMap<u32, Expr<'g>>) -> Expr<'g> {
+fn fluid<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>, z: Expr<'g>, along: &Map<u32, Expr<'g>>) -> Expr<'g> {
     let frame = &kinematics.frame;
     let Some(added) = &body.added_mass else { return frame.graph.zero() };
     let u = frame.resolve(&kinematics.velocity, Axes::Body);
@@ -73,7 +71,7 @@ pub fn pairing<'g>(
     linear_momentum: &Vector<'g>,
     angular_momentum: &Vector<'g>,
     z: Expr<'g>,
-    along: &HashMap<u32, Expr<'g>>,
+    along: &Map<u32, Expr<'g>>,
 ) -> Expr<'g> {
     let frame = &kinematics.frame;
     let omega = &kinematics.angular_velocity;

@@ -1,15 +1,15 @@
 //! Every method of a kernel as expressions of its arguments, in the chosen chart.
 
 use std::cmp::Ordering;
-use std::collections::HashMap;
 
-use crate::algebra::{Expr, Graph, solve};
+use crate::algebra::{Expr, Graph, Map, solve};
 
 use super::body::{Body, BodyShape};
 use super::chart::{ConfigurationKind, Kinematics};
 use super::momentum::{
     ARRANGEMENTS, Arrangement, Formal, KineticMatrix, LinearAcceleration, Weight, solve_balance, twist_of_momentum,
 };
+use super::names::Name;
 use super::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
 use crate::model::{Chart, Motion};
 
@@ -62,6 +62,14 @@ pub struct Scene<'g> {
     angular_rows: Vec<Triple<'g>>,
 }
 
+/// The chain z → (u, ω) → (Q, Γ_O) → p, each link in terms of the names of the one before; body axes.
+pub struct PrintedMomenta<'g> {
+    pub twist: [Expr<'g>; 6],
+    pub linear: Triple<'g>,
+    pub angular: Triple<'g>,
+    pub conjugate: Vec<Expr<'g>>,
+}
+
 impl<'g> Scene<'g> {
     pub fn new(graph: &'g Graph, motion: Motion, chart: Chart, shape: BodyShape) -> Self {
         let up = if motion == Motion::Planar { 1 } else { 2 };
@@ -73,11 +81,11 @@ impl<'g> Scene<'g> {
         let momenta = kinematics
             .momentum_names
             .iter()
-            .map(|(text, latex)| graph.symbol(text.clone(), latex.clone(), false))
+            .map(|name| graph.symbol(name.text.clone(), name.latex.clone(), false))
             .collect();
         let twist = std::array::from_fn(|k| {
-            let (name, latex) = if k < 3 { ("u", "u") } else { ("w", "\\omega") };
-            graph.symbol(format!("{name}{}", k % 3 + 1), format!("{latex}_{{{}}}", k % 3 + 1), false)
+            let name = if k < 3 { Name::new("u", "u") } else { Name::new("ω", "\\omega") }.index(k % 3);
+            graph.symbol(name.text, name.latex, false)
         });
         let rows = |velocity: &Vector<'g>| {
             let in_axes = |axes| -> Vec<Triple<'g>> {
@@ -263,7 +271,7 @@ impl<'g> Scene<'g> {
         let formal = |a: &Triple<'g>| a.map(|e| if e.is_zero() { e } else { graph.symbol("P", "P", false) });
         let symbols = Pair { linear: formal(&pair.linear), angular: formal(&pair.angular) };
         let bracket = self.bracket(symbols);
-        let mut replacement: HashMap<u32, Expr<'g>> = HashMap::new();
+        let mut replacement: Map<u32, Expr<'g>> = Map::default();
         for (symbols, values) in [(symbols.linear, pair.linear), (symbols.angular, pair.angular)] {
             replacement.extend(symbols.iter().zip(values).map(|(s, v)| (s.key(), v.group())));
         }
@@ -292,31 +300,64 @@ impl<'g> Scene<'g> {
             .iter()
             .zip(&self.angular_rows)
             .zip(constant)
-            .map(|((a, o), turned)| {
-                turned + dot(&momentum.linear, &rate(a)) + dot(&momentum.angular, &rate(o))
-            })
+            .map(|((a, o), turned)| turned + dot(&momentum.linear, &rate(a)) + dot(&momentum.angular, &rate(o)))
             .collect()
     }
 
-    /// The bracket in terms of named momenta: p itself where (Q, Γ) follow from it without division, else Q and Γ_O.
+    /// The bracket for a reader: in terms of p where (Q, Γ) follow from p without division, else of Q and Γ_O.
     pub fn printed_bracket(&self) -> Vec<Expr<'g>> {
         if self.kinematics.kind != ConfigurationKind::Coordinates {
             return self.bracket(self.momentum_pair(&self.momenta));
         }
-        let graph = self.kinematics.frame.graph;
-        let named = |text: &str, latex: &str, axes: &[usize]| -> Triple<'g> {
-            std::array::from_fn(|i| {
-                if axes.contains(&i) {
-                    graph.symbol(format!("{text}{}", i + 1), format!("{latex}_{{{}}}", i + 1), false)
-                } else {
-                    graph.zero()
-                }
-            })
+        let (q, gamma) = self.momentum_symbols();
+        let uncoupled = (0..3).all(|i| (3..6).all(|j| self.matrix.entries[i][j].is_zero()));
+        // Q = μ v_O needs no name: v_O × Q is then seen to vanish.
+        let linear = match self.matrix.isotropic {
+            Some(mu) if uncoupled => self.kinematics.frame.resolve(&self.kinematics.velocity.times(mu), self.linear_in),
+            _ => q,
         };
-        self.bracket(Pair {
-            linear: named("Q^", "\\hat{Q}", &self.kinematics.linear_axes()),
-            angular: named("G", "\\Gamma", &self.kinematics.angular_axes()),
-        })
+        self.bracket(Pair { linear, angular: gamma })
+    }
+
+    /// Q and Γ_O as names, in the axes of the rows.
+    fn momentum_symbols(&self) -> (Triple<'g>, Triple<'g>) {
+        let named = |name: Name, axes: Axes, on: &[usize]| -> Triple<'g> {
+            let name = if axes == Axes::Space { name.hat() } else { name };
+            let mut triple = self.zero();
+            for &i in on {
+                let name = name.index(i);
+                triple[i] = self.kinematics.frame.graph.symbol(name.text, name.latex, false);
+            }
+            triple
+        };
+        (
+            named(Name::new("Q", "Q"), self.linear_in, &self.kinematics.linear_axes()),
+            named(Name::new("Γ", "\\Gamma"), self.angular_in, &self.kinematics.angular_axes()),
+        )
+    }
+
+    /// p in terms of names for Q and Γ_O, and their components in body axes in terms of the twist: for readers of
+    /// scenes whose p would be too long in terms of z.
+    pub fn printed_momenta(&self) -> PrintedMomenta<'g> {
+        let frame = &self.kinematics.frame;
+        let symbol = |name: Name| frame.graph.symbol(name.text, name.latex, false);
+        let triple = |name: Name, axes: &[usize]| -> Triple<'g> {
+            std::array::from_fn(|i| if axes.contains(&i) { symbol(name.index(i)) } else { frame.graph.zero() })
+        };
+        let on = |first: usize| -> Triple<'g> {
+            let kept = |i: usize| self.kinematics.active.contains(&(first + i));
+            std::array::from_fn(|i| if kept(i) { self.twist[first + i] } else { frame.graph.zero() })
+        };
+        let (u, omega) = (on(0), on(3));
+        let linear = add(&self.matrix.block(0, 0, &u), &self.matrix.block(0, 3, &omega));
+        let q = triple(Name::new("Q", "Q"), &self.kinematics.linear_axes());
+        let gamma = triple(Name::new("Γ", "\\Gamma"), &self.kinematics.angular_axes());
+        PrintedMomenta {
+            twist: self.body_twist(),
+            linear,
+            angular: self.matrix.angular_momentum(&u, &omega),
+            conjugate: self.project(self.resolve(&frame.body_vector(q), &frame.body_vector(gamma))),
+        }
     }
 
     /// ∂C/∂ż with what cancels gone.
@@ -363,10 +404,7 @@ impl<'g> Scene<'g> {
             }
         };
         let angular = frame.resolve(&angular, self.angular_in);
-        let right = Pair {
-            linear: subtract(&linear, &still(&velocity)),
-            angular: subtract(&angular, &still(&omega)),
-        };
+        let right = Pair { linear: subtract(&linear, &still(&velocity)), angular: subtract(&angular, &still(&omega)) };
         self.lift(right)
     }
 
@@ -437,7 +475,7 @@ impl<'g> Scene<'g> {
     /// C up to a constant in ż: its gradient is linear in ż, so `C = ½ ż·(∂C/∂ż(ż) + ∂C/∂ż(0))`.
     fn constraint_function(&self, residual: &[Expr<'g>]) -> Expr<'g> {
         let graph = self.kinematics.frame.graph;
-        let at_rest: HashMap<u32, Expr<'g>> =
+        let at_rest: Map<u32, Expr<'g>> =
             self.kinematics.speed_rates.iter().map(|dz| (dz.key(), graph.zero())).collect();
         residual
             .iter()

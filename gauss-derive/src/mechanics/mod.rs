@@ -15,7 +15,12 @@ mod equations;
 mod gauss;
 mod methods;
 mod momentum;
+mod names;
+#[cfg(test)]
+mod proof;
 mod rotation;
+#[cfg(test)]
+mod snapshots;
 #[cfg(test)]
 pub mod tests;
 mod vector;

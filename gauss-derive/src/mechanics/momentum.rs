@@ -1,12 +1,12 @@
 //! Momentum of body and fluid, the forces that act, and the balance in body axes solved for the accelerations.
 
-use std::collections::HashMap;
-
-use crate::algebra::{Expr, Graph, inverse_of_symmetric};
+use crate::algebra::{Expr, Graph, Map, inverse_of_symmetric};
 
 use super::body::{AffineField, Body, integrate_product};
 use super::chart::Kinematics;
-use super::vector::{Axes, Frame, Triple, Vector, add, apply_block, cross, cross_matrix, dot, is_zero, scale, subtract};
+use super::vector::{
+    Axes, Frame, Triple, Vector, add, apply_block, cross, cross_matrix, dot, is_zero, scale, subtract,
+};
 
 /// Terms that a component of a balance may have before it is left as it is.
 const LIMIT: usize = 600;
@@ -44,9 +44,9 @@ impl<'g> KineticMatrix<'g> {
             })
             .collect();
         let isotropic = linear_axes.first().map(|&k| entries[k][k]).filter(|mu| {
-            linear_axes.iter().all(|&i| {
-                linear_axes.iter().all(|&j| entries[i][j] == if i == j { *mu } else { graph.zero() })
-            })
+            linear_axes
+                .iter()
+                .all(|&i| linear_axes.iter().all(|&j| entries[i][j] == if i == j { *mu } else { graph.zero() }))
         });
         Self { entries, isotropic }
     }
@@ -141,19 +141,19 @@ impl<'g> Formal<'g> {
         };
         Self {
             u: on(&kinematics.linear_axes(), "u", "u"),
-            omega: on(&kinematics.angular_axes(), "w", "\\omega"),
+            omega: on(&kinematics.angular_axes(), "ω", "\\omega"),
             gravity: on(&[0, 1, 2], "gb", "\\hat g"),
         }
     }
 
     /// Replaces the formal components by what they are in a chart.
-    pub fn realisation(&self, kinematics: &Kinematics<'g>, weight: Option<&Weight<'g>>) -> HashMap<u32, Expr<'g>> {
+    pub fn realisation(&self, kinematics: &Kinematics<'g>, weight: Option<&Weight<'g>>) -> Map<u32, Expr<'g>> {
         let frame = &kinematics.frame;
         let u = frame.resolve(&kinematics.velocity, Axes::Body);
         let omega = frame.resolve(&kinematics.angular_velocity, Axes::Body);
         let zero = frame.zero();
         let gravity = weight.map_or(zero.body, |w| frame.resolve(&frame.space_vector(w.gravity), Axes::Body));
-        let mut map = HashMap::new();
+        let mut map = Map::default();
         for (formal, real) in [(&self.u, u), (&self.omega, omega), (&self.gravity, gravity)] {
             map.extend(formal.iter().zip(real).filter(|(f, _)| !f.is_zero()).map(|(f, r)| (f.key(), r.group())));
         }
@@ -215,7 +215,7 @@ pub fn solve_balance<'g>(
     let q = add(&matrix.block(0, 0, &formal.u), &matrix.block(0, 3, &formal.omega)).map(Expr::group);
     let gamma = matrix.angular_momentum(&formal.u, &formal.omega).map(Expr::group);
     // Rates of the formal components while the unknowns are zero: u̇ = a − ω × u when the unknown is a = dv_O/dt.
-    let mut still = HashMap::new();
+    let mut still = Map::default();
     if matrix.isotropic.is_some() {
         let drift = cross(&formal.u, &formal.omega);
         still.extend(formal.u.iter().zip(drift).map(|(u, rate)| (u.key(), rate)));
@@ -235,10 +235,9 @@ pub fn solve_balance<'g>(
     match matrix.isotropic {
         // Translation eliminated first: a = (R − bias − M₁₂ ω̇)/μ.
         Some(mu) => {
-            let linear_bias = tidy(frame.derivative(&frame.body_vector(coupling), &HashMap::new(), &omega).body);
+            let linear_bias = tidy(frame.derivative(&frame.body_vector(coupling), &Map::default(), &omega).body);
             let per_mass = mu.recip();
-            let weight_in_body =
-                weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
+            let weight_in_body = weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
             let inner = scale(per_mass, &subtract(&linear_bias, &weight_in_body));
             let schur: Vec<Vec<Expr<'g>>> = angular_axes
                 .iter()
@@ -257,11 +256,16 @@ pub fn solve_balance<'g>(
                 a if is_zero(&a) => a,
                 a => a.map(Expr::group),
             };
-            Balance { linear_bias, angular_bias, linear: LinearAcceleration::Observed(Vector { body: body_part, ..linear }), angular }
+            Balance {
+                linear_bias,
+                angular_bias,
+                linear: LinearAcceleration::Observed(Vector { body: body_part, ..linear }),
+                angular,
+            }
         }
         None => {
             let weight_in_body = weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
-            let linear_rate = frame.derivative(&frame.body_vector(q), &HashMap::new(), &omega).body;
+            let linear_rate = frame.derivative(&frame.body_vector(q), &Map::default(), &omega).body;
             let linear_bias = tidy(subtract(&linear_rate, &weight_in_body));
             let mut right = pick(&linear_bias, &kinematics.linear_axes());
             right.extend(pick(&angular_bias, &angular_axes));

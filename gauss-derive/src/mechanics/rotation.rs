@@ -3,28 +3,26 @@
 use crate::algebra::{Expr, Graph};
 use crate::model::RotationChart;
 
+use super::names::Name;
 use super::vector::{Triple, cross_matrix, dot};
 
-/// Names of a rotation chart's coordinates, text and LaTeX.
-pub fn coordinate_names(chart: RotationChart) -> Vec<(&'static str, &'static str)> {
+/// Names of a rotation chart's coordinates.
+pub fn coordinate_names(chart: RotationChart) -> Vec<Name> {
+    let (phi, theta, psi) = (Name::new("φ", "\\varphi"), Name::new("θ", "\\vartheta"), Name::new("ψ", "\\psi"));
     match chart {
-        // Yaw, pitch, roll about z, y, x wherever they stand; precession, nutation, spin for the proper Euler angles.
-        RotationChart::Euler(axes) if axes[0] == axes[2] => {
-            vec![("phi", "\\varphi"), ("theta", "\\vartheta"), ("psi", "\\psi")]
-        }
+        // Precession, nutation, spin for the proper Euler angles; roll, pitch, yaw about x, y, z wherever they stand.
+        RotationChart::Euler(axes) if axes[0] == axes[2] => vec![phi, theta, psi],
         RotationChart::Euler(axes) => axes
             .iter()
             .map(|axis| match axis {
-                0 => ("phi", "\\varphi"),
-                1 => ("theta", "\\vartheta"),
-                _ => ("psi", "\\psi"),
+                0 => phi.clone(),
+                1 => theta.clone(),
+                _ => psi.clone(),
             })
             .collect(),
-        RotationChart::Rodrigues => vec![("g1", "g_1"), ("g2", "g_2"), ("g3", "g_3")],
-        RotationChart::ModifiedRodrigues => {
-            vec![("s1", "\\sigma_1"), ("s2", "\\sigma_2"), ("s3", "\\sigma_3")]
-        }
-        RotationChart::Angle => vec![("theta", "\\vartheta")],
+        RotationChart::Rodrigues => (0..3).map(|i| Name::new("g", "g").index(i)).collect(),
+        RotationChart::ModifiedRodrigues => (0..3).map(|i| Name::new("σ", "\\sigma").index(i)).collect(),
+        RotationChart::Angle => vec![theta],
     }
 }
 

@@ -1,8 +1,6 @@
 //! Vectors of the observer's space, each part held in the frame where it is natural.
 
-use std::collections::HashMap;
-
-use crate::algebra::{Expr, Graph};
+use crate::algebra::{Expr, Graph, Map};
 
 /// Three components.
 pub type Triple<'g> = [Expr<'g>; 3];
@@ -132,13 +130,9 @@ impl<'g> Frame<'g> {
     }
 
     /// The observer's derivative: components along the flow, and ω × for the part that turns with the body.
-    pub fn derivative(
-        &self,
-        a: &Vector<'g>,
-        rates: &HashMap<u32, Expr<'g>>,
-        angular_velocity: &Vector<'g>,
-    ) -> Vector<'g> {
-        let components = Vector { body: a.body.map(|e| e.derivative(rates)), space: a.space.map(|e| e.derivative(rates)) };
+    pub fn derivative(&self, a: &Vector<'g>, rates: &Map<u32, Expr<'g>>, angular_velocity: &Vector<'g>) -> Vector<'g> {
+        let components =
+            Vector { body: a.body.map(|e| e.derivative(rates)), space: a.space.map(|e| e.derivative(rates)) };
         if is_zero(&a.body) {
             return components;
         }

@@ -59,21 +59,13 @@ impl Clause {
     pub(super) fn written(&self) -> String {
         match &self.value {
             Value::Equals(tokens) => format!("{} = {}", self.name, written(tokens)),
-            Value::Brackets(group) => format!(
-                "{}{}",
-                self.name,
-                written(&[TokenTree::Group(group.clone())])
-            ),
+            Value::Brackets(group) => format!("{}{}", self.name, written(&[TokenTree::Group(group.clone())])),
             Value::Absent | Value::Malformed => self.name.to_string(),
         }
     }
 
     /// The value as a bare word of `table`. Mistakes are noted, with `table` for the remedy.
-    pub(super) fn bare_word<T: Copy>(
-        &self,
-        table: &Table<T>,
-        context: &mut Context,
-    ) -> Option<Word> {
+    pub(super) fn bare_word<T: Copy>(&self, table: &Table<T>, context: &mut Context) -> Option<Word> {
         let name = &self.name;
         let tokens = match &self.value {
             Value::Malformed => return None,
@@ -81,10 +73,7 @@ impl Clause {
             Value::Absent => {
                 context.error(
                     name.span(),
-                    format!(
-                        "`{name}` needs a value; write `{name} = …` with {}",
-                        names::list(table)
-                    ),
+                    format!("`{name}` needs a value; write `{name} = …` with {}", names::list(table)),
                 );
                 return None;
             }
@@ -95,10 +84,8 @@ impl Clause {
                 } else {
                     format!("write `{name} = {inner}`")
                 };
-                context.error(
-                    group.span_open(),
-                    format!("the value of `{name}` follows `=`, without brackets; {remedy}"),
-                );
+                context
+                    .error(group.span_open(), format!("the value of `{name}` follows `=`, without brackets; {remedy}"));
                 return None;
             }
         };
@@ -111,9 +98,7 @@ impl Clause {
             None => return None,
         };
         let (arguments, rest) = match rest.split_first() {
-            Some((TokenTree::Group(group), rest))
-                if group.delimiter() == Delimiter::Parenthesis =>
-            {
+            Some((TokenTree::Group(group), rest)) if group.delimiter() == Delimiter::Parenthesis => {
                 (Some(group.clone()), rest)
             }
             _ => (None, rest),
@@ -129,20 +114,15 @@ impl Clause {
             );
             return None;
         }
-        Some(Word {
-            ident: ident.clone(),
-            arguments,
-        })
+        Some(Word { ident: ident.clone(), arguments })
     }
 
     /// The clause without its last `dropped` tokens.
     fn written_until(&self, dropped: usize) -> String {
         match &self.value {
-            Value::Equals(tokens) => format!(
-                "{} = {}",
-                self.name,
-                written(&tokens[..tokens.len().saturating_sub(dropped)])
-            ),
+            Value::Equals(tokens) => {
+                format!("{} = {}", self.name, written(&tokens[..tokens.len().saturating_sub(dropped)]))
+            }
             _ => self.name.to_string(),
         }
     }
@@ -158,9 +138,7 @@ pub(super) fn not_a_word<T: Copy>(
     context: &mut Context,
 ) {
     let quoted = match token {
-        TokenTree::Literal(literal) => syn::parse_str::<LitStr>(&literal.to_string())
-            .ok()
-            .map(|text| text.value()),
+        TokenTree::Literal(literal) => syn::parse_str::<LitStr>(&literal.to_string()).ok().map(|text| text.value()),
         _ => None,
     };
     let message = match quoted {
@@ -179,73 +157,40 @@ pub(super) fn not_a_word<T: Copy>(
             };
             format!("`{owner}` takes a bare word, not a string; {remedy}")
         }
-        None => format!(
-            "`{owner}` takes a word, found {}; expected {}",
-            found(token),
-            names::list(table)
-        ),
+        None => format!("`{owner}` takes a word, found {}; expected {}", found(token), names::list(table)),
     };
     context.error(start(token), message);
 }
 
 /// All clauses of the `gauss` attributes among `attributes`, in order.
-pub(super) fn clauses(
-    attributes: &[Attribute],
-    place: Place,
-    context: &mut Context,
-) -> Vec<Clause> {
+pub(super) fn clauses(attributes: &[Attribute], place: Place, context: &mut Context) -> Vec<Clause> {
     let mut clauses = Vec::new();
-    for attribute in attributes
-        .iter()
-        .filter(|attribute| attribute.path().is_ident("gauss"))
-    {
+    for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("gauss")) {
         match &attribute.meta {
             Meta::List(list) if !matches!(list.delimiter, MacroDelimiter::Paren(_)) => {
                 context.error_at(
                     &list.path,
-                    format!(
-                        "`gauss` takes round brackets; write `#[gauss(…)]` with {}",
-                        place.example()
-                    ),
+                    format!("`gauss` takes round brackets; write `#[gauss(…)]` with {}", place.example()),
                 );
             }
-            Meta::List(list) if !list.tokens.is_empty() => {
-                split(list.tokens.clone(), place, &mut clauses, context)
-            }
+            Meta::List(list) if !list.tokens.is_empty() => split(list.tokens.clone(), place, &mut clauses, context),
             Meta::List(list) => {
-                context.error_at(
-                    &list.path,
-                    format!(
-                        "`#[gauss()]` says nothing; write {} or remove it",
-                        place.example()
-                    ),
-                );
+                context
+                    .error_at(&list.path, format!("`#[gauss()]` says nothing; write {} or remove it", place.example()));
             }
             Meta::Path(path) => {
                 context.error_at(
                     path,
-                    format!(
-                        "`#[gauss]` says nothing; write `#[gauss(…)]` with {} or remove it",
-                        place.example()
-                    ),
+                    format!("`#[gauss]` says nothing; write `#[gauss(…)]` with {} or remove it", place.example()),
                 );
             }
             Meta::NameValue(pair) => {
                 let remedy = match &pair.value {
-                    Expr::Lit(ExprLit {
-                        lit: Lit::Str(text),
-                        ..
-                    }) => format!("write `#[gauss({})]`", text.value()),
-                    Expr::Path(word) => format!(
-                        "write `#[gauss({})]`",
-                        written(&flat(word.to_token_stream()))
-                    ),
+                    Expr::Lit(ExprLit { lit: Lit::Str(text), .. }) => format!("write `#[gauss({})]`", text.value()),
+                    Expr::Path(word) => format!("write `#[gauss({})]`", written(&flat(word.to_token_stream()))),
                     _ => format!("write `#[gauss(…)]` with {}", place.example()),
                 };
-                context.error_at(
-                    &pair.path,
-                    format!("`gauss` takes its clauses in brackets, not after `=`; {remedy}"),
-                );
+                context.error_at(&pair.path, format!("`gauss` takes its clauses in brackets, not after `=`; {remedy}"));
             }
         }
     }
@@ -259,10 +204,7 @@ fn split(tokens: TokenStream, place: Place, clauses: &mut Vec<Clause>, context: 
         match token {
             TokenTree::Punct(comma) if comma.as_char() == ',' => {
                 if piece.is_empty() {
-                    context.error(
-                        comma.span(),
-                        format!("expected {} before `,`", place.example()),
-                    );
+                    context.error(comma.span(), format!("expected {} before `,`", place.example()));
                 } else {
                     clauses.extend(clause(std::mem::take(&mut piece), place, context));
                 }
@@ -285,17 +227,11 @@ fn clause(piece: Vec<TokenTree>, place: Place, context: &mut Context) -> Option<
                 Ok(text) => format!("write `#[gauss({})]` without quotes", text.value()),
                 Err(_) => format!("write {}", place.example()),
             };
-            context.error(
-                literal.span(),
-                format!("`gauss` takes words, found {literal}; {remedy}"),
-            );
+            context.error(literal.span(), format!("`gauss` takes words, found {literal}; {remedy}"));
             return None;
         }
         other => {
-            context.error(
-                start(&other),
-                format!("expected {}, found {}", place.example(), found(&other)),
-            );
+            context.error(start(&other), format!("expected {}, found {}", place.example(), found(&other)));
             return None;
         }
     };
@@ -304,38 +240,24 @@ fn clause(piece: Vec<TokenTree>, place: Place, context: &mut Context) -> Option<
         Some(TokenTree::Punct(equals)) if equals.as_char() == '=' => {
             let rest: Vec<TokenTree> = tokens.collect();
             if rest.is_empty() {
-                context.error(
-                    equals.span(),
-                    format!("nothing follows `{name} =`; write a value or remove the clause"),
-                );
+                context.error(equals.span(), format!("nothing follows `{name} =`; write a value or remove the clause"));
                 Value::Malformed
             } else {
                 Value::Equals(rest)
             }
         }
-        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
-            match tokens.next() {
-                None => Value::Brackets(group),
-                Some(extra) => {
-                    context.error(
-                        start(&extra),
-                        format!(
-                            "expected `,` after `{name}(…)`, found {}; separate clauses by commas",
-                            found(&extra)
-                        ),
-                    );
-                    Value::Malformed
-                }
+        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => match tokens.next() {
+            None => Value::Brackets(group),
+            Some(extra) => {
+                context.error(
+                    start(&extra),
+                    format!("expected `,` after `{name}(…)`, found {}; separate clauses by commas", found(&extra)),
+                );
+                Value::Malformed
             }
-        }
+        },
         Some(other) => {
-            context.error(
-                start(&other),
-                format!(
-                    "expected `=` or `,` after `{name}`, found {}",
-                    found(&other)
-                ),
-            );
+            context.error(start(&other), format!("expected `=` or `,` after `{name}`, found {}", found(&other)));
             Value::Malformed
         }
     };
@@ -347,9 +269,7 @@ pub(super) fn flat(tokens: TokenStream) -> Vec<TokenTree> {
     let mut flattened = Vec::new();
     for token in tokens {
         match token {
-            TokenTree::Group(group) if group.delimiter() == Delimiter::None => {
-                flattened.extend(flat(group.stream()))
-            }
+            TokenTree::Group(group) if group.delimiter() == Delimiter::None => flattened.extend(flat(group.stream())),
             other => flattened.push(other),
         }
     }

@@ -46,16 +46,8 @@ pub(super) struct Reader<'a> {
 }
 
 /// Reads the named fields of a struct.
-pub(super) fn read<'a>(
-    named: &'a FieldsNamed,
-    generics: &Generics,
-    context: &mut Context,
-) -> Reader<'a> {
-    let mut reader = Reader {
-        fields: Vec::new(),
-        meant: Vec::new(),
-        unsupported: false,
-    };
+pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, context: &mut Context) -> Reader<'a> {
+    let mut reader = Reader { fields: Vec::new(), meant: Vec::new(), unsupported: false };
     for field in &named.named {
         // A field of a struct with named fields has a name.
         let Some(ident) = &field.ident else { continue };
@@ -68,10 +60,7 @@ pub(super) fn read<'a>(
                 None => role = Some(claim),
                 Some(first) if first.role == claim.role => context.error(
                     claim.span,
-                    format!(
-                        "`{}` is written twice on the field `{ident}`; write it once",
-                        claim.role.word()
-                    ),
+                    format!("`{}` is written twice on the field `{ident}`; write it once", claim.role.word()),
                 ),
                 Some(first) => {
                     context.error(
@@ -109,12 +98,7 @@ impl Reader<'_> {
             return None;
         };
         let (form, malformed) = read_form(role, clause, context);
-        Some(Claim {
-            role,
-            span,
-            form,
-            malformed,
-        })
+        Some(Claim { role, span, form, malformed })
     }
 
     /// Notes why a clause is no role.
@@ -127,7 +111,12 @@ impl Reader<'_> {
         }
         if CLAUSES.iter().any(|(name, _)| *name == word) {
             let written = clause.written();
-            context.error(span, format!("`{word}` is a clause of the struct, not of a field; write `#[gauss({written})]` above `struct`"));
+            context.error(
+                span,
+                format!(
+                    "`{word}` is a clause of the struct, not of a field; write `#[gauss({written})]` above `struct`"
+                ),
+            );
             return;
         }
         let owners: Vec<Role> = ROLES
@@ -136,17 +125,8 @@ impl Reader<'_> {
             .filter(|role| role.forms().iter().any(|(form, _)| *form == word))
             .collect();
         if !owners.is_empty() {
-            let choices: Vec<String> = owners
-                .iter()
-                .map(|role| format!("`{} = {word}`", role.word()))
-                .collect();
-            context.error(
-                span,
-                format!(
-                    "`{word}` is a form of a role, not a role; write {}",
-                    choices.join(" or ")
-                ),
-            );
+            let choices: Vec<String> = owners.iter().map(|role| format!("`{} = {word}`", role.word())).collect();
+            context.error(span, format!("`{word}` is a form of a role, not a role; write {}", choices.join(" or ")));
             self.meant.extend(owners);
             return;
         }
@@ -165,18 +145,12 @@ fn read_form(role: Role, clause: &Clause, context: &mut Context) -> (Option<Form
         Value::Malformed => return (None, true),
         Value::Equals(tokens) if forms.is_empty() => {
             if let Some(first) = tokens.first() {
-                context.error(
-                    attributes::start(first),
-                    format!("`{name}` takes no value; write `#[gauss({name})]`"),
-                );
+                context.error(attributes::start(first), format!("`{name}` takes no value; write `#[gauss({name})]`"));
             }
             return (None, true);
         }
         Value::Brackets(group) if forms.is_empty() => {
-            context.error(
-                group.span_open(),
-                format!("`{name}` takes nothing in brackets; write `#[gauss({name})]`"),
-            );
+            context.error(group.span_open(), format!("`{name}` takes nothing in brackets; write `#[gauss({name})]`"));
             return (None, true);
         }
         Value::Equals(_) | Value::Brackets(_) => {}
@@ -190,35 +164,23 @@ fn read_form(role: Role, clause: &Clause, context: &mut Context) -> (Option<Form
     };
     if let Some(arguments) = word.arguments {
         let ident = &word.ident;
-        context.error(
-            arguments.span_open(),
-            format!("`{ident}` takes nothing in brackets; write `{name} = {ident}`"),
-        );
+        context.error(arguments.span_open(), format!("`{ident}` takes nothing in brackets; write `{name} = {ident}`"));
         return (None, true);
     }
-    let form = forms
-        .iter()
-        .find(|(_, form)| *form == shape)
-        .map(|&(form, _)| Form {
-            word: form,
-            shape,
-            span: word.ident.span(),
-        });
+    let form = forms.iter().find(|(_, form)| *form == shape).map(|&(form, _)| Form {
+        word: form,
+        shape,
+        span: word.ident.span(),
+    });
     (form, false)
 }
 
 /// The doc comment of a field, each line trimmed, lines joined as they were.
 fn documentation(attributes: &[Attribute]) -> String {
     let mut lines = Vec::new();
-    for attribute in attributes
-        .iter()
-        .filter(|attribute| attribute.path().is_ident("doc"))
-    {
+    for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("doc")) {
         if let Meta::NameValue(pair) = &attribute.meta
-            && let Expr::Lit(ExprLit {
-                lit: Lit::Str(text),
-                ..
-            }) = &pair.value
+            && let Expr::Lit(ExprLit { lit: Lit::Str(text), .. }) = &pair.value
         {
             lines.extend(text.value().lines().map(|line| line.trim().to_string()));
         }

@@ -28,9 +28,7 @@ mod validate;
 
 use context::Context;
 use proc_macro2::Span;
-use syn::{
-    Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics, Ident, Path, Visibility,
-};
+use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics, Ident, Path, Visibility};
 
 /// One rigid body as the user wrote it, checked.
 #[derive(Clone)]
@@ -185,12 +183,7 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     let scene = scene::read(&input.attrs, &mut context);
     check_generics(&input.generics, &mut context);
     let model = named_fields(input, &mut context).and_then(|named| {
-        validate::model(
-            input,
-            &scene,
-            fields::read(named, &input.generics, &mut context),
-            &mut context,
-        )
+        validate::model(input, &scene, fields::read(named, &input.generics, &mut context), &mut context)
     });
     context.finish(model)
 }

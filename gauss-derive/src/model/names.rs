@@ -53,11 +53,7 @@ pub(super) fn list<T>(table: &Table<T>) -> String {
     let mut text = String::new();
     for (index, (name, _)) in table.iter().enumerate() {
         if index > 0 {
-            text.push_str(if index + 1 == table.len() {
-                " or "
-            } else {
-                ", "
-            });
+            text.push_str(if index + 1 == table.len() { " or " } else { ", " });
         }
         text.push('`');
         text.push_str(name);
@@ -122,10 +118,7 @@ mod tests {
     fn suggestions_stop_where_they_would_mislead() {
         let table = [("mass", 1), ("inertia", 2), ("left_invariant", 3)];
         assert_eq!(nearest("mess", &table), Some(("mass", 1)));
-        assert_eq!(
-            nearest("LeftInvariant", &table),
-            Some(("left_invariant", 3))
-        );
+        assert_eq!(nearest("LeftInvariant", &table), Some(("left_invariant", 3)));
         assert_eq!(nearest("weight", &table), None);
         assert_eq!(nearest("moss_", &table), None);
     }

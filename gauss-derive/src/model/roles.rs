@@ -31,11 +31,7 @@ impl Role {
     /// The words after `=` that choose among the shapes of a role; none where there is nothing to choose.
     pub(super) fn forms(self) -> &'static Table<Shape> {
         match self {
-            Role::Inertia => &[
-                ("spherical", Shape::Scalar),
-                ("principal", Shape::Vector3),
-                ("full", Shape::Matrix3),
-            ],
+            Role::Inertia => &[("spherical", Shape::Scalar), ("principal", Shape::Vector3), ("full", Shape::Matrix3)],
             Role::AddedMass => &[("diagonal", Shape::Vector6), ("full", Shape::Matrix6)],
             Role::Gravity => &[("vertical", Shape::Scalar), ("vector", Shape::Vector3)],
             Role::Mass | Role::CenterOfMass | Role::DisplacedMass | Role::CenterOfBuoyancy => &[],
@@ -65,11 +61,7 @@ impl Role {
         let mut text = String::new();
         for (index, (word, shape)) in forms.iter().enumerate() {
             if index > 0 {
-                text.push_str(if index + 1 == forms.len() {
-                    " or "
-                } else {
-                    ", "
-                });
+                text.push_str(if index + 1 == forms.len() { " or " } else { ", " });
             }
             text.push_str(&format!("`{}` ({word})", shape.written(scalar)));
         }
@@ -81,9 +73,7 @@ impl Role {
         match self {
             Role::Mass => "the mass of a body is one number",
             Role::CenterOfMass => "the centre of mass is a point, in body axes from O",
-            Role::Inertia => {
-                "the inertia about O is one number, three principal moments or a tensor"
-            }
+            Role::Inertia => "the inertia about O is one number, three principal moments or a tensor",
             Role::AddedMass => "added mass acts on three linear and three angular speeds",
             Role::Gravity => "gravity is a magnitude along −k₃ or a vector in observer axes",
             Role::DisplacedMass => "the mass of the displaced fluid is one number",
@@ -102,11 +92,7 @@ impl Role {
             Role::DisplacedMass => ("displaced", Shape::Scalar),
             Role::CenterOfBuoyancy => ("buoyancy_center", Shape::Vector3),
         };
-        format!(
-            "#[gauss({})] {name}: {}",
-            self.word(),
-            shape.written(scalar)
-        )
+        format!("#[gauss({})] {name}: {}", self.word(), shape.written(scalar))
     }
 }
 

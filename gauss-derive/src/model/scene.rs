@@ -37,11 +37,8 @@ pub(super) const UNSUPPORTED: &Table<()> = &[
 ];
 
 /// Clauses of the struct.
-pub(super) const CLAUSES: &Table<Topic> = &[
-    ("chart", Topic::Chart),
-    ("motion", Topic::Motion),
-    ("crate", Topic::Runtime),
-];
+pub(super) const CLAUSES: &Table<Topic> =
+    &[("chart", Topic::Chart), ("motion", Topic::Motion), ("crate", Topic::Runtime)];
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Topic {
@@ -58,11 +55,8 @@ const CHARTS: &Table<Option<Chart>> = &[
     ("jet", None),
 ];
 
-const MOTIONS: &Table<Motion> = &[
-    ("free", Motion::Free),
-    ("fixed_point", Motion::FixedPoint),
-    ("planar", Motion::Planar),
-];
+const MOTIONS: &Table<Motion> =
+    &[("free", Motion::Free), ("fixed_point", Motion::FixedPoint), ("planar", Motion::Planar)];
 
 const ROTATIONS: &Table<RotationChart> = &[
     ("euler_zyx", RotationChart::Euler([2, 1, 0])),
@@ -197,16 +191,10 @@ fn read_chart(clause: &Clause, context: &mut Context) -> Option<Written> {
             );
             None
         }
-        (None, None) => Some(Written::Jet {
-            jet: ident,
-            argument: None,
-        }),
+        (None, None) => Some(Written::Jet { jet: ident, argument: None }),
         (None, Some(arguments)) => {
             let argument = read_argument(&ident, &arguments, context)?;
-            Some(Written::Jet {
-                jet: ident,
-                argument: Some(argument),
-            })
+            Some(Written::Jet { jet: ident, argument: Some(argument) })
         }
     }
 }
@@ -230,9 +218,7 @@ fn read_argument(jet: &Ident, arguments: &Group, context: &mut Context) -> Optio
     };
     match rest.first() {
         None => Some(word.clone()),
-        Some(TokenTree::Punct(comma)) if comma.as_char() == ',' && rest.len() == 1 => {
-            Some(word.clone())
-        }
+        Some(TokenTree::Punct(comma)) if comma.as_char() == ',' && rest.len() == 1 => Some(word.clone()),
         Some(extra) => {
             context.error(
                 attributes::start(extra),
@@ -250,17 +236,9 @@ fn read_argument(jet: &Ident, arguments: &Group, context: &mut Context) -> Optio
 fn settle(written: Written, motion: Option<Motion>, context: &mut Context) -> Option<Chart> {
     match (written, motion) {
         (Written::Known(chart), _) => Some(chart),
-        (Written::Jet { argument: None, .. }, Some(Motion::Planar)) => {
-            Some(Chart::Jet(RotationChart::Angle))
-        }
+        (Written::Jet { argument: None, .. }, Some(Motion::Planar)) => Some(Chart::Jet(RotationChart::Angle)),
         (Written::Jet { argument: None, .. }, None) => None,
-        (
-            Written::Jet {
-                jet,
-                argument: None,
-            },
-            Some(_),
-        ) => {
+        (Written::Jet { jet, argument: None }, Some(_)) => {
             context.error(
                 jet.span(),
                 format!(
@@ -270,13 +248,7 @@ fn settle(written: Written, motion: Option<Motion>, context: &mut Context) -> Op
             );
             None
         }
-        (
-            Written::Jet {
-                argument: Some(argument),
-                ..
-            },
-            Some(Motion::Planar),
-        ) => {
+        (Written::Jet { argument: Some(argument), .. }, Some(Motion::Planar)) => {
             context.error(
                 argument.span(),
                 format!(
@@ -286,13 +258,7 @@ fn settle(written: Written, motion: Option<Motion>, context: &mut Context) -> Op
             );
             None
         }
-        (
-            Written::Jet {
-                argument: Some(argument),
-                ..
-            },
-            _,
-        ) => read_rotation(&argument, context).map(Chart::Jet),
+        (Written::Jet { argument: Some(argument), .. }, _) => read_rotation(&argument, context).map(Chart::Jet),
     }
 }
 
@@ -315,10 +281,7 @@ fn read_rotation(ident: &Ident, context: &mut Context) -> Option<RotationChart> 
             return None;
         }
         if full != word {
-            context.error(
-                ident.span(),
-                format!("unknown rotation chart `{word}`; did you mean `{full}`?"),
-            );
+            context.error(ident.span(), format!("unknown rotation chart `{word}`; did you mean `{full}`?"));
             return None;
         }
     }
@@ -344,10 +307,7 @@ fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {
         Value::Equals(tokens) => tokens,
         Value::Malformed => return None,
         Value::Absent | Value::Brackets(_) => {
-            context.error(
-                clause.name.span(),
-                "`crate` needs the path to the runtime; write `crate = ::gauss_runtime`",
-            );
+            context.error(clause.name.span(), "`crate` needs the path to the runtime; write `crate = ::gauss_runtime`");
             return None;
         }
     };
@@ -356,20 +316,15 @@ fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {
         Err(_) => {
             let first = tokens.first()?;
             let remedy = match first {
-                TokenTree::Literal(literal) => {
-                    match syn::parse_str::<syn::LitStr>(&literal.to_string()) {
-                        Ok(text) => format!("write `crate = {}` without quotes", text.value()),
-                        Err(_) => "write `crate = ::gauss_runtime`".into(),
-                    }
-                }
+                TokenTree::Literal(literal) => match syn::parse_str::<syn::LitStr>(&literal.to_string()) {
+                    Ok(text) => format!("write `crate = {}` without quotes", text.value()),
+                    Err(_) => "write `crate = ::gauss_runtime`".into(),
+                },
                 _ => "write `crate = ::gauss_runtime`".into(),
             };
             context.error(
                 attributes::start(first),
-                format!(
-                    "`crate` takes the path to the runtime, found `{}`; {remedy}",
-                    attributes::written(tokens)
-                ),
+                format!("`crate` takes the path to the runtime, found `{}`; {remedy}", attributes::written(tokens)),
             );
             None
         }
@@ -379,8 +334,5 @@ fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {
 /// `::gauss_runtime`.
 fn default_runtime() -> Path {
     let segment = PathSegment::from(Ident::new("gauss_runtime", Span::mixed_site()));
-    Path {
-        leading_colon: Some(syn::Token![::](Span::mixed_site())),
-        segments: [segment].into_iter().collect(),
-    }
+    Path { leading_colon: Some(syn::Token![::](Span::mixed_site())), segments: [segment].into_iter().collect() }
 }

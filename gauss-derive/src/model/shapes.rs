@@ -8,8 +8,8 @@ use proc_macro2::Span;
 use quote::ToTokens;
 use syn::ext::IdentExt;
 use syn::{
-    AngleBracketedGenericArguments, Expr, ExprLit, GenericArgument, GenericParam, Generics, Lit,
-    Path, PathArguments, PathSegment, Stmt, Type,
+    AngleBracketedGenericArguments, Expr, ExprLit, GenericArgument, GenericParam, Generics, Lit, Path, PathArguments,
+    PathSegment, Stmt, Type,
 };
 
 /// What a written type shows.
@@ -99,22 +99,12 @@ const FOREIGN: &[&str] = &[
 
 /// Reads a type.
 pub(super) fn read(ty: &Type, generics: &Generics) -> Reading {
-    let foreign = |name: &str| Reading {
-        kind: Kind::Foreign,
-        element: Element::Hidden,
-        name: name.into(),
-    };
+    let foreign = |name: &str| Reading { kind: Kind::Foreign, element: Element::Hidden, name: name.into() };
     match bare(ty) {
         Type::Path(path) if path.qself.is_none() => read_path(&path.path, generics),
         // `<A as B>::C` and `shape!()` are known to later passes of the compiler only.
-        Type::Path(_) => Reading {
-            kind: Kind::Alias,
-            ..foreign("an associated type")
-        },
-        Type::Macro(_) => Reading {
-            kind: Kind::Alias,
-            ..foreign("a macro")
-        },
+        Type::Path(_) => Reading { kind: Kind::Alias, ..foreign("an associated type") },
+        Type::Macro(_) => Reading { kind: Kind::Alias, ..foreign("a macro") },
         Type::Array(_) | Type::Slice(_) => foreign("an array"),
         Type::Tuple(_) => foreign("a tuple"),
         Type::Reference(_) => foreign("a reference"),
@@ -126,22 +116,11 @@ pub(super) fn read(ty: &Type, generics: &Generics) -> Reading {
 
 fn read_path(path: &Path, generics: &Generics) -> Reading {
     let Some(last) = path.segments.last() else {
-        return Reading {
-            kind: Kind::Alias,
-            element: Element::Hidden,
-            name: "an empty path".into(),
-        };
+        return Reading { kind: Kind::Alias, element: Element::Hidden, name: "an empty path".into() };
     };
-    let reading = |kind, element| Reading {
-        kind,
-        element,
-        name: format!("`{}`", last.ident),
-    };
+    let reading = |kind, element| Reading { kind, element, name: format!("`{}`", last.ident) };
     if let Some(scalar) = scalar(path, generics) {
-        return reading(
-            Kind::Known(Shape::Scalar),
-            Element::Shown(scalar, last.ident.span()),
-        );
+        return reading(Kind::Known(Shape::Scalar), Element::Shown(scalar, last.ident.span()));
     }
     let kind = match last.ident.unraw().to_string().as_str() {
         "Vector3" => Kind::Known(Shape::Vector3),
@@ -161,12 +140,9 @@ fn read_path(path: &Path, generics: &Generics) -> Reading {
         }
     };
     match kind {
-        Kind::Known(_) | Kind::Alias => reading(
-            kind,
-            types(last)
-                .next()
-                .map_or(Element::Hidden, |ty| element(ty, generics)),
-        ),
+        Kind::Known(_) | Kind::Alias => {
+            reading(kind, types(last).next().map_or(Element::Hidden, |ty| element(ty, generics)))
+        }
         Kind::Foreign => reading(kind, Element::Hidden),
     }
 }
@@ -177,8 +153,7 @@ fn sized(dimensions: &[Option<usize>], expected: usize) -> Kind {
         return Kind::Alias;
     }
     let mut numbers = dimensions.iter().copied();
-    let (Some(Some(rows)), Some(columns)) = (numbers.next(), numbers.next().unwrap_or(Some(1)))
-    else {
+    let (Some(Some(rows)), Some(columns)) = (numbers.next(), numbers.next().unwrap_or(Some(1))) else {
         return Kind::Alias;
     };
     match (rows, columns) {
@@ -192,11 +167,7 @@ fn sized(dimensions: &[Option<usize>], expected: usize) -> Kind {
 
 /// The arguments after the first as numbers, `None` for those that are not written as numbers.
 fn dimensions(segment: &PathSegment) -> Vec<Option<usize>> {
-    arguments(segment)
-        .into_iter()
-        .flat_map(|arguments| arguments.args.iter().skip(1))
-        .map(number)
-        .collect()
+    arguments(segment).into_iter().flat_map(|arguments| arguments.args.iter().skip(1)).map(number).collect()
 }
 
 /// `3` or `{ 3 }`.
@@ -212,10 +183,7 @@ fn number(argument: &GenericArgument) -> Option<usize> {
         other => other,
     };
     match inner {
-        Expr::Lit(ExprLit {
-            lit: Lit::Int(number),
-            ..
-        }) => number.base10_parse().ok(),
+        Expr::Lit(ExprLit { lit: Lit::Int(number), .. }) => number.base10_parse().ok(),
         _ => None,
     }
 }
@@ -224,11 +192,7 @@ fn number(argument: &GenericArgument) -> Option<usize> {
 fn element(ty: &Type, generics: &Generics) -> Element {
     let ty = bare(ty);
     let reading = read(ty, generics);
-    let span = ty
-        .to_token_stream()
-        .into_iter()
-        .next()
-        .map_or_else(Span::call_site, |token| token.span());
+    let span = ty.to_token_stream().into_iter().next().map_or_else(Span::call_site, |token| token.span());
     match (reading.kind, reading.element) {
         (Kind::Known(Shape::Scalar), shown) => shown,
         (Kind::Alias, _) => Element::Hidden,
@@ -243,7 +207,10 @@ fn scalar(path: &Path, generics: &Generics) -> Option<Scalar> {
         return None;
     }
     if let Some(ident) = path.get_ident() {
-        let parameter = generics.params.iter().any(|parameter| matches!(parameter, GenericParam::Type(parameter) if parameter.ident == *ident));
+        let parameter = generics
+            .params
+            .iter()
+            .any(|parameter| matches!(parameter, GenericParam::Type(parameter) if parameter.ident == *ident));
         if parameter {
             return Some(Scalar::Parameter(ident.clone()));
         }
@@ -259,13 +226,10 @@ fn scalar(path: &Path, generics: &Generics) -> Option<Scalar> {
 
 /// The type arguments of a segment.
 fn types(segment: &PathSegment) -> impl Iterator<Item = &Type> {
-    arguments(segment)
-        .into_iter()
-        .flat_map(|arguments| arguments.args.iter())
-        .filter_map(|argument| match argument {
-            GenericArgument::Type(ty) => Some(ty),
-            _ => None,
-        })
+    arguments(segment).into_iter().flat_map(|arguments| arguments.args.iter()).filter_map(|argument| match argument {
+        GenericArgument::Type(ty) => Some(ty),
+        _ => None,
+    })
 }
 
 fn arguments(segment: &PathSegment) -> Option<&AngleBracketedGenericArguments> {

@@ -24,9 +24,7 @@ fn model(source: &str) -> Model {
 
 /// A struct without mistakes, under `attributes`.
 fn body(attributes: &str) -> String {
-    format!(
-        "{attributes} struct Body {{ #[gauss(mass)] m: f64, #[gauss(inertia)] j: Vector3<f64> }}"
-    )
+    format!("{attributes} struct Body {{ #[gauss(mass)] m: f64, #[gauss(inertia)] j: Vector3<f64> }}")
 }
 
 /// A struct of a body with mass and inertia, and more `fields`.
@@ -40,19 +38,9 @@ fn check(source: &str, expected: &[Mistake<'_>]) {
         Ok(_) => panic!("accepted: {source}"),
         Err(error) => error,
     };
-    let found: Vec<(String, String)> = error
-        .into_iter()
-        .map(|error| {
-            (
-                error.span().source_text().unwrap_or_default(),
-                error.to_string(),
-            )
-        })
-        .collect();
-    let found: Vec<Mistake<'_>> = found
-        .iter()
-        .map(|(token, message)| (token.as_str(), message.as_str()))
-        .collect();
+    let found: Vec<(String, String)> =
+        error.into_iter().map(|error| (error.span().source_text().unwrap_or_default(), error.to_string())).collect();
+    let found: Vec<Mistake<'_>> = found.iter().map(|(token, message)| (token.as_str(), message.as_str())).collect();
     assert_eq!(found, expected, "\nin {source}");
 }
 

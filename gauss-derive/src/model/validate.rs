@@ -12,12 +12,7 @@ use syn::spanned::Spanned;
 use syn::{DeriveInput, GenericParam};
 
 /// The checked model; `None` when something that it needs is missing, which is then noted.
-pub(super) fn model(
-    input: &DeriveInput,
-    scene: &Scene,
-    reader: Reader<'_>,
-    context: &mut Context,
-) -> Option<Model> {
+pub(super) fn model(input: &DeriveInput, scene: &Scene, reader: Reader<'_>, context: &mut Context) -> Option<Model> {
     let scalar = common_scalar(&reader.fields);
     let name = scalar_name(scalar.as_ref(), input);
     let mut parameters = Vec::new();
@@ -42,12 +37,7 @@ pub(super) fn model(
             documentation: field.documentation.clone(),
         });
     }
-    let index = |role: Role| {
-        owners
-            .iter()
-            .find(|(owner, _)| *owner == role)
-            .map(|&(_, index)| index)
-    };
+    let index = |role: Role| owners.iter().find(|(owner, _)| *owner == role).map(|&(_, index)| index);
     let known = |role: Role| index(role).is_some() || reader.meant.contains(&role);
     if !scene.unsupported && !reader.unsupported {
         for role in [Role::Mass, Role::Inertia] {
@@ -100,37 +90,24 @@ fn common_scalar(fields: &[Field<'_>]) -> Option<Scalar> {
         }
     }
     let most = counts.iter().map(|&(_, count)| count).max()?;
-    counts
-        .into_iter()
-        .find(|&(_, count)| count == most)
-        .map(|(scalar, _)| scalar.clone())
+    counts.into_iter().find(|&(_, count)| count == most).map(|(scalar, _)| scalar.clone())
 }
 
 /// The fields with roles that show their scalar.
 fn shown<'a>(fields: &'a [Field<'_>]) -> impl Iterator<Item = (&'a Field<'a>, &'a Scalar)> {
-    fields
-        .iter()
-        .filter(|field| field.role.is_some())
-        .filter_map(|field| match &field.reading.element {
-            Element::Shown(scalar, _) => Some((field, scalar)),
-            Element::Hidden | Element::Wrong(..) => None,
-        })
+    fields.iter().filter(|field| field.role.is_some()).filter_map(|field| match &field.reading.element {
+        Element::Shown(scalar, _) => Some((field, scalar)),
+        Element::Hidden | Element::Wrong(..) => None,
+    })
 }
 
 /// The scalar in types that messages propose.
 fn scalar_name(scalar: Option<&Scalar>, input: &DeriveInput) -> String {
-    let parameter = input
-        .generics
-        .params
-        .iter()
-        .find_map(|parameter| match parameter {
-            GenericParam::Type(parameter) => Some(parameter.ident.to_string()),
-            GenericParam::Lifetime(_) | GenericParam::Const(_) => None,
-        });
-    scalar
-        .map(Scalar::to_string)
-        .or(parameter)
-        .unwrap_or_else(|| "f64".into())
+    let parameter = input.generics.params.iter().find_map(|parameter| match parameter {
+        GenericParam::Type(parameter) => Some(parameter.ident.to_string()),
+        GenericParam::Lifetime(_) | GenericParam::Const(_) => None,
+    });
+    scalar.map(Scalar::to_string).or(parameter).unwrap_or_else(|| "f64".into())
 }
 
 /// A role belongs to one field.
@@ -141,10 +118,7 @@ fn check_duplicate(
     fields: &[Field<'_>],
     context: &mut Context,
 ) {
-    let first = owners
-        .iter()
-        .find(|(role, _)| *role == claim.role)
-        .and_then(|&(_, index)| fields.get(index));
+    let first = owners.iter().find(|(role, _)| *role == claim.role).and_then(|&(_, index)| fields.get(index));
     if let Some(first) = first {
         context.error(
             claim.span,
@@ -159,19 +133,18 @@ fn check_duplicate(
 }
 
 /// One scalar serves all roles, and it is a floating-point type or a type parameter.
-fn check_scalar(
-    field: &Field<'_>,
-    common: Option<&Scalar>,
-    fields: &[Field<'_>],
-    context: &mut Context,
-) {
+fn check_scalar(field: &Field<'_>, common: Option<&Scalar>, fields: &[Field<'_>], context: &mut Context) {
     match (&field.reading.element, common) {
         (Element::Wrong(found, span), _) => context.error(
             *span,
-            format!("the scalar of `{}` is {found}; expected `f64`, `f32` or a type parameter of the struct", field.ident),
+            format!(
+                "the scalar of `{}` is {found}; expected `f64`, `f32` or a type parameter of the struct",
+                field.ident
+            ),
         ),
         (Element::Shown(scalar, span), Some(common)) if scalar != common => {
-            let other = shown(fields).find(|(_, scalar)| *scalar == common).map_or(field.ident, |(other, _)| other.ident);
+            let other =
+                shown(fields).find(|(_, scalar)| *scalar == common).map_or(field.ident, |(other, _)| other.ident);
             context.error(
                 *span,
                 format!(
@@ -193,11 +166,9 @@ fn role_shape(field: &Field<'_>, claim: &Claim, scalar: &str, context: &mut Cont
         (Kind::Known(shape), Some(form)) if shape != form.shape => {
             // The word is right for some type and the type may be right for another word: both remedies are named.
             let remedy = match role.forms().iter().find(|(_, other)| *other == shape) {
-                Some((word, _)) => format!(
-                    "write `{} = {word}` or make the field `{}`",
-                    role.word(),
-                    form.shape.written(scalar)
-                ),
+                Some((word, _)) => {
+                    format!("write `{} = {word}` or make the field `{}`", role.word(), form.shape.written(scalar))
+                }
                 None => format!("make the field `{}`", form.shape.written(scalar)),
             };
             context.error(
@@ -266,22 +237,11 @@ fn plain_shape(field: &Field<'_>, common: Option<&Scalar>) -> Shape {
 }
 
 /// Roles that mean nothing without another.
-fn check_companion(
-    field: &Field<'_>,
-    known: impl Fn(Role) -> bool,
-    scalar: &str,
-    context: &mut Context,
-) {
+fn check_companion(field: &Field<'_>, known: impl Fn(Role) -> bool, scalar: &str, context: &mut Context) {
     let Some(claim) = &field.role else { return };
     let (needed, why) = match claim.role {
-        Role::DisplacedMass => (
-            Role::Gravity,
-            "buoyancy is the displaced mass times gravity",
-        ),
-        Role::CenterOfBuoyancy => (
-            Role::DisplacedMass,
-            "without a displaced mass nothing acts there",
-        ),
+        Role::DisplacedMass => (Role::Gravity, "buoyancy is the displaced mass times gravity"),
+        Role::CenterOfBuoyancy => (Role::DisplacedMass, "without a displaced mass nothing acts there"),
         _ => return,
     };
     if !known(needed) {
@@ -298,11 +258,7 @@ fn check_companion(
 }
 
 /// No field with a role shows its scalar. Said only if nothing else is wrong, since any other remedy may show it.
-fn hidden_scalar(
-    input: &DeriveInput,
-    fields: &[Field<'_>],
-    context: &mut Context,
-) -> Option<Model> {
+fn hidden_scalar(input: &DeriveInput, fields: &[Field<'_>], context: &mut Context) -> Option<Model> {
     if context.is_clean() {
         let position = ROLES.iter().find_map(|&(_, role)| {
             fields

@@ -7,23 +7,12 @@ use quote::ToTokens;
 #[test]
 fn defaults() {
     let model = model(&body(""));
-    assert_eq!(
-        (model.chart, model.motion),
-        (Chart::LeftInvariant, Motion::Free)
-    );
+    assert_eq!((model.chart, model.motion), (Chart::LeftInvariant, Motion::Free));
     assert_eq!(model.scalar, Scalar::F64);
-    assert_eq!(
-        model.runtime.to_token_stream().to_string(),
-        ":: gauss_runtime"
-    );
+    assert_eq!(model.runtime.to_token_stream().to_string(), ":: gauss_runtime");
     assert_eq!((model.mass, model.inertia), (0, 1));
-    let optional = [
-        model.center_of_mass,
-        model.added_mass,
-        model.gravity,
-        model.displaced_mass,
-        model.center_of_buoyancy,
-    ];
+    let optional =
+        [model.center_of_mass, model.added_mass, model.gravity, model.displaced_mass, model.center_of_buoyancy];
     assert_eq!(optional, [None; 5]);
 }
 
@@ -33,61 +22,31 @@ fn every_chart() {
     assert_eq!(chart("left_invariant"), Chart::LeftInvariant);
     assert_eq!(chart("right_invariant"), Chart::RightInvariant);
     assert_eq!(chart("hybrid"), Chart::Hybrid);
-    assert_eq!(
-        chart("jet(rodrigues)"),
-        Chart::Jet(RotationChart::Rodrigues)
-    );
-    assert_eq!(
-        chart("jet(modified_rodrigues)"),
-        Chart::Jet(RotationChart::ModifiedRodrigues)
-    );
+    assert_eq!(chart("jet(rodrigues)"), Chart::Jet(RotationChart::Rodrigues));
+    assert_eq!(chart("jet(modified_rodrigues)"), Chart::Jet(RotationChart::ModifiedRodrigues));
     let mut sequences = 0;
     for axes in 0..27_u8 {
         let axes = [axes / 9, axes / 3 % 3, axes % 3];
         if axes[0] == axes[1] || axes[1] == axes[2] {
             continue;
         }
-        let letters: String = axes
-            .iter()
-            .map(|axis| ['x', 'y', 'z'][usize::from(*axis)])
-            .collect();
-        assert_eq!(
-            chart(&format!("jet(euler_{letters})")),
-            Chart::Jet(RotationChart::Euler(axes)),
-            "{letters}"
-        );
+        let letters: String = axes.iter().map(|axis| ['x', 'y', 'z'][usize::from(*axis)]).collect();
+        assert_eq!(chart(&format!("jet(euler_{letters})")), Chart::Jet(RotationChart::Euler(axes)), "{letters}");
         sequences += 1;
     }
     assert_eq!(sequences, 12);
-    assert_eq!(
-        chart("jet, motion = planar"),
-        Chart::Jet(RotationChart::Angle)
-    );
+    assert_eq!(chart("jet, motion = planar"), Chart::Jet(RotationChart::Angle));
     assert_eq!(chart("hybrid, motion = planar"), Chart::Hybrid);
 }
 
 #[test]
 fn clauses_merge() {
-    let merged = model(&body(
-        "#[gauss(motion = fixed_point,)] #[gauss(chart = hybrid, crate = ::a::b)]",
-    ));
-    assert_eq!(
-        (merged.chart, merged.motion),
-        (Chart::Hybrid, Motion::FixedPoint)
-    );
+    let merged = model(&body("#[gauss(motion = fixed_point,)] #[gauss(chart = hybrid, crate = ::a::b)]"));
+    assert_eq!((merged.chart, merged.motion), (Chart::Hybrid, Motion::FixedPoint));
     assert_eq!(merged.runtime.to_token_stream().to_string(), ":: a :: b");
     // `jet` may come before the motion that it needs.
-    assert_eq!(
-        model(&body("#[gauss(chart = jet)] #[gauss(motion = planar)]")).motion,
-        Motion::Planar
-    );
-    assert_eq!(
-        model(&body("#[gauss(crate = crate)]"))
-            .runtime
-            .to_token_stream()
-            .to_string(),
-        "crate"
-    );
+    assert_eq!(model(&body("#[gauss(chart = jet)] #[gauss(motion = planar)]")).motion, Motion::Planar);
+    assert_eq!(model(&body("#[gauss(crate = crate)]")).runtime.to_token_stream().to_string(), "crate");
 }
 
 #[test]
@@ -103,16 +62,8 @@ fn every_role_and_shape() {
             _ => format!(
                 "struct Body {{ #[gauss({role})] x: {ty}, #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64, \
                  {} {} }}",
-                if role.starts_with("gravity") {
-                    ""
-                } else {
-                    "#[gauss(gravity)] g: f64,"
-                },
-                if role.starts_with("displaced") {
-                    ""
-                } else {
-                    "#[gauss(displaced_mass)] d: f64,"
-                },
+                if role.starts_with("gravity") { "" } else { "#[gauss(gravity)] g: f64," },
+                if role.starts_with("displaced") { "" } else { "#[gauss(displaced_mass)] d: f64," },
             ),
         };
         model(&source).parameters[0].shape
@@ -132,10 +83,7 @@ fn every_role_and_shape() {
     assert_eq!(shape("added_mass", "Vector6<f64>"), Shape::Vector6);
     assert_eq!(shape("added_mass", "SVector<f64, { 6 }>"), Shape::Vector6);
     assert_eq!(shape("added_mass", "SMatrix<f64, 6, 6>"), Shape::Matrix6);
-    assert_eq!(
-        shape("added_mass = diagonal", "SVector<f64, SIX>"),
-        Shape::Vector6
-    );
+    assert_eq!(shape("added_mass = diagonal", "SVector<f64, SIX>"), Shape::Vector6);
     assert_eq!(shape("gravity", "f64"), Shape::Scalar);
     assert_eq!(shape("gravity", "Vector3<f64>"), Shape::Vector3);
     assert_eq!(shape("gravity = vector", "Field"), Shape::Vector3);
@@ -146,65 +94,27 @@ fn every_role_and_shape() {
 #[test]
 fn scalars() {
     let scalar = |source: &str| model(source).scalar.to_string();
-    assert_eq!(
-        scalar("struct Body { #[gauss(mass)] m: f32, #[gauss(inertia)] j: Vector3<f32> }"),
-        "f32"
-    );
-    assert_eq!(
-        scalar("struct Body<T> { #[gauss(mass)] m: T, #[gauss(inertia)] j: Matrix3<T> }"),
-        "T"
-    );
-    assert_eq!(
-        scalar("struct Body<T> { #[gauss(mass)] m: Kg, #[gauss(inertia = full)] j: Tensor<T> }"),
-        "T"
-    );
-    assert_eq!(
-        scalar("struct Body<T, L> { #[gauss(mass)] m: T, #[gauss(inertia)] j: T, label: L }"),
-        "T"
-    );
-    assert_eq!(
-        scalar("struct Body<L> { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64, label: L }"),
-        "f64"
-    );
+    assert_eq!(scalar("struct Body { #[gauss(mass)] m: f32, #[gauss(inertia)] j: Vector3<f32> }"), "f32");
+    assert_eq!(scalar("struct Body<T> { #[gauss(mass)] m: T, #[gauss(inertia)] j: Matrix3<T> }"), "T");
+    assert_eq!(scalar("struct Body<T> { #[gauss(mass)] m: Kg, #[gauss(inertia = full)] j: Tensor<T> }"), "T");
+    assert_eq!(scalar("struct Body<T, L> { #[gauss(mass)] m: T, #[gauss(inertia)] j: T, label: L }"), "T");
+    assert_eq!(scalar("struct Body<L> { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64, label: L }"), "f64");
 }
 
 #[test]
 fn a_hidden_dimension_still_shows_the_scalar() {
-    let source =
-        "struct Body { #[gauss(mass)] m: Kg, #[gauss(inertia = principal)] j: SVector<f32, N> }";
+    let source = "struct Body { #[gauss(mass)] m: Kg, #[gauss(inertia = principal)] j: SVector<f32, N> }";
     let model = model(source);
-    assert_eq!(
-        (model.scalar, model.parameters[1].shape),
-        (Scalar::F32, Shape::Vector3)
-    );
+    assert_eq!((model.scalar, model.parameters[1].shape), (Scalar::F32, Shape::Vector3));
 }
 
 #[test]
 fn plain_parameters() {
-    let source =
-        with("k: f64, v: Vector3<f64>, single: f32, name: String, r: &'static str, n: usize");
-    let shapes: Vec<Shape> = model(&source)
-        .parameters
-        .iter()
-        .skip(2)
-        .map(|parameter| parameter.shape)
-        .collect();
-    let expected = [
-        Shape::Scalar,
-        Shape::Vector3,
-        Shape::Other,
-        Shape::Other,
-        Shape::Other,
-        Shape::Other,
-    ];
+    let source = with("k: f64, v: Vector3<f64>, single: f32, name: String, r: &'static str, n: usize");
+    let shapes: Vec<Shape> = model(&source).parameters.iter().skip(2).map(|parameter| parameter.shape).collect();
+    let expected = [Shape::Scalar, Shape::Vector3, Shape::Other, Shape::Other, Shape::Other, Shape::Other];
     assert_eq!(shapes, expected);
-    assert!(
-        model(&source)
-            .parameters
-            .iter()
-            .skip(2)
-            .all(|parameter| parameter.role.is_none())
-    );
+    assert!(model(&source).parameters.iter().skip(2).all(|parameter| parameter.role.is_none()));
 }
 
 #[test]

@@ -7,81 +7,39 @@ const ROTATIONS: &str = "`euler_zyx`, `euler_zxz`, `euler_zyz`, `euler_xyz`, `eu
 
 #[test]
 fn chart_values() {
-    check_body(
-        "#[gauss(chart = hybird)]",
-        &[("hybird", "unknown chart `hybird`; did you mean `hybrid`?")],
-    );
+    check_body("#[gauss(chart = hybird)]", &[("hybird", "unknown chart `hybird`; did you mean `hybrid`?")]);
     check_body(
         "#[gauss(chart = LeftInvariant)]",
-        &[(
-            "LeftInvariant",
-            "unknown chart `LeftInvariant`; did you mean `left_invariant`?",
-        )],
+        &[("LeftInvariant", "unknown chart `LeftInvariant`; did you mean `left_invariant`?")],
     );
     let list = "`left_invariant`, `right_invariant`, `hybrid` or `jet`";
-    check_body(
-        "#[gauss(chart = polar)]",
-        &[("polar", &format!("unknown chart `polar`; expected {list}"))],
-    );
+    check_body("#[gauss(chart = polar)]", &[("polar", &format!("unknown chart `polar`; expected {list}"))]);
     check_body(
         "#[gauss(chart = \"hybrid\")]",
-        &[(
-            "\"hybrid\"",
-            "`chart` takes a bare word, not a string; write `chart = hybrid`",
-        )],
+        &[("\"hybrid\"", "`chart` takes a bare word, not a string; write `chart = hybrid`")],
     );
     check_body(
         "#[gauss(chart = \"jet(euler_zyx)\")]",
-        &[(
-            "\"jet(euler_zyx)\"",
-            "`chart` takes a bare word, not a string; write `chart = jet(euler_zyx)`",
-        )],
+        &[("\"jet(euler_zyx)\"", "`chart` takes a bare word, not a string; write `chart = jet(euler_zyx)`")],
     );
     check_body(
         "#[gauss(chart = 3)]",
-        &[(
-            "3",
-            &format!("`chart` takes a word, found the literal `3`; expected {list}"),
-        )],
+        &[("3", &format!("`chart` takes a word, found the literal `3`; expected {list}"))],
     );
-    check_body(
-        "#[gauss(chart)]",
-        &[(
-            "chart",
-            &format!("`chart` needs a value; write `chart = …` with {list}"),
-        )],
-    );
-    check_body(
-        "#[gauss(chart = )]",
-        &[(
-            "=",
-            "nothing follows `chart =`; write a value or remove the clause",
-        )],
-    );
+    check_body("#[gauss(chart)]", &[("chart", &format!("`chart` needs a value; write `chart = …` with {list}"))]);
+    check_body("#[gauss(chart = )]", &[("=", "nothing follows `chart =`; write a value or remove the clause")]);
     check_body(
         "#[gauss(chart(hybrid))]",
-        &[(
-            "(",
-            "the value of `chart` follows `=`, without brackets; write `chart = hybrid`",
-        )],
+        &[("(", "the value of `chart` follows `=`, without brackets; write `chart = hybrid`")],
     );
     check_body(
         "#[gauss(chart = hybrid(x))]",
-        &[(
-            "(",
-            "the chart `hybrid` takes nothing in brackets; write `chart = hybrid`",
-        )],
+        &[("(", "the chart `hybrid` takes nothing in brackets; write `chart = hybrid`")],
     );
-    check_body(
-        "#[gauss(chart: hybrid)]",
-        &[(":", "expected `=` or `,` after `chart`, found `:`")],
-    );
+    check_body("#[gauss(chart: hybrid)]", &[(":", "expected `=` or `,` after `chart`, found `:`")]);
     check_body(
         "#[gauss(chart = hybrid motion = free)]",
-        &[(
-            "motion",
-            "expected `,` after `chart = hybrid`, found `motion`; separate clauses by commas",
-        )],
+        &[("motion", "expected `,` after `chart = hybrid`, found `motion`; separate clauses by commas")],
     );
 }
 
@@ -96,40 +54,16 @@ fn rotation_charts() {
          expected three axes with no two neighbours equal, such as `euler_zyx` or `euler_zxz`",
         )],
     );
-    check_body(
-        &jet("euler_ZYX"),
-        &[(
-            "euler_ZYX",
-            "unknown rotation chart `euler_ZYX`; did you mean `euler_zyx`?",
-        )],
-    );
-    check_body(
-        &jet("zyx"),
-        &[(
-            "zyx",
-            "unknown rotation chart `zyx`; did you mean `euler_zyx`?",
-        )],
-    );
-    check_body(
-        &jet("rodriguez"),
-        &[(
-            "rodriguez",
-            "unknown rotation chart `rodriguez`; did you mean `rodrigues`?",
-        )],
-    );
+    check_body(&jet("euler_ZYX"), &[("euler_ZYX", "unknown rotation chart `euler_ZYX`; did you mean `euler_zyx`?")]);
+    check_body(&jet("zyx"), &[("zyx", "unknown rotation chart `zyx`; did you mean `euler_zyx`?")]);
+    check_body(&jet("rodriguez"), &[("rodriguez", "unknown rotation chart `rodriguez`; did you mean `rodrigues`?")]);
     check_body(
         &jet("quaternion"),
-        &[(
-            "quaternion",
-            &format!("unknown rotation chart `quaternion`; expected {ROTATIONS}"),
-        )],
+        &[("quaternion", &format!("unknown rotation chart `quaternion`; expected {ROTATIONS}"))],
     );
     check_body(
         &jet("\"euler_zyx\""),
-        &[(
-            "\"euler_zyx\"",
-            "`jet` takes a bare word, not a string; write `jet(euler_zyx)`",
-        )],
+        &[("\"euler_zyx\"", "`jet` takes a bare word, not a string; write `jet(euler_zyx)`")],
     );
     check_body(
         &jet("euler_zyx, rodrigues"),
@@ -150,14 +84,9 @@ fn rotation_charts() {
 
 #[test]
 fn jet_and_motion() {
-    let message = format!(
-        "`jet` needs a rotation chart unless the motion is planar; write `jet(…)` with {ROTATIONS}"
-    );
+    let message = format!("`jet` needs a rotation chart unless the motion is planar; write `jet(…)` with {ROTATIONS}");
     check_body("#[gauss(chart = jet)]", &[("jet", &message)]);
-    check_body(
-        "#[gauss(chart = jet, motion = fixed_point)]",
-        &[("jet", &message)],
-    );
+    check_body("#[gauss(chart = jet, motion = fixed_point)]", &[("jet", &message)]);
     check_body(
         "#[gauss(motion = planar, chart = jet(euler_zyx))]",
         &[(
@@ -167,34 +96,22 @@ fn jet_and_motion() {
         )],
     );
     // A misspelt motion is not also blamed for the chart.
-    check_body(
-        "#[gauss(motion = planr, chart = jet)]",
-        &[("planr", "unknown motion `planr`; did you mean `planar`?")],
-    );
+    check_body("#[gauss(motion = planr, chart = jet)]", &[("planr", "unknown motion `planr`; did you mean `planar`?")]);
 }
 
 #[test]
 fn motions() {
     check_body(
         "#[gauss(motion = fixed)]",
-        &[(
-            "fixed",
-            "unknown motion `fixed`; expected `free`, `fixed_point` or `planar`",
-        )],
+        &[("fixed", "unknown motion `fixed`; expected `free`, `fixed_point` or `planar`")],
     );
     check_body(
         "#[gauss(motion = \"planar\")]",
-        &[(
-            "\"planar\"",
-            "`motion` takes a bare word, not a string; write `motion = planar`",
-        )],
+        &[("\"planar\"", "`motion` takes a bare word, not a string; write `motion = planar`")],
     );
     check_body(
         "#[gauss(motion = free())]",
-        &[(
-            "(",
-            "the motion `free` takes nothing in brackets; write `motion = free`",
-        )],
+        &[("(", "the motion `free` takes nothing in brackets; write `motion = free`")],
     );
 }
 
@@ -202,24 +119,15 @@ fn motions() {
 fn runtime_paths() {
     check_body(
         "#[gauss(crate = \"a::b\")]",
-        &[(
-            "\"a::b\"",
-            "`crate` takes the path to the runtime, found `\"a::b\"`; write `crate = a::b` without quotes",
-        )],
+        &[("\"a::b\"", "`crate` takes the path to the runtime, found `\"a::b\"`; write `crate = a::b` without quotes")],
     );
     check_body(
         "#[gauss(crate)]",
-        &[(
-            "crate",
-            "`crate` needs the path to the runtime; write `crate = ::gauss_runtime`",
-        )],
+        &[("crate", "`crate` needs the path to the runtime; write `crate = ::gauss_runtime`")],
     );
     check_body(
         "#[gauss(crate = 3)]",
-        &[(
-            "3",
-            "`crate` takes the path to the runtime, found `3`; write `crate = ::gauss_runtime`",
-        )],
+        &[("3", "`crate` takes the path to the runtime, found `3`; write `crate = ::gauss_runtime`")],
     );
 }
 
@@ -228,30 +136,18 @@ fn clauses_given_twice() {
     check_body(
         "#[gauss(chart = hybrid, chart = jet(rodriguez))]",
         &[
-            (
-                "chart",
-                "`chart` is given twice; it was given first as `chart = hybrid`: keep one of the two",
-            ),
-            (
-                "rodriguez",
-                "unknown rotation chart `rodriguez`; did you mean `rodrigues`?",
-            ),
+            ("chart", "`chart` is given twice; it was given first as `chart = hybrid`: keep one of the two"),
+            ("rodriguez", "unknown rotation chart `rodriguez`; did you mean `rodrigues`?"),
         ],
     );
     check_body(
         "#[gauss(chart = hybrid)] #[gauss(motion = free, chart = jet(euler_zyx))]",
-        &[(
-            "chart",
-            "`chart` is given twice; it was given first as `chart = hybrid`: keep one of the two",
-        )],
+        &[("chart", "`chart` is given twice; it was given first as `chart = hybrid`: keep one of the two")],
     );
     check_body(
         "#[gauss(motion = planar, motion = plnar)]",
         &[
-            (
-                "motion",
-                "`motion` is given twice; it was given first as `motion = planar`: keep one of the two",
-            ),
+            ("motion", "`motion` is given twice; it was given first as `motion = planar`: keep one of the two"),
             ("plnar", "unknown motion `plnar`; did you mean `planar`?"),
         ],
     );
@@ -259,53 +155,20 @@ fn clauses_given_twice() {
 
 #[test]
 fn struct_clauses() {
-    check_body(
-        "#[gauss(char = hybrid)]",
-        &[("char", "unknown clause `char`; did you mean `chart`?")],
-    );
-    check_body(
-        "#[gauss(foo = 1)]",
-        &[(
-            "foo",
-            "unknown clause `foo`; expected `chart`, `motion` or `crate`",
-        )],
-    );
-    check_body(
-        "#[gauss(hybrid)]",
-        &[("hybrid", "`hybrid` is a chart; write `chart = hybrid`")],
-    );
-    check_body(
-        "#[gauss(jet(euler_zyx))]",
-        &[("jet", "`jet` is a chart; write `chart = jet(euler_zyx)`")],
-    );
-    check_body(
-        "#[gauss(jet = euler_zyx)]",
-        &[("jet", "`jet` is a chart; write `chart = jet(euler_zyx)`")],
-    );
-    check_body(
-        "#[gauss(planar)]",
-        &[("planar", "`planar` is a motion; write `motion = planar`")],
-    );
+    check_body("#[gauss(char = hybrid)]", &[("char", "unknown clause `char`; did you mean `chart`?")]);
+    check_body("#[gauss(foo = 1)]", &[("foo", "unknown clause `foo`; expected `chart`, `motion` or `crate`")]);
+    check_body("#[gauss(hybrid)]", &[("hybrid", "`hybrid` is a chart; write `chart = hybrid`")]);
+    check_body("#[gauss(jet(euler_zyx))]", &[("jet", "`jet` is a chart; write `chart = jet(euler_zyx)`")]);
+    check_body("#[gauss(jet = euler_zyx)]", &[("jet", "`jet` is a chart; write `chart = jet(euler_zyx)`")]);
+    check_body("#[gauss(planar)]", &[("planar", "`planar` is a motion; write `motion = planar`")]);
     check_body(
         "#[gauss(rodrigues)]",
-        &[(
-            "rodrigues",
-            "`rodrigues` is a rotation chart; write `chart = jet(rodrigues)`",
-        )],
+        &[("rodrigues", "`rodrigues` is a rotation chart; write `chart = jet(rodrigues)`")],
     );
-    check_body(
-        "#[gauss(mass)]",
-        &[(
-            "mass",
-            "`mass` is the role of a field; write `#[gauss(mass)]` on that field",
-        )],
-    );
+    check_body("#[gauss(mass)]", &[("mass", "`mass` is the role of a field; write `#[gauss(mass)]` on that field")]);
     check_body(
         "#[gauss(coordinate(x))]",
-        &[(
-            "coordinate",
-            "unknown clause `coordinate`; the nearest, `coordinates`, is not supported by this version",
-        )],
+        &[("coordinate", "unknown clause `coordinate`; the nearest, `coordinates`, is not supported by this version")],
     );
 }
 
@@ -313,10 +176,7 @@ fn struct_clauses() {
 fn attribute_forms() {
     check_body(
         "#[gauss()]",
-        &[(
-            "gauss",
-            "`#[gauss()]` says nothing; write a clause such as `chart = hybrid` or remove it",
-        )],
+        &[("gauss", "`#[gauss()]` says nothing; write a clause such as `chart = hybrid` or remove it")],
     );
     check_body(
         "#[gauss]",
@@ -327,42 +187,21 @@ fn attribute_forms() {
     );
     check_body(
         "#[gauss = \"chart = hybrid\"]",
-        &[(
-            "gauss",
-            "`gauss` takes its clauses in brackets, not after `=`; write `#[gauss(chart = hybrid)]`",
-        )],
+        &[("gauss", "`gauss` takes its clauses in brackets, not after `=`; write `#[gauss(chart = hybrid)]`")],
     );
     check_body(
         "#[gauss[chart = hybrid]]",
-        &[(
-            "gauss",
-            "`gauss` takes round brackets; write `#[gauss(…)]` with a clause such as `chart = hybrid`",
-        )],
+        &[("gauss", "`gauss` takes round brackets; write `#[gauss(…)]` with a clause such as `chart = hybrid`")],
     );
-    check_body(
-        "#[gauss(,)]",
-        &[(",", "expected a clause such as `chart = hybrid` before `,`")],
-    );
+    check_body("#[gauss(,)]", &[(",", "expected a clause such as `chart = hybrid` before `,`")]);
     check_body(
         "#[gauss(\"chart\")]",
-        &[(
-            "\"chart\"",
-            "`gauss` takes words, found \"chart\"; write `#[gauss(chart)]` without quotes",
-        )],
+        &[("\"chart\"", "`gauss` takes words, found \"chart\"; write `#[gauss(chart)]` without quotes")],
     );
-    check_body(
-        "#[gauss(7)]",
-        &[(
-            "7",
-            "`gauss` takes words, found 7; write a clause such as `chart = hybrid`",
-        )],
-    );
+    check_body("#[gauss(7)]", &[("7", "`gauss` takes words, found 7; write a clause such as `chart = hybrid`")]);
     check(
         &with("#[gauss()] k: f64"),
-        &[(
-            "gauss",
-            "`#[gauss()]` says nothing; write a role such as `mass` or remove it",
-        )],
+        &[("gauss", "`#[gauss()]` says nothing; write a role such as `mass` or remove it")],
     );
 }
 
@@ -386,20 +225,11 @@ fn later_versions() {
         "input",
         "constraint",
     ] {
-        check(
-            &format!("#[gauss({word}(a, b = c))] struct Scene {{ k: f64 }}"),
-            &[(word, &message(word))],
-        );
+        check(&format!("#[gauss({word}(a, b = c))] struct Scene {{ k: f64 }}"), &[(word, &message(word))]);
     }
-    check(
-        "struct Scene { #[gauss(body)] first: RigidBody<f64> }",
-        &[("body", &message("body"))],
-    );
+    check("struct Scene { #[gauss(body)] first: RigidBody<f64> }", &[("body", &message("body"))]);
     check_body(
         "#[gauss(potential = k * x, chart = hybird)]",
-        &[
-            ("potential", &message("potential")),
-            ("hybird", "unknown chart `hybird`; did you mean `hybrid`?"),
-        ],
+        &[("potential", &message("potential")), ("hybird", "unknown chart `hybird`; did you mean `hybrid`?")],
     );
 }

@@ -12,17 +12,11 @@ fn other_items() {
     };
     check("enum Body { A, B }", &[("Body", &message("an enum"))]);
     check("union Body { a: f64 }", &[("Body", &message("a union"))]);
-    check(
-        "struct Body(f64, f64);",
-        &[("Body", &message("a tuple struct"))],
-    );
+    check("struct Body(f64, f64);", &[("Body", &message("a tuple struct"))]);
     check("struct Body;", &[("Body", &message("a unit struct"))]);
     check(
         "#[gauss(chart = hybird)] enum Body {}",
-        &[
-            ("hybird", "unknown chart `hybird`; did you mean `hybrid`?"),
-            ("Body", &message("an enum")),
-        ],
+        &[("hybird", "unknown chart `hybird`; did you mean `hybrid`?"), ("Body", &message("an enum"))],
     );
 }
 
@@ -45,10 +39,7 @@ fn generics() {
     );
     let hidden = "the scalar cannot be read from any field with a role, since each type is behind an alias; \
         write `f64`, `f32` or a type parameter in one of them";
-    check(
-        "struct Body { #[gauss(inertia = full)] j: Tensor, #[gauss(mass)] m: Mass }",
-        &[("Mass", hidden)],
-    );
+    check("struct Body { #[gauss(inertia = full)] j: Tensor, #[gauss(mass)] m: Mass }", &[("Mass", hidden)]);
     check(
         "struct Body<T, U> { #[gauss(mass)] m: Mass, #[gauss(inertia = full)] j: J, t: T, u: U }",
         &[("Mass", hidden)],
@@ -64,15 +55,9 @@ fn several_at_once() {
         &[
             ("hybird", "unknown chart `hybird`; did you mean `hybrid`?"),
             ("planer", "unknown motion `planer`; did you mean `planar`?"),
-            (
-                "bogus",
-                "unknown clause `bogus`; expected `chart`, `motion` or `crate`",
-            ),
+            ("bogus", "unknown clause `bogus`; expected `chart`, `motion` or `crate`"),
             ("mas", "unknown role `mas`; did you mean `mass`?"),
-            (
-                "Matrix6<f64>",
-                &format!("`inertia` cannot be a `Matrix6`; {INERTIA}"),
-            ),
+            ("Matrix6<f64>", &format!("`inertia` cannot be a `Matrix6`; {INERTIA}")),
             (
                 "f64",
                 "`center_of_mass` cannot be an `f64`; the centre of mass is a point, in body axes from O: \
@@ -126,9 +111,7 @@ fn nothing_panics() {
             for third in words {
                 let clause = format!("{first} {second} {third}");
                 let on_struct = body(&format!("#[gauss({clause})]"));
-                let on_field = format!(
-                    "struct Body {{ #[gauss({clause})] m: f64, #[gauss(inertia)] j: f64 }}"
-                );
+                let on_field = format!("struct Body {{ #[gauss({clause})] m: f64, #[gauss(inertia)] j: f64 }}");
                 for source in [on_struct, on_field] {
                     if let Ok(input) = syn::parse_str(&source) {
                         let _ = crate::model::parse(&input);

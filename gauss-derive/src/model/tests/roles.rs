@@ -2,26 +2,18 @@
 
 use super::{INERTIA, check, with};
 
-const ROLES: &str = "`mass`, `center_of_mass`, `inertia`, `added_mass`, `gravity`, `displaced_mass` or `center_of_buoyancy`";
+const ROLES: &str =
+    "`mass`, `center_of_mass`, `inertia`, `added_mass`, `gravity`, `displaced_mass` or `center_of_buoyancy`";
 
 #[test]
 fn missing_roles() {
     let mass = "`Body` has no field with the role `mass`, which every body needs; add `#[gauss(mass)] mass: f64`";
     let inertia = "`Body` has no field with the role `inertia`, which every body needs; \
         add `#[gauss(inertia)] inertia: Vector3<f64>`";
-    check(
-        "struct Body { #[gauss(inertia)] j: f64 }",
-        &[("Body", mass)],
-    );
-    check(
-        "struct Body { #[gauss(mass)] m: f64 }",
-        &[("Body", inertia)],
-    );
+    check("struct Body { #[gauss(inertia)] j: f64 }", &[("Body", mass)]);
+    check("struct Body { #[gauss(mass)] m: f64 }", &[("Body", inertia)]);
     check("struct Body {}", &[("Body", mass), ("Body", inertia)]);
-    check(
-        "struct Body<T> { #[gauss(mass)] m: T }",
-        &[("Body", &inertia.replace("f64", "T"))],
-    );
+    check("struct Body<T> { #[gauss(mass)] m: T }", &[("Body", &inertia.replace("f64", "T"))]);
 }
 
 #[test]
@@ -36,18 +28,9 @@ fn unknown_roles() {
     );
     check(
         &with("#[gauss(centre_of_mass)] c: Vector3<f64>"),
-        &[(
-            "centre_of_mass",
-            "unknown role `centre_of_mass`; did you mean `center_of_mass`?",
-        )],
+        &[("centre_of_mass", "unknown role `centre_of_mass`; did you mean `center_of_mass`?")],
     );
-    check(
-        &with("#[gauss(spring)] k: f64"),
-        &[(
-            "spring",
-            &format!("unknown role `spring`; expected {ROLES}"),
-        )],
-    );
+    check(&with("#[gauss(spring)] k: f64"), &[("spring", &format!("unknown role `spring`; expected {ROLES}"))]);
     check(
         &with("#[gauss(chart = hybrid)] k: f64"),
         &[(
@@ -57,17 +40,11 @@ fn unknown_roles() {
     );
     check(
         "struct Body { #[gauss(mass)] m: f64, #[gauss(principal)] j: Vector3<f64> }",
-        &[(
-            "principal",
-            "`principal` is a form of a role, not a role; write `inertia = principal`",
-        )],
+        &[("principal", "`principal` is a form of a role, not a role; write `inertia = principal`")],
     );
     check(
         &with("#[gauss(full)] a: Matrix6<f64>"),
-        &[(
-            "full",
-            "`full` is a form of a role, not a role; write `inertia = full` or `added_mass = full`",
-        )],
+        &[("full", "`full` is a form of a role, not a role; write `inertia = full` or `added_mass = full`")],
     );
 }
 
@@ -90,59 +67,25 @@ fn doubled_roles() {
     );
     check(
         "struct Body { #[gauss(mass)] #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }",
-        &[(
-            "mass",
-            "`mass` is written twice on the field `m`; write it once",
-        )],
+        &[("mass", "`mass` is written twice on the field `m`; write it once")],
     );
 }
 
 #[test]
 fn wrong_shapes() {
-    let inertia =
-        |ty: &str| format!("struct Body {{ #[gauss(mass)] m: f64, #[gauss(inertia)] j: {ty} }}");
+    let inertia = |ty: &str| format!("struct Body {{ #[gauss(mass)] m: f64, #[gauss(inertia)] j: {ty} }}");
     check(
         "struct Body { #[gauss(mass)] m: Matrix6<f64>, #[gauss(inertia)] j: f64 }",
-        &[(
-            "Matrix6<f64>",
-            "`mass` cannot be a `Matrix6`; the mass of a body is one number: expected `f64`",
-        )],
+        &[("Matrix6<f64>", "`mass` cannot be a `Matrix6`; the mass of a body is one number: expected `f64`")],
     );
     check(
         "struct Body<T> { #[gauss(mass)] m: Vec<T>, #[gauss(inertia)] j: T }",
-        &[(
-            "Vec<T>",
-            "`mass` cannot be a `Vec`; the mass of a body is one number: expected `T`",
-        )],
+        &[("Vec<T>", "`mass` cannot be a `Vec`; the mass of a body is one number: expected `T`")],
     );
-    check(
-        &inertia("Matrix6<f64>"),
-        &[(
-            "Matrix6<f64>",
-            &format!("`inertia` cannot be a `Matrix6`; {INERTIA}"),
-        )],
-    );
-    check(
-        &inertia("(f64, f64)"),
-        &[(
-            "(f64, f64)",
-            &format!("`inertia` cannot be a tuple; {INERTIA}"),
-        )],
-    );
-    check(
-        &inertia("[f64; 3]"),
-        &[(
-            "[f64; 3]",
-            &format!("`inertia` cannot be an array; {INERTIA}"),
-        )],
-    );
-    check(
-        &inertia("SVector<f64, 4>"),
-        &[(
-            "SVector<f64, 4>",
-            &format!("`inertia` cannot be an `SVector`; {INERTIA}"),
-        )],
-    );
+    check(&inertia("Matrix6<f64>"), &[("Matrix6<f64>", &format!("`inertia` cannot be a `Matrix6`; {INERTIA}"))]);
+    check(&inertia("(f64, f64)"), &[("(f64, f64)", &format!("`inertia` cannot be a tuple; {INERTIA}"))]);
+    check(&inertia("[f64; 3]"), &[("[f64; 3]", &format!("`inertia` cannot be an array; {INERTIA}"))]);
+    check(&inertia("SVector<f64, 4>"), &[("SVector<f64, 4>", &format!("`inertia` cannot be an `SVector`; {INERTIA}"))]);
     check(
         &with("#[gauss(center_of_mass)] c: f64"),
         &[(
@@ -171,9 +114,8 @@ fn wrong_shapes() {
 
 #[test]
 fn forms() {
-    let inertia = |form: &str, ty: &str| {
-        format!("struct Body {{ #[gauss(mass)] m: f64, #[gauss(inertia {form})] j: {ty} }}")
-    };
+    let inertia =
+        |form: &str, ty: &str| format!("struct Body {{ #[gauss(mass)] m: f64, #[gauss(inertia {form})] j: {ty} }}");
     check(
         &inertia("= principal", "Matrix3<f64>"),
         &[(
@@ -184,38 +126,23 @@ fn forms() {
     );
     check(
         &inertia("= full", "Matrix6<f64>"),
-        &[(
-            "full",
-            "`inertia = full` contradicts the type `Matrix6` of `j`; make the field `Matrix3<f64>`",
-        )],
+        &[("full", "`inertia = full` contradicts the type `Matrix6` of `j`; make the field `Matrix3<f64>`")],
     );
     check(
         &inertia("= princpal", "Tensor"),
-        &[(
-            "princpal",
-            "unknown `inertia` form `princpal`; did you mean `principal`?",
-        )],
+        &[("princpal", "unknown `inertia` form `princpal`; did you mean `principal`?")],
     );
     check(
         &inertia("= diagonal", "Tensor"),
-        &[(
-            "diagonal",
-            "unknown `inertia` form `diagonal`; expected `spherical`, `principal` or `full`",
-        )],
+        &[("diagonal", "unknown `inertia` form `diagonal`; expected `spherical`, `principal` or `full`")],
     );
     check(
         &inertia("= \"full\"", "Tensor"),
-        &[(
-            "\"full\"",
-            "`inertia` takes a bare word, not a string; write `inertia = full`",
-        )],
+        &[("\"full\"", "`inertia` takes a bare word, not a string; write `inertia = full`")],
     );
     check(
         &inertia("(full)", "Tensor"),
-        &[(
-            "(",
-            "the value of `inertia` follows `=`, without brackets; write `inertia = full`",
-        )],
+        &[("(", "the value of `inertia` follows `=`, without brackets; write `inertia = full`")],
     );
     check(
         &inertia("", "Tensor"),
@@ -231,10 +158,7 @@ fn forms() {
     );
     check(
         "struct Body { #[gauss(mass(dry))] m: f64, #[gauss(inertia)] j: f64 }",
-        &[(
-            "(",
-            "`mass` takes nothing in brackets; write `#[gauss(mass)]`",
-        )],
+        &[("(", "`mass` takes nothing in brackets; write `#[gauss(mass)]`")],
     );
 }
 
@@ -270,16 +194,10 @@ fn mixed_scalars() {
     // The odd one is the one that most others disagree with, though it comes first.
     check(
         "struct Body<T> { #[gauss(mass)] m: f64, #[gauss(inertia)] j: T, #[gauss(gravity)] g: T }",
-        &[(
-            "f64",
-            "the scalar of `m` is `f64`, but that of `j` is `T`; one scalar serves the whole body: write `T`",
-        )],
+        &[("f64", "the scalar of `m` is `f64`, but that of `j` is `T`; one scalar serves the whole body: write `T`")],
     );
     check(
         "struct Body { #[gauss(mass)] m: f64, #[gauss(inertia)] j: Vector3<i32> }",
-        &[(
-            "i32",
-            "the scalar of `j` is `i32`; expected `f64`, `f32` or a type parameter of the struct",
-        )],
+        &[("i32", "the scalar of `j` is `i32`; expected `f64`, `f32` or a type parameter of the struct")],
     );
 }

@@ -1,0 +1,102 @@
+//! The generated code: what a few kernels look like, and what none of them contains.
+
+use proc_macro2::{TokenStream, TokenTree};
+
+use crate::expand::expand;
+
+fn generate(source: &str) -> TokenStream {
+    let input = syn::parse_str(source).expect("a struct");
+    expand(&input).expect("a body")
+}
+
+fn pretty(source: &str) -> String {
+    prettyplease::unparse(&syn::parse2(generate(source)).expect("generated code is Rust"))
+}
+
+/// The body of one generated function.
+fn function(source: &str, name: &str) -> String {
+    let code = pretty(source);
+    let start = code.find(&format!("fn {name}(")).expect("the function is there");
+    let end = code[start..].find("\n        }\n").expect("it ends");
+    code[start..start + end + 11].replace("\n        ", "\n")
+}
+
+const FREE: &str = "#[gauss(chart = left_invariant)] struct Body {
+    #[gauss(mass)] mass: f64,
+    #[gauss(inertia)] inertia: Vector3<f64>,
+}";
+
+const TOP: &str = "#[gauss(motion = fixed_point, chart = jet(euler_zxz))] struct Top<T> {
+    #[gauss(mass)] mass: T,
+    #[gauss(center_of_mass)] center: Vector3<T>,
+    #[gauss(inertia)] inertia: Vector3<T>,
+    #[gauss(gravity)] g: T,
+}";
+
+const VEHICLE: &str = "#[gauss(chart = hybrid)] pub struct Vehicle {
+    #[gauss(mass)] mass: f64,
+    #[gauss(center_of_mass)] center: Vector3<f64>,
+    #[gauss(inertia)] inertia: Matrix3<f64>,
+    #[gauss(added_mass)] added: Matrix6<f64>,
+    #[gauss(gravity)] g: Vector3<f64>,
+    #[gauss(displaced_mass)] displaced: f64,
+}";
+
+#[test]
+fn a_whole_kernel() {
+    insta::assert_snapshot!(pretty(FREE));
+}
+
+#[test]
+fn acceleration_of_a_heavy_top_in_euler_angles() {
+    insta::assert_snapshot!(function(TOP, "acceleration"));
+}
+
+#[test]
+fn acceleration_of_a_vehicle_in_a_fluid() {
+    insta::assert_snapshot!(function(VEHICLE, "acceleration"));
+}
+
+#[test]
+fn parameters_of_a_vehicle_in_a_fluid() {
+    insta::assert_snapshot!(function(VEHICLE, "kernel"));
+}
+
+fn words(tokens: TokenStream, found: &mut Vec<String>) {
+    for token in tokens {
+        match token {
+            TokenTree::Group(group) => words(group.stream(), found),
+            TokenTree::Ident(ident) => found.push(ident.to_string()),
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+}
+
+#[test]
+fn generated_code_is_straight_and_safe() {
+    let charts = ["left_invariant", "right_invariant", "hybrid", "jet(euler_zyx)", "jet(modified_rodrigues)"];
+    for source in [FREE, VEHICLE] {
+        for chart in charts {
+            let source = source.replacen("left_invariant", chart, 1).replacen("= hybrid", &format!("= {chart}"), 1);
+            let mut found = Vec::new();
+            words(generate(&source), &mut found);
+            assert!(found.contains(&"acceleration".to_owned()));
+            for forbidden in
+                ["unsafe", "loop", "while", "if", "match", "Vec", "Box", "std", "unwrap", "expect", "panic"]
+            {
+                assert!(!found.contains(&forbidden.to_owned()), "`{forbidden}` in {chart}");
+            }
+            // `for` stands only in `impl … for`.
+            let loops = found.iter().filter(|w| *w == "for").count();
+            assert_eq!(loops, found.iter().filter(|w| *w == "impl").count() - 1, "{chart}");
+        }
+    }
+}
+
+#[test]
+fn a_mistake_is_one_message_and_no_code() {
+    let input =
+        syn::parse_str("#[gauss(chart = left_invarient)] struct Body { #[gauss(mass)] m: f64 }").expect("a struct");
+    let messages: Vec<String> = expand(&input).expect_err("two mistakes").into_iter().map(|e| e.to_string()).collect();
+    assert_eq!(messages.len(), 2, "{messages:?}");
+}

@@ -1,0 +1,62 @@
+//! Names of quantities in text and LaTeX: hats for observer's components, dots for rates.
+
+/// A name in both notations.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    pub text: String,
+    pub latex: String,
+}
+
+const HAT: char = '\u{302}';
+const DOT: char = '\u{307}';
+const TWO_DOTS: char = '\u{308}';
+
+impl Name {
+    pub fn new(text: &str, latex: &str) -> Self {
+        Self { text: text.to_owned(), latex: latex.to_owned() }
+    }
+
+    /// Q → Q̂: components in the observer's axes.
+    pub fn hat(&self) -> Self {
+        self.marked(HAT, "hat")
+    }
+
+    /// b → ḃ.
+    pub fn dot(&self) -> Self {
+        self.marked(DOT, "dot")
+    }
+
+    /// u → u1 for the component with index 0.
+    pub fn index(&self, i: usize) -> Self {
+        Self { text: format!("{}{}", self.text, i + 1), latex: format!("{}_{{{}}}", self.latex, i + 1) }
+    }
+
+    /// p → p_θ.
+    pub fn of(&self, other: &Self) -> Self {
+        Self { text: format!("{}_{}", self.text, other.text), latex: format!("{}_{{{}}}", self.latex, other.latex) }
+    }
+
+    /// The derivative of a quasi-velocity: ḃ → b̈, ω → dω/dt.
+    pub fn rate(&self) -> Self {
+        match (self.text.contains(DOT), self.latex.strip_prefix("\\dot{")) {
+            (true, Some(rest)) => {
+                Self { text: self.text.replace(DOT, &TWO_DOTS.to_string()), latex: format!("\\ddot{{{rest}") }
+            }
+            _ => self.time_derivative(),
+        }
+    }
+
+    /// Q → dQ/dt.
+    pub fn time_derivative(&self) -> Self {
+        Self { text: format!("d{}/dt", self.text), latex: format!("\\frac{{d}}{{dt}} {}", self.latex) }
+    }
+
+    /// A mark over the first letter.
+    fn marked(&self, mark: char, command: &str) -> Self {
+        let mut letters = self.text.chars();
+        let text = letters.next().into_iter().chain([mark]).chain(letters).collect();
+        // An index stays outside the braces: \hat{Q}_{1}.
+        let (letter, index) = self.latex.split_at(self.latex.find('_').unwrap_or(self.latex.len()));
+        Self { text, latex: format!("\\{command}{{{letter}}}{index}") }
+    }
+}

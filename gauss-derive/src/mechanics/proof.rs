@@ -1,0 +1,99 @@
+//! The two derivations agree identically: (3.4) as a polynomial in x integrated by moments, and (3.4) through (Q, Γ_O),
+//! as symbolic expressions, in every chart and motion, for the most general body.
+
+use crate::algebra::ideal::Ideal;
+use crate::algebra::{Expr, Graph};
+use crate::model::{Chart, Motion};
+
+use super::body::{AffineField, Body, BodyShape, GravityShape, InertiaShape, integrate_product};
+use super::chart::{ConfigurationKind, Kinematics};
+use super::gauss::{gauss_condition, pairing, velocity_field};
+use super::methods::Scene;
+use super::tests::scenes;
+use super::vector::{Axes, Triple, add, cross, scale};
+
+/// Full inertia, O ≠ G, weight in any direction, buoyancy. The fluid's impulse enters both derivations alike.
+const GENERAL: BodyShape = BodyShape {
+    inertia: InertiaShape::Full,
+    center_of_mass: true,
+    added_mass: None,
+    gravity: Some(GravityShape::Vector),
+    displaced_mass: true,
+    center_of_buoyancy: true,
+};
+
+/// What the symbols of the configuration satisfy.
+fn relations<'g>(graph: &'g Graph, kinematics: &Kinematics<'g>) -> Ideal<'g> {
+    match kinematics.kind {
+        ConfigurationKind::Pose | ConfigurationKind::Rotation => Ideal::of_rotation(graph, &kinematics.frame.rotation),
+        ConfigurationKind::PlanePose => {
+            let [cos, sin] = [kinematics.configuration[0], kinematics.configuration[1]];
+            Ideal::generated_by(vec![cos * cos + sin * sin - graph.one()])
+        }
+        // Sines, cosines and denominators are reduced by the normal form itself.
+        ConfigurationKind::Coordinates => Ideal::generated_by(Vec::new()),
+    }
+}
+
+/// Q = m (u + ω × c) and Γ_O = m c × u + I_O ω, body axes: the momentum of a rigid body as textbooks have it.
+fn rigid_momentum<'g>(body: &Body<'g>, u: &Triple<'g>, omega: &Triple<'g>) -> (Triple<'g>, Triple<'g>) {
+    let first = body.first_moment();
+    let spin: Triple<'g> = std::array::from_fn(|i| (0..3).map(|j| body.inertia[i][j] * omega[j]).sum());
+    (add(&scale(body.mass, u), &cross(omega, &first)), add(&cross(&first, u), &spin))
+}
+
+#[test]
+fn moments_and_momenta_give_the_same_condition_identically() {
+    for (motion, chart) in scenes() {
+        let graph = Graph::new();
+        let scene = Scene::new(&graph, motion, chart, GENERAL);
+        let (kinematics, body) = (&scene.kinematics, &scene.body);
+        let relations = relations(&graph, kinematics);
+        let along = kinematics.rates_with_accelerations();
+        let u = kinematics.frame.resolve(&kinematics.velocity, Axes::Body);
+        let omega = kinematics.frame.resolve(&kinematics.angular_velocity, Axes::Body);
+        let (q, gamma) = rigid_momentum(body, &u, &omega);
+        let (q, gamma) = (kinematics.frame.body_vector(q), kinematics.frame.body_vector(gamma));
+        let forces = scene.generalised_forces();
+        for ((&z, by_moments), force) in kinematics.speeds.iter().zip(gauss_condition(kinematics, body)).zip(forces) {
+            let by_momenta = pairing(kinematics, &q, &gamma, z, &along) - force;
+            assert!(
+                relations.annihilates(by_moments - by_momenta),
+                "the two derivations differ in {motion:?} {chart:?}, row {z:?}"
+            );
+        }
+        assert!(!graph.overflowed());
+    }
+}
+
+#[test]
+fn a_wrong_term_would_be_seen() {
+    // Rates of the components of Q alone, with ω × Q left out, are not what the condition says.
+    let graph = Graph::new();
+    let scene = Scene::new(&graph, Motion::Free, Chart::LeftInvariant, GENERAL);
+    let kinematics = &scene.kinematics;
+    let u = kinematics.frame.resolve(&kinematics.velocity, Axes::Body);
+    let omega = kinematics.frame.resolve(&kinematics.angular_velocity, Axes::Body);
+    let (q, _) = rigid_momentum(&scene.body, &u, &omega);
+    let wrong = q[0].derivative(&kinematics.rates_with_accelerations()) - scene.generalised_forces()[0];
+    let condition = gauss_condition(kinematics, &scene.body);
+    assert!(!relations(&graph, kinematics).annihilates(condition[0] - wrong));
+}
+
+#[test]
+fn the_moments_of_the_velocity_field_are_the_momenta() {
+    // ∂T/∂z of T = ½∫v_P² dm against Q·a_α + Γ_O·o_α, in every chart and motion.
+    for (motion, chart) in scenes() {
+        let graph = Graph::new();
+        let scene = Scene::new(&graph, motion, chart, GENERAL);
+        let kinematics = &scene.kinematics;
+        let relations = relations(&graph, kinematics);
+        let x: Triple<'_> = std::array::from_fn(|_| graph.symbol("x", "x", false));
+        let field = AffineField::of(&velocity_field(kinematics, &x), &x);
+        let energy = integrate_product(&scene.body, &field, &field).half();
+        for (&z, p) in kinematics.speeds.iter().zip(scene.momentum()) {
+            let difference: Expr<'_> = energy.partial(z) - p;
+            assert!(relations.annihilates(difference), "momentum of {z:?} in {motion:?} {chart:?}");
+        }
+    }
+}
