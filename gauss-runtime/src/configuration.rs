@@ -1,0 +1,381 @@
+//! Where a system is: configurations that are groups, and the linear spaces of their increments.
+//!
+//! | configuration | increment (`Tangent`) | `retract` |
+//! |---|---|---|
+//! | [`Isometry3`] (R, b): a pose, body to observer | body twist × time (u, ω), pole O | right multiplication by exp on SE(3) |
+//! | [`UnitQuaternion`] R | ω × time, body frame | right multiplication by exp on SO(3) |
+//! | [`Isometry2`] | (u₁, u₂, ω) × time, body frame | right multiplication by exp on SE(2) |
+//! | [`SVector`] | itself | addition |
+//! | pairs `(A, B)` | [`Product`] | each by itself |
+//!
+//! All increments are *left-trivialised*: they are seen from the body, `q ↦ q ∘ exp(σ)`.
+
+use core::fmt::Debug;
+
+use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
+
+use crate::lie::{se2, se3, so3};
+use crate::real::Real;
+use crate::triple::norm;
+
+/// A finite-dimensional linear space over `T`: quasi-velocities, momenta, forces, increments of a configuration.
+pub trait VectorSpace<T: Real>: Copy + Debug {
+    /// The number of components.
+    const DIM: usize;
+
+    /// The null vector.
+    fn zero() -> Self;
+
+    /// `self + a·x`.
+    fn add_scaled(&self, a: T, x: &Self) -> Self;
+
+    /// `a·self`.
+    fn scale(&self, a: T) -> Self;
+
+    /// Component `i`.
+    ///
+    /// # Panics
+    /// When `i ≥ DIM`.
+    fn component(&self, i: usize) -> T;
+
+    /// Replaces component `i`.
+    ///
+    /// # Panics
+    /// When `i ≥ DIM`.
+    fn set_component(&mut self, i: usize, value: T);
+
+    /// The largest magnitude among all components and lanes; NaN when there is a NaN.
+    fn max_norm(&self) -> f64 {
+        let mut largest = 0.0;
+        for i in 0..Self::DIM {
+            for lane in 0..T::LANES {
+                let magnitude = self.component(i).lane(lane).abs();
+                // Written so that a NaN wins and stays.
+                if magnitude > largest || magnitude.is_nan() {
+                    largest = magnitude;
+                }
+                if largest.is_nan() {
+                    return largest;
+                }
+            }
+        }
+        largest
+    }
+
+    /// Whether every component is finite.
+    #[inline]
+    fn is_finite(&self) -> bool {
+        (0..Self::DIM).all(|i| self.component(i).is_finite())
+    }
+}
+
+impl<T: Real, const N: usize> VectorSpace<T> for SVector<T, N> {
+    const DIM: usize = N;
+
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::from([T::zero(); N])
+    }
+
+    #[inline(always)]
+    fn add_scaled(&self, a: T, x: &Self) -> Self {
+        Self::from(core::array::from_fn(|i| a.fma(x.data.0[0][i], self.data.0[0][i])))
+    }
+
+    #[inline(always)]
+    fn scale(&self, a: T) -> Self {
+        Self::from(self.data.0[0].map(|component| a * component))
+    }
+
+    #[inline(always)]
+    fn component(&self, i: usize) -> T {
+        self.data.0[0][i]
+    }
+
+    #[inline(always)]
+    fn set_component(&mut self, i: usize, value: T) {
+        self.data.0[0][i] = value;
+    }
+}
+
+/// A pair of vectors: the increments of a pair of configurations, first's components before second's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Product<A, B> {
+    /// Part of the first factor.
+    pub first: A,
+    /// Part of the second factor.
+    pub second: B,
+}
+
+impl<T: Real, A: VectorSpace<T>, B: VectorSpace<T>> VectorSpace<T> for Product<A, B> {
+    const DIM: usize = A::DIM + B::DIM;
+
+    #[inline(always)]
+    fn zero() -> Self {
+        Self { first: A::zero(), second: B::zero() }
+    }
+
+    #[inline(always)]
+    fn add_scaled(&self, a: T, x: &Self) -> Self {
+        Self { first: self.first.add_scaled(a, &x.first), second: self.second.add_scaled(a, &x.second) }
+    }
+
+    #[inline(always)]
+    fn scale(&self, a: T) -> Self {
+        Self { first: self.first.scale(a), second: self.second.scale(a) }
+    }
+
+    #[inline(always)]
+    fn component(&self, i: usize) -> T {
+        if i < A::DIM { self.first.component(i) } else { self.second.component(i - A::DIM) }
+    }
+
+    #[inline(always)]
+    fn set_component(&mut self, i: usize, value: T) {
+        if i < A::DIM {
+            self.first.set_component(i, value);
+        } else {
+            self.second.set_component(i - A::DIM, value);
+        }
+    }
+}
+
+/// A point of a configuration space that is a Lie group: what a geometric integrator needs to move it.
+///
+/// With `exp` the exponential map of the group and increments seen from the body,
+/// `q.retract(σ) = q ∘ exp(σ)` and `p.difference(q) = log(p⁻¹ ∘ q)`.
+pub trait Configuration: Copy + Debug {
+    /// The scalar of the components.
+    type Scalar: Real;
+
+    /// The Lie algebra: increments, and velocities per unit of time.
+    type Tangent: VectorSpace<Self::Scalar>;
+
+    /// `self ∘ exp(tangent)`.
+    fn retract(&self, tangent: &Self::Tangent) -> Self;
+
+    /// The shortest increment from `self` to `other`: `self.retract(&self.difference(other))` is `other`.
+    fn difference(&self, other: &Self) -> Self::Tangent;
+
+    /// The inverse of the left-trivialised differential of exp at `v`, applied to `w`.
+    ///
+    /// If `q(t) = q₀ ∘ exp(σ(t))` moves with the body velocity `w`, then `σ̇ = dexp_inv(σ, w)`:
+    ///
+    /// `dexp_inv(v, w) = Σ_k (−1)ᵏ B_k/k! ad_vᵏ w = w + ½ [v, w] + ¹⁄₁₂ [v, [v, w]] − …`  (B₁ = −½)
+    ///
+    /// The sign of the ½ is that of increments on the right; with increments on the left it would be −½.
+    fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent;
+
+    /// Whether every component is finite.
+    fn is_finite(&self) -> bool;
+
+    /// The nearest valid configuration: a unit quaternion is brought back to norm 1 without bias. The identity where
+    /// there is nothing to keep.
+    fn renormalise(&self) -> Self {
+        *self
+    }
+
+    /// The angle in radians by which an increment turns: the largest over factors and lanes; 0 where nothing turns.
+    ///
+    /// Beyond π the increment is no longer the shortest, and near 2π `dexp_inv` is singular: integrators refuse it.
+    fn increment_angle(tangent: &Self::Tangent) -> f64 {
+        let _ = tangent;
+        0.0
+    }
+
+    /// The size against which an error in component `i` of an increment is relative: 1 for rotations, the distance from
+    /// the origin for translations, the value itself for a plain coordinate. The largest over the lanes.
+    fn magnitude(&self, i: usize) -> f64;
+}
+
+impl<T: Real> Configuration for UnitQuaternion<T> {
+    type Scalar = T;
+    type Tangent = SVector<T, 3>;
+
+    #[inline(always)]
+    fn retract(&self, tangent: &Self::Tangent) -> Self {
+        so3::retract(self, tangent)
+    }
+
+    #[inline(always)]
+    fn difference(&self, other: &Self) -> Self::Tangent {
+        so3::difference(self, other)
+    }
+
+    #[inline(always)]
+    fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        so3::dexp_inv(v, w)
+    }
+
+    #[inline]
+    fn is_finite(&self) -> bool {
+        crate::triple::quaternion(self).iter().all(|c| c.is_finite())
+    }
+
+    #[inline(always)]
+    fn renormalise(&self) -> Self {
+        so3::renormalise(self)
+    }
+
+    #[inline]
+    fn increment_angle(tangent: &Self::Tangent) -> f64 {
+        norm(&tangent.data.0[0])
+    }
+
+    #[inline]
+    fn magnitude(&self, _: usize) -> f64 {
+        1.0
+    }
+}
+
+impl<T: Real> Configuration for Isometry3<T> {
+    type Scalar = T;
+    type Tangent = SVector<T, 6>;
+
+    #[inline(always)]
+    fn retract(&self, tangent: &Self::Tangent) -> Self {
+        se3::retract(self, tangent)
+    }
+
+    #[inline(always)]
+    fn difference(&self, other: &Self) -> Self::Tangent {
+        se3::difference(self, other)
+    }
+
+    #[inline(always)]
+    fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        se3::dexp_inv(v, w)
+    }
+
+    #[inline]
+    fn is_finite(&self) -> bool {
+        Configuration::is_finite(&self.rotation) && VectorSpace::is_finite(&self.translation.vector)
+    }
+
+    #[inline(always)]
+    fn renormalise(&self) -> Self {
+        Self { rotation: so3::renormalise(&self.rotation), translation: self.translation }
+    }
+
+    #[inline]
+    fn increment_angle(tangent: &Self::Tangent) -> f64 {
+        norm(&tangent.data.0[0][3..])
+    }
+
+    #[inline]
+    fn magnitude(&self, i: usize) -> f64 {
+        if i < 3 { norm(&self.translation.vector.data.0[0]) } else { 1.0 }
+    }
+}
+
+impl<T: Real> Configuration for Isometry2<T> {
+    type Scalar = T;
+    type Tangent = SVector<T, 3>;
+
+    #[inline(always)]
+    fn retract(&self, tangent: &Self::Tangent) -> Self {
+        se2::retract(self, tangent)
+    }
+
+    #[inline(always)]
+    fn difference(&self, other: &Self) -> Self::Tangent {
+        se2::difference(self, other)
+    }
+
+    #[inline(always)]
+    fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        se2::dexp_inv(v, w)
+    }
+
+    #[inline]
+    fn is_finite(&self) -> bool {
+        let rotation = self.rotation.as_ref();
+        rotation.re.is_finite() && rotation.im.is_finite() && VectorSpace::is_finite(&self.translation.vector)
+    }
+
+    #[inline(always)]
+    fn renormalise(&self) -> Self {
+        se2::renormalise(self)
+    }
+
+    #[inline]
+    fn increment_angle(tangent: &Self::Tangent) -> f64 {
+        norm(&tangent.data.0[0][2..])
+    }
+
+    #[inline]
+    fn magnitude(&self, i: usize) -> f64 {
+        if i < 2 { norm(&self.translation.vector.data.0[0]) } else { 1.0 }
+    }
+}
+
+impl<T: Real, const N: usize> Configuration for SVector<T, N> {
+    type Scalar = T;
+    type Tangent = Self;
+
+    #[inline(always)]
+    fn retract(&self, tangent: &Self) -> Self {
+        Self::from(core::array::from_fn(|i| self.data.0[0][i] + tangent.data.0[0][i]))
+    }
+
+    #[inline(always)]
+    fn difference(&self, other: &Self) -> Self {
+        Self::from(core::array::from_fn(|i| other.data.0[0][i] - self.data.0[0][i]))
+    }
+
+    #[inline(always)]
+    fn dexp_inv(_: &Self, w: &Self) -> Self {
+        *w
+    }
+
+    #[inline]
+    fn is_finite(&self) -> bool {
+        VectorSpace::is_finite(self)
+    }
+
+    #[inline]
+    fn magnitude(&self, i: usize) -> f64 {
+        norm(&self.data.0[0][i..=i])
+    }
+}
+
+impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (A, B) {
+    type Scalar = A::Scalar;
+    type Tangent = Product<A::Tangent, B::Tangent>;
+
+    #[inline(always)]
+    fn retract(&self, tangent: &Self::Tangent) -> Self {
+        (self.0.retract(&tangent.first), self.1.retract(&tangent.second))
+    }
+
+    #[inline(always)]
+    fn difference(&self, other: &Self) -> Self::Tangent {
+        Product { first: self.0.difference(&other.0), second: self.1.difference(&other.1) }
+    }
+
+    #[inline(always)]
+    fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        Product { first: A::dexp_inv(&v.first, &w.first), second: B::dexp_inv(&v.second, &w.second) }
+    }
+
+    #[inline]
+    fn is_finite(&self) -> bool {
+        self.0.is_finite() && self.1.is_finite()
+    }
+
+    #[inline(always)]
+    fn renormalise(&self) -> Self {
+        (self.0.renormalise(), self.1.renormalise())
+    }
+
+    #[inline]
+    fn increment_angle(tangent: &Self::Tangent) -> f64 {
+        A::increment_angle(&tangent.first).max(B::increment_angle(&tangent.second))
+    }
+
+    #[inline]
+    fn magnitude(&self, i: usize) -> f64 {
+        let split = <A::Tangent as VectorSpace<A::Scalar>>::DIM;
+        if i < split { self.0.magnitude(i) } else { self.1.magnitude(i - split) }
+    }
+}

@@ -1,0 +1,311 @@
+//! How long steps are: all the same, or as long as a tolerance allows.
+
+use super::error::{IntegrationError, IntegrationErrorKind, Part};
+use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use super::rkmk::Rkmk;
+use super::tableau::Tableau;
+use crate::configuration::{Configuration, VectorSpace};
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// A method with its choice of steps, which carries a state to the end of an interval.
+pub trait Control<S: GaussSystem> {
+    /// Integrates from `start` to the time `end` (before or after it), in at most `limit` steps. `emit` gets every state
+    /// reached with the derivatives there, the first and the last included.
+    ///
+    /// # Errors
+    /// An [`IntegrationError`] with the time of the last state emitted.
+    fn drive<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        start: State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut dyn FnMut(&State<S>, &Rates<S>),
+    ) -> Result<State<S>, IntegrationError>;
+}
+
+/// Steps of one length, by the classical Runge–Kutta–Munthe-Kaas method of order 4. The last one ends where it should.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed<T> {
+    method: Rkmk<T, 4>,
+    step: T,
+}
+
+impl<T: Real> Fixed<T> {
+    /// Steps of length |step|; the direction is that of the interval.
+    #[must_use]
+    pub fn new(step: T) -> Self {
+        Self { method: Rkmk::new(&Tableau::RK4), step }
+    }
+}
+
+/// Steps that keep the estimated error of each within a tolerance: Dormand–Prince 5(4) with a PI controller.
+#[derive(Clone, Copy, Debug)]
+pub struct Adaptive<T> {
+    method: Rkmk<T, 7>,
+    relative: f64,
+    absolute: f64,
+    pub(super) first_step: Option<f64>,
+    pub(super) largest_step: f64,
+}
+
+impl<T: Real> Adaptive<T> {
+    /// The error of a step is measured component by component against `absolute + relative·size`, where the size is
+    /// |y| for velocities or momenta, 1 for a rotation, |b| for a translation and |q| for a plain coordinate, and the root
+    /// mean square must not exceed 1.
+    #[must_use]
+    pub fn new(relative: f64, absolute: f64) -> Self {
+        Self {
+            method: Rkmk::new(&Tableau::DORMAND_PRINCE_5),
+            relative,
+            absolute,
+            first_step: None,
+            largest_step: f64::INFINITY,
+        }
+    }
+}
+
+/// The span of time in the first lane, and the derivatives at the start: all checks before the first step.
+fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
+    problem: &Problem<'_, S, F, I>,
+    start: &State<S>,
+    end: S::Scalar,
+) -> Result<(f64, Rates<S>), IntegrationErrorKind> {
+    if !(start.t.is_finite() && end.is_finite()) {
+        return Err(IntegrationErrorKind::InvalidInterval);
+    }
+    if !(start.q.is_finite() && start.y.is_finite()) {
+        return Err(IntegrationErrorKind::NonFinite { part: Part::InitialState });
+    }
+    let rates = problem.rates(start);
+    if !rates.is_finite() {
+        return Err(IntegrationErrorKind::NonFinite { part: Part::Derivative });
+    }
+    Ok(((end - start.t).lane(0), rates))
+}
+
+impl<S: GaussSystem> Control<S> for Fixed<S::Scalar> {
+    fn drive<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        start: State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut dyn FnMut(&State<S>, &Rates<S>),
+    ) -> Result<State<S>, IntegrationError> {
+        let stopped = |t: S::Scalar, kind| IntegrationError { time: t.lane(0), kind };
+        let length = self.step.lane(0).abs();
+        if !(length.is_finite() && length > 0.0) {
+            return Err(stopped(start.t, IntegrationErrorKind::InvalidStep { step: self.step.lane(0) }));
+        }
+        let (span, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
+        emit(&start, &rates);
+        if span == 0.0 {
+            return Ok(start);
+        }
+
+        // A remainder of a billionth of a step is the rounding of h and of the ends, not a step.
+        let count = span.abs() / length;
+        let whole = Real::abs(count - round(count)) < 1e-9 * count.max(1.0);
+        let steps = if whole { round(count).max(1.0) } else { floor(count) + 1.0 };
+        if steps > limit as f64 {
+            return Err(stopped(start.t, IntegrationErrorKind::TooManySteps { limit }));
+        }
+        let h = if (span < 0.0) == (self.step.lane(0) < 0.0) { self.step } else { -self.step };
+
+        let mut state = start;
+        let steps = steps as u64;
+        for n in 1..=steps {
+            let last = n == steps;
+            let this = if last && !whole { end - state.t } else { h };
+            let step = self.method.step(problem, &state, &rates, this).map_err(|kind| stopped(state.t, kind))?;
+            let reached = state.t;
+            state = step.state;
+            // Times are multiples of h, not sums of it.
+            state.t = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start.t) };
+            rates = problem.rates(&state);
+            if !rates.is_finite() {
+                return Err(stopped(reached, IntegrationErrorKind::NonFinite { part: Part::Step }));
+            }
+            emit(&state, &rates);
+        }
+        Ok(state)
+    }
+}
+
+impl<S: GaussSystem> Control<S> for Adaptive<S::Scalar> {
+    fn drive<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        start: State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut dyn FnMut(&State<S>, &Rates<S>),
+    ) -> Result<State<S>, IntegrationError> {
+        let stopped = |t: S::Scalar, kind| IntegrationError { time: t.lane(0), kind };
+        let (relative, absolute) = (self.relative, self.absolute);
+        let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
+        if !(usable(relative) && usable(absolute) && relative + absolute > 0.0) {
+            let kind = IntegrationErrorKind::InvalidTolerance { relative, absolute };
+            return Err(stopped(start.t, kind));
+        }
+        let (span, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
+        emit(&start, &rates);
+        if span == 0.0 {
+            return Ok(start);
+        }
+
+        let direction = if span < 0.0 { -1.0 } else { 1.0 };
+        let longest = self.largest_step.min(span.abs());
+        let first = self.first_step.unwrap_or_else(|| self.first_length(problem, &start, &rates, direction));
+        if !(first.is_finite() && first > 0.0 && longest > 0.0) {
+            return Err(stopped(start.t, IntegrationErrorKind::InvalidStep { step: first.min(longest) }));
+        }
+
+        let mut state = start;
+        let mut length = first.min(longest);
+        // Error of the last accepted step; the controller's memory.
+        let mut previous = 1e-4_f64;
+        let mut rejected = false;
+        for _ in 0..limit {
+            let left = (end - state.t).lane(0).abs();
+            // Stretch by 1 % rather than leave a sliver.
+            let last = length >= left * 0.99;
+            let signed = if last { end - state.t } else { S::Scalar::from_f64(direction * length) };
+            if state.t + signed == state.t {
+                return Err(stopped(state.t, IntegrationErrorKind::StepTooSmall { step: length }));
+            }
+            let step = match self.method.step(problem, &state, &rates, signed) {
+                Ok(step) => step,
+                // A shorter step may do: half, until the time does not change any more.
+                Err(kind) => {
+                    let half = 0.5 * length.min(left);
+                    if state.t + S::Scalar::from_f64(direction * half) == state.t {
+                        return Err(stopped(state.t, kind));
+                    }
+                    (length, rejected) = (half, true);
+                    continue;
+                }
+            };
+            let error = self.scaled_norm(&state, &step.state, &step.error);
+            let used = if last { left } else { length };
+            if error > 1.0 {
+                length = used * (0.9 * power(error, -1.0 / 5.0)).max(0.2);
+                rejected = true;
+                continue;
+            }
+            state = step.state;
+            if last {
+                state.t = end;
+            }
+            // Stepping over the end by a rounding of t is excluded by `last`; the derivatives come with the step.
+            rates = match step.rates {
+                Some(rates) => rates,
+                None => problem.rates(&state),
+            };
+            emit(&state, &rates);
+            if last {
+                return Ok(state);
+            }
+            // PI control (Gustafsson; exponents of Hairer & Wanner II.4 for order 5), no growth after a rejection.
+            let floor = error.max(1e-10);
+            let factor = 0.9 * power(floor, -0.7 / 5.0) * power(previous, 0.4 / 5.0);
+            let most = if rejected { 1.0 } else { 10.0 };
+            length = (used * factor.clamp(0.2, most)).min(longest);
+            previous = floor.max(1e-4);
+            rejected = false;
+        }
+        Err(stopped(state.t, IntegrationErrorKind::TooManySteps { limit }))
+    }
+}
+
+impl<T: Real> Adaptive<T> {
+    /// The root mean square of the components of `error`, each against its tolerance; the worst lane.
+    fn scaled_norm<S: GaussSystem<Scalar = T>>(&self, from: &State<S>, to: &State<S>, error: &Rates<S>) -> f64 {
+        let mut worst = 0.0_f64;
+        for lane in 0..T::LANES {
+            let mut sum = 0.0;
+            for i in 0..TangentOf::<S>::DIM {
+                let size = from.q.magnitude(i).max(to.q.magnitude(i));
+                let ratio = self.against(error.configuration.component(i).lane(lane), size);
+                sum += ratio * ratio;
+            }
+            for i in 0..S::Speeds::DIM {
+                let size = from.y.component(i).lane(lane).abs().max(to.y.component(i).lane(lane).abs());
+                let ratio = self.against(error.variables.component(i).lane(lane), size);
+                sum += ratio * ratio;
+            }
+            worst = worst.max(sum);
+        }
+        Real::sqrt(worst / (TangentOf::<S>::DIM + S::Speeds::DIM).max(1) as f64)
+    }
+
+    /// An error against its tolerance. Purely relative control of a null component asks for what is null too.
+    fn against(&self, error: f64, size: f64) -> f64 {
+        let tolerance = self.absolute + self.relative * size;
+        if error == 0.0 { 0.0 } else { error.abs() / tolerance.max(f64::MIN_POSITIVE) }
+    }
+
+    /// A first step from the sizes of the state, of its derivative and of the change of the derivative over an Euler step
+    /// (Hairer, Nørsett & Wanner, II.4).
+    fn first_length<S, F, I>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        start: &State<S>,
+        rates: &Rates<S>,
+        direction: f64,
+    ) -> f64
+    where
+        S: GaussSystem<Scalar = T>,
+        F: Form<S>,
+        I: InputSource<S>,
+    {
+        let size = {
+            // The state itself as an "error": |y| with the magnitudes of q.
+            let mut sizes: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: start.y };
+            for i in 0..TangentOf::<S>::DIM {
+                sizes.configuration.set_component(i, T::from_f64(start.q.magnitude(i)));
+            }
+            self.scaled_norm(start, start, &sizes)
+        };
+        let speed = self.scaled_norm(start, start, rates);
+        let guess = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
+        // Not beyond a fraction of a turn.
+        let turn = S::Configuration::increment_angle(&rates.configuration);
+        let guess = if turn * guess > 0.1 { 0.1 / turn } else { guess };
+
+        let h = T::from_f64(direction * guess);
+        let euler = State {
+            t: start.t + h,
+            q: start.q.retract(&rates.configuration.scale(h)),
+            y: start.y.add_scaled(h, &rates.variables),
+        };
+        let next = problem.rates(&euler);
+        if !next.is_finite() {
+            return guess * 1e-3;
+        }
+        let change = Rates {
+            configuration: next.configuration.add_scaled(-T::one(), &rates.configuration),
+            variables: next.variables.add_scaled(-T::one(), &rates.variables),
+        };
+        let curvature = self.scaled_norm(start, start, &change) / guess;
+        let steepest = speed.max(curvature);
+        let second = if steepest <= 1e-15 { (guess * 1e-3).max(1e-6) } else { power(0.01 / steepest, 1.0 / 5.0) };
+        second.min(100.0 * guess)
+    }
+}
+
+/// `base^exponent` for base > 0.
+fn power(base: f64, exponent: f64) -> f64 {
+    Real::exp(Real::ln(base) * exponent)
+}
+
+/// The integer part of a count; beyond 2⁵³ every number is an integer.
+fn floor(count: f64) -> f64 {
+    if count < 9.0e15 { (count as u64) as f64 } else { count }
+}
+
+fn round(count: f64) -> f64 {
+    floor(count + 0.5)
+}

@@ -1,0 +1,106 @@
+//! Why an integration stopped.
+
+use core::fmt;
+
+/// An integration that cannot go on. What was reached is kept: see
+/// [`Simulation::attempt`](crate::integrate::Simulation::attempt).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IntegrationError {
+    /// The last time that was reached with a good state.
+    pub time: f64,
+    /// What went wrong in the step from there.
+    pub kind: IntegrationErrorKind,
+}
+
+/// What went wrong in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum IntegrationErrorKind {
+    /// A number became infinite or undefined.
+    NonFinite {
+        /// Where it was seen first.
+        part: Part,
+    },
+    /// The step that the tolerance asks for no longer changes the time.
+    StepTooSmall {
+        /// The step.
+        step: f64,
+    },
+    /// The limit of steps was reached before the end.
+    TooManySteps {
+        /// The limit.
+        limit: u64,
+    },
+    /// The rotation in one step exceeds half a turn, beyond which its logarithm is not the shortest and the method's
+    /// differential soon is singular.
+    IncrementTooLarge {
+        /// The angle, in radians.
+        angle: f64,
+    },
+    /// A step that is zero or not finite was asked for.
+    InvalidStep {
+        /// The step.
+        step: f64,
+    },
+    /// Tolerances must be finite, not negative, and not both zero.
+    InvalidTolerance {
+        /// The relative tolerance.
+        relative: f64,
+        /// The absolute tolerance.
+        absolute: f64,
+    },
+    /// An end of the interval of time is not finite.
+    InvalidInterval,
+}
+
+/// Where a number that is not finite was seen first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// The initial configuration or velocity, or the momentum made of them.
+    InitialState,
+    /// The equations of motion at the last good state.
+    Derivative,
+    /// The state at the end of a step, or a stage on the way.
+    Step,
+}
+
+impl fmt::Display for IntegrationErrorKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NonFinite { part } => {
+                let whence = match part {
+                    Part::InitialState => "the initial state is",
+                    Part::Derivative => "the equations of motion are",
+                    Part::Step => "the next step is",
+                };
+                write!(f, "{whence} infinite or undefined; check parameters and inputs, and the chart's singularities")
+            }
+            Self::StepTooSmall { step } => write!(
+                f,
+                "the tolerance asks for a step of {step:e}, which no longer changes the time; \
+                 the motion is singular here, or the tolerance below rounding"
+            ),
+            Self::TooManySteps { limit } => {
+                write!(f, "{limit} steps did not reach the end; raise the limit or the tolerance")
+            }
+            Self::IncrementTooLarge { angle } => write!(
+                f,
+                "the body turns by {angle:.3} rad in one step, and at most π can be told from less; use a smaller step"
+            ),
+            Self::InvalidStep { step } => write!(f, "a step of {step} was asked for; it must be finite and not zero"),
+            Self::InvalidTolerance { relative, absolute } => write!(
+                f,
+                "tolerances {relative:e} (relative) and {absolute:e} (absolute) must be finite, not negative, not both 0"
+            ),
+            Self::InvalidInterval => f.write_str("the interval of time has an end that is not finite"),
+        }
+    }
+}
+
+impl fmt::Display for IntegrationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "integration stopped at t = {}: {}", self.time, self.kind)
+    }
+}
+
+impl core::error::Error for IntegrationError {}

@@ -1,0 +1,32 @@
+//! Integrators on groups: one file a family of methods, all written once over the two forms of the equations.
+//!
+//! | file | holds |
+//! |---|---|
+//! | [`form`] | velocity form and momentum form, inputs, and the [`Problem`] that a method sees |
+//! | [`tableau`] | coefficients of Runge–Kutta methods |
+//! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
+//! | [`control`] | fixed steps, adaptive steps |
+//! | [`simulation`] | [`Simulation`], the front |
+//! | [`trajectory`] | [`Sample`], `Trajectory` |
+//! | [`error`] | [`IntegrationError`] |
+
+pub mod control;
+pub mod error;
+pub mod form;
+pub mod rkmk;
+pub mod simulation;
+pub mod tableau;
+pub mod trajectory;
+
+pub use control::{Adaptive, Control, Fixed};
+pub use error::{IntegrationError, IntegrationErrorKind, Part};
+pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
+pub use rkmk::Rkmk;
+pub use simulation::Simulation;
+pub use tableau::Tableau;
+pub use trajectory::Sample;
+#[cfg(feature = "alloc")]
+pub use trajectory::Trajectory;
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests;

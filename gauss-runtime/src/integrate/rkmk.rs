@@ -1,0 +1,142 @@
+//! Runge–Kutta–Munthe-Kaas methods: a classical Runge–Kutta method in the algebra, one exponential a stage.
+//!
+//! With `q = q₀ ∘ exp(σ)` the kinematics become `σ̇ = dexp_inv(σ, V)` on a linear space, where any Runge–Kutta method keeps
+//! its order (Munthe-Kaas 1999). Each step starts again at σ = 0, far from the singularity of dexp⁻¹ at 2π. On ℝⁿ exp is
+//! addition and dexp⁻¹ the identity: the method is the Runge–Kutta method itself, operation by operation.
+
+use super::error::{IntegrationErrorKind, Part};
+use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use super::tableau::{Rational, Tableau};
+use crate::configuration::{Configuration, VectorSpace};
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// An explicit Runge–Kutta–Munthe-Kaas method of S stages, its coefficients in the scalar T.
+///
+/// Steps need no memory beyond the stack.
+#[derive(Clone, Copy, Debug)]
+pub struct Rkmk<T, const S: usize> {
+    a: [[T; S]; S],
+    b: [T; S],
+    c: [T; S],
+    error: [T; S],
+    order: u32,
+    has_error: bool,
+    first_same_as_last: bool,
+}
+
+/// The outcome of one step.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<S: GaussSystem> {
+    /// The state at its end.
+    pub state: State<S>,
+    /// The estimated error of the step in the tangent space, and in y. Zero for a method without an embedded one.
+    pub error: Rates<S>,
+    /// The derivatives at the end, when the method has them for nothing.
+    pub rates: Option<Rates<S>>,
+}
+
+impl<T: Real, const S: usize> Rkmk<T, S> {
+    /// The method of a tableau.
+    #[must_use]
+    pub fn new(tableau: &Tableau<S>) -> Self {
+        let row = |row: &[Rational; S]| row.map(|(p, q)| T::ratio(p, q));
+        Self {
+            a: tableau.a.each_ref().map(row),
+            b: row(&tableau.b),
+            c: row(&tableau.c),
+            error: row(&tableau.error),
+            order: tableau.order,
+            has_error: tableau.embedded_order > 0,
+            first_same_as_last: tableau.first_same_as_last,
+        }
+    }
+
+    /// The order of the method.
+    #[must_use]
+    pub fn order(&self) -> u32 {
+        self.order
+    }
+
+    /// One step of length `h` from `state`, where the derivatives are `rates`.
+    ///
+    /// # Errors
+    /// [`IntegrationErrorKind::IncrementTooLarge`] when a stage turns by more than π,
+    /// [`IntegrationErrorKind::NonFinite`] when anything overflows or is undefined. The state given is untouched.
+    #[inline]
+    pub fn step<Sys, F, I>(
+        &self,
+        problem: &Problem<'_, Sys, F, I>,
+        state: &State<Sys>,
+        rates: &Rates<Sys>,
+        h: T,
+    ) -> Result<Step<Sys>, IntegrationErrorKind>
+    where
+        Sys: GaussSystem<Scalar = T>,
+        F: Form<Sys>,
+        I: InputSource<Sys>,
+    {
+        // Derivatives in the algebra: dexp_inv(σ, V) and ẏ. At σ = 0 the former is V.
+        let mut stages = [*rates; S];
+        let mut last = *rates;
+        for i in 1..S {
+            let sigma = combination(h, &self.a[i][..i], &stages);
+            check_increment::<Sys>(&sigma)?;
+            let stage: State<Sys> = State {
+                t: self.c[i].fma(h, state.t),
+                q: state.q.retract(&sigma.configuration),
+                y: state.y.add_scaled(T::one(), &sigma.variables),
+            };
+            last = problem.rates(&stage);
+            stages[i] = Rates {
+                configuration: Sys::Configuration::dexp_inv(&sigma.configuration, &last.configuration),
+                variables: last.variables,
+            };
+        }
+
+        let sigma = combination(h, &self.b, &stages);
+        check_increment::<Sys>(&sigma)?;
+        let end: State<Sys> = State {
+            t: state.t + h,
+            q: state.q.retract(&sigma.configuration).renormalise(),
+            y: state.y.add_scaled(T::one(), &sigma.variables),
+        };
+        let error: Rates<Sys> = if self.has_error {
+            combination(h, &self.error, &stages)
+        } else {
+            Rates { configuration: TangentOf::<Sys>::zero(), variables: Sys::Speeds::zero() }
+        };
+        // A stage that is not finite makes the result so, because no later weight can take it out again.
+        if !(end.q.is_finite() && end.y.is_finite() && error.is_finite() && last.is_finite()) {
+            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        }
+        // The last stage is the result also on a group: its σ is the step's. Renormalising moves it by rounding only.
+        let rates = self.first_same_as_last.then_some(last);
+        Ok(Step { state: end, error, rates })
+    }
+}
+
+/// `h Σ wᵢ·stageᵢ`; null weights are passed over.
+#[inline(always)]
+fn combination<S: GaussSystem>(h: S::Scalar, weights: &[S::Scalar], stages: &[Rates<S>]) -> Rates<S> {
+    let mut sum: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+    for (&weight, stage) in weights.iter().zip(stages) {
+        if weight != S::Scalar::zero() {
+            let factor = h * weight;
+            sum.configuration = sum.configuration.add_scaled(factor, &stage.configuration);
+            sum.variables = sum.variables.add_scaled(factor, &stage.variables);
+        }
+    }
+    sum
+}
+
+/// Refuses rotations beyond half a turn. A NaN passes here and is caught at the end of the step.
+#[inline(always)]
+fn check_increment<S: GaussSystem>(increment: &Rates<S>) -> Result<(), IntegrationErrorKind> {
+    let angle = S::Configuration::increment_angle(&increment.configuration);
+    if angle > core::f64::consts::PI && angle.is_finite() {
+        Err(IntegrationErrorKind::IncrementTooLarge { angle })
+    } else {
+        Ok(())
+    }
+}

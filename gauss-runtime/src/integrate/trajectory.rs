@@ -1,0 +1,179 @@
+//! What an integration hands out: samples, and trajectories that can be asked at any time between them.
+
+use core::fmt;
+
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+
+use super::form::copy_and_debug;
+#[cfg(feature = "alloc")]
+use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+#[cfg(feature = "alloc")]
+use crate::configuration::{Configuration, VectorSpace};
+#[cfg(feature = "alloc")]
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// A state of the system: quasi-velocities and momenta both, whichever form was integrated.
+pub struct Sample<S: GaussSystem> {
+    /// Time.
+    pub t: S::Scalar,
+    /// Configuration.
+    pub q: S::Configuration,
+    /// Quasi-velocities.
+    pub z: S::Speeds,
+    /// Momenta p = ∂T/∂z.
+    pub p: S::Speeds,
+}
+
+copy_and_debug!(Sample { t, q, z, p });
+
+/// A sample with the derivatives that interpolation needs.
+#[cfg(feature = "alloc")]
+struct Knot<S: GaussSystem> {
+    sample: Sample<S>,
+    velocity: TangentOf<S>,
+    acceleration: S::Speeds,
+    momentum_rate: S::Speeds,
+}
+
+#[cfg(feature = "alloc")]
+copy_and_debug!(Knot { sample, velocity, acceleration, momentum_rate });
+
+/// Samples in the order of integration, at least one; a continuous curve through them by [`at`](Self::at).
+#[cfg(feature = "alloc")]
+pub struct Trajectory<S: GaussSystem> {
+    knots: Vec<Knot<S>>,
+}
+
+#[cfg(feature = "alloc")]
+impl<S: GaussSystem> Clone for Trajectory<S> {
+    fn clone(&self) -> Self {
+        Self { knots: self.knots.clone() }
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<S: GaussSystem> fmt::Debug for Trajectory<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+#[cfg(feature = "alloc")]
+#[allow(clippy::len_without_is_empty)] // Never empty.
+impl<S: GaussSystem> Trajectory<S> {
+    /// A trajectory of one sample, its derivatives not known.
+    pub(super) fn starting_with(sample: Sample<S>) -> Self {
+        let none = S::Speeds::zero();
+        let velocity = TangentOf::<S>::zero();
+        Self { knots: Vec::from([Knot { sample, velocity, acceleration: none, momentum_rate: none }]) }
+    }
+
+    /// Appends a sample; `first` replaces the one that the trajectory started with.
+    pub(super) fn record<F: Form<S>, I: InputSource<S>>(
+        &mut self,
+        first: bool,
+        problem: &Problem<'_, S, F, I>,
+        sample: &Sample<S>,
+        state: &State<S>,
+        rates: &Rates<S>,
+    ) {
+        let (acceleration, momentum_rate) =
+            problem.form.both_rates(problem.system, &problem.input, state, &rates.variables);
+        if first {
+            self.knots.clear();
+        }
+        self.knots.push(Knot { sample: *sample, velocity: rates.configuration, acceleration, momentum_rate });
+    }
+
+    /// The number of samples, at least 1.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.knots.len()
+    }
+
+    /// The initial sample.
+    #[must_use]
+    pub fn first(&self) -> &Sample<S> {
+        &self.knots[0].sample
+    }
+
+    /// The last sample.
+    #[must_use]
+    pub fn last(&self) -> &Sample<S> {
+        &self.knots[self.knots.len() - 1].sample
+    }
+
+    /// Sample `n`, counted from 0.
+    #[must_use]
+    pub fn get(&self, n: usize) -> Option<&Sample<S>> {
+        self.knots.get(n).map(|knot| &knot.sample)
+    }
+
+    /// The samples in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Sample<S>> + DoubleEndedIterator {
+        self.knots.iter().map(|knot| &knot.sample)
+    }
+
+    /// The state at time `t`; `None` outside the interval of the trajectory. For packs of numbers the first lane of the
+    /// times decides between which samples to look.
+    ///
+    /// Cubic Hermite interpolation of z and p, and of the configuration on its group: in the algebra at the earlier sample,
+    /// where q is `q₀ ∘ exp(σ)`, σ is interpolated with `σ̇ = dexp_inv(σ, V)`. The error is of fourth order in the distance
+    /// of the samples; between them the body must turn by less than π.
+    #[must_use]
+    pub fn at(&self, t: S::Scalar) -> Option<Sample<S>> {
+        let time = t.lane(0);
+        let of = |knot: &Knot<S>| knot.sample.t.lane(0);
+        let (first, last) = (self.first().t.lane(0), self.last().t.lane(0));
+        let backward = last < first;
+        let inside = if backward { last <= time && time <= first } else { first <= time && time <= last };
+        if !inside {
+            return None;
+        }
+        let after = self.knots.partition_point(|knot| if backward { of(knot) > time } else { of(knot) < time });
+        let right = self.knots.get(after)?;
+        if of(right) == time || after == 0 {
+            return Some(Sample { t, ..right.sample });
+        }
+        Some(hermite(&self.knots[after - 1], right, t))
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<'a, S: GaussSystem> IntoIterator for &'a Trajectory<S> {
+    type Item = &'a Sample<S>;
+    type IntoIter = alloc::boxed::Box<dyn Iterator<Item = &'a Sample<S>> + 'a>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        alloc::boxed::Box::new(self.iter())
+    }
+}
+
+/// The cubic between two knots.
+#[cfg(feature = "alloc")]
+fn hermite<S: GaussSystem>(left: &Knot<S>, right: &Knot<S>, t: S::Scalar) -> Sample<S> {
+    let (one, two) = (S::Scalar::one(), S::Scalar::from_f64(2.0));
+    let h = right.sample.t - left.sample.t;
+    let s = (t - left.sample.t) / h;
+    let rest = one - s;
+    // Values at the right end (the left one is the origin of differences), and the two slopes.
+    let value = s * s * (one + two * rest);
+    let (slope_left, slope_right) = (h * s * rest * rest, -(h * s * s * rest));
+
+    let sigma = left.sample.q.difference(&right.sample.q);
+    let end_slope = S::Configuration::dexp_inv(&sigma, &right.velocity);
+    let increment = sigma.scale(value).add_scaled(slope_left, &left.velocity).add_scaled(slope_right, &end_slope);
+
+    let linear = |from: &S::Speeds, to: &S::Speeds, slope: &S::Speeds, next: &S::Speeds| {
+        let change = to.add_scaled(-one, from);
+        from.add_scaled(value, &change).add_scaled(slope_left, slope).add_scaled(slope_right, next)
+    };
+    Sample {
+        t,
+        q: left.sample.q.retract(&increment).renormalise(),
+        z: linear(&left.sample.z, &right.sample.z, &left.acceleration, &right.acceleration),
+        p: linear(&left.sample.p, &right.sample.p, &left.momentum_rate, &right.momentum_rate),
+    }
+}

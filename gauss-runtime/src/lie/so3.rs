@@ -1,0 +1,99 @@
+//! SO(3): rotations as unit quaternions, body to observer.
+
+use nalgebra::{SVector, UnitQuaternion};
+
+use super::coefficients;
+use crate::real::Real;
+use crate::triple::{axpy, compose, conjugate, cross, dot, quaternion, scaled, triple, unit_quaternion};
+
+/// The rotation by the angle |σ| (rad) about σ: the quaternion `(sin(θ/2) σ/θ, cos(θ/2))`.
+#[inline]
+pub fn exp<T: Real>(sigma: &SVector<T, 3>) -> UnitQuaternion<T> {
+    unit_quaternion(exp_components(triple(sigma)))
+}
+
+#[inline(always)]
+pub(super) fn exp_components<T: Real>(sigma: [T; 3]) -> [T; 4] {
+    let (sinc, cosine) = coefficients::sinc_cos(T::ratio(1, 4) * dot(sigma, sigma));
+    let [x, y, z] = scaled(T::ratio(1, 2) * sinc, sigma);
+    [x, y, z, cosine]
+}
+
+/// The rotation vector of smallest length, |σ| ≤ π, with `exp(σ)` the given rotation.
+///
+/// By atan2 of the vector part against the scalar part: full precision from the identity to half a turn, where of the two
+/// opposite answers the one along the quaternion's vector part is given (against it when w < 0).
+#[inline]
+pub fn log<T: Real>(rotation: &UnitQuaternion<T>) -> SVector<T, 3> {
+    SVector::from(log_components(quaternion(rotation)))
+}
+
+#[inline(always)]
+pub(super) fn log_components<T: Real>(q: [T; 4]) -> [T; 3] {
+    let vector = [q[0], q[1], q[2]];
+    // q and −q are the same rotation: the one with w ≥ 0 turns by at most π.
+    let sign = T::select_lt(q[3], T::zero(), -T::one(), T::one());
+    let w = sign * q[3];
+    let square = dot(vector, vector);
+    let ratio = square / (w * w);
+    let near = coefficients::arctangent_ratio(ratio) / w;
+    let norm = square.sqrt();
+    let far = norm.atan2(w) / norm;
+    let half = T::select_lt(ratio, T::ratio(1, 64), near, far);
+    scaled(sign * (half + half), vector)
+}
+
+/// The Lie bracket `[v, w] = v × w`.
+#[inline]
+pub fn bracket<T: Real>(v: &SVector<T, 3>, w: &SVector<T, 3>) -> SVector<T, 3> {
+    SVector::from(cross(triple(v), triple(w)))
+}
+
+/// `Ad_R w = R w`: a body angular velocity seen from the observer.
+#[inline]
+pub fn adjoint<T: Real>(rotation: &UnitQuaternion<T>, w: &SVector<T, 3>) -> SVector<T, 3> {
+    SVector::from(crate::triple::rotate(quaternion(rotation), triple(w)))
+}
+
+/// `w + ½ v×w + c v×(v×w)`, `c = (1 − (θ/2) cot(θ/2))/θ²`, θ = |v|: see [`Configuration::dexp_inv`].
+///
+/// [`Configuration::dexp_inv`]: crate::configuration::Configuration::dexp_inv
+#[inline]
+pub fn dexp_inv<T: Real>(v: &SVector<T, 3>, w: &SVector<T, 3>) -> SVector<T, 3> {
+    let (v, w) = (triple(v), triple(w));
+    let c = coefficients::dexp_inv(dot(v, v));
+    let once = cross(v, w);
+    SVector::from(axpy(c, cross(v, once), axpy(T::ratio(1, 2), once, w)))
+}
+
+/// `q ∘ exp(σ)`.
+#[inline]
+pub fn retract<T: Real>(rotation: &UnitQuaternion<T>, sigma: &SVector<T, 3>) -> UnitQuaternion<T> {
+    unit_quaternion(compose(quaternion(rotation), exp_components(triple(sigma))))
+}
+
+/// `log(p⁻¹ ∘ q)`.
+#[inline]
+pub fn difference<T: Real>(from: &UnitQuaternion<T>, to: &UnitQuaternion<T>) -> SVector<T, 3> {
+    SVector::from(log_components(compose(conjugate(quaternion(from)), quaternion(to))))
+}
+
+/// Brings the norm back to 1.
+///
+/// Near norm 1 each component gets the correction `q·½(1 − |q|²)` *added*, so that it is rounded to nearest and a norm
+/// that is right up to rounding is left alone: dividing by a rounded norm shrinks on average, because floating-point
+/// numbers lie twice as densely below 1 as above.
+#[inline]
+pub fn renormalise<T: Real>(rotation: &UnitQuaternion<T>) -> UnitQuaternion<T> {
+    let q = quaternion(rotation);
+    let defect = T::one() - q.iter().fold(T::zero(), |sum, &c| c.fma(c, sum));
+    let factor = norm_correction(defect);
+    unit_quaternion(q.map(|c| c.fma(factor, c)))
+}
+
+/// `1/√(1 − defect) − 1`; to first order where the second order is below rounding.
+#[inline(always)]
+pub(super) fn norm_correction<T: Real>(defect: T) -> T {
+    let far = (T::one() - defect).sqrt().recip() - T::one();
+    T::select_lt(defect * defect, T::from_f64(T::EPSILON), T::ratio(1, 2) * defect, far)
+}

@@ -1,0 +1,19 @@
+//! Everything that a simulation needs: `use gauss_runtime::prelude::*;`.
+
+#[cfg(feature = "derive")]
+pub use gauss_derive::GaussDynamics;
+
+pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
+pub use crate::configuration::{Configuration, VectorSpace};
+pub use crate::error::ParameterError;
+pub use crate::integrate::Simulation;
+#[cfg(feature = "alloc")]
+pub use crate::integrate::Trajectory;
+pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
+#[cfg(feature = "alloc")]
+pub use crate::monitor::{monitor, monitor_body};
+pub use crate::real::Real;
+pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody};
+pub use nalgebra::{
+    Isometry2, Isometry3, Matrix3, Matrix6, SMatrix, SVector, Translation3, UnitQuaternion, Vector3, Vector6,
+};

@@ -1,0 +1,243 @@
+//! Checks of the parameters of a body, all of them before the first report.
+
+use core::marker::PhantomData;
+
+use super::eigenvalues::eigenvalues;
+use crate::error::{ParameterError, Rule, Violation, ViolationList};
+use crate::real::Real;
+
+/// Collects every rule that the parameters break, one for each field: what follows from a first violation is not
+/// reported again.
+///
+/// For packs of numbers every lane is checked; the first lane that breaks a rule speaks for the others.
+pub struct ParameterCheck<T> {
+    violations: ViolationList,
+    scalar: PhantomData<T>,
+}
+
+impl<T: Real> Default for ParameterCheck<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T: Real> ParameterCheck<T> {
+    /// No violation so far.
+    #[inline(always)]
+    #[must_use]
+    pub fn new() -> Self {
+        Self { violations: ViolationList::new(), scalar: PhantomData }
+    }
+
+    /// Every value is finite.
+    pub fn finite(&mut self, field: &'static str, values: &[T]) {
+        self.finite_so_far(field, values);
+    }
+
+    /// A mass: finite and greater than zero.
+    pub fn mass(&mut self, field: &'static str, mass: T) {
+        if self.finite_so_far(field, &[mass]) {
+            self.each_lane(field, |lane| {
+                let value = mass.lane(lane);
+                (value <= 0.0).then_some((value, Rule::PositiveMass))
+            });
+        }
+    }
+
+    /// A value that is finite and zero or greater.
+    pub fn non_negative(&mut self, field: &'static str, value: T) {
+        if self.finite_so_far(field, &[value]) {
+            self.each_lane(field, |lane| {
+                let value = value.lane(lane);
+                (value < 0.0).then_some((value, Rule::NonNegative))
+            });
+        }
+    }
+
+    /// An inertia tensor about the centre of mass, or one of which nothing else is known: symmetric up to rounding,
+    /// positive definite, and its principal moments obey the triangle inequality up to a few ulp of the trace.
+    pub fn inertia(&mut self, field: &'static str, inertia: &[[T; 3]; 3]) {
+        if self.symmetric_so_far(field, inertia, |row, col| Rule::SymmetricInertia { row, col }) {
+            self.each_lane(field, |lane| {
+                let tensor = in_lane(inertia, lane);
+                let slack = 8.0 * T::EPSILON * trace(&tensor);
+                principal_moments(&tensor, 0.0, slack, false)
+            });
+        }
+    }
+
+    /// An inertia tensor about O together with mass m and centre of mass c (from O, body axes): what is left about the
+    /// centre of mass, `I_O − m(|c|² 1 − c cᵀ)`, must be the inertia of a body.
+    ///
+    /// Silent when mass or centre break rules of their own, which their fields report.
+    pub fn central_inertia(&mut self, field: &'static str, mass: T, center: [T; 3], inertia: &[[T; 3]; 3]) {
+        if !self.symmetric_so_far(field, inertia, |row, col| Rule::SymmetricInertia { row, col }) {
+            return;
+        }
+        self.each_lane(field, |lane| {
+            let (m, c) = (mass.lane(lane), center.map(|c| c.lane(lane)));
+            if !(m > 0.0 && m.is_finite() && c.iter().all(|c| c.is_finite())) {
+                return None;
+            }
+            let about_o = in_lane(inertia, lane);
+            let square: f64 = c.iter().map(|c| c * c).sum();
+            let central = core::array::from_fn(|i| {
+                core::array::from_fn(|j| {
+                    let steiner = if i == j { square - c[i] * c[i] } else { -(c[i] * c[j]) };
+                    about_o[i][j] - m * steiner
+                })
+            });
+            // The subtraction leaves rounding of the size of what was subtracted.
+            let rounding = 8.0 * T::EPSILON * m * square;
+            let slack = rounding + 8.0 * T::EPSILON * trace(&about_o);
+            principal_moments(&central, rounding, slack, true)
+        });
+    }
+
+    /// A matrix of added mass, in the order (u, ω): finite and symmetric up to rounding.
+    pub fn symmetric(&mut self, field: &'static str, matrix: &[[T; 6]; 6]) {
+        self.symmetric_so_far(field, matrix, |row, col| Rule::SymmetricAddedMass { row, col });
+    }
+
+    /// The mass matrix A of body and fluid: positive definite, and invertible in the precision of the scalar.
+    ///
+    /// Its rows carry different units, so it is scaled to a unit diagonal first; then eigenvalues mean something. Silent
+    /// when any parameter is wrong already, because A is made of all of them.
+    pub fn kinetic_matrix<const N: usize>(&mut self, field: &'static str, matrix: &[[T; N]; N]) {
+        if !self.violations.as_slice().is_empty() {
+            return;
+        }
+        for row in matrix {
+            if !self.finite_so_far(field, row) {
+                return;
+            }
+        }
+        self.each_lane(field, |lane| {
+            let a = in_lane(matrix, lane);
+            if let Some(i) = (0..N).find(|&i| a[i][i] <= 0.0) {
+                return Some((a[i][i], Rule::PositiveDefiniteKineticMatrix));
+            }
+            let scale: [f64; N] = core::array::from_fn(|i| 1.0 / Real::sqrt(a[i][i]));
+            let unit = core::array::from_fn(|i| {
+                core::array::from_fn(|j| if i == j { 1.0 } else { (a[i][j] * scale[i]) * scale[j] })
+            });
+            let (smallest, largest, _) = extremes(&eigenvalues::<N>(&unit));
+            let limit = 1.0 / T::EPSILON;
+            // An entry is rounded to ε, and so is a vanishing eigenvalue: below, its sign says nothing.
+            if smallest <= -(N as f64) * T::EPSILON {
+                Some((smallest, Rule::PositiveDefiniteKineticMatrix))
+            } else if smallest * limit < largest {
+                let condition = if smallest > 0.0 { largest / smallest } else { f64::INFINITY };
+                Some((condition, Rule::ConditionedKineticMatrix { limit }))
+            } else {
+                None
+            }
+        });
+    }
+
+    /// The outcome.
+    ///
+    /// # Errors
+    /// All violations at once, in the order of the checks.
+    pub fn finish(&self) -> Result<(), ParameterError> {
+        self.violations.into_result()
+    }
+
+    /// Whether the field has broken no rule yet and `values` are finite; reports the first that is not.
+    fn finite_so_far(&mut self, field: &'static str, values: &[T]) -> bool {
+        if self.has_violation(field) {
+            return false;
+        }
+        for value in values {
+            for lane in 0..T::LANES {
+                if !value.lane(lane).is_finite() {
+                    self.violations.push(Violation { field, value: value.lane(lane), rule: Rule::Finite });
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// As [`finite_so_far`](Self::finite_so_far), and symmetric up to rounding of the largest entry.
+    fn symmetric_so_far<const N: usize>(
+        &mut self,
+        field: &'static str,
+        matrix: &[[T; N]; N],
+        rule: impl Fn(usize, usize) -> Rule,
+    ) -> bool {
+        for row in matrix {
+            if !self.finite_so_far(field, row) {
+                return false;
+            }
+        }
+        self.each_lane(field, |lane| {
+            let a = in_lane(matrix, lane);
+            let largest = a.iter().flatten().fold(0.0_f64, |m, &e| m.max(e.abs()));
+            for row in 0..N {
+                for col in row + 1..N {
+                    let difference = a[row][col] - a[col][row];
+                    if difference.abs() > 8.0 * T::EPSILON * largest {
+                        return Some((difference, rule(row, col)));
+                    }
+                }
+            }
+            None
+        });
+        !self.has_violation(field)
+    }
+
+    /// Reports the first lane for which `check` finds a value that breaks a rule.
+    fn each_lane(&mut self, field: &'static str, check: impl Fn(usize) -> Option<(f64, Rule)>) {
+        if let Some((value, rule)) = (0..T::LANES).find_map(check) {
+            self.violations.push(Violation { field, value, rule });
+        }
+    }
+
+    fn has_violation(&self, field: &str) -> bool {
+        self.violations.as_slice().iter().any(|violation| violation.field == field)
+    }
+}
+
+/// The value parts of one lane.
+fn in_lane<T: Real, const N: usize>(matrix: &[[T; N]; N], lane: usize) -> [[f64; N]; N] {
+    matrix.map(|row| row.map(|entry| entry.lane(lane)))
+}
+
+fn trace(tensor: &[[f64; 3]; 3]) -> f64 {
+    tensor[0][0] + tensor[1][1] + tensor[2][2]
+}
+
+/// The smallest, the largest, and where the largest is.
+fn extremes<const N: usize>(values: &[f64; N]) -> (f64, f64, usize) {
+    let mut found = (f64::INFINITY, f64::NEG_INFINITY, 0);
+    for (i, &value) in values.iter().enumerate() {
+        found.0 = found.0.min(value);
+        if value > found.1 {
+            (found.1, found.2) = (value, i);
+        }
+    }
+    found
+}
+
+/// What is wrong with principal moments that are known up to `rounding`; `slack` of the triangle inequality.
+fn principal_moments(
+    tensor: &[[f64; 3]; 3],
+    rounding: f64,
+    slack: f64,
+    about_center_of_mass: bool,
+) -> Option<(f64, Rule)> {
+    let moments = eigenvalues(tensor);
+    let (smallest, largest, axis) = extremes(&moments);
+    if smallest <= -rounding {
+        let rule = if about_center_of_mass { Rule::InertiaAboutCenterOfMass } else { Rule::PositiveDefiniteInertia };
+        return Some((smallest, rule));
+    }
+    let sum = moments.iter().sum::<f64>() - largest;
+    let excess = largest - sum;
+    (excess > slack).then_some((largest, Rule::TriangleInequality { axis, sum, excess, about_center_of_mass }))
+}
+
+#[cfg(test)]
+#[path = "check_tests.rs"]
+mod tests;

@@ -1,0 +1,318 @@
+//! The scalar of every kernel: [`Real`], and why it is not `nalgebra::RealField`.
+//!
+//! Generated code is straight-line arithmetic, so one function body serves plain floats, SIMD lanes, dual numbers
+//! (derivatives of a whole simulation) and double-double numbers (reference solutions). [`Real`] asks for exactly what
+//! such code needs. It is deliberately poorer than `RealField`: there is no total order and no conversion from a lane
+//! back into control flow, apart from [`Real::lane`], which step control and parameter checks use, and
+//! [`Real::select_lt`], which is how lanes take different branches.
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// A real number, or a pack of them that is worked on lane by lane.
+///
+/// Implemented for [`f32`] and [`f64`]; implement it for SIMD packs, dual numbers or extended precision to run the same
+/// generated kernels on them. The supertraits are those that nalgebra's containers (`SVector`, `Isometry3`,
+/// `UnitQuaternion`, …) need to hold a scalar: `Copy + PartialEq + Debug + 'static` implies `nalgebra::Scalar`, and nothing
+/// more is required because this crate works on components only.
+///
+/// Every function acts on each lane by itself and follows IEEE 754: results outside the domain are NaN, never a panic.
+/// Angles are in radians.
+pub trait Real:
+    Copy
+    + PartialEq
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+{
+    /// How many independent numbers a value holds: 1 for a plain scalar.
+    const LANES: usize;
+
+    /// Distance from 1 to the next larger number of a lane. Sets the length of power series and the slack of checks.
+    const EPSILON: f64 = f64::EPSILON;
+
+    /// The value part of lane `i < LANES`, rounded to `f64`: for checks, step control and reports, not for arithmetic.
+    fn lane(self, i: usize) -> f64;
+
+    /// Zero in every lane.
+    fn zero() -> Self;
+
+    /// One in every lane.
+    fn one() -> Self;
+
+    /// `value` in every lane, rounded to the precision of a lane.
+    fn from_f64(value: f64) -> Self;
+
+    /// The rational number `p/q` in every lane, correctly rounded. `q = 0` gives what a division by zero gives.
+    fn ratio(p: i64, q: i64) -> Self;
+
+    /// `self·b + c`. Fused where that is one machine instruction, else two roundings: a fused multiply-add by software
+    /// costs more than everything around it.
+    #[inline(always)]
+    fn fma(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    /// Square root.
+    fn sqrt(self) -> Self;
+
+    /// Sine and cosine together.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// Sine.
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+
+    /// Cosine.
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+
+    /// Tangent.
+    #[inline(always)]
+    fn tan(self) -> Self {
+        let (sine, cosine) = self.sin_cos();
+        sine / cosine
+    }
+
+    /// Inverse sine, in [−π/2, π/2].
+    fn asin(self) -> Self;
+
+    /// Inverse cosine, in [0, π].
+    fn acos(self) -> Self;
+
+    /// Inverse tangent, in [−π/2, π/2].
+    fn atan(self) -> Self;
+
+    /// The angle of the point (`x`, `self`), in [−π, π]: `self` is the ordinate.
+    fn atan2(self, x: Self) -> Self;
+
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+
+    /// Exponential.
+    fn exp(self) -> Self;
+
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+
+    /// Integer power, by repeated squaring.
+    #[inline]
+    fn powi(self, exponent: i32) -> Self {
+        let mut square = self;
+        let mut result = Self::one();
+        let mut remaining = exponent.unsigned_abs();
+        while remaining > 0 {
+            if remaining & 1 == 1 {
+                result *= square;
+            }
+            remaining >>= 1;
+            if remaining > 0 {
+                square *= square;
+            }
+        }
+        if exponent < 0 { result.recip() } else { result }
+    }
+
+    /// Absolute value.
+    fn abs(self) -> Self;
+
+    /// `1/self`.
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Self::one() / self
+    }
+
+    /// Whether every lane (derivative parts included, where there are any) is finite.
+    fn is_finite(self) -> bool;
+
+    /// Lane by lane, `x` where `a < b`, else `y` (so `y` where `a` or `b` is NaN).
+    ///
+    /// What is not chosen may be NaN or infinite and must leave no trace.
+    fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self;
+}
+
+#[cfg(feature = "std")]
+macro_rules! elementary {
+    ($float:ident, $std:ident, $libm:ident; $($argument:expr),+) => { $float::$std($($argument),+) };
+}
+
+#[cfg(not(feature = "std"))]
+macro_rules! elementary {
+    ($float:ident, $std:ident, $libm:ident; $($argument:expr),+) => { libm::$libm($($argument),+) };
+}
+
+macro_rules! implement_real {
+    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $sincos:ident) => {
+        impl Real for $float {
+            const LANES: usize = 1;
+            const EPSILON: f64 = $float::EPSILON as f64;
+
+            #[inline(always)]
+            fn lane(self, _: usize) -> f64 {
+                f64::from(self)
+            }
+
+            #[inline(always)]
+            fn zero() -> Self {
+                0.0
+            }
+
+            #[inline(always)]
+            fn one() -> Self {
+                1.0
+            }
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                value as $float
+            }
+
+            #[inline(always)]
+            fn ratio(p: i64, q: i64) -> Self {
+                // Exact operands make the one rounding of the division the only one.
+                const EXACT: u64 = 1 << $digits;
+                if p.unsigned_abs() <= EXACT && q.unsigned_abs() <= EXACT {
+                    p as $float / q as $float
+                } else {
+                    rounded_ratio(p, q, $digits) as $float
+                }
+            }
+
+            #[inline(always)]
+            fn fma(self, b: Self, c: Self) -> Self {
+                #[cfg(all(
+                    feature = "std",
+                    any(target_feature = "fma", all(target_arch = "aarch64", target_feature = "neon"))
+                ))]
+                return self.mul_add(b, c);
+                #[cfg(not(all(
+                    feature = "std",
+                    any(target_feature = "fma", all(target_arch = "aarch64", target_feature = "neon"))
+                )))]
+                return self * b + c;
+            }
+
+            $(
+                #[inline(always)]
+                fn $std(self) -> Self {
+                    elementary!($float, $std, $libm; self)
+                }
+            )+
+
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                elementary!($float, atan2, $atan2; self, x)
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                elementary!($float, sin_cos, $sincos; self)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+
+            #[inline(always)]
+            fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
+                if a < b { x } else { y }
+            }
+        }
+    };
+}
+
+implement_real!(f64, 53;
+    sqrt sqrt, sin sin, cos cos, tan tan, asin asin, acos acos, atan atan,
+    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 sincos);
+implement_real!(f32, 24;
+    sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
+    sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f sincosf);
+
+/// `p/q` rounded once, to `digits ≤ 53` binary digits, ties to even; by integer long division, because operands beyond
+/// 2⁵³ would be rounded before the division.
+#[cold]
+fn rounded_ratio(p: i64, q: i64, digits: u32) -> f64 {
+    if p == 0 || q == 0 {
+        return p as f64 / q as f64;
+    }
+    let numerator = u128::from(p.unsigned_abs());
+    let denominator = u128::from(q.unsigned_abs());
+    // A shift after which the quotient has at least digits + 1 binary digits; at most 63 + 55 digits are needed.
+    let digits_of = |n: u128| 128 - n.leading_zeros();
+    let shift = (digits + 2 + digits_of(denominator)).saturating_sub(digits_of(numerator));
+    let scaled = numerator << shift;
+    let quotient = scaled / denominator;
+    let inexact = scaled % denominator != 0;
+    let surplus = digits_of(quotient) - digits;
+    let kept = quotient >> surplus;
+    let half = 1_u128 << (surplus - 1);
+    let rest = quotient & ((1 << surplus) - 1);
+    let up = rest > half || (rest == half && (inexact || kept & 1 == 1));
+    let mantissa = (kept + u128::from(up)) as f64;
+    // 2^(surplus − shift), exact: the exponent stays within ±128.
+    let exponent = i64::from(surplus) - i64::from(shift);
+    let power = f64::from_bits(((1023 + exponent) as u64) << 52);
+    let magnitude = mantissa * power;
+    if (p < 0) == (q < 0) { magnitude } else { -magnitude }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ratios_are_rounded_once() {
+        assert_eq!(f64::ratio(1, 3), 1.0 / 3.0);
+        assert_eq!(f64::ratio(-22, 7), -22.0 / 7.0);
+        assert_eq!(f32::ratio(1, 3), 1.0_f32 / 3.0);
+        // Operands that f64 cannot hold: 2^53 + 1 over 1 is a tie, to even.
+        assert_eq!(f64::ratio((1 << 53) + 1, 1), 9_007_199_254_740_992.0);
+        assert_eq!(f64::ratio((1 << 53) + 3, 1), 9_007_199_254_740_996.0);
+        assert_eq!(f64::ratio(i64::MAX, i64::MAX), 1.0);
+        assert_eq!(f64::ratio(i64::MIN, i64::MAX), -1.0);
+        assert_eq!(f64::ratio(1, i64::MIN), -(2.0_f64.powi(-63)));
+        // 43867/5109094217170944000 to 17 digits (mpmath).
+        assert_eq!(f64::ratio(43_867, 5_109_094_217_170_944_000), 8.586_062_056_277_845e-15);
+        // Rounding to f64 first would go to the wrong neighbour: 1 + 2^-24 + 2^-60 rounds up in f32.
+        assert_eq!(f32::ratio((1 << 60) + (1 << 36) + 1, 1 << 60), 1.0 + f32::EPSILON);
+        assert_eq!(f32::ratio((1 << 60) + (1 << 36), 1 << 60), 1.0);
+        assert!(f64::ratio(0, 0).is_nan());
+        assert_eq!(f64::ratio(-1, 0), f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn provided_functions_agree_with_the_library() {
+        assert_eq!(Real::powi(1.5_f64, 7), 17.085_937_5);
+        assert_eq!(Real::powi(2.0_f64, -3), 0.125);
+        assert_eq!(Real::powi(0.0_f64, 0), 1.0);
+        assert_eq!(f64::select_lt(1.0, 2.0, 3.0, f64::NAN), 3.0);
+        assert_eq!(f64::select_lt(f64::NAN, 2.0, 3.0, 4.0), 4.0);
+        assert_eq!(Real::atan2(1.0_f32, 1.0), core::f32::consts::FRAC_PI_4);
+    }
+}

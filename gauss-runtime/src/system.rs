@@ -1,0 +1,285 @@
+//! What a generated kernel offers: the equations of motion in two forms, energies, and the pieces of the Gauss condition.
+//!
+//! Time first, then what a method depends on: `t, &q, &z, &input`. q is the configuration, z the quasi-velocities,
+//! `p = ∂T/∂z` the momenta.
+
+use core::fmt;
+
+use nalgebra::{Isometry3, SVector};
+
+use crate::chart::{Chart, ChartError};
+use crate::configuration::{Configuration, VectorSpace};
+use crate::lie::se3::{join, split};
+use crate::real::Real;
+use crate::triple::{add, cross, quaternion, rotate, triple};
+
+/// A mechanical system whose equations of motion come from the Gauss condition (3.4).
+///
+/// Implemented by the kernels that `#[derive(GaussDynamics)]` generates. Units are the user's, consistent ones; angles are
+/// in radians. No method panics, and non-finite input gives non-finite output: the integrators look at it.
+pub trait GaussSystem {
+    /// The number type.
+    type Scalar: Real;
+
+    /// Where the system is.
+    type Configuration: Configuration<Scalar = Self::Scalar>;
+
+    /// `SVector<Scalar, DOF>`: quasi-velocities, momenta and generalised forces alike.
+    type Speeds: VectorSpace<Self::Scalar>;
+
+    /// `SMatrix<Scalar, DOF, DOF>`.
+    type MassMatrix;
+
+    /// Values that arrive at run time; `()` when the scene has none.
+    type Input;
+
+    /// The number of quasi-velocities.
+    const DOF: usize;
+
+    /// The chart that z belongs to.
+    const CHART: Chart;
+
+    /// The equations, as they were derived.
+    const EQUATIONS: Equations;
+
+    /// What each method costs.
+    const OPERATIONS: Operations;
+
+    /// The velocity of the configuration, q̇ = ψ(t, q, z) (3.2), as seen from the body (left-trivialised).
+    fn kinematics(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+    ) -> <Self::Configuration as Configuration>::Tangent;
+
+    /// ż: the velocity form of the equations of motion.
+    fn acceleration(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Speeds;
+
+    /// The momenta p = ∂T/∂z.
+    fn momentum(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Speeds;
+
+    /// The quasi-velocities z with the momenta p: the inverse of [`momentum`](Self::momentum).
+    fn velocity(&self, t: Self::Scalar, q: &Self::Configuration, p: &Self::Speeds) -> Self::Speeds;
+
+    /// ṗ: the momentum form of the equations of motion.
+    fn momentum_rate(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        p: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Speeds;
+
+    /// A = ∂²T/∂z∂z, symmetric and positive definite where the chart is regular.
+    fn mass_matrix(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::MassMatrix;
+
+    /// The kinetic energy T, that of the fluid included.
+    fn kinetic_energy(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Scalar;
+
+    /// The potential energy, 0 where the scene has no potential.
+    fn potential_energy(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar;
+
+    /// ∂C/∂ż at the given ż: zero at the true acceleration.
+    fn gauss_residual(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        acceleration: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Speeds;
+
+    /// Gauss' constraint function C (3.1) at the given ż, up to a term that does not depend on ż: least at the true
+    /// acceleration.
+    fn constraint_function(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        acceleration: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Scalar;
+
+    /// Kinetic plus potential energy.
+    #[inline]
+    fn energy(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Scalar {
+        self.kinetic_energy(t, q, z) + self.potential_energy(t, q)
+    }
+}
+
+/// A system that is one rigid body: its variables as a pose and a twist, whatever the chart.
+///
+/// Frames: F = {Ω, k₁ k₂ k₃} of the observer, F′ = {O, e₁ e₂ e₃} of the body.
+pub trait RigidBody: GaussSystem {
+    /// The pose (R, b): `x̂ = R x + b` takes body coordinates to the observer's.
+    fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> Isometry3<Self::Scalar>;
+
+    /// The twist (u, ω): velocity of the pole O and angular velocity, components in the body frame e.
+    fn body_twist(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> SVector<Self::Scalar, 6>;
+
+    /// The quasi-velocities of a body twist (u, ω); inverse of [`body_twist`](Self::body_twist) on the twists that the
+    /// motion has. What the motion cannot have is dropped: [`convert`](crate::chart::convert) checks.
+    fn speeds(&self, t: Self::Scalar, q: &Self::Configuration, twist: &SVector<Self::Scalar, 6>) -> Self::Speeds;
+
+    /// The momentum (Q, Γ_O) of body and fluid: components in the body frame e, pole O.
+    fn body_momentum(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> SVector<Self::Scalar, 6>;
+
+    /// The configuration with the given pose.
+    ///
+    /// # Errors
+    /// When the pose is singular for the coordinates, or the motion does not have it.
+    fn configuration(&self, pose: &Isometry3<Self::Scalar>) -> Result<Self::Configuration, ChartError>;
+
+    /// The momentum (Q̂, Γ̂_Ω) of body and fluid: components in the observer frame k, pole Ω.
+    ///
+    /// `Q̂ = R Q`, `Γ̂_Ω = R Γ_O + b × Q̂`. Constant without forces, in every chart.
+    #[inline]
+    fn space_momentum(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> SVector<Self::Scalar, 6> {
+        let pose = self.pose(t, q);
+        let rotation = quaternion(&pose.rotation);
+        let (linear, angular) = split(&self.body_momentum(t, q, z));
+        let linear = rotate(rotation, linear);
+        let lever = cross(triple(&pose.translation.vector), linear);
+        join(linear, add(rotate(rotation, angular), lever))
+    }
+}
+
+/// The equations of motion as printed by the derivation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Equations {
+    /// Plain text, one equation a line.
+    pub text: &'static str,
+    /// LaTeX, for display mode.
+    pub latex: &'static str,
+}
+
+impl fmt::Display for Equations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.text)
+    }
+}
+
+/// The cost of one generated function, counted on the straight-line program that was emitted.
+///
+/// Subtractions count as additions, a sine–cosine pair as two transcendental calls; negations are free.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct OperationCount {
+    /// Additions and subtractions.
+    pub additions: u32,
+    /// Multiplications.
+    pub multiplications: u32,
+    /// Divisions.
+    pub divisions: u32,
+    /// Square roots.
+    pub roots: u32,
+    /// Transcendental functions.
+    pub transcendentals: u32,
+}
+
+impl OperationCount {
+    /// A count from its parts, in the order of the fields.
+    #[must_use]
+    pub const fn new(additions: u32, multiplications: u32, divisions: u32, roots: u32, transcendentals: u32) -> Self {
+        Self { additions, multiplications, divisions, roots, transcendentals }
+    }
+
+    /// All operations together.
+    #[must_use]
+    pub const fn total(&self) -> u32 {
+        self.additions + self.multiplications + self.divisions + self.roots + self.transcendentals
+    }
+}
+
+impl fmt::Display for OperationCount {
+    /// `12 add, 9 mul`: what is zero is left out; `0` when everything is.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts = [
+            (self.additions, "add"),
+            (self.multiplications, "mul"),
+            (self.divisions, "div"),
+            (self.roots, "sqrt"),
+            (self.transcendentals, "trans"),
+        ];
+        let mut separator = "";
+        for (count, name) in parts {
+            if count > 0 {
+                write!(f, "{separator}{count} {name}")?;
+                separator = ", ";
+            }
+        }
+        if separator.is_empty() { f.write_str("0") } else { Ok(()) }
+    }
+}
+
+/// The cost of every method of a kernel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Of `kernel()`: work done once, when the kernel is made.
+    pub kernel: OperationCount,
+    /// Of [`GaussSystem::kinematics`].
+    pub kinematics: OperationCount,
+    /// Of [`GaussSystem::acceleration`].
+    pub acceleration: OperationCount,
+    /// Of [`GaussSystem::momentum`].
+    pub momentum: OperationCount,
+    /// Of [`GaussSystem::velocity`].
+    pub velocity: OperationCount,
+    /// Of [`GaussSystem::momentum_rate`].
+    pub momentum_rate: OperationCount,
+    /// Of [`GaussSystem::mass_matrix`].
+    pub mass_matrix: OperationCount,
+    /// Of [`GaussSystem::kinetic_energy`].
+    pub kinetic_energy: OperationCount,
+    /// Of [`GaussSystem::potential_energy`].
+    pub potential_energy: OperationCount,
+    /// Of [`GaussSystem::gauss_residual`].
+    pub gauss_residual: OperationCount,
+    /// Of [`GaussSystem::constraint_function`].
+    pub constraint_function: OperationCount,
+}
+
+impl fmt::Display for Operations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rows = [
+            ("kernel", self.kernel),
+            ("kinematics", self.kinematics),
+            ("acceleration", self.acceleration),
+            ("momentum", self.momentum),
+            ("velocity", self.velocity),
+            ("momentum_rate", self.momentum_rate),
+            ("mass_matrix", self.mass_matrix),
+            ("kinetic_energy", self.kinetic_energy),
+            ("potential_energy", self.potential_energy),
+            ("gauss_residual", self.gauss_residual),
+            ("constraint_function", self.constraint_function),
+        ];
+        for (n, (name, count)) in rows.into_iter().enumerate() {
+            if n > 0 {
+                f.write_str("\n")?;
+            }
+            write!(f, "{name:<20}{count}")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn counts_print_what_is_there() {
+        assert_eq!(OperationCount::new(12, 9, 0, 0, 0).to_string(), "12 add, 9 mul");
+        assert_eq!(OperationCount::new(0, 0, 1, 2, 3).to_string(), "1 div, 2 sqrt, 3 trans");
+        assert_eq!(OperationCount::default().to_string(), "0");
+        assert_eq!(OperationCount::new(1, 2, 3, 4, 5).total(), 15);
+    }
+}

@@ -1,0 +1,168 @@
+//! What tests of several modules share: a pack of two numbers, and a free rigid body typed by hand.
+//!
+//! The hand-typed Euler equations are an independent check of the integrators; kernels proper are derived.
+
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use nalgebra::{SMatrix, SVector, UnitQuaternion};
+
+use crate::chart::Chart;
+use crate::real::Real;
+use crate::system::{Equations, GaussSystem, Operations};
+
+/// Two numbers in lockstep: the smallest SIMD pack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pack(pub(crate) [f64; 2]);
+
+macro_rules! lanewise {
+    ($($trait:ident $method:ident $assign_trait:ident $assign:ident;)+) => {$(
+        impl $trait for Pack {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                Self([self.0[0].$method(other.0[0]), self.0[1].$method(other.0[1])])
+            }
+        }
+        impl $assign_trait for Pack {
+            fn $assign(&mut self, other: Self) {
+                *self = self.$method(other);
+            }
+        }
+    )+};
+}
+
+lanewise! {
+    Add add AddAssign add_assign;
+    Sub sub SubAssign sub_assign;
+    Mul mul MulAssign mul_assign;
+    Div div DivAssign div_assign;
+}
+
+impl Neg for Pack {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(self.0.map(|x| -x))
+    }
+}
+
+macro_rules! functions {
+    ($($name:ident)+) => {$(
+        fn $name(self) -> Self {
+            Self(self.0.map(Real::$name))
+        }
+    )+};
+}
+
+impl Real for Pack {
+    const LANES: usize = 2;
+    fn lane(self, i: usize) -> f64 {
+        self.0[i]
+    }
+    fn zero() -> Self {
+        Self([0.0; 2])
+    }
+    fn one() -> Self {
+        Self([1.0; 2])
+    }
+    fn from_f64(value: f64) -> Self {
+        Self([value; 2])
+    }
+    fn ratio(p: i64, q: i64) -> Self {
+        Self([f64::ratio(p, q); 2])
+    }
+    functions!(sqrt asin acos atan sinh cosh tanh exp ln abs);
+    fn sin_cos(self) -> (Self, Self) {
+        (Self(self.0.map(f64::sin)), Self(self.0.map(f64::cos)))
+    }
+    fn atan2(self, x: Self) -> Self {
+        Self([self.0[0].atan2(x.0[0]), self.0[1].atan2(x.0[1])])
+    }
+    fn is_finite(self) -> bool {
+        self.0.into_iter().all(f64::is_finite)
+    }
+    fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
+        Self(core::array::from_fn(|i| if a.0[i] < b.0[i] { x.0[i] } else { y.0[i] }))
+    }
+}
+
+/// A body that turns freely about its centre of mass, principal axes: `I ω̇ = Iω × ω + M`, z = ω in the body frame.
+#[derive(Clone, Copy)]
+pub(crate) struct FreeTop<T> {
+    pub(crate) inertia: [T; 3],
+}
+
+impl<T: Real> GaussSystem for FreeTop<T> {
+    type Scalar = T;
+    type Configuration = UnitQuaternion<T>;
+    type Speeds = SVector<T, 3>;
+    type MassMatrix = SMatrix<T, 3, 3>;
+    /// A torque, body frame.
+    type Input = [T; 3];
+
+    const DOF: usize = 3;
+    const CHART: Chart = Chart::LeftInvariant;
+    const EQUATIONS: Equations = Equations { text: "", latex: "" };
+    const OPERATIONS: Operations = Operations {
+        kernel: crate::system::OperationCount::new(0, 0, 0, 0, 0),
+        kinematics: crate::system::OperationCount::new(0, 0, 0, 0, 0),
+        acceleration: crate::system::OperationCount::new(6, 6, 3, 0, 0),
+        momentum: crate::system::OperationCount::new(0, 3, 0, 0, 0),
+        velocity: crate::system::OperationCount::new(0, 0, 3, 0, 0),
+        momentum_rate: crate::system::OperationCount::new(6, 6, 3, 0, 0),
+        mass_matrix: crate::system::OperationCount::new(0, 0, 0, 0, 0),
+        kinetic_energy: crate::system::OperationCount::new(2, 7, 0, 0, 0),
+        potential_energy: crate::system::OperationCount::new(0, 0, 0, 0, 0),
+        gauss_residual: crate::system::OperationCount::new(9, 9, 0, 0, 0),
+        constraint_function: crate::system::OperationCount::new(9, 12, 0, 0, 0),
+    };
+
+    fn kinematics(&self, _: T, _: &UnitQuaternion<T>, z: &SVector<T, 3>) -> SVector<T, 3> {
+        *z
+    }
+    fn acceleration(&self, t: T, q: &UnitQuaternion<T>, z: &SVector<T, 3>, input: &[T; 3]) -> SVector<T, 3> {
+        let rate = self.momentum_rate(t, q, &self.momentum(t, q, z), input);
+        self.velocity(t, q, &rate)
+    }
+    fn momentum(&self, _: T, _: &UnitQuaternion<T>, z: &SVector<T, 3>) -> SVector<T, 3> {
+        SVector::from(core::array::from_fn(|i| self.inertia[i] * z.data.0[0][i]))
+    }
+    fn velocity(&self, _: T, _: &UnitQuaternion<T>, p: &SVector<T, 3>) -> SVector<T, 3> {
+        SVector::from(core::array::from_fn(|i| p.data.0[0][i] / self.inertia[i]))
+    }
+    fn momentum_rate(&self, t: T, q: &UnitQuaternion<T>, p: &SVector<T, 3>, input: &[T; 3]) -> SVector<T, 3> {
+        let omega = self.velocity(t, q, p).data.0[0];
+        SVector::from(crate::triple::add(crate::triple::cross(p.data.0[0], omega), *input))
+    }
+    fn mass_matrix(&self, _: T, _: &UnitQuaternion<T>) -> SMatrix<T, 3, 3> {
+        crate::__private::matrix(core::array::from_fn(|i| {
+            core::array::from_fn(|j| if i == j { self.inertia[i] } else { T::zero() })
+        }))
+    }
+    fn kinetic_energy(&self, t: T, q: &UnitQuaternion<T>, z: &SVector<T, 3>) -> T {
+        T::ratio(1, 2) * crate::triple::dot(z.data.0[0], self.momentum(t, q, z).data.0[0])
+    }
+    fn potential_energy(&self, _: T, _: &UnitQuaternion<T>) -> T {
+        T::zero()
+    }
+    fn gauss_residual(
+        &self,
+        t: T,
+        q: &UnitQuaternion<T>,
+        z: &SVector<T, 3>,
+        acceleration: &SVector<T, 3>,
+        input: &[T; 3],
+    ) -> SVector<T, 3> {
+        let rate = self.momentum_rate(t, q, &self.momentum(t, q, z), input);
+        SVector::from(crate::triple::sub(self.momentum(t, q, acceleration).data.0[0], rate.data.0[0]))
+    }
+    fn constraint_function(
+        &self,
+        t: T,
+        q: &UnitQuaternion<T>,
+        z: &SVector<T, 3>,
+        acceleration: &SVector<T, 3>,
+        input: &[T; 3],
+    ) -> T {
+        let rate = self.momentum_rate(t, q, &self.momentum(t, q, z), input);
+        self.kinetic_energy(t, q, acceleration) - crate::triple::dot(rate.data.0[0], acceleration.data.0[0])
+    }
+}
