@@ -38,7 +38,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
 }
 
 /// What the scene has, from the fields that the struct has.
-pub fn body_shape(model: &Model) -> BodyShape {
+fn body_shape(model: &Model) -> BodyShape {
     let shape = |index: usize| model.parameters[index].shape;
     BodyShape {
         inertia: match shape(model.inertia) {
@@ -61,7 +61,7 @@ pub fn body_shape(model: &Model) -> BodyShape {
 }
 
 /// Entries of R that are coordinates are stored as a unit quaternion: its components, and the entries in terms of them.
-pub fn rotation_entries<'g>(graph: &'g Graph, scene: &Scene<'g>) -> (Option<[Expr<'g>; 4]>, Map<u32, Expr<'g>>) {
+fn rotation_entries<'g>(graph: &'g Graph, scene: &Scene<'g>) -> (Option<[Expr<'g>; 4]>, Map<u32, Expr<'g>>) {
     let kinematics = &scene.kinematics;
     if !matches!(kinematics.kind, ConfigurationKind::Pose | ConfigurationKind::Rotation) {
         return (None, Map::default());

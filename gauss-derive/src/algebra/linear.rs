@@ -6,40 +6,63 @@ use super::map::Map;
 /// Terms that an entry may have while a determinant is brought to normal form.
 const LIMIT: usize = 400;
 
-/// Solves `Σ_j matrix[i][j] x_j = right[i]`. Rows with one unknown left are solved at once, again and again; what
-/// remains is solved block by block with cofactors in normal form, so that determinants such as `sin²θ·… + cos²θ·…`
-/// collapse before they are divided by. Returns `None` when the matrix is structurally singular.
-pub fn solve<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
-    let n = right.len();
-    let mut solution: Vec<Option<Expr<'g>>> = vec![None; n];
-    let mut rows: Vec<usize> = (0..n).collect();
-    while !rows.is_empty() {
-        let unknowns = |row: usize, solution: &[Option<Expr<'g>>]| -> Vec<usize> {
-            (0..n).filter(|&j| solution[j].is_none() && !matrix[row][j].is_zero()).collect()
-        };
-        // What is known so far goes to the right; terms stay a sum of their own so that they are computed once.
-        let reduced = |row: usize, solution: &[Option<Expr<'g>>]| -> Expr<'g> {
-            let known: Vec<Expr<'g>> =
-                (0..n).filter_map(|j| solution[j].map(|x| -(matrix[row][j] * x))).filter(|e| !e.is_zero()).collect();
-            known.into_iter().fold(right[row], |sum, e| sum + e)
-        };
-        if let Some(place) = rows.iter().position(|&row| unknowns(row, &solution).len() == 1) {
-            let row = rows.remove(place);
-            let j = unknowns(row, &solution)[0];
-            solution[j] = Some(reduced(row, &solution) * matrix[row][j].recip());
-            continue;
+/// A linear system whose elimination has been worked out, to be solved for several right-hand sides.
+///
+/// Rows with one unknown left are solved at once, again and again; what remains is solved block by block with cofactors
+/// in normal form, so that determinants such as `sin²θ·… + cos²θ·…` collapse before they are divided by.
+pub struct Solver<'g> {
+    matrix: Vec<Vec<Expr<'g>>>,
+    steps: Vec<Step<'g>>,
+}
+
+/// Rows and unknowns that are solved together, and the inverse of their block.
+struct Step<'g> {
+    rows: Vec<usize>,
+    unknowns: Vec<usize>,
+    inverse: Vec<Vec<Expr<'g>>>,
+}
+
+impl<'g> Solver<'g> {
+    /// `None` when the matrix is singular.
+    pub fn new(matrix: Vec<Vec<Expr<'g>>>) -> Option<Self> {
+        let mut rows: Vec<usize> = (0..matrix.len()).collect();
+        let mut solved: Vec<usize> = Vec::new();
+        let mut steps = Vec::new();
+        while !rows.is_empty() {
+            let unknowns = |row: usize| -> Vec<usize> {
+                (0..matrix.len()).filter(|j| !solved.contains(j) && !matrix[row][*j].is_zero()).collect()
+            };
+            let (block_rows, block_unknowns) = match rows.iter().find(|&&row| unknowns(row).len() == 1) {
+                Some(&row) => (vec![row], unknowns(row)),
+                None => smallest_block(&rows, unknowns)?,
+            };
+            let block: Vec<Vec<Expr<'g>>> =
+                block_rows.iter().map(|&i| block_unknowns.iter().map(|&j| matrix[i][j]).collect()).collect();
+            rows.retain(|row| !block_rows.contains(row));
+            solved.extend(&block_unknowns);
+            steps.push(Step { rows: block_rows, unknowns: block_unknowns, inverse: inverse_by_cofactors(&block)? });
         }
-        let block = smallest_block(&rows, |row| unknowns(row, &solution))?;
-        let (block_rows, block_unknowns) = block;
-        let sub: Vec<Vec<Expr<'g>>> =
-            block_rows.iter().map(|&i| block_unknowns.iter().map(|&j| matrix[i][j]).collect()).collect();
-        let sub_right: Vec<Expr<'g>> = block_rows.iter().map(|&i| reduced(i, &solution)).collect();
-        for (j, x) in block_unknowns.iter().zip(cramer(&sub, &sub_right)?) {
-            solution[*j] = Some(x);
-        }
-        rows.retain(|row| !block_rows.contains(row));
+        Some(Self { matrix, steps })
     }
-    solution.into_iter().collect()
+
+    /// x with `Σ_j matrix[i][j] x_j = right[i]`.
+    pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let n = right.len();
+        let mut solution: Vec<Option<Expr<'g>>> = vec![None; n];
+        for step in &self.steps {
+            // What is known so far goes to the right.
+            let reduced = |row: usize| -> Expr<'g> {
+                let known = (0..n).filter_map(|j| solution[j].map(|x| self.matrix[row][j] * x));
+                known.fold(right[row], |sum, e| sum - e)
+            };
+            let reduced: Vec<Expr<'g>> = step.rows.iter().map(|&row| reduced(row)).collect();
+            for (row, &unknown) in step.inverse.iter().zip(&step.unknowns) {
+                let value: Expr<'g> = row.iter().zip(&reduced).map(|(m, r)| *m * *r).sum();
+                solution[unknown] = Some(if step.rows.len() > 1 { value.group() } else { value });
+            }
+        }
+        solution.into_iter().flatten().collect()
+    }
 }
 
 /// The smallest set of rows that holds as many unknowns as it has rows, grown greedily from each row.
@@ -69,31 +92,24 @@ fn smallest_block(rows: &[usize], unknowns: impl Fn(usize) -> Vec<usize>) -> Opt
     best
 }
 
-/// Solution by cofactors, every cofactor and the determinant in normal form.
-fn cramer<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
-    let n = right.len();
-    let graph = right[0].graph();
+/// Inverse by cofactors: each quotient of cofactor and determinant in normal form, where it may cancel.
+fn inverse_by_cofactors<'g>(matrix: &[Vec<Expr<'g>>]) -> Option<Vec<Vec<Expr<'g>>>> {
+    let n = matrix.len();
+    let one = matrix[0][0].graph().one();
     let minor = |i: usize, j: usize| -> Vec<Vec<Expr<'g>>> {
-        (0..n).filter(|&r| r != i).map(|r| (0..n).filter(|&c| c != j).map(|c| matrix[r][c]).collect()).collect()
+        let row = |r: usize| (0..n).filter(|&c| c != j).map(|c| matrix[r][c]).collect();
+        (0..n).filter(|&r| r != i).map(row).collect()
     };
-    let det = determinant(matrix, graph.one()).collected(LIMIT);
-    if det.is_zero() {
-        return None;
-    }
-    let inverse = det.recip();
-    Some(
-        (0..n)
-            .map(|j| {
-                let terms = (0..n).map(|i| {
-                    let cofactor = determinant(&minor(i, j), graph.one());
-                    let signed = if (i + j) % 2 == 0 { cofactor } else { -cofactor };
-                    // The quotient of cofactor and determinant may cancel; what does not stays a common factor.
-                    (signed * inverse).collected(LIMIT) * right[i]
-                });
-                terms.sum::<Expr<'g>>().group()
-            })
-            .collect(),
-    )
+    let inverse = match determinant(matrix, one).collected(LIMIT) {
+        zero if zero.is_zero() => return None,
+        determinant => determinant.recip(),
+    };
+    let entry = |i: usize, j: usize| {
+        let cofactor = determinant(&minor(j, i), one);
+        let signed = if (i + j) % 2 == 0 { cofactor } else { -cofactor };
+        (signed * inverse).collected(LIMIT)
+    };
+    Some((0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect())
 }
 
 fn determinant<'g>(matrix: &[Vec<Expr<'g>>], one: Expr<'g>) -> Expr<'g> {

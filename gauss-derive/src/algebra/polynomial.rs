@@ -201,7 +201,10 @@ impl<'g> Expander<'g> {
         let (atom, _) = reciprocal[0];
         let primitive = Rc::new(factor.scaled_to(self.graph.expr(atom)));
         let content = factor.ratio_to(&primitive);
-        self.denominators.insert(atom, primitive);
+        // The order is a well-order on proper monomials only: a denominator with denominators inside stays an atom.
+        if primitive.terms.keys().all(|m| m.0.iter().all(|&(_, n)| n > 0)) {
+            self.denominators.insert(atom, primitive);
+        }
         let single = Polynomial::term(self.graph, Monomial(vec![(atom, exponent)]), content.pow(exponent));
         self.multiply(&base, &single)
     }

@@ -2,7 +2,7 @@
 
 use super::Map;
 use super::ideal::Ideal;
-use super::{Evaluation, Expr, Graph, Notation, Rational, inverse_of_symmetric, print, solve};
+use super::{Evaluation, Expr, Graph, Notation, Rational, Solver, inverse_of_symmetric, print};
 
 fn symbols<'g, const N: usize>(graph: &'g Graph, names: [&str; N]) -> [Expr<'g>; N] {
     names.map(|name| graph.symbol(name, name, false))
@@ -107,14 +107,14 @@ fn linear_systems_are_solved_block_by_block() {
     let (zero, one) = (graph.zero(), graph.one());
     // A rotation in the first two unknowns: its determinant must collapse to one.
     let matrix = vec![vec![a.cos(), -a.sin(), zero], vec![a.sin(), a.cos(), zero], vec![b, c, one]];
-    let x = solve(&matrix, &[p, q, r]).expect("regular");
+    let x = Solver::new(matrix.clone()).expect("regular").solve(&[p, q, r]);
     let back = |row: &Vec<Expr<'_>>, right: Expr<'_>| {
         let sum: Expr<'_> = row.iter().zip(&x).map(|(m, x)| *m * *x).sum();
         (sum - right).expand(1000).is_some_and(|e| e.is_zero())
     };
     assert!(back(&matrix[0], p) && back(&matrix[1], q) && back(&matrix[2], r));
     assert_eq!(x[0].collected(100), a.cos() * p + a.sin() * q);
-    assert!(solve(&[vec![a, a], vec![b, b]], &[p, q]).is_none());
+    assert!(Solver::new(vec![vec![a, a], vec![b, b]]).is_none());
 }
 
 #[test]

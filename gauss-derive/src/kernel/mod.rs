@@ -19,7 +19,7 @@ mod tests;
 use crate::algebra::{Evaluation, Expr, Graph, Map};
 
 use hoist::Hoister;
-pub use program::{Counts, Instruction, Operand, Operation, Program};
+pub use program::{Counts, Operand, Operation, Program};
 
 /// Programs of a set of functions that share their constants.
 pub struct Kernel<'g> {

@@ -33,7 +33,9 @@ impl<'g> Network<'g> {
         let mut network = Self { nodes: Vec::new(), outputs: Vec::new(), index: Map::default(), memo: Map::default() };
         network.outputs = outputs.iter().map(|&e| network.visit(e)).collect();
         network.share_products();
+        network.merge_duplicates();
         network.share_sums();
+        network.merge_duplicates();
         network
     }
 
@@ -155,6 +157,45 @@ impl<'g> Network<'g> {
                 progress = true;
             }
             if !progress {
+                return;
+            }
+        }
+    }
+
+    /// Splitting parts off can make two nodes alike: everything that refers to the later one is led to the first, and
+    /// the later one, which nobody needs any more, is blanked.
+    fn merge_duplicates(&mut self) {
+        loop {
+            let mut first: Map<Node<'g>, Place> = Map::default();
+            let lead: Vec<Place> =
+                self.nodes.iter().enumerate().map(|(k, node)| *first.entry(node.clone()).or_insert(k)).collect();
+            let mut changed = false;
+            let mut follow = |place: &mut Place| {
+                changed |= lead[*place] != *place;
+                *place = lead[*place];
+            };
+            for node in &mut self.nodes {
+                match node {
+                    Node::Number(_) | Node::Leaf(_) => {}
+                    Node::Sum(terms) => {
+                        terms.iter_mut().for_each(|t| follow(&mut t.1));
+                        terms.sort_by_key(|t| t.1);
+                    }
+                    Node::Product(factors) => {
+                        factors.iter_mut().for_each(&mut follow);
+                        factors.sort_unstable();
+                    }
+                    Node::Reciprocal(a) | Node::Call(_, a) => follow(a),
+                }
+            }
+            self.outputs.iter_mut().for_each(|o| follow(&mut o.1));
+            for (k, &to) in lead.iter().enumerate() {
+                if k != to {
+                    self.nodes[k] = Node::Number(Rational::zero());
+                }
+            }
+            self.index = first;
+            if !changed {
                 return;
             }
         }

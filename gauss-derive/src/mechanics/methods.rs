@@ -2,12 +2,13 @@
 
 use std::cmp::Ordering;
 
-use crate::algebra::{Expr, Graph, Map, solve};
+use crate::algebra::{Expr, Graph, Map, Solver};
 
 use super::body::{Body, BodyShape};
 use super::chart::{ConfigurationKind, Kinematics};
 use super::momentum::{
-    ARRANGEMENTS, Arrangement, Formal, KineticMatrix, LinearAcceleration, Weight, solve_balance, twist_of_momentum,
+    ARRANGEMENTS, Arrangement, Balance, Formal, KineticMatrix, LinearAcceleration, Weight, solve_balance,
+    twist_of_momentum,
 };
 use super::names::Name;
 use super::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
@@ -60,6 +61,9 @@ pub struct Scene<'g> {
     angular_in: Axes,
     linear_rows: Vec<Triple<'g>>,
     angular_rows: Vec<Triple<'g>>,
+    /// z from the twist, and (Q, Γ) from p: the rows and their transpose, on the motion's axes.
+    from_twist: Solver<'g>,
+    from_momenta: Solver<'g>,
 }
 
 /// The chain z → (u, ω) → (Q, Γ_O) → p, each link in terms of the names of the one before; body axes.
@@ -103,7 +107,20 @@ impl<'g> Scene<'g> {
         };
         let (linear_in, linear_rows) = rows(&kinematics.velocity);
         let (angular_in, angular_rows) = rows(&kinematics.angular_velocity);
+        let rows: Vec<Vec<Expr<'g>>> = kinematics
+            .active
+            .iter()
+            .map(|&k| {
+                let rows = if k < 3 { &linear_rows } else { &angular_rows };
+                rows.iter().map(|row| row[k % 3]).collect()
+            })
+            .collect();
+        let transpose = (0..rows.len()).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
+        let solver = |rows| Solver::new(rows).expect("every chart of a free body is regular");
+        let (from_twist, from_momenta) = (solver(rows), solver(transpose));
         Self {
+            from_twist,
+            from_momenta,
             kinematics,
             body,
             matrix,
@@ -120,18 +137,21 @@ impl<'g> Scene<'g> {
 
     pub fn formulas(&self) -> Vec<Formula<'g>> {
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
-        let residuals: Vec<Vec<Expr<'g>>> = ARRANGEMENTS[..2].iter().map(|&a| self.residual(a)).collect();
+        let balances = ARRANGEMENTS.map(|arrangement| self.balance(arrangement));
+        let residuals: Vec<Vec<Expr<'g>>> = balances[..2].iter().map(|b| self.residual(b)).collect();
+        let momentum = self.momentum();
+        let (pair, velocity) = self.state_of_momentum();
         let constraint = residuals.iter().map(|r| vec![self.constraint_function(r)]).collect();
         let mut formulas = vec![
             single(Method::Kinematics, self.configuration_rate()),
             Formula {
                 method: Method::Acceleration,
-                arrangements: ARRANGEMENTS.iter().map(|&a| self.acceleration(a)).collect(),
+                arrangements: balances.iter().map(|b| self.acceleration(b)).collect(),
             },
-            single(Method::Momentum, self.momentum()),
-            single(Method::Velocity, self.velocity()),
-            single(Method::MomentumRate, self.momentum_rate()),
-            single(Method::MassMatrix, self.mass_matrix()),
+            single(Method::MomentumRate, self.momentum_rate(pair, &velocity)),
+            single(Method::MassMatrix, self.mass_matrix(&momentum)),
+            single(Method::Momentum, momentum),
+            single(Method::Velocity, velocity),
             single(Method::KineticEnergy, vec![self.kinetic_energy()]),
             single(Method::PotentialEnergy, vec![self.potential_energy()]),
             Formula { method: Method::GaussResidual, arrangements: residuals },
@@ -163,31 +183,14 @@ impl<'g> Scene<'g> {
 
     /// z from the twist (or ż from its rate): solves `Σ_α (a_α, o_α) z^α = right` on the motion's axes.
     fn lift(&self, right: Pair<'g>) -> Vec<Expr<'g>> {
-        let active = &self.kinematics.active;
-        let matrix: Vec<Vec<Expr<'g>>> = active
-            .iter()
-            .map(|&k| {
-                let rows = if k < 3 { &self.linear_rows } else { &self.angular_rows };
-                rows.iter().map(|row| row[k % 3]).collect()
-            })
-            .collect();
-        let right: Vec<Expr<'g>> =
-            active.iter().map(|&k| if k < 3 { right.linear[k] } else { right.angular[k - 3] }).collect();
-        solve(&matrix, &right).expect("every chart of a free body is regular")
+        let on = |&k: &usize| if k < 3 { right.linear[k] } else { right.angular[k - 3] };
+        self.from_twist.solve(&self.kinematics.active.iter().map(on).collect::<Vec<_>>())
     }
 
     /// The dual of `lift`: (Q, Γ) from p.
     fn momentum_pair(&self, p: &[Expr<'g>]) -> Pair<'g> {
-        let active = &self.kinematics.active;
-        let matrix: Vec<Vec<Expr<'g>>> = (0..p.len())
-            .map(|alpha| {
-                let (a, o) = (&self.linear_rows[alpha], &self.angular_rows[alpha]);
-                active.iter().map(|&k| if k < 3 { a[k] } else { o[k - 3] }).collect()
-            })
-            .collect();
-        let solution = solve(&matrix, p).expect("every chart of a free body is regular");
         let mut pair = Pair { linear: self.zero(), angular: self.zero() };
-        for (&k, value) in active.iter().zip(solution) {
+        for (&k, value) in self.kinematics.active.iter().zip(self.from_momenta.solve(p)) {
             if k < 3 { pair.linear[k] = value } else { pair.angular[k - 3] = value }
         }
         pair
@@ -248,12 +251,7 @@ impl<'g> Scene<'g> {
         self.project(Pair { linear: pair.linear.map(Expr::group), angular: pair.angular.map(Expr::group) })
     }
 
-    /// z from (q, p): (Q, Γ) by duality, the twist by M⁻¹, z by the kinematics.
-    fn velocity(&self) -> Vec<Expr<'g>> {
-        let (_, speeds) = self.state_of_momentum();
-        speeds
-    }
-
+    /// From (q, p): (Q, Γ) by duality, the twist by M⁻¹, z by the kinematics.
     fn state_of_momentum(&self) -> (Pair<'g>, Vec<Expr<'g>>) {
         let pair = self.momentum_pair(&self.momenta);
         let linear = self.vector(self.linear_in, pair.linear.map(Expr::group));
@@ -264,8 +262,7 @@ impl<'g> Scene<'g> {
     }
 
     /// ṗ_α = Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α + R·a_α + M_O·o_α, a function of (q, p).
-    fn momentum_rate(&self) -> Vec<Expr<'g>> {
-        let (pair, speeds) = self.state_of_momentum();
+    fn momentum_rate(&self, pair: Pair<'g>, speeds: &[Expr<'g>]) -> Vec<Expr<'g>> {
         // The bracket is formed with formal Q, Γ and z, which are then replaced by what they are in terms of p.
         let graph = self.kinematics.frame.graph;
         let formal = |a: &Triple<'g>| a.map(|e| if e.is_zero() { e } else { graph.symbol("P", "P", false) });
@@ -362,7 +359,7 @@ impl<'g> Scene<'g> {
 
     /// ∂C/∂ż with what cancels gone.
     pub fn collected_residual(&self) -> Vec<Expr<'g>> {
-        self.residual(Arrangement::Collected)
+        self.residual(&self.balance(Arrangement::Collected))
     }
 
     /// R·a_α + M_O·o_α.
@@ -378,11 +375,14 @@ impl<'g> Scene<'g> {
         self.project(pair)
     }
 
+    fn balance(&self, arrangement: Arrangement) -> Balance<'g> {
+        solve_balance(&self.kinematics, &self.matrix, self.weight.as_ref(), &self.formal, arrangement)
+    }
+
     /// ż from the balance in body axes, through the rate of the kinematics.
-    fn acceleration(&self, arrangement: Arrangement) -> Vec<Expr<'g>> {
+    fn acceleration(&self, balance: &Balance<'g>) -> Vec<Expr<'g>> {
         let kinematics = &self.kinematics;
         let frame = &kinematics.frame;
-        let balance = solve_balance(kinematics, &self.matrix, self.weight.as_ref(), &self.formal, arrangement);
         let real = self.formal.realisation(kinematics, self.weight.as_ref());
         let realise = |e: Expr<'g>| e.substitute(&real);
         let angular = frame.body_vector(balance.angular.map(realise).map(Expr::group));
@@ -391,7 +391,7 @@ impl<'g> Scene<'g> {
         // Rates of the components for ż = 0 go to the right-hand side.
         let still = |a: &Triple<'g>| a.map(|e| e.derivative(&kinematics.rates));
         let in_body = |a: &Vector<'g>| self.in_body(a);
-        let linear = match (balance.linear, self.linear_in) {
+        let linear = match (&balance.linear, self.linear_in) {
             (LinearAcceleration::Observed(a), Axes::Space) => frame.resolve(&a.map(realise), Axes::Space),
             (LinearAcceleration::Observed(a), Axes::Body) => {
                 let drift = cross(&in_body(&kinematics.angular_velocity), &in_body(&kinematics.velocity));
@@ -409,8 +409,7 @@ impl<'g> Scene<'g> {
     }
 
     /// A: the upper triangle is derived, ∂p_α/∂z^β, and mirrored.
-    fn mass_matrix(&self) -> Vec<Expr<'g>> {
-        let momentum = self.momentum();
+    fn mass_matrix(&self, momentum: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let n = momentum.len();
         let speeds = &self.kinematics.speeds;
         let mut matrix = vec![self.kinematics.frame.graph.zero(); n * n];
@@ -439,10 +438,9 @@ impl<'g> Scene<'g> {
     }
 
     /// ∂C/∂ż: `(dQ/dt − R)·a_α + (dΓ_O/dt + v_O × Q − M_O)·o_α` at a given ż.
-    fn residual(&self, arrangement: Arrangement) -> Vec<Expr<'g>> {
+    fn residual(&self, balance: &Balance<'g>) -> Vec<Expr<'g>> {
         let kinematics = &self.kinematics;
         let frame = &kinematics.frame;
-        let balance = solve_balance(kinematics, &self.matrix, self.weight.as_ref(), &self.formal, arrangement);
         let real = self.formal.realisation(kinematics, self.weight.as_ref());
         let bias = |a: Triple<'g>| a.map(|e| e.substitute(&real));
         let along = kinematics.rates_with_accelerations();
