@@ -1,0 +1,26 @@
+# The commands one types every day; `.ci/run` runs them all.
+
+# Tests of everything.
+test:
+    cargo test --workspace
+
+# The example that the README begins with.
+example:
+    cargo run --release --example kirchhoff_vs_newton_euler
+
+# Formatting and lints, as CI has them.
+lint:
+    cargo fmt --all --check
+    cargo clippy --workspace --all-targets -- -D warnings
+
+# Review snapshots that changed: read each before accepting it.
+snapshots:
+    cargo insta review
+
+# How long a derive takes with an unoptimised macro.
+expansion:
+    cargo run --profile unoptimised --example expansion_time
+
+# All that CI does.
+ci:
+    bash .ci/run
