@@ -32,10 +32,10 @@ impl<'g> Network<'g> {
     pub fn new(outputs: &[Expr<'g>]) -> Self {
         let mut network = Self { nodes: Vec::new(), outputs: Vec::new(), index: Map::default(), memo: Map::default() };
         network.outputs = outputs.iter().map(|&e| network.visit(e)).collect();
-        network.share_products();
-        network.merge_duplicates();
-        network.share_sums();
-        network.merge_duplicates();
+        for kind in [Kind::Products, Kind::Sums] {
+            network.share(kind);
+            network.merge_duplicates();
+        }
         network
     }
 
@@ -116,45 +116,48 @@ impl<'g> Network<'g> {
         }
     }
 
-    /// Splits the most frequent pair of factors off all products that have it, until no pair occurs twice.
-    fn share_products(&mut self) {
+    /// Splits pairs of parts that several sums (or several products) contain off as nodes of their own, the most
+    /// frequent first, until no pair occurs twice. Terms of sums are alike up to a common factor.
+    fn share(&mut self, kind: Kind) {
         loop {
-            let mut count: Map<(Place, Place), usize> = Map::default();
-            for node in &self.nodes {
-                let Node::Product(factors) = node else { continue };
-                let mut seen = Vec::new();
-                for (i, &a) in factors.iter().enumerate() {
-                    for &b in &factors[i + 1..] {
-                        if !seen.contains(&(a, b)) {
-                            seen.push((a, b));
+            let mut holders: Map<(Place, Place, Rational), Vec<Place>> = Map::default();
+            for (place, node) in self.nodes.iter().enumerate() {
+                let parts = kind.parts(node);
+                for (i, &(c, a)) in parts.iter().enumerate() {
+                    for &(d, b) in &parts[i + 1..] {
+                        let places = holders.entry((a, b, d / c)).or_default();
+                        if places.last() != Some(&place) {
+                            places.push(place);
                         }
                     }
                 }
-                for pair in seen {
-                    *count.entry(pair).or_default() += 1;
-                }
             }
-            let best = count
-                .into_iter()
-                .filter(|&(_, n)| n >= 2)
-                .max_by_key(|&((a, b), n)| (n, usize::MAX - a, usize::MAX - b));
-            let Some(((a, b), _)) = best else { return };
-            let pair = self.place(Node::Product(vec![a, b]));
+            let mut frequent: Vec<_> = holders.into_iter().filter(|(_, places)| places.len() >= 2).collect();
+            frequent.sort_by_key(|(pair, places)| (usize::MAX - places.len(), *pair));
             let mut progress = false;
-            for place in 0..self.nodes.len() {
-                let Node::Product(factors) = &self.nodes[place] else { continue };
-                if place == pair || factors.len() < 3 {
+            for ((a, b, ratio), places) in frequent {
+                // Earlier pairs of this round may have taken the parts away.
+                let places: Vec<Place> =
+                    places.into_iter().filter(|&p| kind.without(&self.nodes[p], a, b, ratio).is_some()).collect();
+                if places.len() < 2 {
                     continue;
                 }
-                let mut rest = factors.clone();
-                let Some(i) = rest.iter().position(|&f| f == a) else { continue };
-                rest.remove(i);
-                let Some(j) = rest.iter().position(|&f| f == b) else { continue };
-                rest.remove(j);
-                rest.push(pair);
-                rest.sort_unstable();
-                self.nodes[place] = Node::Product(rest);
-                progress = true;
+                let pair = self.place(kind.node(vec![(Rational::one(), a), (ratio, b)]));
+                for place in places {
+                    if place == pair {
+                        continue;
+                    }
+                    if let Some((c, mut rest)) = kind.without(&self.nodes[place], a, b, ratio) {
+                        if rest.is_empty() && c.is_one() {
+                            // The very same parts: the two nodes will be merged.
+                            continue;
+                        }
+                        rest.push((c, pair));
+                        rest.sort_by_key(|part| part.1);
+                        self.nodes[place] = kind.node(rest);
+                        progress = true;
+                    }
+                }
             }
             if !progress {
                 return;
@@ -200,57 +203,39 @@ impl<'g> Network<'g> {
             }
         }
     }
+}
 
-    /// The same for pairs of terms, up to a common factor.
-    fn share_sums(&mut self) {
-        type Pair = (Place, Place, Rational);
-        let pairs = |terms: &[(Rational, Place)]| -> Vec<Pair> {
-            let mut pairs = Vec::new();
-            for (i, &(c, a)) in terms.iter().enumerate() {
-                for &(d, b) in &terms[i + 1..] {
-                    pairs.push((a, b, d / c));
-                }
-            }
-            pairs
-        };
-        loop {
-            let mut count: Map<Pair, usize> = Map::default();
-            for node in &self.nodes {
-                let Node::Sum(terms) = node else { continue };
-                for pair in pairs(terms) {
-                    *count.entry(pair).or_default() += 1;
-                }
-            }
-            let best = count
-                .into_iter()
-                .filter(|&(_, n)| n >= 2)
-                .max_by_key(|&((a, b, r), n)| (n, usize::MAX - a, usize::MAX - b, r));
-            let Some(((a, b, ratio), _)) = best else { return };
-            let pair = self.place(Node::Sum(vec![(Rational::one(), a), (ratio, b)]));
-            let mut progress = false;
-            for place in 0..self.nodes.len() {
-                let Node::Sum(terms) = &self.nodes[place] else { continue };
-                if place == pair || terms.len() < 3 {
-                    continue;
-                }
-                let (Some(i), Some(j)) = (terms.iter().position(|t| t.1 == a), terms.iter().position(|t| t.1 == b))
-                else {
-                    continue;
-                };
-                if terms[j].0 / terms[i].0 != ratio {
-                    continue;
-                }
-                let coefficient = terms[i].0;
-                let mut rest: Vec<_> =
-                    terms.iter().enumerate().filter(|(k, _)| *k != i && *k != j).map(|(_, t)| *t).collect();
-                rest.push((coefficient, pair));
-                rest.sort_by_key(|t| t.1);
-                self.nodes[place] = Node::Sum(rest);
-                progress = true;
-            }
-            if !progress {
-                return;
-            }
+/// What is shared: terms of sums, or factors of products.
+#[derive(Clone, Copy)]
+enum Kind {
+    Sums,
+    Products,
+}
+
+/// Parts of a sum or a product, with their coefficients (one in a product).
+type Parts = Vec<(Rational, Place)>;
+
+impl Kind {
+    fn parts(self, node: &Node<'_>) -> Parts {
+        match (self, node) {
+            (Kind::Sums, Node::Sum(terms)) => terms.clone(),
+            (Kind::Products, Node::Product(factors)) => factors.iter().map(|&f| (Rational::one(), f)).collect(),
+            _ => Vec::new(),
         }
+    }
+
+    fn node<'g>(self, parts: Parts) -> Node<'g> {
+        match self {
+            Kind::Sums => Node::Sum(parts),
+            Kind::Products => Node::Product(parts.into_iter().map(|(_, place)| place).collect()),
+        }
+    }
+
+    /// The parts without a and `ratio`·b, and the coefficient that a had; `None` when the node does not have both.
+    fn without(self, node: &Node<'_>, a: Place, b: Place, ratio: Rational) -> Option<(Rational, Parts)> {
+        let mut parts = self.parts(node);
+        let (c, _) = parts.remove(parts.iter().position(|part| part.1 == a)?);
+        let (d, _) = parts.remove(parts.iter().position(|part| part.1 == b)?);
+        (d / c == ratio).then_some((c, parts))
     }
 }
