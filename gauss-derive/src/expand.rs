@@ -1,4 +1,6 @@
-//! The pipeline on one screen: parse → derive → lower → emit.
+//! The pipeline on one screen: parse → derive → check → lower → emit.
+
+use std::fmt::Display;
 
 use proc_macro2::TokenStream;
 use syn::DeriveInput;
@@ -7,7 +9,8 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::emit::{Derived, emit};
 use crate::kernel::Kernel;
 use crate::mechanics::{
-    AddedMassShape, BodyShape, ConfigurationKind, GravityShape, InertiaShape, Scene, rotation_of_quaternion,
+    AddedMassShape, BodyShape, ConfigurationKind, GravityShape, InertiaShape, Scene, check_against_definition,
+    rotation_of_quaternion,
 };
 use crate::model::{self, Model, Shape};
 
@@ -21,6 +24,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let shape = body_shape(&model);
     let scene = Scene::new(&graph, model.motion, model.chart, shape);
     let formulas = scene.formulas();
+    check_against_definition(&scene, &formulas).map_err(|error| bug(&model, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
     let functions: Vec<_> = formulas.iter().map(|f| f.arrangements.clone()).collect();
     let kernel = Kernel::lower(&graph, &functions, &rotation).map_err(|error| bug(&model, &error))?;
@@ -73,9 +77,9 @@ fn rotation_entries<'g>(graph: &'g Graph, scene: &Scene<'g>) -> (Option<[Expr<'g
 }
 
 /// A mistake of this crate, said as such at the name of the struct.
-fn bug(model: &Model, what: &impl std::fmt::Debug) -> syn::Error {
+fn bug(model: &Model, what: &impl Display) -> syn::Error {
     syn::Error::new(
         model.ident.span(),
-        format!("bug in gauss-derive: {what:?}; please report it together with this struct"),
+        format!("bug in gauss-derive: {what}; please report it together with this struct"),
     )
 }

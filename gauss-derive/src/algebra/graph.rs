@@ -7,7 +7,7 @@ use std::iter::Sum;
 use std::ops::{Add, Mul, Neg, Sub};
 use std::rc::Rc;
 
-use super::map::{Map, Set};
+use super::map::Map;
 use super::rational::Rational;
 
 /// A function of one argument that the language knows.
@@ -112,10 +112,6 @@ impl Graph {
 
     pub fn integer(&self, value: i64) -> Expr<'_> {
         self.number(Rational::from_integer(value))
-    }
-
-    pub fn ratio(&self, numerator: i64, denominator: i64) -> Expr<'_> {
-        self.number(Rational::new(numerator, denominator))
     }
 
     pub fn number(&self, value: Rational) -> Expr<'_> {
@@ -312,10 +308,6 @@ impl<'g> Expr<'g> {
         self.as_number().is_some_and(|value| value.is_zero())
     }
 
-    pub fn is_one(self) -> bool {
-        self.as_number().is_some_and(|value| value.is_one())
-    }
-
     pub fn powi(self, exponent: i32) -> Self {
         self.graph.product(Rational::one(), [(self, exponent)])
     }
@@ -451,27 +443,6 @@ impl<'g> Expr<'g> {
         };
         memo.insert(self.id, result);
         result
-    }
-
-    /// True when the symbol occurs in it.
-    pub fn contains(self, symbol: Expr<'g>) -> bool {
-        let mut seen = Set::default();
-        let mut stack = vec![self];
-        while let Some(e) = stack.pop() {
-            if e == symbol {
-                return true;
-            }
-            if e.id < symbol.id || !seen.insert(e.id) {
-                continue;
-            }
-            match e.view() {
-                NodeView::Number(_) | NodeView::Symbol(_) => {}
-                NodeView::Sum(terms) => stack.extend(terms.into_iter().map(|(_, e)| e)),
-                NodeView::Product(factors) => stack.extend(factors.into_iter().map(|(e, _)| e)),
-                NodeView::Call(_, e) | NodeView::Group(e) | NodeView::Opaque(e) => stack.push(e),
-            }
-        }
-        false
     }
 }
 

@@ -73,10 +73,6 @@ impl<'g> Ideal<'g> {
         result
     }
 
-    pub fn len(&self) -> usize {
-        self.basis.len()
-    }
-
     /// True when the expression vanishes wherever the relations hold.
     pub fn annihilates(&self, e: Expr<'g>) -> bool {
         self.reduce(&e.expand(usize::MAX).expect("no limit")).is_zero()

@@ -106,7 +106,7 @@ fn inverse_by_cofactors<'g>(matrix: &[Vec<Expr<'g>>]) -> Option<Vec<Vec<Expr<'g>
     };
     let entry = |i: usize, j: usize| {
         let cofactor = determinant(&minor(j, i), one);
-        let signed = if (i + j) % 2 == 0 { cofactor } else { -cofactor };
+        let signed = if (i + j).is_multiple_of(2) { cofactor } else { -cofactor };
         (signed * inverse).collected(LIMIT)
     };
     Some((0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect())
@@ -124,7 +124,7 @@ fn determinant<'g>(matrix: &[Vec<Expr<'g>>], one: Expr<'g>) -> Expr<'g> {
                 .map(|row| row.iter().enumerate().filter(|(c, _)| *c != j).map(|(_, e)| *e).collect())
                 .collect();
             let term = if matrix[0][j].is_zero() { matrix[0][j] } else { matrix[0][j] * determinant(&minor, one) };
-            if j % 2 == 0 { term } else { -term }
+            if j.is_multiple_of(2) { term } else { -term }
         })
         .sum()
 }

@@ -1,11 +1,10 @@
 //! Hash maps for small keys. Macros run unoptimised, where the standard hasher is the slowest part of a look-up; keys
 //! here are indices and short sequences of them, and nobody chooses them to collide.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
 pub type Map<K, V> = HashMap<K, V, BuildHasherDefault<IndexHasher>>;
-pub type Set<K> = HashSet<K, BuildHasherDefault<IndexHasher>>;
 
 /// Multiply and rotate, a word at a time.
 #[derive(Default)]

@@ -297,6 +297,7 @@ impl<'g> Polynomial<'g> {
         }
     }
 
+    #[cfg(test)]
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
@@ -369,10 +370,5 @@ impl<'g> Polynomial<'g> {
                 .into_iter()
                 .map(|(constant, variable)| (one, constant.to_expr().group() * variable)),
         )
-    }
-
-    /// A sign that makes the leading coefficient positive, for printing.
-    pub fn leading_is_negative(&self) -> bool {
-        self.terms.last_key_value().is_some_and(|(_, c)| c.is_negative())
     }
 }

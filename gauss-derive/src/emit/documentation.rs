@@ -3,12 +3,15 @@
 use crate::algebra::Notation;
 use crate::kernel::Counts;
 use crate::mechanics::{Method, Section};
+use crate::model::Role;
 
 use super::kernel::Derived;
 
 /// The equations as plain text.
 pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     let mut out = format!("{}: {}\n", derived.model.ident, description(derived));
+    let letters: Vec<String> = legend(derived).iter().map(|(letter, field, _)| format!("{letter} = {field}")).collect();
+    out.push_str(&format!("with {}\n", letters.join(", ")));
     for section in sections {
         out.push_str(&format!("\n{}\n", section.title.text));
         for row in &section.rows {
@@ -31,6 +34,27 @@ pub fn latex(sections: &[Section<'_>]) -> String {
     out
 }
 
+/// What the letters of the equations stand for: (letter, field, what its author says of it).
+fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
+    let with_role = derived.model.parameters.iter().filter_map(|p| p.role.map(|role| (role, p)));
+    with_role
+        .map(|(role, parameter)| {
+            let letter = match role {
+                Role::Mass => "m",
+                Role::CenterOfMass => "c",
+                Role::Inertia => "I",
+                Role::AddedMass => "X",
+                Role::Gravity => "g",
+                Role::DisplacedMass => "md",
+                Role::CenterOfBuoyancy => "h",
+            };
+            // The first line says what it is; the rest is for the struct's own page.
+            let said = parameter.documentation.lines().next().unwrap_or_default().to_owned();
+            (letter, parameter.ident.to_string(), said)
+        })
+        .collect()
+}
+
 /// One line: chart, motion, order of z, where the parameters come from.
 fn description(derived: &Derived<'_, '_>) -> String {
     let speeds: Vec<String> =
@@ -45,10 +69,14 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
          {description}.\n\n\
          Components with a hat are in the observer's axes k, the others in body axes e; (u, ω) is the twist of O, \
          (Q, Γ) the momentum, about O, or about Ω where both have hats; (R, M) the resultant and torque of the forces.\n\n\
-         ```text\n{equations}```\n\n# Cost\n\n| method | operations |\n|---|---|\n",
+         ```text\n{equations}```\n\n| letter | field | |\n|---|---|---|\n",
         name = derived.model.ident,
         description = description(derived),
     );
+    for (letter, field, said) in legend(derived) {
+        out.push_str(&format!("| {letter} | `{field}` | {said} |\n"));
+    }
+    out.push_str("\n# Cost\n\n| method | operations |\n|---|---|\n");
     for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
         out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), operations(program.counts())));
     }

@@ -16,6 +16,8 @@ mod program;
 #[cfg(test)]
 mod tests;
 
+use std::fmt;
+
 use crate::algebra::{Evaluation, Expr, Graph, Map};
 
 use hoist::Hoister;
@@ -34,10 +36,17 @@ pub struct Kernel<'g> {
 /// A program does not compute what its expressions say: an error of this crate, never of its user.
 #[derive(Debug)]
 pub struct Miscompiled {
-    pub function: usize,
-    pub output: usize,
-    pub expected: f64,
-    pub found: f64,
+    function: usize,
+    output: usize,
+    expected: f64,
+    found: f64,
+}
+
+impl fmt::Display for Miscompiled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { function, output, expected, found } = self;
+        write!(f, "output {output} of function {function} computes {found} instead of {expected}")
+    }
 }
 
 impl<'g> Kernel<'g> {
@@ -90,7 +99,8 @@ impl<'g> Kernel<'g> {
             for (output, (found, e)) in program.run(&values).into_iter().zip(outputs.iter()).enumerate() {
                 let expected = evaluation.value(*e);
                 // Inputs are of order one; hundreds of roundings stay far below, a wrong term far above this.
-                if !((found - expected).abs() <= 1e-6 * (1.0 + expected.abs())) {
+                let close = (found - expected).abs() <= 1e-6 * (1.0 + expected.abs());
+                if !close {
                     return Err(Miscompiled { function, output, expected, found });
                 }
             }

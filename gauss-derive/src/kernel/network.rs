@@ -167,6 +167,7 @@ impl<'g> Network<'g> {
 
     /// Splitting parts off can make two nodes alike: everything that refers to the later one is led to the first, and
     /// the later one, which nobody needs any more, is blanked.
+    #[expect(clippy::mutable_key_type, reason = "an expression is hashed by its index, which never changes")]
     fn merge_duplicates(&mut self) {
         loop {
             let mut first: Map<Node<'g>, Place> = Map::default();

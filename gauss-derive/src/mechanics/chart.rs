@@ -22,7 +22,6 @@ pub enum ConfigurationKind {
 
 /// The kinematics of one chart.
 pub struct Kinematics<'g> {
-    pub motion: Motion,
     pub chart: Chart,
     pub kind: ConfigurationKind,
     pub frame: Frame<'g>,
@@ -60,16 +59,12 @@ impl<'g> Kinematics<'g> {
         rates
     }
 
-    /// The observer's derivative of a vector along the flow with ż = 0.
-    pub fn rate_of(&self, a: &Vector<'g>) -> Vector<'g> {
-        self.frame.derivative(a, &self.rates, &self.angular_velocity)
-    }
-
-    /// The first index of the angular part in `active`.
+    /// Body axes about which the motion can turn.
     pub fn angular_axes(&self) -> Vec<usize> {
         self.active.iter().filter(|&&k| k >= 3).map(|k| k - 3).collect()
     }
 
+    /// Body axes along which O can move.
     pub fn linear_axes(&self) -> Vec<usize> {
         self.active.iter().copied().filter(|&k| k < 3).collect()
     }
@@ -201,7 +196,6 @@ impl<'g> Builder<'g> {
         };
         let speed_rates = speed_names.iter().map(|name| self.symbol(&name.rate())).collect();
         Kinematics {
-            motion: self.motion,
             chart: self.chart,
             kind,
             frame,
@@ -250,7 +244,6 @@ impl<'g> Builder<'g> {
         let momentum_names = names.iter().map(|name| Name::new("p", "p").of(name)).collect();
         let speed_rates = speed_names.iter().map(|name| self.symbol(&name.rate())).collect();
         Kinematics {
-            motion: self.motion,
             chart: self.chart,
             kind: ConfigurationKind::Coordinates,
             frame,

@@ -5,12 +5,14 @@
 //! - `body`: the parameters as symbols, integrals over the body by moments.
 //! - `chart`: ψ of each chart (3.2).
 //! - `gauss`: the Gauss condition (3.4) from v_P, word for word; the reference for all that follows.
+//! - `check`: every scene against that condition, before code is written.
 //! - `momentum`: the same through (Q, Γ), solved in body axes.
 //! - `methods`: every method of a kernel as expressions.
 //! - `equations`: the equations for people.
 
 mod body;
 mod chart;
+mod check;
 mod equations;
 mod gauss;
 mod methods;
@@ -27,7 +29,7 @@ mod vector;
 
 pub use body::{AddedMassShape, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
 pub use chart::ConfigurationKind;
+pub use check::check_against_definition;
 pub use equations::Section;
-pub use gauss::{gauss_condition, velocity_field};
 pub use methods::{Formula, Method, Scene};
 pub use rotation::rotation_of_quaternion;

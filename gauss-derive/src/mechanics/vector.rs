@@ -161,8 +161,4 @@ impl<'g> Vector<'g> {
     pub fn partial(&self, symbol: Expr<'g>) -> Self {
         self.map(|e| e.partial(symbol))
     }
-
-    pub fn is_zero(&self) -> bool {
-        is_zero(&self.body) && is_zero(&self.space)
-    }
 }

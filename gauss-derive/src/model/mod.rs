@@ -27,7 +27,6 @@ mod tests;
 mod validate;
 
 use context::Context;
-use proc_macro2::Span;
 use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics, Ident, Path, Visibility};
 
 /// One rigid body as the user wrote it, checked.
@@ -128,8 +127,6 @@ pub enum Motion {
 pub struct Parameter {
     /// Name of the field.
     pub ident: Ident,
-    /// Span of the written type: where a mistake about the value belongs.
-    pub span: Span,
     /// What the field means to the body; `None` for a plain parameter.
     pub role: Option<Role>,
     /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].

@@ -8,7 +8,6 @@ use super::scene::Scene;
 use super::shapes::{Element, Kind};
 use super::{Model, Parameter, Role, Scalar, Shape};
 use quote::ToTokens;
-use syn::spanned::Spanned;
 use syn::{DeriveInput, GenericParam};
 
 /// The checked model; `None` when something that it needs is missing, which is then noted.
@@ -31,7 +30,6 @@ pub(super) fn model(input: &DeriveInput, scene: &Scene, reader: Reader<'_>, cont
         };
         parameters.push(Parameter {
             ident: field.ident.clone(),
-            span: field.ty.span(),
             role: field.role.as_ref().map(|claim| claim.role),
             shape,
             documentation: field.documentation.clone(),

@@ -1,0 +1,99 @@
+//! Every scene is checked against the definition before code is written: the residual and the accelerations that kernels
+//! are made from must satisfy the Gauss condition (3.4), formed word for word from v_P, at a pseudo-random state.
+
+use std::fmt;
+
+use crate::algebra::{Evaluation, Expr, Map, Rational};
+
+use super::chart::ConfigurationKind;
+use super::gauss::gauss_condition;
+use super::methods::{Formula, Method, Scene};
+use super::rotation::rotation_of_quaternion;
+
+/// A formula does not satisfy the Gauss condition: an error of this crate, never of its user.
+#[derive(Debug)]
+pub struct Disagreement {
+    method: Method,
+    row: usize,
+    residual: f64,
+}
+
+impl fmt::Display for Disagreement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { method, row, residual } = self;
+        write!(f, "row {row} of {method:?} misses the Gauss condition by {residual:e}")
+    }
+}
+
+/// Evaluates the condition at one state, with the residual formula at any ż and with every arrangement's acceleration.
+pub fn check_against_definition<'g>(scene: &Scene<'g>, formulas: &[Formula<'g>]) -> Result<(), Disagreement> {
+    let condition = gauss_condition(&scene.kinematics, &scene.body);
+    let mut state = sample_state(scene);
+    let values = |state: &Map<u32, f64>, outputs: &[Expr<'g>]| -> Vec<f64> {
+        let mut evaluation = Evaluation::new(state);
+        outputs.iter().map(|e| evaluation.value(*e)).collect()
+    };
+    let agree = |method, found: &[f64], expected: &[f64]| {
+        let scale = found.iter().chain(expected).fold(1.0_f64, |m, x| m.max(x.abs()));
+        for (row, (x, y)) in found.iter().zip(expected).enumerate() {
+            // Numbers of order one and some hundreds of roundings; NaN is no agreement either.
+            let close = (x - y).abs() <= 1e-8 * scale;
+            if !close {
+                return Err(Disagreement { method, row, residual: x - y });
+            }
+        }
+        Ok(())
+    };
+    let expected = values(&state, &condition);
+    for formula in formulas.iter().filter(|f| f.method == Method::GaussResidual) {
+        for arrangement in &formula.arrangements {
+            agree(formula.method, &values(&state, arrangement), &expected)?;
+        }
+    }
+    for formula in formulas.iter().filter(|f| f.method == Method::Acceleration) {
+        for arrangement in &formula.arrangements {
+            let rates = values(&state, arrangement);
+            state.extend(scene.kinematics.speed_rates.iter().zip(&rates).map(|(symbol, rate)| (symbol.key(), *rate)));
+            agree(formula.method, &values(&state, &condition), &vec![0.0; rates.len()])?;
+        }
+    }
+    Ok(())
+}
+
+/// Values of order one for all symbols; rotations are rotations, and the kinetic matrix is dominated by its diagonal.
+fn sample_state(scene: &Scene<'_>) -> Map<u32, f64> {
+    let kinematics = &scene.kinematics;
+    // Multiples of the golden ratio are spread evenly and never equal.
+    let mut index = 0;
+    let mut next = || {
+        index += 1;
+        0.5 + (f64::from(index) * 0.618_033_988_749_894_9).fract()
+    };
+    let mut state: Map<u32, f64> = Map::default();
+    for parameter in &scene.body.parameters {
+        let value = if parameter.row == parameter.column { 4.0 + next() } else { 0.3 * next() };
+        state.insert(parameter.symbol.key(), value);
+    }
+    let mut configuration = kinematics.configuration.iter();
+    match kinematics.kind {
+        ConfigurationKind::Pose | ConfigurationKind::Rotation => {
+            // (1, 5, −3, 1)/6 is a unit quaternion.
+            let graph = kinematics.frame.graph;
+            let quaternion = [1, 5, -3, 1].map(|n| graph.integer(n).scale(Rational::new(1, 6)));
+            let none = Map::default();
+            let mut evaluation = Evaluation::new(&none);
+            let entries = rotation_of_quaternion(graph, quaternion);
+            let values: Vec<f64> = entries.iter().flatten().map(|e| evaluation.value(*e)).collect();
+            state.extend(configuration.by_ref().zip(values).take(9).map(|(symbol, value)| (symbol.key(), value)));
+        }
+        ConfigurationKind::PlanePose => {
+            state.extend(configuration.by_ref().zip([0.6, 0.8]).take(2).map(|(symbol, value)| (symbol.key(), value)));
+        }
+        ConfigurationKind::Coordinates => {}
+    }
+    let rest = kinematics.configuration.iter().chain(&kinematics.speeds).chain(&kinematics.speed_rates);
+    for symbol in rest {
+        state.entry(symbol.key()).or_insert_with(&mut next);
+    }
+    state
+}
