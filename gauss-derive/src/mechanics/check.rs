@@ -1,12 +1,12 @@
 //! Every scene is checked against the definition before code is written: the residual and the accelerations that kernels
-//! are made from must satisfy the Gauss condition (3.4), formed word for word from v_P, at a pseudo-random state.
+//! are made from must make C of (3.1) stationary, formed word for word from v_P, at a pseudo-random state.
 
 use std::fmt;
 
 use crate::algebra::{Evaluation, Expr, Map, Rational};
 
 use super::chart::ConfigurationKind;
-use super::gauss::gauss_condition;
+use super::gauss::stationarity;
 use super::methods::{Formula, Method, Scene};
 use super::rotation::rotation_of_quaternion;
 
@@ -27,7 +27,7 @@ impl fmt::Display for Disagreement {
 
 /// Evaluates the condition at one state, with the residual formula at any ż and with every arrangement's acceleration.
 pub fn check_against_definition<'g>(scene: &Scene<'g>, formulas: &[Formula<'g>]) -> Result<(), Disagreement> {
-    let condition = gauss_condition(&scene.kinematics, &scene.body);
+    let condition = stationarity(&scene.kinematics, &scene.body);
     let mut state = sample_state(scene);
     let values = |state: &Map<u32, f64>, outputs: &[Expr<'g>]| -> Vec<f64> {
         let mut evaluation = Evaluation::new(state);

@@ -1,7 +1,9 @@
-//! The Gauss condition (3.4), word for word: v_P, its derivatives, integrals over the body by moments.
+//! Gauss' principle (3.1) and the condition (3.4), word for word: v_P, its derivatives, integrals over the body by
+//! moments.
 //!
 //! This is the definition that everything else is checked against: the equations that kernels are made from
-//! (`momentum`, `solution`) are arranged for speed, and must give the same residual.
+//! (`momentum`, `methods`) are arranged for speed, and must give the same residual. The macro itself checks with the
+//! stationarity of C, which is cheaper to form than (3.4); that the two are one is proven in the tests.
 
 use crate::algebra::{Expr, Map};
 
@@ -20,24 +22,38 @@ pub fn velocity_field<'g>(kinematics: &Kinematics<'g>, x: &Triple<'g>) -> Triple
     std::array::from_fn(|i| (turned[i] + kinematics.position[i]).derivative(&kinematics.rates))
 }
 
-/// `d/dt ∫v_P·∂v_P/∂z^α dm − ∫v_P·d/dt(∂v_P/∂z^α) dm − ∫∂v_P/∂z^α·dF` for every α, a function of (q, z, ż).
-pub fn gauss_condition<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>) -> Vec<Expr<'g>> {
+/// v_P with its partial derivatives w_α = ∂v_P/∂z^α: affine fields over the body.
+fn fields<'g>(kinematics: &Kinematics<'g>) -> (AffineField<'g>, Vec<AffineField<'g>>) {
     let x = body_point(kinematics);
+    let field = AffineField::of(&velocity_field(kinematics, &x), &x);
+    (field, kinematics.speeds.iter().map(|&z| field.map(|e| e.partial(z))).collect())
+}
+
+/// Gauss' principle itself: ∂C/∂ż^α of `C = ½∫|a_P − dF/dm|² dm` (3.1), which is `∫a_P·w_α dm − ∫w_α·dF` because
+/// ∂a_P/∂ż^α = w_α. A function of (q, z, ż).
+pub fn stationarity<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>) -> Vec<Expr<'g>> {
     let along = kinematics.rates_with_accelerations();
-    let velocity = velocity_field(kinematics, &x);
-    let field = AffineField::of(&velocity, &x);
-    kinematics
-        .speeds
-        .iter()
-        .map(|&z| {
-            // w_α = ∂v_P/∂z^α and its rate: affine fields like v_P itself.
-            let partial = field.map(|e| e.partial(z));
-            let partial_rate = partial.map(|e| e.derivative(&along));
-            let momentum = integrate_product(body, &field, &partial);
-            let inertia = momentum.derivative(&along) - integrate_product(body, &field, &partial_rate);
-            inertia + fluid(kinematics, body, z, &along) - active_forces(body, &partial)
-        })
-        .collect()
+    let (field, partials) = fields(kinematics);
+    let acceleration = field.map(|e| e.derivative(&along));
+    let row = |(partial, &z): (&AffineField<'g>, &Expr<'g>)| {
+        integrate_product(body, &acceleration, partial) + fluid(kinematics, body, z, &along)
+            - active_forces(body, partial)
+    };
+    partials.iter().zip(&kinematics.speeds).map(row).collect()
+}
+
+/// `d/dt ∫v_P·w_α dm − ∫v_P·dw_α/dt dm − ∫w_α·dF` for every α: the condition (3.4), a function of (q, z, ż).
+#[cfg(test)]
+pub fn gauss_condition<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>) -> Vec<Expr<'g>> {
+    let along = kinematics.rates_with_accelerations();
+    let (field, partials) = fields(kinematics);
+    let row = |(partial, &z): (&AffineField<'g>, &Expr<'g>)| {
+        let momentum = integrate_product(body, &field, partial);
+        let partial_rate = partial.map(|e| e.derivative(&along));
+        let inertia = momentum.derivative(&along) - integrate_product(body, &field, &partial_rate);
+        inertia + fluid(kinematics, body, z, &along) - active_forces(body, partial)
+    };
+    partials.iter().zip(&kinematics.speeds).map(row).collect()
 }
 
 /// `∫∂v_P/∂z^α·dF` of weight and buoyancy.

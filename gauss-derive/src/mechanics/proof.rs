@@ -7,7 +7,7 @@ use crate::model::{Chart, Motion};
 
 use super::body::{AffineField, Body, BodyShape, GravityShape, InertiaShape, integrate_product};
 use super::chart::{ConfigurationKind, Kinematics};
-use super::gauss::{gauss_condition, pairing, velocity_field};
+use super::gauss::{gauss_condition, pairing, stationarity, velocity_field};
 use super::methods::Scene;
 use super::tests::scenes;
 use super::vector::{Axes, Triple, add, cross, scale};
@@ -55,7 +55,12 @@ fn moments_and_momenta_give_the_same_condition_identically() {
         let (q, gamma) = rigid_momentum(body, &u, &omega);
         let (q, gamma) = (kinematics.frame.body_vector(q), kinematics.frame.body_vector(gamma));
         let forces = scene.generalised_forces();
-        for ((&z, by_moments), force) in kinematics.speeds.iter().zip(gauss_condition(kinematics, body)).zip(forces) {
+        let conditions = gauss_condition(kinematics, body).into_iter().zip(stationarity(kinematics, body));
+        for ((&z, (by_moments, by_principle)), force) in kinematics.speeds.iter().zip(conditions).zip(forces) {
+            assert!(
+                relations.annihilates(by_moments - by_principle),
+                "(3.4) is not the stationarity of (3.1) in {motion:?} {chart:?}, row {z:?}"
+            );
             let by_momenta = pairing(kinematics, &q, &gamma, z, &along) - force;
             assert!(
                 relations.annihilates(by_moments - by_momenta),
