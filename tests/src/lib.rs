@@ -1,0 +1,13 @@
+//! What the tests of both crates share: reference solutions, an integrator of order 8, and the comparison of the two.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`scene`] | a reference solution, read from `data/reference` |
+//! | [`order8`] | the Dormand–Prince method of order 8 on the group, with step control |
+//! | [`integrals`] | what a motion conserves |
+//! | [`compare`] | a kernel run from the initial to the final state of a scene, and how far it ends from it |
+
+pub mod compare;
+pub mod integrals;
+pub mod order8;
+pub mod scene;
