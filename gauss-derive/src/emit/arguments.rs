@@ -24,7 +24,7 @@ pub fn declare(program: &Program<'_>, arguments: &[Argument<'_>], names: &mut Ma
             if !read.contains(symbol) {
                 return quote!(_);
             }
-            let name = format_ident!("a{}_{}", a, k, span = Span::mixed_site());
+            let name = format_ident!("__a{}_{}", a, k, span = Span::mixed_site());
             names.insert(symbol.key(), quote!(#name));
             quote!(#name)
         });

@@ -1,5 +1,7 @@
 //! Equations and costs as text, LaTeX and rustdoc.
 
+use syn::ext::IdentExt;
+
 use crate::algebra::Notation;
 use crate::kernel::Counts;
 use crate::mechanics::{Method, Section};
@@ -50,7 +52,7 @@ fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
             };
             // The first line says what it is; the rest is for the struct's own page.
             let said = parameter.documentation.lines().next().unwrap_or_default().to_owned();
-            (letter, parameter.ident.to_string(), said)
+            (letter, parameter.ident.unraw().to_string(), said)
         })
         .collect()
 }

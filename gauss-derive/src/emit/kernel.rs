@@ -187,12 +187,14 @@ impl<'g> Derived<'_, 'g> {
             ),
             (ConfigurationKind::Coordinates, Motion::Free) => (
                 quote! {
-                    let [b1, b2, b3, a1, a2, a3] = #private::components(q);
-                    #private::pose_of_chart(#chart, [a1, a2, a3], [b1, b2, b3])
+                    let [__b1, __b2, __b3, __a1, __a2, __a3] = #private::components(q);
+                    #private::pose_of_chart(#chart, [__a1, __a2, __a3], [__b1, __b2, __b3])
                 },
                 quote! {
                     #private::chart_of_pose(#chart, pose)
-                        .map(|([a1, a2, a3], [b1, b2, b3])| #private::vector([b1, b2, b3, a1, a2, a3]))
+                        .map(|([__a1, __a2, __a3], [__b1, __b2, __b3])| {
+                            #private::vector([__b1, __b2, __b3, __a1, __a2, __a3])
+                        })
                 },
             ),
         }
@@ -304,7 +306,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
                 type Speeds = #runtime::prelude::SVector<#ty, #n>;
                 type MassMatrix = #runtime::prelude::SMatrix<#ty, #n, #n>;
                 type Input = ();
-                const DOF: usize = #n;
+                const DOF: ::core::primitive::usize = #n;
                 const CHART: #runtime::chart::Chart = #chart;
                 const EQUATIONS: #runtime::system::Equations = #runtime::system::Equations { text: #text, latex: #latex };
                 const OPERATIONS: #runtime::system::Operations = #operations;

@@ -2,6 +2,7 @@
 
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
+use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
@@ -38,7 +39,7 @@ const QUANTITIES: [Quantity; 7] = [
 /// The local that holds a field while `kernel()` works.
 fn local(quantity: Quantity) -> proc_macro2::Ident {
     let position = QUANTITIES.iter().position(|q| *q == quantity).unwrap_or_default();
-    format_ident!("p{}", position, span = Span::mixed_site())
+    format_ident!("__p{}", position, span = Span::mixed_site())
 }
 
 /// Is the field a scalar, a vector, or a matrix?
@@ -94,7 +95,7 @@ fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenSt
     let (model, runtime) = (derived.model, &derived.model.runtime);
     let scalar = derived.scalar();
     let ty = scalar.ty();
-    let name_of = |quantity| field(model, quantity).map(|p| p.ident.to_string()).unwrap_or_default();
+    let name_of = |quantity| field(model, quantity).map(|p| p.ident.unraw().to_string()).unwrap_or_default();
     let body = &derived.scene.body;
     let entry = |e: Expr<'_>| match symbols.get(&e.key()) {
         Some(tokens) => tokens.clone(),
@@ -103,19 +104,19 @@ fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenSt
     let has = |quantity| field(model, quantity).is_some();
     let mut checks = TokenStream::new();
     let (mass, mass_name) = (local(Quantity::Mass), name_of(Quantity::Mass));
-    checks.extend(quote!(check.mass(#mass_name, #mass);));
+    checks.extend(quote!(__check.mass(#mass_name, #mass);));
     for quantity in [Quantity::CenterOfMass, Quantity::Gravity, Quantity::CenterOfBuoyancy] {
         if has(quantity) {
             let (field, value) = (name_of(quantity), local(quantity));
             checks.extend(match rank(derived, quantity) {
-                0 => quote!(check.finite(#field, &[#value]);),
-                _ => quote!(check.finite(#field, &#value);),
+                0 => quote!(__check.finite(#field, &[#value]);),
+                _ => quote!(__check.finite(#field, &#value);),
             });
         }
     }
     if has(Quantity::DisplacedMass) {
         let (field, value) = (name_of(Quantity::DisplacedMass), local(Quantity::DisplacedMass));
-        checks.extend(quote!(check.non_negative(#field, #value);));
+        checks.extend(quote!(__check.non_negative(#field, #value);));
     }
     // In the plane only the moment about k₃ enters.
     let inertia_name = name_of(Quantity::Inertia);
@@ -132,7 +133,7 @@ fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenSt
         });
         quote!([#(#row),*])
     });
-    checks.extend(quote!(let inertia = [#(#rows),*]; check.inertia(#inertia_name, &inertia);));
+    checks.extend(quote!(let __inertia = [#(#rows),*]; __check.inertia(#inertia_name, &__inertia);));
     if planar {
         let all = derived
             .scene
@@ -141,17 +142,17 @@ fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenSt
             .iter()
             .filter(|p| p.quantity == Quantity::Inertia)
             .map(|p| element(derived, p));
-        checks.extend(quote!(check.finite(#inertia_name, &[#(#all),*]);));
+        checks.extend(quote!(__check.finite(#inertia_name, &[#(#all),*]);));
     }
     if model.motion == Motion::Free && has(Quantity::CenterOfMass) {
         let center = local(Quantity::CenterOfMass);
-        checks.extend(quote!(check.central_inertia(#inertia_name, #mass, #center, &inertia);));
+        checks.extend(quote!(__check.central_inertia(#inertia_name, #mass, #center, &__inertia);));
     }
     if has(Quantity::AddedMass) {
         let (field, value) = (name_of(Quantity::AddedMass), local(Quantity::AddedMass));
         checks.extend(match rank(derived, Quantity::AddedMass) {
-            1 => quote!(check.finite(#field, &#value);),
-            _ => quote!(check.symmetric(#field, &#value);),
+            1 => quote!(__check.finite(#field, &#value);),
+            _ => quote!(__check.symmetric(#field, &#value);),
         });
     }
     if has(Quantity::AddedMass) || (planar && has(Quantity::CenterOfMass)) {
@@ -166,13 +167,13 @@ fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenSt
         let rows = outputs.chunks(active.len()).map(|row| quote!([#(#row),*]));
         checks.extend(quote!({
             #compute
-            check.kinetic_matrix(#field, &[#(#rows),*]);
+            __check.kinetic_matrix(#field, &[#(#rows),*]);
         }));
     }
     quote! {
-        let mut check = #runtime::__private::ParameterCheck::<#ty>::new();
+        let mut __check = #runtime::__private::ParameterCheck::<#ty>::new();
         #checks
-        check.finish()?;
+        __check.finish()?;
     }
 }
 

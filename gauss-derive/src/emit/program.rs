@@ -43,17 +43,18 @@ impl ScalarTokens<'_> {
     }
 }
 
-/// Name of the result of an instruction.
+/// Name of the result of an instruction. Underscores keep it apart from constants of the user's, which a `let` must not
+/// shadow.
 fn value(k: usize) -> Ident {
-    format_ident!("v{}", k, span = Span::mixed_site())
+    format_ident!("__v{}", k, span = Span::mixed_site())
 }
 
 fn sine(k: usize) -> Ident {
-    format_ident!("s{}", k, span = Span::mixed_site())
+    format_ident!("__s{}", k, span = Span::mixed_site())
 }
 
 fn cosine(k: usize) -> Ident {
-    format_ident!("c{}", k, span = Span::mixed_site())
+    format_ident!("__c{}", k, span = Span::mixed_site())
 }
 
 /// The statements of a program, and its outputs as expressions. `symbols` says how each symbol is written.

@@ -79,7 +79,8 @@ impl<'g> Scene<'g> {
         let up = if motion == Motion::Planar { 1 } else { 2 };
         let body = Body::new(graph, shape, up);
         let kinematics = Kinematics::new(graph, motion, chart);
-        let matrix = KineticMatrix::new(graph, &body, &kinematics.linear_axes());
+        let (linear, angular): (Vec<usize>, Vec<usize>) = kinematics.active.iter().partition(|&&k| k < 3);
+        let matrix = KineticMatrix::new(graph, &body, &linear, &angular);
         let weight = Weight::new(&body);
         let formal = Formal::new(&kinematics);
         let momenta = kinematics
@@ -246,7 +247,8 @@ impl<'g> Scene<'g> {
         let frame = &self.kinematics.frame;
         let (u, omega) = (self.in_body(&self.kinematics.velocity), self.in_body(&self.kinematics.angular_velocity));
         let q = self.matrix.linear_momentum(frame, &self.kinematics.velocity, &omega);
-        let gamma = frame.body_vector(self.matrix.angular_momentum(&u, &omega).map(Expr::group));
+        let spin = &self.kinematics.angular_velocity;
+        let gamma = self.matrix.angular_momentum_vector(frame, &u, spin, &omega).map(Expr::group);
         let pair = self.resolve(&q, &gamma);
         self.project(Pair { linear: pair.linear.map(Expr::group), angular: pair.angular.map(Expr::group) })
     }
@@ -255,9 +257,8 @@ impl<'g> Scene<'g> {
     fn state_of_momentum(&self) -> (Pair<'g>, Vec<Expr<'g>>) {
         let pair = self.momentum_pair(&self.momenta);
         let linear = self.vector(self.linear_in, pair.linear.map(Expr::group));
-        let gamma = self.in_body(&self.vector(self.angular_in, pair.angular.map(Expr::group)));
+        let gamma = self.vector(self.angular_in, pair.angular.map(Expr::group));
         let (velocity, omega) = twist_of_momentum(&self.kinematics, &self.matrix, &linear, &gamma);
-        let omega = self.kinematics.frame.body_vector(omega);
         (pair, self.lift(self.resolve(&velocity, &omega)))
     }
 
@@ -428,8 +429,9 @@ impl<'g> Scene<'g> {
         let frame = &self.kinematics.frame;
         let (u, omega) = (self.in_body(&self.kinematics.velocity), self.in_body(&self.kinematics.angular_velocity));
         let q = self.matrix.linear_momentum(frame, &self.kinematics.velocity, &omega).map(Expr::group);
-        let gamma = self.matrix.angular_momentum(&u, &omega).map(Expr::group);
-        (frame.dot(&q, &self.kinematics.velocity) + dot(&gamma, &omega)).half()
+        let spin = &self.kinematics.angular_velocity;
+        let gamma = self.matrix.angular_momentum_vector(frame, &u, spin, &omega).map(Expr::group);
+        (frame.dot(&q, &self.kinematics.velocity) + frame.dot(&gamma, spin)).half()
     }
 
     fn potential_energy(&self) -> Expr<'g> {

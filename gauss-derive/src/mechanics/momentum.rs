@@ -16,11 +16,15 @@ pub struct KineticMatrix<'g> {
     pub entries: Vec<Vec<Expr<'g>>>,
     /// μ when the translational block is μ·1 on the motion's axes: linear momentum then needs no body axes.
     pub isotropic: Option<Expr<'g>>,
+    /// I when the rotational block is I·1 on the motion's axes and nothing couples it to the translation: the same for
+    /// the angular momentum.
+    pub spherical: Option<Expr<'g>>,
 }
 
 impl<'g> KineticMatrix<'g> {
     /// M = ∂²T/∂(u, ω)∂(u, ω) of `T = ½∫|u + ω × x|² dm`, and the fluid's matrix on top.
-    pub fn new(graph: &'g Graph, body: &Body<'g>, linear_axes: &[usize]) -> Self {
+    /// Axes are indices into (u, ω).
+    pub fn new(graph: &'g Graph, body: &Body<'g>, linear_axes: &[usize], angular_axes: &[usize]) -> Self {
         let unit = |k: usize| -> AffineField<'g> {
             let zero = [graph.zero(); 3];
             let mut axis = zero;
@@ -43,12 +47,9 @@ impl<'g> KineticMatrix<'g> {
                     .collect()
             })
             .collect();
-        let isotropic = linear_axes.first().map(|&k| entries[k][k]).filter(|mu| {
-            linear_axes
-                .iter()
-                .all(|&i| linear_axes.iter().all(|&j| entries[i][j] == if i == j { *mu } else { graph.zero() }))
-        });
-        Self { entries, isotropic }
+        let uncoupled = linear_axes.iter().all(|&i| angular_axes.iter().all(|&j| entries[i][j].is_zero()));
+        let spherical = multiple_of_identity(&entries, angular_axes).filter(|_| uncoupled);
+        Self { isotropic: multiple_of_identity(&entries, linear_axes), spherical, entries }
     }
 
     pub fn block(&self, row: usize, column: usize, a: &Triple<'g>) -> Triple<'g> {
@@ -77,9 +78,30 @@ impl<'g> KineticMatrix<'g> {
         add(&self.block(3, 0, u), &self.block(3, 3, omega))
     }
 
+    /// Γ_O, as `I ω` in the axes of ω when that is all there is, else in body axes.
+    pub fn angular_momentum_vector(
+        &self,
+        frame: &Frame<'g>,
+        u: &Triple<'g>,
+        angular_velocity: &Vector<'g>,
+        omega: &Triple<'g>,
+    ) -> Vector<'g> {
+        match self.spherical {
+            Some(inertia) => angular_velocity.times(inertia),
+            None => frame.body_vector(self.angular_momentum(u, omega)),
+        }
+    }
+
     fn submatrix(&self, axes: &[usize]) -> Vec<Vec<Expr<'g>>> {
         axes.iter().map(|&i| axes.iter().map(|&j| self.entries[i][j]).collect()).collect()
     }
+}
+
+/// λ when the block on the given axes is λ·1.
+fn multiple_of_identity<'g>(entries: &[Vec<Expr<'g>>], axes: &[usize]) -> Option<Expr<'g>> {
+    let lambda = entries[*axes.first()?][axes[0]];
+    let fits = |i: usize, j: usize| if i == j { entries[i][j] == lambda } else { entries[i][j].is_zero() };
+    axes.iter().all(|&i| axes.iter().all(|&j| fits(i, j))).then_some(lambda)
 }
 
 /// Weight and buoyancy: resultant `effective_mass ĝ` and torque about O `effective_moment × ĝ`.
@@ -239,10 +261,7 @@ pub fn solve_balance<'g>(
             let per_mass = mu.recip();
             let weight_in_body = weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
             let inner = scale(per_mass, &subtract(&linear_bias, &weight_in_body));
-            let schur: Vec<Vec<Expr<'g>>> = angular_axes
-                .iter()
-                .map(|&i| angular_axes.iter().map(|&j| schur_entry(matrix, per_mass, i, j)).collect())
-                .collect();
+            let schur = schur_complement(matrix, per_mass, &angular_axes);
             let reduced = tidy(subtract(&angular_bias, &matrix.block(3, 0, &inner)));
             let angular = spread(&apply(&inverse_of_symmetric(&schur), &pick(&reduced, &angular_axes)), &angular_axes);
             let rest = add(&linear_bias, &matrix.block(0, 3, &angular));
@@ -281,53 +300,58 @@ pub fn solve_balance<'g>(
     }
 }
 
-/// `M₂₂ − M₂₁ M₁₂/μ`: the inertia that is left when the translation is eliminated.
-fn schur_entry<'g>(matrix: &KineticMatrix<'g>, per_mass: Expr<'g>, i: usize, j: usize) -> Expr<'g> {
-    let eliminated: Expr<'g> = (0..3).map(|k| matrix.entries[3 + i][k] * per_mass * matrix.entries[k][3 + j]).sum();
-    (matrix.entries[3 + i][3 + j] - eliminated).collected(LIMIT).group()
+/// `M₂₂ − M₂₁ M₁₂/μ` on the axes of rotation: the inertia that is left when the translation is eliminated.
+fn schur_complement<'g>(matrix: &KineticMatrix<'g>, per_mass: Expr<'g>, axes: &[usize]) -> Vec<Vec<Expr<'g>>> {
+    let entry = |i: usize, j: usize| {
+        let products = (0..3).map(|k| matrix.entries[3 + i][k] * per_mass * matrix.entries[k][3 + j]);
+        (matrix.entries[3 + i][3 + j] - products.sum()).collected(LIMIT).group()
+    };
+    axes.iter().map(|&i| axes.iter().map(|&j| entry(i, j)).collect()).collect()
 }
 
-/// Twist from momentum, both in formal body components: `v_O` (each part in natural axes) and ω.
+/// Twist from momentum: v_O and ω, each part in the axes where it comes out naturally.
 pub fn twist_of_momentum<'g>(
     kinematics: &Kinematics<'g>,
     matrix: &KineticMatrix<'g>,
     linear_momentum: &Vector<'g>,
-    angular_momentum: &Triple<'g>,
-) -> (Vector<'g>, Triple<'g>) {
+    angular_momentum: &Vector<'g>,
+) -> (Vector<'g>, Vector<'g>) {
     let frame = &kinematics.frame;
+    if let (Some(inertia), true) = (matrix.spherical, matrix.isotropic.is_some() || kinematics.linear_axes().is_empty())
+    {
+        let per_mass = matrix.isotropic.map_or(frame.graph.one(), Expr::recip);
+        return (linear_momentum.times(per_mass), angular_momentum.times(inertia.recip()));
+    }
+    let gamma = frame.resolve(angular_momentum, Axes::Body).map(Expr::group);
     let angular_axes = kinematics.angular_axes();
     let linear_axes = kinematics.linear_axes();
     let mut omega = frame.zero().body;
     if let Some(mu) = matrix.isotropic {
         let per_mass = mu.recip();
-        let schur: Vec<Vec<Expr<'g>>> = angular_axes
-            .iter()
-            .map(|&i| angular_axes.iter().map(|&j| schur_entry(matrix, per_mass, i, j)).collect())
-            .collect();
         let coupled = angular_axes.iter().any(|&i| linear_axes.iter().any(|&k| !matrix.entries[3 + i][k].is_zero()));
         let reduced = if coupled {
             let q = frame.resolve(linear_momentum, Axes::Body);
-            subtract(angular_momentum, &matrix.scaled_block(per_mass, 3, 0, &q))
+            subtract(&gamma, &matrix.scaled_block(per_mass, 3, 0, &q))
         } else {
-            *angular_momentum
+            gamma
         };
-        let inverse = inverse_of_symmetric(&schur);
+        let inverse = inverse_of_symmetric(&schur_complement(matrix, per_mass, &angular_axes));
         for (row, &i) in angular_axes.iter().enumerate() {
             let terms = angular_axes.iter().enumerate().map(|(column, &j)| inverse[row][column] * reduced[j]);
             omega[i] = terms.sum::<Expr<'g>>().group();
         }
         let coupling = matrix.scaled_block(-per_mass, 0, 3, &omega);
         let velocity = linear_momentum.times(per_mass).plus(&frame.body_vector(coupling));
-        return (velocity, omega);
+        return (velocity, frame.body_vector(omega));
     }
     let q = frame.resolve(linear_momentum, Axes::Body);
     let momentum: Vec<Expr<'g>> =
-        linear_axes.iter().map(|&k| q[k]).chain(angular_axes.iter().map(|&k| angular_momentum[k])).collect();
+        linear_axes.iter().map(|&k| q[k]).chain(angular_axes.iter().map(|&k| gamma[k])).collect();
     let inverse = inverse_of_symmetric(&matrix.submatrix(&kinematics.active));
     let mut u = frame.zero().body;
     for (row, &k) in kinematics.active.iter().enumerate() {
         let component = inverse[row].iter().zip(&momentum).map(|(m, p)| *m * *p).sum::<Expr<'g>>().group();
         if k < 3 { u[k] = component } else { omega[k - 3] = component }
     }
-    (frame.body_vector(u), omega)
+    (frame.body_vector(u), frame.body_vector(omega))
 }
