@@ -15,5 +15,6 @@ pub use crate::monitor::{monitor, monitor_body};
 pub use crate::real::Real;
 pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody};
 pub use nalgebra::{
-    Isometry2, Isometry3, Matrix3, Matrix6, SMatrix, SVector, Translation3, UnitQuaternion, Vector3, Vector6,
+    Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
+    UnitQuaternion, Vector3, Vector6,
 };

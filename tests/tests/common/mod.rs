@@ -1,0 +1,23 @@
+//! What the property tests share.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `bounded` | a scalar that carries a bound on its own rounding error |
+//! | `dual` | a scalar that carries its derivative |
+//! | `body` | a derived kernel of any chart and scalar; its flow in dual numbers |
+//! | `parameters` | random bodies |
+//! | `states` | random poses and twists |
+//! | `scenes` | macros that stamp derived structs |
+//! | `agreement` | equal up to the bounds |
+
+// Every test binary uses a part of this.
+#![allow(dead_code, unused_macros, unused_imports)]
+
+pub mod agreement;
+pub mod body;
+pub mod bounded;
+pub mod dual;
+pub mod parameters;
+#[macro_use]
+pub mod scenes;
+pub mod states;
