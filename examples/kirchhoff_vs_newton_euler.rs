@@ -1,0 +1,46 @@
+//! One vehicle, four charts: the equations, what they cost, and how well they agree.
+//!
+//! `cargo run --release --example kirchhoff_vs_newton_euler [-- FOLDER]` writes its files into `FOLDER`, by default
+//! `target/kirchhoff_vs_newton_euler`.
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+use gauss_examples::measure::{Comparison, Fleet};
+use gauss_examples::{figure, report, timing};
+
+/// Length of the runs, s.
+const DURATION: f64 = 30.0;
+/// Batches of evaluations that are timed; each of the twelve functions takes about 10 µs for one.
+const BATCHES: usize = 2000;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/kirchhoff_vs_newton_euler"), PathBuf::from);
+
+    let fleet = Fleet::published()?;
+    println!("{}", report::introduction(&fleet)?);
+
+    let comparison = Comparison::of(&fleet, DURATION)?;
+    let timings = timing::time(&fleet, &comparison.reference, BATCHES)?;
+    println!("{}", report::costs(&timings)?);
+    println!("{}", report::results(&comparison)?);
+
+    fs::create_dir_all(&folder)?;
+    let svg = figure::svg(&comparison, &timings)?;
+    let files = [
+        ("kirchhoff_vs_newton_euler.svg", svg.clone().into_bytes(), "the picture"),
+        ("kirchhoff_vs_newton_euler.png", figure::png(&svg)?, "the same in pixels"),
+        (
+            "equations.txt",
+            report::all_equations(&fleet)?.into_bytes(),
+            "all equations, as text and LaTeX, with their costs",
+        ),
+    ];
+    println!("written:");
+    for (name, contents, what) in files {
+        let path = folder.join(name);
+        fs::write(&path, contents)?;
+        println!("  {}   {what}", path.display());
+    }
+    Ok(())
+}

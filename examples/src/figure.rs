@@ -1,0 +1,145 @@
+//! The picture: what is where on it, and from SVG to PNG.
+
+use std::error::Error;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use resvg::{tiny_skia, usvg};
+
+use crate::measure::{Comparison, EVERYDAY_STEP, PRECISE_RATE, differences, energy_drift, momentum_drift};
+use crate::panels::{Curve, LogPanel, Note, View, bars, path};
+use crate::timing::Timing;
+
+/// A part of the picture.
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Kirchhoff, Newton–Euler, hybrid, Lagrange: from the palette of Okabe and Ito, told apart by every kind of colour vision.
+pub const COLOURS: [RGBColor; 4] =
+    [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167)];
+/// Text and axes.
+pub const INK: RGBColor = RGBColor(45, 45, 45);
+/// Grids and shadows.
+pub const PALE: RGBColor = RGBColor(222, 222, 222);
+
+/// Width and height in pixels.
+const SIZE: (u32, u32) = (1600, 1300);
+
+/// Text of a size in a colour.
+#[must_use]
+pub fn text_style(size: u32, colour: RGBColor) -> TextStyle<'static> {
+    ("sans-serif", f64::from(size)).into_font().color(&colour)
+}
+
+/// Draws everything.
+///
+/// # Errors
+/// When a panel cannot be laid out.
+pub fn svg(comparison: &Comparison, timings: &[Timing]) -> Result<String, Box<dyn Error>> {
+    let mut svg = String::new();
+    {
+        let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
+        root.fill(&WHITE)?;
+        let (head, body) = root.split_vertically(108);
+        header(&head, comparison)?;
+        let (main, bottom) = body.split_vertically(780);
+        let (left, right) = main.split_horizontally(720);
+        let view = View { seconds: 8.0, vehicle_every: 4, grid: 1.0, strokes: [12, 8, 5, 2] };
+        path(&left, &comparison.precise, "The first 8 s of the path; the vehicle every 0.4 s, in its size", view)?;
+        let (upper, lower) = right.split_vertically(390);
+        disagreement(&upper, comparison)?;
+        energy(&lower, comparison)?;
+        let (left, right) = bottom.split_horizontally(800);
+        momentum(&left, comparison)?;
+        bars(&right, timings)?;
+        root.present()?;
+    }
+    Ok(svg)
+}
+
+fn header(area: &Area<'_>, comparison: &Comparison) -> Result<(), Box<dyn Error>> {
+    let title = "One vehicle, one motion, four sets of derived equations";
+    area.draw(&Text::new(title, (40, 18), text_style(36, INK)))?;
+    let mut x = 42;
+    for (run, colour) in comparison.precise.iter().zip(COLOURS) {
+        area.draw(&Rectangle::new([(x, 76), (x + 34, 84)], colour.filled()))?;
+        area.draw(&Text::new(run.name, (x + 44, 69), text_style(21, INK)))?;
+        x += 80 + 12 * run.name.chars().count() as i32;
+    }
+    let about = "REMUS 100 in an ideal fluid, motor off, parameters of Prestero (2001)";
+    area.draw(&Text::new(about, (x + 30, 69), text_style(21, RGBColor(110, 110, 110))))?;
+    Ok(())
+}
+
+fn curves(runs: &[crate::simulate::Run], series: impl Fn(&crate::simulate::Run) -> Vec<(f64, f64)>) -> Vec<Curve> {
+    let curve = |(run, colour)| Curve { points: series(run), colour, width: 2, dashed: false };
+    runs.iter().zip(COLOURS).map(curve).collect()
+}
+
+fn disagreement(area: &Area<'_>, comparison: &Comparison) -> Result<(), Box<dyn Error>> {
+    let distance =
+        |run: &_| differences(run, &comparison.reference).iter().map(|&(t, metres, _)| (t, metres)).collect();
+    let mut all = curves(&comparison.everyday, distance);
+    all.extend(curves(&comparison.precise, distance));
+    LogPanel {
+        title: "Distance from the reference path, m",
+        decades: -16.0..0.0,
+        notes: vec![
+            Note::new(20.5, -6.3, format!("order 4, {:.0} steps a second", 1.0 / EVERYDAY_STEP)),
+            Note::new(20.5, -9.9, format!("order 8, {PRECISE_RATE} steps a second")),
+        ],
+    }
+    .draw(area, &all)
+}
+
+fn energy(area: &Area<'_>, comparison: &Comparison) -> Result<(), Box<dyn Error>> {
+    let mut all = curves(&comparison.everyday, energy_drift);
+    all.extend(curves(&comparison.precise, energy_drift));
+    LogPanel {
+        title: "Drift of the energy, relative to the largest kinetic energy",
+        decades: -18.0..-2.0,
+        notes: vec![
+            Note::new(20.5, -6.9, format!("order 4, {:.0} steps a second", 1.0 / EVERYDAY_STEP)),
+            Note::new(20.5, -11.7, format!("order 8, {PRECISE_RATE} steps a second")),
+        ],
+    }
+    .draw(area, &all)
+}
+
+fn momentum(area: &Area<'_>, comparison: &Comparison) -> Result<(), Box<dyn Error>> {
+    let [k, _, n_velocity, n_momentum] = comparison.weightless.as_slice() else {
+        return Err("four weightless runs are drawn".into());
+    };
+    // Of the last one the momenta that are integrated, not their copies recomputed from pose and twist.
+    let first = n_momentum.moments[0].p;
+    let exact = n_momentum.moments.iter().map(|m| (m.t, (m.p - first).norm() / first.norm())).collect();
+    let all = [
+        Curve { points: momentum_drift(k), colour: COLOURS[0], width: 2, dashed: false },
+        Curve { points: momentum_drift(n_velocity), colour: COLOURS[1], width: 2, dashed: false },
+        Curve { points: exact, colour: COLOURS[1], width: 4, dashed: true },
+    ];
+    LogPanel {
+        title: "Without gravity: drift of the six space momenta, relative",
+        decades: -18.0..-2.0,
+        notes: vec![
+            Note::new(9.0, -10.6, format!("velocity form, order 4, {:.0} steps a second", 1.0 / EVERYDAY_STEP)),
+            Note::new(9.0, -16.4, "Newton–Euler in momentum form: exactly 0, every bit kept".into()),
+        ],
+    }
+    .draw(area, &all)
+}
+
+/// The picture in pixels. Text is set in DejaVu Sans, which comes with the program: nothing is asked of the system.
+///
+/// # Errors
+/// When the SVG is not one.
+pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn Error>> {
+    let mut options = usvg::Options::default();
+    let fonts = options.fontdb_mut();
+    fonts.load_font_data(dejavu::sans::regular().to_vec());
+    fonts.set_sans_serif_family("DejaVu Sans");
+    let tree = usvg::Tree::from_str(svg, &options)?;
+    let size = tree.size().to_int_size();
+    let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height()).ok_or("the picture has no size")?;
+    resvg::render(&tree, tiny_skia::Transform::default(), &mut pixels.as_mut());
+    Ok(pixels.encode_png()?)
+}

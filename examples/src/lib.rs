@@ -1,0 +1,18 @@
+//! What the example `kirchhoff_vs_newton_euler` is made of; here and not beside it, so that a test can run it too.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`vehicle`] | the REMUS 100 from its published parameters, once for each chart |
+//! | [`simulate`] | runs: one initial state, every chart, two integrators, two scenes |
+//! | [`measure`] | agreement of runs, drift of what should be constant |
+//! | [`timing`] | nanoseconds per evaluation |
+//! | [`report`] | the text |
+//! | [`figure`] | the picture, its panels in [`panels`] |
+
+pub mod figure;
+pub mod measure;
+pub mod panels;
+pub mod report;
+pub mod simulate;
+pub mod timing;
+pub mod vehicle;

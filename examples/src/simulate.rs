@@ -1,0 +1,143 @@
+//! Runs of one initial state through any kernel.
+
+use std::error::Error;
+
+use gauss_runtime::integrate::{
+    Control, Form, InputSource, IntegrationError, IntegrationErrorKind, NoInput, Problem, Rates, Rkmk, Sample, State,
+    Tableau,
+};
+use gauss_runtime::prelude::*;
+
+/// What a run says about itself at one time, in no particular chart.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment {
+    /// Time, s.
+    pub t: f64,
+    /// Where the vehicle is.
+    pub pose: Isometry3<f64>,
+    /// How it moves: (u, ω), body axes, pole O.
+    pub twist: Vector6<f64>,
+    /// (Q̂, Γ̂_Ω), made of pose and twist.
+    pub space_momentum: Vector6<f64>,
+    /// T + V, J.
+    pub energy: f64,
+    /// The chart's own momenta p.
+    pub p: Vector6<f64>,
+}
+
+/// One chart, one method.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The chart as its users know it.
+    pub name: &'static str,
+    /// The states, in order.
+    pub moments: Vec<Moment>,
+    /// What drift of energy is relative to, J: V has an arbitrary zero, and T + V may pass through it.
+    pub largest_kinetic_energy: f64,
+    /// Energy and momentum over every step of the run, not only over `moments`.
+    pub watched: BodyMonitor,
+}
+
+/// How long a run is and how often it is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// Length, s.
+    pub duration: f64,
+    /// Distance of the moments that are kept, in steps.
+    pub every: u64,
+}
+
+/// A rigid body with six speeds and no input: any of the vehicles.
+pub trait Vessel: RigidBody<Scalar = f64, Speeds = Vector6<f64>, Input = ()> {}
+
+impl<K: RigidBody<Scalar = f64, Speeds = Vector6<f64>, Input = ()>> Vessel for K {}
+
+/// Integrates the state of [`initial_state`](crate::vehicle::initial_state) with a form of the equations and a method.
+///
+/// # Errors
+/// When the state is singular in the chart, or the integration stops.
+pub fn run<K, F, C>(name: &'static str, kernel: &K, form: F, method: C, plan: Plan) -> Result<Run, Box<dyn Error>>
+where
+    K: Vessel,
+    NoInput: InputSource<K>,
+    F: Form<K>,
+    C: Control<K>,
+{
+    let (pose, twist) = crate::vehicle::initial_state();
+    let q = kernel.configuration(&pose)?;
+    let z = kernel.speeds(0.0, &q, &twist);
+
+    let mut moments = Vec::new();
+    let mut watched = BodyMonitor::new();
+    let mut largest_kinetic_energy = 0.0_f64;
+    let mut count = 0;
+    let observe = |sample: &Sample<K>| {
+        watched.watch(kernel, sample);
+        largest_kinetic_energy = largest_kinetic_energy.max(kernel.kinetic_energy(sample.t, &sample.q, &sample.z));
+        if count % plan.every == 0 {
+            moments.push(moment(kernel, sample));
+        }
+        count += 1;
+    };
+    Simulation::new(kernel).form(form).control(method).observe(observe).run_to_end(q, z, 0.0..plan.duration)?;
+    Ok(Run { name, moments, largest_kinetic_energy, watched })
+}
+
+fn moment<K: Vessel>(kernel: &K, sample: &Sample<K>) -> Moment {
+    let Sample { t, q, z, p } = *sample;
+    Moment {
+        t,
+        pose: kernel.pose(t, &q),
+        twist: kernel.body_twist(t, &q, &z),
+        space_momentum: kernel.space_momentum(t, &q, &z),
+        energy: kernel.energy(t, &q, &z),
+        p,
+    }
+}
+
+/// Equal steps of the method of order 8 by Dormand and Prince: the runtime takes any control of steps, also this one.
+///
+/// With 200 steps a second its error is below the rounding of this vehicle's motion: more steps do not change the results.
+#[derive(Clone, Copy, Debug)]
+pub struct Order8 {
+    method: Rkmk<f64, 12>,
+    steps_per_second: u32,
+}
+
+impl Order8 {
+    /// So many steps a second.
+    #[must_use]
+    pub fn new(steps_per_second: u32) -> Self {
+        Self { method: Rkmk::new(&Tableau::DORMAND_PRINCE_8), steps_per_second }
+    }
+}
+
+impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
+    fn drive<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        start: State<S>,
+        end: f64,
+        limit: u64,
+        emit: &mut dyn FnMut(&State<S>, &Rates<S>),
+    ) -> Result<State<S>, IntegrationError> {
+        let stopped = |time, kind| IntegrationError { time, kind };
+        let per_second = f64::from(self.steps_per_second);
+        let steps = ((end - start.t) * per_second).round() as u64;
+        if steps > limit {
+            return Err(stopped(start.t, IntegrationErrorKind::TooManySteps { limit }));
+        }
+        let (mut state, mut rates) = (start, problem.rates(&start));
+        emit(&state, &rates);
+        for n in 1..=steps {
+            let step =
+                self.method.step(problem, &state, &rates, 1.0 / per_second).map_err(|kind| stopped(state.t, kind))?;
+            state = step.state;
+            // Times are multiples of the step, not sums of it.
+            state.t = start.t + n as f64 / per_second;
+            rates = problem.rates(&state);
+            emit(&state, &rates);
+        }
+        Ok(state)
+    }
+}
