@@ -5,7 +5,7 @@ use std::error::Error;
 use gauss_runtime::integrate::{Control, Fixed, MomentumForm, VelocityForm};
 use gauss_runtime::prelude::*;
 
-use crate::simulate::{Moment, Order8, Plan, Run, run};
+use crate::simulate::{Moment, Plan, Run, order_8, run};
 use crate::vehicle::{
     Hybrid, HybridKernel, Kirchhoff, KirchhoffKernel, Lagrange, LagrangeKernel, NewtonEuler, NewtonEulerKernel,
     Parameters, WeightlessKirchhoff, WeightlessNewtonEuler,
@@ -66,14 +66,14 @@ impl Comparison {
     /// # Errors
     /// When a run stops before its end.
     pub fn of(fleet: &Fleet, duration: f64) -> Result<Self, Box<dyn Error>> {
-        let (precise, everyday) = (Order8::new(PRECISE_RATE), Fixed::new(EVERYDAY_STEP));
+        let (precise, everyday) = (order_8(PRECISE_RATE), Fixed::new(EVERYDAY_STEP));
         let steps = |rate: f64| (SAMPLING * rate).round() as u64;
         let rate = f64::from(PRECISE_RATE);
         let fine = Plan { duration, every: steps(rate) };
         let coarse = Plan { duration, every: steps(1.0 / EVERYDAY_STEP) };
 
         let half = Plan { duration, every: steps(2.0 * rate) };
-        let reference = run("reference", &fleet.kirchhoff, VelocityForm, Order8::new(2 * PRECISE_RATE), half)?;
+        let reference = run("reference", &fleet.kirchhoff, VelocityForm, order_8(2 * PRECISE_RATE), half)?;
 
         let parameters = Parameters::published();
         let (k, n) =

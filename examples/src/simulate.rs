@@ -2,10 +2,7 @@
 
 use std::error::Error;
 
-use gauss_runtime::integrate::{
-    Control, Form, InputSource, IntegrationError, IntegrationErrorKind, NoInput, Problem, Rates, Rkmk, Sample, State,
-    Tableau,
-};
+use gauss_runtime::integrate::{Control, Fixed, Form, InputSource, NoInput, Sample, Tableau};
 use gauss_runtime::prelude::*;
 
 /// What a run says about itself at one time, in no particular chart.
@@ -48,9 +45,9 @@ pub struct Plan {
 }
 
 /// A rigid body with six speeds and no input: any of the vehicles.
-pub trait Vessel: RigidBody<Scalar = f64, Speeds = Vector6<f64>, Input = ()> {}
+pub trait Vessel: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()> {}
 
-impl<K: RigidBody<Scalar = f64, Speeds = Vector6<f64>, Input = ()>> Vessel for K {}
+impl<K: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()>> Vessel for K {}
 
 /// Integrates the state of [`initial_state`](crate::vehicle::initial_state) with a form of the equations and a method.
 ///
@@ -95,49 +92,10 @@ fn moment<K: Vessel>(kernel: &K, sample: &Sample<K>) -> Moment {
     }
 }
 
-/// Equal steps of the method of order 8 by Dormand and Prince: the runtime takes any control of steps, also this one.
+/// Equal steps of the method of order 8 by Dormand and Prince, so many a second.
 ///
-/// With 200 steps a second its error is below the rounding of this vehicle's motion: more steps do not change the results.
-#[derive(Clone, Copy, Debug)]
-pub struct Order8 {
-    method: Rkmk<f64, 12>,
-    steps_per_second: u32,
-}
-
-impl Order8 {
-    /// So many steps a second.
-    #[must_use]
-    pub fn new(steps_per_second: u32) -> Self {
-        Self { method: Rkmk::new(&Tableau::DORMAND_PRINCE_8), steps_per_second }
-    }
-}
-
-impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
-    fn drive<F: Form<S>, I: InputSource<S>>(
-        &self,
-        problem: &Problem<'_, S, F, I>,
-        start: State<S>,
-        end: f64,
-        limit: u64,
-        emit: &mut dyn FnMut(&State<S>, &Rates<S>),
-    ) -> Result<State<S>, IntegrationError> {
-        let stopped = |time, kind| IntegrationError { time, kind };
-        let per_second = f64::from(self.steps_per_second);
-        let steps = ((end - start.t) * per_second).round() as u64;
-        if steps > limit {
-            return Err(stopped(start.t, IntegrationErrorKind::TooManySteps { limit }));
-        }
-        let (mut state, mut rates) = (start, problem.rates(&start));
-        emit(&state, &rates);
-        for n in 1..=steps {
-            let step =
-                self.method.step(problem, &state, &rates, 1.0 / per_second).map_err(|kind| stopped(state.t, kind))?;
-            state = step.state;
-            // Times are multiples of the step, not sums of it.
-            state.t = start.t + n as f64 / per_second;
-            rates = problem.rates(&state);
-            emit(&state, &rates);
-        }
-        Ok(state)
-    }
+/// With 200 a second its error is below the rounding of this vehicle's motion: more steps do not change the results.
+#[must_use]
+pub fn order_8(steps_per_second: u32) -> Fixed<f64, 12> {
+    Fixed::with(&Tableau::DORMAND_PRINCE_8, 1.0 / f64::from(steps_per_second))
 }

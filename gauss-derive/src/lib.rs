@@ -10,7 +10,7 @@ mod mechanics;
 mod model;
 
 /// Derives the equations of motion of a rigid body from the Gauss condition, in the chart that `#[gauss(chart = …)]`
-/// names, and generates `Name::kernel()` and the `NameKernel` that implements `GaussSystem` and `RigidBody`.
+/// names, and generates `Name::kernel()` and the `NameKernel` that implements `GaussSystem` and `RigidBodySystem`.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let input = syn::parse_macro_input!(input as syn::DeriveInput);

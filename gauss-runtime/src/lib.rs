@@ -2,7 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBody`](system::RigidBody): what a kernel offers |
+//! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): what a kernel offers |
 //! | [`configuration`] | groups as configurations, linear spaces of increments |
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), good at every angle |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |

@@ -10,7 +10,7 @@ use crate::integrate::Sample;
 #[cfg(feature = "alloc")]
 use crate::integrate::Trajectory;
 use crate::real::Real;
-use crate::system::{GaussSystem, RigidBody};
+use crate::system::{GaussSystem, RigidBodySystem};
 
 /// A quantity of N components that should be constant, over time. Uses no memory: mean and covariance are updated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -195,7 +195,7 @@ impl BodyMonitor {
     }
 
     /// Takes a sample.
-    pub fn watch<S: RigidBody>(&mut self, system: &S, sample: &Sample<S>) {
+    pub fn watch<S: RigidBodySystem>(&mut self, system: &S, sample: &Sample<S>) {
         let (t, lane) = (sample.t.lane(self.lane), self.lane);
         let energy = system.energy(sample.t, &sample.q, &sample.z);
         let momentum = system.space_momentum(sample.t, &sample.q, &sample.z);
@@ -227,7 +227,7 @@ pub fn monitor<S: GaussSystem>(system: &S, trajectory: &Trajectory<S>) -> Energy
 
 /// Energy and momentum in space over a trajectory.
 #[cfg(feature = "alloc")]
-pub fn monitor_body<S: RigidBody>(system: &S, trajectory: &Trajectory<S>) -> BodyMonitor {
+pub fn monitor_body<S: RigidBodySystem>(system: &S, trajectory: &Trajectory<S>) -> BodyMonitor {
     let mut monitor = BodyMonitor::new();
     trajectory.iter().for_each(|sample| monitor.watch(system, sample));
     monitor

@@ -6,14 +6,16 @@ pub use gauss_derive::GaussDynamics;
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::error::ParameterError;
-pub use crate::integrate::Simulation;
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;
+pub use crate::integrate::{
+    Adaptive, Fixed, IntegrationError, IntegrationErrorKind, MomentumForm, Sample, Simulation, Tableau, VelocityForm,
+};
 pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]
 pub use crate::monitor::{monitor, monitor_body};
 pub use crate::real::Real;
-pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody};
+pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBodySystem};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
     UnitQuaternion, Vector3, Vector6,

@@ -117,7 +117,7 @@ pub trait GaussSystem {
 /// A system that is one rigid body: its variables as a pose and a twist, whatever the chart.
 ///
 /// Frames: F = {Ω, k₁ k₂ k₃} of the observer, F′ = {O, e₁ e₂ e₃} of the body.
-pub trait RigidBody: GaussSystem {
+pub trait RigidBodySystem: GaussSystem {
     /// The pose (R, b): `x̂ = R x + b` takes body coordinates to the observer's.
     fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> Isometry3<Self::Scalar>;
 

@@ -4,7 +4,7 @@
 //! the very sources of `gauss-derive`.
 
 // Only the pipeline is used here, not everything that the macro's modules offer.
-#![allow(dead_code, missing_docs, unused_imports)]
+#![allow(dead_code, unused_imports)]
 
 #[path = "../../gauss-derive/src/algebra/mod.rs"]
 mod algebra;

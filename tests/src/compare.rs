@@ -92,8 +92,8 @@ pub fn distance(reference: &State, pose: &Isometry3<f64>, twist: &SVector<f64, 6
 /// When the state has no coordinates in the chart, or the integration stops.
 pub fn run<L, B, F>(scene: &Scene, left: &L, kernel: &B, form: F, control: Order8) -> Result<Outcome, Refusal>
 where
-    L: RigidBody<Scalar = f64, Input = ()>,
-    B: RigidBody<Scalar = f64, Input = ()>,
+    L: RigidBodySystem<Scalar = f64, Input = ()>,
+    B: RigidBodySystem<Scalar = f64, Input = ()>,
     F: Form<B>,
 {
     let (pose, twist) = (scene.initial.pose(), scene.initial.twist());

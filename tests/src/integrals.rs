@@ -23,7 +23,7 @@ pub struct Moment {
 
 impl Moment {
     /// At a state of a kernel.
-    pub fn of<B: RigidBody<Scalar = f64>>(kernel: &B, t: f64, q: &B::Configuration, z: &B::Speeds) -> Self {
+    pub fn of<B: RigidBodySystem<Scalar = f64>>(kernel: &B, t: f64, q: &B::Configuration, z: &B::Speeds) -> Self {
         let (twist, momentum) = (kernel.body_twist(t, q, z), kernel.body_momentum(t, q, z));
         Self {
             pose: kernel.pose(t, q),

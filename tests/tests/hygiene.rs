@@ -3,7 +3,7 @@
 
 #![deny(warnings, missing_docs)]
 
-use gauss_runtime::prelude::{GaussSystem, RigidBody};
+use gauss_runtime::prelude::{GaussSystem, RigidBodySystem};
 
 /// The runtime under another name, reached through a path of the user's.
 pub mod vendored {
@@ -133,7 +133,7 @@ mod shadowed {
     pub trait Debug {}
     pub trait Real {}
     pub trait GaussSystem {}
-    pub trait RigidBody {}
+    pub trait RigidBodySystem {}
     pub trait Configuration {}
     pub trait Into {}
     pub trait From {}

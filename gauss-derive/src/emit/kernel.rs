@@ -315,7 +315,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
 
             #[automatically_derived]
             #[allow(unused_variables, clippy::all, clippy::pedantic)]
-            impl #bounded #runtime::system::RigidBody for #name #used {
+            impl #bounded #runtime::system::RigidBodySystem for #name #used {
                 #[inline]
                 fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> #runtime::prelude::Isometry3<Self::Scalar> {
                     #pose

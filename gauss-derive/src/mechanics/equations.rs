@@ -58,15 +58,12 @@ fn tidy(e: Expr<'_>) -> Expr<'_> {
 impl<'g> Scene<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
     pub fn equations(&self) -> Vec<Section<'g>> {
-        let mut sections = vec![
-            Section {
-                title: Name::new("velocity of O and angular velocity", "velocity of $O$ and angular velocity"),
-                rows: self.velocity_rows(),
-            },
-            Section {
-                title: Name::new("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$"),
-                rows: self.momentum_rows(),
-            },
+        let mut sections = vec![Section {
+            title: Name::new("velocity of O and angular velocity", "velocity of $O$ and angular velocity"),
+            rows: self.velocity_rows(),
+        }];
+        sections.extend(self.momentum_sections());
+        sections.extend([
             Section { title: Name::new("Gauss condition (3.4)", "Gauss condition (3.4)"), rows: self.balance_rows() },
             Section {
                 title: Name::new("active forces (generalised)", "active forces (generalised)"),
@@ -76,7 +73,7 @@ impl<'g> Scene<'g> {
                 title: Name::new("velocity form A dz/dt = r", "velocity form $A \\dot z = r$"),
                 rows: self.velocity_form_rows().unwrap_or_default(),
             },
-        ];
+        ]);
         sections.retain(|s| !s.rows.is_empty());
         sections
     }
@@ -98,26 +95,39 @@ impl<'g> Scene<'g> {
         rows
     }
 
-    fn momentum_rows(&self) -> Vec<Row<'g>> {
+    /// p in terms of z where that is short, else link by link: z → (u, ω) → (Q, Γ) → p.
+    fn momentum_sections(&self) -> Vec<Section<'g>> {
+        let title = Name::new("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$");
         let names = self.kinematics.momentum_names.iter().cloned();
         let momenta: Option<Vec<_>> = self.momentum().into_iter().map(readable).collect();
         if let Some(momenta) = momenta {
-            return names.zip(momenta).map(|(name, p)| Row::Definition(name, p.collect())).collect();
+            let rows = names.zip(momenta).map(|(name, p)| Row::Definition(name, p.collect())).collect();
+            return vec![Section { title, rows }];
         }
-        // Link by link: z → (u, ω) → (Q, Γ) → p.
         let chain = self.printed_momenta();
-        let triples = [("u", "u"), ("ω", "\\omega"), ("Q", "Q"), ("Γ", "\\Gamma")];
-        let components = chain.twist.into_iter().chain(chain.linear).chain(chain.angular);
-        let body = components.enumerate().filter(|(k, _)| self.kinematics.active.contains(&(k % 6))).map(|(k, e)| {
-            let (text, latex) = triples[k / 3];
-            (Name::new(text, latex).index(k % 3), e)
-        });
         // In a chart where a link is trivial it says x = x.
-        body.chain(names.zip(chain.conjugate))
-            .map(|(name, e)| (name, tidy(e)))
-            .filter(|(name, e)| print(*e, Notation::Text) != name.text)
-            .map(|(name, e)| Row::Definition(name, e))
-            .collect()
+        let rows = |link: Vec<(Name, Expr<'g>)>| -> Vec<Row<'g>> {
+            link.into_iter()
+                .map(|(name, e)| (name, tidy(e)))
+                .filter(|(name, e)| print(*e, Notation::Text) != name.text)
+                .map(|(name, e)| Row::Definition(name, e))
+                .collect()
+        };
+        let components = |linear: Name, angular: Name, six: Vec<Expr<'g>>| -> Vec<(Name, Expr<'g>)> {
+            let named = six.into_iter().enumerate().filter(|(k, _)| self.kinematics.active.contains(k));
+            named.map(|(k, e)| (if k < 3 { &linear } else { &angular }.index(k % 3), e)).collect()
+        };
+        let twist = components(Name::new("u", "u"), Name::new("ω", "\\omega"), chain.twist.to_vec());
+        let momentum = chain.linear.into_iter().chain(chain.angular).collect();
+        let momentum = components(Name::new("Q", "Q"), Name::new("Γ", "\\Gamma"), momentum);
+        vec![
+            Section { title: Name::new("twist of O in body axes", "twist of $O$ in body axes"), rows: rows(twist) },
+            Section {
+                title: Name::new("momentum about O in body axes", "momentum about $O$ in body axes"),
+                rows: rows(momentum),
+            },
+            Section { title, rows: rows(names.zip(chain.conjugate).collect()) },
+        ]
     }
 
     /// dp/dt = [Q·(ȧ + v_O × o) + Γ·ȯ] + force.

@@ -3,7 +3,7 @@
 use super::{ChartError, MotionRule};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
-use crate::system::RigidBody;
+use crate::system::RigidBodySystem;
 use crate::triple::norm;
 
 /// The state (q, z) of one kernel in the variables of another: same pose, same body twist of O, up to rounding.
@@ -23,8 +23,8 @@ pub fn convert<A, B>(
     to: &B,
 ) -> Result<(B::Configuration, B::Speeds), ChartError>
 where
-    A: RigidBody,
-    B: RigidBody<Scalar = A::Scalar>,
+    A: RigidBodySystem,
+    B: RigidBodySystem<Scalar = A::Scalar>,
 {
     let t = A::Scalar::zero();
     let (pose, twist) = (from.pose(t, q), from.body_twist(t, q, z));

@@ -7,7 +7,7 @@ use crate::chart::{Chart, ChartError, MotionRule, convert};
 use crate::configuration::Configuration;
 use crate::lie::{se3, so3};
 use crate::monitor::BodyMonitor;
-use crate::system::{Equations, GaussSystem, Operations, RigidBody};
+use crate::system::{Equations, GaussSystem, Operations, RigidBodySystem};
 use crate::testing::FreeTop;
 
 type V3 = SVector<f64, 3>;
@@ -81,7 +81,7 @@ macro_rules! kinematic_body {
             }
         }
 
-        impl RigidBody for $name {
+        impl RigidBodySystem for $name {
             fn pose(&self, _: f64, q: &$configuration) -> Isometry3<f64> {
                 $pose(q)
             }

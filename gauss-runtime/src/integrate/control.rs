@@ -25,25 +25,35 @@ pub trait Control<S: GaussSystem> {
     ) -> Result<State<S>, IntegrationError>;
 }
 
-/// Steps of one length, by the classical Runge–Kutta–Munthe-Kaas method of order 4. The last one ends where it should.
+/// Steps of one length, by a Runge–Kutta–Munthe-Kaas method of S stages. The last one ends where it should.
 #[derive(Clone, Copy, Debug)]
-pub struct Fixed<T> {
-    method: Rkmk<T, 4>,
+pub struct Fixed<T, const S: usize = 4> {
+    method: Rkmk<T, S>,
     step: T,
 }
 
 impl<T: Real> Fixed<T> {
-    /// Steps of length |step|; the direction is that of the interval.
+    /// The classical method of order 4 with steps of length |step|; the direction is that of the interval.
     #[must_use]
     pub fn new(step: T) -> Self {
-        Self { method: Rkmk::new(&Tableau::RK4), step }
+        Self::with(&Tableau::RK4, step)
     }
 }
 
-/// Steps that keep the estimated error of each within a tolerance: Dormand–Prince 5(4) with a PI controller.
+impl<T: Real, const S: usize> Fixed<T, S> {
+    /// Any method, for example [`Tableau::DORMAND_PRINCE_8`].
+    #[must_use]
+    pub fn with(tableau: &Tableau<S>, step: T) -> Self {
+        Self { method: Rkmk::new(tableau), step }
+    }
+}
+
+/// Steps that keep the estimated error of each within a tolerance: an embedded pair of S stages with a PI controller.
 #[derive(Clone, Copy, Debug)]
-pub struct Adaptive<T> {
-    method: Rkmk<T, 7>,
+pub struct Adaptive<T, const S: usize = 7> {
+    method: Rkmk<T, S>,
+    /// The power of the step that the error estimate goes with.
+    estimate_order: f64,
     relative: f64,
     absolute: f64,
     pub(super) first_step: Option<f64>,
@@ -51,13 +61,25 @@ pub struct Adaptive<T> {
 }
 
 impl<T: Real> Adaptive<T> {
+    /// Dormand–Prince 5(4).
+    ///
     /// The error of a step is measured component by component against `absolute + relative·size`, where the size is
     /// |y| for velocities or momenta, 1 for a rotation, |b| for a translation and |q| for a plain coordinate, and the root
     /// mean square must not exceed 1.
     #[must_use]
     pub fn new(relative: f64, absolute: f64) -> Self {
+        Self::with(&Tableau::DORMAND_PRINCE_5, relative, absolute)
+    }
+}
+
+impl<T: Real, const S: usize> Adaptive<T, S> {
+    /// Any embedded pair. With [`Tableau::DORMAND_PRINCE_8`] the estimate is of order 5 while the result is of order 8, so
+    /// that a tolerance δ leaves local errors near δ^(3/2): 1e-10 asks for rounding.
+    #[must_use]
+    pub fn with(tableau: &Tableau<S>, relative: f64, absolute: f64) -> Self {
         Self {
-            method: Rkmk::new(&Tableau::DORMAND_PRINCE_5),
+            method: Rkmk::new(tableau),
+            estimate_order: f64::from(tableau.embedded_order + 1),
             relative,
             absolute,
             first_step: None,
@@ -85,7 +107,7 @@ fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
     Ok(((end - start.t).lane(0), rates))
 }
 
-impl<S: GaussSystem> Control<S> for Fixed<S::Scalar> {
+impl<S: GaussSystem, const N: usize> Control<S> for Fixed<S::Scalar, N> {
     fn drive<F: Form<S>, I: InputSource<S>>(
         &self,
         problem: &Problem<'_, S, F, I>,
@@ -134,7 +156,7 @@ impl<S: GaussSystem> Control<S> for Fixed<S::Scalar> {
     }
 }
 
-impl<S: GaussSystem> Control<S> for Adaptive<S::Scalar> {
+impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
     fn drive<F: Form<S>, I: InputSource<S>>(
         &self,
         problem: &Problem<'_, S, F, I>,
@@ -191,7 +213,7 @@ impl<S: GaussSystem> Control<S> for Adaptive<S::Scalar> {
             let error = self.scaled_norm(&state, &step.state, &step.error);
             let used = if last { left } else { length };
             if error > 1.0 {
-                length = used * (0.9 * power(error, -1.0 / 5.0)).max(0.2);
+                length = used * (0.9 * power(error, -1.0 / self.estimate_order)).max(0.2);
                 rejected = true;
                 continue;
             }
@@ -208,9 +230,10 @@ impl<S: GaussSystem> Control<S> for Adaptive<S::Scalar> {
             if last {
                 return Ok(state);
             }
-            // PI control (Gustafsson; exponents of Hairer & Wanner II.4 for order 5), no growth after a rejection.
+            // PI control (Gustafsson; exponents of Hairer & Wanner II.4), no growth after a rejection.
             let floor = error.max(1e-10);
-            let factor = 0.9 * power(floor, -0.7 / 5.0) * power(previous, 0.4 / 5.0);
+            let k = self.estimate_order;
+            let factor = 0.9 * power(floor, -0.7 / k) * power(previous, 0.4 / k);
             let most = if rejected { 1.0 } else { 10.0 };
             length = (used * factor.clamp(0.2, most)).min(longest);
             previous = floor.max(1e-4);
@@ -220,7 +243,7 @@ impl<S: GaussSystem> Control<S> for Adaptive<S::Scalar> {
     }
 }
 
-impl<T: Real> Adaptive<T> {
+impl<T: Real, const N: usize> Adaptive<T, N> {
     /// The root mean square of the components of `error`, each against its tolerance; the worst lane.
     fn scaled_norm<S: GaussSystem<Scalar = T>>(&self, from: &State<S>, to: &State<S>, error: &Rates<S>) -> f64 {
         let mut worst = 0.0_f64;
@@ -291,7 +314,11 @@ impl<T: Real> Adaptive<T> {
         };
         let curvature = self.scaled_norm(start, start, &change) / guess;
         let steepest = speed.max(curvature);
-        let second = if steepest <= 1e-15 { (guess * 1e-3).max(1e-6) } else { power(0.01 / steepest, 1.0 / 5.0) };
+        let second = if steepest <= 1e-15 {
+            (guess * 1e-3).max(1e-6)
+        } else {
+            power(0.01 / steepest, 1.0 / self.estimate_order)
+        };
         second.min(100.0 * guess)
     }
 }

@@ -149,7 +149,7 @@ impl<'k, S: GaussSystem, F, I, C, O> Simulation<'k, S, F, I, C, O> {
     }
 }
 
-impl<S: GaussSystem, F, I, O> Simulation<'_, S, F, I, Adaptive<S::Scalar>, O> {
+impl<S: GaussSystem, F, I, O, const N: usize> Simulation<'_, S, F, I, Adaptive<S::Scalar, N>, O> {
     /// The length of the first step, instead of an estimate.
     pub fn first_step(mut self, length: f64) -> Self {
         self.control.first_step = Some(length);

@@ -118,7 +118,7 @@ impl<T: Real, const N: usize> Parts<T> for SVector<T, N> {
 
 /// What a derived kernel without inputs is.
 pub trait Body<T: Real>:
-    RigidBody<
+    RigidBodySystem<
         Scalar = T,
         Input = (),
         Configuration: Parts<T>,
@@ -129,7 +129,7 @@ pub trait Body<T: Real>:
 }
 
 impl<T: Real, K> Body<T> for K where
-    K: RigidBody<
+    K: RigidBodySystem<
             Scalar = T,
             Input = (),
             Configuration: Parts<T>,
