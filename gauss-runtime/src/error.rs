@@ -11,6 +11,8 @@ pub const MOST_VIOLATIONS: usize = 8;
 pub enum Rule {
     /// Every number is finite.
     Finite,
+    /// What is made of the parameters stays within the range of the scalar. The value is the infinite or undefined result.
+    OutOfRange,
     /// A mass is greater than zero.
     PositiveMass,
     /// A parameter is zero or greater.
@@ -74,6 +76,13 @@ impl fmt::Display for Violation {
             Rule::Finite => {
                 write!(f, "`{field}` contains {value}: every number must be finite; check how it is computed")
             }
+            Rule::OutOfRange => {
+                write!(
+                    f,
+                    "`{field}` and the other parameters together leave the range of the scalar (a constant of the kernel \
+                     is {value}); choose units in which the parameters are nearer to 1"
+                )
+            }
             Rule::PositiveMass => {
                 write!(
                     f,
@@ -81,7 +90,7 @@ impl fmt::Display for Violation {
                 )
             }
             Rule::NonNegative => {
-                write!(f, "`{field}` is {value}: it must not be negative; turn its direction into its sign elsewhere")
+                write!(f, "`{field}` is {value}: it must be 0 or greater; check its sign")
             }
             Rule::SymmetricInertia { row, col } => write!(
                 f,
@@ -125,7 +134,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// Every violation of a struct of parameters, in the order of the fields.
+/// Every violation of a struct of parameters, in the order of the checks.
 #[derive(Clone, PartialEq)]
 pub struct ParameterError {
     // Boxed where there is an allocator, so that results stay small; the error path may allocate.

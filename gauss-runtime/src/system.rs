@@ -107,6 +107,15 @@ pub trait GaussSystem {
         input: &Self::Input,
     ) -> Self::Scalar;
 
+    /// How far the coordinates are from a singularity: 0 at one, ±1 at best, of opposite signs on its two sides. For Euler
+    /// angles the sine or cosine of the middle angle, in general det ∂ω/∂q̇ over the lengths of its columns; 1 in charts
+    /// without singularities. Errors of velocities grow like its reciprocal.
+    #[inline]
+    fn regularity(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar {
+        let _ = (t, q);
+        Self::Scalar::one()
+    }
+
     /// Kinetic plus potential energy.
     #[inline]
     fn energy(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Scalar {

@@ -113,5 +113,6 @@ pub fn method_name(method: Method) -> &'static str {
         Method::BodyTwist => "body_twist",
         Method::Speeds => "speeds",
         Method::BodyMomentum => "body_momentum",
+        Method::Regularity => "regularity",
     }
 }

@@ -62,8 +62,8 @@ impl<'g> Derived<'_, 'g> {
     }
 
     fn program(&self, method: Method) -> &Program<'g> {
-        let position = self.formulas.iter().position(|f| f.method == method).unwrap_or_default();
-        &self.kernel.functions[position]
+        let position = self.formulas.iter().position(|f| f.method == method);
+        &self.kernel.functions[position.expect("a method that is written was derived")]
     }
 
     /// The configuration taken apart.
@@ -118,6 +118,11 @@ impl<'g> Derived<'_, 'g> {
             Method::MassMatrix => {
                 let rows = outputs.chunks(kinematics.speeds.len()).map(|row| quote!([#(#row),*]));
                 quote!(#private::matrix([#(#rows),*]))
+            }
+            // The volume over the product of the lengths.
+            Method::Regularity => {
+                let (volume, squares, real) = (&outputs[0], &outputs[1], self.scalar().real);
+                quote!(#volume / #real::sqrt(#squares))
             }
             _ => quote!(#private::vector([#(#outputs),*])),
         };
@@ -245,7 +250,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         let kernel = count_tokens(runtime, derived.kernel.constants.counts());
         quote!(#runtime::system::Operations { kernel: #kernel, #(#rows),* })
     };
-    let methods = [
+    let mut methods = vec![
         (Method::Acceleration, quote!(z: &Self::Speeds, input: &Self::Input), quote!(Self::Speeds)),
         (Method::Momentum, quote!(z: &Self::Speeds), quote!(Self::Speeds)),
         (Method::Velocity, quote!(p: &Self::Speeds), quote!(Self::Speeds)),
@@ -269,6 +274,9 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             quote!(<Self::Configuration as #runtime::configuration::Configuration>::Tangent),
         ),
     ];
+    if derived.formulas.iter().any(|f| f.method == Method::Regularity) {
+        methods.push((Method::Regularity, quote!(), quote!(Self::Scalar)));
+    }
     let write = |(method, arguments, result): (Method, TokenStream, TokenStream)| {
         let (function, body) = (Ident::new(method_name(method), Span::call_site()), derived.method_body(method));
         quote! {

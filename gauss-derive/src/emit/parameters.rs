@@ -82,11 +82,19 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
     let (compute, outputs) = statements(&derived.kernel.constants, &symbols, &derived.scalar());
     let fields = derived.constant_fields();
     let name = derived.kernel_name();
+    let mass_name = field(model, Quantity::Mass).map(|p| p.ident.unraw().to_string()).unwrap_or_default();
+    let ty = derived.scalar().ty();
     quote! {
         #read
         #checks
+        __check.finish()?;
         #compute
-        ::core::result::Result::Ok(#name { #(#fields: #outputs),* })
+        let __kernel = #name { #(#fields: #outputs),* };
+        // Together, parameters that are fine one by one can overflow.
+        let mut __check = #private::ParameterCheck::<#ty>::new();
+        __check.constants(#mass_name, &[#(__kernel.#fields),*]);
+        __check.finish()?;
+        ::core::result::Result::Ok(__kernel)
     }
 }
 
@@ -155,7 +163,8 @@ fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenSt
             _ => quote!(__check.symmetric(#field, &#value);),
         });
     }
-    if has(Quantity::AddedMass) || (planar && has(Quantity::CenterOfMass)) {
+    let translates = model.motion != Motion::FixedPoint;
+    if has(Quantity::AddedMass) || (translates && has(Quantity::CenterOfMass)) {
         let field = if has(Quantity::AddedMass) { name_of(Quantity::AddedMass) } else { inertia_name };
         let active = &derived.scene.kinematics.active;
         let entries: Vec<_> = active
@@ -173,7 +182,6 @@ fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenSt
     quote! {
         let mut __check = #runtime::__private::ParameterCheck::<#ty>::new();
         #checks
-        __check.finish()?;
     }
 }
 

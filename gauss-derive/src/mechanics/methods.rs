@@ -30,6 +30,8 @@ pub enum Method {
     BodyTwist,
     Speeds,
     BodyMomentum,
+    /// det ∂ω/∂q̇ and the product of the squared lengths of its columns; only in charts with a singularity.
+    Regularity,
 }
 
 /// The outputs of one method. Where the same result can be arranged in several ways, all are given, and the kernel
@@ -38,6 +40,9 @@ pub struct Formula<'g> {
     pub method: Method,
     pub arrangements: Vec<Vec<Expr<'g>>>,
 }
+
+/// Terms that a volume of partial angular velocities may have on the way to its normal form.
+const VOLUME_LIMIT: usize = 2000;
 
 /// Linear momentum and the like, in the axes in which the rows of the kinematics are written.
 #[derive(Clone, Copy)]
@@ -161,8 +166,20 @@ impl<'g> Scene<'g> {
             single(Method::Speeds, self.speeds()),
             single(Method::BodyMomentum, self.body_momentum()),
         ];
+        formulas.extend(self.regularity().map(|outputs| single(Method::Regularity, outputs)));
         formulas.sort_by_key(|f| f.method);
         formulas
+    }
+
+    /// `None` where the coordinates have no singularity: the volume that the columns of ∂ω/∂q̇ span is constant.
+    fn regularity(&self) -> Option<Vec<Expr<'g>>> {
+        let columns: Vec<&Triple<'g>> = self.angular_rows.iter().filter(|column| !is_zero(column)).collect();
+        let [a, b, c] = columns[..] else { return None };
+        let volume = dot(a, &cross(b, c)).collected(VOLUME_LIMIT);
+        let lengths = [a, b, c].map(|column| dot(column, column).collected(VOLUME_LIMIT));
+        let product = lengths[0] * lengths[1] * lengths[2];
+        let ratio = (volume * volume * product.recip()).collected(VOLUME_LIMIT);
+        ratio.as_number().is_none().then(|| vec![volume, product])
     }
 
     fn in_body(&self, a: &Vector<'g>) -> Triple<'g> {

@@ -1,12 +1,16 @@
 //! States carried from one kernel to another.
 
-use super::{ChartError, MotionRule};
+use nalgebra::Isometry3;
+
+use super::rotation::coordinates_of_rotation;
+use super::{Chart, ChartError, MotionRule, RotationChart};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::RigidBodySystem;
 use crate::triple::norm;
 
-/// The state (q, z) of one kernel in the variables of another: same pose, same body twist of O, up to rounding.
+/// The state (q, z) of one kernel in the variables of another: same pose, same body twist of O, up to rounding (divided by
+/// the distance from a singularity of the coordinates, which at √ε is refused).
 ///
 /// Both kernels should describe the same body with the same O; nothing else is asked of them, so this also converts between
 /// a velocity chart of the free motion and any chart of a planar motion or of one with a fixed point. Poses and twists of
@@ -32,6 +36,7 @@ where
         return Err(ChartError::NonFinite);
     }
     let configuration = to.configuration(&pose)?;
+    refuse_near_singularity(to, &configuration, &pose)?;
     let speeds = to.speeds(t, &configuration, &twist);
     if !configuration.is_finite() || !speeds.is_finite() {
         return Err(ChartError::NonFinite);
@@ -58,4 +63,26 @@ where
         }
     }
     Ok((configuration, speeds))
+}
+
+/// Velocities lose digits like 1/distance: at a regularity of √ε half of them are gone.
+fn refuse_near_singularity<B: RigidBodySystem>(
+    to: &B,
+    q: &B::Configuration,
+    pose: &Isometry3<B::Scalar>,
+) -> Result<(), ChartError> {
+    let Chart::Jet(chart) = B::CHART else { return Ok(()) };
+    let regularity = to.regularity(B::Scalar::zero(), q);
+    for lane in 0..B::Scalar::LANES {
+        let distance = regularity.lane(lane).abs();
+        if distance <= Real::sqrt(B::Scalar::EPSILON) {
+            // Near a singularity its sine is the angle. Euler angles are singular in the middle one.
+            let angle = match chart {
+                RotationChart::Euler(_) => coordinates_of_rotation(chart, &pose.rotation)?[1].lane(lane),
+                _ => core::f64::consts::PI - distance,
+            };
+            return Err(ChartError::Singular { chart, angle, distance });
+        }
+    }
+    Ok(())
 }

@@ -127,9 +127,10 @@ impl<S: GaussSystem, const N: usize> Control<S> for Fixed<S::Scalar, N> {
             return Ok(start);
         }
 
-        // A remainder of a billionth of a step is the rounding of h and of the ends, not a step.
+        // A remainder of a few roundings of the count is that of h and of the ends, not a step.
         let count = span.abs() / length;
-        let whole = Real::abs(count - round(count)) < 1e-9 * count.max(1.0);
+        let unit = S::Scalar::EPSILON.max(f64::EPSILON);
+        let whole = Real::abs(count - round(count)) <= 8.0 * unit * count.max(1.0);
         let steps = if whole { round(count).max(1.0) } else { floor(count) + 1.0 };
         if steps > limit as f64 {
             return Err(stopped(start.t, IntegrationErrorKind::TooManySteps { limit }));
@@ -140,7 +141,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Fixed<S::Scalar, N> {
         let steps = steps as u64;
         for n in 1..=steps {
             let last = n == steps;
-            let this = if last && !whole { end - state.t } else { h };
+            let this = if last { end - state.t } else { h };
             let step = self.method.step(problem, &state, &rates, this).map_err(|kind| stopped(state.t, kind))?;
             let reached = state.t;
             state = step.state;
@@ -221,7 +222,6 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             if last {
                 state.t = end;
             }
-            // Stepping over the end by a rounding of t is excluded by `last`; the derivatives come with the step.
             rates = match step.rates {
                 Some(rates) => rates,
                 None => problem.rates(&state),
@@ -294,6 +294,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         };
         let speed = self.scaled_norm(start, start, rates);
         let guess = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
+        // A component that is zero and moves has no size for a purely relative tolerance: any short step will do, and the
+        // controller lengthens it.
+        let guess = if guess > 0.0 && guess.is_finite() { guess } else { 1e-6 };
         // Not beyond a fraction of a turn.
         let turn = S::Configuration::increment_angle(&rates.configuration);
         let guess = if turn * guess > 0.1 { 0.1 / turn } else { guess };
@@ -319,7 +322,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         } else {
             power(0.01 / steepest, 1.0 / self.estimate_order)
         };
-        second.min(100.0 * guess)
+        if second > 0.0 { second.min(100.0 * guess) } else { guess }
     }
 }
 

@@ -37,6 +37,12 @@ pub enum IntegrationErrorKind {
         /// The angle, in radians.
         angle: f64,
     },
+    /// The coordinates are singular here, or change sides of a singularity in the step: see
+    /// [`GaussSystem::regularity`](crate::system::GaussSystem::regularity).
+    SingularChart {
+        /// The regularity at the end of the step.
+        regularity: f64,
+    },
     /// A step that is zero or not finite was asked for.
     InvalidStep {
         /// The step.
@@ -86,6 +92,11 @@ impl fmt::Display for IntegrationErrorKind {
             Self::IncrementTooLarge { angle } => write!(
                 f,
                 "the body turns by {angle:.3} rad in one step, and at most π can be told from less; use a smaller step"
+            ),
+            Self::SingularChart { regularity } => write!(
+                f,
+                "the coordinates are singular here (regularity {regularity:e}); use another sequence of angles, or a chart \
+                 without angles"
             ),
             Self::InvalidStep { step } => write!(f, "a step of {step} was asked for; it must be finite and not zero"),
             Self::InvalidTolerance { relative, absolute } => write!(

@@ -62,6 +62,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
     ///
     /// # Errors
     /// [`IntegrationErrorKind::IncrementTooLarge`] when a stage turns by more than π,
+    /// [`IntegrationErrorKind::SingularChart`] at a singularity of the coordinates,
     /// [`IntegrationErrorKind::NonFinite`] when anything overflows or is undefined. The state given is untouched.
     #[inline]
     pub fn step<Sys, F, I>(
@@ -101,6 +102,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
             q: state.q.retract(&sigma.configuration).renormalise(),
             y: state.y.add_scaled(T::one(), &sigma.variables),
         };
+        check_chart(problem, state, &end)?;
         let error: Rates<Sys> = if self.has_error {
             combination(h, &self.error, &stages)
         } else {
@@ -114,6 +116,26 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         let rates = self.first_same_as_last.then_some(last);
         Ok(Step { state: end, error, rates })
     }
+}
+
+/// Refuses steps that touch a singularity of the coordinates or pass over one: they would go on with numbers that mean
+/// nothing. At a regularity of √ε velocities have lost half of their digits.
+#[inline(always)]
+fn check_chart<S: GaussSystem, F, I>(
+    problem: &Problem<'_, S, F, I>,
+    start: &State<S>,
+    end: &State<S>,
+) -> Result<(), IntegrationErrorKind> {
+    let before = problem.system.regularity(start.t, &start.q);
+    let after = problem.system.regularity(end.t, &end.q);
+    for lane in 0..S::Scalar::LANES {
+        let (before, after) = (before.lane(lane), after.lane(lane));
+        // A NaN passes here and is caught at the end of the step.
+        if before.abs().min(after.abs()) <= Real::sqrt(S::Scalar::EPSILON) || (before < 0.0) != (after < 0.0) {
+            return Err(IntegrationErrorKind::SingularChart { regularity: after });
+        }
+    }
+    Ok(())
 }
 
 /// `h Σ wᵢ·stageᵢ`; null weights are passed over.

@@ -22,6 +22,9 @@ impl<T: Real> Default for ParameterCheck<T> {
 }
 
 impl<T: Real> ParameterCheck<T> {
+    /// The unit of rounding of these checks: they look at lanes in double precision, also where the scalar is wider.
+    const UNIT: f64 = if T::EPSILON > f64::EPSILON { T::EPSILON } else { f64::EPSILON };
+
     /// No violation so far.
     #[inline(always)]
     #[must_use]
@@ -39,7 +42,8 @@ impl<T: Real> ParameterCheck<T> {
         if self.finite_so_far(field, &[mass]) {
             self.each_lane(field, |lane| {
                 let value = mass.lane(lane);
-                (value <= 0.0).then_some((value, Rule::PositiveMass))
+                let positive = value > 0.0;
+                (!positive).then_some((value, Rule::PositiveMass))
             });
         }
     }
@@ -60,7 +64,7 @@ impl<T: Real> ParameterCheck<T> {
         if self.symmetric_so_far(field, inertia, |row, col| Rule::SymmetricInertia { row, col }) {
             self.each_lane(field, |lane| {
                 let tensor = in_lane(inertia, lane);
-                let slack = 8.0 * T::EPSILON * trace(&tensor);
+                let slack = 8.0 * Self::UNIT * trace(&tensor);
                 principal_moments(&tensor, 0.0, slack, false)
             });
         }
@@ -87,9 +91,13 @@ impl<T: Real> ParameterCheck<T> {
                     about_o[i][j] - m * steiner
                 })
             });
+            // Squares of what is finite can overflow.
+            if let Some(&value) = central.iter().flatten().find(|e| !f64::is_finite(**e)) {
+                return Some((value, Rule::OutOfRange));
+            }
             // The subtraction leaves rounding of the size of what was subtracted.
-            let rounding = 8.0 * T::EPSILON * m * square;
-            let slack = rounding + 8.0 * T::EPSILON * trace(&about_o);
+            let rounding = 8.0 * Self::UNIT * m * square;
+            let slack = rounding + 8.0 * Self::UNIT * trace(&about_o);
             principal_moments(&central, rounding, slack, true)
         });
     }
@@ -114,7 +122,8 @@ impl<T: Real> ParameterCheck<T> {
         }
         self.each_lane(field, |lane| {
             let a = in_lane(matrix, lane);
-            if let Some(i) = (0..N).find(|&i| a[i][i] <= 0.0) {
+            let positive = |value: f64| value > 0.0;
+            if let Some(i) = (0..N).find(|&i| !positive(a[i][i])) {
                 return Some((a[i][i], Rule::PositiveDefiniteKineticMatrix));
             }
             let scale: [f64; N] = core::array::from_fn(|i| 1.0 / Real::sqrt(a[i][i]));
@@ -122,9 +131,9 @@ impl<T: Real> ParameterCheck<T> {
                 core::array::from_fn(|j| if i == j { 1.0 } else { (a[i][j] * scale[i]) * scale[j] })
             });
             let (smallest, largest, _) = extremes(&eigenvalues::<N>(&unit));
-            let limit = 1.0 / T::EPSILON;
+            let limit = 1.0 / Self::UNIT;
             // An entry is rounded to ε, and so is a vanishing eigenvalue: below, its sign says nothing.
-            if smallest <= -(N as f64) * T::EPSILON {
+            if smallest <= -(N as f64) * Self::UNIT {
                 Some((smallest, Rule::PositiveDefiniteKineticMatrix))
             } else if smallest * limit < largest {
                 let condition = if smallest > 0.0 { largest / smallest } else { f64::INFINITY };
@@ -133,6 +142,17 @@ impl<T: Real> ParameterCheck<T> {
                 None
             }
         });
+    }
+
+    /// The constants of a kernel: parameters that are fine one by one can overflow together, or underflow to a divisor of
+    /// zero. Silent when any parameter is wrong already.
+    pub fn constants(&mut self, field: &'static str, constants: &[T]) {
+        if self.violations.as_slice().is_empty() {
+            self.each_lane(field, |lane| {
+                let values = constants.iter().map(|c| c.lane(lane));
+                values.into_iter().find(|value| !value.is_finite()).map(|value| (value, Rule::OutOfRange))
+            });
+        }
     }
 
     /// The outcome.
@@ -177,7 +197,7 @@ impl<T: Real> ParameterCheck<T> {
             for row in 0..N {
                 for col in row + 1..N {
                     let difference = a[row][col] - a[col][row];
-                    if difference.abs() > 8.0 * T::EPSILON * largest {
+                    if difference.abs() > 8.0 * Self::UNIT * largest {
                         return Some((difference, rule(row, col)));
                     }
                 }

@@ -97,7 +97,9 @@ fn refused_at_singularity(row: &Row, refusal: &Refusal) -> bool {
         Refusal::Integration(error, distance) => {
             let kind = matches!(
                 error.kind,
-                IntegrationErrorKind::StepTooSmall { .. } | IntegrationErrorKind::TooManySteps { .. }
+                IntegrationErrorKind::SingularChart { .. }
+                    | IntegrationErrorKind::StepTooSmall { .. }
+                    | IntegrationErrorKind::TooManySteps { .. }
             );
             kind && *distance < 1e-4
         }
