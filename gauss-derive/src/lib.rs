@@ -1,6 +1,8 @@
 //! `#[derive(GaussDynamics)]`: equations of motion of a rigid body derived at compile time, as flat Rust kernels.
 //!
-//! Depend on `gauss-runtime`, which re-exports the macro; the attribute language is documented there.
+//! Depend on `gauss-runtime`, which re-exports the macro.
+
+#![warn(missing_docs)]
 
 mod algebra;
 mod emit;
@@ -9,8 +11,50 @@ mod kernel;
 mod mechanics;
 mod model;
 
-/// Derives the equations of motion of a rigid body from the Gauss condition, in the chart that `#[gauss(chart = …)]`
-/// names, and generates `Name::kernel()` and the `NameKernel` that implements `GaussSystem` and `RigidBodySystem`.
+/// Derives the equations of motion of a rigid body from the Gauss condition, and generates `Name::kernel()` and the
+/// `NameKernel` that implements `GaussSystem` and `RigidBodySystem`.
+///
+/// # The struct: `#[gauss(…)]`
+///
+/// | clause | values | default |
+/// |---|---|---|
+/// | `chart` | `left_invariant`: u and ω in body axes, pole O (Kirchhoff) | this one |
+/// | | `right_invariant`: ξ = v_O + ω × (Ω − O) and ω in observer's axes, pole Ω (Newton–Euler) | |
+/// | | `hybrid`: ḃ in observer's axes, ω in body axes | |
+/// | | `jet(euler_zyx)` and the other eleven sequences, `jet(rodrigues)`, `jet(modified_rodrigues)`; `jet` in the plane: rates of coordinates (Lagrange) | |
+/// | `motion` | `free`, `fixed_point` (O stays at Ω), `planar` (in k₁k₂) | `free` |
+/// | `crate` | where the runtime is, when it has another name | `::gauss_runtime` |
+///
+/// # The fields: `#[gauss(role)]`
+///
+/// | role | type | meaning |
+/// |---|---|---|
+/// | `mass` | scalar | required |
+/// | `inertia` | scalar (spherical), `Vector3` (principal), `Matrix3` (full) | about O, body axes; required |
+/// | `center_of_mass` | `Vector3` | from O, body axes; without it O is the centre of mass |
+/// | `added_mass` | `Vector6` (diagonal), `Matrix6` (full) | order (u, ω), about O, body axes; without it no fluid |
+/// | `gravity` | scalar (along −k₃, in the plane −k₂), `Vector3` (observer's axes) | acceleration of free fall; without it no weight |
+/// | `displaced_mass` | scalar | mass of the displaced fluid: buoyancy; needs `gravity` |
+/// | `center_of_buoyancy` | `Vector3` | from O, body axes; without it buoyancy acts at O |
+///
+/// The last segment of the written type decides the shape. Behind an alias the role says it: `inertia = spherical |
+/// principal | full`, `added_mass = diagonal | full`, `gravity = vertical | vector`. The scalar is `f32`, `f64`, or a type
+/// parameter of the struct (`struct Body<T> { … }`; the kernel is then generic over `T: Real`). Fields without a role are
+/// left alone.
+///
+/// # Configurations and order of z
+///
+/// | motion | configuration | left, hybrid, right z | jet coordinates |
+/// |---|---|---|---|
+/// | `free` | `Isometry3` | three linear, three angular | b₁ b₂ b₃, then the angles in the order of the name |
+/// | `fixed_point` | `UnitQuaternion` | three angular | the angles |
+/// | `planar` | `Isometry2` | two linear, ω | x, y, θ |
+///
+/// Jet charts have `SVector`s as configurations. `euler_zyx` is R = R_z(ψ) R_y(θ) R_x(φ), with angles (ψ, θ, φ), and so on.
+///
+/// # Errors
+///
+/// Every mistake is a compile error at the token that is wrong, all of them at once.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let input = syn::parse_macro_input!(input as syn::DeriveInput);

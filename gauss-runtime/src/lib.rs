@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): what a kernel offers |
 //! | [`configuration`] | groups as configurations, linear spaces of increments |
-//! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), good at every angle |
+//! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
 //! | [`integrate`] | geometric and adaptive integrators, [`Simulation`](integrate::Simulation), trajectories |
 //! | [`monitor`] | energy and momentum watched over a run |

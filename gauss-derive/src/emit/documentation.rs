@@ -11,9 +11,9 @@ use super::kernel::Derived;
 
 /// The equations as plain text.
 pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
-    let mut out = format!("{}: {}\n", derived.model.ident, description(derived));
+    let mut out = format!("{}: {}\n", derived.model.ident.unraw(), description(derived));
     let letters: Vec<String> = legend(derived).iter().map(|(letter, field, _)| format!("{letter} = {field}")).collect();
-    out.push_str(&format!("with {}\n", letters.join(", ")));
+    out.push_str(&format!("with {}; x̂ = R x + b\n", letters.join(", ")));
     for section in sections {
         out.push_str(&format!("\n{}\n", section.title.text));
         for row in &section.rows {
@@ -76,7 +76,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         description = description(derived),
     );
     for (letter, field, said) in legend(derived) {
-        out.push_str(&format!("| {letter} | `{field}` | {said} |\n"));
+        out.push_str(&format!("| {letter} | `{field}` | {} |\n", said.replace('|', "\\|")));
     }
     out.push_str("\n# Cost\n\n| method | operations |\n|---|---|\n");
     for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {

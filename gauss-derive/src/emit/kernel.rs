@@ -295,6 +295,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
     quote! {
         #[doc = #documentation]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+        #[allow(non_camel_case_types)]
         #visibility struct #name #declared { #(#fields: #ty),* }
 
         const _: () = {

@@ -18,6 +18,7 @@ pub enum Operand<'g> {
     Cosine(usize),
 }
 
+/// One step; its result is `Value(index of the step)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation<'g> {
     Add(Operand<'g>, Operand<'g>),
@@ -32,9 +33,6 @@ pub enum Operation<'g> {
     /// Sine and cosine of one angle.
     SineCosine(Operand<'g>),
 }
-
-/// One step; its result is `Value(index of the instruction)`.
-pub type Instruction<'g> = Operation<'g>;
 
 impl<'g> Operation<'g> {
     fn operands(&self) -> impl Iterator<Item = Operand<'g>> + use<'g> {
@@ -69,7 +67,7 @@ impl Counts {
 /// A function as a list of instructions.
 #[derive(Clone, Debug)]
 pub struct Program<'g> {
-    pub instructions: Vec<Instruction<'g>>,
+    pub instructions: Vec<Operation<'g>>,
     pub outputs: Vec<Operand<'g>>,
 }
 
@@ -151,7 +149,7 @@ struct Writer<'g> {
     uses: Vec<usize>,
     written: Map<Place, Operand<'g>>,
     negated: Map<usize, Operand<'g>>,
-    instructions: Vec<Instruction<'g>>,
+    instructions: Vec<Operation<'g>>,
 }
 
 impl<'g> Writer<'g> {
@@ -187,7 +185,7 @@ impl<'g> Writer<'g> {
         Program { instructions: self.instructions, outputs }
     }
 
-    fn push(&mut self, instruction: Instruction<'g>) -> Operand<'g> {
+    fn push(&mut self, instruction: Operation<'g>) -> Operand<'g> {
         self.instructions.push(instruction);
         Operand::Value(self.instructions.len() - 1)
     }

@@ -3,6 +3,7 @@
 use crate::algebra::{Expr, Map, Notation, Polynomial, print};
 use crate::model::Chart;
 
+use super::chart::ConfigurationKind;
 use super::methods::Scene;
 use super::names::Name;
 
@@ -15,10 +16,12 @@ const READABLE: usize = 24;
 pub enum Row<'g> {
     /// name = value.
     Definition(Name, Expr<'g>),
-    /// d(momentum)/dt = bracket + force.
-    Balance { momentum: Name, bracket: Expr<'g>, force: Name },
+    /// d(momentum)/dt = bracket + force; the force is left out where it vanishes beside a bracket.
+    Balance { momentum: Name, bracket: Expr<'g>, force: Option<Name> },
     /// left = right.
     Equation(Expr<'g>, Expr<'g>),
+    /// Words instead of an equation.
+    Remark(Name),
 }
 
 impl Row<'_> {
@@ -27,13 +30,14 @@ impl Row<'_> {
         match self {
             Row::Definition(left, right) => format!("{} = {}", name(left), print(*right, notation)),
             Row::Balance { momentum, bracket, force } => {
-                let (rate, force) = (name(&momentum.time_derivative()), name(force));
-                if bracket.is_zero() {
-                    format!("{rate} = {force}")
-                } else {
-                    format!("{rate} = {} + {force}", print(*bracket, notation))
+                let mut terms = Vec::new();
+                if !bracket.is_zero() {
+                    terms.push(print(*bracket, notation));
                 }
+                terms.extend(force.as_ref().map(name));
+                format!("{} = {}", name(&momentum.time_derivative()), terms.join(" + "))
             }
+            Row::Remark(words) => name(words),
             Row::Equation(left, right) => format!("{} = {}", print(*left, notation), print(*right, notation)),
         }
     }
@@ -71,7 +75,10 @@ impl<'g> Scene<'g> {
             },
             Section {
                 title: Name::new("velocity form A dz/dt = r", "velocity form $A \\dot z = r$"),
-                rows: self.velocity_form_rows().unwrap_or_default(),
+                rows: self.velocity_form_rows().unwrap_or_else(|| {
+                    let words = "too long to print: see the balance above";
+                    vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))]
+                }),
             },
         ]);
         sections.retain(|s| !s.rows.is_empty());
@@ -100,11 +107,25 @@ impl<'g> Scene<'g> {
         let title = Name::new("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$");
         let names = self.kinematics.momentum_names.iter().cloned();
         let momenta: Option<Vec<_>> = self.momentum().into_iter().map(readable).collect();
+        let chain = self.printed_momenta();
+        let coordinates = self.kinematics.kind == ConfigurationKind::Coordinates;
         if let Some(momenta) = momenta {
             let rows = names.zip(momenta).map(|(name, p)| Row::Definition(name, p.collect())).collect();
-            return vec![Section { title, rows }];
+            let mut sections = vec![Section { title, rows }];
+            // The balance of a jet chart is written with Γ, which is none of its momenta.
+            let axes = self.kinematics.angular_axes();
+            if coordinates && axes.len() == 3 {
+                let gamma = axes.into_iter().map(|i| (Name::new("Γ", "\\Gamma").index(i), chain.angular[i]));
+                sections.push(Section {
+                    title: Name::new(
+                        "angular momentum about O in body axes",
+                        "angular momentum about $O$ in body axes",
+                    ),
+                    rows: gamma.map(|(name, e)| Row::Definition(name, tidy(e))).collect(),
+                });
+            }
+            return sections;
         }
-        let chain = self.printed_momenta();
         // In a chart where a link is trivial it says x = x.
         let rows = |link: Vec<(Name, Expr<'g>)>| -> Vec<Row<'g>> {
             link.into_iter()
@@ -134,14 +155,25 @@ impl<'g> Scene<'g> {
     fn balance_rows(&self) -> Vec<Row<'g>> {
         let names = self.kinematics.momentum_names.iter().cloned().zip(self.force_names());
         names
-            .zip(self.printed_bracket())
-            .map(|((momentum, force), bracket)| Row::Balance { momentum, bracket: tidy(bracket), force })
+            .zip(self.balance_terms())
+            .map(|((momentum, force), (bracket, value))| {
+                let force = (bracket.is_zero() || !value.is_zero()).then_some(force);
+                Row::Balance { momentum, bracket, force }
+            })
             .collect()
     }
 
+    /// The forces that the balance names.
     fn force_rows(&self) -> Vec<Row<'g>> {
+        let named = self.force_names().into_iter().zip(self.balance_terms());
+        let named = named.filter(|(_, (bracket, value))| bracket.is_zero() || !value.is_zero());
+        named.map(|(name, (_, value))| Row::Definition(name, value)).collect()
+    }
+
+    /// Bracket and force of every row.
+    fn balance_terms(&self) -> Vec<(Expr<'g>, Expr<'g>)> {
         let forces = self.generalised_forces().into_iter().map(tidy);
-        self.force_names().into_iter().zip(forces).map(|(name, f)| Row::Definition(name, f)).collect()
+        self.printed_bracket().into_iter().map(tidy).zip(forces).collect()
     }
 
     /// The rows with everything multiplied out; `None` when one would be too long to read.

@@ -319,36 +319,25 @@ impl<'g> Scene<'g> {
             .collect()
     }
 
-    /// The bracket for a reader: in terms of p where (Q, Γ) follow from p without division, else of Q and Γ_O.
+    /// The bracket for a reader: in terms of p where (Q, Γ) follow from p without division, else of Γ_O too.
     pub fn printed_bracket(&self) -> Vec<Expr<'g>> {
         if self.kinematics.kind != ConfigurationKind::Coordinates {
             return self.bracket(self.momentum_pair(&self.momenta));
         }
-        let (q, gamma) = self.momentum_symbols();
         let uncoupled = (0..3).all(|i| (3..6).all(|j| self.matrix.entries[i][j].is_zero()));
-        // Q = μ v_O needs no name: v_O × Q is then seen to vanish.
+        // Q = μ v_O needs no name: v_O × Q is then seen to vanish. Else its components are the momenta of b.
+        let mut q = self.zero();
+        self.kinematics.linear_axes().into_iter().zip(&self.momenta).for_each(|(k, p)| q[k] = *p);
         let linear = match self.matrix.isotropic {
             Some(mu) if uncoupled => self.kinematics.frame.resolve(&self.kinematics.velocity.times(mu), self.linear_in),
             _ => q,
         };
+        let mut gamma = self.zero();
+        for i in self.kinematics.angular_axes() {
+            let name = Name::new("Γ", "\\Gamma").index(i);
+            gamma[i] = self.kinematics.frame.graph.symbol(name.text, name.latex, false);
+        }
         self.bracket(Pair { linear, angular: gamma })
-    }
-
-    /// Q and Γ_O as names, in the axes of the rows.
-    fn momentum_symbols(&self) -> (Triple<'g>, Triple<'g>) {
-        let named = |name: Name, axes: Axes, on: &[usize]| -> Triple<'g> {
-            let name = if axes == Axes::Space { name.hat() } else { name };
-            let mut triple = self.zero();
-            for &i in on {
-                let name = name.index(i);
-                triple[i] = self.kinematics.frame.graph.symbol(name.text, name.latex, false);
-            }
-            triple
-        };
-        (
-            named(Name::new("Q", "Q"), self.linear_in, &self.kinematics.linear_axes()),
-            named(Name::new("Γ", "\\Gamma"), self.angular_in, &self.kinematics.angular_axes()),
-        )
     }
 
     /// p in terms of names for Q and Γ_O, and their components in body axes in terms of the twist: for readers of

@@ -38,7 +38,7 @@ pub fn rotation_of<'g>(graph: &'g Graph, chart: RotationChart, q: &[Expr<'g>]) -
         RotationChart::Rodrigues => {
             let g = [q[0], q[1], q[2]];
             let norm = (graph.one() + dot(&g, &g)).group();
-            let half = cross_plus_square(graph, graph.one(), &g);
+            let half = cross_plus_square(graph.one(), &g);
             std::array::from_fn(|i| {
                 std::array::from_fn(|j| identity(graph, i, j) + (half[i][j] + half[i][j]) * norm.recip())
             })
@@ -49,7 +49,7 @@ pub fn rotation_of<'g>(graph: &'g Graph, chart: RotationChart, q: &[Expr<'g>]) -
             let square = dot(&s, &s);
             let norm = (graph.one() + square).group();
             let two = graph.integer(2);
-            let half = cross_plus_square(graph, (graph.one() - square).group(), &s.map(|e| two * e));
+            let half = cross_plus_square((graph.one() - square).group(), &s.map(|e| two * e));
             std::array::from_fn(|i| {
                 std::array::from_fn(|j| identity(graph, i, j) + (half[i][j] + half[i][j]) * norm.powi(-2))
             })
@@ -59,17 +59,17 @@ pub fn rotation_of<'g>(graph: &'g Graph, chart: RotationChart, q: &[Expr<'g>]) -
 
 /// R of a unit quaternion (x, y, z, w). Doubled components are quantities of their own: nine products serve all entries.
 pub fn rotation_of_quaternion<'g>(graph: &'g Graph, [x, y, z, w]: [Expr<'g>; 4]) -> [Triple<'g>; 3] {
-    let half = cross_plus_square(graph, w, &[x, y, z]);
+    let half = cross_plus_square(w, &[x, y, z]);
     std::array::from_fn(|i| std::array::from_fn(|j| identity(graph, i, j) + half[i][j].scale(2.into())))
 }
 
 /// `w [v]× + [v]×²`: half of what a quaternion (v, w) adds to the identity.
-fn cross_plus_square<'g>(graph: &'g Graph, w: Expr<'g>, v: &Triple<'g>) -> [Triple<'g>; 3] {
+fn cross_plus_square<'g>(w: Expr<'g>, v: &Triple<'g>) -> [Triple<'g>; 3] {
     let turn = cross_matrix(v);
     std::array::from_fn(|i| {
         std::array::from_fn(|j| {
             let square: Expr<'g> = (0..3).map(|k| turn[i][k] * turn[k][j]).sum();
-            graph.one() * (w * turn[i][j] + square)
+            w * turn[i][j] + square
         })
     })
 }
