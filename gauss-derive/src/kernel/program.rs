@@ -31,6 +31,8 @@ pub enum Operation<'g> {
     Negate(Operand<'g>),
     /// Sine and cosine of one angle.
     SineCosine(Operand<'g>),
+    /// Any function but sine and cosine, which come in pairs.
+    Call(Function, Operand<'g>),
 }
 
 /// One step; its result is `Value(index of the instruction)`.
@@ -43,7 +45,7 @@ impl<'g> Operation<'g> {
                 (a, Some(b), None)
             }
             Operation::MultiplyAdd(a, b, c) | Operation::MultiplySubtract(a, b, c) => (a, Some(b), Some(c)),
-            Operation::Negate(a) | Operation::SineCosine(a) => (a, None, None),
+            Operation::Negate(a) | Operation::SineCosine(a) | Operation::Call(_, a) => (a, None, None),
         };
         [Some(a), b, c].into_iter().flatten()
     }
@@ -94,6 +96,8 @@ impl<'g> Program<'g> {
                 Operation::Divide(..) => counts.divisions += 1,
                 Operation::Negate(_) => {}
                 Operation::SineCosine(_) => counts.transcendentals += 2,
+                Operation::Call(Function::Sqrt, _) => counts.roots += 1,
+                Operation::Call(..) => counts.transcendentals += 1,
             }
         }
         counts
@@ -137,6 +141,7 @@ impl<'g> Program<'g> {
                 Operation::Divide(a, b) => (at(a) / at(b), 0.0),
                 Operation::Negate(a) => (-at(a), 0.0),
                 Operation::SineCosine(a) => at(a).sin_cos(),
+                Operation::Call(function, a) => (function.value(at(a)), 0.0),
             };
             values.push(value);
         }
@@ -204,6 +209,10 @@ impl<'g> Writer<'g> {
                 let a = self.operand(a);
                 self.push(Operation::Divide(Operand::Number(Rational::one()), a))
             }
+            Node::Call(function @ (Function::Exp | Function::Ln | Function::Sqrt), a) => {
+                let a = self.operand(a);
+                self.push(Operation::Call(function, a))
+            }
             Node::Call(function, a) => {
                 let a = self.operand(a);
                 let pair = Operation::SineCosine(a);
@@ -216,7 +225,7 @@ impl<'g> Writer<'g> {
                 };
                 match function {
                     Function::Sin => Operand::Sine(index),
-                    Function::Cos => Operand::Cosine(index),
+                    _ => Operand::Cosine(index),
                 }
             }
             Node::Sum(terms) => self.sum(&terms),
