@@ -127,7 +127,6 @@ impl<'g> Translator<'_, 'g> {
         for (clause, body) in model.bodies.iter().zip(bodies) {
             let named = |name: &Ident| model.bodies.iter().position(|b| b.name.as_ref().is_some_and(|n| n == name));
             links.push(Link {
-                name: clause.name.as_ref().map(name_of),
                 body,
                 parent: clause.parent.as_ref().and_then(named),
                 position: clause.position.as_ref().map_or(Ok([graph.zero(); 3]), |e| self.vector(e))?,

@@ -20,7 +20,6 @@ pub struct Turn<'g> {
 
 /// A body as it is given: relative to its parent's O and axes, or to Ω and k.
 pub struct Link<'g> {
-    pub name: Option<Name>,
     pub body: Body<'g>,
     pub parent: Option<usize>,
     pub position: Triple<'g>,

@@ -2,9 +2,6 @@
 //!
 //! `arithmetic` reads them; `kinds` checks their names and kinds.
 
-// Read by the derivation of systems.
-#![allow(dead_code)]
-
 use proc_macro2::Span;
 use syn::Ident;
 use syn::ext::IdentExt;

@@ -1,8 +1,5 @@
 //! A system as the user wrote it, checked: own coordinates and speeds, bodies and particles.
 
-// Read by the derivation of systems.
-#![allow(dead_code)]
-
 use super::{Expression, Role, Scalar, Shape};
 use proc_macro2::Span;
 use syn::{Generics, Ident, Path, Visibility};
@@ -72,5 +69,6 @@ pub struct ParticleClause {
     /// A vector of t and q, in observer axes from Ω.
     pub position: Expression,
     /// The word `particle`.
+    #[allow(dead_code, reason = "where a mistake about the whole clause belongs")]
     pub span: Span,
 }
