@@ -2,43 +2,122 @@
 
 use std::fmt::Display;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Span, TokenStream};
 use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::emit::{Derived, emit};
+use crate::emit::{Derived, Subject, emit};
 use crate::kernel::Kernel;
 use crate::mechanics::{
-    AddedMassShape, BodyShape, ConfigurationKind, GravityShape, InertiaShape, Scene, check_against_definition,
-    rotation_of_quaternion,
+    AddedMassShape, BodyShape, ConfigurationKind, GravityShape, InertiaShape, Scene, System, SystemFault,
+    check_against_definition, check_system_against_definition, rotation_of_quaternion,
 };
-use crate::model::{self, Model, Shape};
+use crate::model::{self, Model, Shape, SystemModel};
+use crate::translate::translate;
 
 /// Expands one struct.
 ///
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
-    let model = model::parse(input)?;
+    match model::parse_scene(input)? {
+        model::Scene::Body(model) => expand_body(&model),
+        model::Scene::System(model) => expand_system(&model),
+    }
+}
+
+fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     let graph = Graph::new();
-    let shape = body_shape(&model);
+    let shape = body_shape(model);
     let scene = Scene::new(&graph, model.motion, model.chart, shape);
     let formulas = scene.formulas();
-    check_against_definition(&scene, &formulas).map_err(|error| bug(&model, &error))?;
+    check_against_definition(&scene, &formulas).map_err(|error| bug(&model.ident, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
     let functions: Vec<_> = formulas.iter().map(|f| f.arrangements.clone()).collect();
-    let kernel = Kernel::lower(&graph, &functions, &rotation).map_err(|error| bug(&model, &error))?;
+    let kernel = Kernel::lower(&graph, &functions, &rotation).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
-        return Err(bug(&model, &"a coefficient left the range of 64-bit fractions"));
+        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
     Ok(emit(&Derived {
-        model: &model,
-        scene: &scene,
+        subject: Subject::Body { model, scene: &scene, inertia: shape.inertia, quaternion },
         formulas: &formulas,
         kernel: &kernel,
-        inertia: shape.inertia,
-        quaternion,
     }))
+}
+
+fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
+    let graph = Graph::new();
+    let translation = translate(&graph, model)?;
+    let mut mistakes = Mistakes::default();
+    for k in translation.scene.coordinates_not_affine() {
+        let (coordinate, rate) = &model.kinematics[k];
+        mistakes.push(
+            rate.span,
+            format!(
+                "the rate of `{coordinate}` is not affine in the speeds, so velocities would not be linear in them; \
+                 choose speeds in which every rate is a sum of terms with one speed each"
+            ),
+        );
+    }
+    mistakes.finish()?;
+    let system = System::new(translation.scene);
+    let idle = system.idle_speeds();
+    for &k in &idle {
+        let (name, span) = speed(model, k);
+        mistakes.push(
+            span,
+            format!("no velocity depends on `{name}`: its row of the mass matrix is zero; give what it moves a mass, or leave it out"),
+        );
+    }
+    mistakes.finish()?;
+    let formulas = system.formulas();
+    check_system_against_definition(&system, &formulas).map_err(|fault| match fault {
+        SystemFault::Disagreement(error) => bug(&model.ident, &error),
+        SystemFault::DependentSpeed(k) => {
+            let (name, span) = speed(model, k);
+            let message = format!(
+                "`{name}` moves nothing that the speeds before it do not move: the mass matrix is singular; \
+                 leave one of them out, or give what it moves a mass"
+            );
+            syn::Error::new(span, message)
+        }
+    })?;
+    let functions: Vec<_> = formulas.iter().map(|f| f.arrangements.clone()).collect();
+    let kernel = Kernel::lower(&graph, &functions, &Map::default()).map_err(|error| bug(&model.ident, &error))?;
+    if graph.overflowed() {
+        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
+    }
+    Ok(emit(&Derived {
+        subject: Subject::System { model, system: &system, sources: &translation.sources },
+        formulas: &formulas,
+        kernel: &kernel,
+    }))
+}
+
+/// The name of a speed, and where it is written: in the jet chart at its coordinate.
+fn speed(model: &SystemModel, k: usize) -> (String, Span) {
+    match &model.speeds {
+        Some(speeds) => (speeds[k].to_string(), speeds[k].span()),
+        None => (format!("d{}/dt", model.coordinates[k]), model.coordinates[k].span()),
+    }
+}
+
+/// Mistakes that only the derivation sees, all reported at once.
+#[derive(Default)]
+struct Mistakes(Option<syn::Error>);
+
+impl Mistakes {
+    fn push(&mut self, span: Span, message: String) {
+        let error = syn::Error::new(span, message);
+        match &mut self.0 {
+            Some(all) => all.combine(error),
+            none => *none = Some(error),
+        }
+    }
+
+    fn finish(&mut self) -> syn::Result<()> {
+        self.0.take().map_or(Ok(()), Err)
+    }
 }
 
 /// What the scene has, from the fields that the struct has.
@@ -77,9 +156,6 @@ fn rotation_entries<'g>(graph: &'g Graph, scene: &Scene<'g>) -> (Option<[Expr<'g
 }
 
 /// A mistake of this crate, said as such at the name of the struct.
-fn bug(model: &Model, what: &impl Display) -> syn::Error {
-    syn::Error::new(
-        model.ident.span(),
-        format!("bug in gauss-derive: {what}; please report it together with this struct"),
-    )
+fn bug(ident: &Ident, what: &impl Display) -> syn::Error {
+    syn::Error::new(ident.span(), format!("bug in gauss-derive: {what}; please report it together with this struct"))
 }

@@ -10,6 +10,7 @@ mod expand;
 mod kernel;
 mod mechanics;
 mod model;
+mod translate;
 
 /// Derives the equations of motion of a rigid body from the Gauss condition, and generates `Name::kernel()` and the
 /// `NameKernel` that implements `GaussSystem` and `RigidBodySystem`.

@@ -15,7 +15,7 @@ pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]
 pub use crate::monitor::{monitor, monitor_body};
 pub use crate::real::Real;
-pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBodySystem};
+pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody, RigidBodySystem};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
     UnitQuaternion, Vector3, Vector6,

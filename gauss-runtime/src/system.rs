@@ -5,7 +5,7 @@
 
 use core::fmt;
 
-use nalgebra::{Isometry3, SVector};
+use nalgebra::{Isometry3, Matrix3, SVector, Vector3};
 
 use crate::chart::{Chart, ChartError};
 use crate::configuration::{Configuration, VectorSpace};
@@ -121,6 +121,17 @@ pub trait GaussSystem {
     fn energy(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Scalar {
         self.kinetic_energy(t, q, z) + self.potential_energy(t, q)
     }
+}
+
+/// Mass data of one body of a system: the type of the fields that `#[gauss(body)]` marks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidBody<T> {
+    /// m.
+    pub mass: T,
+    /// c = G − O, body axes.
+    pub center_of_mass: Vector3<T>,
+    /// I_O: the inertia tensor about O (not about the centre of mass), body axes.
+    pub inertia: Matrix3<T>,
 }
 
 /// A system that is one rigid body: its variables as a pose and a twist, whatever the chart.

@@ -3,10 +3,16 @@
 use gauss_runtime::prelude::*;
 
 #[derive(GaussDynamics)]
-#[gauss(coordinates(x, y, theta), potential = m * g * y)]
-struct Body {
-    #[gauss(body)]
-    first: Matrix3<f64>,
+#[gauss(
+    coordinates(x),
+    particle(mass = m, position = [x, 0, 0]),
+    constraint(position = x),
+    damping = c * x,
+)]
+struct Scene {
+    m: f64,
+    #[gauss(force)]
+    c: f64,
 }
 
 fn main() {}

@@ -18,6 +18,8 @@ mod kernel;
 mod mechanics;
 #[path = "../../gauss-derive/src/model/mod.rs"]
 mod model;
+#[path = "../../gauss-derive/src/translate.rs"]
+mod translate;
 
 use std::time::{Duration, Instant};
 

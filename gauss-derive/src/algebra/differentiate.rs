@@ -49,6 +49,9 @@ impl<'g> Expr<'g> {
                     rate * match function {
                         Function::Sin => argument.cos(),
                         Function::Cos => -argument.sin(),
+                        Function::Exp => self,
+                        Function::Ln => argument.recip(),
+                        Function::Sqrt => self.recip().half(),
                     }
                 }
             }

@@ -3,6 +3,19 @@
 use super::graph::{Expr, Function, NodeView};
 use super::map::Map;
 
+impl Function {
+    /// In double precision; NaN outside the domain.
+    pub fn value(self, x: f64) -> f64 {
+        match self {
+            Function::Sin => x.sin(),
+            Function::Cos => x.cos(),
+            Function::Exp => x.exp(),
+            Function::Ln => x.ln(),
+            Function::Sqrt => x.sqrt(),
+        }
+    }
+}
+
 /// Evaluates expressions at a point, each node once.
 pub struct Evaluation<'a> {
     symbols: &'a Map<u32, f64>,
@@ -25,8 +38,7 @@ impl<'a> Evaluation<'a> {
             NodeView::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(f64::NAN),
             NodeView::Sum(terms) => terms.into_iter().map(|(c, e)| c.to_f64() * self.value(e)).sum(),
             NodeView::Product(factors) => factors.into_iter().map(|(e, n)| self.value(e).powi(n)).product(),
-            NodeView::Call(Function::Sin, e) => self.value(e).sin(),
-            NodeView::Call(Function::Cos, e) => self.value(e).cos(),
+            NodeView::Call(function, e) => function.value(self.value(e)),
             NodeView::Group(e) | NodeView::Opaque(e) => self.value(e),
         };
         self.values.insert(e.key(), value);

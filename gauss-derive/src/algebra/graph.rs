@@ -15,6 +15,9 @@ use super::rational::Rational;
 pub enum Function {
     Sin,
     Cos,
+    Exp,
+    Ln,
+    Sqrt,
 }
 
 /// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
@@ -246,21 +249,31 @@ impl Graph {
         if terms[0].0.is_negative() { -content } else { content }
     }
 
-    /// A function of an expression, with the values at zero and the parity of sine and cosine taken care of.
+    /// A function of an expression, with the values at zero and one and the parity of sine and cosine taken care of.
     pub fn call<'g>(&'g self, function: Function, argument: Expr<'g>) -> Expr<'g> {
         if argument.is_zero() {
-            return match function {
-                Function::Sin => self.zero(),
-                Function::Cos => self.one(),
-            };
+            match function {
+                Function::Sin | Function::Sqrt => return self.zero(),
+                Function::Cos | Function::Exp => return self.one(),
+                // Not a number: it is left to whoever evaluates it.
+                Function::Ln => {}
+            }
         }
-        if let Node::Sum(terms) = self.node(argument.id)
+        if argument == self.one() {
+            match function {
+                Function::Ln => return self.zero(),
+                Function::Sqrt => return self.one(),
+                _ => {}
+            }
+        }
+        if matches!(function, Function::Sin | Function::Cos)
+            && let Node::Sum(terms) = self.node(argument.id)
             && self.content(&terms).is_negative()
         {
             let positive = self.intern(Node::Call(function, (-argument).id));
             return match function {
                 Function::Sin => -positive,
-                Function::Cos => positive,
+                _ => positive,
             };
         }
         self.intern(Node::Call(function, argument.id))
@@ -330,6 +343,18 @@ impl<'g> Expr<'g> {
 
     pub fn cos(self) -> Self {
         self.graph.call(Function::Cos, self)
+    }
+
+    pub fn exp(self) -> Self {
+        self.graph.call(Function::Exp, self)
+    }
+
+    pub fn ln(self) -> Self {
+        self.graph.call(Function::Ln, self)
+    }
+
+    pub fn sqrt(self) -> Self {
+        self.graph.call(Function::Sqrt, self)
     }
 
     /// The same value as a quantity of its own: sums around it do not take it apart, so it is computed once. Factors

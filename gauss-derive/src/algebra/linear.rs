@@ -151,6 +151,67 @@ pub fn inverse_of_symmetric<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> 
     inverse
 }
 
+/// x with A x = right for a symmetric positive definite A with varying entries: LDLᵀ, unrolled on the shared graph. Each
+/// block of coupled unknowns is solved alone, the unknown with the fewest neighbours first, which for trees keeps the
+/// sparsity of A; what is zero is never touched. The factors do not depend on the right-hand side, so several solves on one
+/// graph share them.
+pub fn solve_symmetric<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let mut solution = right.to_vec();
+    for block in connected_blocks(matrix) {
+        let order = elimination_order(matrix, &block);
+        let n = order.len();
+        let mut rest: Vec<Vec<Expr<'g>>> =
+            order.iter().map(|&i| order.iter().map(|&j| matrix[i.min(j)][i.max(j)]).collect()).collect();
+        let mut x: Vec<Expr<'g>> = order.iter().map(|&i| right[i].group()).collect();
+        for k in 0..n {
+            let pivot_inverse = rest[k][k].group().recip();
+            for i in k + 1..n {
+                if rest[i][k].is_zero() {
+                    continue;
+                }
+                let factor = rest[i][k] * pivot_inverse;
+                x[i] = (x[i] - factor * x[k]).group();
+                for j in k + 1..=i {
+                    if !rest[j][k].is_zero() {
+                        rest[i][j] = (rest[i][j] - factor * rest[j][k]).group();
+                    }
+                }
+            }
+        }
+        for k in (0..n).rev() {
+            let known = (k + 1..n).filter(|&i| !rest[i][k].is_zero()).map(|i| rest[i][k] * x[i]);
+            let numerator = known.fold(x[k], |sum, e| sum - e).group();
+            x[k] = numerator * rest[k][k].group().recip();
+        }
+        for (&i, value) in order.iter().zip(x) {
+            solution[i] = value;
+        }
+    }
+    solution
+}
+
+/// The unknown with the fewest neighbours among those left, again and again; its neighbours then are neighbours of each
+/// other.
+fn elimination_order(matrix: &[Vec<Expr<'_>>], block: &[usize]) -> Vec<usize> {
+    let mut neighbours: Vec<Vec<bool>> =
+        block.iter().map(|&i| block.iter().map(|&j| i != j && !matrix[i][j].is_zero()).collect()).collect();
+    let mut left: Vec<usize> = (0..block.len()).collect();
+    let mut order = Vec::with_capacity(block.len());
+    let degree =
+        |neighbours: &[Vec<bool>], left: &[usize], i: usize| left.iter().filter(|&&j| neighbours[i][j]).count();
+    while let Some(&next) = left.iter().min_by_key(|&&i| degree(&neighbours, &left, i)) {
+        left.retain(|&i| i != next);
+        let around: Vec<usize> = left.iter().copied().filter(|&i| neighbours[next][i]).collect();
+        for &i in &around {
+            for &j in &around {
+                neighbours[i][j] = i != j;
+            }
+        }
+        order.push(block[next]);
+    }
+    order
+}
+
 /// The sets of unknowns that the matrix couples.
 fn connected_blocks(matrix: &[Vec<Expr<'_>>]) -> Vec<Vec<usize>> {
     let n = matrix.len();

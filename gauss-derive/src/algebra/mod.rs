@@ -23,7 +23,7 @@ mod tests;
 
 pub use evaluate::Evaluation;
 pub use graph::{Expr, Function, Graph, NodeView};
-pub use linear::{Solver, inverse_of_symmetric};
+pub use linear::{Solver, inverse_of_symmetric, solve_symmetric};
 pub use map::Map;
 pub use polynomial::Polynomial;
 pub use print::{Notation, print};

@@ -122,6 +122,10 @@ impl Printer {
                 let name = match function {
                     Function::Sin => "sin",
                     Function::Cos => "cos",
+                    Function::Exp => "exp",
+                    Function::Ln => "ln",
+                    Function::Sqrt if self.latex() => return format!("\\sqrt{{{}}}", self.sum(argument)),
+                    Function::Sqrt => "sqrt",
                 };
                 match (self.latex(), matches!(argument.view(), NodeView::Symbol(_))) {
                     (true, true) => format!("\\{name} {}", self.sum(argument)),

@@ -7,13 +7,24 @@ use crate::kernel::Counts;
 use crate::mechanics::{Method, Section};
 use crate::model::Role;
 
-use super::kernel::Derived;
+use super::kernel::{Derived, Subject};
 
 /// The equations as plain text.
 pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
-    let mut out = format!("{}: {}\n", derived.model.ident.unraw(), description(derived));
+    let mut out = format!(
+        "{}: {}
+",
+        derived.item().ident.unraw(),
+        description(derived)
+    );
     let letters: Vec<String> = legend(derived).iter().map(|(letter, field, _)| format!("{letter} = {field}")).collect();
-    out.push_str(&format!("with {}; x̂ = R x + b\n", letters.join(", ")));
+    if !letters.is_empty() {
+        out.push_str(&format!(
+            "with {}; x̂ = R x + b
+",
+            letters.join(", ")
+        ));
+    }
     for section in sections {
         out.push_str(&format!("\n{}\n", section.title.text));
         for row in &section.rows {
@@ -38,9 +49,15 @@ pub fn latex(sections: &[Section<'_>]) -> String {
 
 /// What the letters of the equations stand for: (letter, field, what its author says of it).
 fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
-    let with_role = derived.model.parameters.iter().filter_map(|p| p.role.map(|role| (role, p)));
-    with_role
-        .map(|(role, parameter)| {
+    let fields: Vec<_> = match derived.subject {
+        Subject::Body { model, .. } => model.parameters.iter().map(|p| (p.role, &p.ident, &p.documentation)).collect(),
+        Subject::System { model, .. } => model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation)).collect(),
+    };
+    fields
+        .into_iter()
+        .filter_map(|(role, ident, documentation)| role.map(|role| (role, ident, documentation)))
+        .filter(|(role, ..)| *role != Role::Body)
+        .map(|(role, ident, documentation)| {
             let letter = match role {
                 Role::Mass => "m",
                 Role::CenterOfMass => "c",
@@ -49,19 +66,28 @@ fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
                 Role::Gravity => "g",
                 Role::DisplacedMass => "md",
                 Role::CenterOfBuoyancy => "h",
+                // The letters of a named body carry its name.
+                Role::Body => "B",
             };
             // The first line says what it is; the rest is for the struct's own page.
-            let said = parameter.documentation.lines().next().unwrap_or_default().to_owned();
-            (letter, parameter.ident.unraw().to_string(), said)
+            let said = documentation.lines().next().unwrap_or_default().to_owned();
+            (letter, ident.unraw().to_string(), said)
         })
         .collect()
 }
 
 /// One line: chart, motion, order of z, where the parameters come from.
 fn description(derived: &Derived<'_, '_>) -> String {
-    let speeds: Vec<String> =
-        derived.scene.kinematics.speeds.iter().map(|z| crate::algebra::print(*z, Notation::Text)).collect();
-    format!("chart {}, motion {}, z = ({})", derived.chart_name(), derived.motion_name(), speeds.join(", "))
+    let speeds: Vec<String> = derived.speeds().iter().map(|z| crate::algebra::print(*z, Notation::Text)).collect();
+    let speeds = speeds.join(", ");
+    match (derived.body(), derived.subject) {
+        (Some(body), _) => format!("chart {}, motion {}, z = ({speeds})", body.chart_name(), body.motion_name()),
+        (None, Subject::System { system, .. }) => {
+            let q: Vec<&str> = system.scene.coordinate_names.iter().map(|name| name.text.as_str()).collect();
+            format!("chart own, q = ({}), z = ({speeds})", q.join(", "))
+        }
+        _ => format!("z = ({speeds})"),
+    }
 }
 
 /// Rustdoc of the kernel: what it is, its equations, its costs.
@@ -72,7 +98,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
          Components with a hat are in the observer's axes k, the others in body axes e; (u, ω) is the twist of O, \
          (Q, Γ) the momentum, about O, or about Ω where both have hats; (R, M) the resultant and torque of the forces.\n\n\
          ```text\n{equations}```\n\n| letter | field | |\n|---|---|---|\n",
-        name = derived.model.ident,
+        name = derived.item().ident,
         description = description(derived),
     );
     for (letter, field, said) in legend(derived) {

@@ -5,60 +5,124 @@ use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map};
 use crate::kernel::{Counts, Kernel, Program};
-use crate::mechanics::{ConfigurationKind, Formula, InertiaShape, Method, Scene};
-use crate::model::{Chart, Model, Motion, RotationChart, Scalar};
+use crate::mechanics::{Formula, InertiaShape, Method, Scene, System};
+use crate::model::{Model, Scalar, SystemModel};
+use crate::translate::Source;
+use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
 use super::documentation::{latex, method_name, rustdoc, text};
 use super::parameters::kernel_body;
 use super::program::{ScalarTokens, statements};
+use super::system_parameters::system_kernel_body;
 
 /// Everything known about one derive when code is written.
 pub struct Derived<'a, 'g> {
-    pub model: &'a Model,
-    pub scene: &'a Scene<'g>,
+    pub subject: Subject<'a, 'g>,
     pub formulas: &'a [Formula<'g>],
     pub kernel: &'a Kernel<'g>,
+}
+
+/// What is derived.
+#[derive(Clone, Copy)]
+pub enum Subject<'a, 'g> {
+    /// One body in a chart.
+    Body {
+        model: &'a Model,
+        scene: &'a Scene<'g>,
+        inertia: InertiaShape,
+        /// Components x, y, z, w of the unit quaternion behind R, where there is one.
+        quaternion: Option<[Expr<'g>; 4]>,
+    },
+    /// A system in coordinates of its own.
+    System { model: &'a SystemModel, system: &'a System<'g>, sources: &'a [Source<'g>] },
+}
+
+/// One body, where what is written needs to know that it is one.
+#[derive(Clone, Copy)]
+pub struct BodySubject<'a, 'g> {
+    pub derived: &'a Derived<'a, 'g>,
+    pub model: &'a Model,
+    pub scene: &'a Scene<'g>,
     pub inertia: InertiaShape,
-    /// Components x, y, z, w of the unit quaternion behind R, where there is one.
     pub quaternion: Option<[Expr<'g>; 4]>,
 }
 
-impl<'g> Derived<'_, 'g> {
-    pub fn scalar(&self) -> ScalarTokens<'_> {
-        let runtime = &self.model.runtime;
-        ScalarTokens { scalar: &self.model.scalar, real: quote!(#runtime::real::Real) }
+/// What the struct says of itself, whatever it describes.
+pub struct Item<'a> {
+    pub ident: &'a Ident,
+    pub visibility: &'a Visibility,
+    pub generics: &'a Generics,
+    pub scalar: &'a Scalar,
+    pub runtime: &'a Path,
+}
+
+/// Symbols of the arguments of the methods.
+struct Formal<'a, 'g> {
+    speeds: &'a [Expr<'g>],
+    speed_rates: &'a [Expr<'g>],
+    momenta: &'a [Expr<'g>],
+}
+
+impl<'a, 'g> Derived<'a, 'g> {
+    pub fn item(&self) -> Item<'a> {
+        match self.subject {
+            Subject::Body { model: m, .. } => Item {
+                ident: &m.ident,
+                visibility: &m.visibility,
+                generics: &m.generics,
+                scalar: &m.scalar,
+                runtime: &m.runtime,
+            },
+            Subject::System { model: m, .. } => Item {
+                ident: &m.ident,
+                visibility: &m.visibility,
+                generics: &m.generics,
+                scalar: &m.scalar,
+                runtime: &m.runtime,
+            },
+        }
+    }
+
+    pub fn body(&'a self) -> Option<BodySubject<'a, 'g>> {
+        match self.subject {
+            Subject::Body { model, scene, inertia, quaternion } => {
+                Some(BodySubject { derived: self, model, scene, inertia, quaternion })
+            }
+            Subject::System { .. } => None,
+        }
+    }
+
+    fn formal(&self) -> Formal<'a, 'g> {
+        match self.subject {
+            Subject::Body { scene, .. } => Formal {
+                speeds: &scene.kinematics.speeds,
+                speed_rates: &scene.kinematics.speed_rates,
+                momenta: &scene.momenta,
+            },
+            Subject::System { system, .. } => Formal {
+                speeds: &system.scene.speeds,
+                speed_rates: &system.scene.speed_rates,
+                momenta: &system.scene.momenta,
+            },
+        }
+    }
+
+    pub fn speeds(&self) -> &'a [Expr<'g>] {
+        self.formal().speeds
+    }
+
+    pub fn scalar(&self) -> ScalarTokens<'a> {
+        let Item { runtime, scalar, .. } = self.item();
+        ScalarTokens { scalar, real: quote!(#runtime::real::Real) }
     }
 
     pub fn kernel_name(&self) -> Ident {
-        format_ident!("{}Kernel", self.model.ident)
+        format_ident!("{}Kernel", self.item().ident)
     }
 
     pub fn constant_fields(&self) -> Vec<Ident> {
         (0..self.kernel.constant_symbols.len()).map(|k| format_ident!("k{}", k)).collect()
-    }
-
-    pub fn chart_name(&self) -> String {
-        match self.model.chart {
-            Chart::LeftInvariant => "left_invariant".to_owned(),
-            Chart::RightInvariant => "right_invariant".to_owned(),
-            Chart::Hybrid => "hybrid".to_owned(),
-            Chart::Jet(RotationChart::Euler(axes)) => {
-                let letters: String = axes.iter().map(|&a| char::from(b'x' + a)).collect();
-                format!("jet(euler_{letters})")
-            }
-            Chart::Jet(RotationChart::Rodrigues) => "jet(rodrigues)".to_owned(),
-            Chart::Jet(RotationChart::ModifiedRodrigues) => "jet(modified_rodrigues)".to_owned(),
-            Chart::Jet(RotationChart::Angle) => "jet".to_owned(),
-        }
-    }
-
-    pub fn motion_name(&self) -> &'static str {
-        match self.model.motion {
-            Motion::Free => "free",
-            Motion::FixedPoint => "fixed_point",
-            Motion::Planar => "planar",
-        }
     }
 
     fn program(&self, method: Method) -> &Program<'g> {
@@ -66,30 +130,8 @@ impl<'g> Derived<'_, 'g> {
         &self.kernel.functions[position.expect("a method that is written was derived")]
     }
 
-    /// The configuration taken apart.
-    fn configuration_arguments(&self) -> Vec<Argument<'g>> {
-        let private = self.private();
-        let symbols = &self.scene.kinematics.configuration;
-        let quaternion =
-            |array: TokenStream| Argument { array, symbols: self.quaternion.map(|q| q.to_vec()).unwrap_or_default() };
-        match self.scene.kinematics.kind {
-            ConfigurationKind::Pose => vec![
-                quaternion(quote!(#private::isometry3(q).0)),
-                Argument { array: quote!(#private::isometry3(q).1), symbols: symbols[9..].to_vec() },
-            ],
-            ConfigurationKind::Rotation => vec![quaternion(quote!(#private::quaternion(q)))],
-            ConfigurationKind::PlanePose => vec![
-                Argument { array: quote!(#private::isometry2(q).0), symbols: symbols[..2].to_vec() },
-                Argument { array: quote!(#private::isometry2(q).1), symbols: symbols[2..].to_vec() },
-            ],
-            ConfigurationKind::Coordinates => {
-                vec![Argument { array: quote!(#private::components(q)), symbols: symbols.clone() }]
-            }
-        }
-    }
-
-    fn private(&self) -> TokenStream {
-        let runtime = &self.model.runtime;
+    pub fn private(&self) -> TokenStream {
+        let runtime = self.item().runtime;
         quote!(#runtime::__private)
     }
 
@@ -97,17 +139,25 @@ impl<'g> Derived<'_, 'g> {
     fn method_body(&self, method: Method) -> TokenStream {
         let private = self.private();
         let program = self.program(method);
-        let kinematics = &self.scene.kinematics;
-        let mut arguments = self.configuration_arguments();
+        let Formal { speeds, speed_rates, momenta } = self.formal();
+        let mut names: Map<u32, TokenStream> = Map::default();
+        let mut arguments = match self.subject {
+            Subject::Body { .. } => self.body().map(|body| body.configuration_arguments()).unwrap_or_default(),
+            Subject::System { system, .. } => {
+                names.insert(system.scene.time.key(), quote!(t));
+                vec![Argument { array: quote!(#private::components(q)), symbols: system.scene.coordinates.clone() }]
+            }
+        };
         let vector = |name: TokenStream, symbols: &[Expr<'g>]| Argument {
             array: quote!(#private::components(#name)),
             symbols: symbols.to_vec(),
         };
-        arguments.push(vector(quote!(z), &kinematics.speeds));
-        arguments.push(vector(quote!(p), &self.scene.momenta));
-        arguments.push(vector(quote!(acceleration), &kinematics.speed_rates));
-        arguments.push(vector(quote!(twist), &self.scene.twist));
-        let mut names: Map<u32, TokenStream> = Map::default();
+        arguments.push(vector(quote!(z), speeds));
+        arguments.push(vector(quote!(p), momenta));
+        arguments.push(vector(quote!(acceleration), speed_rates));
+        if let Some(body) = self.body() {
+            arguments.push(vector(quote!(twist), &body.scene.twist));
+        }
         for (symbol, field) in self.kernel.constant_symbols.iter().zip(self.constant_fields()) {
             names.insert(symbol.key(), quote!(self.#field));
         }
@@ -116,7 +166,7 @@ impl<'g> Derived<'_, 'g> {
         let result = match method {
             Method::KineticEnergy | Method::PotentialEnergy | Method::ConstraintFunction => quote!(#(#outputs)*),
             Method::MassMatrix => {
-                let rows = outputs.chunks(kinematics.speeds.len()).map(|row| quote!([#(#row),*]));
+                let rows = outputs.chunks(speeds.len()).map(|row| quote!([#(#row),*]));
                 quote!(#private::matrix([#(#rows),*]))
             }
             // The volume over the product of the lengths.
@@ -129,80 +179,8 @@ impl<'g> Derived<'_, 'g> {
         quote!(#declarations #instructions #result)
     }
 
-    fn rotation_chart_tokens(&self) -> TokenStream {
-        let runtime = &self.model.runtime;
-        let chart = quote!(#runtime::chart::RotationChart);
-        match self.model.chart {
-            Chart::Jet(RotationChart::Euler([a, b, c])) => {
-                quote!(#chart::Euler(#runtime::chart::EulerSequence { axes: [#a, #b, #c] }))
-            }
-            Chart::Jet(RotationChart::Rodrigues) => quote!(#chart::Rodrigues),
-            Chart::Jet(RotationChart::ModifiedRodrigues) => quote!(#chart::ModifiedRodrigues),
-            _ => quote!(#chart::Angle),
-        }
-    }
-
-    fn chart_tokens(&self) -> TokenStream {
-        let runtime = &self.model.runtime;
-        let chart = quote!(#runtime::chart::Chart);
-        match self.model.chart {
-            Chart::LeftInvariant => quote!(#chart::LeftInvariant),
-            Chart::RightInvariant => quote!(#chart::RightInvariant),
-            Chart::Hybrid => quote!(#chart::Hybrid),
-            Chart::Jet(_) => {
-                let rotation = self.rotation_chart_tokens();
-                quote!(#chart::Jet(#rotation))
-            }
-        }
-    }
-
-    fn configuration_type(&self) -> TokenStream {
-        let (runtime, ty, n) = (&self.model.runtime, self.scalar().ty(), self.degrees_of_freedom());
-        match self.scene.kinematics.kind {
-            ConfigurationKind::Pose => quote!(#runtime::prelude::Isometry3<#ty>),
-            ConfigurationKind::Rotation => quote!(#runtime::prelude::UnitQuaternion<#ty>),
-            ConfigurationKind::PlanePose => quote!(#runtime::prelude::Isometry2<#ty>),
-            ConfigurationKind::Coordinates => quote!(#runtime::prelude::SVector<#ty, #n>),
-        }
-    }
-
-    fn degrees_of_freedom(&self) -> usize {
-        self.scene.kinematics.speeds.len()
-    }
-
-    /// `pose` and `configuration`: the configuration as a pose and back.
-    fn pose_bodies(&self) -> (TokenStream, TokenStream) {
-        let private = self.private();
-        let chart = self.rotation_chart_tokens();
-        match (self.scene.kinematics.kind, self.model.motion) {
-            (ConfigurationKind::Pose, _) => (quote!(*q), quote!(#private::free_pose(pose))),
-            (ConfigurationKind::Rotation, _) => {
-                (quote!(#private::pose_of_rotation(q)), quote!(#private::rotation_of_pose(pose)))
-            }
-            (ConfigurationKind::PlanePose, _) => {
-                (quote!(#private::pose_of_plane(q)), quote!(#private::plane_of_pose(pose)))
-            }
-            (ConfigurationKind::Coordinates, Motion::Planar) => (
-                quote!(#private::pose_of_plane_chart(#private::components(q))),
-                quote!(#private::plane_chart_of_pose(pose).map(#private::vector)),
-            ),
-            (ConfigurationKind::Coordinates, Motion::FixedPoint) => (
-                quote!(#private::pose_of_rotation_chart(#chart, #private::components(q))),
-                quote!(#private::rotation_chart_of_pose(#chart, pose).map(#private::vector)),
-            ),
-            (ConfigurationKind::Coordinates, Motion::Free) => (
-                quote! {
-                    let [__b1, __b2, __b3, __a1, __a2, __a3] = #private::components(q);
-                    #private::pose_of_chart(#chart, [__a1, __a2, __a3], [__b1, __b2, __b3])
-                },
-                quote! {
-                    #private::chart_of_pose(#chart, pose)
-                        .map(|([__a1, __a2, __a3], [__b1, __b2, __b3])| {
-                            #private::vector([__b1, __b2, __b3, __a1, __a2, __a3])
-                        })
-                },
-            ),
-        }
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.speeds().len()
     }
 }
 
@@ -213,29 +191,41 @@ fn count_tokens(runtime: &syn::Path, counts: Counts) -> TokenStream {
 
 /// The whole output of the derive.
 pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
-    let model = derived.model;
-    let (runtime, visibility, ident) = (&model.runtime, &model.visibility, &model.ident);
+    let Item { ident, visibility, generics, scalar: number, runtime } = derived.item();
     let scalar = derived.scalar();
     let (ty, real) = (scalar.ty(), &scalar.real);
     let name = derived.kernel_name();
     let fields = derived.constant_fields();
     let n = derived.degrees_of_freedom();
-    let generic = matches!(model.scalar, Scalar::Parameter(_));
+    let generic = matches!(number, Scalar::Parameter(_));
     let (declared, bounded, used) =
         if generic { (quote!(<#ty>), quote!(<#ty: #real>), quote!(<#ty>)) } else { Default::default() };
-    let (impl_generics, type_generics, where_clause) = model.generics.split_for_impl();
+    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
     let predicates = where_clause.map(|w| {
         let predicates = w.predicates.iter();
         quote!(#(#predicates,)*)
     });
     let bound = generic.then(|| quote!(#ty: #real,));
-    let sections = derived.scene.equations();
+    let sections = match derived.subject {
+        Subject::Body { scene, .. } => scene.equations(),
+        Subject::System { system, .. } => system.equations(),
+    };
     let (text, latex) = (text(derived, &sections), latex(&sections));
     let documentation = rustdoc(derived, &text);
-    let kernel_body = kernel_body(derived);
-    let chart = derived.chart_tokens();
-    let configuration = derived.configuration_type();
-    let (pose, configuration_of_pose) = derived.pose_bodies();
+    let (kernel_body, chart, configuration) = match derived.subject {
+        Subject::Body { model, scene, inertia, quaternion } => {
+            let body = BodySubject { derived, model, scene, inertia, quaternion };
+            (kernel_body(&body), body.chart_tokens(), body.configuration_type())
+        }
+        Subject::System { model, system, sources } => {
+            let coordinates = system.scene.coordinates.len();
+            (
+                system_kernel_body(derived, model, system, sources),
+                quote!(#runtime::chart::Chart::Own),
+                quote!(#runtime::prelude::SVector<#ty, #coordinates>),
+            )
+        }
+    };
     let kernel_doc = format!(
         "Checks the parameters and computes once whatever depends on them alone: the kernel of [`{ident}`].\n\n\
          # Errors\nEvery parameter that no body can have, with its field, value and the rule it breaks."
@@ -284,14 +274,35 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             fn #function(&self, t: Self::Scalar, q: &Self::Configuration, #arguments) -> #result { #body }
         }
     };
-    let methods = methods.into_iter().map(write);
-    let six = quote!(#runtime::prelude::SVector<Self::Scalar, 6>);
-    let twist_methods = [
-        (Method::BodyTwist, quote!(z: &Self::Speeds), six.clone()),
-        (Method::Speeds, quote!(twist: &#six), quote!(Self::Speeds)),
-        (Method::BodyMomentum, quote!(z: &Self::Speeds), six),
-    ];
-    let twist_methods = twist_methods.into_iter().map(write);
+    let methods = methods.into_iter().map(&write);
+    let rigid_body = derived.body().map(|body| {
+        let (pose, configuration_of_pose) = body.pose_bodies();
+        let six = quote!(#runtime::prelude::SVector<Self::Scalar, 6>);
+        let twist_methods = [
+            (Method::BodyTwist, quote!(z: &Self::Speeds), six.clone()),
+            (Method::Speeds, quote!(twist: &#six), quote!(Self::Speeds)),
+            (Method::BodyMomentum, quote!(z: &Self::Speeds), six),
+        ];
+        let twist_methods = twist_methods.into_iter().map(&write);
+        quote! {
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all, clippy::pedantic)]
+            impl #bounded #runtime::system::RigidBodySystem for #name #used {
+                #[inline]
+                fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> #runtime::prelude::Isometry3<Self::Scalar> {
+                    #pose
+                }
+                #[inline]
+                fn configuration(
+                    &self,
+                    pose: &#runtime::prelude::Isometry3<Self::Scalar>,
+                ) -> ::core::result::Result<Self::Configuration, #runtime::chart::ChartError> {
+                    #configuration_of_pose
+                }
+                #(#twist_methods)*
+            }
+        }
+    });
     quote! {
         #[doc = #documentation]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
@@ -322,22 +333,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
                 #(#methods)*
             }
 
-            #[automatically_derived]
-            #[allow(unused_variables, clippy::all, clippy::pedantic)]
-            impl #bounded #runtime::system::RigidBodySystem for #name #used {
-                #[inline]
-                fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> #runtime::prelude::Isometry3<Self::Scalar> {
-                    #pose
-                }
-                #[inline]
-                fn configuration(
-                    &self,
-                    pose: &#runtime::prelude::Isometry3<Self::Scalar>,
-                ) -> ::core::result::Result<Self::Configuration, #runtime::chart::ChartError> {
-                    #configuration_of_pose
-                }
-                #(#twist_methods)*
-            }
+            #rigid_body
         };
     }
 }

@@ -3,15 +3,19 @@
 //! - `program`: instructions as `let` statements.
 //! - `arguments`: where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel.
 //! - `parameters`: `kernel()`: the parameters read, checked, and turned into constants.
+//! - `system_parameters`: the same for systems.
+//! - `body`: what is particular to one body in a chart.
 //! - `kernel`: the kernel struct and its implementations of the runtime's traits.
 //! - `documentation`: equations and costs as text, LaTeX and rustdoc.
 
 mod arguments;
+mod body;
 mod documentation;
 mod kernel;
 mod parameters;
 mod program;
+mod system_parameters;
 #[cfg(test)]
 mod tests;
 
-pub use kernel::{Derived, emit};
+pub use kernel::{Derived, Subject, emit};

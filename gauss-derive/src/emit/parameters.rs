@@ -9,7 +9,7 @@ use crate::kernel::Program;
 use crate::mechanics::{InertiaShape, ParameterSymbol, Quantity};
 use crate::model::{Model, Motion, Parameter};
 
-use super::kernel::Derived;
+use super::kernel::{BodySubject, Derived};
 use super::program::statements;
 
 /// The field that gives a quantity.
@@ -43,7 +43,7 @@ fn local(quantity: Quantity) -> proc_macro2::Ident {
 }
 
 /// Is the field a scalar, a vector, or a matrix?
-fn rank(derived: &Derived<'_, '_>, quantity: Quantity) -> usize {
+fn rank(derived: &BodySubject<'_, '_>, quantity: Quantity) -> usize {
     let of: Vec<&ParameterSymbol<'_>> =
         derived.scene.body.parameters.iter().filter(|p| p.quantity == quantity).collect();
     match of.as_slice() {
@@ -53,7 +53,7 @@ fn rank(derived: &Derived<'_, '_>, quantity: Quantity) -> usize {
     }
 }
 
-fn element(derived: &Derived<'_, '_>, p: &ParameterSymbol<'_>) -> TokenStream {
+fn element(derived: &BodySubject<'_, '_>, p: &ParameterSymbol<'_>) -> TokenStream {
     let (name, row, column) = (local(p.quantity), p.row, p.column);
     match rank(derived, p.quantity) {
         0 => quote!(#name),
@@ -63,7 +63,7 @@ fn element(derived: &Derived<'_, '_>, p: &ParameterSymbol<'_>) -> TokenStream {
 }
 
 /// The body of `kernel()`.
-pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
+pub fn kernel_body(derived: &BodySubject<'_, '_>) -> TokenStream {
     let (model, runtime) = (derived.model, &derived.model.runtime);
     let private = quote!(#runtime::__private);
     let mut read = TokenStream::new();
@@ -79,29 +79,37 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
     let symbols: Map<u32, TokenStream> =
         derived.scene.body.parameters.iter().map(|p| (p.symbol.key(), element(derived, p))).collect();
     let checks = checks(derived, &symbols);
-    let (compute, outputs) = statements(&derived.kernel.constants, &symbols, &derived.scalar());
-    let fields = derived.constant_fields();
-    let name = derived.kernel_name();
     let mass_name = field(model, Quantity::Mass).map(|p| p.ident.unraw().to_string()).unwrap_or_default();
-    let ty = derived.scalar().ty();
+    let kernel = constants(derived.derived, &symbols, &mass_name);
     quote! {
         #read
         #checks
         __check.finish()?;
+        #kernel
+    }
+}
+
+/// The constants computed and checked: together, parameters that are fine one by one can overflow. `said` is the field that
+/// speaks for them.
+pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, said: &str) -> TokenStream {
+    let private = derived.private();
+    let ty = derived.scalar().ty();
+    let (compute, outputs) = statements(&derived.kernel.constants, symbols, &derived.scalar());
+    let (name, fields) = (derived.kernel_name(), derived.constant_fields());
+    quote! {
         #compute
         let __kernel = #name { #(#fields: #outputs),* };
-        // Together, parameters that are fine one by one can overflow.
         let mut __check = #private::ParameterCheck::<#ty>::new();
-        __check.constants(#mass_name, &[#(__kernel.#fields),*]);
+        __check.constants(#said, &[#(__kernel.#fields),*]);
         __check.finish()?;
         ::core::result::Result::Ok(__kernel)
     }
 }
 
 /// What makes a set of parameters a body: all violations are reported together.
-fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let (model, runtime) = (derived.model, &derived.model.runtime);
-    let scalar = derived.scalar();
+    let scalar = derived.derived.scalar();
     let ty = scalar.ty();
     let name_of = |quantity| field(model, quantity).map(|p| p.ident.unraw().to_string()).unwrap_or_default();
     let body = &derived.scene.body;
@@ -187,7 +195,7 @@ fn checks(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenSt
 
 /// An entry of the inertia tensor as the user wrote it, so that an asymmetry is seen.
 fn entry_as_written(
-    derived: &Derived<'_, '_>,
+    derived: &BodySubject<'_, '_>,
     i: usize,
     j: usize,
     entry: &impl Fn(Expr<'_>) -> TokenStream,

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::{Map, Rational};
+use crate::algebra::{Function, Map, Rational};
 use crate::kernel::{Operand, Operation, Program};
 use crate::model::Scalar;
 
@@ -106,6 +106,10 @@ pub fn statements(
                 let a = write(a);
                 quote!(let #name = -#a;)
             }
+            Operation::Call(function, a) => {
+                let (a, function) = (write(a), function_name(*function));
+                quote!(let #name = #real::#function(#a);)
+            }
             Operation::SineCosine(a) => {
                 let (a, s, c) = (write(a), sine(k), cosine(k));
                 let read = |wanted: Operand<'_>| program.operands().any(|o| o == wanted);
@@ -117,6 +121,17 @@ pub fn statements(
         body.extend(statement);
     }
     (body, program.outputs.iter().map(write).collect())
+}
+
+fn function_name(function: Function) -> Ident {
+    let name = match function {
+        Function::Sin => "sin",
+        Function::Cos => "cos",
+        Function::Exp => "exp",
+        Function::Ln => "ln",
+        Function::Sqrt => "sqrt",
+    };
+    Ident::new(name, Span::call_site())
 }
 
 fn binary(name: &Ident, a: &TokenStream, operator: &TokenStream, b: &TokenStream) -> TokenStream {

@@ -85,12 +85,23 @@ impl<'g> Kernel<'g> {
         functions: &[&Vec<Expr<'g>>],
         definitions: &Map<u32, Expr<'g>>,
     ) -> Result<(), Miscompiled> {
-        let mut point = sample_point(graph);
-        let defined: Vec<(u32, f64)> = {
-            let mut evaluation = Evaluation::new(&point);
-            definitions.iter().map(|(&symbol, e)| (symbol, evaluation.value(*e))).collect()
+        let outputs = || functions.iter().flat_map(|outputs| outputs.iter());
+        // Roots and logarithms have domains: the first of a few points at which everything has a value.
+        let points = (0..16).map(|shift| sample_point(graph, shift, definitions));
+        let inside = |point: &Map<u32, f64>| {
+            let mut evaluation = Evaluation::new(point);
+            outputs().all(|e| evaluation.value(*e).is_finite())
         };
-        point.extend(defined);
+        let mut fallback = None;
+        let mut found = None;
+        for point in points {
+            if inside(&point) {
+                found = Some(point);
+                break;
+            }
+            fallback.get_or_insert(point);
+        }
+        let Some(point) = found.or(fallback) else { return Ok(()) };
         let mut values = point.clone();
         let constants = self.constants.run(&point);
         values.extend(self.constant_symbols.iter().zip(constants).map(|(s, v)| (s.key(), v)));
@@ -99,7 +110,8 @@ impl<'g> Kernel<'g> {
             for (output, (found, e)) in program.run(&values).into_iter().zip(outputs.iter()).enumerate() {
                 let expected = evaluation.value(*e);
                 // Inputs are of order one; hundreds of roundings stay far below, a wrong term far above this.
-                let close = (found - expected).abs() <= 1e-6 * (1.0 + expected.abs());
+                let close = (found - expected).abs() <= 1e-6 * (1.0 + expected.abs())
+                    || !found.is_finite() && !expected.is_finite();
                 if !close {
                     return Err(Miscompiled { function, output, expected, found });
                 }
@@ -109,16 +121,20 @@ impl<'g> Kernel<'g> {
     }
 }
 
-/// A value of order one for every symbol, different for each.
-fn sample_point(graph: &Graph) -> Map<u32, f64> {
-    graph
+/// A value of order one for every symbol, different for each, and the values of what is defined by them.
+fn sample_point<'g>(graph: &'g Graph, shift: u32, definitions: &Map<u32, Expr<'g>>) -> Map<u32, f64> {
+    let mut point: Map<u32, f64> = graph
         .symbol_keys()
         .into_iter()
         .enumerate()
         .map(|(k, key)| {
             // Multiples of the golden ratio are spread evenly and never equal.
-            let fraction = ((k + 1) as f64 * 0.618_033_988_749_894_9).fract();
+            let fraction = (((k + 1) as f64 + f64::from(shift) * 0.37) * 0.618_033_988_749_894_9).fract();
             (key, 0.6 + fraction)
         })
-        .collect()
+        .collect();
+    let mut evaluation = Evaluation::new(&point);
+    let defined: Vec<(u32, f64)> = definitions.iter().map(|(&symbol, e)| (symbol, evaluation.value(*e))).collect();
+    point.extend(defined);
+    point
 }

@@ -32,6 +32,8 @@ pub enum Operation<'g> {
     Negate(Operand<'g>),
     /// Sine and cosine of one angle.
     SineCosine(Operand<'g>),
+    /// Any function but sine and cosine, which come in pairs.
+    Call(Function, Operand<'g>),
 }
 
 impl<'g> Operation<'g> {
@@ -41,7 +43,7 @@ impl<'g> Operation<'g> {
                 (a, Some(b), None)
             }
             Operation::MultiplyAdd(a, b, c) | Operation::MultiplySubtract(a, b, c) => (a, Some(b), Some(c)),
-            Operation::Negate(a) | Operation::SineCosine(a) => (a, None, None),
+            Operation::Negate(a) | Operation::SineCosine(a) | Operation::Call(_, a) => (a, None, None),
         };
         [Some(a), b, c].into_iter().flatten()
     }
@@ -92,6 +94,8 @@ impl<'g> Program<'g> {
                 Operation::Divide(..) => counts.divisions += 1,
                 Operation::Negate(_) => {}
                 Operation::SineCosine(_) => counts.transcendentals += 2,
+                Operation::Call(Function::Sqrt, _) => counts.roots += 1,
+                Operation::Call(..) => counts.transcendentals += 1,
             }
         }
         counts
@@ -135,6 +139,7 @@ impl<'g> Program<'g> {
                 Operation::Divide(a, b) => (at(a) / at(b), 0.0),
                 Operation::Negate(a) => (-at(a), 0.0),
                 Operation::SineCosine(a) => at(a).sin_cos(),
+                Operation::Call(function, a) => (function.value(at(a)), 0.0),
             };
             values.push(value);
         }
@@ -202,6 +207,10 @@ impl<'g> Writer<'g> {
                 let a = self.operand(a);
                 self.push(Operation::Divide(Operand::Number(Rational::one()), a))
             }
+            Node::Call(function @ (Function::Exp | Function::Ln | Function::Sqrt), a) => {
+                let a = self.operand(a);
+                self.push(Operation::Call(function, a))
+            }
             Node::Call(function, a) => {
                 let a = self.operand(a);
                 let pair = Operation::SineCosine(a);
@@ -214,7 +223,7 @@ impl<'g> Writer<'g> {
                 };
                 match function {
                     Function::Sin => Operand::Sine(index),
-                    Function::Cos => Operand::Cosine(index),
+                    _ => Operand::Cosine(index),
                 }
             }
             Node::Sum(terms) => self.sum(&terms),

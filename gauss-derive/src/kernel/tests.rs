@@ -41,7 +41,7 @@ fn every_pass_keeps_the_values_of_random_expressions() {
         let leaves: Vec<Expr<'_>> = names.iter().enumerate().map(|(k, n)| graph.symbol(*n, *n, k < 2)).collect();
         let mut random = Random(seed);
         let outputs: Vec<Expr<'_>> = (0..3).map(|_| random_expr(&mut random, &leaves, 3)).collect();
-        let point = sample_point(&graph);
+        let point = sample_point(&graph, 0, &Map::default());
         let values = |outputs: &[Expr<'_>], point: &Map<u32, f64>| -> Vec<f64> {
             let mut evaluation = Evaluation::new(point);
             outputs.iter().map(|e| evaluation.value(*e)).collect()

@@ -2,6 +2,7 @@
 
 use crate::algebra::{Expr, Graph};
 
+use super::names::Name;
 use super::vector::Triple;
 
 /// How the inertia tensor about O is given.
@@ -77,6 +78,8 @@ pub struct Body<'g> {
 
 struct Symbols<'g> {
     graph: &'g Graph,
+    /// Which of several bodies: an index of every letter; empty for the only one.
+    suffix: Name,
     list: Vec<ParameterSymbol<'g>>,
 }
 
@@ -86,7 +89,16 @@ impl<'g> Symbols<'g> {
     }
 
     fn push(&mut self, text: String, latex: String, quantity: Quantity, row: usize, column: usize) -> Expr<'g> {
-        let symbol = self.graph.symbol(text, latex, true);
+        let symbol = if self.suffix.text.is_empty() {
+            self.graph.symbol(text, latex, true)
+        } else {
+            // m_{1} of the arm is m_{1,arm}.
+            let latex = match latex.strip_suffix('}') {
+                Some(open) if latex.contains("_{") => format!("{open},{}}}", self.suffix.latex),
+                _ => format!("{latex}_{{{}}}", self.suffix.latex),
+            };
+            self.graph.symbol(format!("{text}_{}", self.suffix.text), latex, true)
+        };
         self.list.push(ParameterSymbol { symbol, quantity, row, column });
         symbol
     }
@@ -119,8 +131,13 @@ fn diagonal<'g>(graph: &'g Graph, entries: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
 impl<'g> Body<'g> {
     /// Symbols for what the shape has; zero for what it leaves out. `up` is the observer's axis that gravity opposes.
     pub fn new(graph: &'g Graph, shape: BodyShape, up: usize) -> Self {
+        Self::named(graph, shape, up, Name::new("", ""))
+    }
+
+    /// One of several bodies.
+    pub fn named(graph: &'g Graph, shape: BodyShape, up: usize, suffix: Name) -> Self {
         let zero = graph.zero();
-        let mut symbols = Symbols { graph, list: Vec::new() };
+        let mut symbols = Symbols { graph, suffix, list: Vec::new() };
         let mass = symbols.scalar("m", "m", Quantity::Mass);
         let center_of_mass = if shape.center_of_mass { symbols.vector("c", Quantity::CenterOfMass) } else { [zero; 3] };
         let inertia = match shape.inertia {

@@ -59,6 +59,11 @@ impl<'g> Kinematics<'g> {
         rates
     }
 
+    /// The motion of the body.
+    pub fn motion(&self) -> super::vector::Motion<'_, 'g> {
+        super::vector::Motion { frame: &self.frame, velocity: &self.velocity, angular_velocity: &self.angular_velocity }
+    }
+
     /// Body axes about which the motion can turn.
     pub fn angular_axes(&self) -> Vec<usize> {
         self.active.iter().filter(|&&k| k >= 3).map(|k| k - 3).collect()

@@ -33,17 +33,6 @@ pub fn check_against_definition<'g>(scene: &Scene<'g>, formulas: &[Formula<'g>])
         let mut evaluation = Evaluation::new(state);
         outputs.iter().map(|e| evaluation.value(*e)).collect()
     };
-    let agree = |method, found: &[f64], expected: &[f64]| {
-        let scale = found.iter().chain(expected).fold(1.0_f64, |m, x| m.max(x.abs()));
-        for (row, (x, y)) in found.iter().zip(expected).enumerate() {
-            // Numbers of order one and some hundreds of roundings; NaN is no agreement either.
-            let close = (x - y).abs() <= 1e-8 * scale;
-            if !close {
-                return Err(Disagreement { method, row, residual: x - y });
-            }
-        }
-        Ok(())
-    };
     let expected = values(&state, &condition);
     for formula in formulas.iter().filter(|f| f.method == Method::GaussResidual) {
         for arrangement in &formula.arrangements {
@@ -55,6 +44,19 @@ pub fn check_against_definition<'g>(scene: &Scene<'g>, formulas: &[Formula<'g>])
             let rates = values(&state, arrangement);
             state.extend(scene.kinematics.speed_rates.iter().zip(&rates).map(|(symbol, rate)| (symbol.key(), *rate)));
             agree(formula.method, &values(&state, &condition), &vec![0.0; rates.len()])?;
+        }
+    }
+    Ok(())
+}
+
+/// Two evaluations of the same rows.
+pub(super) fn agree(method: Method, found: &[f64], expected: &[f64]) -> Result<(), Disagreement> {
+    let scale = found.iter().chain(expected).fold(1.0_f64, |m, x| m.max(x.abs()));
+    for (row, (x, y)) in found.iter().zip(expected).enumerate() {
+        // Numbers of order one and some hundreds of roundings; NaN is no agreement either.
+        let close = (x - y).abs() <= 1e-8 * scale;
+        if !close {
+            return Err(Disagreement { method, row, residual: x - y });
         }
     }
     Ok(())

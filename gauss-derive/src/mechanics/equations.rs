@@ -50,12 +50,12 @@ pub struct Section<'g> {
 }
 
 /// The normal form of an expression if it is short enough to read.
-fn readable<'g>(e: Expr<'g>) -> Option<Polynomial<'g>> {
+pub(super) fn readable<'g>(e: Expr<'g>) -> Option<Polynomial<'g>> {
     e.expand(LIMIT).filter(|p| p.len() <= READABLE)
 }
 
 /// An expression as a reader wants it.
-fn tidy(e: Expr<'_>) -> Expr<'_> {
+pub(super) fn tidy(e: Expr<'_>) -> Expr<'_> {
     readable(e).map_or(e, |p| p.collect())
 }
 

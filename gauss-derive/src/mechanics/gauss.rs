@@ -5,26 +5,54 @@
 //! (`momentum`, `methods`) are arranged for speed, and must give the same residual. The macro itself checks with the
 //! stationarity of C, which is cheaper to form than (3.4); that the two are one is proven in the tests.
 
-use crate::algebra::{Expr, Map};
+use crate::algebra::{Expr, Graph, Map};
 
 use super::body::{AffineField, Body, integrate_product};
 use super::chart::Kinematics;
-use super::vector::{Axes, Triple, Vector, apply_block, dot};
+use super::vector::{Axes, Frame, Motion, Triple, Vector, apply_block, dot};
 
 /// Body coordinates x of the point P, as formal symbols.
-fn body_point<'g>(kinematics: &Kinematics<'g>) -> Triple<'g> {
-    std::array::from_fn(|j| kinematics.frame.graph.symbol(format!("x{}", j + 1), format!("x_{{{}}}", j + 1), false))
+fn body_point(graph: &Graph) -> Triple<'_> {
+    std::array::from_fn(|j| graph.symbol(format!("x{}", j + 1), format!("x_{{{}}}", j + 1), false))
 }
 
 /// v_P = d/dt (R x + b), observer's components (1.1), (2.2)–(2.6).
 pub fn velocity_field<'g>(kinematics: &Kinematics<'g>, x: &Triple<'g>) -> Triple<'g> {
-    let turned = kinematics.frame.to_space(x);
-    std::array::from_fn(|i| (turned[i] + kinematics.position[i]).derivative(&kinematics.rates))
+    point_velocity(&kinematics.frame, &kinematics.position, x, &kinematics.rates)
+}
+
+fn point_velocity<'g>(
+    frame: &Frame<'g>,
+    position: &Triple<'g>,
+    x: &Triple<'g>,
+    rates: &Map<u32, Expr<'g>>,
+) -> Triple<'g> {
+    let turned = frame.to_space(x);
+    std::array::from_fn(|i| (turned[i] + position[i]).derivative(rates))
+}
+
+/// What one body contributes to ∂C/∂ż of a system, word for word: `∫a_P·w_α dm − ∫w_α·dF` for every α. `rates` are those
+/// of t and q, `along` has ż too.
+pub fn stationarity_of_body<'g>(
+    motion: &Motion<'_, 'g>,
+    position: &Triple<'g>,
+    body: &Body<'g>,
+    speeds: &[Expr<'g>],
+    [rates, along]: [&Map<u32, Expr<'g>>; 2],
+) -> Vec<Expr<'g>> {
+    let x = body_point(motion.frame.graph);
+    let field = AffineField::of(&point_velocity(motion.frame, position, &x, rates), &x);
+    let acceleration = field.map(|e| e.derivative(along));
+    let row = |&z: &Expr<'g>| {
+        let partial = field.map(|e| e.partial(z));
+        integrate_product(body, &acceleration, &partial) + fluid(motion, body, z, along) - active_forces(body, &partial)
+    };
+    speeds.iter().map(row).collect()
 }
 
 /// v_P with its partial derivatives w_α = ∂v_P/∂z^α: affine fields over the body.
 fn fields<'g>(kinematics: &Kinematics<'g>) -> (AffineField<'g>, Vec<AffineField<'g>>) {
-    let x = body_point(kinematics);
+    let x = body_point(kinematics.frame.graph);
     let field = AffineField::of(&velocity_field(kinematics, &x), &x);
     (field, kinematics.speeds.iter().map(|&z| field.map(|e| e.partial(z))).collect())
 }
@@ -36,7 +64,7 @@ pub fn stationarity<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>) -> Vec<Exp
     let (field, partials) = fields(kinematics);
     let acceleration = field.map(|e| e.derivative(&along));
     let row = |(partial, &z): (&AffineField<'g>, &Expr<'g>)| {
-        integrate_product(body, &acceleration, partial) + fluid(kinematics, body, z, &along)
+        integrate_product(body, &acceleration, partial) + fluid(&kinematics.motion(), body, z, &along)
             - active_forces(body, partial)
     };
     partials.iter().zip(&kinematics.speeds).map(row).collect()
@@ -51,7 +79,7 @@ pub fn gauss_condition<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>) -> Vec<
         let momentum = integrate_product(body, &field, partial);
         let partial_rate = partial.map(|e| e.derivative(&along));
         let inertia = momentum.derivative(&along) - integrate_product(body, &field, &partial_rate);
-        inertia + fluid(kinematics, body, z, &along) - active_forces(body, partial)
+        inertia + fluid(&kinematics.motion(), body, z, &along) - active_forces(body, partial)
     };
     partials.iter().zip(&kinematics.speeds).map(row).collect()
 }
@@ -68,33 +96,32 @@ fn active_forces<'g>(body: &Body<'g>, partial: &AffineField<'g>) -> Expr<'g> {
 }
 
 /// What the impulse (Q_f, Γ_f) = M_A (u, ω) of the fluid adds: it pairs with w_α as the body's own momentum does.
-fn fluid<'g>(kinematics: &Kinematics<'g>, body: &Body<'g>, z: Expr<'g>, along: &Map<u32, Expr<'g>>) -> Expr<'g> {
-    let frame = &kinematics.frame;
+fn fluid<'g>(motion: &Motion<'_, 'g>, body: &Body<'g>, z: Expr<'g>, along: &Map<u32, Expr<'g>>) -> Expr<'g> {
+    let frame = motion.frame;
     let Some(added) = &body.added_mass else { return frame.graph.zero() };
-    let u = frame.resolve(&kinematics.velocity, Axes::Body);
-    let omega = frame.resolve(&kinematics.angular_velocity, Axes::Body);
+    let u = frame.resolve(motion.velocity, Axes::Body);
+    let omega = frame.resolve(motion.angular_velocity, Axes::Body);
     let impulse = |row: usize| -> Vector<'g> {
         let (linear, angular) = (apply_block(added, row, 0, &u), apply_block(added, row, 3, &omega));
         frame.body_vector(std::array::from_fn(|i| linear[i] + angular[i]))
     };
-    pairing(kinematics, &impulse(0), &impulse(3), z, along)
+    pairing(motion, &impulse(0), &impulse(3), z, along)
 }
 
 /// `d/dt p_α − [Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α]` with `p_α = Q·a_α + Γ_O·o_α`: the left-hand side of (3.4) for any
 /// momentum (Q, Γ_O) that pairs with rigid partial velocities.
 pub fn pairing<'g>(
-    kinematics: &Kinematics<'g>,
+    motion: &Motion<'_, 'g>,
     linear_momentum: &Vector<'g>,
     angular_momentum: &Vector<'g>,
     z: Expr<'g>,
     along: &Map<u32, Expr<'g>>,
 ) -> Expr<'g> {
-    let frame = &kinematics.frame;
-    let omega = &kinematics.angular_velocity;
-    let (a, o) = (kinematics.velocity.partial(z), omega.partial(z));
+    let Motion { frame, velocity, angular_velocity: omega } = motion;
+    let (a, o) = (velocity.partial(z), omega.partial(z));
     let a_rate = frame.derivative(&a, along, omega);
     let o_rate = frame.derivative(&o, along, omega);
     let momentum = frame.dot(linear_momentum, &a) + frame.dot(angular_momentum, &o);
-    let turning = a_rate.plus(&frame.cross(&kinematics.velocity, &o));
+    let turning = a_rate.plus(&frame.cross(velocity, &o));
     momentum.derivative(along) - frame.dot(linear_momentum, &turning) - frame.dot(angular_momentum, &o_rate)
 }

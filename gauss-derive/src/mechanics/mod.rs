@@ -7,6 +7,7 @@
 //! - `gauss`: the Gauss condition (3.4) from v_P, word for word; the reference for all that follows.
 //! - `check`: every scene against that condition, before code is written.
 //! - `momentum`: the same through (Q, Γ), solved in body axes.
+//! - `system`, `system_check`, `system_equations`: the same for bodies and particles in coordinates of their own.
 //! - `methods`: every method of a kernel as expressions.
 //! - `equations`: the equations for people.
 
@@ -23,13 +24,19 @@ mod proof;
 mod rotation;
 #[cfg(test)]
 mod snapshots;
+mod system;
+mod system_check;
+mod system_equations;
 #[cfg(test)]
 pub mod tests;
 mod vector;
 
-pub use body::{AddedMassShape, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
+pub use body::{AddedMassShape, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
 pub use chart::ConfigurationKind;
 pub use check::check_against_definition;
 pub use equations::Section;
 pub use methods::{Formula, Method, Scene};
-pub use rotation::rotation_of_quaternion;
+pub use names::Name;
+pub use rotation::{about_axis, rotation_of_quaternion};
+pub use system::{Link, Particle, System, SystemScene, Turn};
+pub use system_check::{SystemFault, check_system_against_definition};

@@ -61,7 +61,7 @@ fn moments_and_momenta_give_the_same_condition_identically() {
                 relations.annihilates(by_moments - by_principle),
                 "(3.4) is not the stationarity of (3.1) in {motion:?} {chart:?}, row {z:?}"
             );
-            let by_momenta = pairing(kinematics, &q, &gamma, z, &along) - force;
+            let by_momenta = pairing(&kinematics.motion(), &q, &gamma, z, &along) - force;
             assert!(
                 relations.annihilates(by_moments - by_momenta),
                 "the two derivations differ in {motion:?} {chart:?}, row {z:?}"

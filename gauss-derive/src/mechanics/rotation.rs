@@ -79,7 +79,7 @@ fn identity(graph: &Graph, i: usize, j: usize) -> Expr<'_> {
 }
 
 /// Turn by an angle about an axis of the frame: `1 + sin α [k]× + (1 − cos α) [k]×²`.
-fn about_axis<'g>(graph: &'g Graph, axis: usize, angle: Expr<'g>) -> [Triple<'g>; 3] {
+pub fn about_axis<'g>(graph: &'g Graph, axis: usize, angle: Expr<'g>) -> [Triple<'g>; 3] {
     let unit: Triple<'g> = std::array::from_fn(|i| identity(graph, i, axis));
     let turn = cross_matrix(&unit);
     let (sine, rest) = (angle.sin(), graph.one() - angle.cos());
@@ -91,6 +91,6 @@ fn about_axis<'g>(graph: &'g Graph, axis: usize, angle: Expr<'g>) -> [Triple<'g>
     })
 }
 
-fn product<'g>(a: &[Triple<'g>; 3], b: &[Triple<'g>; 3]) -> [Triple<'g>; 3] {
+pub fn product<'g>(a: &[Triple<'g>; 3], b: &[Triple<'g>; 3]) -> [Triple<'g>; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }

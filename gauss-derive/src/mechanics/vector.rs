@@ -20,6 +20,13 @@ pub struct Vector<'g> {
     pub space: Triple<'g>,
 }
 
+/// How a body moves: its frame, the velocity of O and the angular velocity.
+pub struct Motion<'a, 'g> {
+    pub frame: &'a Frame<'g>,
+    pub velocity: &'a Vector<'g>,
+    pub angular_velocity: &'a Vector<'g>,
+}
+
 /// A frame in which components can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axes {

@@ -14,6 +14,12 @@ use syn::{Attribute, Expr, ExprLit, Lit, LitStr, MacroDelimiter, Meta};
 pub(super) enum Place {
     Struct,
     Field,
+    /// In the brackets of `kinematics(…)`.
+    Kinematics,
+    /// In the brackets of `body(…)`.
+    Body,
+    /// In the brackets of `particle(…)`.
+    Particle,
 }
 
 impl Place {
@@ -21,6 +27,18 @@ impl Place {
         match self {
             Place::Struct => "a clause such as `chart = hybrid`",
             Place::Field => "a role such as `mass`",
+            Place::Kinematics => "an equation such as `x = v`",
+            Place::Body | Place::Particle => "an argument such as `position = [x, y, 0]`",
+        }
+    }
+
+    /// Whose words these are.
+    fn owner(self) -> &'static str {
+        match self {
+            Place::Struct | Place::Field => "gauss",
+            Place::Kinematics => "kinematics",
+            Place::Body => "body",
+            Place::Particle => "particle",
         }
     }
 }
@@ -69,7 +87,7 @@ impl Clause {
         let name = &self.name;
         let tokens = match &self.value {
             Value::Malformed => return None,
-            Value::Equals(tokens) => tokens,
+            Value::Equals(tokens) => flat(tokens.iter().cloned().collect()),
             Value::Absent => {
                 context.error(
                     name.span(),
@@ -198,22 +216,40 @@ pub(super) fn clauses(attributes: &[Attribute], place: Place, context: &mut Cont
 }
 
 /// Cuts tokens at their commas and reads each piece as a clause.
-fn split(tokens: TokenStream, place: Place, clauses: &mut Vec<Clause>, context: &mut Context) {
-    let mut piece = Vec::new();
-    for token in flat(tokens) {
+pub(super) fn split(tokens: TokenStream, place: Place, clauses: &mut Vec<Clause>, context: &mut Context) {
+    for piece in pieces(tokens, place.example(), context) {
+        clauses.extend(clause(piece, place, context));
+    }
+}
+
+/// Cuts tokens at their commas. Invisible groups are opened where a piece begins, since there they hold names or whole
+/// clauses; further on they may hold an expression, which must stay one operand.
+pub(super) fn pieces(tokens: TokenStream, example: &str, context: &mut Context) -> Vec<Vec<TokenTree>> {
+    let mut pieces = vec![Vec::new()];
+    cut(tokens, &mut pieces, example, context);
+    pieces.retain(|piece| !piece.is_empty());
+    pieces
+}
+
+fn cut(tokens: TokenStream, pieces: &mut Vec<Vec<TokenTree>>, example: &str, context: &mut Context) {
+    for token in tokens {
+        let begins = pieces.last().is_none_or(Vec::is_empty);
         match token {
             TokenTree::Punct(comma) if comma.as_char() == ',' => {
-                if piece.is_empty() {
-                    context.error(comma.span(), format!("expected {} before `,`", place.example()));
+                if begins {
+                    context.error(comma.span(), format!("expected {example} before `,`"));
                 } else {
-                    clauses.extend(clause(std::mem::take(&mut piece), place, context));
+                    pieces.push(Vec::new());
                 }
             }
-            other => piece.push(other),
+            TokenTree::Group(group) if begins && group.delimiter() == Delimiter::None => {
+                cut(group.stream(), pieces, example, context);
+            }
+            other => match pieces.last_mut() {
+                Some(piece) => piece.push(other),
+                None => pieces.push(vec![other]),
+            },
         }
-    }
-    if !piece.is_empty() {
-        clauses.extend(clause(piece, place, context));
     }
 }
 
@@ -223,11 +259,14 @@ fn clause(piece: Vec<TokenTree>, place: Place, context: &mut Context) -> Option<
     let name = match tokens.next()? {
         TokenTree::Ident(name) => name,
         TokenTree::Literal(literal) => {
-            let remedy = match syn::parse_str::<LitStr>(&literal.to_string()) {
-                Ok(text) => format!("write `#[gauss({})]` without quotes", text.value()),
-                Err(_) => format!("write {}", place.example()),
+            let remedy = match (syn::parse_str::<LitStr>(&literal.to_string()), place) {
+                (Ok(text), Place::Struct | Place::Field) => {
+                    format!("write `#[gauss({})]` without quotes", text.value())
+                }
+                _ => format!("write {}", place.example()),
             };
-            context.error(literal.span(), format!("`gauss` takes words, found {literal}; {remedy}"));
+            let owner = place.owner();
+            context.error(literal.span(), format!("`{owner}` takes words, found {literal}; {remedy}"));
             return None;
         }
         other => {

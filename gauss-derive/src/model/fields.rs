@@ -3,9 +3,10 @@
 use super::attributes::{self, Clause, Place, Value};
 use super::context::Context;
 use super::names;
-use super::roles::ROLES;
+use super::roles::{ROLES, SYSTEM_ROLES};
 use super::scene::{self, CLAUSES};
 use super::shapes::{self, Reading};
+use super::statements::STATEMENTS;
 use super::{Role, Shape};
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Expr, ExprLit, FieldsNamed, Generics, Lit, Meta, Type};
@@ -16,6 +17,8 @@ pub(super) struct Field<'a> {
     pub(super) ty: &'a Type,
     pub(super) reading: Reading,
     pub(super) role: Option<Claim>,
+    /// Its scalar is one that the model computes with: it has a role, or an expression names it.
+    pub(super) computed: bool,
     pub(super) documentation: String,
 }
 
@@ -43,11 +46,13 @@ pub(super) struct Reader<'a> {
     pub(super) meant: Vec<Role>,
     /// A clause of a later version was written.
     pub(super) unsupported: bool,
+    /// The struct is a system, because of its clauses or because some field is a body.
+    pub(super) system: bool,
 }
 
-/// Reads the named fields of a struct.
-pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, context: &mut Context) -> Reader<'a> {
-    let mut reader = Reader { fields: Vec::new(), meant: Vec::new(), unsupported: false };
+/// Reads the named fields of a struct; `system` if its clauses are those of a system.
+pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool, context: &mut Context) -> Reader<'a> {
+    let mut reader = Reader { fields: Vec::new(), meant: Vec::new(), unsupported: false, system };
     for field in &named.named {
         // A field of a struct with named fields has a name.
         let Some(ident) = &field.ident else { continue };
@@ -81,6 +86,7 @@ pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, context: &mu
             ident,
             ty: &field.ty,
             reading: shapes::read(&field.ty, generics),
+            computed: role.is_some(),
             role,
             documentation: documentation(&field.attrs),
         });
@@ -93,10 +99,11 @@ impl Reader<'_> {
     fn claim(&mut self, clause: &Clause, context: &mut Context) -> Option<Claim> {
         let word = clause.word();
         let span = clause.name.span();
-        let Some(&(_, role)) = ROLES.iter().find(|(name, _)| *name == word) else {
+        let Some(&(_, role)) = SYSTEM_ROLES.iter().find(|(name, _)| *name == word) else {
             self.refuse(clause, &word, context);
             return None;
         };
+        self.system |= role == Role::Body;
         let (form, malformed) = read_form(role, clause, context);
         Some(Claim { role, span, form, malformed })
     }
@@ -109,7 +116,7 @@ impl Reader<'_> {
             self.unsupported = true;
             return;
         }
-        if CLAUSES.iter().any(|(name, _)| *name == word) {
+        if CLAUSES.iter().any(|(name, _)| *name == word) || STATEMENTS.iter().any(|(name, _)| *name == word) {
             let written = clause.written();
             context.error(
                 span,
@@ -130,7 +137,9 @@ impl Reader<'_> {
             self.meant.extend(owners);
             return;
         }
-        if let Err(Some(meant)) = names::resolve("role", &clause.name, ROLES, context) {
+        if let Err(Some(meant)) =
+            names::resolve("role", &clause.name, if self.system { SYSTEM_ROLES } else { ROLES }, context)
+        {
             self.meant.push(meant);
         }
     }

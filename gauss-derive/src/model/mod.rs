@@ -1,4 +1,5 @@
-//! The attribute language, read and checked: a struct with `#[gauss(…)]` goes in, a [`Model`] comes out.
+//! The attribute language, read and checked: a struct with `#[gauss(…)]` goes in, a [`Scene`] comes out: the [`Model`]
+//! of one body in one of the charts, or the [`SystemModel`] of a system with its own coordinates.
 //!
 //! This is the only part of the derive that knows syn's input types. Nothing here panics on what a user can write;
 //! every mistake is collected in a [`Context`](context::Context) and all of them are reported together, each at the
@@ -8,26 +9,53 @@
 //! |---|---|
 //! | `attributes` | `#[gauss(…)]` → clauses `name`, `name = value`, `name(…)` |
 //! | `scene` | the clauses of the struct: `chart`, `motion`, `crate` |
+//! | `statements` | those of a system: `coordinates`, `speeds`, `kinematics`, `body`, `particle`, `potential` |
 //! | `fields` | the clauses of the fields: their roles |
 //! | `roles` | what each role is called and which shapes it takes |
 //! | `shapes` | the written type of a field → shape and scalar |
 //! | `validate` | what must hold between fields: one scalar, no role missing or doubled |
+//! | `expression`, `arithmetic`, `number`, `functions` | Rust arithmetic → trees with spans |
+//! | `scope`, `kinds` | what names mean in expressions; scalar, vector or rotation |
+//! | `bodies` | what must hold between bodies: names, fields, parents |
+//! | `assembly`, `system` | a whole system checked, and the type that it has then |
 //! | `names` | the nearest valid word to a misspelt one |
 //! | `context` | the mistakes found so far |
 
+mod arithmetic;
+mod assembly;
 mod attributes;
+mod bodies;
 mod context;
+mod expression;
 mod fields;
+mod functions;
+mod kinds;
 mod names;
+mod number;
 mod roles;
 mod scene;
+mod scope;
 mod shapes;
+mod statements;
+mod system;
 #[cfg(test)]
 mod tests;
 mod validate;
 
+pub use expression::{BinaryOperator, Expression, ExpressionKind, FunctionName};
+pub use system::{BodyClause, ParticleClause, SystemField, SystemModel};
+
 use context::Context;
 use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics, Ident, Path, Visibility};
+
+/// What a struct describes.
+#[derive(Clone)]
+pub enum Scene {
+    /// One rigid body in one of the charts.
+    Body(Box<Model>),
+    /// A system with coordinates of its own.
+    System(Box<SystemModel>),
+}
 
 /// One rigid body as the user wrote it, checked.
 #[derive(Clone)]
@@ -148,6 +176,8 @@ pub enum Shape {
     Vector6,
     /// Six by six, order (linear, angular).
     Matrix6,
+    /// Mass, centre of mass and inertia of a body of a system.
+    RigidBody,
     /// Anything else: only plain parameters have it.
     Other,
 }
@@ -169,20 +199,42 @@ pub enum Role {
     DisplacedMass,
     /// Where buoyancy acts, body axes from O: vector.
     CenterOfBuoyancy,
+    /// A body of a system, named like the field.
+    Body,
 }
 
-/// Reads and checks a struct.
+/// Reads and checks a struct that describes one body: for tests of what only bodies have.
+///
+/// # Errors
+/// All mistakes of the struct combined, each at the token that is wrong; or that it describes a system.
+#[cfg(test)]
+pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
+    match parse_scene(input)? {
+        Scene::Body(model) => Ok(*model),
+        Scene::System(model) => {
+            Err(Error::new(model.ident.span(), "a system with coordinates of its own is not one body in a chart"))
+        }
+    }
+}
+
+/// Reads and checks a struct: a system if any clause or field is one that only systems have, else one body.
 ///
 /// # Errors
 /// All mistakes of the struct combined, each at the token that is wrong.
-pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
+pub fn parse_scene(input: &DeriveInput) -> Result<Scene, Error> {
     let mut context = Context::default();
-    let scene = scene::read(&input.attrs, &mut context);
+    let clauses = scene::read(&input.attrs, &mut context);
     check_generics(&input.generics, &mut context);
-    let model = named_fields(input, &mut context).and_then(|named| {
-        validate::model(input, &scene, fields::read(named, &input.generics, &mut context), &mut context)
+    let scene = named_fields(input, &mut context).and_then(|named| {
+        let reader = fields::read(named, &input.generics, clauses.statements.is_some(), &mut context);
+        if reader.system {
+            let system = assembly::system(input, clauses, reader, &mut context)?;
+            Some(Scene::System(Box::new(system)))
+        } else {
+            Some(Scene::Body(Box::new(validate::model(input, &clauses, reader, &mut context)?)))
+        }
     });
-    context.finish(model)
+    context.finish(scene)
 }
 
 /// The fields of a struct with named fields; anything else is a mistake at its name.

@@ -34,7 +34,7 @@ pub(super) fn resolve<T: Copy>(
 
 /// The entry whose name is nearest to `word`, if any is near enough: at most a third of the letters wrong, one letter
 /// always allowed; case and underscores count for nothing. Of equally near names the first wins.
-pub(super) fn nearest<T: Copy>(word: &str, table: &Table<T>) -> Option<(&'static str, T)> {
+pub(super) fn nearest<'a, T: Copy>(word: &str, table: &[(&'a str, T)]) -> Option<(&'a str, T)> {
     let plain = |name: &str| name.replace('_', "").to_lowercase();
     if let Some(&entry) = table.iter().find(|(name, _)| plain(name) == plain(word)) {
         return Some(entry);
@@ -49,7 +49,7 @@ pub(super) fn nearest<T: Copy>(word: &str, table: &Table<T>) -> Option<(&'static
 }
 
 /// `` `a`, `b` or `c` ``.
-pub(super) fn list<T>(table: &Table<T>) -> String {
+pub(super) fn list<T>(table: &[(&str, T)]) -> String {
     let mut text = String::new();
     for (index, (name, _)) in table.iter().enumerate() {
         if index > 0 {

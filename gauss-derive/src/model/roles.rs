@@ -14,6 +14,18 @@ pub(super) const ROLES: &Table<Role> = &[
     ("center_of_buoyancy", Role::CenterOfBuoyancy),
 ];
 
+/// The roles in a system: its bodies are fields too.
+pub(super) const SYSTEM_ROLES: &Table<Role> = &[
+    ("mass", Role::Mass),
+    ("center_of_mass", Role::CenterOfMass),
+    ("inertia", Role::Inertia),
+    ("added_mass", Role::AddedMass),
+    ("gravity", Role::Gravity),
+    ("displaced_mass", Role::DisplacedMass),
+    ("center_of_buoyancy", Role::CenterOfBuoyancy),
+    ("body", Role::Body),
+];
+
 impl Role {
     /// The word in `#[gauss(word)]`.
     pub(super) fn word(self) -> &'static str {
@@ -25,6 +37,7 @@ impl Role {
             Role::Gravity => "gravity",
             Role::DisplacedMass => "displaced_mass",
             Role::CenterOfBuoyancy => "center_of_buoyancy",
+            Role::Body => "body",
         }
     }
 
@@ -34,7 +47,7 @@ impl Role {
             Role::Inertia => &[("spherical", Shape::Scalar), ("principal", Shape::Vector3), ("full", Shape::Matrix3)],
             Role::AddedMass => &[("diagonal", Shape::Vector6), ("full", Shape::Matrix6)],
             Role::Gravity => &[("vertical", Shape::Scalar), ("vector", Shape::Vector3)],
-            Role::Mass | Role::CenterOfMass | Role::DisplacedMass | Role::CenterOfBuoyancy => &[],
+            Role::Mass | Role::CenterOfMass | Role::DisplacedMass | Role::CenterOfBuoyancy | Role::Body => &[],
         }
     }
 
@@ -43,6 +56,7 @@ impl Role {
         match self {
             Role::Mass | Role::DisplacedMass => Some(Shape::Scalar),
             Role::CenterOfMass | Role::CenterOfBuoyancy => Some(Shape::Vector3),
+            Role::Body => Some(Shape::RigidBody),
             Role::Inertia | Role::AddedMass | Role::Gravity => None,
         }
     }
@@ -78,6 +92,7 @@ impl Role {
             Role::Gravity => "gravity is a magnitude along −k₃ or a vector in observer axes",
             Role::DisplacedMass => "the mass of the displaced fluid is one number",
             Role::CenterOfBuoyancy => "the centre of buoyancy is a point, in body axes from O",
+            Role::Body => "a body of a system has mass, centre of mass and inertia together",
         }
     }
 
@@ -91,6 +106,7 @@ impl Role {
             Role::Gravity => ("g", Shape::Scalar),
             Role::DisplacedMass => ("displaced", Shape::Scalar),
             Role::CenterOfBuoyancy => ("buoyancy_center", Shape::Vector3),
+            Role::Body => ("name", Shape::RigidBody),
         };
         format!("#[gauss({})] {name}: {}", self.word(), shape.written(scalar))
     }
@@ -105,6 +121,7 @@ impl Shape {
             Shape::Matrix3 => format!("Matrix3<{scalar}>"),
             Shape::Vector6 => format!("Vector6<{scalar}>"),
             Shape::Matrix6 => format!("Matrix6<{scalar}>"),
+            Shape::RigidBody => format!("RigidBody<{scalar}>"),
             Shape::Other => "_".into(),
         }
     }

@@ -1,4 +1,4 @@
-//! The clauses of the struct: which equations are wanted.
+//! The clauses of the struct: which equations are wanted. Those of systems are read by `statements`.
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
 //! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`.
@@ -7,6 +7,7 @@ use super::attributes::{self, Clause, Place, Value, Word};
 use super::context::Context;
 use super::names::{self, Table};
 use super::roles::ROLES;
+use super::statements::{self, STATEMENTS, Statements};
 use super::{Chart, Motion, RotationChart};
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
@@ -14,27 +15,32 @@ use syn::parse::Parser;
 use syn::{Attribute, Path, PathSegment};
 
 /// What the clauses of the struct say.
-pub(super) struct Scene {
+pub(super) struct Clauses {
     pub(super) chart: Chart,
     pub(super) motion: Motion,
     pub(super) runtime: Path,
     /// A clause of a later version was written: then the roles that this version needs are not missed.
     pub(super) unsupported: bool,
+    /// The clauses that only systems have; `None` when there are none of them.
+    pub(super) statements: Option<Statements>,
+    /// `chart` and `motion` where they are written: clauses that only one body has.
+    pub(super) of_one_body: Vec<Ident>,
 }
 
-/// Clauses of the language that this version does not derive yet; they are refused on structs and on fields alike.
-pub(super) const UNSUPPORTED: &Table<()> = &[
-    ("coordinates", ()),
-    ("speeds", ()),
-    ("kinematics", ()),
-    ("body", ()),
-    ("particle", ()),
-    ("force", ()),
-    ("potential", ()),
-    ("damping", ()),
-    ("input", ()),
-    ("constraint", ()),
+/// Clauses of the language that this version does not derive yet, with what serves instead; they are refused on structs
+/// and on fields alike.
+pub(super) const UNSUPPORTED: &Table<&str> = &[
+    ("force", FORCES),
+    ("damping", FORCES),
+    ("input", FORCES),
+    (
+        "constraint",
+        "constraints are solved by the choice of `coordinates`, `speeds` and `kinematics`: there may be fewer speeds than \
+         coordinates",
+    ),
 ];
+
+const FORCES: &str = "its forces come from `potential` and from a field with the role `gravity`";
 
 /// Clauses of the struct.
 pub(super) const CLAUSES: &Table<Topic> =
@@ -86,16 +92,25 @@ enum Written {
 }
 
 /// Reads the attributes of the struct.
-pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Scene {
+pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Clauses {
+    let clauses = attributes::clauses(attributes, Place::Struct, context);
+    let is_system = clauses.iter().any(|clause| statements::meant(&clause.word()).is_some());
+    let mut statements = Statements::default();
+    let mut of_one_body = Vec::new();
     let mut charts = Vec::new();
     let mut motion = None;
     let mut runtime = None;
     let mut unsupported = false;
     let mut first: Vec<(Topic, String)> = Vec::new();
-    for clause in attributes::clauses(attributes, Place::Struct, context) {
+    for clause in clauses {
         let word = clause.word();
+        if STATEMENTS.iter().any(|(name, _)| *name == word) {
+            statements.read(&clause, context);
+            continue;
+        }
         let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) else {
-            unsupported |= refuse(&clause, &word, context);
+            unsupported |= refuse(&clause, &word, is_system, context);
+            statements.miss(&clause);
             continue;
         };
         if let Some((_, earlier)) = first.iter().find(|(other, _)| *other == topic) {
@@ -106,8 +121,13 @@ pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Scene {
         } else {
             first.push((topic, clause.written()));
         }
-        // Of clauses given twice the first counts, but mistakes in the second are found all the same.
+        if topic != Topic::Runtime {
+            of_one_body.push(clause.name.clone());
+        }
+        // Of clauses given twice the first counts, but mistakes in the second are found all the same. A system is told
+        // to do without the clauses of one body, whatever they say.
         match topic {
+            Topic::Chart | Topic::Motion if is_system => {}
             Topic::Chart => charts.push(read_chart(&clause, context)),
             Topic::Motion => motion = motion.or(Some(read_motion(&clause, context))),
             Topic::Runtime => runtime = runtime.or(Some(read_runtime(&clause, context))),
@@ -121,16 +141,18 @@ pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Scene {
         chart = chart.or(settled);
     }
     let chart = chart.unwrap_or(Chart::LeftInvariant);
-    Scene {
+    Clauses {
         chart,
         motion: motion.unwrap_or(Motion::Free),
         runtime: runtime.flatten().unwrap_or_else(default_runtime),
         unsupported,
+        statements: is_system.then_some(statements),
+        of_one_body,
     }
 }
 
 /// Notes why a clause is none of the struct's; true if it is one of a later version.
-fn refuse(clause: &Clause, word: &str, context: &mut Context) -> bool {
+fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) -> bool {
     let span = clause.name.span();
     if is_unsupported(word) {
         refuse_unsupported(&clause.name, context);
@@ -153,8 +175,12 @@ fn refuse(clause: &Clause, word: &str, context: &mut Context) -> bool {
         format!("`{word}` is a rotation chart; write `chart = jet({word})`")
     } else if let Some((name, _)) = names::nearest(word, CLAUSES) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
-    } else if let Some((name, ())) = names::nearest(word, UNSUPPORTED) {
+    } else if let Some((name, _)) = names::nearest(word, STATEMENTS) {
+        format!("unknown clause `{word}`; did you mean `{name}`?")
+    } else if let Some((name, _)) = names::nearest(word, UNSUPPORTED) {
         format!("unknown clause `{word}`; the nearest, `{name}`, is not supported by this version")
+    } else if is_system {
+        format!("unknown clause `{word}`; expected {} or `crate`", names::list(STATEMENTS).replace(" or ", ", "))
     } else {
         format!("unknown clause `{word}`; expected {}", names::list(CLAUSES))
     };
@@ -164,18 +190,13 @@ fn refuse(clause: &Clause, word: &str, context: &mut Context) -> bool {
 
 /// Whether the word names a clause of a later version.
 pub(super) fn is_unsupported(word: &str) -> bool {
-    UNSUPPORTED.iter().any(|(name, ())| *name == word)
+    UNSUPPORTED.iter().any(|(name, _)| *name == word)
 }
 
 /// Notes a clause of a later version.
 pub(super) fn refuse_unsupported(name: &Ident, context: &mut Context) {
-    context.error(
-        name.span(),
-        format!(
-            "`{name}` is not supported by this version; \
-             it derives one rigid body with a `chart` and a `motion`, and roles for its fields: remove `{name}`"
-        ),
-    );
+    let instead = UNSUPPORTED.iter().find(|(word, _)| name.unraw() == word).map_or("", |(_, instead)| instead);
+    context.error(name.span(), format!("`{name}` is not supported by this version; {instead}: remove `{name}`"));
 }
 
 fn read_chart(clause: &Clause, context: &mut Context) -> Option<Written> {
@@ -304,7 +325,7 @@ fn read_motion(clause: &Clause, context: &mut Context) -> Option<Motion> {
 
 fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {
     let tokens = match &clause.value {
-        Value::Equals(tokens) => tokens,
+        Value::Equals(tokens) => attributes::flat(tokens.iter().cloned().collect()),
         Value::Malformed => return None,
         Value::Absent | Value::Brackets(_) => {
             context.error(clause.name.span(), "`crate` needs the path to the runtime; write `crate = ::gauss_runtime`");
@@ -324,7 +345,7 @@ fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {
             };
             context.error(
                 attributes::start(first),
-                format!("`crate` takes the path to the runtime, found `{}`; {remedy}", attributes::written(tokens)),
+                format!("`crate` takes the path to the runtime, found `{}`; {remedy}", attributes::written(&tokens)),
             );
             None
         }

@@ -127,6 +127,7 @@ fn read_path(path: &Path, generics: &Generics) -> Reading {
         "Matrix3" => Kind::Known(Shape::Matrix3),
         "Vector6" => Kind::Known(Shape::Vector6),
         "Matrix6" => Kind::Known(Shape::Matrix6),
+        "RigidBody" => Kind::Known(Shape::RigidBody),
         "SVector" => sized(&dimensions(last), 1),
         "SMatrix" => sized(&dimensions(last), 2),
         name if FOREIGN.contains(&name) => Kind::Foreign,

@@ -4,6 +4,7 @@ mod accepted;
 mod clauses;
 mod items;
 mod roles;
+mod systems;
 
 use super::Model;
 use syn::DeriveInput;

@@ -4,51 +4,30 @@ use super::context::Context;
 use super::fields::{Claim, Field, Reader};
 use super::names;
 use super::roles::ROLES;
-use super::scene::Scene;
+use super::scene::Clauses;
 use super::shapes::{Element, Kind};
 use super::{Model, Parameter, Role, Scalar, Shape};
 use quote::ToTokens;
 use syn::{DeriveInput, GenericParam};
 
 /// The checked model; `None` when something that it needs is missing, which is then noted.
-pub(super) fn model(input: &DeriveInput, scene: &Scene, reader: Reader<'_>, context: &mut Context) -> Option<Model> {
+pub(super) fn model(input: &DeriveInput, scene: &Clauses, reader: Reader<'_>, context: &mut Context) -> Option<Model> {
     let scalar = common_scalar(&reader.fields);
     let name = scalar_name(scalar.as_ref(), input);
-    let mut parameters = Vec::new();
-    let mut owners: Vec<(Role, usize)> = Vec::new();
-    for (index, field) in reader.fields.iter().enumerate() {
-        let shape = match &field.role {
-            Some(claim) => {
-                check_duplicate(field, claim, &owners, &reader.fields, context);
-                if !owners.iter().any(|(role, _)| *role == claim.role) {
-                    owners.push((claim.role, index));
-                }
-                check_scalar(field, scalar.as_ref(), &reader.fields, context);
-                role_shape(field, claim, &name, context)
-            }
-            None => plain_shape(field, scalar.as_ref()),
-        };
-        parameters.push(Parameter {
-            ident: field.ident.clone(),
-            role: field.role.as_ref().map(|claim| claim.role),
-            shape,
-            documentation: field.documentation.clone(),
-        });
-    }
+    let (shapes, owners) = shapes(&reader, scalar.as_ref(), &name, "body", context);
+    let parameters = reader.fields.iter().zip(shapes).map(|(field, shape)| Parameter {
+        ident: field.ident.clone(),
+        role: field.role.as_ref().map(|claim| claim.role),
+        shape,
+        documentation: field.documentation.clone(),
+    });
+    let parameters = parameters.collect();
     let index = |role: Role| owners.iter().find(|(owner, _)| *owner == role).map(|&(_, index)| index);
     let known = |role: Role| index(role).is_some() || reader.meant.contains(&role);
     if !scene.unsupported && !reader.unsupported {
         for role in [Role::Mass, Role::Inertia] {
             if !known(role) {
-                context.error(
-                    input.ident.span(),
-                    format!(
-                        "`{}` has no field with the role `{}`, which every body needs; add `{}`",
-                        input.ident,
-                        role.word(),
-                        role.example(&name)
-                    ),
-                );
+                missing_role(input, role, &name, context);
             }
         }
     }
@@ -78,8 +57,49 @@ pub(super) fn model(input: &DeriveInput, scene: &Scene, reader: Reader<'_>, cont
     })
 }
 
-/// The scalar that most fields with roles show, the first of equally frequent ones: the others are the odd ones.
-fn common_scalar(fields: &[Field<'_>]) -> Option<Scalar> {
+/// The shape of every field, and the first field of every role. `whole` is what one scalar serves.
+pub(super) fn shapes(
+    reader: &Reader<'_>,
+    scalar: Option<&Scalar>,
+    name: &str,
+    whole: &str,
+    context: &mut Context,
+) -> (Vec<Shape>, Vec<(Role, usize)>) {
+    let mut shapes = Vec::new();
+    let mut owners: Vec<(Role, usize)> = Vec::new();
+    for (index, field) in reader.fields.iter().enumerate() {
+        if let Some(claim) = &field.role {
+            check_duplicate(field, claim, &owners, &reader.fields, context);
+            if !owners.iter().any(|(role, _)| *role == claim.role) {
+                owners.push((claim.role, index));
+            }
+        }
+        if field.computed {
+            check_scalar(field, scalar, &reader.fields, whole, context);
+        }
+        shapes.push(match &field.role {
+            Some(claim) => role_shape(field, claim, name, context),
+            None => plain_shape(field, scalar),
+        });
+    }
+    (shapes, owners)
+}
+
+/// Notes that the body lacks a role.
+pub(super) fn missing_role(input: &DeriveInput, role: Role, scalar: &str, context: &mut Context) {
+    context.error(
+        input.ident.span(),
+        format!(
+            "`{}` has no field with the role `{}`, which every body needs; add `{}`",
+            input.ident,
+            role.word(),
+            role.example(scalar)
+        ),
+    );
+}
+
+/// The scalar that most computed fields show, the first of equally frequent ones: the others are the odd ones.
+pub(super) fn common_scalar(fields: &[Field<'_>]) -> Option<Scalar> {
     let mut counts: Vec<(&Scalar, usize)> = Vec::new();
     for (_, scalar) in shown(fields) {
         match counts.iter_mut().find(|(other, _)| *other == scalar) {
@@ -91,16 +111,16 @@ fn common_scalar(fields: &[Field<'_>]) -> Option<Scalar> {
     counts.into_iter().find(|&(_, count)| count == most).map(|(scalar, _)| scalar.clone())
 }
 
-/// The fields with roles that show their scalar.
+/// The computed fields that show their scalar.
 fn shown<'a>(fields: &'a [Field<'_>]) -> impl Iterator<Item = (&'a Field<'a>, &'a Scalar)> {
-    fields.iter().filter(|field| field.role.is_some()).filter_map(|field| match &field.reading.element {
+    fields.iter().filter(|field| field.computed).filter_map(|field| match &field.reading.element {
         Element::Shown(scalar, _) => Some((field, scalar)),
         Element::Hidden | Element::Wrong(..) => None,
     })
 }
 
 /// The scalar in types that messages propose.
-fn scalar_name(scalar: Option<&Scalar>, input: &DeriveInput) -> String {
+pub(super) fn scalar_name(scalar: Option<&Scalar>, input: &DeriveInput) -> String {
     let parameter = input.generics.params.iter().find_map(|parameter| match parameter {
         GenericParam::Type(parameter) => Some(parameter.ident.to_string()),
         GenericParam::Lifetime(_) | GenericParam::Const(_) => None,
@@ -108,7 +128,7 @@ fn scalar_name(scalar: Option<&Scalar>, input: &DeriveInput) -> String {
     scalar.map(Scalar::to_string).or(parameter).unwrap_or_else(|| "f64".into())
 }
 
-/// A role belongs to one field.
+/// A role belongs to one field, but for that of being a body.
 fn check_duplicate(
     field: &Field<'_>,
     claim: &Claim,
@@ -116,6 +136,9 @@ fn check_duplicate(
     fields: &[Field<'_>],
     context: &mut Context,
 ) {
+    if claim.role == Role::Body {
+        return;
+    }
     let first = owners.iter().find(|(role, _)| *role == claim.role).and_then(|&(_, index)| fields.get(index));
     if let Some(first) = first {
         context.error(
@@ -130,8 +153,8 @@ fn check_duplicate(
     }
 }
 
-/// One scalar serves all roles, and it is a floating-point type or a type parameter.
-fn check_scalar(field: &Field<'_>, common: Option<&Scalar>, fields: &[Field<'_>], context: &mut Context) {
+/// One scalar serves all fields that are computed with, and it is a floating-point type or a type parameter.
+fn check_scalar(field: &Field<'_>, common: Option<&Scalar>, fields: &[Field<'_>], whole: &str, context: &mut Context) {
     match (&field.reading.element, common) {
         (Element::Wrong(found, span), _) => context.error(
             *span,
@@ -147,7 +170,7 @@ fn check_scalar(field: &Field<'_>, common: Option<&Scalar>, fields: &[Field<'_>]
                 *span,
                 format!(
                     "the scalar of `{}` is `{scalar}`, but that of `{other}` is `{common}`; \
-                     one scalar serves the whole body: write `{common}`",
+                     one scalar serves the whole {whole}: write `{common}`",
                     field.ident
                 ),
             );
@@ -235,7 +258,7 @@ fn plain_shape(field: &Field<'_>, common: Option<&Scalar>) -> Shape {
 }
 
 /// Roles that mean nothing without another.
-fn check_companion(field: &Field<'_>, known: impl Fn(Role) -> bool, scalar: &str, context: &mut Context) {
+pub(super) fn check_companion(field: &Field<'_>, known: impl Fn(Role) -> bool, scalar: &str, context: &mut Context) {
     let Some(claim) = &field.role else { return };
     let (needed, why) = match claim.role {
         Role::DisplacedMass => (Role::Gravity, "buoyancy is the displaced mass times gravity"),

@@ -168,7 +168,11 @@ fn struct_clauses() {
     check_body("#[gauss(mass)]", &[("mass", "`mass` is the role of a field; write `#[gauss(mass)]` on that field")]);
     check_body(
         "#[gauss(coordinate(x))]",
-        &[("coordinate", "unknown clause `coordinate`; the nearest, `coordinates`, is not supported by this version")],
+        &[("coordinate", "unknown clause `coordinate`; did you mean `coordinates`?")],
+    );
+    check_body(
+        "#[gauss(dampng(x))]",
+        &[("dampng", "unknown clause `dampng`; the nearest, `damping`, is not supported by this version")],
     );
 }
 
@@ -208,28 +212,25 @@ fn attribute_forms() {
 #[test]
 fn later_versions() {
     let message = |word: &str| {
-        format!(
-            "`{word}` is not supported by this version; \
-             it derives one rigid body with a `chart` and a `motion`, and roles for its fields: remove `{word}`"
-        )
+        let instead = match word {
+            "constraint" => {
+                "constraints are solved by the choice of `coordinates`, `speeds` and `kinematics`: \
+                 there may be fewer speeds than coordinates"
+            }
+            _ => "its forces come from `potential` and from a field with the role `gravity`",
+        };
+        format!("`{word}` is not supported by this version; {instead}: remove `{word}`")
     };
-    for word in [
-        "coordinates",
-        "speeds",
-        "kinematics",
-        "body",
-        "particle",
-        "force",
-        "potential",
-        "damping",
-        "input",
-        "constraint",
-    ] {
+    for word in ["force", "damping", "input", "constraint"] {
         check(&format!("#[gauss({word}(a, b = c))] struct Scene {{ k: f64 }}"), &[(word, &message(word))]);
+        check(
+            &format!("#[gauss(coordinates(x), {word}(a, b = c))] struct Scene {{ k: f64 }}"),
+            &[(word, &message(word))],
+        );
     }
-    check("struct Scene { #[gauss(body)] first: RigidBody<f64> }", &[("body", &message("body"))]);
+    check("struct Scene { #[gauss(force)] first: f64 }", &[("force", &message("force"))]);
     check_body(
-        "#[gauss(potential = k * x, chart = hybird)]",
-        &[("potential", &message("potential")), ("hybird", "unknown chart `hybird`; did you mean `hybrid`?")],
+        "#[gauss(damping = k * x, chart = hybird)]",
+        &[("damping", &message("damping")), ("hybird", "unknown chart `hybird`; did you mean `hybrid`?")],
     );
 }

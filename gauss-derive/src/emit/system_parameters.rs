@@ -1,0 +1,159 @@
+//! `kernel()` of a system: role fields, rigid bodies and plain parameters read, checked, and turned into constants.
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+use syn::ext::IdentExt;
+
+use crate::algebra::{Expr, Map};
+use crate::kernel::Program;
+use crate::mechanics::{Quantity, System};
+use crate::model::{ExpressionKind, Role, Shape, SystemModel};
+use crate::translate::{Part, Source};
+
+use super::kernel::Derived;
+use super::parameters::constants;
+use super::program::statements;
+
+/// The local that holds a field, or one part of a rigid body.
+fn local(field: usize, part: &str) -> Ident {
+    format_ident!("__p{}{}", field, part, span = Span::mixed_site())
+}
+
+/// The word of a part of a rigid body: the field of `RigidBody` and the end of the local.
+fn word(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Mass => "mass",
+        Quantity::CenterOfMass => "center_of_mass",
+        _ => "inertia",
+    }
+}
+
+fn element(source: &Source<'_>) -> TokenStream {
+    let plain = local(source.field, "");
+    match source.part {
+        Part::Scalar => quote!(#plain),
+        Part::Component(i) => quote!(#plain[#i]),
+        Part::Entry(i, j) => quote!(#plain[#i][#j]),
+        Part::Body(quantity, i, j) => {
+            let name = local(source.field, word(quantity));
+            match quantity {
+                Quantity::Mass => quote!(#name),
+                Quantity::CenterOfMass => quote!(#name[#i]),
+                _ => quote!(#name[#i][#j]),
+            }
+        }
+    }
+}
+
+/// The body of `kernel()`.
+pub fn system_kernel_body(
+    derived: &Derived<'_, '_>,
+    model: &SystemModel,
+    system: &System<'_>,
+    sources: &[Source<'_>],
+) -> TokenStream {
+    let private = derived.private();
+    let ty = derived.scalar().ty();
+    let mut read = TokenStream::new();
+    let mut checks = TokenStream::new();
+    for (k, field) in model.fields.iter().enumerate() {
+        if !sources.iter().any(|s| s.field == k) {
+            continue;
+        }
+        let (ident, name, said) = (&field.ident, local(k, ""), field.ident.unraw().to_string());
+        match field.shape {
+            Shape::Scalar => read.extend(quote!(let #name = self.#ident;)),
+            Shape::Vector3 | Shape::Vector6 => read.extend(quote!(let #name = #private::components(&self.#ident);)),
+            Shape::Matrix3 | Shape::Matrix6 => read.extend(quote!(let #name = #private::entries(&self.#ident);)),
+            Shape::RigidBody => {
+                let [mass, center, inertia] = ["mass", "center_of_mass", "inertia"].map(|part| local(k, part));
+                read.extend(quote! {
+                    let #mass = self.#ident.mass;
+                    let #center = #private::components(&self.#ident.center_of_mass);
+                    let #inertia = #private::entries(&self.#ident.inertia);
+                });
+                let [said_mass, said_center, said_inertia] =
+                    ["mass", "center_of_mass", "inertia"].map(|part| format!("{said}.{part}"));
+                checks.extend(quote! {
+                    __check.mass(#said_mass, #mass);
+                    __check.finite(#said_center, &#center);
+                    __check.inertia(#said_inertia, &#inertia);
+                    __check.central_inertia(#said_inertia, #mass, #center, &#inertia);
+                });
+            }
+            Shape::Other => {}
+        }
+        checks.extend(match (field.role, field.shape) {
+            (_, Shape::RigidBody | Shape::Other) => TokenStream::new(),
+            (Some(Role::Mass), _) => quote!(__check.mass(#said, #name);),
+            (Some(Role::DisplacedMass), _) => quote!(__check.non_negative(#said, #name);),
+            (Some(Role::Inertia), shape) => {
+                let rows = inertia_rows(&ty, derived, shape, &name);
+                let about_center = central_inertia(model, &said);
+                quote!({
+                    let __inertia = #rows;
+                    __check.inertia(#said, &__inertia);
+                    #about_center
+                })
+            }
+            (Some(Role::AddedMass), Shape::Matrix6) => quote!(__check.symmetric(#said, &#name);),
+            (_, Shape::Scalar) => quote!(__check.finite(#said, &[#name]);),
+            (_, Shape::Vector3 | Shape::Vector6) => quote!(__check.finite(#said, &#name);),
+            _ => TokenStream::new(),
+        });
+    }
+    let symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
+    for (clause, particle) in model.particles.iter().zip(&system.scene.particles) {
+        let said = match &clause.mass.kind {
+            ExpressionKind::Name(name) => name.unraw().to_string(),
+            _ => "particle(mass = …)".to_owned(),
+        };
+        let (compute, mass) = evaluate(derived, &symbols, particle.mass);
+        checks.extend(quote!({ #compute __check.mass(#said, #mass); }));
+    }
+    // The first field that the equations read speaks for all of them.
+    let said = sources.first().map(|s| model.fields[s.field].ident.unraw().to_string()).unwrap_or_default();
+    let kernel = constants(derived, &symbols, &said);
+    quote! {
+        #read
+        let mut __check = #private::ParameterCheck::<#ty>::new();
+        #checks
+        __check.finish()?;
+        #kernel
+    }
+}
+
+fn evaluate(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, e: Expr<'_>) -> (TokenStream, TokenStream) {
+    let (compute, outputs) = statements(&Program::lower(&[e]), symbols, &derived.scalar());
+    (compute, quote!(#(#outputs)*))
+}
+
+/// I_O as a matrix, as it is written.
+fn inertia_rows(ty: &TokenStream, derived: &Derived<'_, '_>, shape: Shape, name: &Ident) -> TokenStream {
+    let real = derived.scalar().real;
+    let zero = quote!(<#ty as #real>::zero());
+    let rows = (0..3usize).map(|i| {
+        let row = (0..3usize).map(|j| match shape {
+            Shape::Scalar if i == j => quote!(#name),
+            Shape::Vector3 if i == j => quote!(#name[#i]),
+            Shape::Matrix3 => quote!(#name[#i][#j]),
+            _ => zero.clone(),
+        });
+        quote!([#(#row),*])
+    });
+    quote!([#(#rows),*])
+}
+
+/// What is left about the centre of mass must be an inertia too, unless O is held at Ω: only m·c and I_O enter then, and m
+/// by itself says nothing.
+fn central_inertia(model: &SystemModel, said: &str) -> TokenStream {
+    let field = |role: Role| model.fields.iter().position(|f| f.role == Some(role));
+    let moves = model.bodies.iter().any(|body| body.position.is_some());
+    match (field(Role::Mass), field(Role::CenterOfMass)) {
+        (Some(mass), Some(center)) if moves => {
+            let (mass, center) = (local(mass, ""), local(center, ""));
+            quote!(__check.central_inertia(#said, #mass, #center, &__inertia);)
+        }
+        _ => TokenStream::new(),
+    }
+}

@@ -1,0 +1,116 @@
+//! Expressions: ordinary Rust arithmetic on scalars, vectors and rotations, as a tree with spans.
+//!
+//! `arithmetic` reads them; `kinds` checks their names and kinds.
+
+use proc_macro2::Span;
+use syn::Ident;
+use syn::ext::IdentExt;
+
+/// A value that the equations depend on, as the user wrote it.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    /// What it is.
+    pub kind: ExpressionKind,
+    /// Its head: the name, the literal, the operator, the function, or the opening bracket of a vector.
+    pub span: Span,
+}
+
+/// The forms of expressions.
+#[derive(Clone, Debug)]
+pub enum ExpressionKind {
+    /// A literal, exactly: a fraction in lowest terms with a positive denominator.
+    Number {
+        /// Above the line.
+        numerator: i64,
+        /// Below the line.
+        denominator: i64,
+    },
+    /// A coordinate, a speed, a field that is a scalar or a vector, or `t`.
+    Name(Ident),
+    /// `a.x`, `a[0]`: component 0, 1 or 2 of a vector.
+    Component(Box<Expression>, usize),
+    /// `-a`.
+    Negate(Box<Expression>),
+    /// `a + b` and the like.
+    Binary(BinaryOperator, Box<Expression>, Box<Expression>),
+    /// `powi(a, n)`, `a.powi(n)`.
+    Power(Box<Expression>, i32),
+    /// `sin(a)`, `a.sin()`, `dot(a, b)`: the number of arguments is right.
+    Call(FunctionName, Vec<Expression>),
+    /// `[a, b, c]`.
+    Vector([Box<Expression>; 3]),
+}
+
+/// Arithmetic between two expressions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BinaryOperator {
+    /// `+`: two scalars or two vectors.
+    Add,
+    /// `-`: two scalars or two vectors.
+    Subtract,
+    /// `*`: scalars, a scalar and a vector, a rotation and a vector, two rotations.
+    Multiply,
+    /// `/`: a scalar or a vector by a scalar.
+    Divide,
+}
+
+/// Functions of expressions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FunctionName {
+    /// Sine of an angle in radians.
+    Sin,
+    /// Cosine of an angle in radians.
+    Cos,
+    /// Tangent of an angle in radians.
+    Tan,
+    /// Exponential.
+    Exp,
+    /// Natural logarithm.
+    Ln,
+    /// Square root.
+    Sqrt,
+    /// Turn about the first axis.
+    RotationX,
+    /// Turn about the second axis.
+    RotationY,
+    /// Turn about the third axis.
+    RotationZ,
+    /// Scalar product.
+    Dot,
+    /// Vector product.
+    Cross,
+}
+
+impl Expression {
+    /// Calls `visit` with this expression and every part of it.
+    pub fn walk(&self, visit: &mut dyn FnMut(&Expression)) {
+        visit(self);
+        match &self.kind {
+            ExpressionKind::Number { .. } | ExpressionKind::Name(_) => {}
+            ExpressionKind::Component(inner, _) | ExpressionKind::Negate(inner) | ExpressionKind::Power(inner, _) => {
+                inner.walk(visit);
+            }
+            ExpressionKind::Binary(_, left, right) => {
+                left.walk(visit);
+                right.walk(visit);
+            }
+            ExpressionKind::Call(_, arguments) => arguments.iter().for_each(|argument| argument.walk(visit)),
+            ExpressionKind::Vector(components) => components.iter().for_each(|component| component.walk(visit)),
+        }
+    }
+
+    /// Whether some part of it is the name `word`.
+    pub fn names(&self, word: &str) -> bool {
+        let mut found = false;
+        self.walk(&mut |part| found |= matches!(&part.kind, ExpressionKind::Name(name) if name.unraw() == word));
+        found
+    }
+
+    pub(super) fn is_zero(&self) -> bool {
+        match &self.kind {
+            ExpressionKind::Number { numerator, .. } => *numerator == 0,
+            ExpressionKind::Negate(inner) => inner.is_zero(),
+            _ => false,
+        }
+    }
+}

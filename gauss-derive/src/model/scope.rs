@@ -1,0 +1,112 @@
+//! What the names in expressions mean.
+
+use super::functions::FUNCTIONS;
+use super::names;
+use proc_macro2::Ident;
+use syn::ext::IdentExt;
+
+/// The name of time.
+pub(super) const TIME: &str = "t";
+
+/// What a name stands for.
+#[derive(Clone, PartialEq, Eq)]
+pub(super) enum Meaning {
+    Time,
+    Coordinate,
+    Speed,
+    /// A field that is a number.
+    Scalar,
+    /// A field that is a vector of three.
+    Vector,
+    /// A field that expressions cannot use; the message says why.
+    Unusable(String),
+}
+
+/// The names that expressions may use.
+pub(super) struct Scope {
+    names: Vec<(String, Meaning)>,
+    /// Every name could be read; if not, an unknown name may well be one of those that could not.
+    complete: bool,
+}
+
+impl Scope {
+    pub(super) fn new(complete: bool) -> Scope {
+        Scope { names: vec![(TIME.into(), Meaning::Time)], complete }
+    }
+
+    /// Adds a name; one with two meanings keeps both.
+    pub(super) fn add(&mut self, name: &Ident, meaning: Meaning) {
+        let entry = (name.unraw().to_string(), meaning);
+        if !self.names.contains(&entry) {
+            self.names.push(entry);
+        }
+    }
+
+    /// The meaning of `name`.
+    ///
+    /// # Errors
+    /// What to say of an unknown name; `None` where that is said elsewhere.
+    pub(super) fn find(&self, name: &Ident) -> Result<&Meaning, Option<String>> {
+        let word = name.unraw().to_string();
+        let mut meanings = self.names.iter().filter(|(known, _)| *known == word).map(|(_, meaning)| meaning);
+        if let Some(meaning) = meanings.next() {
+            // What a name with two meanings was meant to be cannot be told; that it has two is noted elsewhere.
+            return if meanings.next().is_some() { Err(None) } else { Ok(meaning) };
+        }
+        if let Some((_, function)) = FUNCTIONS.iter().find(|(function, _)| *function == word) {
+            return Err(Some(format!("`{word}` is a function; write `{}`", function.example())));
+        }
+        if !self.complete {
+            return Err(None);
+        }
+        let remedy = match self.nearest(&word) {
+            Some((near, meaning)) => format!("did you mean {}`{near}`?", meaning.noun()),
+            None => format!("expected {}", self.list()),
+        };
+        Err(Some(format!("unknown name `{word}`; {remedy}")))
+    }
+
+    /// The nearest usable name. A single letter is near to nothing but its other case: any two letters are one edit
+    /// apart.
+    fn nearest(&self, word: &str) -> Option<(&str, &Meaning)> {
+        let usable = self.names.iter().filter(|(_, meaning)| !matches!(meaning, Meaning::Unusable(_)));
+        let single = word.chars().count() == 1;
+        let table: Vec<(&str, &Meaning)> = usable
+            .filter(|(name, _)| !single || name.eq_ignore_ascii_case(word))
+            .map(|(name, meaning)| (name.as_str(), meaning))
+            .collect();
+        names::nearest(word, &table)
+    }
+
+    /// All usable names, by what they are.
+    fn list(&self) -> String {
+        let mut parts = Vec::new();
+        for noun in ["the coordinate ", "the speed ", "the field "] {
+            let table: Vec<(&str, ())> = self
+                .names
+                .iter()
+                .filter(|(_, meaning)| meaning.noun() == noun)
+                .map(|(name, _)| (name.as_str(), ()))
+                .collect();
+            if !table.is_empty() {
+                parts.push(format!("a {}({})", &noun[4..], names::list(&table)));
+            }
+        }
+        parts.push(format!("`{TIME}`"));
+        match parts.split_last() {
+            Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+            _ => parts.join(", "),
+        }
+    }
+}
+
+impl Meaning {
+    fn noun(&self) -> &'static str {
+        match self {
+            Meaning::Time | Meaning::Unusable(_) => "",
+            Meaning::Coordinate => "the coordinate ",
+            Meaning::Speed => "the speed ",
+            Meaning::Scalar | Meaning::Vector => "the field ",
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Forms outside the language, and kinds that do not fit.
+
+use super::super::check;
+use super::{check_potential, particle};
+use crate::model::arithmetic::ALLOWED;
+
+#[test]
+fn forms() {
+    let outside = |form: &str| format!("{form} is outside the language of expressions; {ALLOWED}");
+    check_potential("if x { 1 } else { 2 }", &[("if", &outside("`if`"))]);
+    check_potential("x == y", &[("==", &outside("`==`"))]);
+    check_potential("x % y", &[("%", &outside("`%`"))]);
+    check_potential("x..y", &[("..", &outside("a range"))]);
+    check_potential("x as f64", &[("as", &outside("`as`"))]);
+    check_potential("(|z| z)(x)", &[("(", &outside("a call of anything but a function"))]);
+    check_potential("k * |z| z", &[("|", &outside("a closure"))]);
+    check_potential("f64::consts::PI", &[("f64", &outside("a path"))]);
+    check_potential("m!(x)", &[("m", &outside("a macro"))]);
+    check_potential("(x, y)", &[("(", &outside("a tuple"))]);
+    check_potential("!x", &[("!", &outside("`!`"))]);
+    check_potential("&x", &[("&", &outside("a reference"))]);
+    check_potential("x ^ 2", &[("^", "`^` is no power; write `powi(a, 2)`")]);
+    check_potential(
+        "x ** 2",
+        &[("*", "nothing stands before this `*`; a product is written `a * b`, a power `powi(a, 2)`")],
+    );
+    check_potential("self.k * x", &[("self", "expressions name fields without `self`; write `k`")]);
+    check_potential("\"x\"", &[("\"x\"", &format!("`\"x\"` is no number; {ALLOWED}"))]);
+    check_potential("x +", &[("+", "the expression of `potential` breaks off here; write its other part")]);
+    check_potential("1 x", &[("x", &format!("`potential` is no expression: unexpected token; {ALLOWED}"))]);
+    // All of them, not only the first.
+    check_potential("x == if y { 1 } else { 2 }", &[("==", &outside("`==`")), ("if", &outside("`if`"))]);
+}
+
+#[test]
+fn numbers() {
+    let exact = |number: &str| {
+        format!(
+            "`{number}` is no fraction of two 64-bit integers, and numbers in expressions are exact; \
+             write fewer digits, or make it a field of the struct"
+        )
+    };
+    check_potential("9223372036854775808 * x", &[("9223372036854775808", &exact("9223372036854775808"))]);
+    check_potential("1e-30", &[("1e-30", &exact("1e-30"))]);
+    check_potential("2u8", &[("2u8", "`2u8` counts in `u8`, but expressions are real numbers; write `2`")]);
+    check_potential("x / 0", &[("0", "division by zero")]);
+    check_potential("x / 0.0 + 0.powi(-1)", &[("0.0", "division by zero"), ("0", "division by zero")]);
+}
+
+#[test]
+fn functions() {
+    const FUNCTIONS: &str = "`sin`, `cos`, `tan`, `exp`, `ln`, `sqrt`, `powi`, `dot`, `cross`, `rotation_x`, \
+        `rotation_y` or `rotation_z`";
+    check_potential("sine(x)", &[("sine", "unknown function `sine`; did you mean `sin`?")]);
+    check_potential("x.powf(2)", &[("powf", "unknown function `powf`; did you mean `powi`?")]);
+    check_potential("erf(x)", &[("erf", &format!("unknown function `erf`; expected {FUNCTIONS}"))]);
+    check_potential("sin(x, y)", &[("sin", "`sin` takes one argument, found 2; write `sin(x)`")]);
+    check_potential("a.dot()", &[("dot", "`dot` takes two arguments, found 1; write `dot(a, b)`")]);
+    let exponent = "the exponent of `powi` is an integer literal, such as 2 or -1; \
+        for other powers write `sqrt`, or `exp` and `ln`";
+    check_potential("powi(x, 0.5)", &[("0.5", exponent)]);
+    check_potential("x.powi(y)", &[("y", exponent)]);
+    check_potential("sin * x", &[("sin", "`sin` is a function; write `sin(x)`")]);
+    check_potential("x.sin", &[("sin", "the function `sin` needs brackets; write `.sin()`")]);
+    check_potential("f64::sin(x)", &[("f64::sin", "functions are called by their own names; write `sin(…)`")]);
+    check_potential(
+        "Vector3::new(x, y, 0).x",
+        &[("Vector3::new", "vectors are written in square brackets; write `[x , y , 0]`")],
+    );
+}
+
+#[test]
+fn kinds() {
+    check_potential("x + a", &[("+", "`+` joins two scalars or two vectors, found a scalar and a vector")]);
+    check_potential("a * b", &[("*", "two vectors have two products; write `dot(a, b)` or `cross(a, b)`")]);
+    check_potential("x / a", &[("/", "`/` divides a scalar or a vector by a scalar, found a scalar and a vector")]);
+    check_potential(
+        "(a * rotation_x(y)).x",
+        &[("*", "a rotation stands before the vector that it turns; write `rotation * vector`")],
+    );
+    check_potential(
+        "(2 * rotation_x(y) * a).x",
+        &[("*", "`*` turns a vector or another rotation, found a scalar and a rotation")],
+    );
+    check_potential(
+        "(-rotation_x(y) * a).x",
+        &[("-", "a rotation has no negative; the inverse of `rotation_z(a)` is `rotation_z(-a)`")],
+    );
+    check_potential("sin(a)", &[("a", "`sin` takes a scalar, found a vector")]);
+    check_potential("dot(a, x)", &[("x", "`dot` takes a vector, found a scalar")]);
+    check_potential("a.powi(2)", &[("a", "`powi` takes a scalar, found a vector")]);
+    check_potential("x.y", &[("y", "components are those of a vector, found a scalar")]);
+    check_potential("a.w", &[("w", "there is no `.w`; the components of a vector are `.x`, `.y` and `.z`")]);
+    check_potential("a[3]", &[("3", "a vector has the components 0, 1 and 2; write `[0]`, `[1]` or `[2]`")]);
+    check_potential("[x, a, 0].x", &[("a", "each component of a vector is a scalar, found a vector")]);
+    check_potential("[x, y].x", &[("[", "a vector has three components, found 2; in a plane write `[x, y, 0]`")]);
+    check_potential(
+        "a",
+        &[("a", "a potential is a scalar, found a vector; write one number, such as `k * x * x / 2`")],
+    );
+    check(
+        "#[gauss(coordinates(x), speeds(v), kinematics(x = [v, v, v]), \
+         particle(mass = a, position = x), body(rotation = x))] \
+         struct Scene { a: Vector3<f64>, #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }",
+        &[
+            ("[", "the rate of a coordinate is a scalar, found a vector; write one number, such as `v * cos(theta)`"),
+            ("x", "expected a rotation, found a scalar; write `rotation_z(theta)`, or a product of such turns"),
+            ("a", "the mass of a particle is a scalar, found a vector; write one number or the name of a field"),
+            ("x", "a position is a vector, found a scalar; write `[x, y, z]`"),
+        ],
+    );
+}
+
+#[test]
+fn names() {
+    check_potential("k * yy", &[("yy", "unknown name `yy`; did you mean the coordinate `y`?")]);
+    check_potential("K * x", &[("K", "unknown name `K`; did you mean the field `k`?")]);
+    // Of single letters none is nearer than another.
+    check_potential(
+        "k * q",
+        &[("q", "unknown name `q`; expected a coordinate (`x` or `y`), a field (`m`, `k`, `a` or `b`) or `t`")],
+    );
+    check_potential(
+        "n * x",
+        &[(
+            "n",
+            "the type of the field `n` is `usize`, and expressions name scalars and vectors only: \
+             `f64` or `Vector3<f64>`",
+        )],
+    );
+    check_potential(
+        "j * x",
+        &[(
+            "j",
+            "the type of the field `j` is `Matrix3`, and expressions name scalars and vectors only: \
+             `f64` or `Vector3<f64>`",
+        )],
+    );
+    check_potential(
+        "s * x",
+        &[("s", "what the field `s` is cannot be read from `Stiffness`; write `f64` or `Vector3<f64>` for its type")],
+    );
+    check(
+        &particle("potential = k * x", "k: f32"),
+        &[(
+            "f32",
+            "the scalar of `k` is `f32`, but that of `m` is `f64`; one scalar serves the whole system: write `f64`",
+        )],
+    );
+}

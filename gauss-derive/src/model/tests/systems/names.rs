@@ -1,0 +1,204 @@
+//! Coordinates, speeds and kinematics; clauses that contradict a system or are written wrongly.
+
+use super::super::check;
+use super::particle;
+
+/// A particle on a line, with other clauses of motion.
+fn moving(clauses: &str) -> String {
+    format!("#[gauss({clauses}, particle(mass = m, position = [x, y, 0]))] struct Scene {{ m: f64 }}")
+}
+
+#[test]
+fn declarations() {
+    check(&moving("coordinates(x, y, x)"), &[("x", "the coordinate `x` is declared twice; remove one of the two")]);
+    check(
+        &moving("coordinates(x, y, m, t, sin)"),
+        &[
+            ("m", "`m` names a field and a coordinate; rename one of the two"),
+            ("t", "`t` is time in expressions and cannot name a coordinate; rename it"),
+            ("sin", "`sin` is a function of expressions and cannot name a coordinate; rename it"),
+        ],
+    );
+    check(
+        &moving("coordinates(x, y), speeds(x, v), kinematics(x = v, y = v)"),
+        &[("x", "`x` names a coordinate and a speed; rename one of the two")],
+    );
+    check(
+        &particle("", "cross: f64").replace(", )]", ")]"),
+        &[("cross", "`cross` is a function of expressions and cannot name a field; rename it")],
+    );
+    check(&moving("coordinates(x: f64, y)"), &[(":", "a coordinate is a scalar and has no type; write `x`")]);
+    check(
+        &moving("coordinates(x, y, pose: Pose, attitude: gauss::Rotation)"),
+        &[
+            ("Pose", "`pose: Pose` is not supported by this version; write scalar coordinates"),
+            ("Rotation", "`attitude: Rotation` is not supported by this version; write scalar coordinates"),
+        ],
+    );
+    check(&moving("coordinates(x y)"), &[("y", "expected `,` after `x`, found `y`; separate names by commas")]);
+    check(&moving("coordinates(x, 2)"), &[("2", "expected the name of a coordinate, found the literal `2`")]);
+    check(&moving("coordinates(x, y, if)"), &[("if", "`if` is a keyword and cannot name a coordinate")]);
+    check(
+        &moving("coordinates()"),
+        &[("(", "`coordinates()` says nothing; write `coordinates(x, y, theta)` or remove it")],
+    );
+    check(
+        &moving("coordinates = x"),
+        &[("x", "`coordinates` takes brackets, not `=`; write `coordinates(x, y, theta)`")],
+    );
+    check(
+        &moving("coordinates(x, y), coordinates(x)"),
+        &[("coordinates", "`coordinates` is given twice; write all of it in one")],
+    );
+}
+
+#[test]
+fn missing() {
+    check(
+        "#[gauss(particle(mass = m, position = [x, y, 0]))] struct Scene { m: f64 }",
+        &[("particle", "the system has no coordinates; add `coordinates(…)` with the names of scalars")],
+    );
+    check(
+        "#[gauss(coordinates(x), potential = k * x)] struct Scene { k: f64 }",
+        &[(
+            "coordinates",
+            "the system has no body and no particle, so nothing in it has mass; \
+             add `body(position = […], rotation = …)` or `particle(mass = …, position = […])`",
+        )],
+    );
+    check(
+        "#[gauss(coordinates(x), particle(), particle(mass = m), particle(position = [x, 0, 0], mas = m))] \
+         struct Scene { m: f64 }",
+        &[
+            ("(", "`particle()` says nothing; write `particle(mass = m, position = [x, y, z])` or remove it"),
+            ("particle", "a particle needs its position; add `position = [x, y, z]`"),
+            ("mas", "unknown argument of `particle`: `mas`; did you mean `mass`?"),
+        ],
+    );
+}
+
+#[test]
+fn kinematics() {
+    check(
+        &moving("coordinates(x, y), speeds(v)"),
+        &[("speeds", "`speeds` do not say how the coordinates change; add `kinematics(x = …, y = …)`")],
+    );
+    check(
+        &moving("coordinates(x, y), kinematics(x = v, y = v)"),
+        &[(
+            "kinematics",
+            "`kinematics` needs `speeds`, which it expresses the rates of the coordinates in; \
+             add `speeds(…)`, or remove `kinematics` to have these rates for speeds",
+        )],
+    );
+    check(
+        &moving("coordinates(x, y), speeds(v), kinematics(x = v)"),
+        &[("y", "the coordinate `y` has no kinematics; add `y = …` to `kinematics(…)`")],
+    );
+    check(
+        &moving("coordinates(x, y, theta), speeds(v), kinematics(x = v, y = v, x = 2 * v, thta = v, v = 1, w = v)"),
+        &[
+            ("x", "`x` has kinematics twice; keep one of the two"),
+            ("thta", "`thta` is no coordinate; did you mean `theta`?"),
+            ("v", "`v` is a speed, not a coordinate; expected `x`, `y` or `theta`"),
+            ("w", "`w` is no coordinate; expected `x`, `y` or `theta`"),
+        ],
+    );
+    check(
+        &moving("coordinates(x, y), speeds(v), kinematics(x: v, y)"),
+        &[(":", "expected `=` or `,` after `x`, found `:`"), ("y", "`y` needs a value; write `y = v`")],
+    );
+    check(
+        &moving("coordinates(x, y), speeds(v, w), kinematics(x = v, y = v)"),
+        &[(
+            "w",
+            "no velocity depends on the speed `w`, so nothing determines its rate; \
+             name it in `kinematics(…)` or remove it",
+        )],
+    );
+    check(
+        &moving("coordinates(x, y), speeds(v, w, u), kinematics(x = v + u, y = w)"),
+        &[("u", "there are more speeds (3) than coordinates (2), so the velocities do not determine them; remove 1")],
+    );
+    check(
+        &moving("coordinates(x, y, theta)"),
+        &[(
+            "theta",
+            "no position and no rotation depends on the coordinate `theta`, so nothing determines its acceleration; \
+             name it in one of them or remove it",
+        )],
+    );
+}
+
+#[test]
+fn places_of_speeds() {
+    check(
+        "#[gauss(coordinates(x), speeds(v), kinematics(x = v), potential = v * v, \
+         body(position = [v, 0, 0], rotation = rotation_x(v)), particle(mass = m * x, position = [x, v, t]))] \
+         struct Scene { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }",
+        &[
+            (
+                "v",
+                "`v` is a speed, and a position depends on coordinates, fields and `t` only; \
+                 speeds stand in `kinematics`",
+            ),
+            (
+                "v",
+                "`v` is a speed, and a rotation depends on coordinates, fields and `t` only; \
+                 speeds stand in `kinematics`",
+            ),
+            ("x", "`x` varies, and the mass of a particle is constant; write numbers and fields only"),
+            (
+                "v",
+                "`v` is a speed, and a position depends on coordinates, fields and `t` only; \
+                 speeds stand in `kinematics`",
+            ),
+            (
+                "v",
+                "`v` is a speed, and a potential depends on coordinates, fields and `t` only; \
+                 write the potential without `v`",
+            ),
+            (
+                "v",
+                "`v` is a speed, and a potential depends on coordinates, fields and `t` only; \
+                 write the potential without `v`",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn clauses_of_one_body() {
+    check(
+        &particle("chart = hybird, motion = planar", ""),
+        &[
+            (
+                "chart",
+                "`chart` is for one body without coordinates of its own; the quasi-velocities of a system are its \
+                 `speeds`, or the rates of its `coordinates`: remove `chart`",
+            ),
+            (
+                "motion",
+                "`motion` is for one body without coordinates of its own; what a system is free to do is said by its \
+                 `coordinates` and `speeds`: remove `motion`",
+            ),
+        ],
+    );
+    check(
+        &particle("foo = 1", ""),
+        &[(
+            "foo",
+            "unknown clause `foo`; expected `coordinates`, `speeds`, `kinematics`, `body`, `particle`, `potential` \
+             or `crate`",
+        )],
+    );
+    // A misspelt clause is not missing as well.
+    check(
+        "#[gauss(coordinats(x), particle(mass = m, position = [x, 0, 0]))] struct Scene { m: f64 }",
+        &[("coordinats", "unknown clause `coordinats`; did you mean `coordinates`?")],
+    );
+    check(
+        &particle("potential(x)", ""),
+        &[("(", "the value of `potential` follows `=`, without brackets; write `potential = k * x * x / 2`")],
+    );
+}
