@@ -53,6 +53,23 @@ mod translate;
 ///
 /// Jet charts have `SVector`s as configurations. `euler_zyx` is R = R_z(ψ) R_y(θ) R_x(φ), with angles (ψ, θ, φ), and so on.
 ///
+/// # Systems
+///
+/// Any of these clauses, in place of `chart` and `motion`, makes a system; its kernel implements `GaussSystem`, with
+/// `SVector`s as configurations:
+///
+/// | clause | meaning |
+/// |---|---|
+/// | `coordinates(x, y, theta)` | the configuration |
+/// | `speeds(v, omega)` and `kinematics(x = …, …)` | quasi-velocities z with q̇ = ψ(t, q, z), affine in z; without them z = q̇ |
+/// | `body(position = […], rotation = …)` | the only body; its mass data from the roles above |
+/// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`; position and rotation relative to the parent |
+/// | `particle(mass = m, position = […])` | a point |
+/// | `potential = expr` | a potential of coordinates and time; the role `gravity` acts on everything |
+///
+/// Expressions are Rust arithmetic on coordinates, speeds, fields and the time `t`, with `sin cos tan exp ln sqrt powi dot
+/// cross` and the rotations `rotation_x rotation_y rotation_z`, which are joined by `*`.
+///
 /// # Errors
 ///
 /// Every mistake is a compile error at the token that is wrong, all of them at once.
