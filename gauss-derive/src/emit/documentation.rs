@@ -117,7 +117,7 @@ fn operations(counts: Counts) -> String {
         (counts.multiplications, "mul"),
         (counts.divisions, "div"),
         (counts.roots, "sqrt"),
-        (counts.transcendentals, "sin/cos"),
+        (counts.transcendentals, "transcendental"),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(n, name)| format!("{n} {name}")).collect();
     if parts.is_empty() { "none".to_owned() } else { parts.join(", ") }
