@@ -97,8 +97,8 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
 /// The name of a speed, and where it is written: in the jet chart at its coordinate.
 fn speed(model: &SystemModel, k: usize) -> (String, Span) {
     match &model.speeds {
-        Some(speeds) => (speeds[k].to_string(), speeds[k].span()),
-        None => (format!("d{}/dt", model.coordinates[k]), model.coordinates[k].span()),
+        Some(speeds) => (speeds[k].ident.to_string(), speeds[k].ident.span()),
+        None => (format!("d{}/dt", model.coordinates[k].ident), model.coordinates[k].ident.span()),
     }
 }
 

@@ -12,7 +12,8 @@ use crate::mechanics::{
     about_axis,
 };
 use crate::model::{
-    BinaryOperator, BodyClause, Expression, ExpressionKind, FunctionName, Role, Shape, SystemField, SystemModel,
+    BinaryOperator, BodyClause, CoordinateKind, Expression, ExpressionKind, FunctionName, Role, Shape, SpeedKind,
+    SystemField, SystemModel,
 };
 
 /// Which number of a field a symbol stands for.
@@ -97,15 +98,16 @@ impl<'g> Translator<'_, 'g> {
     fn translate(&mut self) -> syn::Result<Translation<'g>> {
         let model = self.model;
         let graph = self.graph;
+        refuse_what_is_new(model)?;
         let time = graph.symbol("t", "t", false);
         self.names.insert("t".to_owned(), Value::Scalar(time));
-        let coordinate_names: Vec<Name> = model.coordinates.iter().map(name_of).collect();
+        let coordinate_names: Vec<Name> = model.coordinates.iter().map(|q| name_of(&q.ident)).collect();
         let coordinates: Vec<Expr<'g>> = coordinate_names.iter().map(|name| self.symbol(name, false)).collect();
         for (name, symbol) in coordinate_names.iter().zip(&coordinates) {
             self.names.insert(name.text.clone(), Value::Scalar(*symbol));
         }
         let speed_names: Vec<Name> = match &model.speeds {
-            Some(speeds) => speeds.iter().map(name_of).collect(),
+            Some(speeds) => speeds.iter().map(|z| name_of(&z.ident)).collect(),
             None => coordinate_names.iter().map(velocity_name).collect(),
         };
         let speeds: Vec<Expr<'g>> = speed_names.iter().map(|name| self.symbol(name, false)).collect();
@@ -307,6 +309,7 @@ impl<'g> Translator<'_, 'g> {
                 Value::Vector(a) => Value::Vector(a.map(|a| -a)),
                 Value::Rotation(_) => return Err(bug(e.span)),
             },
+            ExpressionKind::Property(..) => return Err(bug(e.span)),
             ExpressionKind::Power(inner, exponent) => Value::Scalar(self.scalar(inner)?.powi(*exponent)),
             ExpressionKind::Vector([a, b, c]) => Value::Vector([self.scalar(a)?, self.scalar(b)?, self.scalar(c)?]),
             ExpressionKind::Call(function, arguments) => self.call(*function, arguments, e.span)?,
@@ -374,6 +377,20 @@ fn quantity_of(role: Role) -> Option<Quantity> {
         Role::CenterOfBuoyancy => Quantity::CenterOfBuoyancy,
         Role::Body => return None,
     })
+}
+
+/// What the model accepts and this stage does not translate yet.
+fn refuse_what_is_new(model: &SystemModel) -> syn::Result<()> {
+    let coordinate = model.coordinates.iter().find(|q| q.kind != CoordinateKind::Scalar).map(|q| q.ident.span());
+    let speed = model.speeds.iter().flatten().find(|z| z.kind != SpeedKind::Scalar).map(|z| z.ident.span());
+    let frame = model.bodies.iter().find(|body| body.massless).map(|body| body.span);
+    let particle = model.particles.iter().find_map(|particle| particle.parent.as_ref()).map(Ident::span);
+    let point = model.points.first().map(|point| point.span);
+    let constraint = model.constraints.first().map(|constraint| constraint.span);
+    match coordinate.or(speed).or(frame).or(particle).or(point).or(constraint) {
+        Some(span) => Err(bug(span)),
+        None => Ok(()),
+    }
 }
 
 fn bug(span: Span) -> syn::Error {

@@ -11,7 +11,7 @@ use super::scope::{Meaning, Scope, TIME};
 use super::shapes::{Element, Kind};
 use super::statements::{Names, Statements};
 use super::validate;
-use super::{Expression, Role, Scalar, Shape, SystemField, SystemModel};
+use super::{Coordinate, CoordinateKind, Expression, Role, Scalar, Shape, Speed, SpeedKind, SystemField, SystemModel};
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 use syn::{DeriveInput, GenericParam};
@@ -71,11 +71,17 @@ pub(super) fn system(
         scalar,
         runtime: clauses.runtime,
         fields,
-        coordinates,
-        speeds: statements.speeds.map(|speeds| speeds.names),
+        coordinates: coordinates.into_iter().map(|ident| Coordinate { ident, kind: CoordinateKind::Scalar }).collect(),
+        speeds: statements
+            .speeds
+            .map(|speeds| speeds.names.into_iter().map(|ident| Speed { ident, kind: SpeedKind::Scalar }).collect()),
         kinematics,
         bodies: statements.bodies,
         particles: statements.particles,
+        points: Vec::new(),
+        constraints: Vec::new(),
+        independent: None,
+        limit: None,
         potential: statements.potential.and_then(|(_, potential)| potential),
     })
 }

@@ -25,8 +25,10 @@ pub enum ExpressionKind {
         /// Below the line.
         denominator: i64,
     },
-    /// A coordinate, a speed, a field that is a scalar or a vector, or `t`.
+    /// A coordinate, a speed, a field that is a scalar or a vector, a point, or `t`.
     Name(Ident),
+    /// `arm.position`: of a body, a frame or a coordinate that is a pose, which is the name before it.
+    Property(Box<Expression>, Property),
     /// `a.x`, `a[0]`: component 0, 1 or 2 of a vector.
     Component(Box<Expression>, usize),
     /// `-a`.
@@ -79,6 +81,27 @@ pub enum FunctionName {
     Dot,
     /// Vector product.
     Cross,
+    /// Angle of the point (x, y), given as (y, x), from the first axis, in radians.
+    Atan2,
+    /// Linear and angular velocity in body axes, pole O: only as the whole rate of a pose.
+    Twist,
+    /// Inverse of a rotation.
+    Inverse,
+    /// Time derivative of a scalar or a vector of t and q: only in constraints of velocities.
+    Rate,
+}
+
+/// What can be asked of a body or a frame, all of it in observer axes; of a coordinate that is a pose, the first two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Property {
+    /// O from Ω.
+    Position,
+    /// R: from the axes e to the axes k.
+    Rotation,
+    /// The velocity of O; only in constraints of velocities.
+    Velocity,
+    /// ω; only in constraints of velocities.
+    AngularVelocity,
 }
 
 impl Expression {
@@ -87,9 +110,10 @@ impl Expression {
         visit(self);
         match &self.kind {
             ExpressionKind::Number { .. } | ExpressionKind::Name(_) => {}
-            ExpressionKind::Component(inner, _) | ExpressionKind::Negate(inner) | ExpressionKind::Power(inner, _) => {
-                inner.walk(visit);
-            }
+            ExpressionKind::Component(inner, _)
+            | ExpressionKind::Property(inner, _)
+            | ExpressionKind::Negate(inner)
+            | ExpressionKind::Power(inner, _) => inner.walk(visit),
             ExpressionKind::Binary(_, left, right) => {
                 left.walk(visit);
                 right.walk(visit);

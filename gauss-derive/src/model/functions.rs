@@ -61,6 +61,10 @@ impl FunctionName {
             FunctionName::RotationZ => "rotation_z",
             FunctionName::Dot => "dot",
             FunctionName::Cross => "cross",
+            FunctionName::Atan2 => "atan2",
+            FunctionName::Twist => "twist",
+            FunctionName::Inverse => "inverse",
+            FunctionName::Rate => "rate",
         }
     }
 

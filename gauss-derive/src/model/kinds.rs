@@ -102,6 +102,7 @@ impl Checker<'_> {
         match &expression.kind {
             ExpressionKind::Number { .. } => Some(Kind::Scalar),
             ExpressionKind::Name(name) => self.name(name),
+            ExpressionKind::Property(base, _) => self.kind(base),
             ExpressionKind::Component(base, _) => {
                 let kind = self.kind(base)?;
                 self.expect(kind, Kind::Vector, expression.span, "components are those of")?;

@@ -42,8 +42,11 @@ mod system;
 mod tests;
 mod validate;
 
-pub use expression::{BinaryOperator, Expression, ExpressionKind, FunctionName};
-pub use system::{BodyClause, ParticleClause, SystemField, SystemModel};
+pub use expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+pub use system::{
+    BodyClause, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, ParticleClause, PointClause, Speed,
+    SpeedKind, SystemField, SystemModel,
+};
 
 use context::Context;
 use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics, Ident, Path, Visibility};

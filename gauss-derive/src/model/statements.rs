@@ -254,7 +254,14 @@ fn read_kinematics(clause: &Clause, context: &mut Context) -> Kinematics {
 /// `None` if not even its name is certain.
 fn read_body(clause: &Clause, context: &mut Context) -> Option<BodyClause> {
     let group = brackets(clause, "position = […], rotation = …", context)?;
-    let mut body = BodyClause { name: None, parent: None, position: None, rotation: None, span: clause.name.span() };
+    let mut body = BodyClause {
+        name: None,
+        massless: false,
+        parent: None,
+        position: None,
+        rotation: None,
+        span: clause.name.span(),
+    };
     let mut given: Vec<String> = Vec::new();
     let mut certain = true;
     for (index, argument) in arguments(group, Place::Body, context).iter().enumerate() {
@@ -349,7 +356,7 @@ fn read_particle(clause: &Clause, context: &mut Context) -> Option<ParticleClaus
             context.error(clause.name.span(), format!("a particle needs its {word}; add `{example}`"));
         }
     }
-    Some(ParticleClause { mass: mass?, position: position?, span: clause.name.span() })
+    Some(ParticleClause { mass: mass?, position: position?, parent: None, span: clause.name.span() })
 }
 
 fn read_potential(clause: &Clause, context: &mut Context) -> Option<Expression> {

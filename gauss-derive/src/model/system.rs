@@ -1,4 +1,4 @@
-//! A system as the user wrote it, checked: own coordinates and speeds, bodies and particles.
+//! A system as the user wrote it, checked: own coordinates and speeds, bodies, particles and constraints.
 
 use super::{Expression, Role, Scalar, Shape};
 use proc_macro2::Span;
@@ -20,15 +20,25 @@ pub struct SystemModel {
     /// Every field of the struct, in order.
     pub fields: Vec<SystemField>,
     /// The coordinates q, in order.
-    pub coordinates: Vec<Ident>,
-    /// The speeds z, in order; `None` for the jet chart z = q̇.
-    pub speeds: Option<Vec<Ident>>,
-    /// q̇ = ψ(t, q, z) of (3.2): one for each coordinate, in the order of the coordinates; empty in the jet chart.
+    pub coordinates: Vec<Coordinate>,
+    /// The speeds z, in order; `None` for the rates of the coordinates: ẋ of a scalar, ω (body axes) of a rotation, the
+    /// twist (u, ω) (body axes, pole O) of a pose.
+    pub speeds: Option<Vec<Speed>>,
+    /// q̇ = ψ(t, q, z) of (3.2): one for each coordinate, in the order of the coordinates; empty without speeds. A scalar
+    /// for a scalar, ω in body axes for a rotation, a call of [`Twist`](super::FunctionName::Twist) for a pose.
     pub kinematics: Vec<(Ident, Expression)>,
-    /// The bodies, in the order in which they are written: a parent may come after its child.
+    /// The bodies and frames, in the order in which they are written: a parent may come after its child.
     pub bodies: Vec<BodyClause>,
     /// The particles of (3.3).
     pub particles: Vec<ParticleClause>,
+    /// Named points of bodies and frames.
+    pub points: Vec<PointClause>,
+    /// What is further required of the motion.
+    pub constraints: Vec<ConstraintClause>,
+    /// The speeds that stay when the constraints are solved for the others at compile time; `None`: multipliers.
+    pub independent: Option<Vec<Ident>>,
+    /// The most operations that the generated code may have; `None`: the limit of the derive.
+    pub limit: Option<usize>,
     /// The potential energy besides that of gravity: a scalar of t and q.
     pub potential: Option<Expression>,
 }
@@ -46,29 +56,107 @@ pub struct SystemField {
     pub documentation: String,
 }
 
-/// `body(name, parent = …, position = …, rotation = …)`.
+/// One coordinate, or three or six that are an element of a group.
+#[derive(Clone)]
+pub struct Coordinate {
+    /// Its name.
+    pub ident: Ident,
+    /// What it takes its values in.
+    pub kind: CoordinateKind,
+}
+
+/// What a coordinate takes its values in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoordinateKind {
+    /// The real numbers.
+    Scalar,
+    /// SE(3): (R, b).
+    Pose,
+    /// SO(3): R.
+    Rotation,
+}
+
+/// One speed, or three under one name.
+#[derive(Clone)]
+pub struct Speed {
+    /// Its name.
+    pub ident: Ident,
+    /// How many it stands for.
+    pub kind: SpeedKind,
+}
+
+/// How many speeds are under one name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpeedKind {
+    /// One.
+    Scalar,
+    /// Three.
+    Vector,
+}
+
+/// `body(name, parent = …, position = …, rotation = …)` or `frame(name, …)`.
 #[derive(Clone)]
 pub struct BodyClause {
-    /// The field with its mass data; `None` for the only body, whose mass data are the fields with roles.
+    /// Of a body the field with its mass data; `None` for the only body, whose mass data are the fields with roles.
+    /// Frames have names.
     pub name: Option<Ident>,
-    /// The body whose O and axes position and rotation are relative to; `None`: Ω and k.
+    /// It is a frame: axes with an origin and no mass.
+    pub massless: bool,
+    /// The body or frame whose O and axes position and rotation are relative to; `None`: Ω and k.
     pub parent: Option<Ident>,
     /// Where O is; `None`: at the parent's O, or at Ω.
     pub position: Option<Expression>,
     /// How the axes e are turned; `None`: like the parent's, or like k.
     pub rotation: Option<Expression>,
-    /// The word `body`.
+    /// The word `body` or `frame`.
     pub span: Span,
 }
 
-/// `particle(mass = …, position = …)`.
+/// `particle(mass = …, position = …, parent = …)`.
 #[derive(Clone)]
 pub struct ParticleClause {
     /// A scalar of fields and numbers.
     pub mass: Expression,
-    /// A vector of t and q, in observer axes from Ω.
+    /// A vector of t and q: in the axes of the parent from its O, or in observer axes from Ω.
     pub position: Expression,
+    /// The body or frame that the position is relative to.
+    pub parent: Option<Ident>,
     /// The word `particle`.
     #[allow(dead_code, reason = "where a mistake about the whole clause belongs")]
     pub span: Span,
+}
+
+/// `point(name, body = …, at = …)`.
+#[derive(Clone)]
+pub struct PointClause {
+    /// In expressions the name is the position vector from Ω, in observer axes.
+    pub name: Ident,
+    /// The body or frame that the point is fixed in.
+    pub body: Ident,
+    /// A vector of fields and numbers: body axes from O.
+    pub at: Expression,
+    /// The word `point`.
+    pub span: Span,
+}
+
+/// `constraint(position = …)` or `constraint(velocity = …)`: the expression is zero.
+#[derive(Clone)]
+pub struct ConstraintClause {
+    /// What is constrained.
+    pub kind: ConstraintKind,
+    /// A scalar or a vector: of t and q; of t, q and z if velocities are constrained.
+    pub expression: Expression,
+    /// The expression is a vector: three constraints.
+    pub vector: bool,
+    /// The word `constraint`.
+    pub span: Span,
+}
+
+/// What a constraint is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConstraintKind {
+    /// φ(t, q) = 0.
+    Position,
+    /// φ(t, q, z) = 0.
+    Velocity,
 }

@@ -3,8 +3,8 @@
 use super::{potential, show, system};
 use crate::model::{Role, Scalar, Shape};
 
-fn words(idents: &[syn::Ident]) -> Vec<String> {
-    idents.iter().map(ToString::to_string).collect()
+fn words<'a>(idents: impl IntoIterator<Item = &'a syn::Ident>) -> Vec<String> {
+    idents.into_iter().map(ToString::to_string).collect()
 }
 
 #[test]
@@ -17,8 +17,8 @@ fn chaplygin_sleigh() {
          #[gauss(inertia)] j: Vector3<f64> }",
     );
     assert_eq!(model.ident, "ChaplyginSleigh");
-    assert_eq!(words(&model.coordinates), ["x", "y", "theta"]);
-    assert_eq!(model.speeds.as_deref().map(words), Some(vec!["v".into(), "omega".into()]));
+    assert_eq!(words(model.coordinates.iter().map(|q| &q.ident)), ["x", "y", "theta"]);
+    assert_eq!(words(model.speeds.iter().flatten().map(|z| &z.ident)), ["v", "omega"]);
     // In the order of the coordinates, whatever the order in which they are written.
     let kinematics: Vec<String> =
         model.kinematics.iter().map(|(name, rate)| format!("{name} = {}", show(rate))).collect();

@@ -45,6 +45,7 @@ fn show(expression: &Expression) -> String {
         ExpressionKind::Number { numerator, denominator } => format!("{numerator}/{denominator}"),
         ExpressionKind::Name(name) => name.to_string(),
         ExpressionKind::Component(base, index) => format!("{}[{index}]", show(base)),
+        ExpressionKind::Property(base, property) => format!("{}.{property:?}", show(base)),
         ExpressionKind::Negate(inner) => format!("(-{})", show(inner)),
         ExpressionKind::Binary(operator, left, right) => format!("({operator:?} {} {})", show(left), show(right)),
         ExpressionKind::Power(base, exponent) => format!("(powi {} {exponent})", show(base)),
