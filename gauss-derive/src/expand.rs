@@ -6,14 +6,14 @@ use proc_macro2::{Ident, Span, TokenStream};
 use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::emit::{Derived, Subject, emit};
+use crate::emit::{Derived, Subject, SystemSubject, emit};
 use crate::kernel::Kernel;
 use crate::mechanics::{
     AddedMassShape, BodyShape, ConfigurationKind, GravityShape, InertiaShape, Scene, System, SystemFault,
     check_against_definition, check_system_against_definition, rotation_of_quaternion,
 };
 use crate::model::{self, Model, Shape, SystemModel};
-use crate::translate::translate;
+use crate::translate::Translator;
 
 /// Expands one struct.
 ///
@@ -47,10 +47,13 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
 
 fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     let graph = Graph::new();
-    let translation = translate(&graph, model)?;
+    let mut translator = Translator::new(&graph, model);
+    let speeds = translator.speeds().to_vec();
+    let all: Vec<usize> = (0..speeds.len()).collect();
+    let scene = translator.scene(&speeds, &all)?;
     let mut mistakes = Mistakes::default();
-    for k in translation.scene.coordinates_not_affine() {
-        let (coordinate, rate) = &model.kinematics[k];
+    for k in scene.rates_not_affine() {
+        let (coordinate, rate) = &model.kinematics[scene.coordinate_of_rate(k)];
         mistakes.push(
             rate.span,
             format!(
@@ -60,7 +63,7 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         );
     }
     mistakes.finish()?;
-    let system = System::new(translation.scene);
+    let system = System::new(scene);
     let idle = system.idle_speeds();
     for &k in &idle {
         let (name, span) = speed(model, k);
@@ -71,27 +74,63 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     }
     mistakes.finish()?;
     let formulas = system.formulas();
-    check_system_against_definition(&system, &formulas).map_err(|fault| match fault {
-        SystemFault::Disagreement(error) => bug(&model.ident, &error),
+    check_system_against_definition(&system, &formulas).map_err(|fault| system_fault(model, &system, &fault))?;
+    let (quaternions, definitions) = system_rotations(&graph, &system);
+    let functions: Vec<_> = formulas.iter().map(|f| f.arrangements.clone()).collect();
+    let kernel = Kernel::lower(&graph, &functions, &definitions).map_err(|error| bug(&model.ident, &error))?;
+    if graph.overflowed() {
+        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
+    }
+    let links = translator.links_of_clauses();
+    let subject = SystemSubject {
+        model,
+        system: &system,
+        sources: translator.sources(),
+        links: &links,
+        quaternions: &quaternions,
+    };
+    Ok(emit(&Derived { subject: Subject::System(subject), formulas: &formulas, kernel: &kernel }))
+}
+
+/// What the check of a system finds, at the token that is wrong.
+fn system_fault(model: &SystemModel, system: &System<'_>, fault: &SystemFault) -> syn::Error {
+    let clause = |k: usize| &model.constraints[system.scene.constraints[k].clause];
+    match fault {
+        SystemFault::Disagreement(error) => bug(&model.ident, error),
         SystemFault::DependentSpeed(k) => {
-            let (name, span) = speed(model, k);
+            let (name, span) = speed(model, *k);
             let message = format!(
                 "`{name}` moves nothing that the speeds before it do not move: the mass matrix is singular; \
                  leave one of them out, or give what it moves a mass"
             );
             syn::Error::new(span, message)
         }
-    })?;
-    let functions: Vec<_> = formulas.iter().map(|f| f.arrangements.clone()).collect();
-    let kernel = Kernel::lower(&graph, &functions, &Map::default()).map_err(|error| bug(&model.ident, &error))?;
-    if graph.overflowed() {
-        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
+        SystemFault::DependentConstraint(k) => syn::Error::new(
+            clause(*k).span,
+            "this constraint follows from the coordinates, the speeds and the constraints before it, so its multiplier is \
+             undetermined; remove it",
+        ),
+        SystemFault::InconsistentConstraint(k) => syn::Error::new(
+            clause(*k).span,
+            "no motion satisfies this constraint together with the coordinates, the speeds and the constraints before it; \
+             correct it or remove it",
+        ),
     }
-    Ok(emit(&Derived {
-        subject: Subject::System { model, system: &system, sources: &translation.sources },
-        formulas: &formulas,
-        kernel: &kernel,
-    }))
+}
+
+/// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them.
+#[expect(clippy::type_complexity, reason = "two lists that belong together, taken apart at once")]
+fn system_rotations<'g>(graph: &'g Graph, system: &System<'g>) -> (Vec<Option<[Expr<'g>; 4]>>, Map<u32, Expr<'g>>) {
+    let mut definitions = Map::default();
+    let coordinates = system.scene.coordinates.iter().map(|coordinate| {
+        let matrix = coordinate.rotation()?;
+        let quaternion = ["x", "y", "z", "w"].map(|name| graph.symbol(name, name, false));
+        let entries = rotation_of_quaternion(graph, quaternion);
+        let symbols = matrix.iter().flatten().map(|symbol| symbol.key());
+        definitions.extend(symbols.zip(entries.into_iter().flatten().map(Expr::group)));
+        Some(quaternion)
+    });
+    (coordinates.collect(), definitions)
 }
 
 /// The name of a speed, and where it is written: in the jet chart at its coordinate.

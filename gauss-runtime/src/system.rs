@@ -263,6 +263,8 @@ pub struct Operations {
     pub gauss_residual: OperationCount,
     /// Of [`GaussSystem::constraint_function`].
     pub constraint_function: OperationCount,
+    /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers); none without constraints.
+    pub multipliers: OperationCount,
 }
 
 impl fmt::Display for Operations {

@@ -18,7 +18,7 @@ mod kernel;
 mod mechanics;
 #[path = "../../gauss-derive/src/model/mod.rs"]
 mod model;
-#[path = "../../gauss-derive/src/translate.rs"]
+#[path = "../../gauss-derive/src/translate/mod.rs"]
 mod translate;
 
 use std::time::{Duration, Instant};

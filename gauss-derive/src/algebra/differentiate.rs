@@ -55,6 +55,10 @@ impl<'g> Expr<'g> {
                     }
                 }
             }
+            NodeView::Angle(y, x) => {
+                let turned = x * y.differentiate(rates, memo) - y * x.differentiate(rates, memo);
+                if turned.is_zero() { turned } else { turned * (x * x + y * y).group().recip() }
+            }
             NodeView::Group(inner) => inner.differentiate(rates, memo),
         };
         memo.insert(self.id, result);

@@ -43,6 +43,8 @@ pub(super) enum Node {
     /// Π eᵢ^nᵢ, sorted by index, exponents nonzero; no numbers and no products among the factors.
     Product(Rc<[(Id, i32)]>),
     Call(Function, Id),
+    /// Angle of the point (x, y), given as y and x.
+    Angle(Id, Id),
     /// A sum that is to be computed once under a name: transparent for mathematics, a barrier for flattening.
     Group(Id),
     /// A constant that is to be computed once and never looked into again, not even by the normal form.
@@ -56,6 +58,7 @@ pub enum NodeView<'g> {
     Sum(Vec<(Rational, Expr<'g>)>),
     Product(Vec<(Expr<'g>, i32)>),
     Call(Function, Expr<'g>),
+    Angle(Expr<'g>, Expr<'g>),
     Group(Expr<'g>),
     Opaque(Expr<'g>),
 }
@@ -305,6 +308,7 @@ impl<'g> Expr<'g> {
             Node::Sum(terms) => NodeView::Sum(terms.iter().map(|&(c, id)| (c, at(id))).collect()),
             Node::Product(factors) => NodeView::Product(factors.iter().map(|&(id, n)| (at(id), n)).collect()),
             Node::Call(function, id) => NodeView::Call(function, at(id)),
+            Node::Angle(y, x) => NodeView::Angle(at(y), at(x)),
             Node::Group(id) => NodeView::Group(at(id)),
             Node::Opaque(id) => NodeView::Opaque(at(id)),
         }
@@ -355,6 +359,11 @@ impl<'g> Expr<'g> {
 
     pub fn sqrt(self) -> Self {
         self.graph.call(Function::Sqrt, self)
+    }
+
+    /// The angle of the point (x, self) from the first axis, in radians.
+    pub fn atan2(self, x: Self) -> Self {
+        self.graph.intern(Node::Angle(self.id, x.id))
     }
 
     /// The same value as a quantity of its own: sums around it do not take it apart, so it is computed once. Factors
@@ -447,6 +456,7 @@ impl<'g> Expr<'g> {
                 self.graph.product(Rational::one(), factors)
             }
             NodeView::Call(function, argument) => self.graph.call(function, argument.rebuild(memo, leaf)),
+            NodeView::Angle(y, x) => y.rebuild(memo, leaf).atan2(x.rebuild(memo, leaf)),
             NodeView::Group(inner) => inner.rebuild(memo, leaf).group(),
             NodeView::Opaque(inner) => inner.rebuild(memo, leaf).opaque(),
         };
@@ -465,6 +475,7 @@ impl<'g> Expr<'g> {
             NodeView::Sum(terms) => terms.into_iter().all(|(_, e)| e.is_constant(memo)),
             NodeView::Product(factors) => factors.into_iter().all(|(e, _)| e.is_constant(memo)),
             NodeView::Call(_, e) | NodeView::Group(e) | NodeView::Opaque(e) => e.is_constant(memo),
+            NodeView::Angle(y, x) => y.is_constant(memo) && x.is_constant(memo),
         };
         memo.insert(self.id, result);
         result

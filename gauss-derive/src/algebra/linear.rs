@@ -156,9 +156,36 @@ pub fn inverse_of_symmetric<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> 
 /// sparsity of A; what is zero is never touched. The factors do not depend on the right-hand side, so several solves on one
 /// graph share them.
 pub fn solve_symmetric<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    solve_by_blocks(matrix, right, matrix.len())
+}
+
+/// (x, μ) with `A x + Jᵀ μ = right`, `J x = bias`, for a symmetric positive definite A and rows of J that are independent:
+/// the same elimination of the whole, the multipliers last, so that the pivots are those of A and of −J A⁻¹ Jᵀ.
+pub fn solve_saddle<'g>(
+    matrix: &[Vec<Expr<'g>>],
+    jacobian: &[Vec<Expr<'g>>],
+    right: &[Expr<'g>],
+    bias: &[Expr<'g>],
+) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
+    let n = matrix.len();
+    let zero = right[0].graph().zero();
+    let upper = matrix.iter().enumerate().map(|(i, row)| {
+        let constraints = jacobian.iter().map(|constraint| constraint[i]);
+        row.iter().copied().chain(constraints).collect()
+    });
+    let lower = jacobian.iter().map(|row| row.iter().copied().chain(jacobian.iter().map(|_| zero)).collect());
+    let whole: Vec<Vec<Expr<'g>>> = upper.chain(lower).collect();
+    let right: Vec<Expr<'g>> = right.iter().chain(bias).copied().collect();
+    let mut solution = solve_by_blocks(&whole, &right, n);
+    let multipliers = solution.split_off(n);
+    (solution, multipliers)
+}
+
+/// Unknowns from `first_last` on are eliminated after those before it.
+fn solve_by_blocks<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>], first_last: usize) -> Vec<Expr<'g>> {
     let mut solution = right.to_vec();
     for block in connected_blocks(matrix) {
-        let order = elimination_order(matrix, &block);
+        let order = elimination_order(matrix, &block, first_last);
         let n = order.len();
         let mut rest: Vec<Vec<Expr<'g>>> =
             order.iter().map(|&i| order.iter().map(|&j| matrix[i.min(j)][i.max(j)]).collect()).collect();
@@ -191,15 +218,15 @@ pub fn solve_symmetric<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<
 }
 
 /// The unknown with the fewest neighbours among those left, again and again; its neighbours then are neighbours of each
-/// other.
-fn elimination_order(matrix: &[Vec<Expr<'_>>], block: &[usize]) -> Vec<usize> {
+/// other. Unknowns from `first_last` on wait for the others.
+fn elimination_order(matrix: &[Vec<Expr<'_>>], block: &[usize], first_last: usize) -> Vec<usize> {
     let mut neighbours: Vec<Vec<bool>> =
         block.iter().map(|&i| block.iter().map(|&j| i != j && !matrix[i][j].is_zero()).collect()).collect();
     let mut left: Vec<usize> = (0..block.len()).collect();
     let mut order = Vec::with_capacity(block.len());
     let degree =
         |neighbours: &[Vec<bool>], left: &[usize], i: usize| left.iter().filter(|&&j| neighbours[i][j]).count();
-    while let Some(&next) = left.iter().min_by_key(|&&i| degree(&neighbours, &left, i)) {
+    while let Some(&next) = left.iter().min_by_key(|&&i| (block[i] >= first_last, degree(&neighbours, &left, i))) {
         left.retain(|&i| i != next);
         let around: Vec<usize> = left.iter().copied().filter(|&i| neighbours[next][i]).collect();
         for &i in &around {

@@ -21,9 +21,9 @@ mod rational;
 #[cfg(test)]
 mod tests;
 
-pub use evaluate::Evaluation;
+pub use evaluate::{Evaluation, Tangents};
 pub use graph::{Expr, Function, Graph, NodeView};
-pub use linear::{Solver, inverse_of_symmetric, solve_symmetric};
+pub use linear::{Solver, inverse_of_symmetric, solve_saddle, solve_symmetric};
 pub use map::Map;
 pub use polynomial::Polynomial;
 pub use print::{Notation, print};

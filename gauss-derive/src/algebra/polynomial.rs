@@ -168,6 +168,10 @@ impl<'g> Expander<'g> {
                     _ => self.expand(call).map(|p| (*p).clone()),
                 }
             }
+            NodeView::Angle(y, x) => {
+                let (y, x) = (self.expand(y)?.to_expr(), self.expand(x)?.to_expr());
+                Some(Polynomial::atom(y.atan2(x), 1))
+            }
         }
     }
 

@@ -133,6 +133,11 @@ impl Printer {
                     (false, _) => format!("{name}({})", self.sum(argument)),
                 }
             }
+            NodeView::Angle(y, x) => {
+                let (name, open, close) =
+                    if self.latex() { ("\\operatorname{atan2}", "\\left(", "\\right)") } else { ("atan2", "(", ")") };
+                format!("{name}{open}{}, {}{close}", self.sum(y), self.sum(x))
+            }
             NodeView::Number(value) => self.number(&value),
             NodeView::Group(inner) | NodeView::Opaque(inner) if !matches!(inner.view(), NodeView::Sum(_)) => {
                 self.factor(inner, alone)

@@ -8,6 +8,7 @@ use crate::mechanics::{Method, Section};
 use crate::model::Role;
 
 use super::kernel::{Derived, Subject};
+use super::system::SystemSubject;
 
 /// The equations as plain text.
 pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
@@ -51,7 +52,9 @@ pub fn latex(sections: &[Section<'_>]) -> String {
 fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
     let fields: Vec<_> = match derived.subject {
         Subject::Body { model, .. } => model.parameters.iter().map(|p| (p.role, &p.ident, &p.documentation)).collect(),
-        Subject::System { model, .. } => model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation)).collect(),
+        Subject::System(SystemSubject { model, .. }) => {
+            model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation)).collect()
+        }
     };
     fields
         .into_iter()
@@ -82,7 +85,7 @@ fn description(derived: &Derived<'_, '_>) -> String {
     let speeds = speeds.join(", ");
     match (derived.body(), derived.subject) {
         (Some(body), _) => format!("chart {}, motion {}, z = ({speeds})", body.chart_name(), body.motion_name()),
-        (None, Subject::System { system, .. }) => {
+        (None, Subject::System(SystemSubject { system, .. })) => {
             let q: Vec<&str> = system.scene.coordinate_names.iter().map(|name| name.text.as_str()).collect();
             format!("chart own, q = ({}), z = ({speeds})", q.join(", "))
         }
@@ -140,5 +143,10 @@ pub fn method_name(method: Method) -> &'static str {
         Method::Speeds => "speeds",
         Method::BodyMomentum => "body_momentum",
         Method::Regularity => "regularity",
+        Method::Multipliers => "multipliers",
+        Method::PositionResidual => "position_residual",
+        Method::VelocityResidual => "velocity_residual",
+        Method::PositionCorrection => "position_correction",
+        Method::VelocityCorrection => "velocity_correction",
     }
 }

@@ -5,15 +5,15 @@ use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map};
 use crate::kernel::{Counts, Kernel, Program};
-use crate::mechanics::{Formula, InertiaShape, Method, Scene, System};
-use crate::model::{Model, Scalar, SystemModel};
-use crate::translate::Source;
+use crate::mechanics::{Formula, InertiaShape, Method, Scene};
+use crate::model::{Model, Scalar};
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
 use super::documentation::{latex, method_name, rustdoc, text};
 use super::parameters::kernel_body;
 use super::program::{ScalarTokens, statements};
+use super::system::SystemSubject;
 use super::system_parameters::system_kernel_body;
 
 /// Everything known about one derive when code is written.
@@ -35,7 +35,7 @@ pub enum Subject<'a, 'g> {
         quaternion: Option<[Expr<'g>; 4]>,
     },
     /// A system in coordinates of its own.
-    System { model: &'a SystemModel, system: &'a System<'g>, sources: &'a [Source<'g>] },
+    System(SystemSubject<'a, 'g>),
 }
 
 /// One body, where what is written needs to know that it is one.
@@ -62,6 +62,7 @@ struct Formal<'a, 'g> {
     speeds: &'a [Expr<'g>],
     speed_rates: &'a [Expr<'g>],
     momenta: &'a [Expr<'g>],
+    residuals: &'a [Expr<'g>],
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
@@ -74,7 +75,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 scalar: &m.scalar,
                 runtime: &m.runtime,
             },
-            Subject::System { model: m, .. } => Item {
+            Subject::System(SystemSubject { model: m, .. }) => Item {
                 ident: &m.ident,
                 visibility: &m.visibility,
                 generics: &m.generics,
@@ -89,7 +90,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             Subject::Body { model, scene, inertia, quaternion } => {
                 Some(BodySubject { derived: self, model, scene, inertia, quaternion })
             }
-            Subject::System { .. } => None,
+            Subject::System(_) => None,
         }
     }
 
@@ -99,11 +100,13 @@ impl<'a, 'g> Derived<'a, 'g> {
                 speeds: &scene.kinematics.speeds,
                 speed_rates: &scene.kinematics.speed_rates,
                 momenta: &scene.momenta,
+                residuals: &[],
             },
-            Subject::System { system, .. } => Formal {
+            Subject::System(SystemSubject { system, .. }) => Formal {
                 speeds: &system.scene.speeds,
                 speed_rates: &system.scene.speed_rates,
                 momenta: &system.scene.momenta,
+                residuals: &system.constraints.residuals,
             },
         }
     }
@@ -139,13 +142,13 @@ impl<'a, 'g> Derived<'a, 'g> {
     fn method_body(&self, method: Method) -> TokenStream {
         let private = self.private();
         let program = self.program(method);
-        let Formal { speeds, speed_rates, momenta } = self.formal();
+        let Formal { speeds, speed_rates, momenta, residuals } = self.formal();
         let mut names: Map<u32, TokenStream> = Map::default();
         let mut arguments = match self.subject {
             Subject::Body { .. } => self.body().map(|body| body.configuration_arguments()).unwrap_or_default(),
-            Subject::System { system, .. } => {
-                names.insert(system.scene.time.key(), quote!(t));
-                vec![Argument { array: quote!(#private::components(q)), symbols: system.scene.coordinates.clone() }]
+            Subject::System(subject) => {
+                names.insert(subject.system.scene.time.key(), quote!(t));
+                subject.configuration_arguments(self)
             }
         };
         let vector = |name: TokenStream, symbols: &[Expr<'g>]| Argument {
@@ -158,6 +161,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         if let Some(body) = self.body() {
             arguments.push(vector(quote!(twist), &body.scene.twist));
         }
+        arguments.push(vector(quote!(residual), residuals));
         for (symbol, field) in self.kernel.constant_symbols.iter().zip(self.constant_fields()) {
             names.insert(symbol.key(), quote!(self.#field));
         }
@@ -174,6 +178,10 @@ impl<'a, 'g> Derived<'a, 'g> {
                 let (volume, squares, real) = (&outputs[0], &outputs[1], self.scalar().real);
                 quote!(#volume / #real::sqrt(#squares))
             }
+            Method::Kinematics | Method::PositionCorrection => match self.subject {
+                Subject::System(subject) => subject.tangent(self, &outputs),
+                Subject::Body { .. } => quote!(#private::vector([#(#outputs),*])),
+            },
             _ => quote!(#private::vector([#(#outputs),*])),
         };
         quote!(#declarations #instructions #result)
@@ -208,7 +216,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
     let bound = generic.then(|| quote!(#ty: #real,));
     let sections = match derived.subject {
         Subject::Body { scene, .. } => scene.equations(),
-        Subject::System { system, .. } => system.equations(),
+        Subject::System(SystemSubject { system, .. }) => system.equations(),
     };
     let (text, latex) = (text(derived, &sections), latex(&sections));
     let documentation = rustdoc(derived, &text);
@@ -217,14 +225,11 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             let body = BodySubject { derived, model, scene, inertia, quaternion };
             (kernel_body(&body), body.chart_tokens(), body.configuration_type())
         }
-        Subject::System { model, system, sources } => {
-            let coordinates = system.scene.coordinates.len();
-            (
-                system_kernel_body(derived, model, system, sources),
-                quote!(#runtime::chart::Chart::Own),
-                quote!(#runtime::prelude::SVector<#ty, #coordinates>),
-            )
-        }
+        Subject::System(subject) => (
+            system_kernel_body(derived, &subject),
+            quote!(#runtime::chart::Chart::Own),
+            subject.configuration_type(derived),
+        ),
     };
     let kernel_doc = format!(
         "Checks the parameters and computes once whatever depends on them alone: the kernel of [`{ident}`].\n\n\
@@ -238,7 +243,12 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             quote!(#field: #count)
         });
         let kernel = count_tokens(runtime, derived.kernel.constants.counts());
-        quote!(#runtime::system::Operations { kernel: #kernel, #(#rows),* })
+        let unconstrained = derived.formulas.iter().all(|f| f.method != Method::Multipliers);
+        let none = unconstrained.then(|| {
+            let count = count_tokens(runtime, Counts::default());
+            quote!(multipliers: #count,)
+        });
+        quote!(#runtime::system::Operations { kernel: #kernel, #none #(#rows),* })
     };
     let mut methods = vec![
         (Method::Acceleration, quote!(z: &Self::Speeds, input: &Self::Input), quote!(Self::Speeds)),
@@ -275,6 +285,22 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         }
     };
     let methods = methods.into_iter().map(&write);
+    let (projection, constrained) = match derived.subject {
+        Subject::System(subject) if subject.constraints() > 0 => {
+            let count = subject.constraints();
+            let methods = subject.constraint_methods(runtime).into_iter().map(&write);
+            let constrained = quote! {
+                #[automatically_derived]
+                #[allow(unused_variables, clippy::all, clippy::pedantic)]
+                impl #bounded #runtime::constraint::ConstrainedSystem for #name #used {
+                    type Multipliers = #runtime::prelude::SVector<#ty, #count>;
+                    #(#methods)*
+                }
+            };
+            (subject.projection(derived), Some(constrained))
+        }
+        _ => (TokenStream::new(), None),
+    };
     let rigid_body = derived.body().map(|body| {
         let (pose, configuration_of_pose) = body.pose_bodies();
         let six = quote!(#runtime::prelude::SVector<Self::Scalar, 6>);
@@ -331,9 +357,11 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
                 const EQUATIONS: #runtime::system::Equations = #runtime::system::Equations { text: #text, latex: #latex };
                 const OPERATIONS: #runtime::system::Operations = #operations;
                 #(#methods)*
+                #projection
             }
 
             #rigid_body
+            #constrained
         };
     }
 }

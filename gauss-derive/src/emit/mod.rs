@@ -14,8 +14,10 @@ mod documentation;
 mod kernel;
 mod parameters;
 mod program;
+mod system;
 mod system_parameters;
 #[cfg(test)]
 mod tests;
 
 pub use kernel::{Derived, Subject, emit};
+pub use system::SystemSubject;

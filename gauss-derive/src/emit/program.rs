@@ -110,6 +110,10 @@ pub fn statements(
                 let (a, function) = (write(a), function_name(*function));
                 quote!(let #name = #real::#function(#a);)
             }
+            Operation::Angle(y, x) => {
+                let (y, x) = (write(y), write(x));
+                quote!(let #name = #real::atan2(#y, #x);)
+            }
             Operation::SineCosine(a) => {
                 let (a, s, c) = (write(a), sine(k), cosine(k));
                 let read = |wanted: Operand<'_>| program.operands().any(|o| o == wanted);

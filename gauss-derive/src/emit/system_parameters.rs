@@ -6,13 +6,14 @@ use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Map};
 use crate::kernel::Program;
-use crate::mechanics::{Quantity, System};
+use crate::mechanics::{Matter, Quantity};
 use crate::model::{ExpressionKind, Role, Shape, SystemModel};
 use crate::translate::{Part, Source};
 
 use super::kernel::Derived;
 use super::parameters::constants;
 use super::program::statements;
+use super::system::SystemSubject;
 
 /// The local that holds a field, or one part of a rigid body.
 fn local(field: usize, part: &str) -> Ident {
@@ -46,12 +47,8 @@ fn element(source: &Source<'_>) -> TokenStream {
 }
 
 /// The body of `kernel()`.
-pub fn system_kernel_body(
-    derived: &Derived<'_, '_>,
-    model: &SystemModel,
-    system: &System<'_>,
-    sources: &[Source<'_>],
-) -> TokenStream {
+pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_, '_>) -> TokenStream {
+    let SystemSubject { model, system, sources, .. } = *subject;
     let private = derived.private();
     let ty = derived.scalar().ty();
     let mut read = TokenStream::new();
@@ -77,8 +74,13 @@ pub fn system_kernel_body(
                 checks.extend(quote! {
                     __check.mass(#said_mass, #mass);
                     __check.finite(#said_center, &#center);
-                    __check.inertia(#said_inertia, &#inertia);
-                    __check.central_inertia(#said_inertia, #mass, #center, &#inertia);
+                });
+                checks.extend(match subject.only_axis(Some(ident)) {
+                    Some(axis) => in_plane(derived, axis, &said_inertia, [&mass, &center, &inertia]),
+                    None => quote! {
+                        __check.inertia(#said_inertia, &#inertia);
+                        __check.central_inertia(#said_inertia, #mass, #center, &#inertia);
+                    },
                 });
             }
             Shape::Other => {}
@@ -103,12 +105,16 @@ pub fn system_kernel_body(
         });
     }
     let symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
-    for (clause, particle) in model.particles.iter().zip(&system.scene.particles) {
+    let particles = system.scene.tree.links.iter().filter_map(|link| match link.matter {
+        Matter::Particle(mass) => Some(mass),
+        _ => None,
+    });
+    for (clause, mass) in model.particles.iter().zip(particles) {
         let said = match &clause.mass.kind {
             ExpressionKind::Name(name) => name.unraw().to_string(),
             _ => "particle(mass = …)".to_owned(),
         };
-        let (compute, mass) = evaluate(derived, &symbols, particle.mass);
+        let (compute, mass) = evaluate(derived, &symbols, mass);
         checks.extend(quote!({ #compute __check.mass(#said, #mass); }));
     }
     // The first field that the equations read speaks for all of them.
@@ -120,6 +126,24 @@ pub fn system_kernel_body(
         #checks
         __check.finish()?;
         #kernel
+    }
+}
+
+/// Of a body that turns about one of its axes alone only the moment of inertia about that axis enters, and the two
+/// components of the centre of mass across it.
+fn in_plane(derived: &Derived<'_, '_>, axis: usize, said: &str, [mass, center, inertia]: [&Ident; 3]) -> TokenStream {
+    let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
+    let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+    let zero = quote!(<#ty as #real>::zero());
+    quote! {
+        for __row in &#inertia {
+            __check.finite(#said, __row);
+        }
+        __check.kinetic_matrix(#said, &[
+            [#mass, #zero, -(#mass * #center[#b])],
+            [#zero, #mass, #mass * #center[#a]],
+            [-(#mass * #center[#b]), #mass * #center[#a], #inertia[#axis][#axis]],
+        ]);
     }
 }
 

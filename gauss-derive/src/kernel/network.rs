@@ -17,6 +17,8 @@ pub enum Node<'g> {
     /// 1/n. A quotient is a product with one, so that quotients with the same denominator share it.
     Reciprocal(Place),
     Call(Function, Place),
+    /// Angle of (y, x).
+    Angle(Place, Place),
 }
 
 /// The nodes of one function, each once; children may follow their parents.
@@ -63,6 +65,13 @@ impl<'g> Network<'g> {
                 let (c, place) = self.visit(argument);
                 let argument = self.scaled(c, place);
                 (one, self.place(Node::Call(function, argument)))
+            }
+            NodeView::Angle(y, x) => {
+                let [y, x] = [y, x].map(|e| {
+                    let (c, place) = self.visit(e);
+                    self.scaled(c, place)
+                });
+                (one, self.place(Node::Angle(y, x)))
             }
             NodeView::Sum(terms) => {
                 let terms = terms.into_iter().map(|(c, e)| {
@@ -190,6 +199,7 @@ impl<'g> Network<'g> {
                         factors.sort_unstable();
                     }
                     Node::Reciprocal(a) | Node::Call(_, a) => follow(a),
+                    Node::Angle(y, x) => [y, x].into_iter().for_each(&mut follow),
                 }
             }
             self.outputs.iter_mut().for_each(|o| follow(&mut o.1));

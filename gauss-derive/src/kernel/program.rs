@@ -34,14 +34,18 @@ pub enum Operation<'g> {
     SineCosine(Operand<'g>),
     /// Any function but sine and cosine, which come in pairs.
     Call(Function, Operand<'g>),
+    /// atan2 of y and x.
+    Angle(Operand<'g>, Operand<'g>),
 }
 
 impl<'g> Operation<'g> {
     fn operands(&self) -> impl Iterator<Item = Operand<'g>> + use<'g> {
         let (a, b, c) = match *self {
-            Operation::Add(a, b) | Operation::Subtract(a, b) | Operation::Multiply(a, b) | Operation::Divide(a, b) => {
-                (a, Some(b), None)
-            }
+            Operation::Add(a, b)
+            | Operation::Subtract(a, b)
+            | Operation::Multiply(a, b)
+            | Operation::Divide(a, b)
+            | Operation::Angle(a, b) => (a, Some(b), None),
             Operation::MultiplyAdd(a, b, c) | Operation::MultiplySubtract(a, b, c) => (a, Some(b), Some(c)),
             Operation::Negate(a) | Operation::SineCosine(a) | Operation::Call(_, a) => (a, None, None),
         };
@@ -95,7 +99,7 @@ impl<'g> Program<'g> {
                 Operation::Negate(_) => {}
                 Operation::SineCosine(_) => counts.transcendentals += 2,
                 Operation::Call(Function::Sqrt, _) => counts.roots += 1,
-                Operation::Call(..) => counts.transcendentals += 1,
+                Operation::Call(..) | Operation::Angle(..) => counts.transcendentals += 1,
             }
         }
         counts
@@ -140,6 +144,7 @@ impl<'g> Program<'g> {
                 Operation::Negate(a) => (-at(a), 0.0),
                 Operation::SineCosine(a) => at(a).sin_cos(),
                 Operation::Call(function, a) => (function.value(at(a)), 0.0),
+                Operation::Angle(y, x) => (at(y).atan2(at(x)), 0.0),
             };
             values.push(value);
         }
@@ -173,6 +178,7 @@ impl<'g> Writer<'g> {
                 Node::Product(factors) => open.extend(factors),
                 Node::Reciprocal(a) => open.push(*a),
                 Node::Call(_, a) => open.push(*a),
+                Node::Angle(y, x) => open.extend([*y, *x]),
             }
         }
         Self { network, uses, written: Map::default(), negated: Map::default(), instructions: Vec::new() }
@@ -225,6 +231,10 @@ impl<'g> Writer<'g> {
                     Function::Sin => Operand::Sine(index),
                     _ => Operand::Cosine(index),
                 }
+            }
+            Node::Angle(y, x) => {
+                let (y, x) = (self.operand(y), self.operand(x));
+                self.push(Operation::Angle(y, x))
             }
             Node::Sum(terms) => self.sum(&terms),
         };

@@ -61,6 +61,7 @@ pub struct ParameterSymbol<'g> {
 }
 
 /// The body as the derivation sees it; all entries are symbols, sums of symbols, or zero.
+#[derive(Clone)]
 pub struct Body<'g> {
     pub mass: Expr<'g>,
     /// c = G − O, body axes.

@@ -27,11 +27,18 @@ pub enum Method {
     PotentialEnergy,
     GaussResidual,
     ConstraintFunction,
+    /// λ; only with constraints.
+    Multipliers,
     BodyTwist,
     Speeds,
     BodyMomentum,
     /// det ∂ω/∂q̇ and the product of the squared lengths of its columns; only in charts with a singularity.
     Regularity,
+    /// φ of positions, and on the level of velocities; what cancels them to first order. Only with constraints.
+    PositionResidual,
+    VelocityResidual,
+    PositionCorrection,
+    VelocityCorrection,
 }
 
 /// The outputs of one method. Where the same result can be arranged in several ways, all are given, and the kernel

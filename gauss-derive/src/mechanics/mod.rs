@@ -7,20 +7,28 @@
 //! - `gauss`: the Gauss condition (3.4) from v_P, word for word; the reference for all that follows.
 //! - `check`: every scene against that condition, before code is written.
 //! - `momentum`: the same through (Q, Γ), solved in body axes.
-//! - `system`, `system_check`, `system_equations`: the same for bodies and particles in coordinates of their own.
+//! - `turn`, `link`: bodies, frames and particles, each relative to its parent.
+//! - `moments`, `regroup`: what their matter amounts to, and what of it moves with the parent as well.
+//! - `tree`: sums over links by recursion.
+//! - `constraint`: what coordinates and speeds do not solve by themselves.
+//! - `system`, `system_check`, `system_equations`: the equations of bodies and particles in coordinates of their own.
 //! - `methods`: every method of a kernel as expressions.
 //! - `equations`: the equations for people.
 
 mod body;
 mod chart;
 mod check;
+mod constraint;
 mod equations;
 mod gauss;
+mod link;
 mod methods;
+mod moments;
 mod momentum;
 mod names;
 #[cfg(test)]
 mod proof;
+mod regroup;
 mod rotation;
 #[cfg(test)]
 mod snapshots;
@@ -29,14 +37,21 @@ mod system_check;
 mod system_equations;
 #[cfg(test)]
 pub mod tests;
+mod tree;
+mod turn;
 mod vector;
 
 pub use body::{AddedMassShape, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
 pub use chart::ConfigurationKind;
 pub use check::check_against_definition;
+pub use constraint::{Constraint, ConstraintKind};
 pub use equations::Section;
+pub use link::{Matter, Placement, identity};
 pub use methods::{Formula, Method, Scene};
 pub use names::Name;
 pub use rotation::{about_axis, rotation_of_quaternion};
-pub use system::{Link, Particle, System, SystemScene, Turn};
+pub use system::{Coordinate, System, SystemScene};
 pub use system_check::{SystemFault, check_system_against_definition};
+pub use tree::Tree;
+pub use turn::Turn;
+pub use vector::{Axes, cross, cross_matrix};

@@ -1,93 +1,295 @@
-//! Systems of bodies and particles in coordinates of their own: velocities by differentiation along ψ (3.2), and the
-//! Gauss condition (3.3), (3.4) summed over all of them.
+//! Systems of bodies and particles in coordinates of their own: the Gauss condition (3.3), (3.4) summed over all of them,
+//! and every method of their kernels.
 
 use crate::algebra::{Expr, Graph, Map, solve_symmetric};
 
-use super::body::Body;
+use super::constraint::{Constraint, Constraints};
 use super::equations::tidy;
 use super::methods::{Formula, Method};
-use super::momentum::{KineticMatrix, Weight};
 use super::names::Name;
-use super::rotation::{about_axis, product};
-use super::vector::{Axes, Frame, Motion, Triple, Vector, add, apply_block, cross, dot, is_zero, scale};
+use super::tree::{Inertia, Tree};
+use super::vector::Triple;
 
-/// A turn by an angle about an axis of the already turned frame; a rotation is a product of turns.
-#[derive(Clone, Copy, Debug)]
-pub struct Turn<'g> {
-    pub axis: usize,
-    pub angle: Expr<'g>,
+/// Degrees of freedom up to which everything is also tried multiplied out.
+const SMALL: usize = 3;
+
+/// One coordinate of the configuration.
+#[derive(Clone)]
+pub enum Coordinate<'g> {
+    Scalar(Expr<'g>),
+    /// R, by its entries.
+    Rotation([Triple<'g>; 3]),
+    /// (R, b).
+    Pose([Triple<'g>; 3], Triple<'g>),
 }
 
-/// A body as it is given: relative to its parent's O and axes, or to Ω and k.
-pub struct Link<'g> {
-    pub body: Body<'g>,
-    pub parent: Option<usize>,
-    pub position: Triple<'g>,
-    pub turns: Vec<Turn<'g>>,
-}
+impl<'g> Coordinate<'g> {
+    /// How many components its rate has.
+    pub fn size(&self) -> usize {
+        match self {
+            Coordinate::Scalar(_) => 1,
+            Coordinate::Rotation(_) => 3,
+            Coordinate::Pose(..) => 6,
+        }
+    }
 
-/// A particle (3.3).
-pub struct Particle<'g> {
-    pub mass: Expr<'g>,
-    pub position: Triple<'g>,
+    /// R, where there is one.
+    pub fn rotation(&self) -> Option<&[Triple<'g>; 3]> {
+        match self {
+            Coordinate::Scalar(_) => None,
+            Coordinate::Rotation(rotation) | Coordinate::Pose(rotation, _) => Some(rotation),
+        }
+    }
 }
 
 /// A system as it is given: every expression in terms of t, q, z and parameters.
 pub struct SystemScene<'g> {
     pub graph: &'g Graph,
     pub time: Expr<'g>,
-    pub coordinates: Vec<Expr<'g>>,
+    pub coordinates: Vec<Coordinate<'g>>,
     pub coordinate_names: Vec<Name>,
     pub speeds: Vec<Expr<'g>>,
     pub speed_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
     pub momenta: Vec<Expr<'g>>,
-    /// ψ, one for each coordinate, affine in z.
+    /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z.
     pub kinematics: Vec<Expr<'g>>,
-    pub links: Vec<Link<'g>>,
-    pub particles: Vec<Particle<'g>>,
+    /// Rates of t and of the symbols of q.
+    pub rates: Map<u32, Expr<'g>>,
+    pub tree: Tree<'g>,
     pub potential: Option<Expr<'g>>,
     /// Acceleration of free fall, observer's axes.
     pub gravity: Option<Triple<'g>>,
+    pub constraints: Vec<Constraint<'g>>,
 }
 
-/// A body with its motion.
-pub struct MovingBody<'g> {
-    pub frame: Frame<'g>,
-    /// O − Ω, observer's components.
-    pub position: Triple<'g>,
-    pub velocity: Vector<'g>,
-    /// Body axes.
-    pub angular_velocity: Triple<'g>,
-    /// ∂v_O/∂z^α and ∂ω/∂z^α.
-    linear_rows: Vec<Vector<'g>>,
-    angular_rows: Vec<Triple<'g>>,
-    matrix: KineticMatrix<'g>,
-    weight: Option<Weight<'g>>,
-}
-
-/// A system with the motion of all its parts.
+/// A system with what its equations are made of.
 pub struct System<'g> {
     pub scene: SystemScene<'g>,
-    pub bodies: Vec<MovingBody<'g>>,
+    pub constraints: Constraints<'g>,
     /// Rates of t and q, and those with ż.
-    pub rates: Map<u32, Expr<'g>>,
     pub along: Map<u32, Expr<'g>>,
-    /// Velocities of the particles, and ∂v/∂z^α.
-    particles: Vec<(Triple<'g>, Vec<Triple<'g>>)>,
-    /// A, tidied, so that what vanishes is seen to.
+    /// A.
     pub matrix: Vec<Vec<Expr<'g>>>,
 }
 
-impl<'g> SystemScene<'g> {
-    /// Rates of t and q: ψ.
-    pub fn rates(&self) -> Map<u32, Expr<'g>> {
-        let q = self.coordinates.iter().zip(&self.kinematics).map(|(q, rate)| (q.key(), *rate));
-        q.chain([(self.time.key(), self.graph.one())]).collect()
+/// One way to form the equations; the cheapest wins.
+struct Arrangement<'g> {
+    matrix: Vec<Vec<Expr<'g>>>,
+    /// ∂C/∂ż at ż = 0, and at any ż.
+    still: Vec<Expr<'g>>,
+    residual: Vec<Expr<'g>>,
+}
+
+impl<'g> System<'g> {
+    pub fn new(scene: SystemScene<'g>) -> Self {
+        let mut along = scene.rates.clone();
+        along.extend(scene.speeds.iter().zip(&scene.speed_rates).map(|(z, rate)| (z.key(), *rate)));
+        let constraints = Constraints::new(&scene, &scene.rates);
+        let matrix = scene.tree.mass_matrix();
+        // Where links hang on one another entries are short as they are, and long multiplied out.
+        let matrix = if scene.tree.is_chained() { grouped(&matrix) } else { tidied(&matrix) };
+        Self { scene, constraints, along, matrix }
     }
 
-    /// Coordinates whose ψ is not affine in z: velocities would then not be linear in z, and (3.4) not this one.
-    pub fn coordinates_not_affine(&self) -> Vec<usize> {
+    pub fn formulas(&self) -> Vec<Formula<'g>> {
+        let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
+        let arrangements = self.arrangements();
+        let each = |method, f: &dyn Fn(&Arrangement<'g>) -> Vec<Expr<'g>>| Formula {
+            method,
+            arrangements: arrangements.iter().map(f).collect(),
+        };
+        let momentum = self.momentum();
+        let velocity = self.velocity(&momentum);
+        let rate = self.momentum_rate(&velocity, &arrangements[0]);
+        let mut formulas = vec![
+            single(Method::Kinematics, self.scene.kinematics.clone()),
+            each(Method::Acceleration, &|a| self.acceleration(a).0),
+            Formula { method: Method::Momentum, arrangements: self.with_tidied(momentum) },
+            single(Method::Velocity, velocity),
+            single(Method::MomentumRate, rate),
+            single(Method::MassMatrix, self.matrix.iter().flatten().copied().collect()),
+            Formula { method: Method::KineticEnergy, arrangements: self.kinetic_energies() },
+            Formula { method: Method::PotentialEnergy, arrangements: self.with_tidied(vec![self.potential_energy()]) },
+            each(Method::ConstraintFunction, &|a| vec![self.constraint_function(a)]),
+            each(Method::GaussResidual, &|a| self.gauss_residual(a)),
+        ];
+        if !self.constraints.is_empty() {
+            let correction = self.constraints.position_correction(&self.matrix);
+            formulas.extend([
+                each(Method::Multipliers, &|a| self.acceleration(a).1),
+                single(Method::PositionResidual, self.constraints.on_positions()),
+                single(Method::VelocityResidual, self.constraints.on_velocities.clone()),
+                single(Method::PositionCorrection, self.moved_by(&correction)),
+                single(Method::VelocityCorrection, self.constraints.velocity_correction(&self.matrix)),
+            ]);
+        }
+        formulas
+    }
+
+    /// Multiplied out as well, where that is not long.
+    fn with_tidied(&self, outputs: Vec<Expr<'g>>) -> Vec<Vec<Expr<'g>>> {
+        if self.is_long() {
+            return vec![outputs];
+        }
+        vec![outputs.iter().map(|e| tidy(*e)).collect(), outputs]
+    }
+
+    /// Whether multiplying out would be slow and of no use.
+    pub fn is_long(&self) -> bool {
+        self.scene.tree.is_chained() && self.scene.speeds.len() > SMALL
+    }
+
+    fn arrangements(&self) -> Vec<Arrangement<'g>> {
+        let mut arrangements = Vec::new();
+        let tidy_all = |rows: &[Expr<'g>]| -> Vec<Expr<'g>> { rows.iter().map(|e| tidy(*e)).collect() };
+        let best = [self.scene.tree.best_inertia()];
+        for &inertia in if self.is_long() { &best[..] } else { &[Inertia::Tensor, Inertia::Field] } {
+            let residual = self.residual(&self.along, inertia);
+            let still = self.residual(&self.scene.rates, inertia);
+            if !self.is_long() {
+                let matrix = tidied(&self.matrix);
+                arrangements.push(Arrangement { matrix, still: tidy_all(&still), residual: tidy_all(&residual) });
+            }
+            arrangements.push(Arrangement { matrix: self.matrix.clone(), still, residual });
+        }
+        arrangements
+    }
+
+    /// p_α = ∂T/∂z^α.
+    pub fn momentum(&self) -> Vec<Expr<'g>> {
+        self.scene.tree.momentum()
+    }
+
+    /// Speeds that no velocity depends on: their rows of A are zero.
+    pub fn idle_speeds(&self) -> Vec<usize> {
+        (0..self.scene.speeds.len()).filter(|&k| self.matrix[k].iter().all(|e| e.is_zero())).collect()
+    }
+
+    /// −∂(dU/dt)/∂z^α of the potential.
+    fn potential_forces(&self) -> Vec<Expr<'g>> {
+        let zero = self.scene.graph.zero();
+        let power = self.scene.potential.map_or(zero, |potential| potential.derivative(&self.scene.rates));
+        self.scene.speeds.iter().map(|&z| -power.partial(z)).collect()
+    }
+
+    /// `R·a_α + M_O·o_α` of weight and buoyancy, and the potential's.
+    pub fn generalised_forces(&self) -> Vec<Expr<'g>> {
+        sums(&self.scene.tree.weights(), &self.potential_forces())
+    }
+
+    /// ∂C/∂ż of the unconstrained C.
+    fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia) -> Vec<Expr<'g>> {
+        let inertia = self.scene.tree.residual(along, inertia);
+        inertia.into_iter().zip(self.potential_forces()).map(|(r, f)| r - f).collect()
+    }
+
+    /// ż and λ: `A ż = −∂C/∂ż(ż = 0) + Jᵀλ`.
+    fn acceleration(&self, arrangement: &Arrangement<'g>) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
+        let right: Vec<Expr<'g>> = arrangement.still.iter().map(|r| -*r).collect();
+        if self.constraints.is_empty() {
+            return (solve_symmetric(&arrangement.matrix, &right), Vec::new());
+        }
+        self.constraints.solve(&arrangement.matrix, &right)
+    }
+
+    /// `∂C/∂ż − Jᵀλ` with the multipliers of the motion.
+    fn gauss_residual(&self, arrangement: &Arrangement<'g>) -> Vec<Expr<'g>> {
+        if self.constraints.is_empty() {
+            return arrangement.residual.clone();
+        }
+        let forces = self.constraints.forces(&self.acceleration(arrangement).1);
+        arrangement.residual.iter().zip(forces).map(|(r, f)| *r - f).collect()
+    }
+
+    /// z from p = A z + p(z = 0).
+    fn velocity(&self, momentum: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let still = self.at_rest();
+        let beside = momentum.iter().map(|p| {
+            let value = p.substitute(&still);
+            if self.is_long() { value } else { tidy(value) }
+        });
+        let right: Vec<Expr<'g>> = self.scene.momenta.iter().zip(beside).map(|(symbol, p)| *symbol - p).collect();
+        solve_symmetric(&self.matrix, &right)
+    }
+
+    /// z = 0.
+    fn at_rest(&self) -> Map<u32, Expr<'g>> {
+        self.scene.speeds.iter().map(|z| (z.key(), self.scene.graph.zero())).collect()
+    }
+
+    /// `Σ Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α`.
+    pub fn bracket(&self) -> Vec<Expr<'g>> {
+        self.scene.tree.bracket()
+    }
+
+    /// ṗ as a function of (t, q, p).
+    fn momentum_rate(&self, velocity: &[Expr<'g>], arrangement: &Arrangement<'g>) -> Vec<Expr<'g>> {
+        let mut bracket = self.bracket();
+        if !self.is_long() {
+            bracket.iter_mut().for_each(|e| *e = tidy(*e));
+        }
+        if !self.constraints.is_empty() {
+            bracket = sums(&bracket, &self.constraints.forces(&self.acceleration(arrangement).1));
+        }
+        let of_momenta: Map<u32, Expr<'g>> =
+            self.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
+        let rows = bracket.into_iter().zip(self.generalised_forces());
+        rows.map(|(bracket, force)| bracket.substitute(&of_momenta) + force).collect()
+    }
+
+    /// T, link by link and, where velocities are homogeneous in z, as ½ p·z.
+    fn kinetic_energies(&self) -> Vec<Vec<Expr<'g>>> {
+        let energy = self.scene.tree.twice_kinetic_energy().half();
+        let mut energies = self.with_tidied(vec![energy]);
+        if energy.substitute(&self.at_rest()).is_zero() {
+            let momentum = self.momentum();
+            if momentum.iter().all(|p| p.substitute(&self.at_rest()).is_zero()) {
+                let terms = momentum.iter().zip(&self.scene.speeds).map(|(p, z)| p.group() * *z);
+                energies.push(vec![terms.sum::<Expr<'g>>().half()]);
+            }
+        }
+        energies
+    }
+
+    fn potential_energy(&self) -> Expr<'g> {
+        let own = self.scene.potential.unwrap_or_else(|| self.scene.graph.zero());
+        own + self.scene.tree.potential_energy()
+    }
+
+    /// C up to a constant in ż: its gradient is affine in ż, so `C = ½ ż·(∂C/∂ż(ż) + ∂C/∂ż(0))`.
+    fn constraint_function(&self, arrangement: &Arrangement<'g>) -> Expr<'g> {
+        let rows = arrangement.residual.iter().zip(&arrangement.still);
+        let terms = rows.zip(&self.scene.speed_rates).map(|((any, still), &rate)| rate * (*any + *still).group());
+        terms.sum::<Expr<'g>>().half()
+    }
+
+    /// The increment of the configuration that an increment of z makes: ψ is affine in z.
+    fn moved_by(&self, increment: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let named: Vec<Expr<'g>> = increment.iter().map(|e| e.group()).collect();
+        let zero = self.scene.graph.zero();
+        let row = |rate: &Expr<'g>| {
+            let terms = self.scene.speeds.iter().zip(&named).map(|(&z, d)| rate.partial(z) * *d);
+            terms.fold(zero, |sum, e| sum + e)
+        };
+        self.scene.kinematics.iter().map(row).collect()
+    }
+}
+
+impl<'g> SystemScene<'g> {
+    /// The coordinate that a component of ψ belongs to.
+    pub fn coordinate_of_rate(&self, rate: usize) -> usize {
+        let mut first = 0;
+        let after = |coordinate: &Coordinate<'g>| {
+            first += coordinate.size();
+            first
+        };
+        self.coordinates.iter().map(after).position(|end| rate < end).unwrap_or_default()
+    }
+
+    /// Rates whose ψ is not affine in z: velocities would then not be linear in z, and (3.4) not this one. Indices into the
+    /// kinematics.
+    pub fn rates_not_affine(&self) -> Vec<usize> {
         let affine = |rate: &Expr<'g>| {
             self.speeds.iter().all(|&z| {
                 let partial = rate.partial(z);
@@ -98,359 +300,14 @@ impl<'g> SystemScene<'g> {
     }
 }
 
-impl<'g> System<'g> {
-    pub fn new(scene: SystemScene<'g>) -> Self {
-        let rates = scene.rates();
-        let mut along = rates.clone();
-        along.extend(scene.speeds.iter().zip(&scene.speed_rates).map(|(z, rate)| (z.key(), *rate)));
-        let mut moving: Vec<Option<MovingBody<'g>>> = scene.links.iter().map(|_| None).collect();
-        // Parents may be written after their children.
-        while let Some(next) = (0..scene.links.len())
-            .find(|&k| moving[k].is_none() && scene.links[k].parent.is_none_or(|parent| moving[parent].is_some()))
-        {
-            let parent = scene.links[next].parent.and_then(|parent| moving[parent].as_ref());
-            moving[next] = Some(MovingBody::new(&scene, &scene.links[next], parent, &rates));
-        }
-        let bodies: Vec<MovingBody<'g>> = moving.into_iter().flatten().collect();
-        let particles: Vec<(Triple<'g>, Vec<Triple<'g>>)> = scene
-            .particles
-            .iter()
-            .map(|particle| {
-                let velocity = particle.position.map(|e| e.derivative(&rates));
-                (velocity, scene.speeds.iter().map(|&z| velocity.map(|e| e.partial(z))).collect())
-            })
-            .collect();
-        let mut system = Self { scene, bodies, rates, along, particles, matrix: Vec::new() };
-        system.matrix = system.mass_matrix();
-        system
-    }
-
-    fn degrees(&self) -> std::ops::Range<usize> {
-        0..self.scene.speeds.len()
-    }
-
-    fn zeros(&self) -> Vec<Expr<'g>> {
-        vec![self.scene.graph.zero(); self.scene.speeds.len()]
-    }
-
-    pub fn formulas(&self) -> Vec<Formula<'g>> {
-        let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
-        let residual = self.residual();
-        let collected: Vec<Expr<'g>> = residual.iter().map(|e| tidy(*e)).collect();
-        let residuals = vec![residual, collected];
-        let momentum = self.momentum();
-        let velocity = self.velocity(&momentum);
-        let rate = self.momentum_rate(&velocity);
-        vec![
-            single(Method::Kinematics, self.scene.kinematics.clone()),
-            Formula {
-                method: Method::Acceleration,
-                arrangements: residuals.iter().map(|r| self.acceleration(r)).collect(),
-            },
-            Formula {
-                method: Method::Momentum,
-                arrangements: vec![momentum.iter().map(|p| tidy(*p)).collect(), momentum],
-            },
-            single(Method::Velocity, velocity),
-            single(Method::MomentumRate, rate),
-            single(Method::MassMatrix, self.matrix.iter().flatten().copied().collect()),
-            self.energy(Method::KineticEnergy, self.kinetic_energy()),
-            self.energy(Method::PotentialEnergy, self.potential_energy()),
-            Formula {
-                method: Method::ConstraintFunction,
-                arrangements: residuals.iter().map(|r| vec![self.constraint_function(r)]).collect(),
-            },
-            Formula { method: Method::GaussResidual, arrangements: residuals },
-        ]
-    }
-
-    fn energy(&self, method: Method, e: Expr<'g>) -> Formula<'g> {
-        Formula { method, arrangements: vec![vec![tidy(e)], vec![e]] }
-    }
-
-    /// p_α = ∂T/∂z^α = Σ Q·a_α + Γ_O·o_α, and m v·a_α for particles.
-    pub fn momentum(&self) -> Vec<Expr<'g>> {
-        let mut p = self.zeros();
-        for body in &self.bodies {
-            let (q, gamma) = body.momentum(&body.velocity, &body.angular_velocity);
-            for k in self.degrees() {
-                p[k] = p[k] + body.project(k, &q, &gamma);
-            }
-        }
-        for (particle, (velocity, rows)) in self.scene.particles.iter().zip(&self.particles) {
-            let momentum = scale(particle.mass, velocity);
-            for k in self.degrees() {
-                p[k] = p[k] + dot(&momentum, &rows[k]);
-            }
-        }
-        p
-    }
-
-    /// A_αβ = ∂p_α/∂z^β: the momentum that the partial velocities of β alone have.
-    fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
-        let n = self.scene.speeds.len();
-        let mut matrix = vec![self.zeros(); n];
-        for column in self.degrees() {
-            let mut entries = self.zeros();
-            for body in &self.bodies {
-                let (q, gamma) = body.momentum(&body.linear_rows[column], &body.angular_rows[column]);
-                for row in 0..=column {
-                    entries[row] = entries[row] + body.project(row, &q, &gamma);
-                }
-            }
-            for (particle, (_, rows)) in self.scene.particles.iter().zip(&self.particles) {
-                for row in 0..=column {
-                    entries[row] = entries[row] + particle.mass * dot(&rows[column], &rows[row]);
-                }
-            }
-            for row in 0..=column {
-                matrix[row][column] = tidy(entries[row]);
-                matrix[column][row] = matrix[row][column];
-            }
-        }
-        matrix
-    }
-
-    /// Speeds that no velocity depends on: their rows of A are zero.
-    pub fn idle_speeds(&self) -> Vec<usize> {
-        self.degrees().filter(|&k| self.matrix[k].iter().all(|e| e.is_zero())).collect()
-    }
-
-    /// R·a_α + M_O·o_α of weight and buoyancy, and −∂(dU/dt)/∂z^α of the potential.
-    pub fn generalised_forces(&self) -> Vec<Expr<'g>> {
-        let mut forces = self.zeros();
-        for body in &self.bodies {
-            let Some(weight) = &body.weight else { continue };
-            let resultant = weight.resultant(&body.frame);
-            let torque = weight.torque(&body.frame, Axes::Body);
-            for k in self.degrees() {
-                forces[k] = forces[k] + body.project(k, &resultant, &torque);
-            }
-        }
-        if let Some(gravity) = &self.scene.gravity {
-            for (particle, (_, rows)) in self.scene.particles.iter().zip(&self.particles) {
-                for k in self.degrees() {
-                    forces[k] = forces[k] + particle.mass * dot(gravity, &rows[k]);
-                }
-            }
-        }
-        if let Some(potential) = self.scene.potential {
-            let power = potential.derivative(&self.rates);
-            for k in self.degrees() {
-                forces[k] = forces[k] - power.partial(self.scene.speeds[k]);
-            }
-        }
-        forces
-    }
-
-    /// ∂C/∂ż: `Σ dQ/dt·a_α + (dΓ_O/dt + v_O × Q)·o_α − forces` at a given ż.
-    pub fn residual(&self) -> Vec<Expr<'g>> {
-        let mut residual = self.zeros();
-        for (body, link) in self.bodies.iter().zip(&self.scene.links) {
-            let (force, torque) = body.inertia_forces(&link.body, &self.along);
-            for k in self.degrees() {
-                residual[k] = residual[k] + body.project(k, &force, &torque);
-            }
-        }
-        for (particle, (velocity, rows)) in self.scene.particles.iter().zip(&self.particles) {
-            let rate = velocity.map(|e| (particle.mass * e.derivative(&self.along)).group());
-            for k in self.degrees() {
-                residual[k] = residual[k] + dot(&rate, &rows[k]);
-            }
-        }
-        residual.into_iter().zip(self.generalised_forces()).map(|(r, f)| r - f).collect()
-    }
-
-    fn at_rest(&self) -> Map<u32, Expr<'g>> {
-        self.scene.speed_rates.iter().map(|rate| (rate.key(), self.scene.graph.zero())).collect()
-    }
-
-    /// A ż = −∂C/∂ż(ż = 0).
-    fn acceleration(&self, residual: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let at_rest = self.at_rest();
-        let right: Vec<Expr<'g>> = residual.iter().map(|r| -r.substitute(&at_rest)).collect();
-        solve_symmetric(&self.matrix, &right)
-    }
-
-    /// z from p = A z + p(z = 0).
-    fn velocity(&self, momentum: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let still: Map<u32, Expr<'g>> = self.scene.speeds.iter().map(|z| (z.key(), self.scene.graph.zero())).collect();
-        let right: Vec<Expr<'g>> = momentum
-            .iter()
-            .zip(&self.scene.momenta)
-            .map(|(value, symbol)| *symbol - tidy(value.substitute(&still)))
-            .collect();
-        solve_symmetric(&self.matrix, &right)
-    }
-
-    /// `Σ Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α`, and m v·ȧ_α for particles.
-    pub fn bracket(&self) -> Vec<Expr<'g>> {
-        let mut bracket = self.zeros();
-        for body in &self.bodies {
-            let frame = &body.frame;
-            let omega = frame.body_vector(body.angular_velocity);
-            let (q, gamma) = body.momentum(&body.velocity, &body.angular_velocity);
-            let moved = frame.resolve(&frame.cross(&body.impulse_beside_velocity(&q), &body.velocity), Axes::Body);
-            let gamma_turned = add(&cross(&gamma, &body.angular_velocity), &moved);
-            for k in self.degrees() {
-                let a = frame.derivative(&body.linear_rows[k], &self.rates, &omega);
-                let o = body.angular_rows[k].map(|e| e.derivative(&self.rates));
-                let turned = dot(&gamma_turned, &body.angular_rows[k]);
-                bracket[k] = bracket[k] + frame.dot(&q, &a) + dot(&gamma, &o) + turned;
-            }
-        }
-        for (particle, (velocity, rows)) in self.scene.particles.iter().zip(&self.particles) {
-            for k in self.degrees() {
-                let rate = rows[k].map(|e| e.derivative(&self.rates));
-                bracket[k] = bracket[k] + particle.mass * dot(velocity, &rate);
-            }
-        }
-        bracket
-    }
-
-    /// ṗ as a function of (t, q, p).
-    fn momentum_rate(&self, velocity: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let of_momenta: Map<u32, Expr<'g>> =
-            self.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
-        let rows = self.bracket().into_iter().zip(self.generalised_forces());
-        rows.map(|(bracket, force)| tidy(bracket).substitute(&of_momenta) + force).collect()
-    }
-
-    /// T = ½ Σ (Q·v_O + Γ_O·ω) + ½ Σ m v².
-    fn kinetic_energy(&self) -> Expr<'g> {
-        let mut twice = self.scene.graph.zero();
-        for body in &self.bodies {
-            let (q, gamma) = body.momentum(&body.velocity, &body.angular_velocity);
-            twice = twice + body.frame.dot(&q, &body.velocity) + dot(&gamma, &body.angular_velocity);
-        }
-        for (particle, (velocity, _)) in self.scene.particles.iter().zip(&self.particles) {
-            twice = twice + particle.mass * dot(velocity, velocity);
-        }
-        twice.half()
-    }
-
-    fn potential_energy(&self) -> Expr<'g> {
-        let mut energy = self.scene.potential.unwrap_or_else(|| self.scene.graph.zero());
-        for body in &self.bodies {
-            if let Some(weight) = &body.weight {
-                energy = energy + weight.potential(&body.frame, &body.position);
-            }
-        }
-        if let Some(gravity) = &self.scene.gravity {
-            for particle in &self.scene.particles {
-                energy = energy - particle.mass * dot(gravity, &particle.position);
-            }
-        }
-        energy
-    }
-
-    /// C up to a constant in ż: its gradient is affine in ż, so `C = ½ ż·(∂C/∂ż(ż) + ∂C/∂ż(0))`.
-    fn constraint_function(&self, residual: &[Expr<'g>]) -> Expr<'g> {
-        let at_rest = self.at_rest();
-        let terms = residual.iter().zip(&self.scene.speed_rates);
-        terms.map(|(r, &rate)| rate * (*r + r.substitute(&at_rest))).sum::<Expr<'g>>().half()
-    }
+fn sums<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    a.iter().zip(b).map(|(a, b)| *a + *b).collect()
 }
 
-impl<'g> MovingBody<'g> {
-    fn new(scene: &SystemScene<'g>, link: &Link<'g>, parent: Option<&Self>, rates: &Map<u32, Expr<'g>>) -> Self {
-        let graph = scene.graph;
-        let zero = [graph.zero(); 3];
-        let grouped = |a: Triple<'g>| a.map(Expr::group);
-        let (mut omega, mut rotation) = match parent {
-            Some(parent) => (parent.angular_velocity, Some(parent.frame.rotation)),
-            None => (zero, None),
-        };
-        let mut relative: Option<[Triple<'g>; 3]> = None;
-        for turn in &link.turns {
-            let matrix = about_axis(graph, turn.axis, turn.angle);
-            // ω in the turned axes, and what the turn itself adds about its axis.
-            omega = grouped(Frame { graph, rotation: matrix }.to_body(&omega));
-            omega[turn.axis] = omega[turn.axis] + turn.angle.derivative(rates);
-            let after = |before: Option<[Triple<'g>; 3]>| before.map_or(matrix, |r| product(&r, &matrix).map(grouped));
-            rotation = Some(after(rotation));
-            relative = Some(after(relative));
-        }
-        let identity =
-            || std::array::from_fn(|i| std::array::from_fn(|j| if i == j { graph.one() } else { graph.zero() }));
-        let frame = Frame { graph, rotation: rotation.unwrap_or_else(identity) };
-        let rate = link.position.map(|e| e.derivative(rates));
-        let (position, velocity) = match parent {
-            None => (link.position, frame.space_vector(rate)),
-            Some(parent) => {
-                let position = add(&parent.position, &grouped(parent.frame.to_space(&link.position)));
-                let u = parent.frame.resolve(&parent.velocity, Axes::Body);
-                let carried = add(&u, &add(&cross(&parent.angular_velocity, &link.position), &rate));
-                let own = Frame { graph, rotation: relative.unwrap_or_else(identity) };
-                (position, frame.body_vector(grouped(own.to_body(&grouped(carried)))))
-            }
-        };
-        let speeds = &scene.speeds;
-        let (linear_rows, angular_rows) = speeds
-            .iter()
-            .map(|&z| (velocity.partial(z).map(|e| tidy(e).group()), omega.map(|e| tidy(e.partial(z)).group())))
-            .unzip();
-        let matrix = KineticMatrix::new(graph, &link.body, &[0, 1, 2], &[0, 1, 2]);
-        let weight = Weight::new(&link.body);
-        Self { frame, position, velocity, angular_velocity: omega, linear_rows, angular_rows, matrix, weight }
-    }
+fn tidied<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
+    matrix.iter().map(|row| row.iter().map(|e| tidy(*e)).collect()).collect()
+}
 
-    /// `linear·a_α + angular·o_α`.
-    fn project(&self, k: usize, linear: &Vector<'g>, angular: &Triple<'g>) -> Expr<'g> {
-        self.frame.dot(linear, &self.linear_rows[k]) + dot(angular, &self.angular_rows[k])
-    }
-
-    /// (Q, Γ_O) of a velocity and an angular velocity.
-    fn momentum(&self, velocity: &Vector<'g>, omega: &Triple<'g>) -> (Vector<'g>, Triple<'g>) {
-        let q = self.matrix.linear_momentum(&self.frame, velocity, omega).map(Expr::group);
-        // What vanishes with O ≠ G or added mass need not be turned.
-        let coupled = (0..3).any(|i| (3..6).any(|j| !self.matrix.entries[i][j].is_zero()));
-        let u = if coupled { self.frame.resolve(velocity, Axes::Body) } else { [self.frame.graph.zero(); 3] };
-        (q, self.matrix.angular_momentum(&u, omega).map(Expr::group))
-    }
-
-    /// Q up to a multiple of v_O, which drops out of v_O × Q.
-    fn impulse_beside_velocity(&self, q: &Vector<'g>) -> Vector<'g> {
-        match self.matrix.isotropic {
-            Some(_) => self.frame.body_vector(self.matrix.block(0, 3, &self.angular_velocity)),
-            None => *q,
-        }
-    }
-
-    /// `dQ/dt` and `dΓ_O/dt + v_O × Q`: from a_O and ω̇ for the body, so that nothing cancels, and from the impulse of the
-    /// fluid.
-    fn inertia_forces(&self, body: &Body<'g>, along: &Map<u32, Expr<'g>>) -> (Vector<'g>, Triple<'g>) {
-        let frame = &self.frame;
-        let w = self.angular_velocity;
-        let omega = frame.body_vector(w);
-        let acceleration = frame.derivative(&self.velocity, along, &omega).map(Expr::group);
-        let alpha = w.map(|e| e.derivative(along).group());
-        let first = body.first_moment();
-        let mut force = acceleration.times(body.mass);
-        let inertia = |a: &Triple<'g>| -> Triple<'g> { std::array::from_fn(|i| dot(&body.inertia[i], a)) };
-        let mut torque = add(&inertia(&alpha), &cross(&w, &inertia(&w).map(Expr::group)));
-        if !is_zero(&first) {
-            let turning = add(&cross(&alpha, &first), &cross(&w, &cross(&w, &first).map(Expr::group)));
-            force = force.plus(&frame.body_vector(turning));
-            torque = add(&torque, &cross(&first, &frame.resolve(&acceleration, Axes::Body)));
-        }
-        if let Some(added) = &body.added_mass {
-            let u = frame.resolve(&self.velocity, Axes::Body);
-            let impulse = |row| add(&apply_block(added, row, 0, &u), &apply_block(added, row, 3, &w)).map(Expr::group);
-            let (q, gamma) = (impulse(0), impulse(3));
-            let rate = |a: &Triple<'g>| add(&a.map(|e| e.derivative(along)), &cross(&w, a));
-            force = force.plus(&frame.body_vector(rate(&q)));
-            torque = add(&torque, &add(&rate(&gamma), &cross(&u, &q)));
-        }
-        (force.map(Expr::group), torque.map(Expr::group))
-    }
-
-    /// ω as a vector, for what works on motions.
-    pub fn angular_velocity_vector(&self) -> Vector<'g> {
-        self.frame.body_vector(self.angular_velocity)
-    }
-
-    pub fn motion<'a>(&'a self, omega: &'a Vector<'g>) -> Motion<'a, 'g> {
-        Motion { frame: &self.frame, velocity: &self.velocity, angular_velocity: omega }
-    }
+fn grouped<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
+    matrix.iter().map(|row| row.iter().map(|e| e.group()).collect()).collect()
 }

@@ -1,12 +1,14 @@
-//! Every system against the definition, as for one body: C of (3.1) over all bodies and particles must be stationary.
+//! Every system against the definition, before code is written: C of (3.1) over all bodies and particles must be
+//! stationary, with positions as they were given and all further differentiation by dual numbers, at a pseudo-random state.
 
-use crate::algebra::{Evaluation, Expr, Map};
+use crate::algebra::{Evaluation, Expr, Map, Rational, Tangents};
 
 use super::check::{Disagreement, agree};
-use super::gauss::stationarity_of_body;
+use super::constraint::ConstraintKind;
+use super::link::{Link, Matter};
 use super::methods::{Formula, Method};
-use super::system::System;
-use super::vector::dot;
+use super::rotation::rotation_of_quaternion;
+use super::system::{Coordinate, System};
 
 /// What is found wrong with a system at a pseudo-random state.
 #[derive(Debug)]
@@ -15,65 +17,264 @@ pub enum SystemFault {
     Disagreement(Disagreement),
     /// A is singular: this speed moves nothing that the earlier ones do not move.
     DependentSpeed(usize),
+    /// The constraint, by its index, says nothing that the earlier ones do not say.
+    DependentConstraint(usize),
+    /// No velocity satisfies the constraint together with the earlier ones.
+    InconsistentConstraint(usize),
 }
 
-/// `Σ ∫a_P·w_α dm − ∫w_α·dF` with v_P differentiated from positions, and (3.3) for the particles.
-fn stationarity<'g>(system: &System<'g>) -> Vec<Expr<'g>> {
-    let scene = &system.scene;
-    let mut rows = vec![scene.graph.zero(); scene.speeds.len()];
-    let add = |rows: &mut Vec<Expr<'g>>, more: Vec<Expr<'g>>| {
-        rows.iter_mut().zip(more).for_each(|(row, e)| *row = *row + e);
-    };
-    for (moving, link) in system.bodies.iter().zip(&scene.links) {
-        let omega = moving.angular_velocity_vector();
-        let rates = [&system.rates, &system.along];
-        let motion = moving.motion(&omega);
-        add(&mut rows, stationarity_of_body(&motion, &moving.position, &link.body, &scene.speeds, rates));
+/// A velocity field of a link: of O, and of the axes e as columns.
+type Field = [[f64; 3]; 4];
+
+/// One state, and what (3.1) says at it.
+struct Witness<'a, 'g> {
+    system: &'a System<'g>,
+    state: Map<u32, f64>,
+    /// v_P of every link: symbols of t, q and z.
+    velocities: Vec<[[Expr<'g>; 3]; 4]>,
+}
+
+impl<'a, 'g> Witness<'a, 'g> {
+    fn new(system: &'a System<'g>, state: Map<u32, f64>) -> Self {
+        let rates = &system.scene.rates;
+        let velocity = |link: &Link<'g>| {
+            let axis = |j: usize| std::array::from_fn(|i| link.rotation[i][j].derivative(rates));
+            [link.position.map(|e| e.derivative(rates)), axis(0), axis(1), axis(2)]
+        };
+        let velocities = system.scene.tree.links.iter().map(velocity).collect();
+        Self { system, state, velocities }
     }
-    for particle in &scene.particles {
-        let velocity = particle.position.map(|e| e.derivative(&system.rates));
-        let acceleration = velocity.map(|e| e.derivative(&system.along));
-        let free = scene.gravity.unwrap_or([scene.graph.zero(); 3]);
-        let excess = std::array::from_fn(|i| particle.mass * (acceleration[i] - free[i]));
-        add(&mut rows, scene.speeds.iter().map(|&z| dot(&excess, &velocity.map(|e| e.partial(z)))).collect());
+
+    fn values<'e>(&self, outputs: impl IntoIterator<Item = &'e Expr<'g>>) -> Vec<f64>
+    where
+        'g: 'e,
+    {
+        let mut evaluation = Evaluation::new(&self.state);
+        outputs.into_iter().map(|e| evaluation.value(*e)).collect()
     }
-    if let Some(potential) = scene.potential {
-        let power = potential.derivative(&system.rates);
-        add(&mut rows, scene.speeds.iter().map(|&z| power.partial(z)).collect());
+
+    /// Derivatives of the expressions along a direction.
+    fn along(&self, direction: &Map<u32, f64>, outputs: &[Expr<'g>]) -> Vec<f64> {
+        let mut evaluation = Evaluation::new(&self.state);
+        let mut tangents = Tangents::new(&mut evaluation, direction);
+        outputs.iter().map(|e| tangents.along(*e)).collect()
     }
-    rows
+
+    /// Derivatives of the expressions with respect to every speed: one row a speed.
+    fn partials(&self, outputs: &[Expr<'g>]) -> Vec<Vec<f64>> {
+        self.system.scene.speeds.iter().map(|z| self.along(&Map::from_iter([(z.key(), 1.0)]), outputs)).collect()
+    }
+
+    /// The direction in which t, q and z move.
+    fn flow(&self, rates: &[f64]) -> Map<u32, f64> {
+        let scene = &self.system.scene;
+        let mut evaluation = Evaluation::new(&self.state);
+        let mut direction: Map<u32, f64> = scene.rates.iter().map(|(&key, e)| (key, evaluation.value(*e))).collect();
+        direction.extend(scene.speeds.iter().zip(rates).map(|(z, rate)| (z.key(), *rate)));
+        direction
+    }
+
+    /// `Σ ∫(a_P − g)·w_α dm + ∂(dU/dt)/∂z^α` at the given ż, with what the impulse of the fluid adds: one row a speed.
+    fn stationarity(&self, rates: &[f64]) -> Vec<f64> {
+        let scene = &self.system.scene;
+        let flow = self.flow(rates);
+        let fields: Vec<Expr<'g>> = self.velocities.iter().flatten().flatten().copied().collect();
+        let accelerations = self.along(&flow, &fields);
+        let partials = self.partials(&fields);
+        let mut evaluation = Evaluation::new(&self.state);
+        let mut rows = vec![0.0; scene.speeds.len()];
+        let gravity = scene.gravity.map(|g| g.map(|e| evaluation.value(e))).unwrap_or_default();
+        for (k, link) in scene.tree.links.iter().enumerate() {
+            let moments = Distribution::of(link, &mut evaluation);
+            let (mut a, lift) = (field(&accelerations, k), moments.buoyancy);
+            (0..3).for_each(|i| a[0][i] -= gravity[i]);
+            for (row, partial) in rows.iter_mut().zip(&partials) {
+                let w = field(partial, k);
+                *row += moments.integral(&a, &w);
+                if let Some((mass, center)) = lift {
+                    let at = |i: usize| w[0][i] + (0..3).map(|j| center[j] * w[j + 1][i]).sum::<f64>();
+                    *row += mass * (0..3).map(|i| gravity[i] * at(i)).sum::<f64>();
+                }
+            }
+        }
+        if let Some(potential) = scene.potential {
+            let power = [potential.derivative(&scene.rates)];
+            rows.iter_mut().zip(self.partials(&power)).for_each(|(row, partial)| *row += partial[0]);
+        }
+        for (row, fluid) in rows.iter_mut().zip(self.fluid(&flow)) {
+            *row += fluid;
+        }
+        rows
+    }
+
+    /// `dQ/dt·a_α + (dΓ/dt + v_O × Q)·o_α` of the fluid's impulse, body axes: zero without fluid.
+    fn fluid(&self, flow: &Map<u32, f64>) -> Vec<f64> {
+        let scene = &self.system.scene;
+        let mut rows = vec![0.0; scene.speeds.len()];
+        for (k, link) in scene.tree.links.iter().enumerate() {
+            let Some(added) = link.body().and_then(|body| body.added_mass.as_ref()) else { continue };
+            // (u, ω): components of v_O and of RᵀṘ.
+            let dot = |a: usize, b: &[Expr<'g>; 3]| (0..3).map(|i| link.rotation[i][a] * b[i]).sum::<Expr<'g>>();
+            let [v, e1, e2, e3] = &self.velocities[k];
+            let twist = [dot(0, v), dot(1, v), dot(2, v), dot(2, e2), dot(0, e3), dot(1, e1)];
+            let impulse: Vec<Expr<'g>> =
+                added.iter().map(|row| row.iter().zip(twist).map(|(m, t)| *m * t).sum::<Expr<'g>>()).collect();
+            let (t, p) = (self.values(&twist), self.values(&impulse));
+            let (rate, partials) = (self.along(flow, &impulse), self.partials(&twist));
+            let (u, w, q, gamma) = (&t[..3], &t[3..], &p[..3], &p[3..]);
+            let [turned, moved, lifted] = [cross(w, q), cross(w, gamma), cross(u, q)];
+            for (row, partial) in rows.iter_mut().zip(partials) {
+                *row += (0..3)
+                    .map(|i| (rate[i] + turned[i]) * partial[i] + (rate[3 + i] + moved[i] + lifted[i]) * partial[3 + i])
+                    .sum::<f64>();
+            }
+        }
+        rows
+    }
+}
+
+fn field(components: &[f64], link: usize) -> Field {
+    std::array::from_fn(|a| std::array::from_fn(|i| components[12 * link + 3 * a + i]))
+}
+
+fn cross(a: &[f64], b: &[f64]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Moments of a link as it was given, before anything is regrouped.
+struct Distribution {
+    mass: f64,
+    first: [f64; 3],
+    second: [[f64; 3]; 3],
+    /// Mass and centre of the displaced fluid.
+    buoyancy: Option<(f64, [f64; 3])>,
+}
+
+impl Distribution {
+    fn of(link: &Link<'_>, evaluation: &mut Evaluation<'_>) -> Self {
+        let nothing = Self { mass: 0.0, first: [0.0; 3], second: [[0.0; 3]; 3], buoyancy: None };
+        match &link.matter {
+            Matter::Nothing => nothing,
+            Matter::Particle(mass) => Self { mass: evaluation.value(*mass), ..nothing },
+            Matter::Body(body) => Self {
+                mass: evaluation.value(body.mass),
+                first: body.first_moment().map(|e| evaluation.value(e)),
+                second: body.second_moment().map(|row| row.map(|e| evaluation.value(e))),
+                buoyancy: body.displaced.map(|(m, c)| (evaluation.value(m), c.map(|e| evaluation.value(e)))),
+            },
+        }
+    }
+
+    /// `∫ f·h dm` of two fields that are affine in the body coordinates.
+    fn integral(&self, f: &Field, h: &Field) -> f64 {
+        let dot = |a: usize, b: usize| (0..3).map(|i| f[a][i] * h[b][i]).sum::<f64>();
+        let linear = (0..3).map(|j| self.first[j] * (dot(0, j + 1) + dot(j + 1, 0))).sum::<f64>();
+        let square = (0..9).map(|n| self.second[n / 3][n % 3] * dot(n / 3 + 1, n % 3 + 1)).sum::<f64>();
+        self.mass * dot(0, 0) + linear + square
+    }
 }
 
 /// Evaluates the condition at one state, with the residual at any ż and with every arrangement's acceleration.
 pub fn check_system_against_definition<'g>(system: &System<'g>, formulas: &[Formula<'g>]) -> Result<(), SystemFault> {
-    let condition = stationarity(system);
-    let entries: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
+    let n = system.scene.speeds.len();
+    let matrix: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
     let arrangements =
         |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
+    let arbitrary: Vec<f64> = (0..n).map(|k| 0.7 - 0.3 * (k % 4) as f64).collect();
     // Roots and logarithms have domains: the first of a few states where everything has a value. Where there is none, the
     // programs are still checked against their expressions.
-    let inside = |state: &Map<u32, f64>| values(state, condition.iter().chain(&entries)).iter().all(|x| x.is_finite());
-    let Some(mut state) = (0..16).map(|shift| sample_state(system, shift)).find(inside) else { return Ok(()) };
-    if let Some(speed) = vanishing_pivot(values(&state, &entries), system.scene.speeds.len()) {
+    let inside = |witness: &Witness<'_, 'g>| {
+        let values = witness.values(matrix.iter().chain(arrangements(Method::Acceleration).flatten()));
+        values.iter().chain(&witness.stationarity(&arbitrary)).all(|x| x.is_finite())
+    };
+    let states = || (0..16).map(|shift| Witness::new(system, sample_state(system, shift)));
+    // A singular A, or dependent constraints, have no finite accelerations, so they are looked for first.
+    let regular = |witness: &Witness<'_, 'g>| witness.values(&matrix).iter().all(|x| x.is_finite());
+    if let Some(witness) = states().find(regular)
+        && let Some(speed) = vanishing_pivot(witness.values(&matrix), n)
+    {
         return Err(SystemFault::DependentSpeed(speed));
     }
-    let expected = values(&state, &condition);
+    check_independence(system, states())?;
+    let Some(mut witness) = states().find(inside) else { return Ok(()) };
+    let unconstrained = witness.stationarity(&arbitrary);
+    let jacobian = witness.partials(&system.constraints.on_velocities);
+    let with_forces = |witness: &Witness<'_, 'g>, rows: Vec<f64>| -> Vec<f64> {
+        // Jᵀλ with the multipliers of the motion.
+        let Some(multipliers) = arrangements(Method::Multipliers).next() else { return rows };
+        let multipliers = witness.values(multipliers);
+        let force = |row: &Vec<f64>| row.iter().zip(&multipliers).map(|(j, l)| j * l).sum::<f64>();
+        rows.iter().zip(&jacobian).map(|(r, j)| r - force(j)).collect()
+    };
+    let disagreement = SystemFault::Disagreement;
+    witness.state.extend(system.scene.speed_rates.iter().zip(&arbitrary).map(|(s, x)| (s.key(), *x)));
+    let expected = with_forces(&witness, unconstrained);
     for arrangement in arrangements(Method::GaussResidual) {
-        agree(Method::GaussResidual, &values(&state, arrangement), &expected).map_err(SystemFault::Disagreement)?;
+        agree(Method::GaussResidual, &witness.values(arrangement), &expected).map_err(disagreement)?;
     }
     for arrangement in arrangements(Method::Acceleration) {
-        let rates = values(&state, arrangement);
-        let named = system.scene.speed_rates.iter().zip(&rates);
-        state.extend(named.map(|(symbol, rate)| (symbol.key(), *rate)));
-        let found = values(&state, &condition);
-        agree(Method::Acceleration, &found, &vec![0.0; rates.len()]).map_err(SystemFault::Disagreement)?;
+        let rates = witness.values(arrangement);
+        let found = with_forces(&witness, witness.stationarity(&rates));
+        let scale = expected.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+        let relative: Vec<f64> = found.iter().map(|x| x / scale).collect();
+        agree(Method::Acceleration, &relative, &vec![0.0; n]).map_err(disagreement)?;
+        // J ż = γ: what the constraints say of velocities goes on to hold.
+        let flow = witness.flow(&rates);
+        let drift = witness.along(&flow, &system.constraints.on_velocities);
+        agree(Method::Acceleration, &drift, &vec![0.0; drift.len()]).map_err(disagreement)?;
     }
     Ok(())
 }
 
-fn values<'a, 'g: 'a>(state: &Map<u32, f64>, outputs: impl IntoIterator<Item = &'a Expr<'g>>) -> Vec<f64> {
-    let mut evaluation = Evaluation::new(state);
-    outputs.into_iter().map(|e| evaluation.value(*e)).collect()
+/// Whether each constraint says something new, and something that can hold with those before it.
+fn check_independence<'a, 'g>(
+    system: &'a System<'g>,
+    mut states: impl Iterator<Item = Witness<'a, 'g>>,
+) -> Result<(), SystemFault> {
+    let constraints = &system.constraints;
+    let rest: Vec<Expr<'g>> = constraints.on_velocities.iter().chain(&constraints.on_positions()).copied().collect();
+    let usable = |witness: &Witness<'_, 'g>| {
+        let finite = |values: Vec<f64>| values.iter().all(|x| x.is_finite());
+        finite(witness.values(&rest)) && witness.partials(&constraints.on_velocities).into_iter().all(finite)
+    };
+    let Some(witness) = states.find(usable) else { return Ok(()) };
+    let columns = witness.partials(&constraints.on_velocities);
+    let count = constraints.on_velocities.len();
+    let mut rows: Vec<Vec<f64>> = (0..count).map(|k| columns.iter().map(|c| c[k]).collect()).collect();
+    // The value of each constraint follows the same combinations as its row.
+    let still: Map<u32, f64> = system.scene.speeds.iter().map(|z| (z.key(), 0.0)).collect();
+    let mut at_rest = Witness::new(system, witness.state.clone());
+    at_rest.state.extend(still);
+    let (moving, positions) = (at_rest.values(&constraints.on_velocities), witness.values(&constraints.on_positions()));
+    let kinds = system.scene.constraints.iter().map(|c| c.kind);
+    let mut values: Vec<f64> = kinds
+        .zip(moving.iter().zip(&positions))
+        .map(|(kind, (moving, position))| if kind == ConstraintKind::Position { *position } else { *moving })
+        .collect();
+    let sizes: Vec<f64> = rows.iter().map(|row| row.iter().fold(0.0_f64, |m, x| m.max(x.abs()))).collect();
+    for k in 0..count {
+        let (pivot, size) = rows[k]
+            .iter()
+            .enumerate()
+            .fold((0, 0.0_f64), |best, (column, x)| if x.abs() > best.1 { (column, x.abs()) } else { best });
+        // Elimination leaves roundings of what the row was.
+        if size <= 1e-10 * sizes[k].max(1e-3) {
+            let fault = if values[k].abs() > 1e-8 {
+                SystemFault::InconsistentConstraint
+            } else {
+                SystemFault::DependentConstraint
+            };
+            return Err(fault(k));
+        }
+        for later in k + 1..count {
+            let factor = rows[later][pivot] / rows[k][pivot];
+            for column in 0..rows[k].len() {
+                rows[later][column] -= factor * rows[k][column];
+            }
+            values[later] -= factor * values[k];
+        }
+    }
+    Ok(())
 }
 
 /// The first unknown whose pivot vanishes while A is eliminated, beside what it was.
@@ -95,7 +296,8 @@ fn vanishing_pivot(mut a: Vec<f64>, n: usize) -> Option<usize> {
     None
 }
 
-/// Values of order one for all symbols; masses and moments of inertia dominate products of inertia.
+/// Values of order one for all symbols; masses and moments of inertia dominate products of inertia, rotations are
+/// rotations.
 fn sample_state(system: &System<'_>, shift: u32) -> Map<u32, f64> {
     let scene = &system.scene;
     let mut state: Map<u32, f64> = Map::default();
@@ -104,9 +306,20 @@ fn sample_state(system: &System<'_>, shift: u32) -> Map<u32, f64> {
         let fraction = ((k as f64 + 0.37 * f64::from(shift)) * 0.618_033_988_749_894_9).fract();
         state.insert(key, 0.5 + fraction);
     }
-    for parameter in scene.links.iter().flat_map(|link| &link.body.parameters) {
+    for parameter in scene.tree.links.iter().filter_map(Link::body).flat_map(|body| &body.parameters) {
         let value = &mut *state.entry(parameter.symbol.key()).or_insert(1.0);
         *value = if parameter.row == parameter.column { 4.0 + *value } else { 0.3 * *value };
+    }
+    let none = Map::default();
+    let mut evaluation = Evaluation::new(&none);
+    for (k, rotation) in scene.coordinates.iter().filter_map(Coordinate::rotation).enumerate() {
+        // (1, 5, −3, 1)/6 is a unit quaternion, and so are its permutations.
+        let mut integers = [1, 5, -3, 1];
+        integers.rotate_left(k % 4);
+        let quaternion = integers.map(|n| scene.graph.integer(n).scale(Rational::new(1, 6)));
+        let entries = rotation_of_quaternion(scene.graph, quaternion);
+        let pairs = rotation.iter().flatten().zip(entries.iter().flatten());
+        state.extend(pairs.map(|(symbol, entry)| (symbol.key(), evaluation.value(*entry))));
     }
     state
 }

@@ -1,8 +1,10 @@
 //! The equations of a system for people.
 
+use crate::algebra::Expr;
+
 use super::equations::{Row, Section, tidy};
 use super::names::Name;
-use super::system::System;
+use super::system::{Coordinate, System};
 
 impl<'g> System<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
@@ -10,27 +12,64 @@ impl<'g> System<'g> {
         let scene = &self.scene;
         let p = |name: &Name| Name::new("p", "p").of(name);
         let force = |name: &Name| Name::new("F", "F").of(name);
-        let coordinates = scene.coordinate_names.iter().zip(&scene.coordinates).zip(&scene.kinematics);
-        let kinematics = coordinates
-            .filter(|(_, rate)| !scene.speeds.contains(rate))
-            .map(|((name, _), rate)| Row::Definition(name.time_derivative(), tidy(*rate)))
-            .collect();
-        let momenta = scene.speed_names.iter().zip(self.momentum());
-        let momenta = momenta.map(|(name, e)| Row::Definition(p(name), tidy(e))).collect();
-        let balance = scene.speed_names.iter().zip(self.bracket());
-        let balance = balance
-            .map(|(name, bracket)| Row::Balance { momentum: p(name), bracket: tidy(bracket), force: Some(force(name)) })
-            .collect();
-        let forces = scene.speed_names.iter().zip(self.generalised_forces());
-        let forces = forces.map(|(name, e)| Row::Definition(force(name), tidy(e))).collect();
         let titled = |text: &str, latex: &str, rows: Vec<Row<'g>>| Section { title: Name::new(text, latex), rows };
-        let mut sections = vec![
-            titled("kinematics dq/dt = ψ(t, q, z) (3.2)", "kinematics $\\dot q = \\psi(t, q, z)$ (3.2)", kinematics),
-            titled("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$", momenta),
-            titled("Gauss condition (3.4)", "Gauss condition (3.4)", balance),
-            titled("active forces (generalised)", "active forces (generalised)", forces),
-        ];
+        let remark = |words: &str| vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))];
+        let kinematics = titled(
+            "kinematics dq/dt = ψ(t, q, z) (3.2)",
+            "kinematics $\\dot q = \\psi(t, q, z)$ (3.2)",
+            self.kinematic_rows(),
+        );
+        let mut sections = vec![kinematics];
+        if self.is_long() {
+            let words = "too long to print: momenta and forces are summed link by link, from the leaves to the roots";
+            sections.push(titled("Gauss condition (3.4)", "Gauss condition (3.4)", remark(words)));
+        } else {
+            let momenta = scene.speed_names.iter().zip(self.momentum());
+            let momenta = momenta.map(|(name, e)| Row::Definition(p(name), tidy(e))).collect();
+            let balance = scene.speed_names.iter().zip(self.bracket());
+            let row = |(name, bracket): (&Name, Expr<'g>)| Row::Balance {
+                momentum: p(name),
+                bracket: tidy(bracket),
+                force: Some(force(name)),
+            };
+            let balance = balance.map(row).collect();
+            let forces = scene.speed_names.iter().zip(self.generalised_forces());
+            let forces = forces.map(|(name, e)| Row::Definition(force(name), tidy(e))).collect();
+            sections.extend([
+                titled("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$", momenta),
+                titled("Gauss condition (3.4)", "Gauss condition (3.4)", balance),
+                titled("active forces (generalised)", "active forces (generalised)", forces),
+            ]);
+        }
+        let constraints = self.constraints.on_velocities.iter();
+        let constraints = constraints.map(|e| Row::Equation(tidy(*e), scene.graph.zero())).collect();
+        sections.push(titled(
+            "constraints on velocities (each adds its multiplier times its row of partial derivatives to the forces)",
+            "constraints on velocities (each adds its multiplier times its row of partial derivatives to the forces)",
+            constraints,
+        ));
         sections.retain(|section| !section.rows.is_empty());
         sections
+    }
+
+    /// Rates that are not speeds themselves.
+    fn kinematic_rows(&self) -> Vec<Row<'g>> {
+        let scene = &self.scene;
+        let mut rates = scene.kinematics.iter().copied();
+        let mut rows = Vec::new();
+        for (name, coordinate) in scene.coordinate_names.iter().zip(&scene.coordinates) {
+            let (u, omega) = (Name::new("u", "u").of(name), Name::new("ω", "\\omega").of(name));
+            let names: Vec<Name> = match coordinate {
+                Coordinate::Scalar(_) => vec![name.time_derivative()],
+                Coordinate::Rotation(_) => (0..3).map(|i| omega.index(i)).collect(),
+                Coordinate::Pose(..) => (0..3).map(|i| u.index(i)).chain((0..3).map(|i| omega.index(i))).collect(),
+            };
+            for (name, rate) in names.into_iter().zip(&mut rates) {
+                if !scene.speeds.contains(&rate) {
+                    rows.push(Row::Definition(name, tidy(rate)));
+                }
+            }
+        }
+        rows
     }
 }

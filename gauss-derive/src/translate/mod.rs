@@ -1,0 +1,322 @@
+//! From a checked system to its symbols: expressions as the user wrote them become expressions of the algebra.
+//!
+//! - `symbols`: what every field, coordinate and speed is called, and where the value of each symbol is read.
+//! - `values`: expressions.
+//! - here: the scene, part by part, in the order in which one part can name another.
+
+mod symbols;
+mod values;
+
+use std::collections::HashMap;
+
+use proc_macro2::Span;
+use syn::Ident;
+use syn::ext::IdentExt;
+
+use crate::algebra::{Expr, Graph, Map};
+use crate::mechanics::{
+    Body, Constraint, ConstraintKind, Coordinate, Matter, Placement, SystemScene, Tree, Turn, cross_matrix,
+};
+use crate::model::{self, BodyClause, ExpressionKind, Property, SystemModel};
+
+use symbols::Declared;
+pub use symbols::{Part, Source};
+use values::{Piece, Value};
+
+/// Translates a system; kept between two translations of one system with different speeds.
+pub struct Translator<'a, 'g> {
+    graph: &'g Graph,
+    model: &'a SystemModel,
+    declared: Declared<'g>,
+    names: HashMap<String, Value<'g>>,
+    /// Indices of bodies and frames among the links, by name.
+    links: HashMap<String, usize>,
+    /// Which link each clause of a body or frame became.
+    links_of_clauses: Vec<usize>,
+    /// ψ, and the rates of t and of the symbols of q.
+    kinematics: Vec<Expr<'g>>,
+    rates: Map<u32, Expr<'g>>,
+}
+
+impl<'a, 'g> Translator<'a, 'g> {
+    pub fn new(graph: &'g Graph, model: &'a SystemModel) -> Self {
+        let declared = Declared::new(graph, model);
+        let (names, links) = (HashMap::new(), HashMap::new());
+        let links_of_clauses = vec![0; model.bodies.len()];
+        Self { graph, model, declared, names, links, links_of_clauses, kinematics: Vec::new(), rates: Map::default() }
+    }
+
+    /// Where the symbols of parameters are read.
+    pub fn sources(&self) -> &[Source<'g>] {
+        &self.declared.sources
+    }
+
+    /// Which link each clause of a body or frame became.
+    pub fn links_of_clauses(&self) -> Vec<usize> {
+        self.links_of_clauses.clone()
+    }
+
+    /// All speeds, as they are declared.
+    pub fn speeds(&self) -> &[Expr<'g>] {
+        &self.declared.speeds
+    }
+
+    /// Names of the speeds as the user wrote them: three for a vector.
+    pub fn speed_idents(&self) -> Vec<Ident> {
+        let speeds = self.model.speeds.iter().flatten();
+        speeds.flat_map(|z| std::iter::repeat_n(z.ident.clone(), symbols::size_of_speed(z.kind))).collect()
+    }
+
+    /// The scene with the given values of the declared speeds, of which those of `kept` are its speeds.
+    ///
+    /// # Errors
+    /// Only what the model should have refused: a bug of this crate.
+    pub fn scene(&mut self, values: &[Expr<'g>], kept: &[usize]) -> syn::Result<SystemScene<'g>> {
+        let (graph, model) = (self.graph, self.model);
+        let time = self.declared.time;
+        self.name_everything(values);
+        self.kinematics = self.kinematics(values)?;
+        self.rates = self.rates();
+        self.name_rotations(&self.kinematics.clone());
+        let pick = |all: &[Expr<'g>]| -> Vec<Expr<'g>> { kept.iter().map(|&k| all[k]).collect() };
+        let speeds = pick(&self.declared.speeds);
+        let placements = self.placements()?;
+        let mut tree = Tree::new(graph, placements, speeds.clone(), self.rates.clone(), self.declared.gravity);
+        self.name_points(&tree)?;
+        for clause in &model.particles {
+            let parent = clause.parent.as_ref().and_then(|name| self.links.get(&name.unraw().to_string()).copied());
+            tree.hang(Placement {
+                matter: Matter::Particle(self.scalar(&clause.mass, &tree)?),
+                parent,
+                position: self.vector(&clause.position, &tree)?,
+                velocity_in_own_axes: None,
+                turns: Vec::new(),
+            });
+        }
+        let potential = model.potential.as_ref().map(|e| self.scalar(e, &tree)).transpose()?;
+        let constraints = self.constraints(&tree)?;
+        tree.settle();
+        Ok(SystemScene {
+            graph,
+            time,
+            coordinates: self.declared.coordinates.clone(),
+            coordinate_names: self.declared.coordinate_names.clone(),
+            speed_names: kept.iter().map(|&k| self.declared.speed_names[k].clone()).collect(),
+            speed_rates: pick(&self.declared.speed_rates),
+            momenta: pick(&self.declared.momenta),
+            speeds,
+            kinematics: self.kinematics.clone(),
+            rates: self.rates.clone(),
+            tree,
+            potential,
+            gravity: self.declared.gravity,
+            constraints,
+        })
+    }
+
+    fn name_everything(&mut self, values: &[Expr<'g>]) {
+        self.names.clear();
+        self.links.clear();
+        self.names.insert("t".to_owned(), Value::Scalar(self.declared.time));
+        self.names.extend(self.declared.fields.iter().cloned());
+        for (written, coordinate) in self.model.coordinates.iter().zip(&self.declared.coordinates) {
+            if let Coordinate::Scalar(symbol) = coordinate {
+                self.names.insert(written.ident.unraw().to_string(), Value::Scalar(*symbol));
+            }
+        }
+        // Angular velocities are known once the kinematics are.
+        self.name_rotations(&vec![self.graph.zero(); self.declared.size()]);
+        let mut values = values.iter().copied();
+        for speed in self.model.speeds.iter().flatten() {
+            let mut next = || values.next().unwrap_or_else(|| self.graph.zero());
+            let value = match speed.kind {
+                model::SpeedKind::Scalar => Value::Scalar(next()),
+                model::SpeedKind::Vector => Value::Vector([next(), next(), next()]),
+            };
+            self.names.insert(speed.ident.unraw().to_string(), value);
+        }
+    }
+
+    /// Rotations, with their angular velocities from the kinematics.
+    fn name_rotations(&mut self, kinematics: &[Expr<'g>]) {
+        for (k, written) in self.model.coordinates.iter().enumerate() {
+            let rate = self.declared.rate_of(k, kinematics);
+            let word = written.ident.unraw().to_string();
+            let value = match (&self.declared.coordinates[k], rate) {
+                (Coordinate::Rotation(matrix), &[w1, w2, w3]) => {
+                    Value::Rotation(vec![Piece::Given(Turn::given(*matrix, [w1, w2, w3]))])
+                }
+                (Coordinate::Pose(matrix, position), &[_, _, _, w1, w2, w3]) => {
+                    Value::Pose(Piece::Given(Turn::given(*matrix, [w1, w2, w3])), *position)
+                }
+                _ => continue,
+            };
+            self.names.insert(word, value);
+        }
+    }
+
+    /// ψ, in the order of the coordinates.
+    fn kinematics(&self, values: &[Expr<'g>]) -> syn::Result<Vec<Expr<'g>>> {
+        if self.model.speeds.is_none() {
+            return Ok(values.to_vec());
+        }
+        let mut rates = Vec::new();
+        let nothing = self.no_links();
+        for (_, e) in &self.model.kinematics {
+            match self.value(e, &nothing)? {
+                Value::Scalar(rate) => rates.push(rate),
+                Value::Vector(omega) => rates.extend(omega),
+                Value::Twist(linear, angular) => rates.extend(linear.into_iter().chain(angular)),
+                _ => return Err(bug(e.span)),
+            }
+        }
+        Ok(rates)
+    }
+
+    fn no_links(&self) -> Tree<'g> {
+        Tree::new(self.graph, Vec::new(), Vec::new(), Map::default(), None)
+    }
+
+    /// Rates of t and of the symbols of q: Ṙ = R [ω]× (Poisson), ḃ = R u.
+    fn rates(&self) -> Map<u32, Expr<'g>> {
+        let mut rates: Map<u32, Expr<'g>> = Map::from_iter([(self.declared.time.key(), self.graph.one())]);
+        let mut turning = |matrix: &[[Expr<'g>; 3]; 3], omega: &[Expr<'g>]| {
+            let turn = cross_matrix(&[omega[0], omega[1], omega[2]]);
+            for row in matrix {
+                for (j, entry) in row.iter().enumerate() {
+                    rates.insert(entry.key(), (0..3).map(|k| row[k] * turn[k][j]).sum());
+                }
+            }
+        };
+        for (k, coordinate) in self.declared.coordinates.iter().enumerate() {
+            let rate = self.declared.rate_of(k, &self.kinematics);
+            match coordinate {
+                Coordinate::Scalar(_) => {}
+                Coordinate::Rotation(matrix) => turning(matrix, rate),
+                Coordinate::Pose(matrix, _) => turning(matrix, &rate[3..]),
+            }
+        }
+        for (k, coordinate) in self.declared.coordinates.iter().enumerate() {
+            let rate = self.declared.rate_of(k, &self.kinematics);
+            match coordinate {
+                Coordinate::Scalar(q) => {
+                    rates.insert(q.key(), rate[0]);
+                }
+                Coordinate::Rotation(_) => {}
+                Coordinate::Pose(matrix, position) => {
+                    for (row, b) in matrix.iter().zip(position) {
+                        rates.insert(b.key(), (0..3).map(|k| row[k] * rate[k]).sum());
+                    }
+                }
+            }
+        }
+        rates
+    }
+
+    /// Bodies and frames, parents before children.
+    fn placements(&mut self) -> syn::Result<Vec<Placement<'g>>> {
+        let clauses = &self.model.bodies;
+        let mut placements = Vec::with_capacity(clauses.len());
+        let mut open: Vec<usize> = (0..clauses.len()).collect();
+        while !open.is_empty() {
+            let hung = |name: &Ident| self.links.contains_key(&name.unraw().to_string());
+            let ready = open.iter().position(|&k| clauses[k].parent.as_ref().is_none_or(hung));
+            let next = open.remove(ready.ok_or_else(|| bug(clauses[open[0]].span))?);
+            let placement = self.placement(next, &clauses[next])?;
+            self.links_of_clauses[next] = placements.len();
+            if let Some(name) = &clauses[next].name {
+                self.links.insert(name.unraw().to_string(), placements.len());
+            }
+            placements.push(placement);
+        }
+        Ok(placements)
+    }
+
+    fn placement(&self, index: usize, clause: &BodyClause) -> syn::Result<Placement<'g>> {
+        let nothing = self.no_links();
+        let zero = self.graph.zero();
+        let matter = match &self.declared.bodies[index] {
+            Some(body) => Matter::Body(Box::new(Body::clone(body))),
+            None => Matter::Nothing,
+        };
+        let turns = match &clause.rotation {
+            Some(e) => match self.value(e, &nothing)? {
+                Value::Rotation(turns) => turns.iter().map(|piece| piece.turn(self.graph, &self.rates)).collect(),
+                _ => return Err(bug(e.span)),
+            },
+            None => Vec::new(),
+        };
+        Ok(Placement {
+            matter,
+            parent: clause.parent.as_ref().and_then(|name| self.links.get(&name.unraw().to_string()).copied()),
+            position: clause.position.as_ref().map_or(Ok([zero; 3]), |e| self.vector(e, &nothing))?,
+            velocity_in_own_axes: self.velocity_of_pose(clause),
+            turns,
+        })
+    }
+
+    /// u of the pose whose position and rotation are those of the body.
+    fn velocity_of_pose(&self, clause: &BodyClause) -> Option<[Expr<'g>; 3]> {
+        let of = |e: &Option<model::Expression>, wanted: Property| match &e.as_ref()?.kind {
+            ExpressionKind::Property(inner, property) if *property == wanted => match &inner.kind {
+                ExpressionKind::Name(name) => Some(name.unraw().to_string()),
+                _ => None,
+            },
+            _ => None,
+        };
+        let name = of(&clause.position, Property::Position)?;
+        if clause.parent.is_some() || of(&clause.rotation, Property::Rotation).as_ref() != Some(&name) {
+            return None;
+        }
+        let k = self.model.coordinates.iter().position(|q| q.ident.unraw() == name)?;
+        match self.declared.rate_of(k, &self.kinematics) {
+            &[u1, u2, u3, ..] => Some([u1, u2, u3]),
+            _ => None,
+        }
+    }
+
+    fn name_points(&mut self, tree: &Tree<'g>) -> syn::Result<()> {
+        for clause in &self.model.points {
+            let at = self.vector(&clause.at, tree)?;
+            let link = self.links.get(&clause.body.unraw().to_string()).map(|&k| &tree.links[k]);
+            let link = link.ok_or_else(|| bug(clause.span))?;
+            let position: [Expr<'g>; 3] = std::array::from_fn(|i| {
+                let turned: Expr<'g> = (0..3).map(|j| link.rotation[i][j] * at[j]).sum();
+                link.position[i] + turned.group()
+            });
+            self.names.insert(clause.name.unraw().to_string(), Value::Vector(position));
+        }
+        Ok(())
+    }
+
+    fn constraints(&self, tree: &Tree<'g>) -> syn::Result<Vec<Constraint<'g>>> {
+        let mut constraints = Vec::new();
+        for (clause, written) in self.model.constraints.iter().enumerate() {
+            let kind = match written.kind {
+                model::ConstraintKind::Position => ConstraintKind::Position,
+                model::ConstraintKind::Velocity => ConstraintKind::Velocity,
+            };
+            match self.value(&written.expression, tree)? {
+                Value::Scalar(value) => constraints.push(Constraint { kind, value, clause }),
+                Value::Vector(values) => {
+                    // What is identically zero, as across a plane, says nothing.
+                    let values = values.into_iter().filter(|e| !e.collected(LIMIT).is_zero());
+                    constraints.extend(values.map(|value| Constraint { kind, value, clause }));
+                }
+                _ => return Err(bug(written.expression.span)),
+            }
+        }
+        Ok(constraints)
+    }
+}
+
+/// Terms that a component of a constraint may have while it is seen whether it vanishes.
+const LIMIT: usize = 400;
+
+fn bug(span: Span) -> syn::Error {
+    syn::Error::new(
+        span,
+        "bug in gauss-derive: an expression passed its checks but cannot be translated; please report it together with \
+         this struct",
+    )
+}

@@ -1,0 +1,291 @@
+//! Symbols of everything that is declared, and where the value of each is read.
+
+use proc_macro2::Ident;
+use syn::ext::IdentExt;
+
+use crate::algebra::{Expr, Graph};
+use crate::mechanics::{AddedMassShape, Body, BodyShape, Coordinate, GravityShape, InertiaShape, Name, Quantity};
+use crate::model::{self, BodyClause, CoordinateKind, Role, Shape, SpeedKind, SystemField, SystemModel};
+
+use super::values::Value;
+
+/// Which number of a field a symbol stands for.
+#[derive(Clone, Copy, Debug)]
+pub enum Part {
+    Scalar,
+    Component(usize),
+    Entry(usize, usize),
+    /// Of a `RigidBody`.
+    Body(Quantity, usize, usize),
+}
+
+/// A symbol and where its value is read.
+#[derive(Clone, Copy)]
+pub struct Source<'g> {
+    pub symbol: Expr<'g>,
+    /// Index of the field.
+    pub field: usize,
+    pub part: Part,
+}
+
+/// What a system declares, in symbols.
+pub struct Declared<'g> {
+    graph: &'g Graph,
+    pub time: Expr<'g>,
+    pub coordinates: Vec<Coordinate<'g>>,
+    pub coordinate_names: Vec<Name>,
+    pub speeds: Vec<Expr<'g>>,
+    pub speed_names: Vec<Name>,
+    pub speed_rates: Vec<Expr<'g>>,
+    pub momenta: Vec<Expr<'g>>,
+    /// Acceleration of free fall, observer's axes.
+    pub gravity: Option<[Expr<'g>; 3]>,
+    /// Fields that expressions can name.
+    pub fields: Vec<(String, Value<'g>)>,
+    /// One for each clause; none for a frame.
+    pub bodies: Vec<Option<Body<'g>>>,
+    pub sources: Vec<Source<'g>>,
+}
+
+/// How many speeds are under one name.
+pub fn size_of_speed(kind: SpeedKind) -> usize {
+    match kind {
+        SpeedKind::Scalar => 1,
+        SpeedKind::Vector => 3,
+    }
+}
+
+fn symbol<'g>(graph: &'g Graph, name: &Name, constant: bool) -> Expr<'g> {
+    graph.symbol(name.text.clone(), name.latex.clone(), constant)
+}
+
+fn coordinate<'g>(graph: &'g Graph, written: &model::Coordinate) -> Coordinate<'g> {
+    let name = name_of(&written.ident);
+    let of = |letter: &str, index: String| {
+        let text = format!("{letter}{index}_{}", name.text);
+        graph.symbol(text, format!("{letter}_{{{index},{}}}", name.latex), false)
+    };
+    let rotation = || std::array::from_fn(|i| std::array::from_fn(|j| of("R", format!("{}{}", i + 1, j + 1))));
+    match written.kind {
+        CoordinateKind::Scalar => Coordinate::Scalar(symbol(graph, &name, false)),
+        CoordinateKind::Rotation => Coordinate::Rotation(rotation()),
+        CoordinateKind::Pose => Coordinate::Pose(rotation(), std::array::from_fn(|i| of("b", (i + 1).to_string()))),
+    }
+}
+
+fn speed_names(model: &SystemModel) -> Vec<Name> {
+    let components = |name: &Name| (0..3).map(|i| name.index(i)).collect::<Vec<_>>();
+    match &model.speeds {
+        Some(speeds) => speeds
+            .iter()
+            .flat_map(|z| match z.kind {
+                SpeedKind::Scalar => vec![name_of(&z.ident)],
+                SpeedKind::Vector => components(&name_of(&z.ident)),
+            })
+            .collect(),
+        None => model
+            .coordinates
+            .iter()
+            .flat_map(|q| {
+                let name = name_of(&q.ident);
+                let (u, omega) = (Name::new("u", "u").of(&name), Name::new("ω", "\\omega").of(&name));
+                match q.kind {
+                    CoordinateKind::Scalar => vec![velocity_name(&name)],
+                    CoordinateKind::Rotation => components(&omega),
+                    CoordinateKind::Pose => [components(&u), components(&omega)].concat(),
+                }
+            })
+            .collect(),
+    }
+}
+
+impl<'g> Declared<'g> {
+    pub fn new(graph: &'g Graph, model: &SystemModel) -> Self {
+        let time = graph.symbol("t", "t", false);
+        let coordinates = model.coordinates.iter().map(|q| coordinate(graph, q)).collect();
+        let speed_names = speed_names(model);
+        let symbols = |name: &dyn Fn(&Name) -> Name| -> Vec<Expr<'g>> {
+            speed_names.iter().map(|z| symbol(graph, &name(z), false)).collect()
+        };
+        let mut declared = Self {
+            graph,
+            time,
+            coordinates,
+            coordinate_names: model.coordinates.iter().map(|q| name_of(&q.ident)).collect(),
+            speeds: symbols(&Name::clone),
+            speed_rates: symbols(&Name::rate),
+            momenta: symbols(&|z| Name::new("p", "p").of(z)),
+            speed_names,
+            gravity: None,
+            fields: Vec::new(),
+            bodies: Vec::new(),
+            sources: Vec::new(),
+        };
+        declared.plain_fields(model);
+        declared.bodies = model.bodies.iter().map(|clause| declared.body(model, clause)).collect();
+        declared
+    }
+
+    /// How many components ψ has.
+    pub fn size(&self) -> usize {
+        self.coordinates.iter().map(Coordinate::size).sum()
+    }
+
+    /// Of all components of ψ those of one coordinate.
+    pub fn rate_of<'a>(&self, coordinate: usize, kinematics: &'a [Expr<'g>]) -> &'a [Expr<'g>] {
+        let first: usize = self.coordinates[..coordinate].iter().map(Coordinate::size).sum();
+        &kinematics[first..first + self.coordinates[coordinate].size()]
+    }
+
+    /// Symbols for gravity and for every field without a role that expressions can name; the acceleration of free fall.
+    fn plain_fields(&mut self, model: &SystemModel) {
+        for (field, SystemField { ident, role, shape, .. }) in model.fields.iter().enumerate() {
+            if !matches!(role, None | Some(Role::Gravity)) {
+                continue;
+            }
+            let name = if role.is_some() { Name::new("g", "g") } else { name_of(ident) };
+            let value = match shape {
+                Shape::Scalar => {
+                    let symbol = symbol(self.graph, &name, true);
+                    self.sources.push(Source { symbol, field, part: Part::Scalar });
+                    Value::Scalar(symbol)
+                }
+                Shape::Vector3 => Value::Vector(std::array::from_fn(|i| {
+                    let symbol = symbol(self.graph, &name.index(i), true);
+                    self.sources.push(Source { symbol, field, part: Part::Component(i) });
+                    symbol
+                })),
+                _ => continue,
+            };
+            if role.is_some() {
+                let zero = self.graph.zero();
+                self.gravity = Some(match &value {
+                    Value::Vector(vector) => *vector,
+                    Value::Scalar(g) => [zero, zero, -*g],
+                    _ => [zero; 3],
+                });
+            }
+            self.fields.push((ident.unraw().to_string(), value));
+        }
+    }
+
+    /// The mass data of a body, under the names of the fields that have them.
+    fn body(&mut self, model: &SystemModel, clause: &BodyClause) -> Option<Body<'g>> {
+        if clause.massless {
+            return None;
+        }
+        let mut body = match &clause.name {
+            Some(name) => {
+                let shape = BodyShape {
+                    inertia: InertiaShape::Full,
+                    center_of_mass: true,
+                    added_mass: None,
+                    gravity: None,
+                    displaced_mass: false,
+                    center_of_buoyancy: false,
+                };
+                let body = Body::named(self.graph, shape, 2, name_of(name));
+                let field = model.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
+                self.sources.extend(body.parameters.iter().map(|p| Source {
+                    symbol: p.symbol,
+                    field,
+                    part: Part::Body(p.quantity, p.row, p.column),
+                }));
+                body
+            }
+            None => self.unnamed_body(model),
+        };
+        body.gravity = self.gravity;
+        Some(body)
+    }
+
+    fn unnamed_body(&mut self, model: &SystemModel) -> Body<'g> {
+        let fields = &model.fields;
+        let field = |role: Role| fields.iter().position(|f| f.role == Some(role));
+        let shape_of = |role: Role| field(role).map(|k| fields[k].shape);
+        let shape = BodyShape {
+            inertia: match shape_of(Role::Inertia) {
+                Some(Shape::Scalar) => InertiaShape::Spherical,
+                Some(Shape::Vector3) => InertiaShape::Principal,
+                _ => InertiaShape::Full,
+            },
+            center_of_mass: field(Role::CenterOfMass).is_some(),
+            added_mass: shape_of(Role::AddedMass).map(|shape| match shape {
+                Shape::Vector6 => AddedMassShape::Diagonal,
+                _ => AddedMassShape::Full,
+            }),
+            gravity: None::<GravityShape>,
+            displaced_mass: field(Role::DisplacedMass).is_some(),
+            center_of_buoyancy: field(Role::CenterOfBuoyancy).is_some(),
+        };
+        let body = Body::new(self.graph, shape, 2);
+        for role in [
+            Role::Mass,
+            Role::CenterOfMass,
+            Role::Inertia,
+            Role::AddedMass,
+            Role::DisplacedMass,
+            Role::CenterOfBuoyancy,
+        ] {
+            let Some(field) = field(role) else { continue };
+            let quantity = quantity_of(role);
+            let own: Vec<_> = body.parameters.iter().filter(|p| Some(p.quantity) == quantity).collect();
+            let shape = fields[field].shape;
+            self.sources.extend(own.iter().map(|p| Source {
+                symbol: p.symbol,
+                field,
+                part: match shape {
+                    Shape::Scalar => Part::Scalar,
+                    Shape::Vector3 | Shape::Vector6 => Part::Component(p.row),
+                    _ => Part::Entry(p.row, p.column),
+                },
+            }));
+            let value = match (shape, own.as_slice()) {
+                (Shape::Scalar, [p]) => Value::Scalar(p.symbol),
+                (Shape::Vector3, [a, b, c]) => Value::Vector([a.symbol, b.symbol, c.symbol]),
+                _ => continue,
+            };
+            self.fields.push((fields[field].ident.unraw().to_string(), value));
+        }
+        body
+    }
+}
+
+fn name_of(ident: &Ident) -> Name {
+    const GREEK: [&str; 22] = [
+        "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",
+        "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega",
+    ];
+    let text = ident.unraw().to_string();
+    let stem = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    let index = &text[stem.len()..];
+    let letter = match stem {
+        stem if GREEK.contains(&stem) => format!("\\{stem}"),
+        stem if stem.chars().count() > 1 => format!("\\mathit{{{}}}", stem.replace('_', "\\_")),
+        stem => stem.to_owned(),
+    };
+    let latex = if index.is_empty() { letter } else { format!("{letter}_{{{index}}}") };
+    Name { text, latex }
+}
+
+/// A speed of the jet chart: a dot over a letter, a quotient for a word.
+fn velocity_name(name: &Name) -> Name {
+    if name.text.trim_end_matches(|c: char| c.is_ascii_digit()).chars().count() == 1 {
+        name.dot()
+    } else {
+        Name { text: name.time_derivative().text, latex: name.dot().latex }
+    }
+}
+
+fn quantity_of(role: Role) -> Option<Quantity> {
+    Some(match role {
+        Role::Mass => Quantity::Mass,
+        Role::CenterOfMass => Quantity::CenterOfMass,
+        Role::Inertia => Quantity::Inertia,
+        Role::AddedMass => Quantity::AddedMass,
+        Role::Gravity => Quantity::Gravity,
+        Role::DisplacedMass => Quantity::DisplacedMass,
+        Role::CenterOfBuoyancy => Quantity::CenterOfBuoyancy,
+        Role::Body => return None,
+    })
+}

@@ -1,0 +1,217 @@
+//! Expressions as the user wrote them, as values of the algebra.
+
+use proc_macro2::Span;
+use syn::ext::IdentExt;
+
+use crate::algebra::{Expr, Graph, Map, Rational};
+use crate::mechanics::{Axes, Tree, Turn, about_axis, identity};
+use crate::model::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+
+use super::{Translator, bug};
+
+type Triple<'g> = [Expr<'g>; 3];
+
+/// What an expression stands for.
+#[derive(Clone)]
+pub enum Value<'g> {
+    Scalar(Expr<'g>),
+    /// Observer's axes, or those in which it was written.
+    Vector(Triple<'g>),
+    /// A product.
+    Rotation(Vec<Piece<'g>>),
+    /// R and b.
+    Pose(Piece<'g>, Triple<'g>),
+    /// (u, ω).
+    Twist(Triple<'g>, Triple<'g>),
+}
+
+/// One factor of a rotation.
+#[derive(Clone, Copy)]
+pub enum Piece<'g> {
+    /// By an angle about an axis.
+    About(usize, Expr<'g>),
+    /// A coordinate, or a quarter turn, whose entries are integers.
+    Given(Turn<'g>),
+}
+
+impl<'g> Piece<'g> {
+    fn about(graph: &'g Graph, axis: usize, angle: Expr<'g>) -> Self {
+        match quarter_turns(angle) {
+            Some(quarters) => {
+                let (cos, sin) = [(1, 0), (0, 1), (-1, 0), (0, -1)][quarters];
+                let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+                let mut matrix = identity(graph);
+                matrix[a][a] = graph.integer(cos);
+                matrix[b][b] = graph.integer(cos);
+                matrix[a][b] = graph.integer(-sin);
+                matrix[b][a] = graph.integer(sin);
+                Piece::Given(Turn::given(matrix, [graph.zero(); 3]))
+            }
+            None => Piece::About(axis, angle),
+        }
+    }
+
+    pub fn turn(&self, graph: &'g Graph, rates: &Map<u32, Expr<'g>>) -> Turn<'g> {
+        match *self {
+            Piece::About(axis, angle) => Turn::about(graph, axis, angle, rates),
+            Piece::Given(turn) => turn,
+        }
+    }
+
+    fn matrix(&self, graph: &'g Graph) -> [Triple<'g>; 3] {
+        match self {
+            Piece::About(axis, angle) => about_axis(graph, *axis, *angle),
+            Piece::Given(turn) => turn.matrix,
+        }
+    }
+
+    fn inverse(&self) -> Self {
+        match *self {
+            Piece::About(axis, angle) => Piece::About(axis, -angle),
+            Piece::Given(turn) => Piece::Given(turn.inverse()),
+        }
+    }
+}
+
+/// How many quarters of a turn a literal angle is: `1.5707963267948966` is meant to be π/2, and its sine and cosine to be one
+/// and zero, not 6e-17.
+fn quarter_turns(angle: Expr<'_>) -> Option<usize> {
+    let angle = angle.as_number()?.to_f64();
+    let quarters = (angle / std::f64::consts::FRAC_PI_2).round();
+    // The nearest double, or one of its neighbours.
+    let close = (angle - quarters * std::f64::consts::FRAC_PI_2).abs() <= 2.0 * f64::EPSILON * angle.abs();
+    (close && quarters.abs() < 1e6).then(|| (quarters as i64).rem_euclid(4) as usize)
+}
+
+impl<'g> Translator<'_, 'g> {
+    pub(super) fn scalar(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Expr<'g>> {
+        match self.value(e, tree)? {
+            Value::Scalar(value) => Ok(value),
+            _ => Err(bug(e.span)),
+        }
+    }
+
+    pub(super) fn vector(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Triple<'g>> {
+        match self.value(e, tree)? {
+            Value::Vector(value) => Ok(value),
+            _ => Err(bug(e.span)),
+        }
+    }
+
+    /// The value of an expression; links that it names are those of the tree.
+    pub(super) fn value(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
+        Ok(match &e.kind {
+            ExpressionKind::Number { numerator, denominator } => {
+                Value::Scalar(self.graph.number(Rational::new(*numerator, *denominator)))
+            }
+            ExpressionKind::Name(name) => {
+                self.names.get(&name.unraw().to_string()).cloned().ok_or_else(|| bug(e.span))?
+            }
+            ExpressionKind::Property(inner, property) => self.property(inner, *property, tree)?,
+            ExpressionKind::Component(inner, k) => {
+                Value::Scalar(*self.vector(inner, tree)?.get(*k).ok_or_else(|| bug(e.span))?)
+            }
+            ExpressionKind::Negate(inner) => match self.value(inner, tree)? {
+                Value::Scalar(a) => Value::Scalar(-a),
+                Value::Vector(a) => Value::Vector(a.map(|a| -a)),
+                _ => return Err(bug(e.span)),
+            },
+            ExpressionKind::Power(inner, exponent) => Value::Scalar(self.scalar(inner, tree)?.powi(*exponent)),
+            ExpressionKind::Vector([a, b, c]) => {
+                Value::Vector([self.scalar(a, tree)?, self.scalar(b, tree)?, self.scalar(c, tree)?])
+            }
+            ExpressionKind::Call(function, arguments) => self.call(*function, arguments, e.span, tree)?,
+            ExpressionKind::Binary(operator, left, right) => {
+                self.binary(*operator, self.value(left, tree)?, self.value(right, tree)?).ok_or_else(|| bug(e.span))?
+            }
+        })
+    }
+
+    fn property(&self, owner: &Expression, property: Property, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
+        let ExpressionKind::Name(name) = &owner.kind else { return Err(bug(owner.span)) };
+        let word = name.unraw().to_string();
+        if let Some(Value::Pose(rotation, position)) = self.names.get(&word) {
+            return match property {
+                Property::Position => Ok(Value::Vector(*position)),
+                Property::Rotation => Ok(Value::Rotation(vec![*rotation])),
+                _ => Err(bug(owner.span)),
+            };
+        }
+        let link = self.links.get(&word).and_then(|&k| tree.links.get(k)).ok_or_else(|| bug(owner.span))?;
+        Ok(match property {
+            Property::Position => Value::Vector(link.position),
+            Property::Rotation => {
+                // Its angular velocity is not asked for: rotations of bodies are named where vectors are turned.
+                Value::Rotation(vec![Piece::Given(Turn::given(link.rotation, [self.graph.zero(); 3]))])
+            }
+            Property::Velocity => Value::Vector(link.frame.resolve(&link.velocity, Axes::Space)),
+            Property::AngularVelocity => Value::Vector(link.frame.to_space(&link.angular_velocity).map(Expr::group)),
+        })
+    }
+
+    fn binary(&self, operator: BinaryOperator, left: Value<'g>, right: Value<'g>) -> Option<Value<'g>> {
+        use BinaryOperator::{Add, Divide, Multiply, Subtract};
+        use Value::{Rotation, Scalar, Vector};
+        Some(match (operator, left, right) {
+            (Add, Scalar(a), Scalar(b)) => Scalar(a + b),
+            (Add, Vector(a), Vector(b)) => Vector(std::array::from_fn(|i| a[i] + b[i])),
+            (Subtract, Scalar(a), Scalar(b)) => Scalar(a - b),
+            (Subtract, Vector(a), Vector(b)) => Vector(std::array::from_fn(|i| a[i] - b[i])),
+            (Multiply, Scalar(a), Scalar(b)) => Scalar(a * b),
+            (Multiply, Scalar(a), Vector(b)) | (Multiply, Vector(b), Scalar(a)) => Vector(b.map(|b| a * b)),
+            (Multiply, Rotation(a), Rotation(b)) => Rotation(a.into_iter().chain(b).collect()),
+            (Multiply, Rotation(a), Vector(b)) => Vector(a.iter().rev().fold(b, |b, piece| {
+                let matrix = piece.matrix(self.graph);
+                std::array::from_fn(|i| (0..3).map(|j| matrix[i][j] * b[j]).sum())
+            })),
+            (Divide, Scalar(a), Scalar(b)) => Scalar(a * b.recip()),
+            (Divide, Vector(a), Scalar(b)) => Vector(a.map(|a| a * b.recip())),
+            _ => return None,
+        })
+    }
+
+    fn call(
+        &self,
+        function: FunctionName,
+        arguments: &[Expression],
+        span: Span,
+        tree: &Tree<'g>,
+    ) -> syn::Result<Value<'g>> {
+        let turn = |axis, angle| Value::Rotation(vec![Piece::about(self.graph, axis, angle)]);
+        let scalar = |e: &Expression| self.scalar(e, tree);
+        Ok(match (function, arguments) {
+            (FunctionName::Sin, [a]) => Value::Scalar(scalar(a)?.sin()),
+            (FunctionName::Cos, [a]) => Value::Scalar(scalar(a)?.cos()),
+            // The sine–cosine pair is shared with whatever else turns by the angle.
+            (FunctionName::Tan, [a]) => Value::Scalar(scalar(a)?.sin() * scalar(a)?.cos().recip()),
+            (FunctionName::Exp, [a]) => Value::Scalar(scalar(a)?.exp()),
+            (FunctionName::Ln, [a]) => Value::Scalar(scalar(a)?.ln()),
+            (FunctionName::Sqrt, [a]) => Value::Scalar(scalar(a)?.sqrt()),
+            (FunctionName::Atan2, [y, x]) => Value::Scalar(scalar(y)?.atan2(scalar(x)?)),
+            (FunctionName::RotationX, [a]) => turn(0, scalar(a)?),
+            (FunctionName::RotationY, [a]) => turn(1, scalar(a)?),
+            (FunctionName::RotationZ, [a]) => turn(2, scalar(a)?),
+            (FunctionName::Dot, [a, b]) => {
+                let (a, b) = (self.vector(a, tree)?, self.vector(b, tree)?);
+                Value::Scalar((0..3).map(|i| a[i] * b[i]).sum())
+            }
+            (FunctionName::Cross, [a, b]) => {
+                let (a, b) = (self.vector(a, tree)?, self.vector(b, tree)?);
+                Value::Vector(crate::mechanics::cross(&a, &b))
+            }
+            (FunctionName::Twist, [linear, angular]) => {
+                Value::Twist(self.vector(linear, tree)?, self.vector(angular, tree)?)
+            }
+            (FunctionName::Inverse, [rotation]) => match self.value(rotation, tree)? {
+                Value::Rotation(pieces) => Value::Rotation(pieces.iter().rev().map(Piece::inverse).collect()),
+                _ => return Err(bug(span)),
+            },
+            (FunctionName::Rate, [a]) => match self.value(a, tree)? {
+                Value::Scalar(a) => Value::Scalar(a.derivative(&self.rates)),
+                Value::Vector(a) => Value::Vector(a.map(|e| e.derivative(&self.rates))),
+                _ => return Err(bug(span)),
+            },
+            _ => return Err(bug(span)),
+        })
+    }
+}
