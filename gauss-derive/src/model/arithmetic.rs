@@ -4,7 +4,7 @@
 //! not only the first.
 
 use super::context::Context;
-use super::functions::{FUNCTIONS, Function};
+use super::functions::{FUNCTIONS, Function, PROPERTIES};
 use super::{BinaryOperator, Expression, ExpressionKind, names, number};
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
@@ -16,8 +16,8 @@ use syn::{
 
 /// What there is, for messages about what there is not.
 pub(super) const ALLOWED: &str = "expressions are made of numbers, names, `+ - * /`, brackets, vectors `[a, b, c]`, \
-     components `a.x` or `a[0]`, and the functions sin, cos, tan, exp, ln, sqrt, powi, dot, cross, rotation_x, \
-     rotation_y and rotation_z";
+     components `a.x` or `a[0]`, positions and rotations such as `arm.position`, and the functions sin, cos, tan, exp, \
+     ln, sqrt, powi, atan2, dot, cross, rotation_x, rotation_y, rotation_z, inverse, twist and rate";
 
 /// Reads the tokens that `owner` is said to be.
 pub(super) fn read(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Expression> {
@@ -176,7 +176,7 @@ fn vector(array: &ExprArray, context: &mut Context) -> Option<Expression> {
     }
 }
 
-/// `a.x`.
+/// `a.x`, `arm.position`.
 fn member(field: &ExprField, context: &mut Context) -> Option<Expression> {
     if let Expr::Path(base) = &*field.base
         && base.path.is_ident("self")
@@ -186,36 +186,36 @@ fn member(field: &ExprField, context: &mut Context) -> Option<Expression> {
         return None;
     }
     let base = convert(&field.base, context);
-    let index = match &field.member {
-        Member::Named(name) => match name.unraw().to_string().as_str() {
-            "x" => Some(0),
-            "y" => Some(1),
-            "z" => Some(2),
-            function if FUNCTIONS.iter().any(|(word, _)| *word == function) => {
-                context.error(name.span(), format!("the function `{function}` needs brackets; write `.{function}()`"));
-                None
-            }
-            _ => {
-                context.error(
-                    name.span(),
-                    format!("there is no `.{name}`; the components of a vector are `.x`, `.y` and `.z`"),
-                );
-                None
-            }
-        },
+    let name = match &field.member {
+        Member::Named(name) => name,
         Member::Unnamed(index) => {
             context.error(
                 index.span,
                 format!("`.{}` is no component; write `[0]`, `[1]` or `[2]`, or `.x`, `.y` or `.z`", index.index),
             );
-            None
+            return None;
         }
     };
-    let span = match &field.member {
-        Member::Named(name) => name.span(),
-        Member::Unnamed(index) => index.span,
+    let word = name.unraw().to_string();
+    let kind = if let Some(index) = ["x", "y", "z"].iter().position(|component| *component == word) {
+        ExpressionKind::Component(Box::new(base?), index)
+    } else if let Some(&(_, property)) = PROPERTIES.iter().find(|(known, _)| *known == word) {
+        ExpressionKind::Property(Box::new(base?), property)
+    } else {
+        let message = if FUNCTIONS.iter().any(|(function, _)| *function == word) {
+            format!("the function `{word}` needs brackets; write `.{word}()`")
+        } else if let Some((near, _)) = names::nearest(&word, PROPERTIES) {
+            format!("there is no `.{word}`; did you mean `.{near}`?")
+        } else {
+            format!(
+                "there is no `.{word}`; the components of a vector are `.x`, `.y` and `.z`, and bodies have `.position`, \
+                 `.rotation`, `.velocity` and `.angular_velocity`"
+            )
+        };
+        context.error(name.span(), message);
+        return None;
     };
-    Some(Expression { kind: ExpressionKind::Component(Box::new(base?), index?), span })
+    Some(Expression { kind, span: name.span() })
 }
 
 /// `a[0]`.
@@ -275,6 +275,11 @@ fn convert_call(call: &ExprCall, context: &mut Context) -> Option<Expression> {
 fn convert_method(call: &ExprMethodCall, context: &mut Context) -> Option<Expression> {
     if let Some(turbofish) = &call.turbofish {
         context.error_at(turbofish, "functions of expressions take no types; remove them");
+    }
+    let word = call.method.unraw().to_string();
+    if call.args.is_empty() && PROPERTIES.iter().any(|(property, _)| *property == word) {
+        context.error(call.method.span(), format!("`{word}` is no function; write `.{word}` without brackets"));
+        return None;
     }
     apply(&call.method, Some(&call.receiver), &call.args, context)
 }

@@ -1,17 +1,19 @@
 //! The clauses and fields of a system put together: every name known, every kind right, nothing missing.
 
 use super::bodies;
+use super::constraints;
 use super::context::Context;
 use super::fields::{Field, Reader};
-use super::functions::FUNCTIONS;
-use super::kinds::{self, Place};
-use super::names;
+use super::kinds;
+use super::motion;
+use super::naming::{self, same};
+use super::places::Place;
 use super::scene::Clauses;
-use super::scope::{Meaning, Scope, TIME};
+use super::scope::{Meaning, Scope};
 use super::shapes::{Element, Kind};
-use super::statements::{Names, Statements};
+use super::statements::Statements;
 use super::validate;
-use super::{Coordinate, CoordinateKind, Expression, Role, Scalar, Shape, Speed, SpeedKind, SystemField, SystemModel};
+use super::{Expression, Role, Scalar, Shape, SystemField, SystemModel};
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 use syn::{DeriveInput, GenericParam};
@@ -23,7 +25,7 @@ pub(super) fn system(
     mut reader: Reader<'_>,
     context: &mut Context,
 ) -> Option<SystemModel> {
-    let statements = clauses.statements.unwrap_or_default();
+    let mut statements = clauses.statements.unwrap_or_default();
     for clause in &clauses.of_one_body {
         refuse_clause_of_one_body(clause, context);
     }
@@ -33,17 +35,24 @@ pub(super) fn system(
     let (shapes, owners) = validate::shapes(&reader, scalar.as_ref(), &scalar_name, "system", context);
     let uncertain = clauses.unsupported || reader.unsupported || statements.missed;
 
-    check_names(&statements, &reader.fields, context);
-    check_kinematics(&statements, uncertain, context);
+    naming::check(&statements, &reader.fields, context);
+    motion::check_kinematics(&statements, uncertain, context);
     check_masses(input, &statements, &reader, &owners, &scalar_name, uncertain, context);
     bodies::check(&statements, &reader, &scalar_name, context);
-    check_expressions(&statements, &scope(&statements, &reader.fields, &shapes, &scalar_name, uncertain), context);
+    let scope = scope(&statements, &reader.fields, &shapes, &scalar_name, uncertain);
+    for (place, expression) in expressions(&statements) {
+        // Of constraints the kind is needed as well.
+        if !matches!(place, Place::Constraint(_)) {
+            kinds::check(expression, place, &scope, context);
+        }
+    }
+    constraints::check(&mut statements, &scope, uncertain, context);
     if statements.coordinates.is_none() && !uncertain {
         let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
-        context.error(span, "the system has no coordinates; add `coordinates(…)` with the names of scalars");
+        context.error(span, "the system has no coordinates; add `coordinates(…)` with their names");
     }
     if context.is_clean() {
-        check_dependence(&statements, context);
+        motion::check_dependence(&statements, &expressions(&statements), context);
     }
     let scalar = match scalar {
         Some(scalar) => scalar,
@@ -60,8 +69,8 @@ pub(super) fn system(
     let mut kinematics = Vec::new();
     if let Some(written) = &statements.kinematics {
         for coordinate in &coordinates {
-            let (_, rate) = written.rates.iter().find(|(name, _)| same(name, coordinate))?;
-            kinematics.push((coordinate.clone(), rate.clone()?));
+            let (_, rate) = written.rates.iter().find(|(name, _)| same(name, &coordinate.ident))?;
+            kinematics.push((coordinate.ident.clone(), rate.clone()?));
         }
     }
     Some(SystemModel {
@@ -71,17 +80,15 @@ pub(super) fn system(
         scalar,
         runtime: clauses.runtime,
         fields,
-        coordinates: coordinates.into_iter().map(|ident| Coordinate { ident, kind: CoordinateKind::Scalar }).collect(),
-        speeds: statements
-            .speeds
-            .map(|speeds| speeds.names.into_iter().map(|ident| Speed { ident, kind: SpeedKind::Scalar }).collect()),
+        coordinates,
+        speeds: statements.speeds.map(|speeds| speeds.names),
         kinematics,
         bodies: statements.bodies,
         particles: statements.particles,
-        points: Vec::new(),
-        constraints: Vec::new(),
-        independent: None,
-        limit: None,
+        points: statements.points,
+        constraints: statements.constraints,
+        independent: statements.independent.map(|independent| independent.names),
+        limit: statements.limit.and_then(|(_, limit)| limit),
         potential: statements.potential.and_then(|(_, potential)| potential),
     })
 }
@@ -99,11 +106,13 @@ fn refuse_clause_of_one_body(clause: &Ident, context: &mut Context) {
     );
 }
 
-/// Every expression, with its place.
+/// Every expression, with its place; those of constraints come after the others.
 fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
     let mut all = Vec::new();
-    if let Some(kinematics) = &statements.kinematics {
-        all.extend(kinematics.rates.iter().filter_map(|(_, rate)| rate.as_ref()).map(|rate| (Place::Kinematics, rate)));
+    let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
+    for (name, rate) in statements.kinematics.iter().flat_map(|kinematics| &kinematics.rates) {
+        let kind = coordinates().find(|coordinate| same(&coordinate.ident, name)).map(|coordinate| coordinate.kind);
+        all.extend(rate.as_ref().map(|rate| (Place::Kinematics(kind), rate)));
     }
     for body in &statements.bodies {
         all.extend(body.position.as_ref().map(|position| (Place::Position, position)));
@@ -111,11 +120,13 @@ fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
     }
     for particle in &statements.particles {
         all.push((Place::Mass, &particle.mass));
-        all.push((Place::Position, &particle.position));
+        all.push((Place::Particle { parent: particle.parent.is_some() }, &particle.position));
     }
+    all.extend(statements.points.iter().map(|point| (Place::At, &point.at)));
     if let Some((_, Some(potential))) = &statements.potential {
         all.push((Place::Potential, potential));
     }
+    all.extend(statements.constraints.iter().map(|clause| (Place::Constraint(clause.kind), &clause.expression)));
     all
 }
 
@@ -126,121 +137,6 @@ fn mark_named(statements: &Statements, reader: &mut Reader<'_>) {
         let word = field.ident.unraw().to_string();
         let usable = matches!(field.reading.kind, Kind::Known(Shape::Scalar | Shape::Vector3));
         field.computed |= usable && all.iter().any(|(_, expression)| expression.names(&word));
-    }
-}
-
-/// Coordinates, speeds and fields have different names, and none that expressions use already.
-fn check_names(statements: &Statements, fields: &[Field<'_>], context: &mut Context) {
-    let mut taken: Vec<(&Ident, &str)> = Vec::new();
-    let declared = |names: &'_ Option<Names>| names.as_ref().map(|names| names.names.clone()).unwrap_or_default();
-    let (coordinates, speeds) = (declared(&statements.coordinates), declared(&statements.speeds));
-    let all = fields
-        .iter()
-        .map(|field| (field.ident, "field"))
-        .chain(coordinates.iter().map(|name| (name, "coordinate")))
-        .chain(speeds.iter().map(|name| (name, "speed")));
-    for (name, noun) in all {
-        let word = name.unraw().to_string();
-        if word == TIME {
-            context.error(name.span(), format!("`{TIME}` is time in expressions and cannot name a {noun}; rename it"));
-        } else if FUNCTIONS.iter().any(|(function, _)| *function == word) {
-            context.error(
-                name.span(),
-                format!("`{word}` is a function of expressions and cannot name a {noun}; rename it"),
-            );
-        } else if let Some((_, earlier)) = taken.iter().find(|(earlier, _)| same(earlier, name)) {
-            match (*earlier, noun) {
-                // Two fields of one name are the compiler's to refuse.
-                ("field", "field") => {}
-                (earlier, noun) if earlier == noun => {
-                    context.error(name.span(), format!("the {noun} `{word}` is declared twice; remove one of the two"));
-                }
-                (earlier, noun) => {
-                    context
-                        .error(name.span(), format!("`{word}` names a {earlier} and a {noun}; rename one of the two"));
-                }
-            }
-        }
-        taken.push((name, noun));
-    }
-}
-
-/// Whether expressions use the word already.
-fn is_reserved(word: &str) -> bool {
-    word == TIME || FUNCTIONS.iter().any(|(function, _)| *function == word)
-}
-
-/// With speeds of its own a system needs one equation for each coordinate; without, it needs none.
-fn check_kinematics(statements: &Statements, uncertain: bool, context: &mut Context) {
-    let coordinates = statements.coordinates.as_ref();
-    match (&statements.speeds, &statements.kinematics) {
-        (None, None) => {}
-        (Some(speeds), None) => {
-            if !uncertain {
-                let equations: Vec<String> =
-                    coordinates.iter().flat_map(|names| &names.names).map(|name| format!("{name} = …")).collect();
-                let equations = if equations.is_empty() { "x = …".into() } else { equations.join(", ") };
-                context.error(
-                    speeds.clause.span(),
-                    format!("`speeds` do not say how the coordinates change; add `kinematics({equations})`"),
-                );
-            }
-            return;
-        }
-        (None, Some(kinematics)) => {
-            if !uncertain {
-                context.error(
-                    kinematics.clause.span(),
-                    "`kinematics` needs `speeds`, which it expresses the rates of the coordinates in; \
-                     add `speeds(…)`, or remove `kinematics` to have these rates for speeds",
-                );
-            }
-        }
-        (Some(_), Some(_)) => {}
-    }
-    let (Some(kinematics), Some(coordinates)) = (&statements.kinematics, coordinates) else { return };
-    let table: Vec<(String, ())> = coordinates.names.iter().map(|name| (name.unraw().to_string(), ())).collect();
-    let table: Vec<(&str, ())> = table.iter().map(|(name, ())| (name.as_str(), ())).collect();
-    let mut meant: Vec<String> = Vec::new();
-    for (index, (name, _)) in kinematics.rates.iter().enumerate() {
-        let word = name.unraw().to_string();
-        if kinematics.rates[..index].iter().any(|(earlier, _)| same(earlier, name)) {
-            context.error(name.span(), format!("`{word}` has kinematics twice; keep one of the two"));
-            continue;
-        }
-        if table.iter().any(|(known, ())| *known == word) {
-            continue;
-        }
-        let is_speed = statements.speeds.iter().flat_map(|speeds| &speeds.names).any(|speed| same(speed, name));
-        // Between single letters every name is near; a speed is no misspelt coordinate.
-        let near = if is_speed || word.chars().count() == 1 { None } else { names::nearest(&word, &table) };
-        meant.extend(near.map(|(near, ())| near.to_owned()));
-        if coordinates.complete {
-            let problem = if is_speed { "is a speed, not a coordinate" } else { "is no coordinate" };
-            let remedy = match near {
-                Some((near, ())) => format!("did you mean `{near}`?"),
-                None if table.is_empty() => "add it to `coordinates(…)`".into(),
-                None => format!("expected {}", names::list(&table)),
-            };
-            context.error(name.span(), format!("`{word}` {problem}; {remedy}"));
-        }
-    }
-    if !kinematics.complete || statements.speeds.is_none() {
-        return;
-    }
-    for (index, coordinate) in coordinates.names.iter().enumerate() {
-        let word = coordinate.unraw().to_string();
-        // A name that must change, or go, needs no kinematics yet.
-        let refused = is_reserved(&word) || coordinates.names[..index].iter().any(|earlier| same(earlier, coordinate));
-        if refused {
-            continue;
-        }
-        if !kinematics.rates.iter().any(|(name, _)| same(name, coordinate)) && !meant.contains(&word) {
-            context.error(
-                coordinate.span(),
-                format!("the coordinate `{word}` has no kinematics; add `{word} = …` to `kinematics(…)`"),
-            );
-        }
     }
 }
 
@@ -258,10 +154,10 @@ fn check_masses(
     for field in &reader.fields {
         validate::check_companion(field, known, scalar, context);
     }
-    let unnamed = statements.bodies.iter().any(|body| body.name.is_none());
-    if unnamed {
+    let bodies = statements.massive().count();
+    if statements.has_unnamed_body() {
         // Of several unnamed bodies none is meant to have the roles: they must get names first.
-        if statements.bodies.len() == 1 && !uncertain {
+        if bodies == 1 && !uncertain {
             for role in [Role::Mass, Role::Inertia] {
                 if !known(role) {
                     validate::missing_role(input, role, scalar, context);
@@ -273,7 +169,7 @@ fn check_masses(
     if uncertain || statements.missed_body {
         return;
     }
-    if statements.bodies.is_empty() && statements.particles.is_empty() {
+    if bodies == 0 && statements.particles.is_empty() {
         let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
         let body_field = reader.fields.iter().any(|field| field.role.as_ref().is_some_and(|c| c.role == Role::Body));
         // Of a field without its clause, or a role without its body, it is said there what to add.
@@ -305,22 +201,33 @@ fn check_masses(
 
 /// What expressions may name.
 fn scope(statements: &Statements, fields: &[Field<'_>], shapes: &[Shape], scalar: &str, uncertain: bool) -> Scope {
-    let complete = |names: &Option<Names>| names.as_ref().is_none_or(|names| names.complete);
+    let coordinates = statements.coordinates.as_ref();
+    let speeds = statements.speeds.as_ref();
     // Without a clause of coordinates, or of speeds where there are kinematics, every name is one that is missing there.
     let complete = !uncertain
-        && statements.coordinates.is_some()
-        && (statements.speeds.is_some() || statements.kinematics.is_none())
-        && complete(&statements.coordinates)
-        && complete(&statements.speeds);
-    let mut scope = Scope::new(complete);
-    for name in statements.coordinates.iter().flat_map(|names| &names.names) {
-        scope.add(name, Meaning::Coordinate);
+        && !statements.missed_place
+        && coordinates.is_some_and(|names| names.complete)
+        && speeds.map_or(statements.kinematics.is_none(), |names| names.complete);
+    let unnamed = statements.has_unnamed_body().then(|| bodies::unnamed(scalar));
+    let mut scope = Scope::new(complete, unnamed);
+    for coordinate in coordinates.iter().flat_map(|names| &names.names) {
+        scope.add(&coordinate.ident, Meaning::Coordinate(coordinate.kind));
     }
-    for name in statements.speeds.iter().flat_map(|names| &names.names) {
-        scope.add(name, Meaning::Speed);
+    for speed in speeds.iter().flat_map(|names| &names.names) {
+        scope.add(&speed.ident, Meaning::Speed(speed.kind));
     }
     for (field, shape) in fields.iter().zip(shapes) {
         scope.add(field.ident, meaning(field, *shape, scalar));
+    }
+    // A body whose field is missing, or something else, is a body all the same.
+    for name in statements.massive().filter_map(|body| body.name.as_ref()) {
+        scope.add(name, Meaning::Body);
+    }
+    for name in statements.frames() {
+        scope.add(name, Meaning::Frame);
+    }
+    for point in &statements.points {
+        scope.add(&point.name, Meaning::Point);
     }
     scope
 }
@@ -336,8 +243,10 @@ fn meaning(field: &Field<'_>, shape: Shape, scalar: &str) -> Meaning {
     match (shape, field.reading.kind) {
         (Shape::Scalar, _) => Meaning::Scalar,
         (Shape::Vector3, _) => Meaning::Vector,
+        (Shape::RigidBody, _) if field.role.is_some() => Meaning::Body,
         (Shape::RigidBody, _) => Meaning::Unusable(format!(
-            "`{name}` is a body; expressions name coordinates, speeds and fields that are scalars or vectors"
+            "the field `{name}` has no role; a body is a field `#[gauss(body)] {name}: RigidBody<{scalar}>` with a clause \
+             `body({name}, …)`"
         )),
         (Shape::Other, Kind::Alias) => Meaning::Unusable(format!(
             "what the field `{name}` is cannot be read from {found}; write `{scalar}` or `Vector3<{scalar}>` for its type"
@@ -346,59 +255,6 @@ fn meaning(field: &Field<'_>, shape: Shape, scalar: &str) -> Meaning {
             "the type of the field `{name}` is {found}, and expressions name scalars and vectors only: \
              `{scalar}` or `Vector3<{scalar}>`"
         )),
-    }
-}
-
-fn check_expressions(statements: &Statements, scope: &Scope, context: &mut Context) {
-    for (place, expression) in expressions(statements) {
-        kinds::check(expression, place, scope, context);
-    }
-}
-
-/// Speeds that no rate depends on, and coordinates that no mass depends on, have no equation of motion: A of (3.4) is
-/// singular. What this sees in the names alone is said here; the rest shows when A is formed.
-fn check_dependence(statements: &Statements, context: &mut Context) {
-    let Some(coordinates) = &statements.coordinates else { return };
-    let all = expressions(statements);
-    let named = |name: &Ident, places: &[Place]| {
-        let word = name.unraw().to_string();
-        all.iter().any(|(place, expression)| places.contains(place) && expression.names(&word))
-    };
-    match &statements.speeds {
-        Some(speeds) => {
-            for speed in speeds.names.iter().filter(|speed| !named(speed, &[Place::Kinematics])) {
-                context.error(
-                    speed.span(),
-                    format!(
-                        "no velocity depends on the speed `{speed}`, so nothing determines its rate; \
-                         name it in `kinematics(…)` or remove it"
-                    ),
-                );
-            }
-            if let Some(excess) = speeds.names.get(coordinates.names.len()) {
-                context.error(
-                    excess.span(),
-                    format!(
-                        "there are more speeds ({}) than coordinates ({}), so the velocities do not determine them; \
-                         remove {}",
-                        speeds.names.len(),
-                        coordinates.names.len(),
-                        speeds.names.len() - coordinates.names.len()
-                    ),
-                );
-            }
-        }
-        None => {
-            for name in coordinates.names.iter().filter(|name| !named(name, &[Place::Position, Place::Rotation])) {
-                context.error(
-                    name.span(),
-                    format!(
-                        "no position and no rotation depends on the coordinate `{name}`, so nothing determines its \
-                         acceleration; name it in one of them or remove it"
-                    ),
-                );
-            }
-        }
     }
 }
 
@@ -420,8 +276,4 @@ fn scalar_without_fields(input: &DeriveInput, fields: &[Field<'_>], context: &mu
             None
         }
     }
-}
-
-fn same(a: &Ident, b: &Ident) -> bool {
-    a.unraw() == b.unraw()
 }

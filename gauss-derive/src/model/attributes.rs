@@ -18,8 +18,14 @@ pub(super) enum Place {
     Kinematics,
     /// In the brackets of `body(…)`.
     Body,
+    /// In the brackets of `frame(…)`.
+    Frame,
     /// In the brackets of `particle(…)`.
     Particle,
+    /// In the brackets of `point(…)`.
+    Point,
+    /// In the brackets of `constraint(…)`.
+    Constraint,
 }
 
 impl Place {
@@ -28,7 +34,9 @@ impl Place {
             Place::Struct => "a clause such as `chart = hybrid`",
             Place::Field => "a role such as `mass`",
             Place::Kinematics => "an equation such as `x = v`",
-            Place::Body | Place::Particle => "an argument such as `position = [x, y, 0]`",
+            Place::Body | Place::Frame | Place::Particle => "an argument such as `position = [x, y, 0]`",
+            Place::Point => "an argument such as `at = [l, 0, 0]`",
+            Place::Constraint => "`position = …` or `velocity = …`",
         }
     }
 
@@ -38,7 +46,10 @@ impl Place {
             Place::Struct | Place::Field => "gauss",
             Place::Kinematics => "kinematics",
             Place::Body => "body",
+            Place::Frame => "frame",
             Place::Particle => "particle",
+            Place::Point => "point",
+            Place::Constraint => "constraint",
         }
     }
 }

@@ -1,8 +1,9 @@
-//! What must hold between the bodies of a system: their names, their fields and their parents.
+//! What must hold between the bodies and frames of a system: their names, their fields and their parents.
 
 use super::context::Context;
 use super::fields::{Field, Reader};
 use super::names;
+use super::naming::same;
 use super::statements::Statements;
 use super::{BodyClause, Role};
 use proc_macro2::Ident;
@@ -10,18 +11,28 @@ use syn::ext::IdentExt;
 
 /// Checks the clauses and the fields of bodies against one another; `scalar` is what proposed types are made of.
 pub(super) fn check(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
-    check_names(&statements.bodies, scalar, context);
+    check_names(statements, scalar, context);
     check_fields(statements, reader, scalar, context);
-    check_parents(statements, context);
+    check_references(statements, scalar, context);
+    check_cycles(&statements.bodies, context);
 }
 
-/// The bodies that have names.
-fn named(bodies: &[BodyClause]) -> impl Iterator<Item = (&Ident, &BodyClause)> {
-    bodies.iter().filter_map(|body| body.name.as_ref().map(|name| (name, body)))
+/// What to say where the body without a name is spoken of.
+pub(super) fn unnamed(scalar: &str) -> String {
+    format!(
+        "the body has no name to refer to it by; write `body(name, …)` with a field \
+         `#[gauss(body)] name: RigidBody<{scalar}>`"
+    )
+}
+
+/// The names that bodies have.
+fn named<'a>(bodies: &[&'a BodyClause]) -> Vec<&'a Ident> {
+    bodies.iter().filter_map(|body| body.name.as_ref()).collect()
 }
 
 /// Only one body can do without a name, and no two have one.
-fn check_names(bodies: &[BodyClause], scalar: &str, context: &mut Context) {
+fn check_names(statements: &Statements, scalar: &str, context: &mut Context) {
+    let bodies: Vec<&BodyClause> = statements.massive().collect();
     for (index, body) in bodies.iter().enumerate() {
         match &body.name {
             None if bodies.len() > 1 => context.error(
@@ -32,7 +43,7 @@ fn check_names(bodies: &[BodyClause], scalar: &str, context: &mut Context) {
                     bodies.len()
                 ),
             ),
-            Some(name) if named(&bodies[..index]).any(|(earlier, _)| same(earlier, name)) => context.error(
+            Some(name) if named(&bodies[..index]).iter().any(|earlier| same(earlier, name)) => context.error(
                 name.span(),
                 format!("two bodies are called `{name}`; each has a field of its own: rename one of the two"),
             ),
@@ -44,17 +55,21 @@ fn check_names(bodies: &[BodyClause], scalar: &str, context: &mut Context) {
 /// Each named body has a field, and each field that is a body has a clause.
 fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
     let is_body = |field: &Field<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
+    let bodies = named(&statements.massive().collect::<Vec<_>>());
+    // That a frame cannot have the name of a field is noted with the names.
+    let frames: Vec<&Ident> = statements.frames().collect();
+    let placed = |field: &Field<'_>| bodies.iter().chain(&frames).any(|name| same(name, field.ident));
     let unclaimed: Vec<(String, ())> = reader
         .fields
         .iter()
-        .filter(|field| is_body(field) && !named(&statements.bodies).any(|(name, _)| same(name, field.ident)))
+        .filter(|field| is_body(field) && !placed(field))
         .map(|field| (field.ident.unraw().to_string(), ()))
         .collect();
     let table: Vec<(&str, ())> = unclaimed.iter().map(|(name, ())| (name.as_str(), ())).collect();
     // A field whose name is misspelt in its clause is not also a field without a clause.
     let mut meant: Vec<String> = Vec::new();
-    for (index, (name, _)) in named(&statements.bodies).enumerate() {
-        if named(&statements.bodies).take(index).any(|(earlier, _)| same(earlier, name)) {
+    for (index, name) in bodies.iter().enumerate() {
+        if bodies[..index].iter().any(|earlier| same(earlier, name)) {
             continue;
         }
         let field = reader.fields.iter().find(|field| same(field.ident, name));
@@ -108,30 +123,49 @@ fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, cont
     }
 }
 
-/// Parents are bodies of the system, and no body is, by whatever way, its own.
-fn check_parents(statements: &Statements, context: &mut Context) {
-    let bodies = &statements.bodies;
-    let index_of = |name: &Ident| bodies.iter().position(|body| body.name.as_ref().is_some_and(|n| same(n, name)));
-    let mut parents: Vec<Option<usize>> = Vec::new();
-    for body in bodies {
-        let parent = body.parent.as_ref().and_then(index_of);
-        parents.push(parent);
-        if let (Some(written), None) = (&body.parent, parent)
-            && !statements.missed_body
-        {
-            let owned: Vec<String> = named(bodies)
-                .filter(|(name, _)| !body.name.as_ref().is_some_and(|own| same(own, name)))
-                .map(|(name, _)| name.unraw().to_string())
-                .collect();
-            let table: Vec<(&str, ())> = owned.iter().map(|name| (name.as_str(), ())).collect();
-            let remedy = match names::nearest(&written.unraw().to_string(), &table) {
-                Some((near, ())) => format!("did you mean `{near}`?"),
-                None if table.is_empty() => "there is no other body: leave `parent` out".into(),
-                None => format!("expected {}", names::list(&table)),
-            };
-            context.error(written.span(), format!("no body is called `{written}`; {remedy}"));
-        }
+/// The body or frame called `name`.
+fn find(bodies: &[BodyClause], name: &Ident) -> Option<usize> {
+    bodies.iter().position(|body| body.name.as_ref().is_some_and(|own| same(own, name)))
+}
+
+/// Parents, and the bodies that points are fixed in, are bodies and frames of the system.
+fn check_references(statements: &Statements, scalar: &str, context: &mut Context) {
+    if statements.missed_body || statements.missed_place {
+        return;
     }
+    let of_bodies = statements.bodies.iter().filter_map(|body| Some((body.parent.as_ref()?, body.name.as_ref(), true)));
+    let of_particles = statements.particles.iter().filter_map(|particle| Some((particle.parent.as_ref()?, None, true)));
+    let of_points = statements.points.iter().map(|point| (&point.body, None, false));
+    for (written, owner, optional) in of_bodies.chain(of_particles).chain(of_points) {
+        if find(&statements.bodies, written).is_some() {
+            continue;
+        }
+        if written == "body" && statements.has_unnamed_body() {
+            context.error(written.span(), unnamed(scalar));
+            continue;
+        }
+        let names: Vec<String> = statements
+            .bodies
+            .iter()
+            .filter_map(|body| body.name.as_ref())
+            .filter(|name| !owner.is_some_and(|own| same(own, name)))
+            .map(|name| name.unraw().to_string())
+            .collect();
+        let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
+        let remedy = match names::nearest(&written.unraw().to_string(), &table) {
+            Some((near, ())) => format!("did you mean `{near}`?"),
+            None if !table.is_empty() => format!("expected {}", names::list(&table)),
+            None if optional => "there is no other: leave `parent` out".into(),
+            None => format!("add `body({written}, …)` or `frame({written}, …)`"),
+        };
+        context.error(written.span(), format!("no body or frame is called `{written}`; {remedy}"));
+    }
+}
+
+/// No body is, by whatever way, its own parent.
+fn check_cycles(bodies: &[BodyClause], context: &mut Context) {
+    let parents: Vec<Option<usize>> =
+        bodies.iter().map(|body| body.parent.as_ref().and_then(|name| find(bodies, name))).collect();
     let mut seen = vec![false; bodies.len()];
     for start in 0..bodies.len() {
         let mut cycle = vec![start];
@@ -150,22 +184,24 @@ fn check_parents(statements: &Statements, context: &mut Context) {
         if let Some(parent) = &bodies[start].parent {
             let names: Vec<String> =
                 cycle.iter().filter_map(|&index| bodies[index].name.as_ref()).map(|name| format!("`{name}`")).collect();
+            let frames = cycle.iter().filter(|&&index| bodies[index].massless).count();
+            let (one, several) = match frames {
+                0 => ("body", "bodies"),
+                all if all == cycle.len() => ("frame", "frames"),
+                _ => ("body or frame", "bodies and frames"),
+            };
             let message = match names.as_slice() {
-                [own] => format!("the body {own} is its own parent"),
-                [a, b] => format!("the bodies {a} and {b} are each other's parent"),
+                [own] => format!("the {one} {own} is its own parent"),
+                [a, b] => format!("the {several} {a} and {b} are each other's parent"),
                 [rest @ .., last] => {
-                    format!("the parents of the bodies {} and {last} go round in a circle", rest.join(", "))
+                    format!("the parents of the {several} {} and {last} go round in a circle", rest.join(", "))
                 }
                 [] => continue,
             };
             context.error(
                 parent.span(),
-                format!("{message}; one body must be placed in the observer's frame: leave one `parent` out"),
+                format!("{message}; one {one} must be placed in the observer's frame: leave one `parent` out"),
             );
         }
     }
-}
-
-fn same(a: &Ident, b: &Ident) -> bool {
-    a.unraw() == b.unraw()
 }

@@ -1,8 +1,8 @@
-//! The functions that expressions may call, what they take and what they give.
+//! The functions that expressions may call, what they take and what they give; and what they may ask of bodies.
 
-use super::FunctionName;
 use super::kinds::Kind;
 use super::names::Table;
+use super::{FunctionName, Property};
 
 /// A function as it is called: integer powers are kept apart, since their exponent is no expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -20,11 +20,15 @@ pub(super) const FUNCTIONS: &Table<Function> = &[
     ("ln", Function::Named(FunctionName::Ln)),
     ("sqrt", Function::Named(FunctionName::Sqrt)),
     ("powi", Function::Power),
+    ("atan2", Function::Named(FunctionName::Atan2)),
     ("dot", Function::Named(FunctionName::Dot)),
     ("cross", Function::Named(FunctionName::Cross)),
     ("rotation_x", Function::Named(FunctionName::RotationX)),
     ("rotation_y", Function::Named(FunctionName::RotationY)),
     ("rotation_z", Function::Named(FunctionName::RotationZ)),
+    ("inverse", Function::Named(FunctionName::Inverse)),
+    ("twist", Function::Named(FunctionName::Twist)),
+    ("rate", Function::Named(FunctionName::Rate)),
 ];
 
 impl Function {
@@ -40,6 +44,8 @@ impl Function {
     pub(super) fn example(self) -> String {
         match self {
             Function::Power => "powi(x, 2)".into(),
+            Function::Named(FunctionName::Atan2) => "atan2(y, x)".into(),
+            Function::Named(FunctionName::Inverse) => "inverse(r)".into(),
             Function::Named(name) if name.arguments() == 2 => format!("{}(a, b)", name.word()),
             Function::Named(name) => format!("{}(x)", name.word()),
         }
@@ -70,25 +76,51 @@ impl FunctionName {
 
     fn arguments(self) -> usize {
         match self {
-            FunctionName::Dot | FunctionName::Cross => 2,
+            FunctionName::Dot | FunctionName::Cross | FunctionName::Atan2 | FunctionName::Twist => 2,
             _ => 1,
         }
     }
 
-    /// The kind of each argument.
-    pub(super) fn takes(self) -> Kind {
+    /// The kind of each argument; `None` for a scalar or a vector.
+    pub(super) fn takes(self) -> Option<Kind> {
         match self {
-            FunctionName::Dot | FunctionName::Cross => Kind::Vector,
-            _ => Kind::Scalar,
+            FunctionName::Dot | FunctionName::Cross | FunctionName::Twist => Some(Kind::Vector),
+            FunctionName::Inverse => Some(Kind::Rotation),
+            FunctionName::Rate => None,
+            _ => Some(Kind::Scalar),
         }
     }
 
-    /// The kind of the value.
-    pub(super) fn gives(self) -> Kind {
+    /// The kind of the value; `None` for that of the argument.
+    pub(super) fn gives(self) -> Option<Kind> {
         match self {
-            FunctionName::Cross => Kind::Vector,
-            FunctionName::RotationX | FunctionName::RotationY | FunctionName::RotationZ => Kind::Rotation,
-            _ => Kind::Scalar,
+            FunctionName::Cross => Some(Kind::Vector),
+            FunctionName::RotationX | FunctionName::RotationY | FunctionName::RotationZ | FunctionName::Inverse => {
+                Some(Kind::Rotation)
+            }
+            FunctionName::Twist => Some(Kind::Twist),
+            FunctionName::Rate => None,
+            _ => Some(Kind::Scalar),
         }
+    }
+}
+
+/// What can be asked of bodies, by its word.
+pub(super) const PROPERTIES: &Table<Property> = &[
+    ("position", Property::Position),
+    ("rotation", Property::Rotation),
+    ("velocity", Property::Velocity),
+    ("angular_velocity", Property::AngularVelocity),
+];
+
+impl Property {
+    /// The word after the point.
+    pub(super) fn word(self) -> &'static str {
+        PROPERTIES.iter().find(|(_, property)| *property == self).map_or("", |(word, _)| word)
+    }
+
+    /// It is a velocity.
+    pub(super) fn is_velocity(self) -> bool {
+        matches!(self, Property::Velocity | Property::AngularVelocity)
     }
 }

@@ -1,8 +1,9 @@
 //! What kind of value an expression has, and whether it is the kind that its place needs.
 
 use super::context::Context;
+use super::places::Place;
 use super::scope::{Meaning, Scope};
-use super::{BinaryOperator, Expression, ExpressionKind};
+use super::{BinaryOperator, CoordinateKind, Expression, ExpressionKind, FunctionName, Property, SpeedKind};
 use proc_macro2::{Ident, Span};
 
 /// The kind of a value.
@@ -11,89 +12,44 @@ pub(super) enum Kind {
     Scalar,
     Vector,
     Rotation,
+    /// Linear and angular velocity.
+    Twist,
 }
 
 impl Kind {
-    fn noun(self) -> &'static str {
+    pub(super) fn noun(self) -> &'static str {
         match self {
             Kind::Scalar => "a scalar",
             Kind::Vector => "a vector",
             Kind::Rotation => "a rotation",
+            Kind::Twist => "a twist",
         }
     }
 }
 
-/// Where an expression stands.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    Kinematics,
-    Position,
-    Rotation,
-    Mass,
-    Potential,
-}
-
-impl Place {
-    fn kind(self) -> Kind {
-        match self {
-            Place::Kinematics | Place::Mass | Place::Potential => Kind::Scalar,
-            Place::Position => Kind::Vector,
-            Place::Rotation => Kind::Rotation,
+/// Checks names and kinds of an expression that stands at `place`; its kind, unless something is wrong, which is noted.
+pub(super) fn check(expression: &Expression, place: Place, scope: &Scope, context: &mut Context) -> Option<Kind> {
+    let mut checker = Checker { place, scope, context, differentiated: false };
+    let found = match &expression.kind {
+        // Only a whole rate is a twist.
+        ExpressionKind::Call(FunctionName::Twist, arguments) if matches!(place, Place::Kinematics(_)) => {
+            checker.arguments(FunctionName::Twist, arguments);
+            Kind::Twist
         }
+        _ => checker.kind(expression)?,
+    };
+    if place.accepts(found) {
+        return Some(found);
     }
-
-    /// What to say of an expression of another kind.
-    fn mismatch(self, found: Kind) -> String {
-        let (what, remedy) = match self {
-            Place::Kinematics => ("the rate of a coordinate", "write one number, such as `v * cos(theta)`"),
-            Place::Position => ("a position", "write `[x, y, z]`"),
-            Place::Rotation => ("a rotation", "write `rotation_z(theta)`, or a product of such turns"),
-            Place::Mass => ("the mass of a particle", "write one number or the name of a field"),
-            Place::Potential => ("a potential", "write one number, such as `k * x * x / 2`"),
-        };
-        if self == Place::Rotation {
-            format!("expected a rotation, found {}; {remedy}", found.noun())
-        } else {
-            format!("{what} is {}, found {}; {remedy}", self.kind().noun(), found.noun())
-        }
-    }
-
-    /// What to say of a name that may not stand here.
-    fn forbids(self, name: &Ident, meaning: &Meaning) -> Option<String> {
-        match (self, meaning) {
-            (Place::Potential, Meaning::Speed) => Some(format!(
-                "`{name}` is a speed, and a potential depends on coordinates, fields and `t` only; \
-                 write the potential without `{name}`"
-            )),
-            (Place::Position | Place::Rotation, Meaning::Speed) => {
-                let what = if self == Place::Position { "position" } else { "rotation" };
-                Some(format!(
-                    "`{name}` is a speed, and a {what} depends on coordinates, fields and `t` only; \
-                     speeds stand in `kinematics`"
-                ))
-            }
-            (Place::Mass, Meaning::Coordinate | Meaning::Speed | Meaning::Time) => {
-                Some(format!("`{name}` varies, and the mass of a particle is constant; write numbers and fields only"))
-            }
-            _ => None,
-        }
-    }
-}
-
-/// Checks names and kinds of an expression that stands at `place`.
-pub(super) fn check(expression: &Expression, place: Place, scope: &Scope, context: &mut Context) {
-    let found = Checker { place, scope, context }.kind(expression);
-    if let Some(found) = found
-        && found != place.kind()
-    {
-        context.error(expression.span, place.mismatch(found));
-    }
+    checker.note(expression.span, place.mismatch(found))
 }
 
 struct Checker<'a> {
     place: Place,
     scope: &'a Scope,
     context: &'a mut Context,
+    /// Inside `rate(…)`.
+    differentiated: bool,
 }
 
 impl Checker<'_> {
@@ -102,17 +58,16 @@ impl Checker<'_> {
         match &expression.kind {
             ExpressionKind::Number { .. } => Some(Kind::Scalar),
             ExpressionKind::Name(name) => self.name(name),
-            ExpressionKind::Property(base, _) => self.kind(base),
+            ExpressionKind::Property(base, property) => self.property(base, *property, expression.span),
             ExpressionKind::Component(base, _) => {
                 let kind = self.kind(base)?;
                 self.expect(kind, Kind::Vector, expression.span, "components are those of")?;
                 Some(Kind::Scalar)
             }
             ExpressionKind::Negate(inner) => match self.kind(inner)? {
-                Kind::Rotation => self.note(
-                    expression.span,
-                    "a rotation has no negative; the inverse of `rotation_z(a)` is `rotation_z(-a)`".into(),
-                ),
+                Kind::Rotation => {
+                    self.note(expression.span, "a rotation has no negative; the inverse of `r` is `inverse(r)`".into())
+                }
                 kind => Some(kind),
             },
             ExpressionKind::Binary(operator, left, right) => {
@@ -124,13 +79,18 @@ impl Checker<'_> {
                 self.expect(kind, Kind::Scalar, base.span, "`powi` takes")?;
                 Some(Kind::Scalar)
             }
+            ExpressionKind::Call(FunctionName::Twist, arguments) => {
+                self.arguments(FunctionName::Twist, arguments);
+                self.note(
+                    expression.span,
+                    "a twist is no part of another expression; write `pose = twist(linear, angular)` in `kinematics(…)`"
+                        .into(),
+                )
+            }
+            ExpressionKind::Call(FunctionName::Rate, arguments) => self.rate(arguments, expression.span),
             ExpressionKind::Call(function, arguments) => {
-                for argument in arguments {
-                    if let Some(kind) = self.kind(argument) {
-                        self.expect(kind, function.takes(), argument.span, &format!("`{}` takes", function.word()));
-                    }
-                }
-                Some(function.gives())
+                self.arguments(*function, arguments);
+                function.gives()
             }
             ExpressionKind::Vector(components) => {
                 for component in components {
@@ -143,19 +103,114 @@ impl Checker<'_> {
         }
     }
 
+    /// The kind of the last argument, if nothing is wrong with it.
+    fn arguments(&mut self, function: FunctionName, arguments: &[Expression]) -> Option<Kind> {
+        let mut last = None;
+        for argument in arguments {
+            last = self.kind(argument);
+            let (Some(kind), Some(taken)) = (last, function.takes()) else { continue };
+            last = self.expect(kind, taken, argument.span, &format!("`{}` takes", function.word())).map(|()| kind);
+        }
+        last
+    }
+
+    /// A time derivative, which is a velocity.
+    fn rate(&mut self, arguments: &[Expression], span: Span) -> Option<Kind> {
+        if let Some(message) = self.place.refuses_velocity("rate(…)") {
+            return self.note(span, message);
+        }
+        if self.differentiated {
+            return self.note(span, acceleration("rate(…)", "one `rate`"));
+        }
+        self.differentiated = true;
+        let kind = self.arguments(FunctionName::Rate, arguments);
+        self.differentiated = false;
+        match kind? {
+            kind @ (Kind::Scalar | Kind::Vector) => Some(kind),
+            kind => self.note(
+                arguments.first().map_or(span, |argument| argument.span),
+                format!("`rate` takes a scalar or a vector, found {}; ask bodies for `.angular_velocity`", kind.noun()),
+            ),
+        }
+    }
+
+    fn meaning(&mut self, name: &Ident, expected: impl Fn(&Meaning) -> bool) -> Option<Meaning> {
+        match self.scope.find(name, expected) {
+            Ok(Meaning::Unusable(message)) => {
+                self.context.error(name.span(), message);
+                None
+            }
+            Ok(meaning) if self.place.allows(meaning) => Some(meaning.clone()),
+            Ok(meaning) => {
+                self.context.error(name.span(), self.place.refusal(name, meaning));
+                None
+            }
+            Err(message) => {
+                self.context.error(name.span(), message?);
+                None
+            }
+        }
+    }
+
     fn name(&mut self, name: &Ident) -> Option<Kind> {
-        let meaning = match self.scope.find(name) {
-            Ok(meaning) => meaning,
-            Err(message) => return self.note(name.span(), message?),
+        let place = self.place;
+        match self.meaning(name, |meaning| place.allows(meaning))? {
+            Meaning::Speed(_) if self.differentiated => {
+                self.note(name.span(), acceleration(&name.to_string(), &format!("`{name}` itself")))
+            }
+            Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => Some(Kind::Scalar),
+            Meaning::Speed(SpeedKind::Scalar) => Some(Kind::Scalar),
+            Meaning::Vector | Meaning::Point | Meaning::Speed(SpeedKind::Vector) => Some(Kind::Vector),
+            Meaning::Coordinate(CoordinateKind::Rotation) => Some(Kind::Rotation),
+            meaning => self.note(
+                name.span(),
+                format!("`{name}` is {}; write `{name}.position` or `{name}.rotation`", meaning.described()),
+            ),
+        }
+    }
+
+    /// `arm.position`.
+    fn property(&mut self, base: &Expression, property: Property, span: Span) -> Option<Kind> {
+        let word = property.word();
+        let ExpressionKind::Name(name) = &base.kind else {
+            self.kind(base)?;
+            return self.note(span, format!("`.{word}` is asked of bodies, frames and poses by their names"));
         };
-        if let Some(message) = self.place.forbids(name, meaning) {
-            return self.note(name.span(), message);
-        }
-        match meaning {
-            Meaning::Time | Meaning::Coordinate | Meaning::Speed | Meaning::Scalar => Some(Kind::Scalar),
-            Meaning::Vector => Some(Kind::Vector),
-            Meaning::Unusable(message) => self.note(name.span(), message.clone()),
-        }
+        let place = self.place;
+        let pose = Meaning::Coordinate(CoordinateKind::Pose);
+        let has = |meaning: &Meaning| place.allows(meaning) && (meaning.is_body() || *meaning == pose);
+        let meaning = self.meaning(name, has)?;
+        let message = match (&meaning, property) {
+            (Meaning::Body | Meaning::Frame, property) if property.is_velocity() => {
+                let written = format!("{name}.{word}");
+                match self.place.refuses_velocity(&written) {
+                    Some(message) => message,
+                    None if self.differentiated => acceleration(&written, &format!("`{written}` itself")),
+                    None => return Some(Kind::Vector),
+                }
+            }
+            (Meaning::Body | Meaning::Frame | Meaning::Coordinate(CoordinateKind::Pose), Property::Position) => {
+                return Some(Kind::Vector);
+            }
+            (Meaning::Body | Meaning::Frame | Meaning::Coordinate(CoordinateKind::Pose), Property::Rotation) => {
+                return Some(Kind::Rotation);
+            }
+            (Meaning::Coordinate(CoordinateKind::Pose), _) => format!(
+                "a pose has `.position` and `.rotation`, and no `.{word}`; ask it of the body that has this pose"
+            ),
+            (Meaning::Coordinate(CoordinateKind::Rotation), Property::Rotation) => {
+                format!("`{name}` is itself a rotation; write `{name}`")
+            }
+            (Meaning::Point, Property::Position) => format!("`{name}` is itself a position; write `{name}`"),
+            (Meaning::Point, Property::Velocity) => {
+                format!("`{name}` is a position and has no `.velocity`; write `rate({name})`")
+            }
+            (meaning, _) => format!(
+                "`{name}` is {} and has no `.{word}`; bodies and frames have, by their names",
+                meaning.described()
+            ),
+        };
+        self.note(span, message)
     }
 
     fn binary(&mut self, operator: BinaryOperator, left: Kind, right: Kind, span: Span) -> Option<Kind> {
@@ -198,4 +253,12 @@ impl Checker<'_> {
         self.context.error(span, message);
         None
     }
+}
+
+/// What to say of the time derivative of a velocity.
+fn acceleration(written: &str, instead: &str) -> String {
+    format!(
+        "the time derivative of `{written}` is an acceleration, which a constraint of velocities cannot contain; \
+         write {instead}"
+    )
 }

@@ -9,14 +9,19 @@
 //! |---|---|
 //! | `attributes` | `#[gauss(…)]` → clauses `name`, `name = value`, `name(…)` |
 //! | `scene` | the clauses of the struct: `chart`, `motion`, `crate` |
-//! | `statements` | those of a system: `coordinates`, `speeds`, `kinematics`, `body`, `particle`, `potential` |
+//! | `statements` | those of a system, each with one of the next two; `constraint`, `potential`, `limit` |
+//! | `declarations` | `coordinates`, `speeds`, `independent`, `kinematics` |
+//! | `placements` | `body`, `frame`, `particle`, `point` |
 //! | `fields` | the clauses of the fields: their roles |
 //! | `roles` | what each role is called and which shapes it takes |
 //! | `shapes` | the written type of a field → shape and scalar |
 //! | `validate` | what must hold between fields: one scalar, no role missing or doubled |
 //! | `expression`, `arithmetic`, `number`, `functions` | Rust arithmetic → trees with spans |
-//! | `scope`, `kinds` | what names mean in expressions; scalar, vector or rotation |
+//! | `scope`, `places`, `kinds` | what names mean in expressions and where they may stand; scalar, vector or rotation |
+//! | `naming` | one name, one meaning |
+//! | `motion` | what must hold between coordinates, speeds and kinematics |
 //! | `bodies` | what must hold between bodies: names, fields, parents |
+//! | `constraints` | what must hold of constraints and independent speeds |
 //! | `assembly`, `system` | a whole system checked, and the type that it has then |
 //! | `names` | the nearest valid word to a misspelt one |
 //! | `context` | the mistakes found so far |
@@ -25,13 +30,19 @@ mod arithmetic;
 mod assembly;
 mod attributes;
 mod bodies;
+mod constraints;
 mod context;
+mod declarations;
 mod expression;
 mod fields;
 mod functions;
 mod kinds;
+mod motion;
 mod names;
+mod naming;
 mod number;
+mod placements;
+mod places;
 mod roles;
 mod scene;
 mod scope;

@@ -7,7 +7,7 @@ use super::attributes::{self, Clause, Place, Value, Word};
 use super::context::Context;
 use super::names::{self, Table};
 use super::roles::ROLES;
-use super::statements::{self, STATEMENTS, Statements};
+use super::statements::{self, STATEMENTS, Statement, Statements};
 use super::{Chart, Motion, RotationChart};
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
@@ -25,20 +25,13 @@ pub(super) struct Clauses {
     pub(super) statements: Option<Statements>,
     /// `chart` and `motion` where they are written: clauses that only one body has.
     pub(super) of_one_body: Vec<Ident>,
+    /// `limit` where it is written without any clause that makes a system.
+    pub(super) of_system: Option<Ident>,
 }
 
 /// Clauses of the language that this version does not derive yet, with what serves instead; they are refused on structs
 /// and on fields alike.
-pub(super) const UNSUPPORTED: &Table<&str> = &[
-    ("force", FORCES),
-    ("damping", FORCES),
-    ("input", FORCES),
-    (
-        "constraint",
-        "constraints are solved by the choice of `coordinates`, `speeds` and `kinematics`: there may be fewer speeds than \
-         coordinates",
-    ),
-];
+pub(super) const UNSUPPORTED: &Table<&str> = &[("force", FORCES), ("damping", FORCES), ("input", FORCES)];
 
 const FORCES: &str = "its forces come from `potential` and from a field with the role `gravity`";
 
@@ -94,7 +87,9 @@ enum Written {
 /// Reads the attributes of the struct.
 pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Clauses {
     let clauses = attributes::clauses(attributes, Place::Struct, context);
-    let is_system = clauses.iter().any(|clause| statements::meant(&clause.word()).is_some());
+    // A limit limits a system and makes none.
+    let is_system =
+        clauses.iter().any(|clause| statements::meant(&clause.word()).is_some_and(|meant| meant != Statement::Limit));
     let mut statements = Statements::default();
     let mut of_one_body = Vec::new();
     let mut charts = Vec::new();
@@ -146,6 +141,7 @@ pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Clauses {
         motion: motion.unwrap_or(Motion::Free),
         runtime: runtime.flatten().unwrap_or_else(default_runtime),
         unsupported,
+        of_system: statements.limit.as_ref().filter(|_| !is_system).map(|(name, _)| name.clone()),
         statements: is_system.then_some(statements),
         of_one_body,
     }

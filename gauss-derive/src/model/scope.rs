@@ -2,6 +2,7 @@
 
 use super::functions::FUNCTIONS;
 use super::names;
+use super::{CoordinateKind, SpeedKind};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
@@ -12,12 +13,18 @@ pub(super) const TIME: &str = "t";
 #[derive(Clone, PartialEq, Eq)]
 pub(super) enum Meaning {
     Time,
-    Coordinate,
-    Speed,
+    Coordinate(CoordinateKind),
+    Speed(SpeedKind),
     /// A field that is a number.
     Scalar,
     /// A field that is a vector of three.
     Vector,
+    /// A body with mass.
+    Body,
+    /// A body without mass.
+    Frame,
+    /// A point of a body.
+    Point,
     /// A field that expressions cannot use; the message says why.
     Unusable(String),
 }
@@ -27,11 +34,13 @@ pub(super) struct Scope {
     names: Vec<(String, Meaning)>,
     /// Every name could be read; if not, an unknown name may well be one of those that could not.
     complete: bool,
+    /// What to say of the body if it has no name.
+    unnamed_body: Option<String>,
 }
 
 impl Scope {
-    pub(super) fn new(complete: bool) -> Scope {
-        Scope { names: vec![(TIME.into(), Meaning::Time)], complete }
+    pub(super) fn new(complete: bool, unnamed_body: Option<String>) -> Scope {
+        Scope { names: vec![(TIME.into(), Meaning::Time)], complete, unnamed_body }
     }
 
     /// Adds a name; one with two meanings keeps both.
@@ -42,11 +51,11 @@ impl Scope {
         }
     }
 
-    /// The meaning of `name`.
+    /// The meaning of `name` where names with an `expected` meaning may stand.
     ///
     /// # Errors
     /// What to say of an unknown name; `None` where that is said elsewhere.
-    pub(super) fn find(&self, name: &Ident) -> Result<&Meaning, Option<String>> {
+    pub(super) fn find(&self, name: &Ident, expected: impl Fn(&Meaning) -> bool) -> Result<&Meaning, Option<String>> {
         let word = name.unraw().to_string();
         let mut meanings = self.names.iter().filter(|(known, _)| *known == word).map(|(_, meaning)| meaning);
         if let Some(meaning) = meanings.next() {
@@ -56,12 +65,15 @@ impl Scope {
         if let Some((_, function)) = FUNCTIONS.iter().find(|(function, _)| *function == word) {
             return Err(Some(format!("`{word}` is a function; write `{}`", function.example())));
         }
+        if word == "body" && self.unnamed_body.is_some() {
+            return Err(self.unnamed_body.clone());
+        }
         if !self.complete {
             return Err(None);
         }
         let remedy = match self.nearest(&word) {
             Some((near, meaning)) => format!("did you mean {}`{near}`?", meaning.noun()),
-            None => format!("expected {}", self.list()),
+            None => format!("expected {}", self.list(expected)),
         };
         Err(Some(format!("unknown name `{word}`; {remedy}")))
     }
@@ -78,24 +90,27 @@ impl Scope {
         names::nearest(word, &table)
     }
 
-    /// All usable names, by what they are.
-    fn list(&self) -> String {
+    /// All expected names, by what they are.
+    fn list(&self, expected: impl Fn(&Meaning) -> bool) -> String {
         let mut parts = Vec::new();
-        for noun in ["the coordinate ", "the speed ", "the field "] {
+        for noun in ["the coordinate ", "the speed ", "the field ", "the body ", "the frame ", "the point "] {
             let table: Vec<(&str, ())> = self
                 .names
                 .iter()
-                .filter(|(_, meaning)| meaning.noun() == noun)
+                .filter(|(_, meaning)| meaning.noun() == noun && expected(meaning))
                 .map(|(name, _)| (name.as_str(), ()))
                 .collect();
             if !table.is_empty() {
                 parts.push(format!("a {}({})", &noun[4..], names::list(&table)));
             }
         }
-        parts.push(format!("`{TIME}`"));
+        if expected(&Meaning::Time) {
+            parts.push(format!("`{TIME}`"));
+        }
         match parts.split_last() {
             Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
-            _ => parts.join(", "),
+            Some((last, _)) => last.clone(),
+            None => "a number".into(),
         }
     }
 }
@@ -104,9 +119,32 @@ impl Meaning {
     fn noun(&self) -> &'static str {
         match self {
             Meaning::Time | Meaning::Unusable(_) => "",
-            Meaning::Coordinate => "the coordinate ",
-            Meaning::Speed => "the speed ",
+            Meaning::Coordinate(_) => "the coordinate ",
+            Meaning::Speed(_) => "the speed ",
             Meaning::Scalar | Meaning::Vector => "the field ",
+            Meaning::Body => "the body ",
+            Meaning::Frame => "the frame ",
+            Meaning::Point => "the point ",
+        }
+    }
+
+    /// A body or a frame.
+    pub(super) fn is_body(&self) -> bool {
+        matches!(self, Meaning::Body | Meaning::Frame)
+    }
+
+    /// What it is, for messages.
+    pub(super) fn described(&self) -> &'static str {
+        match self {
+            Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => "a scalar",
+            Meaning::Speed(SpeedKind::Scalar) => "a scalar",
+            Meaning::Vector | Meaning::Speed(SpeedKind::Vector) => "a vector",
+            Meaning::Coordinate(CoordinateKind::Pose) => "a pose",
+            Meaning::Coordinate(CoordinateKind::Rotation) => "a rotation",
+            Meaning::Body => "a body",
+            Meaning::Frame => "a frame",
+            Meaning::Point => "a point",
+            Meaning::Unusable(_) => "a field",
         }
     }
 }

@@ -34,6 +34,14 @@ pub(super) fn model(input: &DeriveInput, scene: &Clauses, reader: Reader<'_>, co
     for field in &reader.fields {
         check_companion(field, known, &name, context);
     }
+    if let Some(limit) = &scene.of_system {
+        context.error(
+            limit.span(),
+            format!(
+                "`{limit}` is for systems; the equations of one body in a chart are always short: remove `{limit}`"
+            ),
+        );
+    }
     let scalar = match scalar {
         Some(scalar) => scalar,
         None => return hidden_scalar(input, &reader.fields, context),

@@ -212,16 +212,12 @@ fn attribute_forms() {
 #[test]
 fn later_versions() {
     let message = |word: &str| {
-        let instead = match word {
-            "constraint" => {
-                "constraints are solved by the choice of `coordinates`, `speeds` and `kinematics`: \
-                 there may be fewer speeds than coordinates"
-            }
-            _ => "its forces come from `potential` and from a field with the role `gravity`",
-        };
-        format!("`{word}` is not supported by this version; {instead}: remove `{word}`")
+        format!(
+            "`{word}` is not supported by this version; its forces come from `potential` and from a field with the role \
+             `gravity`: remove `{word}`"
+        )
     };
-    for word in ["force", "damping", "input", "constraint"] {
+    for word in ["force", "damping", "input"] {
         check(&format!("#[gauss({word}(a, b = c))] struct Scene {{ k: f64 }}"), &[(word, &message(word))]);
         check(
             &format!("#[gauss(coordinates(x), {word}(a, b = c))] struct Scene {{ k: f64 }}"),

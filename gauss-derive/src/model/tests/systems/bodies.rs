@@ -73,7 +73,7 @@ fn fields() {
                 "the field `arm` is a body, but no clause says where it is; \
                  add `body(arm, position = […], rotation = …)` above `struct`",
             ),
-            ("Scene", "the system has no coordinates; add `coordinates(…)` with the names of scalars"),
+            ("Scene", "the system has no coordinates; add `coordinates(…)` with their names"),
         ],
     );
 }
@@ -109,13 +109,13 @@ fn parents() {
     check(
         &two(&format!("upper, parent = upper, {A}"), &format!("lower, parent = uper, {B}")),
         &[
-            ("uper", "no body is called `uper`; did you mean `upper`?"),
+            ("uper", "no body or frame is called `uper`; did you mean `upper`?"),
             ("upper", &format!("the body `upper` is its own parent; {alone}")),
         ],
     );
     check(
         &two(&format!("upper, {A}"), &format!("lower, parent = ground, {B}")),
-        &[("ground", "no body is called `ground`; expected `upper`")],
+        &[("ground", "no body or frame is called `ground`; expected `upper`")],
     );
     check(
         "#[gauss(coordinates(q), body(a, parent = b), body(b, parent = c), body(c, parent = a, rotation = rotation_x(q)))] \
@@ -131,7 +131,7 @@ fn arguments() {
         &two(&format!("upper, {A}, positon = [a, 0, 0]"), &format!("lower, {B}, parent = 3, rotation = {A}")),
         &[
             ("positon", "unknown argument of `body`: `positon`; did you mean `position`?"),
-            ("3", "`parent` is the name of another body, found the literal `3`"),
+            ("3", "`parent` is the name of another body or frame, found the literal `3`"),
             ("rotation", "`rotation` is given twice; keep one of the two"),
             ("=", &format!("a second `=` has no meaning here; {ALLOWED}")),
         ],

@@ -49,8 +49,8 @@ fn numbers() {
 
 #[test]
 fn functions() {
-    const FUNCTIONS: &str = "`sin`, `cos`, `tan`, `exp`, `ln`, `sqrt`, `powi`, `dot`, `cross`, `rotation_x`, \
-        `rotation_y` or `rotation_z`";
+    const FUNCTIONS: &str = "`sin`, `cos`, `tan`, `exp`, `ln`, `sqrt`, `powi`, `atan2`, `dot`, `cross`, \
+        `rotation_x`, `rotation_y`, `rotation_z`, `inverse`, `twist` or `rate`";
     check_potential("sine(x)", &[("sine", "unknown function `sine`; did you mean `sin`?")]);
     check_potential("x.powf(2)", &[("powf", "unknown function `powf`; did you mean `powi`?")]);
     check_potential("erf(x)", &[("erf", &format!("unknown function `erf`; expected {FUNCTIONS}"))]);
@@ -84,13 +84,20 @@ fn kinds() {
     );
     check_potential(
         "(-rotation_x(y) * a).x",
-        &[("-", "a rotation has no negative; the inverse of `rotation_z(a)` is `rotation_z(-a)`")],
+        &[("-", "a rotation has no negative; the inverse of `r` is `inverse(r)`")],
     );
     check_potential("sin(a)", &[("a", "`sin` takes a scalar, found a vector")]);
     check_potential("dot(a, x)", &[("x", "`dot` takes a vector, found a scalar")]);
     check_potential("a.powi(2)", &[("a", "`powi` takes a scalar, found a vector")]);
     check_potential("x.y", &[("y", "components are those of a vector, found a scalar")]);
-    check_potential("a.w", &[("w", "there is no `.w`; the components of a vector are `.x`, `.y` and `.z`")]);
+    check_potential(
+        "a.w",
+        &[(
+            "w",
+            "there is no `.w`; the components of a vector are `.x`, `.y` and `.z`, and bodies have `.position`, \
+             `.rotation`, `.velocity` and `.angular_velocity`",
+        )],
+    );
     check_potential("a[3]", &[("3", "a vector has the components 0, 1 and 2; write `[0]`, `[1]` or `[2]`")]);
     check_potential("[x, a, 0].x", &[("a", "each component of a vector is a scalar, found a vector")]);
     check_potential("[x, y].x", &[("[", "a vector has three components, found 2; in a plane write `[x, y, 0]`")]);

@@ -27,14 +27,7 @@ fn declarations() {
         &particle("", "cross: f64").replace(", )]", ")]"),
         &[("cross", "`cross` is a function of expressions and cannot name a field; rename it")],
     );
-    check(&moving("coordinates(x: f64, y)"), &[(":", "a coordinate is a scalar and has no type; write `x`")]);
-    check(
-        &moving("coordinates(x, y, pose: Pose, attitude: gauss::Rotation)"),
-        &[
-            ("Pose", "`pose: Pose` is not supported by this version; write scalar coordinates"),
-            ("Rotation", "`attitude: Rotation` is not supported by this version; write scalar coordinates"),
-        ],
-    );
+    check(&moving("coordinates(x: f64, y)"), &[(":", "a scalar coordinate has no type; write `x`")]);
     check(&moving("coordinates(x y)"), &[("y", "expected `,` after `x`, found `y`; separate names by commas")]);
     check(&moving("coordinates(x, 2)"), &[("2", "expected the name of a coordinate, found the literal `2`")]);
     check(&moving("coordinates(x, y, if)"), &[("if", "`if` is a keyword and cannot name a coordinate")]);
@@ -56,7 +49,7 @@ fn declarations() {
 fn missing() {
     check(
         "#[gauss(particle(mass = m, position = [x, y, 0]))] struct Scene { m: f64 }",
-        &[("particle", "the system has no coordinates; add `coordinates(…)` with the names of scalars")],
+        &[("particle", "the system has no coordinates; add `coordinates(…)` with their names")],
     );
     check(
         "#[gauss(coordinates(x), potential = k * x)] struct Scene { k: f64 }",
@@ -188,8 +181,8 @@ fn clauses_of_one_body() {
         &particle("foo = 1", ""),
         &[(
             "foo",
-            "unknown clause `foo`; expected `coordinates`, `speeds`, `kinematics`, `body`, `particle`, `potential` \
-             or `crate`",
+            "unknown clause `foo`; expected `coordinates`, `speeds`, `kinematics`, `body`, `frame`, \
+             `particle`, `point`, `constraint`, `independent`, `potential`, `limit` or `crate`",
         )],
     );
     // A misspelt clause is not missing as well.

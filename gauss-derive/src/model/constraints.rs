@@ -1,0 +1,152 @@
+//! What must hold of constraints, and of the speeds that stay independent under them.
+
+use super::context::Context;
+use super::kinds::{self, Kind};
+use super::names;
+use super::naming::same;
+use super::places::Place;
+use super::scope::Scope;
+use super::statements::Statements;
+use super::{ConstraintClause, ConstraintKind, Expression, ExpressionKind, FunctionName, Property};
+use proc_macro2::Ident;
+use syn::ext::IdentExt;
+
+/// Checks the constraints and says which are vectors.
+pub(super) fn check(statements: &mut Statements, scope: &Scope, uncertain: bool, context: &mut Context) {
+    let mut constraints = std::mem::take(&mut statements.constraints);
+    let moving = Moving::new(statements);
+    for constraint in &mut constraints {
+        let place = Place::Constraint(constraint.kind);
+        if let Some(kind) = kinds::check(&constraint.expression, place, scope, context) {
+            constraint.vector = kind == Kind::Vector;
+            check_motion(constraint, &moving, context);
+        }
+    }
+    statements.constraints = constraints;
+    check_independent(statements, uncertain, context);
+}
+
+/// What changes when coordinates or speeds do, by name.
+struct Moving {
+    /// Coordinates; bodies, frames and points that are placed by them.
+    places: Vec<String>,
+    speeds: Vec<String>,
+}
+
+impl Moving {
+    fn new(statements: &Statements) -> Moving {
+        let mut places: Vec<String> = Vec::new();
+        places.extend(statements.coordinates.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)));
+        let speeds = statements.speeds.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)).collect();
+        // A child may be written before its parent: round after round adds those that are moved by what moves.
+        for _ in &statements.bodies {
+            for body in &statements.bodies {
+                let Some(name) = body.name.as_ref().map(word) else { continue };
+                let moved = body.parent.as_ref().is_some_and(|parent| places.contains(&word(parent)))
+                    || body.position.iter().chain(&body.rotation).any(|e| names_any(e, &places));
+                if moved && !places.contains(&name) {
+                    places.push(name);
+                }
+            }
+        }
+        for point in &statements.points {
+            if places.contains(&word(&point.body)) {
+                places.push(word(&point.name));
+            }
+        }
+        Moving { places, speeds }
+    }
+
+    /// Whether some part of it is a velocity of what moves.
+    fn in_velocity(&self, expression: &Expression) -> bool {
+        let mut found = names_any(expression, &self.speeds);
+        expression.walk(&mut |part| {
+            found |= match &part.kind {
+                ExpressionKind::Call(FunctionName::Rate, arguments) => {
+                    arguments.iter().any(|argument| names_any(argument, &self.places))
+                }
+                ExpressionKind::Property(body, Property::Velocity | Property::AngularVelocity) => {
+                    names_any(body, &self.places)
+                }
+                _ => false,
+            };
+        });
+        found
+    }
+}
+
+fn word(name: &Ident) -> String {
+    name.unraw().to_string()
+}
+
+fn names_any(expression: &Expression, words: &[String]) -> bool {
+    words.iter().any(|word| expression.names(word))
+}
+
+/// Motion has something to do with whether a constraint holds.
+fn check_motion(constraint: &ConstraintClause, moving: &Moving, context: &mut Context) {
+    let expression = &constraint.expression;
+    let in_velocity = moving.in_velocity(expression);
+    if !in_velocity && !names_any(expression, &moving.places) {
+        context.error(
+            constraint.span,
+            "the constraint names nothing that moves, so no motion makes it hold; \
+             name a coordinate, a speed, or a body or point that moves",
+        );
+    } else if constraint.kind == ConstraintKind::Velocity && !in_velocity {
+        context.error(
+            constraint.span,
+            "the constraint contains no velocity of anything that moves; write `constraint(position = …)`, \
+             or the time derivative `rate(…)`",
+        );
+    }
+}
+
+/// `independent` names some of the speeds, once each, where there is something to solve for the others.
+fn check_independent(statements: &Statements, uncertain: bool, context: &mut Context) {
+    let Some(independent) = &statements.independent else { return };
+    if statements.constraints.is_empty() && !statements.missed_constraint && !uncertain {
+        context.error(
+            independent.clause.span(),
+            "without constraints all speeds are independent; add `constraint(…)`, or remove `independent`",
+        );
+    }
+    let Some(speeds) = &statements.speeds else {
+        if !uncertain {
+            context.error(
+                independent.clause.span(),
+                "`independent` names speeds, and without `speeds(…)` they have no names; \
+                 add `speeds(…)` and `kinematics(…)`, or remove `independent`",
+            );
+        }
+        return;
+    };
+    let table: Vec<String> = speeds.names.iter().map(|speed| word(&speed.ident)).collect();
+    let table: Vec<(&str, ())> = table.iter().map(|name| (name.as_str(), ())).collect();
+    for (index, name) in independent.names.iter().enumerate() {
+        if independent.names[..index].iter().any(|earlier| same(earlier, name)) {
+            context.error(name.span(), format!("`{name}` is named independent twice; remove one of the two"));
+        } else if !speeds.names.iter().any(|speed| same(&speed.ident, name)) && speeds.complete {
+            let coordinate =
+                statements.coordinates.iter().flat_map(|names| &names.names).any(|other| same(&other.ident, name));
+            let problem = if coordinate { "is a coordinate, not a speed" } else { "is no speed" };
+            // Between single letters every name is near; a coordinate is no misspelt speed.
+            let single = word(name).chars().count() == 1;
+            let near = if coordinate || single { None } else { names::nearest(&word(name), &table) };
+            let remedy = match near {
+                Some((near, ())) => format!("did you mean `{near}`?"),
+                None if table.is_empty() => "add it to `speeds(…)`".into(),
+                None => format!("expected {}", names::list(&table)),
+            };
+            context.error(name.span(), format!("`{name}` {problem}; {remedy}"));
+        }
+    }
+    let all_named = speeds.names.iter().all(|speed| independent.names.iter().any(|name| same(&speed.ident, name)));
+    if all_named && speeds.complete && !speeds.names.is_empty() {
+        context.error(
+            independent.clause.span(),
+            "all speeds are named independent, and none is left to solve the constraints for; \
+             leave out as many as there are constraints",
+        );
+    }
+}

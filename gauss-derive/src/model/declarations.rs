@@ -1,0 +1,164 @@
+//! Clauses that declare names: coordinates and speeds with their kinds, speeds that stay independent, and kinematics.
+
+use super::attributes::{self, Clause, Place};
+use super::context::Context;
+use super::names::{self, Table};
+use super::statements::{self, brackets, value};
+use super::{Coordinate, CoordinateKind, Expression, Speed, SpeedKind};
+use proc_macro2::{Ident, Span, TokenTree};
+
+/// What a clause declares, in brackets.
+pub(super) struct Names<N> {
+    pub(super) clause: Ident,
+    pub(super) names: Vec<N>,
+    /// Each of them could be read.
+    pub(super) complete: bool,
+}
+
+/// `kinematics(x = …)`.
+pub(super) struct Kinematics {
+    pub(super) clause: Ident,
+    /// Rates that could not be read are kept, so that they are not missing as well.
+    pub(super) rates: Vec<(Ident, Option<Expression>)>,
+    pub(super) complete: bool,
+}
+
+const COORDINATES: &Table<CoordinateKind> = &[("Pose", CoordinateKind::Pose), ("Rotation", CoordinateKind::Rotation)];
+const SPEEDS: &Table<SpeedKind> = &[("Vector3", SpeedKind::Vector)];
+
+/// How the names of a clause are declared, for messages.
+struct Language<K: 'static> {
+    noun: &'static str,
+    example: &'static str,
+    kinds: &'static Table<K>,
+    scalar: K,
+}
+
+/// `coordinates(x, pose: Pose)`.
+pub(super) fn read_coordinates(clause: &Clause, context: &mut Context) -> Names<Coordinate> {
+    let language =
+        Language { noun: "coordinate", example: "x, y, theta", kinds: COORDINATES, scalar: CoordinateKind::Scalar };
+    read_names(clause, &language, |ident, kind| Coordinate { ident, kind }, context)
+}
+
+/// `speeds(v, w: Vector3)`.
+pub(super) fn read_speeds(clause: &Clause, context: &mut Context) -> Names<Speed> {
+    let language = Language { noun: "speed", example: "v, omega", kinds: SPEEDS, scalar: SpeedKind::Scalar };
+    read_names(clause, &language, |ident, kind| Speed { ident, kind }, context)
+}
+
+/// `independent(v, w)`.
+pub(super) fn read_independent(clause: &Clause, context: &mut Context) -> Names<Ident> {
+    let language = Language { noun: "speed", example: "v, omega", kinds: &[], scalar: () };
+    read_names(clause, &language, |ident, ()| ident, context)
+}
+
+fn read_names<N, K: Copy>(
+    clause: &Clause,
+    language: &Language<K>,
+    make: impl Fn(Ident, K) -> N,
+    context: &mut Context,
+) -> Names<N> {
+    let noun = language.noun;
+    let mut names = Names { clause: clause.name.clone(), names: Vec::new(), complete: false };
+    let Some(group) = brackets(clause, language.example, context) else { return names };
+    names.complete = true;
+    for piece in attributes::pieces(group.stream(), &format!("the name of a {noun}"), context) {
+        let (ident, rest) = match piece.split_first() {
+            Some((TokenTree::Ident(ident), rest)) => (ident, rest),
+            Some((other, _)) => {
+                context.error(
+                    attributes::start(other),
+                    format!("expected the name of a {noun}, found {}", attributes::found(other)),
+                );
+                names.complete = false;
+                continue;
+            }
+            None => continue,
+        };
+        let Some(ident) = statements::name(ident, noun, context) else {
+            names.complete = false;
+            continue;
+        };
+        match rest {
+            [] => names.names.push(make(ident, language.scalar)),
+            [TokenTree::Punct(colon), ty @ ..] if colon.as_char() == ':' => {
+                match read_kind(&ident, colon.span(), ty, language, context) {
+                    Some(kind) => names.names.push(make(ident, kind)),
+                    None => names.complete = false,
+                }
+            }
+            [other, ..] => {
+                context.error(
+                    attributes::start(other),
+                    format!(
+                        "expected `,` after `{ident}`, found {}; separate names by commas",
+                        attributes::found(other)
+                    ),
+                );
+                names.names.push(make(ident, language.scalar));
+                names.complete = false;
+            }
+        }
+    }
+    names
+}
+
+/// What stands after the colon; `None` if it is unknown what was meant, which is noted.
+fn read_kind<K: Copy>(
+    ident: &Ident,
+    colon: Span,
+    ty: &[TokenTree],
+    language: &Language<K>,
+    context: &mut Context,
+) -> Option<K> {
+    let Language { noun, kinds, scalar, .. } = language;
+    if kinds.is_empty() {
+        context.error(colon, format!("the kind of a {noun} is said where it is declared; write `{ident}`"));
+        return Some(*scalar);
+    }
+    let ty = attributes::flat(ty.iter().cloned().collect());
+    if let [TokenTree::Ident(word)] = ty.as_slice()
+        && let Some(&(_, kind)) = kinds.iter().find(|(name, _)| word == name)
+    {
+        return Some(kind);
+    }
+    let written = attributes::written(&ty);
+    // The last word before any `<…>`: `f64`, `Rotation` of `gauss::Rotation`, `Vector3` of `Vector3<f64>`.
+    let head = written.split('<').next().unwrap_or_default();
+    let word = head.rsplit("::").next().unwrap_or_default().trim();
+    let span = ty.first().map_or(colon, attributes::start);
+    if word.is_empty() {
+        let list = names::list(kinds);
+        context.error(colon, format!("nothing follows `{ident}:`; expected {list}, or `{ident}` alone for a scalar"));
+        return Some(*scalar);
+    }
+    if matches!(word, "f64" | "f32" | "T" | "Scalar") {
+        context.error(colon, format!("a scalar {noun} has no type; write `{ident}`"));
+        return Some(*scalar);
+    }
+    if let Some((near, kind)) = names::nearest(word, kinds) {
+        let message = if near == word {
+            format!("`{written}` is written as one word; write `{ident}: {near}`")
+        } else {
+            format!("unknown kind of {noun} `{word}`; did you mean `{near}`?")
+        };
+        context.error(span, message);
+        return Some(kind);
+    }
+    let list = names::list(kinds);
+    context
+        .error(span, format!("unknown kind of {noun} `{written}`; expected {list}, or `{ident}` alone for a scalar"));
+    None
+}
+
+pub(super) fn read_kinematics(clause: &Clause, context: &mut Context) -> Kinematics {
+    let mut kinematics = Kinematics { clause: clause.name.clone(), rates: Vec::new(), complete: false };
+    let Some(group) = brackets(clause, "x = v, …", context) else { return kinematics };
+    let (equations, complete) = statements::arguments(group, Place::Kinematics, context);
+    kinematics.complete = complete;
+    for equation in &equations {
+        kinematics.rates.push((equation.name.clone(), value(equation, "v", context)));
+    }
+    kinematics
+}
