@@ -55,20 +55,29 @@ mod translate;
 ///
 /// # Systems
 ///
-/// Any of these clauses, in place of `chart` and `motion`, makes a system; its kernel implements `GaussSystem`, with
-/// `SVector`s as configurations:
+/// Any of these clauses but `limit`, in place of `chart` and `motion`, makes a system; its kernel implements
+/// `GaussSystem`:
 ///
 /// | clause | meaning |
 /// |---|---|
-/// | `coordinates(x, y, theta)` | the configuration |
-/// | `speeds(v, omega)` and `kinematics(x = …, …)` | quasi-velocities z with q̇ = ψ(t, q, z), affine in z; without them z = q̇ |
+/// | `coordinates(x, theta, pose: Pose, attitude: Rotation)` | the configuration: scalars, elements of SE(3) and of SO(3) |
+/// | `speeds(v, u: Vector3)` and `kinematics(x = v, pose = twist(u, w), attitude = w)` | quasi-velocities z with q̇ = ψ(t, q, z), affine in z; a `Vector3` is three of them, `u.x` or `u[0]` and so on. A pose changes by its twist in body axes, pole O, a rotation by ω in body axes. Without speeds these rates are the z |
 /// | `body(position = […], rotation = …)` | the only body; its mass data from the roles above |
-/// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`; position and rotation relative to the parent |
-/// | `particle(mass = m, position = […])` | a point |
+/// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`; position and rotation relative to the parent, a body or a frame |
+/// | `frame(name, parent = other, position = […], rotation = …)` | a body without mass |
+/// | `particle(mass = m, position = […], parent = other)` | a point with mass; the position in observer's axes from Ω, or in the axes of the parent from its O |
+/// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |
+/// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once |
+/// | `independent(v, w)` | the speeds that stay when the constraints are solved for the others at compile time |
 /// | `potential = expr` | a potential of coordinates and time; the role `gravity` acts on everything |
+/// | `limit = 50000` | the most operations that the generated code may have |
 ///
-/// Expressions are Rust arithmetic on coordinates, speeds, fields and the time `t`, with `sin cos tan exp ln sqrt powi dot
-/// cross` and the rotations `rotation_x rotation_y rotation_z`, which are joined by `*`.
+/// Expressions are Rust arithmetic on coordinates, speeds, fields and the time `t`, with `sin cos tan atan2 exp ln sqrt
+/// powi dot cross` and the rotations `rotation_x rotation_y rotation_z inverse`, which are joined by `*` and turn vectors by
+/// `*`. A coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and `pose.rotation`. Particles
+/// without a parent, potentials and constraints can also name points, which are position vectors, and ask bodies and
+/// frames for `arm.position` (O) and `arm.rotation`, all from Ω in observer's axes. Constraints of velocities can name speeds,
+/// `arm.velocity` (of O), `arm.angular_velocity` and the time derivative `rate(expr)` of what has no speeds in it.
 ///
 /// # Errors
 ///

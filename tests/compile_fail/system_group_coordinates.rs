@@ -1,14 +1,19 @@
-//! Coordinates in a group belong to a later version.
+//! Kinds of coordinates and speeds, misspelt or of another language.
 
 use gauss_runtime::prelude::*;
 
 #[derive(GaussDynamics)]
 #[gauss(
-    coordinates(pose: Pose, x: f64),
-    particle(mass = m, position = [x, 0, 0]),
+    coordinates(pose: Pos, attitude: Quaternion, x: f64),
+    speeds(u: Vector3<f64>, w: Rotation, v),
+    kinematics(pose = twist(u, w), x = v),
+    body(position = pose.position, rotation = pose.rotation),
 )]
 struct Scene {
+    #[gauss(mass)]
     m: f64,
+    #[gauss(inertia)]
+    j: Vector3<f64>,
 }
 
 fn main() {}

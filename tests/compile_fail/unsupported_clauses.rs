@@ -6,7 +6,7 @@ use gauss_runtime::prelude::*;
 #[gauss(
     coordinates(x),
     particle(mass = m, position = [x, 0, 0]),
-    constraint(position = x),
+    input(thrust),
     damping = c * x,
 )]
 struct Scene {

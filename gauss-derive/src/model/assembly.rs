@@ -11,7 +11,7 @@ use super::places::Place;
 use super::scene::Clauses;
 use super::scope::{Meaning, Scope};
 use super::shapes::{Element, Kind};
-use super::statements::Statements;
+use super::statements::{Statement, Statements};
 use super::validate;
 use super::{Expression, Role, Scalar, Shape, SystemField, SystemModel};
 use proc_macro2::{Ident, Span};
@@ -166,7 +166,7 @@ fn check_masses(
         }
         return;
     }
-    if uncertain || statements.missed_body {
+    if uncertain || statements.missed_any(&[Statement::Body, Statement::Particle]) {
         return;
     }
     if bodies == 0 && statements.particles.is_empty() {
@@ -205,7 +205,7 @@ fn scope(statements: &Statements, fields: &[Field<'_>], shapes: &[Shape], scalar
     let speeds = statements.speeds.as_ref();
     // Without a clause of coordinates, or of speeds where there are kinematics, every name is one that is missing there.
     let complete = !uncertain
-        && !statements.missed_place
+        && !statements.missed_any(&[Statement::Frame, Statement::Point])
         && coordinates.is_some_and(|names| names.complete)
         && speeds.map_or(statements.kinematics.is_none(), |names| names.complete);
     let unnamed = statements.has_unnamed_body().then(|| bodies::unnamed(scalar));

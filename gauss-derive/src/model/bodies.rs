@@ -4,7 +4,7 @@ use super::context::Context;
 use super::fields::{Field, Reader};
 use super::names;
 use super::naming::same;
-use super::statements::Statements;
+use super::statements::{Statement, Statements};
 use super::{BodyClause, Role};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
@@ -103,7 +103,7 @@ fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, cont
             }
         }
     }
-    if statements.missed || statements.missed_body {
+    if statements.missed_any(&[Statement::Body]) {
         return;
     }
     for field in reader.fields.iter().filter(|field| is_body(field)) {
@@ -130,7 +130,7 @@ fn find(bodies: &[BodyClause], name: &Ident) -> Option<usize> {
 
 /// Parents, and the bodies that points are fixed in, are bodies and frames of the system.
 fn check_references(statements: &Statements, scalar: &str, context: &mut Context) {
-    if statements.missed_body || statements.missed_place {
+    if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;
     }
     let of_bodies = statements.bodies.iter().filter_map(|body| Some((body.parent.as_ref()?, body.name.as_ref(), true)));
@@ -158,7 +158,12 @@ fn check_references(statements: &Statements, scalar: &str, context: &mut Context
             None if optional => "there is no other: leave `parent` out".into(),
             None => format!("add `body({written}, …)` or `frame({written}, …)`"),
         };
-        context.error(written.span(), format!("no body or frame is called `{written}`; {remedy}"));
+        let problem = if statements.points.iter().any(|point| same(&point.name, written)) {
+            format!("`{written}` is a point, not a body or frame")
+        } else {
+            format!("no body or frame is called `{written}`")
+        };
+        context.error(written.span(), format!("{problem}; {remedy}"));
     }
 }
 

@@ -6,7 +6,7 @@ use super::names;
 use super::naming::same;
 use super::places::Place;
 use super::scope::Scope;
-use super::statements::Statements;
+use super::statements::{Statement, Statements};
 use super::{ConstraintClause, ConstraintKind, Expression, ExpressionKind, FunctionName, Property};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
@@ -105,7 +105,7 @@ fn check_motion(constraint: &ConstraintClause, moving: &Moving, context: &mut Co
 /// `independent` names some of the speeds, once each, where there is something to solve for the others.
 fn check_independent(statements: &Statements, uncertain: bool, context: &mut Context) {
     let Some(independent) = &statements.independent else { return };
-    if statements.constraints.is_empty() && !statements.missed_constraint && !uncertain {
+    if statements.constraints.is_empty() && !statements.missed_any(&[Statement::Constraint]) && !uncertain {
         context.error(
             independent.clause.span(),
             "without constraints all speeds are independent; add `constraint(…)`, or remove `independent`",

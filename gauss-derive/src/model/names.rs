@@ -42,7 +42,7 @@ pub(super) fn nearest<'a, T: Copy>(word: &str, table: &[(&'a str, T)]) -> Option
     let limit = (word.chars().count() / 3).max(1);
     table
         .iter()
-        .map(|&entry| (distance(&word.to_lowercase(), entry.0), entry))
+        .map(|&entry| (distance(&word.to_lowercase(), &entry.0.to_lowercase()), entry))
         .filter(|&(distance, _)| distance <= limit)
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, entry)| entry)
@@ -119,6 +119,7 @@ mod tests {
         let table = [("mass", 1), ("inertia", 2), ("left_invariant", 3)];
         assert_eq!(nearest("mess", &table), Some(("mass", 1)));
         assert_eq!(nearest("LeftInvariant", &table), Some(("left_invariant", 3)));
+        assert_eq!(nearest("pos", &[("Pose", 1)]), Some(("Pose", 1)));
         assert_eq!(nearest("weight", &table), None);
         assert_eq!(nearest("moss_", &table), None);
     }

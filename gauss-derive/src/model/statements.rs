@@ -28,12 +28,8 @@ pub(super) struct Statements {
     pub(super) potential: Option<(Ident, Option<Expression>)>,
     /// Some clause could not be read: what seems to be missing may be what it says.
     pub(super) missed: bool,
-    /// Some body or particle could not be read.
-    pub(super) missed_body: bool,
-    /// Some frame or point could not be read: an unknown name may be its.
-    pub(super) missed_place: bool,
-    /// Some constraint could not be read.
-    pub(super) missed_constraint: bool,
+    /// What clauses that could not be read were to say.
+    unread: Vec<Statement>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -118,23 +114,23 @@ impl Statements {
             }
             Statement::Body => match placements::read_body(clause, false, context) {
                 Some(body) => self.bodies.push(body),
-                None => self.missed_body = true,
+                None => self.unread.push(statement),
             },
             Statement::Frame => match placements::read_body(clause, true, context) {
                 Some(frame) => self.bodies.push(frame),
-                None => self.missed_place = true,
+                None => self.unread.push(statement),
             },
             Statement::Particle => match placements::read_particle(clause, context) {
                 Some(particle) => self.particles.push(particle),
-                None => self.missed_body = true,
+                None => self.unread.push(statement),
             },
             Statement::Point => match placements::read_point(clause, context) {
                 Some(point) => self.points.push(point),
-                None => self.missed_place = true,
+                None => self.unread.push(statement),
             },
             Statement::Constraint => match read_constraint(clause, context) {
                 Some(constraint) => self.constraints.push(constraint),
-                None => self.missed_constraint = true,
+                None => self.unread.push(statement),
             },
             Statement::Potential => {
                 let value = value(clause, "k * x * x / 2", context);
@@ -151,6 +147,11 @@ impl Statements {
     pub(super) fn miss(&mut self, clause: &Clause) {
         self.missed = true;
         self.first.get_or_insert_with(|| clause.name.clone());
+    }
+
+    /// Whether some clause of one of these kinds could not be read: what is unknown may be what it names.
+    pub(super) fn missed_any(&self, statements: &[Statement]) -> bool {
+        self.missed || self.unread.iter().any(|unread| statements.contains(unread))
     }
 
     /// The bodies that have mass.
@@ -261,6 +262,17 @@ pub(super) fn known<T: Copy>(
 /// `None` if something is missing or wrong, which is noted. Whether the expression is a vector is not known yet.
 fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintClause> {
     let group = brackets(clause, "velocity = …", context)?;
+    if let Some(expression) = bare_expression(group) {
+        let written = attributes::written(&expression);
+        context.error(
+            expression.first().map_or(clause.name.span(), attributes::start),
+            format!(
+                "it is not said what is constrained; write `constraint(position = {written})` or \
+                 `constraint(velocity = {written})`"
+            ),
+        );
+        return None;
+    }
     let (arguments, _) = arguments(group, Place::Constraint, context);
     let mut read = None;
     for (index, argument) in arguments.iter().enumerate() {
@@ -280,6 +292,18 @@ fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintC
         read = read.or(Some(ConstraintClause { kind, expression, vector: false, span: clause.name.span() }));
     }
     read
+}
+
+/// What stands in the brackets of a constraint, if it is an expression without a word for what is constrained.
+fn bare_expression(group: &Group) -> Option<Vec<TokenTree>> {
+    let pieces = attributes::pieces(group.stream(), "", &mut Context::default());
+    let [piece] = pieces.as_slice() else { return None };
+    let argument = match piece.as_slice() {
+        [TokenTree::Ident(_), TokenTree::Punct(equals), ..] if equals.as_char() == '=' => true,
+        [TokenTree::Ident(word), ..] => names::nearest(&word.to_string(), CONSTRAINT).is_some(),
+        _ => false,
+    };
+    (!argument).then(|| piece.clone())
 }
 
 /// A positive integer.

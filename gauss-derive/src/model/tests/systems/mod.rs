@@ -2,7 +2,10 @@
 
 mod accepted;
 mod bodies;
+mod constraints;
 mod expressions;
+mod frames;
+mod groups;
 mod names;
 
 use super::{Mistake, check};
@@ -83,6 +86,9 @@ fn nothing_panics() {
         "'c'",
         ": Pose",
         ".x",
+        ".velocity",
+        "rate(x)",
+        "twist([x, 0, 0], v)",
         "[9]",
         "powi(x, 99999999999)",
         "x.powi(-2147483648)",
@@ -96,13 +102,31 @@ fn nothing_panics() {
         "..",
     ];
     let mut read_snippets = 0;
-    for clause in ["coordinates", "kinematics", "body", "particle", "potential = "] {
+    let clauses = [
+        "coordinates",
+        "speeds",
+        "kinematics",
+        "body",
+        "frame",
+        "particle",
+        "point",
+        "constraint",
+        "constraint(velocity = ",
+        "independent",
+        "potential = ",
+        "limit = ",
+    ];
+    for clause in clauses {
         for first in words {
             for second in words {
-                let (open, close) = if clause.ends_with("= ") { ("", "") } else { ("(", ")") };
+                let (open, close) = match clause {
+                    "constraint(velocity = " => ("", ")"),
+                    clause if clause.ends_with("= ") => ("", ""),
+                    _ => ("(", ")"),
+                };
                 for source in [
                     format!("{clause}{open}{first} {second}{close}"),
-                    format!("coordinates(x), speeds(v), body(a), {clause}{open}{first} {second}{close}"),
+                    format!("coordinates(x), speeds(v: Vector3), body(a), {clause}{open}{first} {second}{close}"),
                 ] {
                     let source = format!("#[gauss({source})] struct Scene {{ #[gauss(body)] a: RigidBody<f64> }}");
                     if let Ok(input) = syn::parse_str(&source) {
