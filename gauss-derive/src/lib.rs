@@ -9,6 +9,7 @@ mod emit;
 mod expand;
 mod kernel;
 mod mechanics;
+mod mistakes;
 mod model;
 mod translate;
 

@@ -16,6 +16,8 @@ mod expand;
 mod kernel;
 #[path = "../../gauss-derive/src/mechanics/mod.rs"]
 mod mechanics;
+#[path = "../../gauss-derive/src/mistakes.rs"]
+mod mistakes;
 #[path = "../../gauss-derive/src/model/mod.rs"]
 mod model;
 #[path = "../../gauss-derive/src/translate/mod.rs"]

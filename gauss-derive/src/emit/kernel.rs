@@ -102,11 +102,11 @@ impl<'a, 'g> Derived<'a, 'g> {
                 momenta: &scene.momenta,
                 residuals: &[],
             },
-            Subject::System(SystemSubject { system, .. }) => Formal {
+            Subject::System(SystemSubject { system, constraints, .. }) => Formal {
                 speeds: &system.scene.speeds,
                 speed_rates: &system.scene.speed_rates,
                 momenta: &system.scene.momenta,
-                residuals: &system.constraints.residuals,
+                residuals: &constraints.residuals,
             },
         }
     }
@@ -286,8 +286,8 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
     };
     let methods = methods.into_iter().map(&write);
     let (projection, constrained) = match derived.subject {
-        Subject::System(subject) if subject.constraints() > 0 => {
-            let count = subject.constraints();
+        Subject::System(subject) if !subject.constraints.is_empty() => {
+            let count = subject.constraints.count();
             let methods = subject.constraint_methods(runtime).into_iter().map(&write);
             let constrained = quote! {
                 #[automatically_derived]

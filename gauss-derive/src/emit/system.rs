@@ -4,8 +4,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Ident;
 
-use crate::algebra::Expr;
-use crate::mechanics::{Coordinate, Method, System};
+use crate::algebra::{Expr, Rational};
+use crate::mechanics::{Constraints, Coordinate, Method, System};
 use crate::model::SystemModel;
 use crate::translate::Source;
 
@@ -17,7 +17,12 @@ use super::kernel::Derived;
 pub struct SystemSubject<'a, 'g> {
     pub model: &'a SystemModel,
     pub system: &'a System<'g>,
+    /// The constraints, and whether a run can drift away from them.
+    pub constraints: &'a Constraints<'g>,
+    pub can_drift: bool,
     pub sources: &'a [Source<'g>],
+    /// Literal numbers that symbols stand for.
+    pub literals: &'a [(Rational, Expr<'g>)],
     /// Which link each clause of a body or frame became.
     pub links: &'a [usize],
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate.
@@ -126,15 +131,10 @@ impl<'g> SystemSubject<'_, 'g> {
         self.system.scene.tree.links[self.links[clause]].only_axis()
     }
 
-    /// Number of scalar constraints.
-    pub fn constraints(&self) -> usize {
-        self.system.constraints.count()
-    }
-
     /// `project` of the kernel's [`GaussSystem`], where there is something to project to.
     pub fn projection(&self, derived: &Derived<'_, '_>) -> TokenStream {
         let (runtime, private) = (derived.item().runtime, derived.private());
-        if !self.system.constraints.can_drift() {
+        if !self.can_drift {
             return TokenStream::new();
         }
         quote! {

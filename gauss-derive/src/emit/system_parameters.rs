@@ -104,7 +104,9 @@ pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_,
             _ => TokenStream::new(),
         });
     }
-    let symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
+    let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
+    let scalar = derived.scalar();
+    symbols.extend(subject.literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
     let particles = system.scene.tree.links.iter().filter_map(|link| match link.matter {
         Matter::Particle(mass) => Some(mass),
         _ => None,

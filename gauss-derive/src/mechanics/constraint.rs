@@ -69,11 +69,6 @@ impl<'g> Constraints<'g> {
         self.list.len()
     }
 
-    /// Whether rounding and discretisation can lead away from them.
-    pub fn can_drift(&self) -> bool {
-        !self.is_empty()
-    }
-
     /// ż and λ with `A ż = right + Jᵀ λ` and `J ż = γ`.
     pub fn solve(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
         let (rates, multipliers) = solve_saddle(matrix, &self.jacobian, right, &self.bias);

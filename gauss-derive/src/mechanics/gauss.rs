@@ -9,7 +9,7 @@ use crate::algebra::{Expr, Graph, Map};
 
 use super::body::{AffineField, Body, integrate_product};
 use super::chart::Kinematics;
-use super::vector::{Axes, Frame, Motion, Triple, Vector, apply_block, dot};
+use super::vector::{Axes, Motion, Triple, Vector, apply_block, dot};
 
 /// Body coordinates x of the point P, as formal symbols.
 fn body_point(graph: &Graph) -> Triple<'_> {
@@ -18,36 +18,8 @@ fn body_point(graph: &Graph) -> Triple<'_> {
 
 /// v_P = d/dt (R x + b), observer's components (1.1), (2.2)–(2.6).
 pub fn velocity_field<'g>(kinematics: &Kinematics<'g>, x: &Triple<'g>) -> Triple<'g> {
-    point_velocity(&kinematics.frame, &kinematics.position, x, &kinematics.rates)
-}
-
-fn point_velocity<'g>(
-    frame: &Frame<'g>,
-    position: &Triple<'g>,
-    x: &Triple<'g>,
-    rates: &Map<u32, Expr<'g>>,
-) -> Triple<'g> {
-    let turned = frame.to_space(x);
-    std::array::from_fn(|i| (turned[i] + position[i]).derivative(rates))
-}
-
-/// What one body contributes to ∂C/∂ż of a system, word for word: `∫a_P·w_α dm − ∫w_α·dF` for every α. `rates` are those
-/// of t and q, `along` has ż too.
-pub fn stationarity_of_body<'g>(
-    motion: &Motion<'_, 'g>,
-    position: &Triple<'g>,
-    body: &Body<'g>,
-    speeds: &[Expr<'g>],
-    [rates, along]: [&Map<u32, Expr<'g>>; 2],
-) -> Vec<Expr<'g>> {
-    let x = body_point(motion.frame.graph);
-    let field = AffineField::of(&point_velocity(motion.frame, position, &x, rates), &x);
-    let acceleration = field.map(|e| e.derivative(along));
-    let row = |&z: &Expr<'g>| {
-        let partial = field.map(|e| e.partial(z));
-        integrate_product(body, &acceleration, &partial) + fluid(motion, body, z, along) - active_forces(body, &partial)
-    };
-    speeds.iter().map(row).collect()
+    let turned = kinematics.frame.to_space(x);
+    std::array::from_fn(|i| (turned[i] + kinematics.position[i]).derivative(&kinematics.rates))
 }
 
 /// v_P with its partial derivatives w_α = ∂v_P/∂z^α: affine fields over the body.

@@ -11,6 +11,7 @@
 //! - `moments`, `regroup`: what their matter amounts to, and what of it moves with the parent as well.
 //! - `tree`: sums over links by recursion.
 //! - `constraint`: what coordinates and speeds do not solve by themselves.
+//! - `elimination`: constraints solved for the speeds that depend on others.
 //! - `system`, `system_check`, `system_equations`: the equations of bodies and particles in coordinates of their own.
 //! - `methods`: every method of a kernel as expressions.
 //! - `equations`: the equations for people.
@@ -19,6 +20,7 @@ mod body;
 mod chart;
 mod check;
 mod constraint;
+mod elimination;
 mod equations;
 mod gauss;
 mod link;
@@ -44,7 +46,8 @@ mod vector;
 pub use body::{AddedMassShape, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
 pub use chart::ConfigurationKind;
 pub use check::check_against_definition;
-pub use constraint::{Constraint, ConstraintKind};
+pub use constraint::{Constraint, ConstraintKind, Constraints};
+pub use elimination::{Elimination, Obstacle};
 pub use equations::Section;
 pub use link::{Matter, Placement, identity};
 pub use methods::{Formula, Method, Scene};

@@ -115,16 +115,23 @@ impl<'g> System<'g> {
             each(Method::GaussResidual, &|a| self.gauss_residual(a)),
         ];
         if !self.constraints.is_empty() {
-            let correction = self.constraints.position_correction(&self.matrix);
-            formulas.extend([
-                each(Method::Multipliers, &|a| self.acceleration(a).1),
-                single(Method::PositionResidual, self.constraints.on_positions()),
-                single(Method::VelocityResidual, self.constraints.on_velocities.clone()),
-                single(Method::PositionCorrection, self.moved_by(&correction)),
-                single(Method::VelocityCorrection, self.constraints.velocity_correction(&self.matrix)),
-            ]);
+            formulas.extend(self.constraint_formulas());
         }
         formulas
+    }
+
+    /// What the kernel says of its constraints.
+    pub fn constraint_formulas(&self) -> Vec<Formula<'g>> {
+        let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
+        let multipliers = self.arrangements().iter().map(|a| self.acceleration(a).1).collect();
+        let correction = self.constraints.position_correction(&self.matrix);
+        vec![
+            Formula { method: Method::Multipliers, arrangements: multipliers },
+            single(Method::PositionResidual, self.constraints.on_positions()),
+            single(Method::VelocityResidual, self.constraints.on_velocities.clone()),
+            single(Method::PositionCorrection, self.moved_by(&correction)),
+            single(Method::VelocityCorrection, self.constraints.velocity_correction(&self.matrix)),
+        ]
     }
 
     /// Multiplied out as well, where that is not long.

@@ -7,13 +7,14 @@
 mod symbols;
 mod values;
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 
 use proc_macro2::Span;
 use syn::Ident;
 use syn::ext::IdentExt;
 
-use crate::algebra::{Expr, Graph, Map};
+use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::mechanics::{
     Body, Constraint, ConstraintKind, Coordinate, Matter, Placement, SystemScene, Tree, Turn, cross_matrix,
 };
@@ -33,6 +34,8 @@ pub struct Translator<'a, 'g> {
     links: HashMap<String, usize>,
     /// Which link each clause of a body or frame became.
     links_of_clauses: Vec<usize>,
+    /// Literal numbers that are constants of their own.
+    literals: RefCell<Vec<(Rational, Expr<'g>)>>,
     /// ψ, and the rates of t and of the symbols of q.
     kinematics: Vec<Expr<'g>>,
     rates: Map<u32, Expr<'g>>,
@@ -42,13 +45,27 @@ impl<'a, 'g> Translator<'a, 'g> {
     pub fn new(graph: &'g Graph, model: &'a SystemModel) -> Self {
         let declared = Declared::new(graph, model);
         let (names, links) = (HashMap::new(), HashMap::new());
-        let links_of_clauses = vec![0; model.bodies.len()];
-        Self { graph, model, declared, names, links, links_of_clauses, kinematics: Vec::new(), rates: Map::default() }
+        Self {
+            graph,
+            model,
+            declared,
+            names,
+            links,
+            links_of_clauses: vec![0; model.bodies.len()],
+            literals: RefCell::default(),
+            kinematics: Vec::new(),
+            rates: Map::default(),
+        }
     }
 
     /// Where the symbols of parameters are read.
     pub fn sources(&self) -> &[Source<'g>] {
         &self.declared.sources
+    }
+
+    /// Literal numbers that symbols stand for.
+    pub fn literals(&self) -> Vec<(Rational, Expr<'g>)> {
+        self.literals.borrow().clone()
     }
 
     /// Which link each clause of a body or frame became.
@@ -59,6 +76,22 @@ impl<'a, 'g> Translator<'a, 'g> {
     /// All speeds, as they are declared.
     pub fn speeds(&self) -> &[Expr<'g>] {
         &self.declared.speeds
+    }
+
+    /// Indices of the speeds with the given names: three for a vector.
+    pub fn indices_of_speeds(&self, names: &[Ident]) -> Vec<usize> {
+        let idents = self.speed_idents();
+        (0..idents.len()).filter(|&k| names.contains(&idents[k])).collect()
+    }
+
+    /// The coordinate whose rate a speed is, where none are declared.
+    pub fn coordinate_of_speed(&self, speed: usize) -> usize {
+        let mut first = 0;
+        let mut ends = self.declared.coordinates.iter().map(|coordinate| {
+            first += coordinate.size();
+            first
+        });
+        ends.position(|end| speed < end).unwrap_or_default()
     }
 
     /// Names of the speeds as the user wrote them: three for a vector.

@@ -35,20 +35,15 @@ pub enum Piece<'g> {
 }
 
 impl<'g> Piece<'g> {
-    fn about(graph: &'g Graph, axis: usize, angle: Expr<'g>) -> Self {
-        match quarter_turns(angle) {
-            Some(quarters) => {
-                let (cos, sin) = [(1, 0), (0, 1), (-1, 0), (0, -1)][quarters];
-                let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-                let mut matrix = identity(graph);
-                matrix[a][a] = graph.integer(cos);
-                matrix[b][b] = graph.integer(cos);
-                matrix[a][b] = graph.integer(-sin);
-                matrix[b][a] = graph.integer(sin);
-                Piece::Given(Turn::given(matrix, [graph.zero(); 3]))
-            }
-            None => Piece::About(axis, angle),
-        }
+    fn quarters(graph: &'g Graph, axis: usize, quarters: usize) -> Self {
+        let (cos, sin) = [(1, 0), (0, 1), (-1, 0), (0, -1)][quarters % 4];
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut matrix = identity(graph);
+        matrix[a][a] = graph.integer(cos);
+        matrix[b][b] = graph.integer(cos);
+        matrix[a][b] = graph.integer(-sin);
+        matrix[b][a] = graph.integer(sin);
+        Piece::Given(Turn::given(matrix, [graph.zero(); 3]))
     }
 
     pub fn turn(&self, graph: &'g Graph, rates: &Map<u32, Expr<'g>>) -> Turn<'g> {
@@ -73,14 +68,21 @@ impl<'g> Piece<'g> {
     }
 }
 
+/// Numerators and denominators up to which literals are fractions in the algebra.
+const EXACT: i64 = 1000;
+
 /// How many quarters of a turn a literal angle is: `1.5707963267948966` is meant to be π/2, and its sine and cosine to be one
 /// and zero, not 6e-17.
-fn quarter_turns(angle: Expr<'_>) -> Option<usize> {
-    let angle = angle.as_number()?.to_f64();
+fn quarter_turns(angle: &Expression) -> Option<usize> {
+    let angle = match &angle.kind {
+        ExpressionKind::Number { numerator, denominator } => *numerator as f64 / *denominator as f64,
+        ExpressionKind::Negate(inner) => return quarter_turns(inner).map(|quarters| (4 - quarters) % 4),
+        _ => return None,
+    };
     let quarters = (angle / std::f64::consts::FRAC_PI_2).round();
     // The nearest double, or one of its neighbours.
     let close = (angle - quarters * std::f64::consts::FRAC_PI_2).abs() <= 2.0 * f64::EPSILON * angle.abs();
-    (close && quarters.abs() < 1e6).then(|| (quarters as i64).rem_euclid(4) as usize)
+    (close && quarters < 1e6).then_some(quarters as usize % 4)
 }
 
 impl<'g> Translator<'_, 'g> {
@@ -102,7 +104,7 @@ impl<'g> Translator<'_, 'g> {
     pub(super) fn value(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
         Ok(match &e.kind {
             ExpressionKind::Number { numerator, denominator } => {
-                Value::Scalar(self.graph.number(Rational::new(*numerator, *denominator)))
+                Value::Scalar(self.number(Rational::new(*numerator, *denominator)))
             }
             ExpressionKind::Name(name) => {
                 self.names.get(&name.unraw().to_string()).cloned().ok_or_else(|| bug(e.span))?
@@ -125,6 +127,21 @@ impl<'g> Translator<'_, 'g> {
                 self.binary(*operator, self.value(left, tree)?, self.value(right, tree)?).ok_or_else(|| bug(e.span))?
             }
         })
+    }
+
+    /// A literal; one of many digits is a constant of its own, so that products of several stay within 64-bit fractions.
+    fn number(&self, value: Rational) -> Expr<'g> {
+        if value.numer().abs().max(value.denom()) <= EXACT {
+            return self.graph.number(value);
+        }
+        let mut literals = self.literals.borrow_mut();
+        if let Some((_, symbol)) = literals.iter().find(|(known, _)| *known == value) {
+            return *symbol;
+        }
+        let text = value.to_f64().to_string();
+        let symbol = self.graph.symbol(text.clone(), text, true);
+        literals.push((value, symbol));
+        symbol
     }
 
     fn property(&self, owner: &Expression, property: Property, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
@@ -177,8 +194,14 @@ impl<'g> Translator<'_, 'g> {
         span: Span,
         tree: &Tree<'g>,
     ) -> syn::Result<Value<'g>> {
-        let turn = |axis, angle| Value::Rotation(vec![Piece::about(self.graph, axis, angle)]);
         let scalar = |e: &Expression| self.scalar(e, tree);
+        let turn = |axis, angle: &Expression| {
+            let piece = match quarter_turns(angle) {
+                Some(quarters) => Piece::quarters(self.graph, axis, quarters),
+                None => Piece::About(axis, scalar(angle)?),
+            };
+            syn::Result::Ok(Value::Rotation(vec![piece]))
+        };
         Ok(match (function, arguments) {
             (FunctionName::Sin, [a]) => Value::Scalar(scalar(a)?.sin()),
             (FunctionName::Cos, [a]) => Value::Scalar(scalar(a)?.cos()),
@@ -188,9 +211,9 @@ impl<'g> Translator<'_, 'g> {
             (FunctionName::Ln, [a]) => Value::Scalar(scalar(a)?.ln()),
             (FunctionName::Sqrt, [a]) => Value::Scalar(scalar(a)?.sqrt()),
             (FunctionName::Atan2, [y, x]) => Value::Scalar(scalar(y)?.atan2(scalar(x)?)),
-            (FunctionName::RotationX, [a]) => turn(0, scalar(a)?),
-            (FunctionName::RotationY, [a]) => turn(1, scalar(a)?),
-            (FunctionName::RotationZ, [a]) => turn(2, scalar(a)?),
+            (FunctionName::RotationX, [a]) => turn(0, a)?,
+            (FunctionName::RotationY, [a]) => turn(1, a)?,
+            (FunctionName::RotationZ, [a]) => turn(2, a)?,
             (FunctionName::Dot, [a, b]) => {
                 let (a, b) = (self.vector(a, tree)?, self.vector(b, tree)?);
                 Value::Scalar((0..3).map(|i| a[i] * b[i]).sum())

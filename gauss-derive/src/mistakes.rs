@@ -1,0 +1,164 @@
+//! Mistakes in a system that only the derivation sees, each at the token that is wrong, with the remedy.
+
+use std::fmt::Display;
+
+use proc_macro2::{Ident, Span};
+
+use crate::kernel::Kernel;
+use crate::mechanics::{Elimination, Obstacle, System, SystemFault, SystemScene};
+use crate::model::SystemModel;
+use crate::translate::Translator;
+
+/// Operations up to which code is generated unless the user says otherwise: some seconds of the compiler's time.
+const LIMIT: usize = 50_000;
+
+/// Rates that are not affine in the speeds.
+pub fn refuse_curved_kinematics(model: &SystemModel, scene: &SystemScene<'_>) -> syn::Result<()> {
+    let mut mistakes = Mistakes::default();
+    let mut curved: Vec<usize> = scene.rates_not_affine().into_iter().map(|k| scene.coordinate_of_rate(k)).collect();
+    curved.dedup();
+    for k in curved {
+        let (coordinate, rate) = &model.kinematics[k];
+        mistakes.push(
+            rate.span,
+            format!(
+                "the rate of `{coordinate}` is not affine in the speeds, so velocities would not be linear in them; \
+                 choose speeds in which every rate is a sum of terms with one speed each"
+            ),
+        );
+    }
+    mistakes.finish()
+}
+
+/// Speeds that nothing with mass moves with.
+pub fn refuse_idle_speeds(
+    model: &SystemModel,
+    translator: &Translator<'_, '_>,
+    system: &System<'_>,
+) -> syn::Result<()> {
+    let mut mistakes = Mistakes::default();
+    for k in system.idle_speeds() {
+        let (name, span) = speed(model, translator, k);
+        mistakes.push(
+            span,
+            format!("no velocity depends on `{name}`: its row of the mass matrix is zero; give what it moves a mass, or leave it out"),
+        );
+    }
+    mistakes.finish()
+}
+
+/// More code than the compiler should be given without being asked.
+pub fn refuse_too_much(model: &SystemModel, kernel: &Kernel<'_>) -> syn::Result<()> {
+    let operations = kernel.functions.iter().chain([&kernel.constants]).map(|p| p.instructions.len()).sum::<usize>();
+    let limit = model.limit.unwrap_or(LIMIT);
+    if operations <= limit {
+        return Ok(());
+    }
+    let rounded = operations.div_ceil(1000) * 1000;
+    Err(syn::Error::new(
+        model.ident.span(),
+        format!(
+            "the generated code has {operations} operations, more than {limit}; write `limit = {rounded}` to have it all \
+             the same, or model less: fewer bodies, or coordinates relative to a parent"
+        ),
+    ))
+}
+
+/// Solves the constraints for the speeds that are not named.
+pub fn eliminate<'g>(
+    model: &SystemModel,
+    translator: &Translator<'_, 'g>,
+    whole: System<'g>,
+    independent: &[Ident],
+) -> syn::Result<Elimination<'g>> {
+    let kept = translator.indices_of_speeds(independent);
+    let clauses: Vec<Span> =
+        whole.scene.constraints.iter().map(|c| model.constraints[c.clause].expression.span).collect();
+    let (total, count) = (whole.scene.speeds.len(), clauses.len());
+    let named = independent.first().map_or(model.ident.span(), Ident::span);
+    Elimination::new(whole, &kept).map_err(|obstacle| match obstacle {
+        Obstacle::NotAffine(k) => syn::Error::new(
+            clauses[k],
+            "this constraint is not affine in the speeds, so it cannot be solved for some of them when the code is written; \
+             remove `independent` to have it kept with a multiplier",
+        ),
+        Obstacle::Count(wanted) => syn::Error::new(
+            named,
+            format!(
+                "{total} speeds and {count} scalar constraints leave {wanted} independent; `independent` names {}",
+                kept.len()
+            ),
+        ),
+        Obstacle::Undetermined => syn::Error::new(
+            named,
+            "the constraints do not determine the other speeds: their matrix of partial derivatives is singular; name \
+             other speeds, or remove a constraint that follows from the rest",
+        ),
+    })
+}
+
+/// What the check of a system finds, at the token that is wrong.
+pub fn system_fault(
+    model: &SystemModel,
+    translator: &Translator<'_, '_>,
+    system: &System<'_>,
+    fault: &SystemFault,
+) -> syn::Error {
+    let clause = |k: usize| &model.constraints[system.scene.constraints[k].clause];
+    match fault {
+        SystemFault::Disagreement(error) => bug(&model.ident, error),
+        SystemFault::DependentSpeed(k) => {
+            let (name, span) = speed(model, translator, *k);
+            let message = format!(
+                "`{name}` moves nothing that the speeds before it do not move: the mass matrix is singular; \
+                 leave one of them out, or give what it moves a mass"
+            );
+            syn::Error::new(span, message)
+        }
+        SystemFault::DependentConstraint(k) => syn::Error::new(
+            clause(*k).span,
+            "this constraint follows from the coordinates, the speeds and the constraints before it, so its multiplier is \
+             undetermined; remove it",
+        ),
+        SystemFault::InconsistentConstraint(k) => syn::Error::new(
+            clause(*k).span,
+            "no motion satisfies this constraint together with the coordinates, the speeds and the constraints before it; \
+             correct it or remove it",
+        ),
+    }
+}
+
+/// The name of a speed, and where it is written: without `speeds` at its coordinate.
+fn speed(model: &SystemModel, translator: &Translator<'_, '_>, k: usize) -> (String, Span) {
+    match translator.speed_idents().get(k) {
+        Some(ident) => (ident.to_string(), ident.span()),
+        None => {
+            let coordinate = translator.coordinate_of_speed(k).min(model.coordinates.len() - 1);
+            let ident = &model.coordinates[coordinate].ident;
+            (format!("d{ident}/dt"), ident.span())
+        }
+    }
+}
+
+/// Mistakes that only the derivation sees, all reported at once.
+#[derive(Default)]
+struct Mistakes(Option<syn::Error>);
+
+impl Mistakes {
+    fn push(&mut self, span: Span, message: String) {
+        let error = syn::Error::new(span, message);
+        match &mut self.0 {
+            Some(all) => all.combine(error),
+            none => *none = Some(error),
+        }
+    }
+
+    fn finish(&mut self) -> syn::Result<()> {
+        self.0.take().map_or(Ok(()), Err)
+    }
+}
+
+/// A mistake of this crate, said as such at the name of the struct.
+pub fn bug(ident: &Ident, what: &impl Display) -> syn::Error {
+    syn::Error::new(ident.span(), format!("bug in gauss-derive: {what}; please report it together with this struct"))
+}
