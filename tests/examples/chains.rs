@@ -29,7 +29,7 @@ use std::time::Instant;
 fn main() {
     let largest = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(14);
     let build = if cfg!(debug_assertions) { "unoptimised" } else { "optimised" };
-    println!("one evaluation of `acceleration`, and the derivation of the whole kernel ({build} build, one run)\n");
+    println!("one evaluation of `acceleration`, and the expansion of the whole derive ({build} build, one run)\n");
     println!("{:<44}{:>8}{:>8}{:>6}{:>8}{:>12}", "system", "add", "mul", "div", "sincos", "derive, s");
     report("arm of seven joints", &arm());
     for n in sizes(largest) {
@@ -82,7 +82,7 @@ fn planar(n: usize, relative: bool) -> String {
         clauses +=
             &format!(", body(b{k}, parent = b{before}, position = [0, 0, l{before}], rotation = rotation_y({angle}))");
     }
-    format!("#[gauss({clauses})] {}", fields(n))
+    format!("#[gauss({clauses}, limit = 1000000)] {}", fields(n))
 }
 
 /// Bars one on the other in universal joints.
@@ -95,7 +95,7 @@ fn spatial(n: usize) -> String {
             ", body(b{k}, parent = b{before}, position = [0, 0, l{before}], rotation = rotation_x(x{k}) * rotation_y(y{k}))"
         );
     }
-    format!("#[gauss({clauses})] {}", fields(n))
+    format!("#[gauss({clauses}, limit = 1000000)] {}", fields(n))
 }
 
 /// Joint origins and fixed turns of the Franka Emika Panda (public URDF description, example-robot-data 6.0).

@@ -9,13 +9,14 @@
 //! - `momentum`: the same through (Q, Γ), solved in body axes.
 //! - `turn`, `link`: bodies, frames and particles, each relative to its parent.
 //! - `moments`, `regroup`: what their matter amounts to, and what of it moves with the parent as well.
-//! - `tree`: sums over links by recursion.
+//! - `tree`, `articulated`: sums over links by recursion, and A ż = r solved link by link.
 //! - `constraint`: what coordinates and speeds do not solve by themselves.
 //! - `elimination`: constraints solved for the speeds that depend on others.
 //! - `system`, `system_check`, `system_equations`: the equations of bodies and particles in coordinates of their own.
 //! - `methods`: every method of a kernel as expressions.
 //! - `equations`: the equations for people.
 
+mod articulated;
 mod body;
 mod chart;
 mod check;

@@ -3,6 +3,7 @@
 
 use crate::algebra::{Expr, Graph, Map, solve_symmetric};
 
+use super::articulated::Articulated;
 use super::constraint::{Constraint, Constraints};
 use super::equations::tidy;
 use super::methods::{Formula, Method};
@@ -12,6 +13,8 @@ use super::vector::Triple;
 
 /// Degrees of freedom up to which everything is also tried multiplied out.
 const SMALL: usize = 3;
+/// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
+const DENSE: usize = 10;
 
 /// One coordinate of the configuration.
 #[derive(Clone)]
@@ -100,14 +103,14 @@ impl<'g> System<'g> {
             arrangements: arrangements.iter().map(f).collect(),
         };
         let momentum = self.momentum();
-        let velocity = self.velocity(&momentum);
-        let rate = self.momentum_rate(&velocity, &arrangements[0]);
+        let velocities = self.velocities(&momentum);
+        let rates = velocities.iter().map(|z| self.momentum_rate(z, &arrangements[0])).collect();
         let mut formulas = vec![
             single(Method::Kinematics, self.scene.kinematics.clone()),
-            each(Method::Acceleration, &|a| self.acceleration(a).0),
+            Formula { method: Method::Acceleration, arrangements: self.accelerations(&arrangements) },
             Formula { method: Method::Momentum, arrangements: self.with_tidied(momentum) },
-            single(Method::Velocity, velocity),
-            single(Method::MomentumRate, rate),
+            Formula { method: Method::Velocity, arrangements: velocities },
+            Formula { method: Method::MomentumRate, arrangements: rates },
             single(Method::MassMatrix, self.matrix.iter().flatten().copied().collect()),
             Formula { method: Method::KineticEnergy, arrangements: self.kinetic_energies() },
             Formula { method: Method::PotentialEnergy, arrangements: self.with_tidied(vec![self.potential_energy()]) },
@@ -194,9 +197,6 @@ impl<'g> System<'g> {
     /// ż and λ: `A ż = −∂C/∂ż(ż = 0) + Jᵀλ`.
     fn acceleration(&self, arrangement: &Arrangement<'g>) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
         let right: Vec<Expr<'g>> = arrangement.still.iter().map(|r| -*r).collect();
-        if self.constraints.is_empty() {
-            return (solve_symmetric(&arrangement.matrix, &right), Vec::new());
-        }
         self.constraints.solve(&arrangement.matrix, &right)
     }
 
@@ -209,15 +209,36 @@ impl<'g> System<'g> {
         arrangement.residual.iter().zip(forces).map(|(r, f)| *r - f).collect()
     }
 
+    /// A x = right in the ways that are worth trying, with A arranged as given.
+    fn solutions(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
+        let articulated = if self.is_long() { Articulated::new(&self.scene.tree) } else { None };
+        let mut solutions: Vec<Vec<Expr<'g>>> = articulated.iter().map(|a| a.solve(right)).collect();
+        if solutions.is_empty() || right.len() <= DENSE {
+            solutions.push(solve_symmetric(matrix, right));
+        }
+        solutions
+    }
+
+    fn accelerations(&self, arrangements: &[Arrangement<'g>]) -> Vec<Vec<Expr<'g>>> {
+        if !self.constraints.is_empty() {
+            return arrangements.iter().map(|a| self.acceleration(a).0).collect();
+        }
+        let solve = |a: &Arrangement<'g>| {
+            let right: Vec<Expr<'g>> = a.still.iter().map(|r| -*r).collect();
+            self.solutions(&a.matrix, &right)
+        };
+        arrangements.iter().flat_map(solve).collect()
+    }
+
     /// z from p = A z + p(z = 0).
-    fn velocity(&self, momentum: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    fn velocities(&self, momentum: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
         let still = self.at_rest();
         let beside = momentum.iter().map(|p| {
             let value = p.substitute(&still);
             if self.is_long() { value } else { tidy(value) }
         });
         let right: Vec<Expr<'g>> = self.scene.momenta.iter().zip(beside).map(|(symbol, p)| *symbol - p).collect();
-        solve_symmetric(&self.matrix, &right)
+        self.solutions(&self.matrix, &right)
     }
 
     /// z = 0.

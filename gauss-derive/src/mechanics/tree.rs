@@ -73,6 +73,10 @@ impl<'g> Tree<'g> {
         0..self.speeds.len()
     }
 
+    pub fn speed_count(&self) -> usize {
+        self.speeds.len()
+    }
+
     /// How the rates of angular momenta are best formed where only one way can be tried: about a single axis the tensor is a
     /// number.
     pub fn best_inertia(&self) -> Inertia {
@@ -101,7 +105,7 @@ impl<'g> Tree<'g> {
     }
 
     /// A linear and an angular part at the pole of a link, at its parent's pole and in its axes.
-    fn carried(&self, k: usize, linear: &Triple<'g>, angular: &Triple<'g>) -> (Triple<'g>, Triple<'g>) {
+    pub fn carried(&self, k: usize, linear: &Triple<'g>, angular: &Triple<'g>) -> (Triple<'g>, Triple<'g>) {
         let joint = &self.links[k].joint;
         let linear = outward(&joint.turns, linear);
         let angular = outward(&joint.turns, angular);
