@@ -18,7 +18,7 @@ use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::mechanics::{
     Body, Constraint, ConstraintKind, Coordinate, Matter, Placement, SystemScene, Tree, Turn, cross_matrix,
 };
-use crate::model::{self, BodyClause, ExpressionKind, Property, SystemModel};
+use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Property, SystemModel};
 
 use symbols::Declared;
 pub use symbols::{Part, Source};
@@ -36,6 +36,8 @@ pub struct Translator<'a, 'g> {
     links_of_clauses: Vec<usize>,
     /// Literal numbers that are constants of their own.
     literals: RefCell<Vec<(Rational, Expr<'g>)>>,
+    /// ḃ of each coordinate that is a pose, where the kinematics give it rather than u.
+    observed: Vec<Option<[Expr<'g>; 3]>>,
     /// ψ, and the rates of t and of the symbols of q.
     kinematics: Vec<Expr<'g>>,
     rates: Map<u32, Expr<'g>>,
@@ -53,6 +55,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             links,
             links_of_clauses: vec![0; model.bodies.len()],
             literals: RefCell::default(),
+            observed: vec![None; model.coordinates.len()],
             kinematics: Vec::new(),
             rates: Map::default(),
         }
@@ -189,13 +192,14 @@ impl<'a, 'g> Translator<'a, 'g> {
     }
 
     /// ψ, in the order of the coordinates.
-    fn kinematics(&self, values: &[Expr<'g>]) -> syn::Result<Vec<Expr<'g>>> {
+    fn kinematics(&mut self, values: &[Expr<'g>]) -> syn::Result<Vec<Expr<'g>>> {
         if self.model.speeds.is_none() {
             return Ok(values.to_vec());
         }
         let mut rates = Vec::new();
         let nothing = self.no_links();
-        for (_, e) in &self.model.kinematics {
+        for (k, (_, e)) in self.model.kinematics.iter().enumerate() {
+            self.observed[k] = self.observed_velocity(k, e, &nothing)?;
             match self.value(e, &nothing)? {
                 Value::Scalar(rate) => rates.push(rate),
                 Value::Vector(omega) => rates.extend(omega),
@@ -204,6 +208,23 @@ impl<'a, 'g> Translator<'a, 'g> {
             }
         }
         Ok(rates)
+    }
+
+    /// v of `twist(inverse(pose.rotation) * v, …)`: turned back into observer's axes it is what it was.
+    fn observed_velocity(
+        &self,
+        coordinate: usize,
+        rate: &model::Expression,
+        nothing: &Tree<'g>,
+    ) -> syn::Result<Option<[Expr<'g>; 3]>> {
+        let ExpressionKind::Call(FunctionName::Twist, parts) = &rate.kind else { return Ok(None) };
+        let Some(ExpressionKind::Binary(BinaryOperator::Multiply, turned, v)) = parts.first().map(|e| &e.kind) else {
+            return Ok(None);
+        };
+        let ExpressionKind::Call(FunctionName::Inverse, rotation) = &turned.kind else { return Ok(None) };
+        let pose = rotation.first().and_then(|e| name_of_property(e, Property::Rotation));
+        let own = &self.model.coordinates[coordinate].ident;
+        if pose.is_some_and(|pose| own.unraw() == pose) { self.vector(v, nothing).map(Some) } else { Ok(None) }
     }
 
     fn no_links(&self) -> Tree<'g> {
@@ -237,8 +258,9 @@ impl<'a, 'g> Translator<'a, 'g> {
                 }
                 Coordinate::Rotation(_) => {}
                 Coordinate::Pose(matrix, position) => {
-                    for (row, b) in matrix.iter().zip(position) {
-                        rates.insert(b.key(), (0..3).map(|k| row[k] * rate[k]).sum());
+                    for (i, (row, b)) in matrix.iter().zip(position).enumerate() {
+                        let turned = || (0..3).map(|k| row[k] * rate[k]).sum();
+                        rates.insert(b.key(), self.observed[k].map_or_else(turned, |v| v[i]));
                     }
                 }
             }
@@ -290,18 +312,15 @@ impl<'a, 'g> Translator<'a, 'g> {
 
     /// u of the pose whose position and rotation are those of the body.
     fn velocity_of_pose(&self, clause: &BodyClause) -> Option<[Expr<'g>; 3]> {
-        let of = |e: &Option<model::Expression>, wanted: Property| match &e.as_ref()?.kind {
-            ExpressionKind::Property(inner, property) if *property == wanted => match &inner.kind {
-                ExpressionKind::Name(name) => Some(name.unraw().to_string()),
-                _ => None,
-            },
-            _ => None,
-        };
-        let name = of(&clause.position, Property::Position)?;
-        if clause.parent.is_some() || of(&clause.rotation, Property::Rotation).as_ref() != Some(&name) {
+        let name = name_of_property(clause.position.as_ref()?, Property::Position)?;
+        let turned_by = clause.rotation.as_ref().and_then(|e| name_of_property(e, Property::Rotation));
+        if clause.parent.is_some() || turned_by.as_ref() != Some(&name) {
             return None;
         }
         let k = self.model.coordinates.iter().position(|q| q.ident.unraw() == name)?;
+        if self.observed[k].is_some() {
+            return None;
+        }
         match self.declared.rate_of(k, &self.kinematics) {
             &[u1, u2, u3, ..] => Some([u1, u2, u3]),
             _ => None,
@@ -340,6 +359,17 @@ impl<'a, 'g> Translator<'a, 'g> {
             }
         }
         Ok(constraints)
+    }
+}
+
+/// The name of `name.property`.
+fn name_of_property(e: &model::Expression, wanted: Property) -> Option<String> {
+    match &e.kind {
+        ExpressionKind::Property(inner, property) if *property == wanted => match &inner.kind {
+            ExpressionKind::Name(name) => Some(name.unraw().to_string()),
+            _ => None,
+        },
+        _ => None,
     }
 }
 
