@@ -39,6 +39,9 @@ fn main() {
         report(&format!("{n} links in the plane, absolute angles"), &planar(n, false));
     }
     for n in sizes(largest) {
+        report(&format!("{n} particles in the plane, positions written out"), &particles(n));
+    }
+    for n in sizes(largest) {
         report(&format!("{n} links in space, two angles each"), &spatial(n));
     }
 }
@@ -83,6 +86,19 @@ fn planar(n: usize, relative: bool) -> String {
             &format!(", body(b{k}, parent = b{before}, position = [0, 0, l{before}], rotation = rotation_y({angle}))");
     }
     format!("#[gauss({clauses}, limit = 1000000)] {}", fields(n))
+}
+
+/// Particles on rods, every position as a sum from Ω.
+fn particles(n: usize) -> String {
+    let sum = |k: usize, f: &str| (0..=k).map(|j| format!("l{j} * {f}(q{j})")).collect::<Vec<_>>().join(" + ");
+    let clauses: String = (0..n)
+        .map(|k| format!(", particle(mass = m{k}, position = [{}, 0, -({})])", sum(k, "sin"), sum(k, "cos")))
+        .collect();
+    let fields: String = (0..n).map(|k| format!("m{k}: f64, l{k}: f64, ")).collect();
+    format!(
+        "#[gauss(coordinates({}){clauses}, limit = 1000000)] struct Chain {{ {fields} #[gauss(gravity)] g: f64 }}",
+        names("q", n)
+    )
 }
 
 /// Bars one on the other in universal joints.

@@ -64,7 +64,6 @@ pub enum NodeView<'g> {
 }
 
 /// The arena of all expressions of one derivation.
-#[derive(Default)]
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
     index: RefCell<Map<Node, Id>>,
@@ -81,7 +80,12 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        Self::default()
+        let (nodes, index, symbols, overflow) = Default::default();
+        let graph = Self { nodes, index, symbols, overflow };
+        // They are asked for so often that looking them up would take time: see `zero` and `one`.
+        graph.intern(Node::Number(Rational::zero()));
+        graph.intern(Node::Number(Rational::one()));
+        graph
     }
 
     /// True once a coefficient has left the range of 64-bit fractions, or was divided by zero; every result is then meaningless.
@@ -109,11 +113,11 @@ impl Graph {
     }
 
     pub fn zero(&self) -> Expr<'_> {
-        self.number(Rational::zero())
+        self.expr(0)
     }
 
     pub fn one(&self) -> Expr<'_> {
-        self.number(Rational::one())
+        self.expr(1)
     }
 
     pub fn integer(&self, value: i64) -> Expr<'_> {
