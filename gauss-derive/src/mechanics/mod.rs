@@ -35,6 +35,8 @@ mod regroup;
 mod rotation;
 #[cfg(test)]
 mod snapshots;
+#[cfg(test)]
+mod special_cases;
 mod system;
 mod system_check;
 mod system_equations;

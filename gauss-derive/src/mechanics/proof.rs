@@ -23,7 +23,7 @@ const GENERAL: BodyShape = BodyShape {
 };
 
 /// What the symbols of the configuration satisfy.
-fn relations<'g>(graph: &'g Graph, kinematics: &Kinematics<'g>) -> Ideal<'g> {
+pub fn relations<'g>(graph: &'g Graph, kinematics: &Kinematics<'g>) -> Ideal<'g> {
     match kinematics.kind {
         ConfigurationKind::Pose | ConfigurationKind::Rotation => Ideal::of_rotation(graph, &kinematics.frame.rotation),
         ConfigurationKind::PlanePose => {
