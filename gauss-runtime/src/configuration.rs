@@ -6,7 +6,7 @@
 //! | [`UnitQuaternion`] R | ω × time, body frame | right multiplication by exp on SO(3) |
 //! | [`Isometry2`] | (u₁, u₂, ω) × time, body frame | right multiplication by exp on SE(2) |
 //! | [`SVector`] | itself | addition |
-//! | pairs `(A, B)` | [`Product`] | each by itself |
+//! | pairs `(A, B)`, also of pairs | [`Product`] | each by itself |
 //!
 //! All increments are *left-trivialised*: they are seen from the body, `q ↦ q ∘ exp(σ)`.
 

@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): what a kernel offers |
+//! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`configuration`] | groups as configurations, linear spaces of increments |
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
@@ -38,6 +39,7 @@ extern crate std;
 
 pub mod chart;
 pub mod configuration;
+pub mod constraint;
 pub mod error;
 pub mod integrate;
 pub mod lie;

@@ -5,6 +5,7 @@ pub use gauss_derive::GaussDynamics;
 
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};
+pub use crate::constraint::{ConstrainedSystem, ProjectionError};
 pub use crate::error::ParameterError;
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;

@@ -9,6 +9,7 @@ use nalgebra::{Isometry3, Matrix3, SVector, Vector3};
 
 use crate::chart::{Chart, ChartError};
 use crate::configuration::{Configuration, VectorSpace};
+use crate::constraint::ProjectionError;
 use crate::lie::se3::{join, split};
 use crate::real::Real;
 use crate::triple::{add, cross, quaternion, rotate, triple};
@@ -45,6 +46,10 @@ pub trait GaussSystem {
     /// What each method costs.
     const OPERATIONS: Operations;
 
+    /// Whether there are constraints that coordinates and speeds do not solve by themselves: integrators then
+    /// [`project`](Self::project) the state after every step.
+    const CONSTRAINED: bool = false;
+
     /// The velocity of the configuration, q̇ = ψ(t, q, z) (3.2), as seen from the body (left-trivialised).
     fn kinematics(
         &self,
@@ -53,7 +58,8 @@ pub trait GaussSystem {
         z: &Self::Speeds,
     ) -> <Self::Configuration as Configuration>::Tangent;
 
-    /// ż: the velocity form of the equations of motion.
+    /// ż: the velocity form of the equations of motion. It satisfies the constraints, differentiated to `J ż = γ`, where
+    /// there are any.
     fn acceleration(
         &self,
         t: Self::Scalar,
@@ -68,7 +74,7 @@ pub trait GaussSystem {
     /// The quasi-velocities z with the momenta p: the inverse of [`momentum`](Self::momentum).
     fn velocity(&self, t: Self::Scalar, q: &Self::Configuration, p: &Self::Speeds) -> Self::Speeds;
 
-    /// ṗ: the momentum form of the equations of motion.
+    /// ṗ: the momentum form of the equations of motion, forces of constraints included.
     fn momentum_rate(
         &self,
         t: Self::Scalar,
@@ -86,7 +92,7 @@ pub trait GaussSystem {
     /// The potential energy, 0 where the scene has no potential.
     fn potential_energy(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar;
 
-    /// ∂C/∂ż at the given ż: zero at the true acceleration.
+    /// ∂C/∂ż at the given ż, with constraints ∂C/∂ż − Jᵀλ: zero at the true acceleration.
     fn gauss_residual(
         &self,
         t: Self::Scalar,
@@ -97,7 +103,7 @@ pub trait GaussSystem {
     ) -> Self::Speeds;
 
     /// Gauss' constraint function C (3.1) at the given ż, up to a term that does not depend on ż: least at the true
-    /// acceleration.
+    /// acceleration, among those that the constraints admit.
     fn constraint_function(
         &self,
         t: Self::Scalar,
@@ -114,6 +120,22 @@ pub trait GaussSystem {
     fn regularity(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar {
         let _ = (t, q);
         Self::Scalar::one()
+    }
+
+    /// The state nearest to (q, z), measured by the kinetic energy, that satisfies the constraints up to rounding; the state
+    /// as it is where there are none ([`CONSTRAINED`](Self::CONSTRAINED)). Use it to make initial states consistent.
+    ///
+    /// # Errors
+    /// [`ProjectionError`] when none is found from there: see [`project`](crate::constraint::project).
+    #[inline]
+    fn project(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+    ) -> Result<(Self::Configuration, Self::Speeds), ProjectionError> {
+        let _ = t;
+        Ok((*q, *z))
     }
 
     /// Kinetic plus potential energy.
@@ -288,6 +310,10 @@ impl fmt::Display for Operations {
             }
             write!(f, "{name:<20}{count}")?;
         }
+        // A row only where there are constraints.
+        if self.multipliers != OperationCount::default() {
+            write!(f, "\n{:<20}{}", "multipliers", self.multipliers)?;
+        }
         Ok(())
     }
 }
@@ -303,5 +329,13 @@ mod tests {
         assert_eq!(OperationCount::new(0, 0, 1, 2, 3).to_string(), "1 div, 2 sqrt, 3 trans");
         assert_eq!(OperationCount::default().to_string(), "0");
         assert_eq!(OperationCount::new(1, 2, 3, 4, 5).total(), 15);
+    }
+
+    #[test]
+    fn multipliers_are_listed_where_there_are_any() {
+        let free = Operations::default();
+        assert!(free.to_string().ends_with("constraint_function 0"), "{free}");
+        let constrained = Operations { multipliers: OperationCount::new(3, 4, 1, 0, 0), ..free };
+        assert!(constrained.to_string().ends_with("\nmultipliers         3 add, 4 mul, 1 div"), "{constrained}");
     }
 }

@@ -1,4 +1,4 @@
-//! What tests of several modules share: a pack of two numbers, and a free rigid body typed by hand.
+//! What tests of several modules share: packs and dual numbers, a free rigid body and constrained systems typed by hand.
 //!
 //! The hand-typed Euler equations are an independent check of the integrators; kernels proper are derived.
 
@@ -9,6 +9,9 @@ use nalgebra::{SMatrix, SVector, UnitQuaternion};
 use crate::chart::Chart;
 use crate::real::Real;
 use crate::system::{Equations, GaussSystem, Operations};
+
+pub(crate) mod constrained;
+pub(crate) mod dual;
 
 /// Two numbers in lockstep: the smallest SIMD pack.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,6 +116,7 @@ impl<T: Real> GaussSystem for FreeTop<T> {
         potential_energy: crate::system::OperationCount::new(0, 0, 0, 0, 0),
         gauss_residual: crate::system::OperationCount::new(9, 9, 0, 0, 0),
         constraint_function: crate::system::OperationCount::new(9, 12, 0, 0, 0),
+        multipliers: crate::system::OperationCount::new(0, 0, 0, 0, 0),
     };
 
     fn kinematics(&self, _: T, _: &UnitQuaternion<T>, z: &SVector<T, 3>) -> SVector<T, 3> {

@@ -24,7 +24,9 @@ pub enum Chart {
     Hybrid,
     /// Velocities of coordinates (2.6): Lagrange's equations.
     Jet(RotationChart),
-    /// The user's own quasi-velocities, by the kinematics q̇ = ψ(t, q, z) (3.2).
+    /// The user's own quasi-velocities, by the kinematics q̇ = ψ(t, q, z) (3.2). The configuration is an `SVector` of the
+    /// coordinates, a pose, a rotation, or pairs of these: elements of groups in the order written, then all plain
+    /// coordinates, as in `(Isometry3, (UnitQuaternion, SVector))`.
     Own,
 }
 

@@ -1,7 +1,8 @@
-//! nalgebra's containers as arrays and back; every function compiles to nothing.
+//! nalgebra's containers as arrays and back, and products of increments; every function compiles to nothing.
 
 use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, UnitQuaternion};
 
+use crate::configuration::Product;
 use crate::real::Real;
 
 /// The components of a vector.
@@ -46,4 +47,10 @@ pub fn isometry3<T: Real>(pose: &Isometry3<T>) -> ([T; 4], [T; 3]) {
 pub fn isometry2<T: Real>(pose: &Isometry2<T>) -> ([T; 2], [T; 2]) {
     let rotation = pose.rotation.as_ref();
     ([rotation.re, rotation.im], components(&pose.translation.vector))
+}
+
+/// The increment of a pair of configurations from those of its factors.
+#[inline(always)]
+pub fn product<A, B>(first: A, second: B) -> Product<A, B> {
+    Product { first, second }
 }
