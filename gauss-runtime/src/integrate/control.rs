@@ -2,6 +2,7 @@
 
 use super::error::{IntegrationError, IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use super::projection::{accept, consistent_start, on_constraints};
 use super::rkmk::Rkmk;
 use super::tableau::Tableau;
 use crate::configuration::{Configuration, VectorSpace};
@@ -11,7 +12,8 @@ use crate::system::GaussSystem;
 /// A method with its choice of steps, which carries a state to the end of an interval.
 pub trait Control<S: GaussSystem> {
     /// Integrates from `start` to the time `end` (before or after it), in at most `limit` steps. `emit` gets every state
-    /// reached with the derivatives there, the first and the last included.
+    /// reached with the derivatives there, the first and the last included. With constraints, all of them satisfy these up
+    /// to rounding.
     ///
     /// # Errors
     /// An [`IntegrationError`] with the time of the last state emitted.
@@ -88,23 +90,25 @@ impl<T: Real, const S: usize> Adaptive<T, S> {
     }
 }
 
-/// The span of time in the first lane, and the derivatives at the start: all checks before the first step.
+/// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the first
+/// step.
 fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
     problem: &Problem<'_, S, F, I>,
     start: &State<S>,
     end: S::Scalar,
-) -> Result<(f64, Rates<S>), IntegrationErrorKind> {
+) -> Result<(f64, State<S>, Rates<S>), IntegrationErrorKind> {
     if !(start.t.is_finite() && end.is_finite()) {
         return Err(IntegrationErrorKind::InvalidInterval);
     }
     if !(start.q.is_finite() && start.y.is_finite()) {
         return Err(IntegrationErrorKind::NonFinite { part: Part::InitialState });
     }
-    let rates = problem.rates(start);
+    let start = consistent_start(problem, start)?;
+    let rates = problem.rates(&start);
     if !rates.is_finite() {
         return Err(IntegrationErrorKind::NonFinite { part: Part::Derivative });
     }
-    Ok(((end - start.t).lane(0), rates))
+    Ok(((end - start.t).lane(0), start, rates))
 }
 
 impl<S: GaussSystem, const N: usize> Control<S> for Fixed<S::Scalar, N> {
@@ -121,7 +125,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Fixed<S::Scalar, N> {
         if !(length.is_finite() && length > 0.0) {
             return Err(stopped(start.t, IntegrationErrorKind::InvalidStep { step: self.step.lane(0) }));
         }
-        let (span, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
+        let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
         emit(&start, &rates);
         if span == 0.0 {
             return Ok(start);
@@ -147,6 +151,9 @@ impl<S: GaussSystem, const N: usize> Control<S> for Fixed<S::Scalar, N> {
             state = step.state;
             // Times are multiples of h, not sums of it.
             state.t = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start.t) };
+            if S::CONSTRAINED {
+                state = on_constraints(problem, &state).map_err(|kind| stopped(reached, kind))?;
+            }
             rates = problem.rates(&state);
             if !rates.is_finite() {
                 return Err(stopped(reached, IntegrationErrorKind::NonFinite { part: Part::Step }));
@@ -173,7 +180,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             let kind = IntegrationErrorKind::InvalidTolerance { relative, absolute };
             return Err(stopped(start.t, kind));
         }
-        let (span, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
+        let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
         emit(&start, &rates);
         if span == 0.0 {
             return Ok(start);
@@ -199,15 +206,16 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             if state.t + signed == state.t {
                 return Err(stopped(state.t, IntegrationErrorKind::StepTooSmall { step: length }));
             }
+            // When a step fails a shorter one may do: half, until the time does not change any more.
+            let half = |kind| {
+                let half = 0.5 * length.min(left);
+                let unchanged = state.t + S::Scalar::from_f64(direction * half) == state.t;
+                if unchanged { Err(stopped(state.t, kind)) } else { Ok(half) }
+            };
             let step = match self.method.step(problem, &state, &rates, signed) {
                 Ok(step) => step,
-                // A shorter step may do: half, until the time does not change any more.
                 Err(kind) => {
-                    let half = 0.5 * length.min(left);
-                    if state.t + S::Scalar::from_f64(direction * half) == state.t {
-                        return Err(stopped(state.t, kind));
-                    }
-                    (length, rejected) = (half, true);
+                    (length, rejected) = (half(kind)?, true);
                     continue;
                 }
             };
@@ -218,14 +226,18 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
                 rejected = true;
                 continue;
             }
-            state = step.state;
+            let mut reached = step.state;
             if last {
-                state.t = end;
+                reached.t = end;
             }
-            rates = match step.rates {
-                Some(rates) => rates,
-                None => problem.rates(&state),
+            rates = match accept(problem, &mut reached, step.rates) {
+                Ok(rates) => rates,
+                Err(kind) => {
+                    (length, rejected) = (half(kind)?, true);
+                    continue;
+                }
             };
+            state = reached;
             emit(&state, &rates);
             if last {
                 return Ok(state);

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::constraint::{ConstraintLevel, ProjectionError};
+
 /// An integration that cannot go on. What was reached is kept: see
 /// [`Simulation::attempt`](crate::integrate::Simulation::attempt).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +44,19 @@ pub enum IntegrationErrorKind {
     SingularChart {
         /// The regularity at the end of the step.
         regularity: f64,
+    },
+    /// The state cannot be brought back onto the constraints.
+    Projection {
+        /// What the projection says.
+        error: ProjectionError,
+    },
+    /// The initial state violates the constraints by more than the rounding of what was typed:
+    /// [`GaussSystem::project`](crate::system::GaussSystem::project) makes it consistent.
+    InconsistentStart {
+        /// Whether the configuration is wrong, or the velocity only.
+        level: ConstraintLevel,
+        /// How far the nearest state is that satisfies them: the largest component of the increment.
+        distance: f64,
     },
     /// A step that is zero or not finite was asked for.
     InvalidStep {
@@ -97,6 +112,12 @@ impl fmt::Display for IntegrationErrorKind {
                 f,
                 "the coordinates are singular here (regularity {regularity:e}); use another sequence of angles, or a chart \
                  without angles"
+            ),
+            Self::Projection { error } => error.fmt(f),
+            Self::InconsistentStart { level, distance } => write!(
+                f,
+                "the initial {level} violates the constraints, the nearest one that satisfies them is {distance:e} away; \
+                 call `kernel.project(t, &q, &z)` first and start from what it returns"
             ),
             Self::InvalidStep { step } => write!(f, "a step of {step} was asked for; it must be finite and not zero"),
             Self::InvalidTolerance { relative, absolute } => write!(

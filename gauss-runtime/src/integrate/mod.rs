@@ -6,6 +6,7 @@
 //! | [`tableau`] | coefficients of Runge–Kutta methods |
 //! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
 //! | [`control`] | fixed steps, adaptive steps |
+//! | `projection` | states of a run kept on the constraints |
 //! | [`simulation`] | [`Simulation`], the front |
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
 //! | [`error`] | [`IntegrationError`] |
@@ -13,6 +14,7 @@
 pub mod control;
 pub mod error;
 pub mod form;
+mod projection;
 pub mod rkmk;
 pub mod simulation;
 pub mod tableau;

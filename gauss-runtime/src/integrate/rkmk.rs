@@ -58,7 +58,8 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         self.order
     }
 
-    /// One step of length `h` from `state`, where the derivatives are `rates`.
+    /// One step of length `h` from `state`, where the derivatives are `rates`. The end is not brought back onto
+    /// constraints: [`Control`](super::control::Control) does that.
     ///
     /// # Errors
     /// [`IntegrationErrorKind::IncrementTooLarge`] when a stage turns by more than π,

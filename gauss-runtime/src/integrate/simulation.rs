@@ -73,6 +73,10 @@ assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
 )]
 ///
 /// Initial values are always quasi-velocities z, and samples hold both z and p.
+///
+/// Constraints that coordinates and speeds do not solve by themselves hold up to rounding in every sample, because each step
+/// ends with a projection ([`GaussSystem::project`]). Initial values must satisfy them as well, up to the rounding
+/// of what was typed.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a simulation does nothing before `run`"]
 pub struct Simulation<'k, S, F = VelocityForm, I = NoInput, C = Undecided, O = Unobserved> {

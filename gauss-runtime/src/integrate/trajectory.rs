@@ -121,7 +121,8 @@ impl<S: GaussSystem> Trajectory<S> {
     ///
     /// Cubic Hermite interpolation of z and p, and of the configuration on its group: in the algebra at the earlier sample,
     /// where q is `q₀ ∘ exp(σ)`, σ is interpolated with `σ̇ = dexp_inv(σ, V)`. The error is of fourth order in the distance
-    /// of the samples; between them the body must turn by less than π.
+    /// of the samples; between them the body must turn by less than π. Samples satisfy constraints up to rounding, what is
+    /// interpolated between them up to that error: [`GaussSystem::project`] takes it away.
     #[must_use]
     pub fn at(&self, t: S::Scalar) -> Option<Sample<S>> {
         let time = t.lane(0);
