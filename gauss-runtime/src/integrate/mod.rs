@@ -31,4 +31,6 @@ pub use trajectory::Sample;
 pub use trajectory::Trajectory;
 
 #[cfg(all(test, feature = "alloc"))]
+mod product_tests;
+#[cfg(all(test, feature = "alloc"))]
 mod tests;

@@ -188,6 +188,33 @@ impl Group for (UnitQuaternion<f64>, SVector<f64, 2>) {
     }
 }
 
+/// A group coordinate beside others: every method goes to its factor.
+impl Group for (Isometry3<f64>, (UnitQuaternion<f64>, SVector<f64, 2>)) {
+    const NAME: &'static str = "SE(3) × (SO(3) × R²)";
+    const ANGULAR: core::ops::Range<usize> = 3..9;
+    fn identity() -> Self {
+        (Group::identity(), Group::identity())
+    }
+    fn exp(v: &Self::Tangent) -> Self {
+        (Group::exp(&v.first), Group::exp(&v.second))
+    }
+    fn log(&self) -> Self::Tangent {
+        Product { first: Group::log(&self.0), second: Group::log(&self.1) }
+    }
+    fn compose(&self, other: &Self) -> Self {
+        (Group::compose(&self.0, &other.0), Group::compose(&self.1, &other.1))
+    }
+    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        Product {
+            first: <Isometry3<f64> as Group>::bracket(&v.first, &w.first),
+            second: <(UnitQuaternion<f64>, SVector<f64, 2>) as Group>::bracket(&v.second, &w.second),
+        }
+    }
+    fn adjoint(&self, w: &Self::Tangent) -> Self::Tangent {
+        Product { first: Group::adjoint(&self.0, &w.first), second: Group::adjoint(&self.1, &w.second) }
+    }
+}
+
 type T<G> = <G as Configuration>::Tangent;
 
 /// A tangent with angular part of the given size, from a fixed irregular sequence.
@@ -321,6 +348,7 @@ fn plane_motions() {
 #[test]
 fn products() {
     suite::<(UnitQuaternion<f64>, SVector<f64, 2>)>();
+    suite::<(Isometry3<f64>, (UnitQuaternion<f64>, SVector<f64, 2>))>();
 }
 
 #[test]
