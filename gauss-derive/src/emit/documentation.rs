@@ -21,9 +21,10 @@ pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     let letters: Vec<String> = legend(derived).iter().map(|(letter, field, _)| format!("{letter} = {field}")).collect();
     if !letters.is_empty() {
         out.push_str(&format!(
-            "with {}; x̂ = R x + b
+            "with {}{}
 ",
-            letters.join(", ")
+            letters.join(", "),
+            if derived.body().is_some() { "; x̂ = R x + b" } else { "" }
         ));
     }
     for section in sections {

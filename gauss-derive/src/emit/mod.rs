@@ -17,6 +17,8 @@ mod program;
 mod system;
 mod system_parameters;
 #[cfg(test)]
+mod system_tests;
+#[cfg(test)]
 mod tests;
 
 pub use kernel::{Derived, Subject, emit};

@@ -4,17 +4,17 @@ use proc_macro2::{TokenStream, TokenTree};
 
 use crate::expand::expand;
 
-fn generate(source: &str) -> TokenStream {
+pub fn generate(source: &str) -> TokenStream {
     let input = syn::parse_str(source).expect("a struct");
     expand(&input).expect("a body")
 }
 
-fn pretty(source: &str) -> String {
+pub fn pretty(source: &str) -> String {
     prettyplease::unparse(&syn::parse2(generate(source)).expect("generated code is Rust"))
 }
 
 /// The body of one generated function.
-fn function(source: &str, name: &str) -> String {
+pub fn function(source: &str, name: &str) -> String {
     let code = pretty(source);
     let start = code.find(&format!("fn {name}(")).expect("the function is there");
     let end = code[start..].find("\n        }\n").expect("it ends");

@@ -52,7 +52,8 @@ pub struct SystemScene<'g> {
     pub coordinates: Vec<Coordinate<'g>>,
     pub coordinate_names: Vec<Name>,
     pub speeds: Vec<Expr<'g>>,
-    pub speed_names: Vec<Name>,
+    /// What the momenta are momenta of.
+    pub momentum_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
     pub momenta: Vec<Expr<'g>>,
     /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z.

@@ -24,16 +24,16 @@ impl<'g> System<'g> {
             let words = "too long to print: momenta and forces are summed link by link, from the leaves to the roots";
             sections.push(titled("Gauss condition (3.4)", "Gauss condition (3.4)", remark(words)));
         } else {
-            let momenta = scene.speed_names.iter().zip(self.momentum());
+            let momenta = scene.momentum_names.iter().zip(self.momentum());
             let momenta = momenta.map(|(name, e)| Row::Definition(p(name), tidy(e))).collect();
-            let balance = scene.speed_names.iter().zip(self.bracket());
+            let balance = scene.momentum_names.iter().zip(self.bracket());
             let row = |(name, bracket): (&Name, Expr<'g>)| Row::Balance {
                 momentum: p(name),
                 bracket: tidy(bracket),
                 force: Some(force(name)),
             };
             let balance = balance.map(row).collect();
-            let forces = scene.speed_names.iter().zip(self.generalised_forces());
+            let forces = scene.momentum_names.iter().zip(self.generalised_forces());
             let forces = forces.map(|(name, e)| Row::Definition(force(name), tidy(e))).collect();
             sections.extend([
                 titled("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$", momenta),

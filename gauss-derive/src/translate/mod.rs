@@ -137,7 +137,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             time,
             coordinates: self.declared.coordinates.clone(),
             coordinate_names: self.declared.coordinate_names.clone(),
-            speed_names: kept.iter().map(|&k| self.declared.speed_names[k].clone()).collect(),
+            momentum_names: kept.iter().map(|&k| self.declared.momentum_names[k].clone()).collect(),
             speed_rates: pick(&self.declared.speed_rates),
             momenta: pick(&self.declared.momenta),
             speeds,

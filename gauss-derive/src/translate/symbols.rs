@@ -36,6 +36,8 @@ pub struct Declared<'g> {
     pub coordinate_names: Vec<Name>,
     pub speeds: Vec<Expr<'g>>,
     pub speed_names: Vec<Name>,
+    /// What the momenta are momenta of: the coordinate, where its rate is the speed.
+    pub momentum_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
     pub momenta: Vec<Expr<'g>>,
     /// Acceleration of free fall, observer's axes.
@@ -99,11 +101,37 @@ fn speed_names(model: &SystemModel) -> Vec<Name> {
     }
 }
 
+/// θ of the speed dθ/dt; else the name of the speed.
+fn momentum_names(model: &SystemModel, speed_names: &[Name]) -> Vec<Name> {
+    if model.speeds.is_some() {
+        return speed_names.to_vec();
+    }
+    let mut names = speed_names.to_vec();
+    let mut first = 0;
+    for coordinate in &model.coordinates {
+        match coordinate.kind {
+            CoordinateKind::Scalar => names[first] = name_of(&coordinate.ident),
+            CoordinateKind::Rotation | CoordinateKind::Pose => {}
+        }
+        first += size_of_coordinate(coordinate.kind);
+    }
+    names
+}
+
+fn size_of_coordinate(kind: CoordinateKind) -> usize {
+    match kind {
+        CoordinateKind::Scalar => 1,
+        CoordinateKind::Rotation => 3,
+        CoordinateKind::Pose => 6,
+    }
+}
+
 impl<'g> Declared<'g> {
     pub fn new(graph: &'g Graph, model: &SystemModel) -> Self {
         let time = graph.symbol("t", "t", false);
         let coordinates = model.coordinates.iter().map(|q| coordinate(graph, q)).collect();
         let speed_names = speed_names(model);
+        let momentum_names = momentum_names(model, &speed_names);
         let symbols = |name: &dyn Fn(&Name) -> Name| -> Vec<Expr<'g>> {
             speed_names.iter().map(|z| symbol(graph, &name(z), false)).collect()
         };
@@ -114,8 +142,9 @@ impl<'g> Declared<'g> {
             coordinate_names: model.coordinates.iter().map(|q| name_of(&q.ident)).collect(),
             speeds: symbols(&Name::clone),
             speed_rates: symbols(&Name::rate),
-            momenta: symbols(&|z| Name::new("p", "p").of(z)),
+            momenta: momentum_names.iter().map(|z| symbol(graph, &Name::new("p", "p").of(z), false)).collect(),
             speed_names,
+            momentum_names,
             gravity: None,
             fields: Vec::new(),
             bodies: Vec::new(),
@@ -268,12 +297,12 @@ fn name_of(ident: &Ident) -> Name {
     Name { text, latex }
 }
 
-/// A speed of the jet chart: a dot over a letter, a quotient for a word.
+/// A speed of the jet chart: a dot over a letter, `_dot` after a word.
 fn velocity_name(name: &Name) -> Name {
     if name.text.trim_end_matches(|c: char| c.is_ascii_digit()).chars().count() == 1 {
         name.dot()
     } else {
-        Name { text: name.time_derivative().text, latex: name.dot().latex }
+        Name { text: format!("{}_dot", name.text), latex: name.dot().latex }
     }
 }
 

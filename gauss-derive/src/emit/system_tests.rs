@@ -1,0 +1,137 @@
+//! Systems: the derived equations for review, code, and how the work grows with the length of a chain.
+
+use proc_macro2::{TokenStream, TokenTree};
+
+use super::tests::{function, generate, pretty};
+
+const SLEIGH: &str = "#[gauss(
+    coordinates(x, y, theta), speeds(v, omega), kinematics(x = v * cos(theta), y = v * sin(theta), theta = omega),
+    body(position = [x, y, 0], rotation = rotation_z(theta)),
+)] struct Sleigh { #[gauss(mass)] m: f64, #[gauss(center_of_mass)] a: Vector3<f64>, #[gauss(inertia)] j: Vector3<f64> }";
+
+const PENDULUM: &str = "#[gauss(
+    coordinates(theta, phi),
+    particle(mass = m, position = [l * sin(theta) * cos(phi), l * sin(theta) * sin(phi), -l * cos(theta)]),
+)] struct Pendulum { m: f64, l: f64, #[gauss(gravity)] g: f64 }";
+
+const ROD: &str = "#[gauss(
+    coordinates(x, z), particle(mass = m, position = [x, 0, z]), constraint(position = x * x + z * z - l * l),
+)] struct Rod { m: f64, l: f64, #[gauss(gravity)] g: f64 }";
+
+const ARMS: &str = "#[gauss(
+    coordinates(a, b),
+    body(upper, rotation = rotation_y(a)),
+    body(lower, parent = upper, position = [0, 0, -l], rotation = rotation_y(b)),
+)] struct Arms {
+    #[gauss(body)] upper: RigidBody<f64>, #[gauss(body)] lower: RigidBody<f64>, l: f64, #[gauss(gravity)] g: f64,
+}";
+
+const SLUNG: &str = "#[gauss(
+    coordinates(pose: Pose, alpha), speeds(u: Vector3, w: Vector3, s), kinematics(pose = twist(u, w), alpha = s),
+    body(craft, position = pose.position, rotation = pose.rotation),
+    particle(mass = m, parent = craft, position = [l * sin(alpha), 0, -l * cos(alpha)]),
+)] struct Slung { #[gauss(body)] craft: RigidBody<f64>, m: f64, l: f64, #[gauss(gravity)] g: f64 }";
+
+/// The text of `EQUATIONS`: the string after `text:`.
+fn equations(source: &str) -> String {
+    fn find(tokens: TokenStream) -> Option<String> {
+        let mut tokens = tokens.into_iter();
+        while let Some(token) = tokens.next() {
+            let found = match token {
+                TokenTree::Group(group) => find(group.stream()),
+                TokenTree::Ident(word) if word == "text" => {
+                    tokens.nth(1).and_then(|literal| syn::parse2::<syn::LitStr>(literal.into()).ok()).map(|s| s.value())
+                }
+                _ => None,
+            };
+            if found.is_some() {
+                return found;
+            }
+        }
+        None
+    }
+    find(generate(source)).expect("generated code has the equations")
+}
+
+#[test]
+fn equations_of_the_sleigh() {
+    insta::assert_snapshot!(equations(SLEIGH));
+}
+
+#[test]
+fn equations_of_the_spherical_pendulum() {
+    insta::assert_snapshot!(equations(PENDULUM));
+}
+
+#[test]
+fn equations_of_a_pendulum_in_cartesian_coordinates() {
+    insta::assert_snapshot!(equations(ROD));
+}
+
+#[test]
+fn equations_of_two_arms() {
+    insta::assert_snapshot!(equations(ARMS));
+}
+
+#[test]
+fn acceleration_of_the_sleigh() {
+    insta::assert_snapshot!(function(SLEIGH, "acceleration"));
+}
+
+#[test]
+fn acceleration_of_two_arms() {
+    insta::assert_snapshot!(function(ARMS, "acceleration"));
+}
+
+#[test]
+fn multipliers_of_a_pendulum_in_cartesian_coordinates() {
+    insta::assert_snapshot!(function(ROD, "multipliers"));
+}
+
+#[test]
+fn kinematics_of_a_product() {
+    insta::assert_snapshot!(function(SLUNG, "kinematics"));
+}
+
+/// Operations of `acceleration`, from the table in the rustdoc.
+fn operations(source: &str) -> u32 {
+    let code = pretty(source);
+    let row = code.split("`acceleration` | ").nth(1).and_then(|rest| rest.split('|').next()).expect("a row");
+    row.split(", ").filter_map(|part| part.split(' ').next()?.parse::<u32>().ok()).sum()
+}
+
+/// Bars one on the other: in the plane, or in universal joints.
+fn chain(n: usize, joint: fn(usize) -> (String, String)) -> String {
+    let mut clauses = String::new();
+    let mut fields = String::new();
+    let mut coordinates = Vec::new();
+    for k in 0..n {
+        let (angles, rotation) = joint(k);
+        coordinates.push(angles);
+        let parent = if k > 0 { format!("parent = b{}, position = [0, 0, l], ", k - 1) } else { String::new() };
+        clauses += &format!(", body(b{k}, {parent}rotation = {rotation})");
+        fields += &format!("#[gauss(body)] b{k}: RigidBody<f64>, ");
+    }
+    let coordinates = coordinates.join(", ");
+    format!(
+        "#[gauss(coordinates({coordinates}){clauses})] struct Chain {{ {fields} l: f64, #[gauss(gravity)] g: f64 }}"
+    )
+}
+
+#[test]
+fn the_work_of_a_chain_grows_with_its_length() {
+    let planar = |k: usize| (format!("q{k}"), format!("rotation_y(q{k})"));
+    let counts: Vec<u32> = [12, 15, 18, 21].iter().map(|&n| operations(&chain(n, planar))).collect();
+    let growth: Vec<u32> = counts.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    assert_eq!(growth, [growth[0]; 3], "{counts:?}");
+    // Cubic growth, as of a factorisation of A, would give 3 × 15² and more.
+    assert!(growth[0] < 3 * 100, "{growth:?}");
+}
+
+#[test]
+fn short_chains_are_cheap() {
+    let spatial = |k: usize| (format!("x{k}, y{k}"), format!("rotation_x(x{k}) * rotation_y(y{k})"));
+    // Per evaluation, everything included; the sum over bodies without recursion needs 2.2 times as many for three links.
+    assert!(operations(&chain(2, spatial)) <= 420);
+    assert!(operations(&chain(3, spatial)) <= 850);
+}
