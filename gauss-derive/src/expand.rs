@@ -10,7 +10,7 @@ use crate::mechanics::{
     AddedMassShape, BodyShape, ConfigurationKind, Elimination, GravityShape, InertiaShape, Scene, System,
     check_against_definition, check_system_against_definition, rotation_of_quaternion,
 };
-use crate::mistakes::{bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_too_much, system_fault};
+use crate::mistakes::{bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_too_much, system_faults};
 use crate::model::{self, Model, Shape, SystemModel};
 use crate::translate::Translator;
 
@@ -65,7 +65,7 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     };
     let mut formulas = system.formulas();
     check_system_against_definition(&system, &formulas)
-        .map_err(|fault| system_fault(model, &translator, &system, &fault))?;
+        .map_err(|faults| system_faults(model, &translator, &system, &faults))?;
     formulas.extend(elimination.iter().flat_map(Elimination::formulas));
     let (quaternions, definitions) = system_rotations(&graph, &system);
     let functions: Vec<_> = formulas.iter().map(|f| f.arrangements.clone()).collect();

@@ -97,35 +97,41 @@ pub fn eliminate<'g>(
     })
 }
 
-/// What the check of a system finds, at the token that is wrong.
-pub fn system_fault(
+/// What the check of a system finds, each at the token that is wrong.
+pub fn system_faults(
     model: &SystemModel,
     translator: &Translator<'_, '_>,
     system: &System<'_>,
-    fault: &SystemFault,
+    faults: &[SystemFault],
 ) -> syn::Error {
-    let clause = |k: usize| &model.constraints[system.scene.constraints[k].clause];
-    match fault {
-        SystemFault::Disagreement(error) => bug(&model.ident, error),
-        SystemFault::DependentSpeed(k) => {
-            let (name, span) = speed(model, translator, *k);
-            let message = format!(
-                "`{name}` moves nothing that the speeds before it do not move: the mass matrix is singular; \
-                 leave one of them out, or give what it moves a mass"
-            );
-            syn::Error::new(span, message)
+    let clause = |k: usize| model.constraints[system.scene.constraints[k].clause].span;
+    let mut mistakes = Mistakes::default();
+    for fault in faults {
+        match fault {
+            SystemFault::Disagreement(error) => return bug(&model.ident, error),
+            SystemFault::DependentSpeed(k) => {
+                let (name, span) = speed(model, translator, *k);
+                let message = format!(
+                    "`{name}` moves nothing that the speeds before it do not move: the mass matrix is singular; \
+                     leave one of them out, or give what it moves a mass"
+                );
+                mistakes.push(span, message);
+            }
+            SystemFault::DependentConstraint(k) => mistakes.push(
+                clause(*k),
+                "this constraint follows from the coordinates, the speeds and the constraints before it, so its \
+                 multiplier is undetermined; remove it"
+                    .to_owned(),
+            ),
+            SystemFault::InconsistentConstraint(k) => mistakes.push(
+                clause(*k),
+                "no motion satisfies this constraint together with the coordinates, the speeds and the constraints \
+                 before it; correct it or remove it"
+                    .to_owned(),
+            ),
         }
-        SystemFault::DependentConstraint(k) => syn::Error::new(
-            clause(*k).span,
-            "this constraint follows from the coordinates, the speeds and the constraints before it, so its multiplier is \
-             undetermined; remove it",
-        ),
-        SystemFault::InconsistentConstraint(k) => syn::Error::new(
-            clause(*k).span,
-            "no motion satisfies this constraint together with the coordinates, the speeds and the constraints before it; \
-             correct it or remove it",
-        ),
     }
+    mistakes.finish().err().unwrap_or_else(|| bug(&model.ident, &"a fault without a name"))
 }
 
 /// The name of a speed, and where it is written: without `speeds` at its coordinate.

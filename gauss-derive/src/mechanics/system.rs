@@ -148,14 +148,13 @@ impl<'g> System<'g> {
 
     /// Whether multiplying out would be slow and of no use.
     pub fn is_long(&self) -> bool {
-        self.scene.tree.is_chained() && self.scene.speeds.len() > SMALL
+        self.scene.speeds.len() > SMALL
     }
 
     fn arrangements(&self) -> Vec<Arrangement<'g>> {
         let mut arrangements = Vec::new();
         let tidy_all = |rows: &[Expr<'g>]| -> Vec<Expr<'g>> { rows.iter().map(|e| tidy(*e)).collect() };
-        let best = [self.scene.tree.best_inertia()];
-        for &inertia in if self.is_long() { &best[..] } else { &[Inertia::Tensor, Inertia::Field] } {
+        for &inertia in self.scene.tree.inertias(self.is_long()) {
             let residual = self.residual(&self.along, inertia);
             let still = self.residual(&self.scene.rates, inertia);
             if !self.is_long() {

@@ -175,7 +175,10 @@ impl Distribution {
 }
 
 /// Evaluates the condition at one state, with the residual at any ż and with every arrangement's acceleration.
-pub fn check_system_against_definition<'g>(system: &System<'g>, formulas: &[Formula<'g>]) -> Result<(), SystemFault> {
+pub fn check_system_against_definition<'g>(
+    system: &System<'g>,
+    formulas: &[Formula<'g>],
+) -> Result<(), Vec<SystemFault>> {
     let n = system.scene.speeds.len();
     let matrix: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
     let arrangements =
@@ -190,12 +193,13 @@ pub fn check_system_against_definition<'g>(system: &System<'g>, formulas: &[Form
     let states = || (0..16).map(|shift| Witness::new(system, sample_state(system, shift)));
     // A singular A, or dependent constraints, have no finite accelerations, so they are looked for first.
     let regular = |witness: &Witness<'_, 'g>| witness.values(&matrix).iter().all(|x| x.is_finite());
-    if let Some(witness) = states().find(regular)
-        && let Some(speed) = vanishing_pivot(witness.values(&matrix), n)
-    {
-        return Err(SystemFault::DependentSpeed(speed));
+    let singular = states().find(regular).map(|witness| vanishing_pivots(witness.values(&matrix), n));
+    let mut faults: Vec<SystemFault> =
+        singular.unwrap_or_default().into_iter().map(SystemFault::DependentSpeed).collect();
+    faults.extend(dependent_constraints(system, states()));
+    if !faults.is_empty() {
+        return Err(faults);
     }
-    check_independence(system, states())?;
     let Some(mut witness) = states().find(inside) else { return Ok(()) };
     let unconstrained = witness.stationarity(&arbitrary);
     let jacobian = witness.partials(&system.constraints.on_velocities);
@@ -206,7 +210,7 @@ pub fn check_system_against_definition<'g>(system: &System<'g>, formulas: &[Form
         let force = |row: &Vec<f64>| row.iter().zip(&multipliers).map(|(j, l)| j * l).sum::<f64>();
         rows.iter().zip(&jacobian).map(|(r, j)| r - force(j)).collect()
     };
-    let disagreement = SystemFault::Disagreement;
+    let disagreement = |error| vec![SystemFault::Disagreement(error)];
     witness.state.extend(system.scene.speed_rates.iter().zip(&arbitrary).map(|(s, x)| (s.key(), *x)));
     let expected = with_forces(&witness, unconstrained);
     for arrangement in arrangements(Method::GaussResidual) {
@@ -226,25 +230,24 @@ pub fn check_system_against_definition<'g>(system: &System<'g>, formulas: &[Form
     Ok(())
 }
 
-/// Whether each constraint says something new, and something that can hold with those before it.
-fn check_independence<'a, 'g>(
+/// Constraints that say nothing new, or nothing that can hold with those before them.
+fn dependent_constraints<'a, 'g>(
     system: &'a System<'g>,
     mut states: impl Iterator<Item = Witness<'a, 'g>>,
-) -> Result<(), SystemFault> {
+) -> Vec<SystemFault> {
     let constraints = &system.constraints;
     let rest: Vec<Expr<'g>> = constraints.on_velocities.iter().chain(&constraints.on_positions()).copied().collect();
     let usable = |witness: &Witness<'_, 'g>| {
         let finite = |values: Vec<f64>| values.iter().all(|x| x.is_finite());
         finite(witness.values(&rest)) && witness.partials(&constraints.on_velocities).into_iter().all(finite)
     };
-    let Some(witness) = states.find(usable) else { return Ok(()) };
+    let Some(witness) = states.find(usable) else { return Vec::new() };
     let columns = witness.partials(&constraints.on_velocities);
     let count = constraints.on_velocities.len();
     let mut rows: Vec<Vec<f64>> = (0..count).map(|k| columns.iter().map(|c| c[k]).collect()).collect();
-    // The value of each constraint follows the same combinations as its row.
-    let still: Map<u32, f64> = system.scene.speeds.iter().map(|z| (z.key(), 0.0)).collect();
+    // The value of each constraint, of velocities at rest, follows the same combinations as its row.
     let mut at_rest = Witness::new(system, witness.state.clone());
-    at_rest.state.extend(still);
+    at_rest.state.extend(system.scene.speeds.iter().map(|z| (z.key(), 0.0)));
     let (moving, positions) = (at_rest.values(&constraints.on_velocities), witness.values(&constraints.on_positions()));
     let kinds = system.scene.constraints.iter().map(|c| c.kind);
     let mut values: Vec<f64> = kinds
@@ -252,6 +255,7 @@ fn check_independence<'a, 'g>(
         .map(|(kind, (moving, position))| if kind == ConstraintKind::Position { *position } else { *moving })
         .collect();
     let sizes: Vec<f64> = rows.iter().map(|row| row.iter().fold(0.0_f64, |m, x| m.max(x.abs()))).collect();
+    let mut faults = Vec::new();
     for k in 0..count {
         let (pivot, size) = rows[k]
             .iter()
@@ -259,12 +263,11 @@ fn check_independence<'a, 'g>(
             .fold((0, 0.0_f64), |best, (column, x)| if x.abs() > best.1 { (column, x.abs()) } else { best });
         // Elimination leaves roundings of what the row was.
         if size <= 1e-10 * sizes[k].max(1e-3) {
-            let fault = if values[k].abs() > 1e-8 {
-                SystemFault::InconsistentConstraint
-            } else {
-                SystemFault::DependentConstraint
-            };
-            return Err(fault(k));
+            let contradicts = values[k].abs() > 1e-8;
+            let fault =
+                if contradicts { SystemFault::InconsistentConstraint } else { SystemFault::DependentConstraint };
+            faults.push(fault(k));
+            continue;
         }
         for later in k + 1..count {
             let factor = rows[later][pivot] / rows[k][pivot];
@@ -274,17 +277,19 @@ fn check_independence<'a, 'g>(
             values[later] -= factor * values[k];
         }
     }
-    Ok(())
+    faults
 }
 
-/// The first unknown whose pivot vanishes while A is eliminated, beside what it was.
-fn vanishing_pivot(mut a: Vec<f64>, n: usize) -> Option<usize> {
+/// The unknowns whose pivots vanish while A is eliminated, beside what they were.
+fn vanishing_pivots(mut a: Vec<f64>, n: usize) -> Vec<usize> {
     let diagonal: Vec<f64> = (0..n).map(|k| a[k * n + k].abs()).collect();
+    let mut vanishing = Vec::new();
     for k in 0..n {
         let pivot = a[k * n + k];
         // Cancellation leaves roundings of the diagonal; a regular A of numbers of order one stays far above.
         if pivot.abs() <= 1e-12 * diagonal[k] {
-            return Some(k);
+            vanishing.push(k);
+            continue;
         }
         for i in k + 1..n {
             let factor = a[i * n + k] / pivot;
@@ -293,7 +298,7 @@ fn vanishing_pivot(mut a: Vec<f64>, n: usize) -> Option<usize> {
             }
         }
     }
-    None
+    vanishing
 }
 
 /// Values of order one for all symbols; masses and moments of inertia dominate products of inertia, rotations are

@@ -77,10 +77,16 @@ impl<'g> Tree<'g> {
         self.speeds.len()
     }
 
-    /// How the rates of angular momenta are best formed where only one way can be tried: about a single axis the tensor is a
-    /// number.
-    pub fn best_inertia(&self) -> Inertia {
-        if self.planar.is_some() { Inertia::Tensor } else { Inertia::Field }
+    /// The ways to form the rates of angular momenta that are worth trying: about a single axis the tensor is a number, and
+    /// particles have none.
+    pub fn inertias(&self, long: bool) -> &'static [Inertia] {
+        let particles = self.links.iter().all(|link| link.body().is_none());
+        match (self.planar.is_some() || particles, long) {
+            (true, true) => &[Inertia::Tensor],
+            (true, false) if particles => &[Inertia::Tensor],
+            (false, true) => &[Inertia::Field],
+            (_, false) => &[Inertia::Tensor, Inertia::Field],
+        }
     }
 
     pub fn is_chained(&self) -> bool {

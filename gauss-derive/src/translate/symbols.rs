@@ -35,7 +35,6 @@ pub struct Declared<'g> {
     pub coordinates: Vec<Coordinate<'g>>,
     pub coordinate_names: Vec<Name>,
     pub speeds: Vec<Expr<'g>>,
-    pub speed_names: Vec<Name>,
     /// What the momenta are momenta of: the coordinate, where its rate is the speed.
     pub momentum_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
@@ -143,7 +142,6 @@ impl<'g> Declared<'g> {
             speeds: symbols(&Name::clone),
             speed_rates: symbols(&Name::rate),
             momenta: momentum_names.iter().map(|z| symbol(graph, &Name::new("p", "p").of(z), false)).collect(),
-            speed_names,
             momentum_names,
             gravity: None,
             fields: Vec::new(),
