@@ -20,6 +20,7 @@ snapshots:
 # How long a derive takes with an unoptimised macro.
 expansion:
     cargo run --profile unoptimised --example expansion_time
+    cargo run --profile unoptimised --example chains
 
 # All that CI does.
 ci:
