@@ -120,12 +120,19 @@ fn chain(n: usize, joint: fn(usize) -> (String, String)) -> String {
 
 #[test]
 fn the_work_of_a_chain_grows_with_its_length() {
-    let planar = |k: usize| (format!("q{k}"), format!("rotation_y(q{k})"));
-    let counts: Vec<u32> = [12, 15, 18, 21].iter().map(|&n| operations(&chain(n, planar))).collect();
-    let growth: Vec<u32> = counts.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    assert_eq!(growth, [growth[0]; 3], "{counts:?}");
-    // Cubic growth, as of a factorisation of A, would give 3 × 15² and more.
-    assert!(growth[0] < 3 * 100, "{growth:?}");
+    // From the bar before, and from the vertical.
+    let relative = |k: usize| (format!("q{k}"), format!("rotation_y(q{k})"));
+    let absolute = |k: usize| {
+        let before = if k > 0 { format!(" - q{}", k - 1) } else { String::new() };
+        (format!("q{k}"), format!("rotation_y(q{k}{before})"))
+    };
+    for angles in [relative, absolute] {
+        let counts: Vec<u32> = [12, 15, 18, 21].iter().map(|&n| operations(&chain(n, angles))).collect();
+        let growth: Vec<u32> = counts.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        assert_eq!(growth, [growth[0]; 3], "{counts:?}");
+        // Cubic growth, as of a factorisation of A, would give 3 × 15² and more.
+        assert!(growth[0] < 3 * 100, "{growth:?}");
+    }
 }
 
 #[test]

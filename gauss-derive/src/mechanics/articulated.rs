@@ -2,10 +2,13 @@
 //! first, which leaves a quadratic function of their parents' motion alone. The work grows with the number of links, where
 //! that of a factorisation of A grows with its cube.
 //!
+//! Where a speed moves several links in ways of their own — angles from the vertical turn the next joint back — the joints'
+//! own speeds, sums of those of the user, are eliminated in their place.
+//!
 //! This is Gaussian elimination in an order that never forms A, and the *articulated-body inertia* of a link (Featherstone,
 //! Rigid Body Dynamics Algorithms, chapter 7) is what the elimination leaves at it.
 
-use crate::algebra::Expr;
+use crate::algebra::{Expr, Rational};
 
 use super::link::Link;
 use super::moments::Moments;
@@ -26,7 +29,14 @@ struct Inertia<'g> {
 /// A linear and an angular part at O, working axes.
 type Pair<'g> = (Triple<'g>, Triple<'g>);
 
-/// A speed when it is eliminated: its partial velocity, what that asks for, and the reciprocal of the pivot.
+/// A speed of a joint: its partial velocity, and what it is in terms of the user's speeds.
+struct JointSpeed<'g> {
+    link: usize,
+    row: Pair<'g>,
+    combination: Vec<(usize, Rational)>,
+}
+
+/// A speed of a joint when it is eliminated: its partial velocity, what that asks for, and the reciprocal of the pivot.
 struct Pivot<'g> {
     speed: usize,
     row: Pair<'g>,
@@ -37,25 +47,21 @@ struct Pivot<'g> {
 /// Pivots of every link, in the order of elimination.
 pub struct Articulated<'a, 'g> {
     tree: &'a Tree<'g>,
+    joints: Vec<JointSpeed<'g>>,
     pivots: Vec<Vec<Pivot<'g>>>,
 }
 
 impl<'a, 'g> Articulated<'a, 'g> {
-    /// `None` when a speed moves several links in ways of their own, or there is fluid.
+    /// `None` when no joint has speeds of its own that determine those of the user, or there is fluid.
     pub fn new(tree: &'a Tree<'g>) -> Option<Self> {
-        let count = tree.speed_count();
-        let once = |speed: usize| tree.links.iter().filter(|link| link.is_moved_by(speed)).count() == 1;
         let dry = |link: &Link<'g>| link.body().is_none_or(|body| body.added_mass.is_none());
-        if !(0..count).all(once) || !tree.links.iter().all(dry) {
-            return None;
-        }
+        let joints = joint_speeds(tree).filter(|_| tree.links.iter().all(dry))?;
         let mut inertias: Vec<Inertia<'g>> = tree.links.iter().map(|link| Inertia::of(&link.moments)).collect();
         let mut pivots: Vec<Vec<Pivot<'g>>> = tree.links.iter().map(|_| Vec::new()).collect();
         for k in (0..tree.links.len()).rev() {
             let link = &tree.links[k];
-            for speed in (0..count).filter(|&speed| link.is_moved_by(speed)) {
-                let row = (link.frame.resolve(&link.linear_rows[speed], Axes::Body), link.angular_rows[speed]);
-                let pivot = Pivot::new(speed, row, &inertias[k]);
+            for (speed, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.link == k) {
+                let pivot = Pivot::new(speed, joint.row, &inertias[k]);
                 inertias[k] = inertias[k].without(&pivot);
                 pivots[k].push(pivot);
             }
@@ -64,11 +70,23 @@ impl<'a, 'g> Articulated<'a, 'g> {
                 inertias[parent] = inertias[parent].plus(&carried);
             }
         }
-        Some(Self { tree, pivots })
+        Some(Self { tree, joints, pivots })
     }
 
-    /// x with A x = right.
+    /// x with A x = right: with y = T x for the speeds of the joints, `A = Tᵀ A_y T`.
     pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let combinations: Vec<Vec<(usize, Rational)>> = self.joints.iter().map(|j| j.combination.clone()).collect();
+        let mut columns: Vec<Vec<(usize, Rational)>> = vec![Vec::new(); right.len()];
+        for (joint, combination) in combinations.iter().enumerate() {
+            combination.iter().for_each(|&(speed, c)| columns[speed].push((joint, c)));
+        }
+        let solvable = "the order of substitution was found when the joints were";
+        let right = substituted(&columns, right).expect(solvable);
+        substituted(&combinations, &self.solve_joints(&right)).expect(solvable)
+    }
+
+    /// y with A_y y = right.
+    fn solve_joints(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let zero = self.tree.graph.zero();
         let links = &self.tree.links;
         let nothing: Pair<'g> = ([zero; 3], [zero; 3]);
@@ -108,6 +126,68 @@ impl<'a, 'g> Articulated<'a, 'g> {
         }
         solution
     }
+}
+
+/// The speeds of the joints, if there are as many as the user's and each set determines the other by substitution.
+fn joint_speeds<'g>(tree: &Tree<'g>) -> Option<Vec<JointSpeed<'g>>> {
+    let count = tree.speed_count();
+    let links_moved = |speed: usize| tree.links.iter().filter(|link| link.is_moved_by(speed)).count();
+    let shared: Vec<bool> = (0..count).map(|speed| links_moved(speed) > 1).collect();
+    let mut joints = Vec::with_capacity(count);
+    for (k, link) in tree.links.iter().enumerate() {
+        let moved: Vec<usize> = (0..count).filter(|&speed| link.is_moved_by(speed)).collect();
+        let row = |speed: usize| (link.frame.resolve(&link.linear_rows[speed], Axes::Body), link.angular_rows[speed]);
+        if moved.iter().any(|&speed| shared[speed]) {
+            // One way to move, in which all these speeds take part.
+            let first = row(moved[0]);
+            let parts = moved.iter().map(|&speed| Some((speed, ratio(&row(speed), &first)?)));
+            joints.push(JointSpeed { link: k, row: first, combination: parts.collect::<Option<_>>()? });
+        } else {
+            let own =
+                |&speed: &usize| JointSpeed { link: k, row: row(speed), combination: vec![(speed, Rational::one())] };
+            joints.extend(moved.iter().map(own));
+        }
+    }
+    let combinations: Vec<Vec<(usize, Rational)>> = joints.iter().map(|j| j.combination.clone()).collect();
+    let zeros = vec![tree.graph.zero(); count];
+    (joints.len() == count && substituted(&combinations, &zeros).is_some()).then_some(joints)
+}
+
+/// The number c with a = c·b.
+fn ratio<'g>(a: &Pair<'g>, b: &Pair<'g>) -> Option<Rational> {
+    let mut ratio = None;
+    for (x, y) in a.0.iter().chain(&a.1).zip(b.0.iter().chain(&b.1)) {
+        match (x.is_zero(), y.is_zero()) {
+            (true, true) => continue,
+            (false, false) => {}
+            _ => return None,
+        }
+        let own = (*x * y.recip()).as_number()?;
+        if *ratio.get_or_insert(own) != own {
+            return None;
+        }
+    }
+    ratio
+}
+
+/// Solves `Σ c x = right`, row by row, each time one in which a single unknown is left; `None` when there is no such row.
+fn substituted<'g>(rows: &[Vec<(usize, Rational)>], right: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
+    let mut known: Vec<Option<Expr<'g>>> = vec![None; right.len()];
+    let mut open: Vec<usize> = (0..rows.len()).collect();
+    while !open.is_empty() {
+        let unknown = |row: usize| rows[row].iter().filter(|(x, _)| known[*x].is_none()).count();
+        let row = open.remove(open.iter().position(|&row| unknown(row) == 1)?);
+        let (mut rest, mut last) = (right[row], None);
+        for &(x, c) in &rows[row] {
+            match known[x] {
+                Some(value) => rest = rest - value.scale(c),
+                None => last = Some((x, c)),
+            }
+        }
+        let (x, c) = last?;
+        known[x] = Some(rest.group().scale(c.recip()));
+    }
+    known.into_iter().collect()
 }
 
 fn pair<'g>(a: &Pair<'g>, b: &Pair<'g>) -> Expr<'g> {

@@ -26,9 +26,13 @@ impl Name {
         self.marked(DOT, "dot")
     }
 
-    /// u → u1 for the component with index 0.
+    /// u → u1 for the component with index 0; of a name that has an index, a second one.
     pub fn index(&self, i: usize) -> Self {
-        Self { text: format!("{}{}", self.text, i + 1), latex: format!("{}_{{{}}}", self.latex, i + 1) }
+        let latex = match self.latex.strip_suffix('}') {
+            Some(open) if self.latex.contains("_{") => format!("{open},{}}}", i + 1),
+            _ => format!("{}_{{{}}}", self.latex, i + 1),
+        };
+        Self { text: format!("{}{}", self.text, i + 1), latex }
     }
 
     /// p → p_θ.

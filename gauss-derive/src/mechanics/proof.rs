@@ -13,7 +13,7 @@ use super::tests::scenes;
 use super::vector::{Axes, Triple, add, cross, scale};
 
 /// Full inertia, O ≠ G, weight in any direction, buoyancy. The fluid's impulse enters both derivations alike.
-const GENERAL: BodyShape = BodyShape {
+pub const GENERAL: BodyShape = BodyShape {
     inertia: InertiaShape::Full,
     center_of_mass: true,
     added_mass: None,

@@ -3,24 +3,14 @@
 
 use crate::algebra::Graph;
 
-use super::body::{BodyShape, GravityShape, InertiaShape};
 use super::gauss::stationarity;
 use super::link::{Matter, Placement};
 use super::methods::Scene;
-use super::proof::relations;
+use super::proof::{GENERAL, relations};
 use super::tests::scenes;
 use super::tree::{Inertia, Tree};
 use super::turn::Turn;
 use super::vector::Axes;
-
-const GENERAL: BodyShape = BodyShape {
-    inertia: InertiaShape::Full,
-    center_of_mass: true,
-    added_mass: None,
-    gravity: Some(GravityShape::Vector),
-    displaced_mass: true,
-    center_of_buoyancy: true,
-};
 
 /// The scene's body as the only link of a tree.
 fn system_of<'g>(graph: &'g Graph, scene: &Scene<'g>) -> Tree<'g> {
