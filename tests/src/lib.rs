@@ -5,9 +5,13 @@
 //! | [`scene`] | a reference solution, read from `data/reference` |
 //! | [`order8`] | the Dormand–Prince method of order 8 on the group, with step control |
 //! | [`integrals`] | what a motion conserves |
+//! | [`laws`] | what holds for every system at every state, and for two descriptions of one |
+//! | [`trajectory`] | a system of any configuration run over a reference solution |
 //! | [`compare`] | a kernel run from the initial to the final state of a scene, and how far it ends from it |
 
 pub mod compare;
 pub mod integrals;
+pub mod laws;
 pub mod order8;
 pub mod scene;
+pub mod trajectory;

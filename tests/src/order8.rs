@@ -107,6 +107,14 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
             if last {
                 state.t = end;
             }
+            if S::CONSTRAINED {
+                // As the controls of the runtime do: the end of every step goes onto the constraints.
+                let (system, form) = (problem.system, &problem.form);
+                let speeds = form.speeds(system, state.t, &state.q, &state.y);
+                let projected = system.project(state.t, &state.q, &speeds);
+                let (q, z) = projected.map_err(|error| stopped(before, IntegrationErrorKind::Projection { error }))?;
+                state = State { q, y: form.variables(system, state.t, &q, &z), ..state };
+            }
             rates = problem.rates(&state);
             if !rates.is_finite() {
                 return Err(stopped(before, IntegrationErrorKind::NonFinite { part: Part::Step }));

@@ -153,7 +153,8 @@ impl State {
 
 /// The unit quaternion of a rotation matrix, from the largest of its four components (Shepperd 1978): every component to a
 /// few roundings.
-fn quaternion_of(r: &Matrix3<f64>) -> UnitQuaternion<f64> {
+#[must_use]
+pub fn quaternion_of(r: &Matrix3<f64>) -> UnitQuaternion<f64> {
     let trace = r.trace();
     // Four times the squares of x, y, z, w.
     let squares = [0, 1, 2, 3].map(|i| if i < 3 { 1.0 - trace + 2.0 * r[(i, i)] } else { 1.0 + trace });
