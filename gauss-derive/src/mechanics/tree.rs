@@ -207,19 +207,11 @@ impl<'g> Tree<'g> {
                     let omega = &above.angular_velocity;
                     let carried = add(&a.body, &apply(&acceleration_gradient(omega, alpha), &joint.offset));
                     let rate = &joint.offset_rate;
-                    // In the plane the rate's components are in k, which do not turn; else in the parent's axes, which do.
-                    let own = if self.planar.is_some() {
-                        rate.map(|e| e.derivative(along))
-                    } else {
-                        let turning = scale(self.graph.integer(2), &cross(omega, rate));
-                        add(&rate.map(|e| e.derivative(along)), &turning)
-                    };
-                    let own = if self.planar.is_some() {
-                        let drift = cross(omega, rate);
-                        add(&own, &drift)
-                    } else {
-                        own
-                    };
+                    // The components of the rate turn with the parent's axes, unless they are in k: the rate of their
+                    // rate then has one ω × rate in it already.
+                    let drift = cross(omega, rate);
+                    let drift = if self.planar.is_some() { drift } else { scale(self.graph.integer(2), &drift) };
+                    let own = add(&rate.map(|e| e.derivative(along)), &drift);
                     let a = frame.body_vector(inward(&joint.turns, &add(&carried, &own).map(Expr::group)));
                     let alpha = if self.planar.is_some() {
                         add(alpha, &link.spin.map(|e| e.derivative(along))).map(Expr::group)
