@@ -1,5 +1,5 @@
-"""The equations of this folder on scenes whose solutions were computed elsewhere, from other formulations: the final
-states must agree to 36 digits."""
+"""The equations of this folder on scenes whose solutions were computed elsewhere, from other formulations: final states
+agree as far as 36 digits of the initial states allow."""
 
 import json
 
