@@ -32,6 +32,16 @@ const SLUNG: &str = "#[gauss(
     particle(mass = m, parent = craft, position = [l * sin(alpha), 0, -l * cos(alpha)]),
 )] struct Slung { #[gauss(body)] craft: RigidBody<f64>, m: f64, l: f64, #[gauss(gravity)] g: f64 }";
 
+/// A disk that rolls: the constraints are solved for the velocity of its centre.
+const DISK: &str = "#[gauss(
+    coordinates(x, y, phi, theta, psi), speeds(vx, vy, w1, w2, w3),
+    kinematics(x = vx, y = vy, phi = w2 / sin(theta), theta = w1, psi = w3 - w2 / tan(theta)),
+    body(disk, position = [x, y, r * sin(theta)], rotation = rotation_z(phi) * rotation_x(theta) * rotation_z(psi)),
+    constraint(velocity = disk.velocity
+        - cross(disk.angular_velocity, r * (rotation_z(phi) * [0, cos(theta), sin(theta)]))),
+    independent(w1, w2, w3),
+)] struct Disk { #[gauss(body)] disk: RigidBody<f64>, r: f64, #[gauss(gravity)] g: f64 }";
+
 /// The text of `EQUATIONS`: the string after `text:`.
 fn equations(source: &str) -> String {
     fn find(tokens: TokenStream) -> Option<String> {
@@ -86,6 +96,11 @@ fn acceleration_of_two_arms() {
 #[test]
 fn multipliers_of_a_pendulum_in_cartesian_coordinates() {
     insta::assert_snapshot!(function(ROD, "multipliers"));
+}
+
+#[test]
+fn kinematics_of_a_disk_whose_constraints_are_solved() {
+    insta::assert_snapshot!(function(DISK, "kinematics"));
 }
 
 #[test]

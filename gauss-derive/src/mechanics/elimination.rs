@@ -9,6 +9,9 @@ use super::equations::tidy;
 use super::methods::{Formula, Method};
 use super::system::System;
 
+/// Terms that a dependent speed may have on the way to its normal form, where sin² + cos² is 1.
+const LIMIT: usize = 2000;
+
 /// The whole system, and what its speeds are in terms of those that stay.
 pub struct Elimination<'g> {
     pub whole: System<'g>,
@@ -51,7 +54,7 @@ impl<'g> Elimination<'g> {
             .collect();
         let mut values = speeds.clone();
         for (&k, value) in dependent.iter().zip(solver.solve(&right)) {
-            values[k] = value.group();
+            values[k] = value.collected(LIMIT).group();
         }
         Ok(Self { whole, values })
     }

@@ -233,29 +233,55 @@ pub fn check_system_against_definition<'g>(
 /// Constraints that say nothing new, or nothing that can hold with those before them.
 fn dependent_constraints<'a, 'g>(
     system: &'a System<'g>,
-    mut states: impl Iterator<Item = Witness<'a, 'g>>,
+    states: impl Iterator<Item = Witness<'a, 'g>>,
 ) -> Vec<SystemFault> {
     let constraints = &system.constraints;
-    let rest: Vec<Expr<'g>> = constraints.on_velocities.iter().chain(&constraints.on_positions()).copied().collect();
+    let positions = constraints.on_positions();
     let usable = |witness: &Witness<'_, 'g>| {
         let finite = |values: Vec<f64>| values.iter().all(|x| x.is_finite());
-        finite(witness.values(&rest)) && witness.partials(&constraints.on_velocities).into_iter().all(finite)
+        finite(witness.values(constraints.on_velocities.iter().chain(&positions)))
+            && witness.partials(&constraints.on_velocities).into_iter().all(finite)
     };
-    let Some(witness) = states.find(usable) else { return Vec::new() };
-    let columns = witness.partials(&constraints.on_velocities);
-    let count = constraints.on_velocities.len();
-    let mut rows: Vec<Vec<f64>> = (0..count).map(|k| columns.iter().map(|c| c[k]).collect()).collect();
-    // The value of each constraint, of velocities at rest, follows the same combinations as its row.
+    let mut usable = states.filter(usable);
+    let (Some(witness), other) = (usable.next(), usable.next()) else { return Vec::new() };
+    // What constraints say of velocities, of a system at rest.
     let mut at_rest = Witness::new(system, witness.state.clone());
     at_rest.state.extend(system.scene.speeds.iter().map(|z| (z.key(), 0.0)));
-    let (moving, positions) = (at_rest.values(&constraints.on_velocities), witness.values(&constraints.on_positions()));
-    let kinds = system.scene.constraints.iter().map(|c| c.kind);
-    let mut values: Vec<f64> = kinds
-        .zip(moving.iter().zip(&positions))
-        .map(|(kind, (moving, position))| if kind == ConstraintKind::Position { *position } else { *moving })
-        .collect();
+    let moving = at_rest.values(&constraints.on_velocities);
+    let elsewhere = other.map(|other| (dependent_rows(&other), other.values(&positions)));
+    let combined = |coefficients: &[f64], values: &[f64]| -> f64 {
+        coefficients.iter().zip(values).map(|(c, value)| c * value).sum()
+    };
+    dependent_rows(&witness)
+        .into_iter()
+        .map(|(k, coefficients)| {
+            // Positions can be compared where a combination with the same coefficients everywhere is constant.
+            let of_positions =
+                (0..=k).all(|j| coefficients[j] == 0.0 || system.scene.constraints[j].kind == ConstraintKind::Position);
+            let constant = elsewhere.as_ref().and_then(|(rows, values)| {
+                let (_, other) = rows.iter().find(|(row, _)| *row == k)?;
+                let same = coefficients.iter().zip(other).all(|(a, b)| (a - b).abs() <= 1e-8 * (1.0 + a.abs()));
+                (of_positions && same).then(|| combined(other, values))
+            });
+            let contradicts = [Some(combined(&coefficients, &moving)), constant].into_iter().flatten();
+            match contradicts.into_iter().any(|value| value.abs() > 1e-8) {
+                true => SystemFault::InconsistentConstraint(k),
+                false => SystemFault::DependentConstraint(k),
+            }
+        })
+        .collect()
+}
+
+/// Rows of J that are combinations of those before them, with the coefficients of the combination that vanishes.
+fn dependent_rows(witness: &Witness<'_, '_>) -> Vec<(usize, Vec<f64>)> {
+    let constraints = &witness.system.constraints;
+    let columns = witness.partials(&constraints.on_velocities);
+    let count = constraints.count();
+    let mut rows: Vec<Vec<f64>> = (0..count).map(|k| columns.iter().map(|c| c[k]).collect()).collect();
+    let unit = |k: usize| (0..count).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
+    let mut combinations: Vec<Vec<f64>> = (0..count).map(unit).collect();
     let sizes: Vec<f64> = rows.iter().map(|row| row.iter().fold(0.0_f64, |m, x| m.max(x.abs()))).collect();
-    let mut faults = Vec::new();
+    let mut dependent = Vec::new();
     for k in 0..count {
         let (pivot, size) = rows[k]
             .iter()
@@ -263,10 +289,7 @@ fn dependent_constraints<'a, 'g>(
             .fold((0, 0.0_f64), |best, (column, x)| if x.abs() > best.1 { (column, x.abs()) } else { best });
         // Elimination leaves roundings of what the row was.
         if size <= 1e-10 * sizes[k].max(1e-3) {
-            let contradicts = values[k].abs() > 1e-8;
-            let fault =
-                if contradicts { SystemFault::InconsistentConstraint } else { SystemFault::DependentConstraint };
-            faults.push(fault(k));
+            dependent.push((k, combinations[k].clone()));
             continue;
         }
         for later in k + 1..count {
@@ -274,10 +297,12 @@ fn dependent_constraints<'a, 'g>(
             for column in 0..rows[k].len() {
                 rows[later][column] -= factor * rows[k][column];
             }
-            values[later] -= factor * values[k];
+            for column in 0..count {
+                combinations[later][column] -= factor * combinations[k][column];
+            }
         }
     }
-    faults
+    dependent
 }
 
 /// The unknowns whose pivots vanish while A is eliminated, beside what they were.
