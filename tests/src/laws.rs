@@ -3,9 +3,9 @@
 //! Derivatives along the flow are central differences of order 8 on the curve `t + s, q ∘ exp(s q̇), z + s ż`, which touches
 //! the true motion: nothing but the kernel is needed for them, and no second scalar.
 //!
-//! What is allowed is rounding: as many units in the last place as the dearest method of the kernel has operations (worst
-//! case, each of them rounds once), of terms as large as [`Sizes`] says; and in differences, which divide it by the step, a
-//! truncation of 1e-12.
+//! What is allowed is rounding, 8√N units in the last place for methods of N operations, each of which rounds once and in
+//! either direction, of terms as large as [`Sizes`] says; and in differences, which divide it by the step, a truncation of
+//! 1e-12.
 
 use std::ops::Index;
 
@@ -102,49 +102,45 @@ impl<S: System> Flow<S> {
         sum
     }
 
-    /// What rounding of `size · roundings` and truncation leave of a difference: the weights add up to 2.1.
-    fn slack(&self, roundings: f64) -> f64 {
-        2.1 * roundings * f64::EPSILON / self.step + 1e-12
+    /// What rounding and truncation leave of a difference, in parts of what it is a difference of: the weights add up to 2.1.
+    fn slack(&self, rounding: f64) -> f64 {
+        2.1 * rounding / self.step + 1e-12
     }
 }
 
 /// How large the terms are that the results at a state are sums of; what cancels among them is not seen in the results.
+/// All are sums of magnitudes, the largest over the components.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes {
-    /// ‖A‖, the largest sum of a row.
+    /// The rows of A.
     pub mass: f64,
-    /// ‖A⁻¹‖, likewise.
-    pub inverse: f64,
     /// |q̇|, at least 1.
     pub velocity: f64,
-    /// Momenta.
+    /// Momenta, |A||z|.
     pub momentum: f64,
-    /// Generalised forces, those of inertia included.
+    /// Generalised forces, |A|(|ż| + |q̇||z|) and the slopes of the potential.
     pub force: f64,
+    /// ż, as far as A lets errors of forces through: |A⁻¹| by the forces.
+    pub acceleration: f64,
+    /// ṗ when z comes from p: |A||A⁻¹| by the forces.
+    pub returned: f64,
     /// Kinetic and potential energy.
     pub energy: f64,
-    /// ż: forces by ‖A⁻¹‖.
-    pub acceleration: f64,
-    /// The operations of the dearest method.
-    pub roundings: f64,
+    /// What N operations of the dearest method do to a result, in parts of such a term: 8√N roundings.
+    pub rounding: f64,
 }
 
 impl Sizes {
     /// At a state.
     pub fn of<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds) -> Self {
-        let unit = |i: usize| {
-            let mut e = S::Speeds::zero();
-            e.set_component(i, 1.0);
-            e
-        };
-        let matrix = system.mass_matrix(t, q);
-        let mass = (0..S::DOF).map(|i| (0..S::DOF).map(|j| matrix[(i, j)].abs()).sum()).fold(0.0, f64::max);
-        let rest = system.velocity(t, q, &S::Speeds::zero());
-        let columns: Vec<Vec<f64>> =
-            (0..S::DOF).map(|i| list(&system.velocity(t, q, &unit(i)).add_scaled(-1.0, &rest))).collect();
-        // A⁻¹ is symmetric: sums of columns are sums of rows.
-        let inverse = columns.iter().map(|c| c.iter().map(|x| x.abs()).sum()).fold(0.0, f64::max);
-        let velocity = system.kinematics(t, q, z).max_norm().max(1.0);
+        let at_rest = S::Speeds::zero();
+        let units: Vec<S::Speeds> = (0..S::DOF)
+            .map(|i| {
+                let mut e = at_rest;
+                e.set_component(i, 1.0);
+                e
+            })
+            .collect();
         let potential = system.potential_energy(t, q);
         let slopes: Vec<f64> = (0..Tangent::<S>::DIM)
             .map(|i| {
@@ -153,28 +149,41 @@ impl Sizes {
                 (system.potential_energy(t, &q.retract(&e)) - potential) / 1e-3
             })
             .collect();
+        // Rows of |A|, of |A⁻¹| (which is symmetric), and of ∂q̇/∂z by the slopes.
+        let matrix = system.mass_matrix(t, q);
+        let rows: Vec<Vec<f64>> = (0..S::DOF).map(|i| (0..S::DOF).map(|j| matrix[(i, j)].abs()).collect()).collect();
+        let (still, drift) = (system.velocity(t, q, &at_rest), system.kinematics(t, q, &at_rest));
+        let inverse: Vec<Vec<f64>> =
+            units.iter().map(|e| list(&system.velocity(t, q, e).add_scaled(-1.0, &still))).collect();
+        let weight = units.iter().map(|e| {
+            let along = list(&system.kinematics(t, q, e).add_scaled(-1.0, &drift));
+            along.iter().zip(&slopes).map(|(a, b)| (a * b).abs()).sum::<f64>()
+        });
+        let by = |rows: &[Vec<f64>], v: &[f64]| -> Vec<f64> {
+            rows.iter().map(|row| row.iter().zip(v).map(|(a, b)| (a * b).abs()).sum()).collect()
+        };
+
+        let velocity = system.kinematics(t, q, z).max_norm().max(1.0);
         let speed = z.max_norm().max(1.0);
-        let acceleration = system.acceleration(t, q, z, &()).max_norm();
-        let weight = potential.abs() + largest(&slopes);
-        let force = mass * (acceleration + speed * velocity) + weight;
+        let acceleration: Vec<f64> =
+            list(&system.acceleration(t, q, z, &())).iter().map(|a| a.abs() + speed * velocity).collect();
+        let forces: Vec<f64> = by(&rows, &acceleration).iter().zip(weight).map(|(a, b)| a + b).collect();
+        let momenta = by(&rows, &vec![speed; S::DOF]);
+        let accelerations = by(&inverse, &forces);
         let o = S::OPERATIONS;
         let methods =
             [o.acceleration, o.momentum, o.velocity, o.momentum_rate, o.gauss_residual, o.constraint_function];
-        let roundings = methods.iter().map(OperationCount::total).max().map_or(0.0, f64::from).max(16.0);
+        let operations = methods.iter().map(OperationCount::total).max().map_or(0.0, f64::from).max(16.0);
         Self {
-            mass,
-            inverse,
+            mass: largest(&by(&rows, &vec![1.0; S::DOF])),
             velocity,
-            momentum: mass * speed,
-            force,
-            energy: mass * speed * speed + weight,
-            acceleration: inverse * force,
-            roundings,
+            momentum: largest(&momenta),
+            force: largest(&forces),
+            returned: largest(&by(&rows, &accelerations)),
+            acceleration: largest(&accelerations),
+            energy: largest(&momenta) * speed + potential.abs() + largest(&slopes),
+            rounding: 8.0 * operations.sqrt() * f64::EPSILON,
         }
-    }
-
-    fn rounding(&self) -> f64 {
-        self.roundings * f64::EPSILON
     }
 }
 
@@ -203,7 +212,7 @@ fn direction<S: System>() -> S::Speeds {
 #[track_caller]
 pub fn laws<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds, time: Time) {
     let sizes = Sizes::of(system, t, q, z);
-    let rounding = sizes.rounding();
+    let rounding = sizes.rounding;
     let flow = Flow::new(system, t, q, z);
     let acceleration = flow.acceleration;
     let d = direction::<S>();
@@ -231,8 +240,7 @@ pub fn laws<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds, 
     near("momentum of the velocity", &list(&again), &list(&p), 2.0 * rounding * sizes.momentum);
 
     let rate = flow.rate(|t, q, z| list(&system.momentum(t, q, z)));
-    let conditioned = rounding * sizes.mass * sizes.inverse * sizes.force;
-    let allowed = flow.slack(sizes.roundings) * sizes.momentum + conditioned;
+    let allowed = flow.slack(rounding) * sizes.momentum + rounding * sizes.returned;
     near("ṗ along the flow", &list(&system.momentum_rate(t, q, &p, &())), &rate, allowed);
 
     let energy = |t: f64, q: &S::Configuration, z: &S::Speeds| {
@@ -242,7 +250,7 @@ pub fn laws<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds, 
         vec![if time == Time::Absent { sum } else { dot(&system.momentum(t, q, z), z) - kinetic + potential }]
     };
     let power = flow.rate(energy);
-    let allowed = flow.slack(sizes.roundings) * sizes.energy + conditioned * z.max_norm();
+    let allowed = flow.slack(rounding) * sizes.energy + rounding * sizes.returned * z.max_norm();
     if time == Time::Absent {
         let twice = [2.0 * system.kinetic_energy(t, q, z)];
         near("2T", &twice, &[dot(&p, z)], 4.0 * rounding * sizes.energy);
@@ -276,7 +284,7 @@ fn gain<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds, cons
         let rest = system.momentum(t, q, &S::Speeds::zero());
         let square = dot(&d, &system.momentum(t, q, &d).add_scaled(-1.0, &rest));
         let size = (sizes.force + sizes.mass * d.max_norm()) * d.max_norm() * S::DOF as f64;
-        let allowed = 4.0 * sizes.rounding() * size;
+        let allowed = 4.0 * sizes.rounding * size;
         near("C(ż + d) − C(ż)", &[found], &[square / 2.0 + constraints(&d)], allowed);
     }
 }
@@ -291,7 +299,7 @@ fn gain<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds, cons
 #[track_caller]
 pub fn constrained_laws<S: System + ConstrainedSystem>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds) {
     let sizes = Sizes::of(system, t, q, z);
-    let rounding = sizes.rounding();
+    let rounding = sizes.rounding;
     let flow = Flow::new(system, t, q, z);
     let count = S::Multipliers::DIM;
     let zero = vec![0.0; count];
@@ -305,7 +313,7 @@ pub fn constrained_laws<S: System + ConstrainedSystem>(system: &S, t: f64, q: &S
     assert!(change <= 100.0 * rounding * sizes.velocity * z.max_norm().max(1.0), "projecting moves the speeds");
 
     let rate = flow.rate(|t, q, z| list(&system.velocity_residual(t, q, z)));
-    let allowed = 10.0 * flow.slack(sizes.roundings) * sizes.velocity + 10.0 * rounding * sizes.acceleration;
+    let allowed = 10.0 * flow.slack(rounding) * sizes.velocity + 10.0 * rounding * sizes.acceleration;
     near("φ̈", &rate, &zero, allowed);
 
     let multipliers = system.multipliers(t, q, z, &());
@@ -326,7 +334,8 @@ pub fn position_rates<S: System + ConstrainedSystem>(system: &S, t: f64, q: &S::
     let sizes = Sizes::of(system, t, q, z);
     let flow = Flow::new(system, t, q, z);
     let rate = flow.rate(|t, q, _| list(&system.position_residual(t, q)));
-    let allowed = 100.0 * flow.slack(sizes.roundings);
+    // Numbers up to ten and their rates, as in `constrained_laws`.
+    let allowed = 10.0 * flow.slack(sizes.rounding) * sizes.velocity;
     near("φ̇", &list(&system.velocity_residual(t, q, z)), &rate, allowed);
 }
 
@@ -346,14 +355,13 @@ pub fn corresponds<A: System, B: System>(
     let flow = Flow::new(from, t, q, z);
     let (there, speeds) = map(t, q, z);
     let (a, b) = (Sizes::of(from, t, q, z), Sizes::of(to, t, &there, &speeds));
-    let roundings = a.roundings + b.roundings;
-    let rounding = roundings * f64::EPSILON;
+    let rounding = a.rounding + b.rounding;
     let kinetic = (from.kinetic_energy(t, q, z), to.kinetic_energy(t, &there, &speeds));
     near("kinetic energy", &[kinetic.1], &[kinetic.0], rounding * (a.energy + b.energy));
     let potential = (from.potential_energy(t, q), to.potential_energy(t, &there));
     near("potential energy", &[potential.1], &[potential.0], rounding * (a.energy + b.energy));
 
-    let slack = flow.slack(roundings);
+    let slack = flow.slack(rounding);
     let velocity = flow.rate(|t, q, z| list(&there.difference(&map(t, q, z).0)));
     near("velocity", &list(&to.kinematics(t, &there, &speeds)), &velocity, slack * b.velocity);
     let acceleration = flow.rate(|t, q, z| list(&map(t, q, z).1));

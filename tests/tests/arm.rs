@@ -1,0 +1,192 @@
+//! An arm of seven joints (Franka Emika Panda): accelerations at given states from recursive Newton–Euler in multiprecision
+//! arithmetic, what an evaluation costs, and what holds at every state.
+
+use std::fs;
+use std::path::Path;
+
+use gauss_runtime::prelude::*;
+use gauss_tests::laws::{Sizes, Time, corresponds, laws, least};
+use gauss_tests::trajectory::{number, numbers, reference, triple};
+use proptest::prelude::*;
+use serde_json::Value;
+
+macro_rules! arm {
+    ($(#[$documentation:meta])* $name:ident [$($clause:tt)+]) => {
+        $(#[$documentation])*
+        #[derive(GaussDynamics)]
+        #[gauss($($clause)+)]
+        struct $name {
+            #[gauss(body)]
+            b1: RigidBody<f64>,
+            #[gauss(body)]
+            b2: RigidBody<f64>,
+            #[gauss(body)]
+            b3: RigidBody<f64>,
+            #[gauss(body)]
+            b4: RigidBody<f64>,
+            #[gauss(body)]
+            b5: RigidBody<f64>,
+            #[gauss(body)]
+            b6: RigidBody<f64>,
+            #[gauss(body)]
+            b7: RigidBody<f64>,
+            #[gauss(gravity)]
+            g: f64,
+        }
+
+        impl $name {
+            fn of([b1, b2, b3, b4, b5, b6, b7]: [RigidBody<f64>; 7], g: f64) -> Self {
+                Self { b1, b2, b3, b4, b5, b6, b7, g }
+            }
+        }
+    };
+}
+
+arm!(
+    /// The frames of the public description: every joint turns about the third axis of its link.
+    Arm [
+        coordinates(q1, q2, q3, q4, q5, q6, q7),
+        body(b1, position = [0, 0, 0.333], rotation = rotation_z(q1)),
+        body(b2, parent = b1, rotation = rotation_x(-1.5707963267948966) * rotation_z(q2)),
+        body(b3, parent = b2, position = [0, -0.316, 0], rotation = rotation_x(1.5707963267948966) * rotation_z(q3)),
+        body(b4, parent = b3, position = [0.0825, 0, 0], rotation = rotation_x(1.5707963267948966) * rotation_z(q4)),
+        body(b5, parent = b4, position = [-0.0825, 0.384, 0], rotation = rotation_x(-1.5707963267948966) * rotation_z(q5)),
+        body(b6, parent = b5, rotation = rotation_x(1.5707963267948966) * rotation_z(q6)),
+        body(b7, parent = b6, position = [0.088, 0, 0], rotation = rotation_x(1.5707963267948966) * rotation_z(q7))
+    ]
+);
+
+arm!(
+    /// Axes of all links parallel to those of the base when the angles are zero.
+    StraightArm [
+        coordinates(q1, q2, q3, q4, q5, q6, q7),
+        body(b1, position = [0, 0, 0.333], rotation = rotation_z(q1)),
+        body(b2, parent = b1, rotation = rotation_y(q2)),
+        body(b3, parent = b2, position = [0, 0, 0.316], rotation = rotation_z(q3)),
+        body(b4, parent = b3, position = [0.0825, 0, 0], rotation = rotation_y(-q4)),
+        body(b5, parent = b4, position = [-0.0825, 0, 0.384], rotation = rotation_z(q5)),
+        body(b6, parent = b5, rotation = rotation_y(-q6)),
+        body(b7, parent = b6, position = [0.088, 0, 0], rotation = rotation_z(-q7))
+    ]
+);
+
+arm!(
+    /// Speeds of its own: sums of the joints' rates from the base on, which for parallel axes are angular velocities in space.
+    ArmByOtherSpeeds [
+        coordinates(q1, q2, q3, q4, q5, q6, q7),
+        speeds(s1, s2, s3, s4, s5, s6, s7),
+        kinematics(q1 = s1, q2 = s2 - s1, q3 = s3 - s2, q4 = s4 - s3, q5 = s5 - s4, q6 = s6 - s5, q7 = s7 - s6),
+        body(b1, position = [0, 0, 0.333], rotation = rotation_z(q1)),
+        body(b2, parent = b1, rotation = rotation_y(q2)),
+        body(b3, parent = b2, position = [0, 0, 0.316], rotation = rotation_z(q3)),
+        body(b4, parent = b3, position = [0.0825, 0, 0], rotation = rotation_y(-q4)),
+        body(b5, parent = b4, position = [-0.0825, 0, 0.384], rotation = rotation_z(q5)),
+        body(b6, parent = b5, rotation = rotation_y(-q6)),
+        body(b7, parent = b6, position = [0.088, 0, 0], rotation = rotation_z(-q7))
+    ]
+);
+
+type Joints = SVector<f64, 7>;
+
+/// The links of the reference under one of its two keys, moments about O.
+fn links(key: &str) -> [RigidBody<f64>; 7] {
+    let scene = reference("seven_joint_arm");
+    std::array::from_fn(|k| {
+        let link = &scene["parameters"][key][k];
+        RigidBody {
+            mass: number(&link["mass"]),
+            center_of_mass: triple(&link["centre_of_mass_body_from_O"]),
+            inertia: Matrix3::from_row_slice(&numbers(&link["inertia_about_O"])),
+        }
+    })
+}
+
+fn arms() -> (ArmKernel, StraightArmKernel, ArmByOtherSpeedsKernel) {
+    let (links, straight) = (links("links"), links("straight_links"));
+    (
+        Arm::of(links, 9.81).kernel().unwrap(),
+        StraightArm::of(straight, 9.81).kernel().unwrap(),
+        ArmByOtherSpeeds::of(straight, 9.81).kernel().unwrap(),
+    )
+}
+
+/// The reference has the masses of the public description; moments go from G to O by Steiner's theorem.
+#[test]
+fn the_reference_is_about_the_described_arm() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/panda_chain.json");
+    let chain: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    for (k, link) in links("links").iter().enumerate() {
+        let described = &chain["links"][k];
+        let mass = described["mass"].as_f64().unwrap();
+        let c = Vector3::from_fn(|i, _| described["center_of_mass"][i].as_f64().unwrap());
+        let about_center = &described["inertia_about_center_of_mass"];
+        let names = [["ixx", "ixy", "ixz"], ["ixy", "iyy", "iyz"], ["ixz", "iyz", "izz"]];
+        let about_center = Matrix3::from_fn(|i, j| about_center[names[i][j]].as_f64().unwrap());
+        let inertia = about_center + (Matrix3::identity() * c.dot(&c) - c * c.transpose()) * mass;
+        assert_eq!((link.mass, link.center_of_mass), (mass, c));
+        assert!((link.inertia - inertia).amax() <= 4.0 * f64::EPSILON, "link {k}");
+    }
+}
+
+#[test]
+fn accelerations_as_in_the_reference() {
+    let (arm, straight, _) = arms();
+    let scene = reference("seven_joint_arm");
+    let states = scene["states"].as_array().unwrap();
+    assert!(states.len() >= 8);
+    for state in states {
+        let list = |key: &str| Joints::from_iterator(numbers(&state[key]));
+        let (q, z) = (list("q"), list("q_rate"));
+        let (acceleration, momentum) = (list("q_acceleration"), list("momentum"));
+        let (kinetic, potential) = (number(&state["kinetic_energy"]), number(&state["potential_energy"]));
+        compare(&arm, &q, &z, (acceleration, momentum), (kinetic, potential));
+        compare(&straight, &q, &z, (acceleration, momentum), (kinetic, potential));
+    }
+}
+
+fn compare<S>(kernel: &S, q: &Joints, z: &Joints, expected: (Joints, Joints), (kinetic, potential): (f64, f64))
+where
+    S: gauss_tests::laws::System<Configuration = Joints, Speeds = Joints>,
+{
+    let sizes = Sizes::of(kernel, 0.0, q, z);
+    // The condition of A is in the size of the accelerations.
+    let rounding = sizes.rounding;
+    let found = kernel.acceleration(0.0, q, z, &());
+    let error = (found - expected.0).amax();
+    assert!(error <= rounding * sizes.acceleration, "{error:e}: {found} {}", expected.0);
+    let error = (kernel.momentum(0.0, q, z) - expected.1).amax();
+    assert!(error <= rounding * sizes.momentum, "{error:e}");
+    let error = kernel.kinetic_energy(0.0, q, z) - kinetic;
+    assert!(error.abs() <= rounding * sizes.energy, "{error:e}");
+    let error = kernel.potential_energy(0.0, q) - potential;
+    assert!(error.abs() <= rounding * sizes.energy, "{error:e}");
+        assert_eq!(cost.divisions, 7, "{name}: {cost}");
+        // The angle of the first joint does not enter: the base does not move, and gravity is along its axis.
+        assert!(cost.transcendentals <= 14 && cost.roots == 0, "{name}: {cost}");
+    }
+}
+
+fn to_sums(q: &Joints, z: &Joints) -> (Joints, Joints) {
+    let mut sums = *z;
+    (1..7).for_each(|k| sums[k] += sums[k - 1]);
+    (*q, sums)
+}
+
+proptest! {
+    // An evaluation is a thousand operations, and a state takes some hundred of them.
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn arms_at_random(q in prop::array::uniform7(-3.0..3.0_f64), z in prop::array::uniform7(-2.0..2.0_f64)) {
+        let (arm, straight, sums) = arms();
+        let (q, z) = (SVector::from(q), SVector::from(z));
+        laws(&arm, 0.0, &q, &z, Time::Absent);
+        least(&arm, 0.0, &q, &z);
+        laws(&straight, 0.0, &q, &z, Time::Absent);
+        corresponds(&arm, &straight, 0.0, (&q, &z), |_, q, z| (*q, *z));
+        corresponds(&straight, &sums, 0.0, (&q, &z), |_, q, z| to_sums(q, z));
+        let (q, z) = to_sums(&q, &z);
+        laws(&sums, 0.0, &q, &z, Time::Absent);
+        least(&sums, 0.0, &q, &z);
+    }
+}
