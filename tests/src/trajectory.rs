@@ -69,6 +69,9 @@ pub fn rows(rotation: &UnitQuaternion<f64>) -> Vec<f64> {
     rotation.to_rotation_matrix().into_inner().transpose().iter().copied().collect()
 }
 
+/// What is seen of a state, under the keys of the references.
+pub type Seen = Vec<(&'static str, Vec<f64>)>;
+
 /// A run: what it goes by and from where.
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a, S: GaussSystem> {
@@ -93,21 +96,17 @@ impl<S: GaussSystem<Scalar = f64, Input = ()>> Run<'_, S> {
     /// # Panics
     /// When a state is farther off than that.
     #[track_caller]
-    pub fn agrees(
-        &self,
-        stretch: f64,
-        observe: impl Fn(f64, &S::Configuration, &S::Speeds) -> Vec<(&'static str, Vec<f64>)>,
-    ) {
+    pub fn agrees(&self, stretch: f64, observe: impl Fn(f64, &S::Configuration, &S::Speeds) -> Seen) {
         self.agrees_in(VelocityForm, stretch, &observe);
         self.agrees_in(MomentumForm, stretch, &observe);
     }
 
     #[track_caller]
-    fn agrees_in<F: Form<S>>(
+    fn agrees_in(
         &self,
-        form: F,
+        form: impl Form<S>,
         stretch: f64,
-        observe: &dyn Fn(f64, &S::Configuration, &S::Speeds) -> Vec<(&'static str, Vec<f64>)>,
+        observe: &impl Fn(f64, &S::Configuration, &S::Speeds) -> Seen,
     ) {
         let Self { name, system, start: (q, z) } = self;
         let scene = reference(name);

@@ -2,7 +2,7 @@
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least, position_rates};
-use gauss_tests::trajectory::{Run, number, numbers, reference, rotation, rows, triple};
+use gauss_tests::trajectory::{Run, Seen, number, numbers, reference, rotation, rows, triple};
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -175,7 +175,7 @@ fn initial_on_axle(scene: &Value) -> OnAxle {
 }
 
 /// What the references list of both bodies.
-fn seen((hull, wheel): &(Isometry3<f64>, Isometry3<f64>), z: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
+fn seen((hull, wheel): &(Isometry3<f64>, Isometry3<f64>), z: &[f64]) -> Seen {
     vec![
         ("R", rows(&hull.rotation)),
         ("b", hull.translation.vector.as_slice().to_vec()),

@@ -3,7 +3,7 @@
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{System, Time, laws, least};
-use gauss_tests::trajectory::{Run, numbers, reference};
+use gauss_tests::trajectory::{Run, Seen, numbers, reference};
 
 #[derive(GaussDynamics)]
 #[gauss(
@@ -196,7 +196,7 @@ fn reproduces<S, const N: usize, const D: usize>(
     system: &S,
     q: [f64; N],
     z: [f64; D],
-    observe: impl Fn(f64, &SVector<f64, N>, &SVector<f64, D>) -> Vec<(&'static str, Vec<f64>)>,
+    observe: impl Fn(f64, &SVector<f64, N>, &SVector<f64, D>) -> Seen,
 ) where
     S: GaussSystem<Scalar = f64, Configuration = SVector<f64, N>, Speeds = SVector<f64, D>, Input = ()>,
 {
