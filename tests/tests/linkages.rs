@@ -270,6 +270,30 @@ fn to_parts(q: &Angles, z: &Angles) -> (Nine, Nine) {
     )
 }
 
+#[test]
+fn four_bar_linkage_as_in_the_reference() {
+    let name = "four_bar_linkage";
+    let (loops, crank, apart) = four_bars();
+    let see = |q: &Angles, z: &Angles| {
+        let bar = |k: usize, length: f64| SVector::from([length * q[k].cos(), length * q[k].sin()]);
+        let elbow = bar(0, 0.4);
+        vec![
+            ("q", q.as_slice().to_vec()),
+            ("z", z.as_slice().to_vec()),
+            ("A", elbow.as_slice().to_vec()),
+            ("B", (elbow + bar(1, 1.0)).as_slice().to_vec()),
+        ]
+    };
+    let (q, z) = closed(0.7, 6.0);
+    Run { name, system: &loops, start: (q, z) }.agrees(1.0, |_, q, z| see(q, z));
+    Run { name, system: &crank, start: (q, SVector::from([6.0])) }
+        .agrees(1.0, |t, q, z| see(q, &crank.kinematics(t, q, z)));
+    Run { name, system: &apart, start: to_parts(&q, &z) }.agrees(1.0, |_, q, z| {
+        let angles = |v: &Nine| SVector::from([v[2], v[5], v[8]]);
+        see(&angles(q), &angles(z))
+    });
+}
+
 /// A hundred revolutions and more in a hundred thousand steps: the loop stays closed to rounding, at every one of them.
 #[test]
 fn the_loop_stays_closed_for_a_hundred_thousand_steps() {
