@@ -137,7 +137,7 @@ fn the_motion_goes_from_one_steady_rotation_to_the_other() {
     let energy = kernel.energy(0.0, &rotation, &start);
     let (forward, after, final_speeds) = late(80.0);
     let (backward, before, first_speeds) = late(-80.0);
-    // It decays like e^{−kt}, k = I₁₃ω₂ + (−I₂₃)ω₁/I₂₂ = 0.38: e^{−30} of order one is left, and roundings of the run.
+    // It decays like e^{−kt} with k = I₁₃ω₂/I₁₁ − I₂₃ω₁/I₂₂ = 0.38: e^{−30} is left of it, and the errors of the run.
     assert!(forward.abs() < 1e-9 && backward.abs() < 1e-9, "{forward:e} {backward:e}");
     assert!((after - energy).abs() < 1e-10 && (before - energy).abs() < 1e-10);
     assert!((final_speeds + first_speeds).amax() < 1e-8, "{first_speeds} {final_speeds}");
