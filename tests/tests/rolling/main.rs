@@ -4,3 +4,4 @@
 mod ball;
 mod disk;
 mod disk_forces;
+mod rattleback;
