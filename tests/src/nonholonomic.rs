@@ -49,8 +49,8 @@ pub fn gains_energy<S: System>(kernel: &S, t: f64, q: &S::Configuration, z: &S::
     let sizes = Sizes::of(kernel, t, q, z);
     let found = Flow::new(kernel, t, q, z).rate(|t, q, z| vec![kernel.energy(t, q, z)])[0];
     // Differences over 1/200 of the time of a radian, with weights that add up to 2.1; their truncation; and what ż is off by.
-    let difference = 420.0 * sizes.velocity * sizes.roundings * f64::EPSILON + 1e-12;
-    let conditioned = sizes.roundings * f64::EPSILON * sizes.mass * sizes.acceleration * z.max_norm();
+    let difference = 420.0 * sizes.velocity * sizes.rounding + 1e-12;
+    let conditioned = sizes.rounding * sizes.mass * sizes.acceleration * z.max_norm();
     let allowed = difference * sizes.energy + conditioned;
     assert!((found - power).abs() <= allowed, "power {found}, not {power}, allowed {allowed:e}");
 }
