@@ -136,6 +136,30 @@ pub trait Real:
     /// Absolute value.
     fn abs(self) -> Self;
 
+    /// −1, 0 or 1, lane by lane; NaN of NaN.
+    #[inline(always)]
+    fn signum(self) -> Self {
+        let (zero, one) = (Self::zero(), Self::one());
+        Self::select_lt(zero, self, one, Self::select_lt(self, zero, -one, self))
+    }
+
+    /// The smaller, lane by lane; NaN where one of them is.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // Neither is smaller: they are equal, or one is NaN and so is their sum.
+        let half = Self::ratio(1, 2);
+        let same = self * half + other * half;
+        Self::select_lt(self, other, self, Self::select_lt(other, self, other, same))
+    }
+
+    /// The larger, lane by lane; NaN where one of them is.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        let half = Self::ratio(1, 2);
+        let same = self * half + other * half;
+        Self::select_lt(self, other, other, Self::select_lt(other, self, self, same))
+    }
+
     /// `1/self`.
     #[inline(always)]
     fn recip(self) -> Self {
@@ -314,5 +338,11 @@ mod tests {
         assert_eq!(f64::select_lt(1.0, 2.0, 3.0, f64::NAN), 3.0);
         assert_eq!(f64::select_lt(f64::NAN, 2.0, 3.0, 4.0), 4.0);
         assert_eq!(Real::atan2(1.0_f32, 1.0), core::f32::consts::FRAC_PI_4);
+        assert_eq!([2.0, 0.0, -3.0].map(<f64 as Real>::signum), [1.0, 0.0, -1.0]);
+        assert!(<f64 as Real>::signum(f64::NAN).is_nan());
+        assert_eq!([<f64 as Real>::min(1.0, 2.0), <f64 as Real>::max(1.0, 2.0)], [1.0, 2.0]);
+        assert_eq!([<f64 as Real>::min(2.0, 1.0), <f64 as Real>::max(2.0, 1.0)], [1.0, 2.0]);
+        assert_eq!(<f64 as Real>::min(f64::MAX, f64::MAX), f64::MAX);
+        assert!([<f64 as Real>::min(f64::NAN, 1.0), <f64 as Real>::max(1.0, f64::NAN)].iter().all(|x| x.is_nan()));
     }
 }

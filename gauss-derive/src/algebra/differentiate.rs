@@ -1,6 +1,6 @@
 //! Derivatives: one recursion serves partial derivatives and derivatives along a flow alike.
 
-use super::graph::{Expr, Function, NodeView};
+use super::graph::{BinaryFunction, Expr, Function, NodeView};
 use super::map::Map;
 use super::rational::Rational;
 
@@ -52,12 +52,20 @@ impl<'g> Expr<'g> {
                         Function::Exp => self,
                         Function::Ln => argument.recip(),
                         Function::Sqrt => self.recip().half(),
+                        Function::Abs => graph.call(Function::Signum, argument),
+                        Function::Signum => graph.zero(),
                     }
                 }
             }
-            NodeView::Angle(y, x) => {
+            NodeView::Binary(BinaryFunction::Atan2, y, x) => {
                 let turned = x * y.differentiate(rates, memo) - y * x.differentiate(rates, memo);
                 if turned.is_zero() { turned } else { turned * (x * x + y * y).group().recip() }
+            }
+            // Of the smaller or the larger: half the sum, and half the difference by which of them it is.
+            NodeView::Binary(function, a, b) => {
+                let (x, y) = (a.differentiate(rates, memo), b.differentiate(rates, memo));
+                let side = graph.call(Function::Signum, if function == BinaryFunction::Max { a - b } else { b - a });
+                ((x + y) + side * (x - y)).half()
             }
             NodeView::Group(inner) => inner.differentiate(rates, memo),
         };

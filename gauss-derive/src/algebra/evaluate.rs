@@ -1,6 +1,6 @@
 //! Numerical values of expressions, for checking one form of a result against another.
 
-use super::graph::{Expr, Function, NodeView};
+use super::graph::{BinaryFunction, Expr, Function, NodeView};
 use super::map::Map;
 
 impl Function {
@@ -12,6 +12,8 @@ impl Function {
             Function::Exp => x.exp(),
             Function::Ln => x.recip(),
             Function::Sqrt => 0.5 / x.sqrt(),
+            Function::Abs => Function::Signum.value(x),
+            Function::Signum => 0.0,
         }
     }
 
@@ -23,6 +25,21 @@ impl Function {
             Function::Exp => x.exp(),
             Function::Ln => x.ln(),
             Function::Sqrt => x.sqrt(),
+            Function::Abs => x.abs(),
+            // Unlike that of `f64`, zero at zero.
+            Function::Signum if x == 0.0 => 0.0,
+            Function::Signum => x.signum(),
+        }
+    }
+}
+
+impl BinaryFunction {
+    /// In double precision.
+    pub fn value(self, a: f64, b: f64) -> f64 {
+        match self {
+            BinaryFunction::Atan2 => a.atan2(b),
+            BinaryFunction::Min => a.min(b),
+            BinaryFunction::Max => a.max(b),
         }
     }
 }
@@ -50,7 +67,7 @@ impl<'a> Evaluation<'a> {
             NodeView::Sum(terms) => terms.into_iter().map(|(c, e)| c.to_f64() * self.value(e)).sum(),
             NodeView::Product(factors) => factors.into_iter().map(|(e, n)| self.value(e).powi(n)).product(),
             NodeView::Call(function, e) => function.value(self.value(e)),
-            NodeView::Angle(y, x) => self.value(y).atan2(self.value(x)),
+            NodeView::Binary(function, a, b) => function.value(self.value(a), self.value(b)),
             NodeView::Group(e) | NodeView::Opaque(e) => self.value(e),
         };
         self.values.insert(e.key(), value);
@@ -97,9 +114,13 @@ impl<'a, 'b> Tangents<'a, 'b> {
                 0.0 => 0.0,
                 rate => function.slope(self.values.value(e)) * rate,
             },
-            NodeView::Angle(y, x) => {
+            NodeView::Binary(BinaryFunction::Atan2, y, x) => {
                 let (b, a) = (self.values.value(y), self.values.value(x));
                 (a * self.along(y) - b * self.along(x)) / (a * a + b * b)
+            }
+            NodeView::Binary(function, a, b) => {
+                let first = function.value(self.values.value(a), self.values.value(b)) == self.values.value(a);
+                if first { self.along(a) } else { self.along(b) }
             }
             NodeView::Group(e) | NodeView::Opaque(e) => self.along(e),
         };

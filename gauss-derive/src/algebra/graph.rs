@@ -18,6 +18,18 @@ pub enum Function {
     Exp,
     Ln,
     Sqrt,
+    Abs,
+    /// −1, 0 or 1.
+    Signum,
+}
+
+/// A function of two arguments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum BinaryFunction {
+    /// Angle of the point (x, y), given as y and x.
+    Atan2,
+    Min,
+    Max,
 }
 
 /// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
@@ -43,8 +55,7 @@ pub(super) enum Node {
     /// Π eᵢ^nᵢ, sorted by index, exponents nonzero; no numbers and no products among the factors.
     Product(Rc<[(Id, i32)]>),
     Call(Function, Id),
-    /// Angle of the point (x, y), given as y and x.
-    Angle(Id, Id),
+    Binary(BinaryFunction, Id, Id),
     /// A sum that is to be computed once under a name: transparent for mathematics, a barrier for flattening.
     Group(Id),
     /// A constant that is to be computed once and never looked into again, not even by the normal form.
@@ -58,7 +69,7 @@ pub enum NodeView<'g> {
     Sum(Vec<(Rational, Expr<'g>)>),
     Product(Vec<(Expr<'g>, i32)>),
     Call(Function, Expr<'g>),
-    Angle(Expr<'g>, Expr<'g>),
+    Binary(BinaryFunction, Expr<'g>, Expr<'g>),
     Group(Expr<'g>),
     Opaque(Expr<'g>),
 }
@@ -260,7 +271,7 @@ impl Graph {
     pub fn call<'g>(&'g self, function: Function, argument: Expr<'g>) -> Expr<'g> {
         if argument.is_zero() {
             match function {
-                Function::Sin | Function::Sqrt => return self.zero(),
+                Function::Sin | Function::Sqrt | Function::Abs | Function::Signum => return self.zero(),
                 Function::Cos | Function::Exp => return self.one(),
                 // Not a number: it is left to whoever evaluates it.
                 Function::Ln => {}
@@ -269,7 +280,7 @@ impl Graph {
         if argument == self.one() {
             match function {
                 Function::Ln => return self.zero(),
-                Function::Sqrt => return self.one(),
+                Function::Sqrt | Function::Abs | Function::Signum => return self.one(),
                 _ => {}
             }
         }
@@ -312,7 +323,7 @@ impl<'g> Expr<'g> {
             Node::Sum(terms) => NodeView::Sum(terms.iter().map(|&(c, id)| (c, at(id))).collect()),
             Node::Product(factors) => NodeView::Product(factors.iter().map(|&(id, n)| (at(id), n)).collect()),
             Node::Call(function, id) => NodeView::Call(function, at(id)),
-            Node::Angle(y, x) => NodeView::Angle(at(y), at(x)),
+            Node::Binary(function, a, b) => NodeView::Binary(function, at(a), at(b)),
             Node::Group(id) => NodeView::Group(at(id)),
             Node::Opaque(id) => NodeView::Opaque(at(id)),
         }
@@ -365,9 +376,12 @@ impl<'g> Expr<'g> {
         self.graph.call(Function::Sqrt, self)
     }
 
-    /// The angle of the point (x, self) from the first axis, in radians.
-    pub fn atan2(self, x: Self) -> Self {
-        self.graph.intern(Node::Angle(self.id, x.id))
+    pub fn abs(self) -> Self {
+        self.graph.call(Function::Abs, self)
+    }
+
+    pub fn binary(self, function: BinaryFunction, other: Self) -> Self {
+        self.graph.intern(Node::Binary(function, self.id, other.id))
     }
 
     /// The same value as a quantity of its own: sums around it do not take it apart, so it is computed once. Factors
@@ -460,7 +474,7 @@ impl<'g> Expr<'g> {
                 self.graph.product(Rational::one(), factors)
             }
             NodeView::Call(function, argument) => self.graph.call(function, argument.rebuild(memo, leaf)),
-            NodeView::Angle(y, x) => y.rebuild(memo, leaf).atan2(x.rebuild(memo, leaf)),
+            NodeView::Binary(function, a, b) => a.rebuild(memo, leaf).binary(function, b.rebuild(memo, leaf)),
             NodeView::Group(inner) => inner.rebuild(memo, leaf).group(),
             NodeView::Opaque(inner) => inner.rebuild(memo, leaf).opaque(),
         };
@@ -479,7 +493,7 @@ impl<'g> Expr<'g> {
             NodeView::Sum(terms) => terms.into_iter().all(|(_, e)| e.is_constant(memo)),
             NodeView::Product(factors) => factors.into_iter().all(|(e, _)| e.is_constant(memo)),
             NodeView::Call(_, e) | NodeView::Group(e) | NodeView::Opaque(e) => e.is_constant(memo),
-            NodeView::Angle(y, x) => y.is_constant(memo) && x.is_constant(memo),
+            NodeView::Binary(_, a, b) => a.is_constant(memo) && b.is_constant(memo),
         };
         memo.insert(self.id, result);
         result

@@ -22,7 +22,7 @@ mod rational;
 mod tests;
 
 pub use evaluate::{Evaluation, Tangents};
-pub use graph::{Expr, Function, Graph, NodeView};
+pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView};
 pub use linear::{Solver, inverse_of_symmetric, solve_saddle, solve_symmetric};
 pub use map::Map;
 pub use polynomial::Polynomial;

@@ -168,9 +168,9 @@ impl<'g> Expander<'g> {
                     _ => self.expand(call).map(|p| (*p).clone()),
                 }
             }
-            NodeView::Angle(y, x) => {
-                let (y, x) = (self.expand(y)?.to_expr(), self.expand(x)?.to_expr());
-                Some(Polynomial::atom(y.atan2(x), 1))
+            NodeView::Binary(function, a, b) => {
+                let (a, b) = (self.expand(a)?.to_expr(), self.expand(b)?.to_expr());
+                Some(Polynomial::atom(a.binary(function, b), 1))
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Expressions for people: plain text and LaTeX.
 
-use super::graph::{Expr, Function, NodeView};
+use super::graph::{BinaryFunction, Expr, Function, NodeView};
 use super::map::Map;
 use super::rational::Rational;
 
@@ -126,6 +126,10 @@ impl Printer {
                     Function::Ln => "ln",
                     Function::Sqrt if self.latex() => return format!("\\sqrt{{{}}}", self.sum(argument)),
                     Function::Sqrt => "sqrt",
+                    Function::Abs if self.latex() => return format!("\\left|{}\\right|", self.sum(argument)),
+                    Function::Abs => "abs",
+                    Function::Signum if self.latex() => "operatorname{sgn}",
+                    Function::Signum => "signum",
                 };
                 match (self.latex(), matches!(argument.view(), NodeView::Symbol(_))) {
                     (true, true) => format!("\\{name} {}", self.sum(argument)),
@@ -133,10 +137,17 @@ impl Printer {
                     (false, _) => format!("{name}({})", self.sum(argument)),
                 }
             }
-            NodeView::Angle(y, x) => {
-                let (name, open, close) =
-                    if self.latex() { ("\\operatorname{atan2}", "\\left(", "\\right)") } else { ("atan2", "(", ")") };
-                format!("{name}{open}{}, {}{close}", self.sum(y), self.sum(x))
+            NodeView::Binary(function, a, b) => {
+                let name = match (function, self.latex()) {
+                    (BinaryFunction::Atan2, true) => "\\operatorname{atan2}",
+                    (BinaryFunction::Atan2, false) => "atan2",
+                    (BinaryFunction::Min, true) => "\\min",
+                    (BinaryFunction::Min, false) => "min",
+                    (BinaryFunction::Max, true) => "\\max",
+                    (BinaryFunction::Max, false) => "max",
+                };
+                let (open, close) = if self.latex() { ("\\left(", "\\right)") } else { ("(", ")") };
+                format!("{name}{open}{}, {}{close}", self.sum(a), self.sum(b))
             }
             NodeView::Number(value) => self.number(&value),
             NodeView::Group(inner) | NodeView::Opaque(inner) if !matches!(inner.view(), NodeView::Sum(_)) => {

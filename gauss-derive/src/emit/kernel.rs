@@ -63,6 +63,7 @@ struct Formal<'a, 'g> {
     speed_rates: &'a [Expr<'g>],
     momenta: &'a [Expr<'g>],
     residuals: &'a [Expr<'g>],
+    inputs: &'a [Expr<'g>],
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
@@ -101,12 +102,14 @@ impl<'a, 'g> Derived<'a, 'g> {
                 speed_rates: &scene.kinematics.speed_rates,
                 momenta: &scene.momenta,
                 residuals: &[],
+                inputs: &[],
             },
             Subject::System(SystemSubject { system, constraints, .. }) => Formal {
                 speeds: &system.scene.speeds,
                 speed_rates: &system.scene.speed_rates,
                 momenta: &system.scene.momenta,
                 residuals: &constraints.residuals,
+                inputs: &system.scene.inputs,
             },
         }
     }
@@ -142,7 +145,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     fn method_body(&self, method: Method) -> TokenStream {
         let private = self.private();
         let program = self.program(method);
-        let Formal { speeds, speed_rates, momenta, residuals } = self.formal();
+        let Formal { speeds, speed_rates, momenta, residuals, inputs } = self.formal();
         let mut names: Map<u32, TokenStream> = Map::default();
         let mut arguments = match self.subject {
             Subject::Body { .. } => self.body().map(|body| body.configuration_arguments()).unwrap_or_default(),
@@ -162,6 +165,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             arguments.push(vector(quote!(twist), &body.scene.twist));
         }
         arguments.push(vector(quote!(residual), residuals));
+        arguments.push(vector(quote!(input), inputs));
         for (symbol, field) in self.kernel.constant_symbols.iter().zip(self.constant_fields()) {
             names.insert(symbol.key(), quote!(self.#field));
         }
@@ -301,6 +305,10 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         }
         _ => (TokenStream::new(), None),
     };
+    let input = match derived.formal().inputs.len() {
+        0 => quote!(()),
+        count => quote!(#runtime::prelude::SVector<#ty, #count>),
+    };
     let rigid_body = derived.body().map(|body| {
         let (pose, configuration_of_pose) = body.pose_bodies();
         let six = quote!(#runtime::prelude::SVector<Self::Scalar, 6>);
@@ -351,7 +359,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
                 type Configuration = #configuration;
                 type Speeds = #runtime::prelude::SVector<#ty, #n>;
                 type MassMatrix = #runtime::prelude::SMatrix<#ty, #n, #n>;
-                type Input = ();
+                type Input = #input;
                 const DOF: ::core::primitive::usize = #n;
                 const CHART: #runtime::chart::Chart = #chart;
                 const EQUATIONS: #runtime::system::Equations = #runtime::system::Equations { text: #text, latex: #latex };

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::{Function, Map, Rational};
+use crate::algebra::{BinaryFunction, Function, Map, Rational};
 use crate::kernel::{Operand, Operation, Program};
 use crate::model::Scalar;
 
@@ -110,9 +110,14 @@ pub fn statements(
                 let (a, function) = (write(a), function_name(*function));
                 quote!(let #name = #real::#function(#a);)
             }
-            Operation::Angle(y, x) => {
-                let (y, x) = (write(y), write(x));
-                quote!(let #name = #real::atan2(#y, #x);)
+            Operation::Binary(function, a, b) => {
+                let (a, b) = (write(a), write(b));
+                let function = match function {
+                    BinaryFunction::Atan2 => quote!(atan2),
+                    BinaryFunction::Min => quote!(min),
+                    BinaryFunction::Max => quote!(max),
+                };
+                quote!(let #name = #real::#function(#a, #b);)
             }
             Operation::SineCosine(a) => {
                 let (a, s, c) = (write(a), sine(k), cosine(k));
@@ -134,6 +139,8 @@ fn function_name(function: Function) -> Ident {
         Function::Exp => "exp",
         Function::Ln => "ln",
         Function::Sqrt => "sqrt",
+        Function::Abs => "abs",
+        Function::Signum => "signum",
     };
     Ident::new(name, Span::call_site())
 }

@@ -46,7 +46,7 @@ impl<'g> Factoring<'g> {
                 let argument = self.rewrite(argument);
                 graph.call(function, argument)
             }
-            NodeView::Angle(y, x) => self.rewrite(y).atan2(self.rewrite(x)),
+            NodeView::Binary(function, a, b) => self.rewrite(a).binary(function, self.rewrite(b)),
             NodeView::Group(inner) | NodeView::Opaque(inner) => self.rewrite(inner).group_as_is(),
             NodeView::Product(factors) => {
                 let factors: Vec<_> = factors.into_iter().map(|(f, n)| (self.rewrite(f), n)).collect();

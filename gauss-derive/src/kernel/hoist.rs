@@ -65,7 +65,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
                 let argument = self.visit(argument);
                 self.graph.call(function, argument)
             }
-            NodeView::Angle(y, x) => self.visit(y).atan2(self.visit(x)),
+            NodeView::Binary(function, a, b) => self.visit(a).binary(function, self.visit(b)),
             NodeView::Group(inner) => self.visit(inner).group_as_is(),
             NodeView::Product(_) => self.term(Rational::one(), e),
             NodeView::Sum(terms) => {

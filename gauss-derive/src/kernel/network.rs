@@ -1,6 +1,6 @@
 //! Sums and products of many terms as a network of nodes, with the parts that several of them contain split off.
 
-use crate::algebra::{Expr, Function, Map, NodeView, Rational};
+use crate::algebra::{BinaryFunction, Expr, Function, Map, NodeView, Rational};
 
 /// Index of a node of a network.
 pub type Place = usize;
@@ -17,8 +17,7 @@ pub enum Node<'g> {
     /// 1/n. A quotient is a product with one, so that quotients with the same denominator share it.
     Reciprocal(Place),
     Call(Function, Place),
-    /// Angle of (y, x).
-    Angle(Place, Place),
+    Binary(BinaryFunction, Place, Place),
 }
 
 /// The nodes of one function, each once; children may follow their parents.
@@ -66,12 +65,12 @@ impl<'g> Network<'g> {
                 let argument = self.scaled(c, place);
                 (one, self.place(Node::Call(function, argument)))
             }
-            NodeView::Angle(y, x) => {
-                let [y, x] = [y, x].map(|e| {
+            NodeView::Binary(function, a, b) => {
+                let [a, b] = [a, b].map(|e| {
                     let (c, place) = self.visit(e);
                     self.scaled(c, place)
                 });
-                (one, self.place(Node::Angle(y, x)))
+                (one, self.place(Node::Binary(function, a, b)))
             }
             NodeView::Sum(terms) => {
                 let terms = terms.into_iter().map(|(c, e)| {
@@ -199,7 +198,7 @@ impl<'g> Network<'g> {
                         factors.sort_unstable();
                     }
                     Node::Reciprocal(a) | Node::Call(_, a) => follow(a),
-                    Node::Angle(y, x) => [y, x].into_iter().for_each(&mut follow),
+                    Node::Binary(_, a, b) => [a, b].into_iter().for_each(&mut follow),
                 }
             }
             self.outputs.iter_mut().for_each(|o| follow(&mut o.1));

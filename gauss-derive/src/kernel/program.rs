@@ -1,6 +1,6 @@
 //! Straight-line programs: single assignment, no loops, no branches.
 
-use crate::algebra::{Expr, Function, Map, Rational};
+use crate::algebra::{BinaryFunction, Expr, Function, Map, Rational};
 
 use super::factor::Factoring;
 use super::network::{Network, Node, Place};
@@ -34,8 +34,7 @@ pub enum Operation<'g> {
     SineCosine(Operand<'g>),
     /// Any function but sine and cosine, which come in pairs.
     Call(Function, Operand<'g>),
-    /// atan2 of y and x.
-    Angle(Operand<'g>, Operand<'g>),
+    Binary(BinaryFunction, Operand<'g>, Operand<'g>),
 }
 
 impl<'g> Operation<'g> {
@@ -45,7 +44,7 @@ impl<'g> Operation<'g> {
             | Operation::Subtract(a, b)
             | Operation::Multiply(a, b)
             | Operation::Divide(a, b)
-            | Operation::Angle(a, b) => (a, Some(b), None),
+            | Operation::Binary(_, a, b) => (a, Some(b), None),
             Operation::MultiplyAdd(a, b, c) | Operation::MultiplySubtract(a, b, c) => (a, Some(b), Some(c)),
             Operation::Negate(a) | Operation::SineCosine(a) | Operation::Call(_, a) => (a, None, None),
         };
@@ -99,7 +98,10 @@ impl<'g> Program<'g> {
                 Operation::Negate(_) => {}
                 Operation::SineCosine(_) => counts.transcendentals += 2,
                 Operation::Call(Function::Sqrt, _) => counts.roots += 1,
-                Operation::Call(..) | Operation::Angle(..) => counts.transcendentals += 1,
+                // A comparison costs what an addition costs.
+                Operation::Call(Function::Abs | Function::Signum, _)
+                | Operation::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => counts.additions += 1,
+                Operation::Call(..) | Operation::Binary(..) => counts.transcendentals += 1,
             }
         }
         counts
@@ -144,7 +146,7 @@ impl<'g> Program<'g> {
                 Operation::Negate(a) => (-at(a), 0.0),
                 Operation::SineCosine(a) => at(a).sin_cos(),
                 Operation::Call(function, a) => (function.value(at(a)), 0.0),
-                Operation::Angle(y, x) => (at(y).atan2(at(x)), 0.0),
+                Operation::Binary(function, a, b) => (function.value(at(a), at(b)), 0.0),
             };
             values.push(value);
         }
@@ -178,7 +180,7 @@ impl<'g> Writer<'g> {
                 Node::Product(factors) => open.extend(factors),
                 Node::Reciprocal(a) => open.push(*a),
                 Node::Call(_, a) => open.push(*a),
-                Node::Angle(y, x) => open.extend([*y, *x]),
+                Node::Binary(_, a, b) => open.extend([*a, *b]),
             }
         }
         Self { network, uses, written: Map::default(), negated: Map::default(), instructions: Vec::new() }
@@ -213,7 +215,10 @@ impl<'g> Writer<'g> {
                 let a = self.operand(a);
                 self.push(Operation::Divide(Operand::Number(Rational::one()), a))
             }
-            Node::Call(function @ (Function::Exp | Function::Ln | Function::Sqrt), a) => {
+            Node::Call(
+                function @ (Function::Exp | Function::Ln | Function::Sqrt | Function::Abs | Function::Signum),
+                a,
+            ) => {
                 let a = self.operand(a);
                 self.push(Operation::Call(function, a))
             }
@@ -232,9 +237,9 @@ impl<'g> Writer<'g> {
                     _ => Operand::Cosine(index),
                 }
             }
-            Node::Angle(y, x) => {
-                let (y, x) = (self.operand(y), self.operand(x));
-                self.push(Operation::Angle(y, x))
+            Node::Binary(function, a, b) => {
+                let (a, b) = (self.operand(a), self.operand(b));
+                self.push(Operation::Binary(function, a, b))
             }
             Node::Sum(terms) => self.sum(&terms),
         };

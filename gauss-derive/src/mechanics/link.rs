@@ -173,6 +173,15 @@ impl<'g> Link<'g> {
         (0..3).find(|&axis| !still(axis) && still((axis + 1) % 3) && still((axis + 2) % 3))
     }
 
+    /// Components in working axes, of a vector given in body axes or in observer's.
+    pub fn in_working_axes(&self, a: &Triple<'g>, axes: Axes) -> Triple<'g> {
+        match (axes, &self.planar) {
+            (Axes::Body, Some(turn)) => turn.vector(a),
+            (Axes::Body, None) => *a,
+            (Axes::Space, _) => self.frame.to_body(a),
+        }
+    }
+
     /// Whether nothing is joined to it: its velocities may then keep parts in both frames.
     pub fn is_alone(&self) -> bool {
         self.parent.is_none() && !self.has_children

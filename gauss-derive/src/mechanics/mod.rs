@@ -10,6 +10,7 @@
 //! - `turn`, `link`: bodies, frames and particles, each relative to its parent.
 //! - `moments`, `regroup`: what their matter amounts to, and what of it moves with the parent as well.
 //! - `tree`, `articulated`: sums over links by recursion, and A ż = r solved link by link.
+//! - `forces`: what acts beside weight and potentials.
 //! - `constraint`: what coordinates and speeds do not solve by themselves.
 //! - `elimination`: constraints solved for the speeds that depend on others.
 //! - `system`, `system_check`, `system_equations`: the equations of bodies and particles in coordinates of their own.
@@ -23,6 +24,7 @@ mod check;
 mod constraint;
 mod elimination;
 mod equations;
+mod forces;
 mod gauss;
 mod link;
 mod methods;
@@ -52,6 +54,7 @@ pub use check::check_against_definition;
 pub use constraint::{Constraint, ConstraintKind, Constraints};
 pub use elimination::{Elimination, Obstacle};
 pub use equations::Section;
+pub use forces::{Force, ForceKind};
 pub use link::{Matter, Placement, identity};
 pub use methods::{Formula, Method, Scene};
 pub use names::Name;

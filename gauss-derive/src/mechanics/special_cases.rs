@@ -44,7 +44,7 @@ fn a_chart_is_a_system_of_one_link() {
         };
         let condition = stationarity(&scene.kinematics, &scene.body);
         for inertia in [Inertia::Tensor, Inertia::Field] {
-            same("the residual", tree.residual(&along, inertia), condition.clone());
+            same("the residual", tree.residual(&along, inertia, &[]), condition.clone());
         }
         same("the momentum", tree.momentum(), scene.momentum());
         same("the forces", tree.weights(), scene.generalised_forces());

@@ -6,6 +6,7 @@ use crate::algebra::{Expr, Graph, Map, solve_symmetric};
 use super::articulated::Articulated;
 use super::constraint::{Constraint, Constraints};
 use super::equations::tidy;
+use super::forces::Force;
 use super::methods::{Formula, Method};
 use super::names::Name;
 use super::tree::{Inertia, Tree};
@@ -65,6 +66,9 @@ pub struct SystemScene<'g> {
     /// Acceleration of free fall, observer's axes.
     pub gravity: Option<Triple<'g>>,
     pub constraints: Vec<Constraint<'g>>,
+    /// Values that arrive at run time.
+    pub inputs: Vec<Expr<'g>>,
+    pub forces: Vec<Force<'g>>,
 }
 
 /// A system with what its equations are made of.
@@ -185,13 +189,21 @@ impl<'g> System<'g> {
 
     /// `R·a_α + M_O·o_α` of weight and buoyancy, and the potential's.
     pub fn generalised_forces(&self) -> Vec<Expr<'g>> {
-        sums(&self.scene.tree.weights(), &self.potential_forces())
+        let loads = self.scene.tree.loads(&self.scene.forces);
+        sums(&sums(&self.scene.tree.weights(), &loads), &self.other_forces())
+    }
+
+    /// Of the potential, and of what acts elsewhere than on links.
+    fn other_forces(&self) -> Vec<Expr<'g>> {
+        let scene = &self.scene;
+        let acting = scene.forces.iter().filter_map(|force| force.kind.generalised(&scene.speeds, &scene.rates));
+        acting.fold(self.potential_forces(), |sum, forces| sums(&sum, &forces))
     }
 
     /// ∂C/∂ż of the unconstrained C.
     fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia) -> Vec<Expr<'g>> {
-        let inertia = self.scene.tree.residual(along, inertia);
-        inertia.into_iter().zip(self.potential_forces()).map(|(r, f)| r - f).collect()
+        let inertia = self.scene.tree.residual(along, inertia, &self.scene.forces);
+        inertia.into_iter().zip(self.other_forces()).map(|(r, f)| r - f).collect()
     }
 
     /// ż and λ: `A ż = −∂C/∂ż(ż = 0) + Jᵀλ`.
@@ -263,7 +275,7 @@ impl<'g> System<'g> {
         let of_momenta: Map<u32, Expr<'g>> =
             self.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
         let rows = bracket.into_iter().zip(self.generalised_forces());
-        rows.map(|(bracket, force)| bracket.substitute(&of_momenta) + force).collect()
+        rows.map(|(bracket, force)| bracket.substitute(&of_momenta) + force.substitute(&of_momenta)).collect()
     }
 
     /// T, link by link and, where velocities are homogeneous in z, as ½ p·z.

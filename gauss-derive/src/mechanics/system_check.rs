@@ -5,10 +5,12 @@ use crate::algebra::{Evaluation, Expr, Map, Rational, Tangents};
 
 use super::check::{Disagreement, agree};
 use super::constraint::ConstraintKind;
+use super::forces::ForceKind;
 use super::link::{Link, Matter};
 use super::methods::{Formula, Method};
 use super::rotation::rotation_of_quaternion;
 use super::system::{Coordinate, System};
+use super::vector::Axes;
 
 /// What is found wrong with a system at a pseudo-random state.
 #[derive(Debug)]
@@ -103,6 +105,55 @@ impl<'a, 'g> Witness<'a, 'g> {
         }
         for (row, fluid) in rows.iter_mut().zip(self.fluid(&flow)) {
             *row += fluid;
+        }
+        for (row, force) in rows.iter_mut().zip(self.forces(&partials)) {
+            *row -= force;
+        }
+        rows
+    }
+
+    /// `Σ F·∂v/∂z^α` over what acts, with velocities differentiated from positions. `partials` are those of the links.
+    fn forces(&self, partials: &[Vec<f64>]) -> Vec<f64> {
+        let scene = &self.system.scene;
+        let mut rows = vec![0.0; scene.speeds.len()];
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        for force in &scene.forces {
+            match &force.kind {
+                ForceKind::AtPoint { at, force } => {
+                    let velocity = at.map(|e| e.derivative(&scene.rates));
+                    let force = self.values(force);
+                    let partials = self.partials(&velocity);
+                    rows.iter_mut().zip(partials).for_each(|(row, w)| *row += dot(&force, &w));
+                }
+                ForceKind::OnRate { rate, force } => {
+                    let force = self.values([force]);
+                    let partials = self.partials(&[*rate]);
+                    rows.iter_mut().zip(partials).for_each(|(row, w)| *row += dot(&force, &w));
+                }
+                ForceKind::Dissipation(function) => {
+                    rows.iter_mut().zip(self.partials(&[*function])).for_each(|(row, w)| *row -= w[0]);
+                }
+                ForceKind::OnLink { link, at, force, torque, axes } => {
+                    let r: Vec<f64> = self.values(scene.tree.links[*link].rotation.iter().flatten());
+                    let in_space = |a: &[Expr<'g>; 3], axes: Axes| -> Vec<f64> {
+                        let a = self.values(a);
+                        match axes {
+                            Axes::Space => a,
+                            Axes::Body => (0..3).map(|i| dot(&r[3 * i..3 * i + 3], &a)).collect(),
+                        }
+                    };
+                    let (force, torque, at) = (in_space(force, *axes), in_space(torque, *axes), self.values(at));
+                    let axis = |j: usize| [r[j], r[3 + j], r[6 + j]];
+                    for (row, partial) in rows.iter_mut().zip(partials) {
+                        let w = field(partial, *link);
+                        let moved: Vec<f64> =
+                            (0..3).map(|i| w[0][i] + (0..3).map(|j| at[j] * w[j + 1][i]).sum::<f64>()).collect();
+                        // o_α = ½ Σ e_j × ∂ė_j/∂z^α.
+                        let turned = (0..3).map(|j| dot(&torque, &cross(&axis(j), &w[j + 1]))).sum::<f64>();
+                        *row += dot(&force, &moved) + 0.5 * turned;
+                    }
+                }
+            }
         }
         rows
     }

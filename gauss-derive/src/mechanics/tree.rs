@@ -4,6 +4,7 @@
 use crate::algebra::{Expr, Graph, Map};
 
 use super::body::Body;
+use super::forces::Force;
 use super::link::{Link, Placement, impulse};
 use super::moments::Moments;
 use super::momentum::Weight;
@@ -176,12 +177,30 @@ impl<'g> Tree<'g> {
         matrix
     }
 
-    /// `∂C/∂ż` without the potential: `∫(a_P − g)·w_α dm` and the fluid's share, with ż by its rates in `along`.
-    pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia) -> Vec<Expr<'g>> {
+    /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm` and the fluid's share, with ż by its rates in `along`.
+    pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
         let accelerations = self.accelerations(along);
-        let forces = self.links.iter().zip(&accelerations);
-        let forces = forces.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
-        self.projected(&self.gathered(forces))
+        let inertia_forces = self.links.iter().zip(&accelerations);
+        let mut pairs: Pairs<'g> =
+            inertia_forces.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
+        for (link, force, torque) in forces.iter().filter_map(|force| force.kind.load(&self.links)) {
+            let (linear, angular) = &mut pairs[link];
+            *linear = linear.minus(&force).map(Expr::group);
+            *angular = subtract(angular, &torque).map(Expr::group);
+        }
+        self.projected(&self.gathered(pairs))
+    }
+
+    /// `R·a_α + M_O·o_α` of the forces that act on links.
+    pub fn loads(&self, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
+        let none = [self.graph.zero(); 3];
+        let mut pairs: Pairs<'g> = self.links.iter().map(|link| (link.frame.zero(), none)).collect();
+        for (link, force, torque) in forces.iter().filter_map(|force| force.kind.load(&self.links)) {
+            let (linear, angular) = &mut pairs[link];
+            *linear = linear.plus(&force);
+            *angular = add(angular, &torque);
+        }
+        self.projected(&self.gathered(pairs))
     }
 
     /// `a_O − g` and ω̇ of every link; uniform gravity is an acceleration of the observer.

@@ -147,6 +147,8 @@ impl<'a, 'g> Translator<'a, 'g> {
             potential,
             gravity: self.declared.gravity,
             constraints,
+            inputs: Vec::new(),
+            forces: Vec::new(),
         })
     }
 

@@ -3,7 +3,7 @@
 use proc_macro2::Span;
 use syn::ext::IdentExt;
 
-use crate::algebra::{Expr, Graph, Map, Rational};
+use crate::algebra::{BinaryFunction, Expr, Graph, Map, Rational};
 use crate::mechanics::{Axes, Tree, Turn, about_axis, identity};
 use crate::model::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 
@@ -210,7 +210,7 @@ impl<'g> Translator<'_, 'g> {
             (FunctionName::Exp, [a]) => Value::Scalar(scalar(a)?.exp()),
             (FunctionName::Ln, [a]) => Value::Scalar(scalar(a)?.ln()),
             (FunctionName::Sqrt, [a]) => Value::Scalar(scalar(a)?.sqrt()),
-            (FunctionName::Atan2, [y, x]) => Value::Scalar(scalar(y)?.atan2(scalar(x)?)),
+            (FunctionName::Atan2, [y, x]) => Value::Scalar(scalar(y)?.binary(BinaryFunction::Atan2, scalar(x)?)),
             (FunctionName::RotationX, [a]) => turn(0, a)?,
             (FunctionName::RotationY, [a]) => turn(1, a)?,
             (FunctionName::RotationZ, [a]) => turn(2, a)?,
