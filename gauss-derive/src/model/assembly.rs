@@ -90,6 +90,8 @@ pub(super) fn system(
         independent: statements.independent.map(|independent| independent.names),
         limit: statements.limit.and_then(|(_, limit)| limit),
         potential: statements.potential.and_then(|(_, potential)| potential),
+        inputs: Vec::new(),
+        forces: Vec::new(),
     })
 }
 

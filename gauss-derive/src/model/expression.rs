@@ -25,7 +25,7 @@ pub enum ExpressionKind {
         /// Below the line.
         denominator: i64,
     },
-    /// A coordinate, a speed, a field that is a scalar or a vector, a point, or `t`.
+    /// A coordinate, a speed, an input, a field that is a scalar or a vector, a point, or `t`.
     Name(Ident),
     /// `arm.position`: of a body, a frame or a coordinate that is a pose, which is the name before it.
     Property(Box<Expression>, Property),
@@ -87,8 +87,16 @@ pub enum FunctionName {
     Twist,
     /// Inverse of a rotation.
     Inverse,
-    /// Time derivative of a scalar or a vector of t and q: only in constraints of velocities.
+    /// Time derivative of a scalar or a vector of t and q: only in constraints of velocities and values of forces.
     Rate,
+    /// Absolute value: only in values of forces, since its derivative jumps.
+    Abs,
+    /// The lesser of two: only in values of forces, since its derivative jumps.
+    Min,
+    /// The greater of two: only in values of forces, since its derivative jumps.
+    Max,
+    /// √(a² + b²).
+    Hypot,
 }
 
 /// What can be asked of a body or a frame, all of it in observer axes; of a coordinate that is a pose, the first two.
@@ -98,9 +106,9 @@ pub enum Property {
     Position,
     /// R: from the axes e to the axes k.
     Rotation,
-    /// The velocity of O; only in constraints of velocities.
+    /// The velocity of O; only in constraints of velocities and values of forces.
     Velocity,
-    /// ω; only in constraints of velocities.
+    /// ω; only in constraints of velocities and values of forces.
     AngularVelocity,
 }
 

@@ -29,6 +29,10 @@ pub(super) const FUNCTIONS: &Table<Function> = &[
     ("inverse", Function::Named(FunctionName::Inverse)),
     ("twist", Function::Named(FunctionName::Twist)),
     ("rate", Function::Named(FunctionName::Rate)),
+    ("abs", Function::Named(FunctionName::Abs)),
+    ("min", Function::Named(FunctionName::Min)),
+    ("max", Function::Named(FunctionName::Max)),
+    ("hypot", Function::Named(FunctionName::Hypot)),
 ];
 
 impl Function {
@@ -71,12 +75,22 @@ impl FunctionName {
             FunctionName::Twist => "twist",
             FunctionName::Inverse => "inverse",
             FunctionName::Rate => "rate",
+            FunctionName::Abs => "abs",
+            FunctionName::Min => "min",
+            FunctionName::Max => "max",
+            FunctionName::Hypot => "hypot",
         }
     }
 
     fn arguments(self) -> usize {
         match self {
-            FunctionName::Dot | FunctionName::Cross | FunctionName::Atan2 | FunctionName::Twist => 2,
+            FunctionName::Dot
+            | FunctionName::Cross
+            | FunctionName::Atan2
+            | FunctionName::Twist
+            | FunctionName::Min
+            | FunctionName::Max
+            | FunctionName::Hypot => 2,
             _ => 1,
         }
     }

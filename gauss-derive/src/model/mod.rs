@@ -55,8 +55,8 @@ mod validate;
 
 pub use expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 pub use system::{
-    BodyClause, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, ParticleClause, PointClause, Speed,
-    SpeedKind, SystemField, SystemModel,
+    BodyClause, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, ForceAxes, ForceClause, ForceKind,
+    InputName, ParticleClause, PointClause, Speed, SpeedKind, SystemField, SystemModel,
 };
 
 use context::Context;

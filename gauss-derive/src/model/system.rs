@@ -1,4 +1,4 @@
-//! A system as the user wrote it, checked: own coordinates and speeds, bodies, particles and constraints.
+//! A system as the user wrote it, checked: own coordinates and speeds, bodies, particles, constraints and forces.
 
 use super::{Expression, Role, Scalar, Shape};
 use proc_macro2::Span;
@@ -41,6 +41,10 @@ pub struct SystemModel {
     pub limit: Option<usize>,
     /// The potential energy besides that of gravity: a scalar of t and q.
     pub potential: Option<Expression>,
+    /// Values that arrive at run time, in order.
+    pub inputs: Vec<InputName>,
+    /// What acts besides gravity and the potential, in the order in which it is written.
+    pub forces: Vec<ForceClause>,
 }
 
 /// One field of the struct of a system.
@@ -159,4 +163,88 @@ pub enum ConstraintKind {
     Position,
     /// φ(t, q, z) = 0.
     Velocity,
+}
+
+/// One value that arrives at run time, or three under one name.
+#[derive(Clone)]
+pub struct InputName {
+    /// Its name.
+    pub ident: Ident,
+    /// How many it stands for.
+    pub kind: SpeedKind,
+}
+
+/// `force(…)`, `torque(…)`, `drive(…)`, `spring(…)` or `damping = …`: an element of what acts.
+#[derive(Clone)]
+pub struct ForceClause {
+    /// What its generalised force is called, different from every other name of the system; `None` if it has no name.
+    pub name: Option<Ident>,
+    /// What acts, and where.
+    pub kind: ForceKind,
+    /// The word that the clause begins with.
+    pub span: Span,
+}
+
+/// What acts. A value may depend on t, q, z and the inputs; a place on t and q only.
+#[derive(Clone)]
+pub enum ForceKind {
+    /// `force(at = …, value = …)`: at the point that has this position.
+    AtPoint {
+        /// A vector of t and q: observer axes from Ω.
+        at: Expression,
+        /// A vector: observer axes.
+        value: Expression,
+    },
+    /// `force(body = …, at = …, value = …, axes = …)`: at a point fixed in a body or a frame.
+    OnBody {
+        /// The body or frame.
+        body: Ident,
+        /// A vector of fields and numbers: body axes from O; `None`: at O.
+        at: Option<Expression>,
+        /// A vector.
+        value: Expression,
+        /// Those of the value.
+        axes: ForceAxes,
+    },
+    /// `torque(body = …, value = …, axes = …, reaction = …)`.
+    Torque {
+        /// The body or frame that it acts on.
+        body: Ident,
+        /// A vector.
+        value: Expression,
+        /// Those of the value: the observer's, or those of `body`, never of `reaction`.
+        axes: ForceAxes,
+        /// The body or frame that the opposite torque acts on, another one than `body`.
+        reaction: Option<Ident>,
+    },
+    /// `drive(theta = …)`: generalised forces; each one delivers the power of its value times the rate of its coordinate.
+    Drive {
+        /// Scalar coordinates, each once, with scalars.
+        rates: Vec<(Ident, Expression)>,
+    },
+    /// `spring(from = …, to = …, stiffness = …, length = …, damping = …)`: along the line between two points.
+    Spring {
+        /// A vector of t and q: observer axes from Ω.
+        from: Expression,
+        /// A vector of t and q: observer axes from Ω.
+        to: Expression,
+        /// Force by elongation: a scalar of fields and numbers.
+        stiffness: Expression,
+        /// The distance without force: a scalar of fields and numbers; `None`: zero.
+        length: Option<Expression>,
+        /// Force by rate of elongation: a scalar of fields and numbers; `None`: zero.
+        damping: Option<Expression>,
+    },
+    /// `damping = …`: Rayleigh's dissipation function, a scalar whose negative partial derivatives by z are the
+    /// generalised forces.
+    Dissipation(Expression),
+}
+
+/// The axes that the components of a force or a torque are taken in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceAxes {
+    /// e, of the body that it acts on.
+    Body,
+    /// k.
+    Observer,
 }

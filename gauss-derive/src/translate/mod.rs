@@ -129,6 +129,9 @@ impl<'a, 'g> Translator<'a, 'g> {
                 turns: Vec::new(),
             });
         }
+        if let Some(clause) = model.forces.first() {
+            return Err(bug(clause.span));
+        }
         let potential = model.potential.as_ref().map(|e| self.scalar(e, &tree)).transpose()?;
         let constraints = self.constraints(&tree)?;
         tree.settle();
