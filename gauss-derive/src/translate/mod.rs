@@ -2,8 +2,10 @@
 //!
 //! - `symbols`: what every field, coordinate and speed is called, and where the value of each symbol is read.
 //! - `values`: expressions.
+//! - `forces`: what acts.
 //! - here: the scene, part by part, in the order in which one part can name another.
 
+mod forces;
 mod symbols;
 mod values;
 
@@ -129,10 +131,11 @@ impl<'a, 'g> Translator<'a, 'g> {
                 turns: Vec::new(),
             });
         }
-        if let Some(clause) = model.forces.first() {
-            return Err(bug(clause.span));
+        let mut potential = model.potential.as_ref().map(|e| self.scalar(e, &tree)).transpose()?;
+        let (forces, elastic) = self.forces(&tree)?;
+        for energy in elastic {
+            potential = Some(potential.map_or(energy, |sum| sum + energy));
         }
-        let potential = model.potential.as_ref().map(|e| self.scalar(e, &tree)).transpose()?;
         let constraints = self.constraints(&tree)?;
         tree.settle();
         Ok(SystemScene {
@@ -150,8 +153,8 @@ impl<'a, 'g> Translator<'a, 'g> {
             potential,
             gravity: self.declared.gravity,
             constraints,
-            inputs: Vec::new(),
-            forces: Vec::new(),
+            inputs: self.declared.inputs.clone(),
+            forces,
         })
     }
 
@@ -167,14 +170,24 @@ impl<'a, 'g> Translator<'a, 'g> {
         }
         // Angular velocities are known once the kinematics are.
         self.name_rotations(&vec![self.graph.zero(); self.declared.size()]);
+        let mut inputs = self.declared.inputs.iter().copied();
+        for input in &self.model.inputs {
+            let value = self.components(input.kind, &mut inputs);
+            self.names.insert(input.ident.unraw().to_string(), value);
+        }
         let mut values = values.iter().copied();
         for speed in self.model.speeds.iter().flatten() {
-            let mut next = || values.next().unwrap_or_else(|| self.graph.zero());
-            let value = match speed.kind {
-                model::SpeedKind::Scalar => Value::Scalar(next()),
-                model::SpeedKind::Vector => Value::Vector([next(), next(), next()]),
-            };
+            let value = self.components(speed.kind, &mut values);
             self.names.insert(speed.ident.unraw().to_string(), value);
+        }
+    }
+
+    /// The value of one name, or of three under one.
+    fn components(&self, kind: model::SpeedKind, symbols: &mut dyn Iterator<Item = Expr<'g>>) -> Value<'g> {
+        let mut next = || symbols.next().unwrap_or_else(|| self.graph.zero());
+        match kind {
+            model::SpeedKind::Scalar => Value::Scalar(next()),
+            model::SpeedKind::Vector => Value::Vector([next(), next(), next()]),
         }
     }
 

@@ -39,6 +39,8 @@ pub struct Declared<'g> {
     pub momentum_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
     pub momenta: Vec<Expr<'g>>,
+    /// Values that arrive at run time.
+    pub inputs: Vec<Expr<'g>>,
     /// Acceleration of free fall, observer's axes.
     pub gravity: Option<[Expr<'g>; 3]>,
     /// Fields that expressions can name.
@@ -74,16 +76,22 @@ fn coordinate<'g>(graph: &'g Graph, written: &model::Coordinate) -> Coordinate<'
     }
 }
 
+fn components(name: &Name) -> Vec<Name> {
+    (0..3).map(|i| name.index(i)).collect()
+}
+
+/// Names of scalars, and of the components of vectors.
+fn named(all: &[(&Ident, SpeedKind)]) -> Vec<Name> {
+    let names = all.iter().map(|(ident, kind)| match kind {
+        SpeedKind::Scalar => vec![name_of(ident)],
+        SpeedKind::Vector => components(&name_of(ident)),
+    });
+    names.flatten().collect()
+}
+
 fn speed_names(model: &SystemModel) -> Vec<Name> {
-    let components = |name: &Name| (0..3).map(|i| name.index(i)).collect::<Vec<_>>();
     match &model.speeds {
-        Some(speeds) => speeds
-            .iter()
-            .flat_map(|z| match z.kind {
-                SpeedKind::Scalar => vec![name_of(&z.ident)],
-                SpeedKind::Vector => components(&name_of(&z.ident)),
-            })
-            .collect(),
+        Some(speeds) => named(&speeds.iter().map(|z| (&z.ident, z.kind)).collect::<Vec<_>>()),
         None => model
             .coordinates
             .iter()
@@ -143,6 +151,10 @@ impl<'g> Declared<'g> {
             speed_rates: symbols(&Name::rate),
             momenta: momentum_names.iter().map(|z| symbol(graph, &Name::new("p", "p").of(z), false)).collect(),
             momentum_names,
+            inputs: named(&model.inputs.iter().map(|z| (&z.ident, z.kind)).collect::<Vec<_>>())
+                .iter()
+                .map(|name| symbol(graph, name, false))
+                .collect(),
             gravity: None,
             fields: Vec::new(),
             bodies: Vec::new(),
@@ -278,7 +290,7 @@ impl<'g> Declared<'g> {
     }
 }
 
-fn name_of(ident: &Ident) -> Name {
+pub fn name_of(ident: &Ident) -> Name {
     const GREEK: [&str; 22] = [
         "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",
         "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega",

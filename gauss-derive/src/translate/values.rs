@@ -211,6 +211,13 @@ impl<'g> Translator<'_, 'g> {
             (FunctionName::Ln, [a]) => Value::Scalar(scalar(a)?.ln()),
             (FunctionName::Sqrt, [a]) => Value::Scalar(scalar(a)?.sqrt()),
             (FunctionName::Atan2, [y, x]) => Value::Scalar(scalar(y)?.binary(BinaryFunction::Atan2, scalar(x)?)),
+            (FunctionName::Abs, [a]) => Value::Scalar(scalar(a)?.abs()),
+            (FunctionName::Min, [a, b]) => Value::Scalar(scalar(a)?.binary(BinaryFunction::Min, scalar(b)?)),
+            (FunctionName::Max, [a, b]) => Value::Scalar(scalar(a)?.binary(BinaryFunction::Max, scalar(b)?)),
+            (FunctionName::Hypot, [a, b]) => {
+                let (a, b) = (scalar(a)?, scalar(b)?);
+                Value::Scalar((a * a + b * b).sqrt())
+            }
             (FunctionName::RotationX, [a]) => turn(0, a)?,
             (FunctionName::RotationY, [a]) => turn(1, a)?,
             (FunctionName::RotationZ, [a]) => turn(2, a)?,
