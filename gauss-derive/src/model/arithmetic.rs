@@ -17,7 +17,7 @@ use syn::{
 /// What there is, for messages about what there is not.
 pub(super) const ALLOWED: &str = "expressions are made of numbers, names, `+ - * /`, brackets, vectors `[a, b, c]`, \
      components `a.x` or `a[0]`, positions and rotations such as `arm.position`, and the functions sin, cos, tan, exp, \
-     ln, sqrt, powi, atan2, dot, cross, rotation_x, rotation_y, rotation_z, inverse, twist and rate";
+     ln, sqrt, powi, atan2, dot, cross, rotation_x, rotation_y, rotation_z, inverse, twist, rate, abs, min, max and hypot";
 
 /// Reads the tokens that `owner` is said to be.
 pub(super) fn read(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Expression> {

@@ -4,6 +4,7 @@ use super::bodies;
 use super::constraints;
 use super::context::Context;
 use super::fields::{Field, Reader};
+use super::forces;
 use super::kinds;
 use super::motion;
 use super::naming::{self, same};
@@ -13,7 +14,7 @@ use super::scope::{Meaning, Scope};
 use super::shapes::{Element, Kind};
 use super::statements::{Statement, Statements};
 use super::validate;
-use super::{Expression, Role, Scalar, Shape, SystemField, SystemModel};
+use super::{Expression, ForceClause, Role, Scalar, Shape, SystemField, SystemModel};
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 use syn::{DeriveInput, GenericParam};
@@ -33,7 +34,7 @@ pub(super) fn system(
     let scalar = validate::common_scalar(&reader.fields);
     let scalar_name = validate::scalar_name(scalar.as_ref(), input);
     let (shapes, owners) = validate::shapes(&reader, scalar.as_ref(), &scalar_name, "system", context);
-    let uncertain = clauses.unsupported || reader.unsupported || statements.missed;
+    let uncertain = statements.missed;
 
     naming::check(&statements, &reader.fields, context);
     motion::check_kinematics(&statements, uncertain, context);
@@ -46,6 +47,7 @@ pub(super) fn system(
             kinds::check(expression, place, &scope, context);
         }
     }
+    forces::check(&statements, context);
     constraints::check(&mut statements, &scope, uncertain, context);
     if statements.coordinates.is_none() && !uncertain {
         let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
@@ -53,6 +55,7 @@ pub(super) fn system(
     }
     if context.is_clean() {
         motion::check_dependence(&statements, &expressions(&statements), context);
+        forces::check_effect(&statements, context);
     }
     let scalar = match scalar {
         Some(scalar) => scalar,
@@ -90,8 +93,8 @@ pub(super) fn system(
         independent: statements.independent.map(|independent| independent.names),
         limit: statements.limit.and_then(|(_, limit)| limit),
         potential: statements.potential.and_then(|(_, potential)| potential),
-        inputs: Vec::new(),
-        forces: Vec::new(),
+        inputs: statements.inputs.map_or_else(Vec::new, |inputs| inputs.names),
+        forces: statements.forces,
     })
 }
 
@@ -128,6 +131,7 @@ fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
     if let Some((_, Some(potential))) = &statements.potential {
         all.push((Place::Potential, potential));
     }
+    all.extend(statements.forces.iter().flat_map(ForceClause::expressions));
     all.extend(statements.constraints.iter().map(|clause| (Place::Constraint(clause.kind), &clause.expression)));
     all
 }
@@ -205,11 +209,13 @@ fn check_masses(
 fn scope(statements: &Statements, fields: &[Field<'_>], shapes: &[Shape], scalar: &str, uncertain: bool) -> Scope {
     let coordinates = statements.coordinates.as_ref();
     let speeds = statements.speeds.as_ref();
+    let inputs = statements.inputs.as_ref();
     // Without a clause of coordinates, or of speeds where there are kinematics, every name is one that is missing there.
     let complete = !uncertain
         && !statements.missed_any(&[Statement::Frame, Statement::Point])
         && coordinates.is_some_and(|names| names.complete)
-        && speeds.map_or(statements.kinematics.is_none(), |names| names.complete);
+        && speeds.map_or(statements.kinematics.is_none(), |names| names.complete)
+        && inputs.is_none_or(|names| names.complete);
     let unnamed = statements.has_unnamed_body().then(|| bodies::unnamed(scalar));
     let mut scope = Scope::new(complete, unnamed);
     for coordinate in coordinates.iter().flat_map(|names| &names.names) {
@@ -217,6 +223,9 @@ fn scope(statements: &Statements, fields: &[Field<'_>], shapes: &[Shape], scalar
     }
     for speed in speeds.iter().flat_map(|names| &names.names) {
         scope.add(&speed.ident, Meaning::Speed(speed.kind));
+    }
+    for input in inputs.iter().flat_map(|names| &names.names) {
+        scope.add(&input.ident, Meaning::Input(input.kind));
     }
     for (field, shape) in fields.iter().zip(shapes) {
         scope.add(field.ident, meaning(field, *shape, scalar));

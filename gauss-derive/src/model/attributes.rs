@@ -26,6 +26,14 @@ pub(super) enum Place {
     Point,
     /// In the brackets of `constraint(…)`.
     Constraint,
+    /// In the brackets of `force(…)`.
+    Force,
+    /// In the brackets of `torque(…)`.
+    Torque,
+    /// In the brackets of `drive(…)`.
+    Drive,
+    /// In the brackets of `spring(…)`.
+    Spring,
 }
 
 impl Place {
@@ -37,6 +45,9 @@ impl Place {
             Place::Body | Place::Frame | Place::Particle => "an argument such as `position = [x, y, 0]`",
             Place::Point => "an argument such as `at = [l, 0, 0]`",
             Place::Constraint => "`position = …` or `velocity = …`",
+            Place::Force | Place::Torque => "an argument such as `value = [0, 0, f]`",
+            Place::Drive => "a generalised force such as `theta = -k * theta`",
+            Place::Spring => "an argument such as `stiffness = k`",
         }
     }
 
@@ -50,6 +61,10 @@ impl Place {
             Place::Particle => "particle",
             Place::Point => "point",
             Place::Constraint => "constraint",
+            Place::Force => "force",
+            Place::Torque => "torque",
+            Place::Drive => "drive",
+            Place::Spring => "spring",
         }
     }
 }

@@ -5,7 +5,7 @@ use super::fields::{Field, Reader};
 use super::names;
 use super::naming::same;
 use super::statements::{Statement, Statements};
-use super::{BodyClause, Role};
+use super::{BodyClause, ForceKind, Role};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
@@ -128,15 +128,31 @@ fn find(bodies: &[BodyClause], name: &Ident) -> Option<usize> {
     bodies.iter().position(|body| body.name.as_ref().is_some_and(|own| same(own, name)))
 }
 
-/// Parents, and the bodies that points are fixed in, are bodies and frames of the system.
+/// Parents, the bodies that points are fixed in, and those that forces act on, are bodies and frames of the system.
 fn check_references(statements: &Statements, scalar: &str, context: &mut Context) {
     if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;
     }
-    let of_bodies = statements.bodies.iter().filter_map(|body| Some((body.parent.as_ref()?, body.name.as_ref(), true)));
-    let of_particles = statements.particles.iter().filter_map(|particle| Some((particle.parent.as_ref()?, None, true)));
-    let of_points = statements.points.iter().map(|point| (&point.body, None, false));
-    for (written, owner, optional) in of_bodies.chain(of_particles).chain(of_points) {
+    // Each with the body that it cannot be, and the argument that can be left out.
+    let mut references: Vec<(&Ident, Option<&Ident>, Option<&str>)> = Vec::new();
+    for body in &statements.bodies {
+        references.extend(body.parent.as_ref().map(|parent| (parent, body.name.as_ref(), Some("parent"))));
+    }
+    for particle in &statements.particles {
+        references.extend(particle.parent.as_ref().map(|parent| (parent, None, Some("parent"))));
+    }
+    references.extend(statements.points.iter().map(|point| (&point.body, None, None)));
+    for clause in &statements.forces {
+        match &clause.kind {
+            ForceKind::OnBody { body, .. } => references.push((body, None, None)),
+            ForceKind::Torque { body, reaction, .. } => {
+                references.push((body, None, None));
+                references.extend(reaction.as_ref().map(|reaction| (reaction, Some(body), Some("reaction"))));
+            }
+            _ => {}
+        }
+    }
+    for (written, other, optional) in references {
         if find(&statements.bodies, written).is_some() {
             continue;
         }
@@ -148,15 +164,17 @@ fn check_references(statements: &Statements, scalar: &str, context: &mut Context
             .bodies
             .iter()
             .filter_map(|body| body.name.as_ref())
-            .filter(|name| !owner.is_some_and(|own| same(own, name)))
+            .filter(|name| !other.is_some_and(|other| same(other, name)))
             .map(|name| name.unraw().to_string())
             .collect();
         let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
         let remedy = match names::nearest(&written.unraw().to_string(), &table) {
             Some((near, ())) => format!("did you mean `{near}`?"),
             None if !table.is_empty() => format!("expected {}", names::list(&table)),
-            None if optional => "there is no other: leave `parent` out".into(),
-            None => format!("add `body({written}, …)` or `frame({written}, …)`"),
+            None => match optional {
+                Some(argument) => format!("there is no other: leave `{argument}` out"),
+                None => format!("add `body({written}, …)` or `frame({written}, …)`"),
+            },
         };
         let problem = if statements.points.iter().any(|point| same(&point.name, written)) {
             format!("`{written}` is a point, not a body or frame")

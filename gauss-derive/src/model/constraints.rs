@@ -2,14 +2,13 @@
 
 use super::context::Context;
 use super::kinds::{self, Kind};
+use super::moving::Moving;
 use super::names;
-use super::naming::same;
+use super::naming::{same, word};
 use super::places::Place;
 use super::scope::Scope;
 use super::statements::{Statement, Statements};
-use super::{ConstraintClause, ConstraintKind, Expression, ExpressionKind, FunctionName, Property};
-use proc_macro2::Ident;
-use syn::ext::IdentExt;
+use super::{ConstraintClause, ConstraintKind};
 
 /// Checks the constraints and says which are vectors.
 pub(super) fn check(statements: &mut Statements, scope: &Scope, uncertain: bool, context: &mut Context) {
@@ -26,68 +25,11 @@ pub(super) fn check(statements: &mut Statements, scope: &Scope, uncertain: bool,
     check_independent(statements, uncertain, context);
 }
 
-/// What changes when coordinates or speeds do, by name.
-struct Moving {
-    /// Coordinates; bodies, frames and points that are placed by them.
-    places: Vec<String>,
-    speeds: Vec<String>,
-}
-
-impl Moving {
-    fn new(statements: &Statements) -> Moving {
-        let mut places: Vec<String> = Vec::new();
-        places.extend(statements.coordinates.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)));
-        let speeds = statements.speeds.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)).collect();
-        // A child may be written before its parent: round after round adds those that are moved by what moves.
-        for _ in &statements.bodies {
-            for body in &statements.bodies {
-                let Some(name) = body.name.as_ref().map(word) else { continue };
-                let moved = body.parent.as_ref().is_some_and(|parent| places.contains(&word(parent)))
-                    || body.position.iter().chain(&body.rotation).any(|e| names_any(e, &places));
-                if moved && !places.contains(&name) {
-                    places.push(name);
-                }
-            }
-        }
-        for point in &statements.points {
-            if places.contains(&word(&point.body)) {
-                places.push(word(&point.name));
-            }
-        }
-        Moving { places, speeds }
-    }
-
-    /// Whether some part of it is a velocity of what moves.
-    fn in_velocity(&self, expression: &Expression) -> bool {
-        let mut found = names_any(expression, &self.speeds);
-        expression.walk(&mut |part| {
-            found |= match &part.kind {
-                ExpressionKind::Call(FunctionName::Rate, arguments) => {
-                    arguments.iter().any(|argument| names_any(argument, &self.places))
-                }
-                ExpressionKind::Property(body, Property::Velocity | Property::AngularVelocity) => {
-                    names_any(body, &self.places)
-                }
-                _ => false,
-            };
-        });
-        found
-    }
-}
-
-fn word(name: &Ident) -> String {
-    name.unraw().to_string()
-}
-
-fn names_any(expression: &Expression, words: &[String]) -> bool {
-    words.iter().any(|word| expression.names(word))
-}
-
 /// Motion has something to do with whether a constraint holds.
 fn check_motion(constraint: &ConstraintClause, moving: &Moving, context: &mut Context) {
     let expression = &constraint.expression;
     let in_velocity = moving.in_velocity(expression);
-    if !in_velocity && !names_any(expression, &moving.places) {
+    if !in_velocity && !moving.in_place(expression) {
         context.error(
             constraint.span,
             "the constraint names nothing that moves, so no motion makes it hold; \

@@ -1,10 +1,11 @@
-//! Clauses that declare names: coordinates and speeds with their kinds, speeds that stay independent, and kinematics.
+//! Clauses that declare names: coordinates, speeds and inputs with their kinds, speeds that stay independent, and
+//! kinematics.
 
 use super::attributes::{self, Clause, Place};
 use super::context::Context;
 use super::names::{self, Table};
 use super::statements::{self, brackets, value};
-use super::{Coordinate, CoordinateKind, Expression, Speed, SpeedKind};
+use super::{Coordinate, CoordinateKind, Expression, InputName, Speed, SpeedKind};
 use proc_macro2::{Ident, Span, TokenTree};
 
 /// What a clause declares, in brackets.
@@ -53,6 +54,12 @@ pub(super) fn read_independent(clause: &Clause, context: &mut Context) -> Names<
     read_names(clause, &language, |ident, ()| ident, context)
 }
 
+/// `input(thrust, wind: Vector3)`.
+pub(super) fn read_inputs(clause: &Clause, context: &mut Context) -> Names<InputName> {
+    let language = Language { noun: "input", example: "thrust, rudder", kinds: SPEEDS, scalar: SpeedKind::Scalar };
+    read_names(clause, &language, |ident, kind| InputName { ident, kind }, context)
+}
+
 fn read_names<N, K: Copy>(
     clause: &Clause,
     language: &Language<K>,
@@ -63,13 +70,13 @@ fn read_names<N, K: Copy>(
     let mut names = Names { clause: clause.name.clone(), names: Vec::new(), complete: false };
     let Some(group) = brackets(clause, language.example, context) else { return names };
     names.complete = true;
-    for piece in attributes::pieces(group.stream(), &format!("the name of a {noun}"), context) {
+    for piece in attributes::pieces(group.stream(), &format!("the name of {}", names::a(noun)), context) {
         let (ident, rest) = match piece.split_first() {
             Some((TokenTree::Ident(ident), rest)) => (ident, rest),
             Some((other, _)) => {
                 context.error(
                     attributes::start(other),
-                    format!("expected the name of a {noun}, found {}", attributes::found(other)),
+                    format!("expected the name of {}, found {}", names::a(noun), attributes::found(other)),
                 );
                 names.complete = false;
                 continue;
@@ -114,7 +121,7 @@ fn read_kind<K: Copy>(
 ) -> Option<K> {
     let Language { noun, kinds, scalar, .. } = language;
     if kinds.is_empty() {
-        context.error(colon, format!("the kind of a {noun} is said where it is declared; write `{ident}`"));
+        context.error(colon, format!("the kind of {} is said where it is declared; write `{ident}`", names::a(noun)));
         return Some(*scalar);
     }
     let ty = attributes::flat(ty.iter().cloned().collect());

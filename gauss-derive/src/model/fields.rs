@@ -4,7 +4,7 @@ use super::attributes::{self, Clause, Place, Value};
 use super::context::Context;
 use super::names;
 use super::roles::{ROLES, SYSTEM_ROLES};
-use super::scene::{self, CLAUSES};
+use super::scene::CLAUSES;
 use super::shapes::{self, Reading};
 use super::statements::STATEMENTS;
 use super::{Role, Shape};
@@ -44,15 +44,13 @@ pub(super) struct Reader<'a> {
     pub(super) fields: Vec<Field<'a>>,
     /// Roles that some clause means although it is wrong (misspelt, or second on its field); they are not missing too.
     pub(super) meant: Vec<Role>,
-    /// A clause of a later version was written.
-    pub(super) unsupported: bool,
     /// The struct is a system, because of its clauses or because some field is a body.
     pub(super) system: bool,
 }
 
 /// Reads the named fields of a struct; `system` if its clauses are those of a system.
 pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool, context: &mut Context) -> Reader<'a> {
-    let mut reader = Reader { fields: Vec::new(), meant: Vec::new(), unsupported: false, system };
+    let mut reader = Reader { fields: Vec::new(), meant: Vec::new(), system };
     for field in &named.named {
         // A field of a struct with named fields has a name.
         let Some(ident) = &field.ident else { continue };
@@ -111,11 +109,6 @@ impl Reader<'_> {
     /// Notes why a clause is no role.
     fn refuse(&mut self, clause: &Clause, word: &str, context: &mut Context) {
         let span = clause.name.span();
-        if scene::is_unsupported(word) {
-            scene::refuse_unsupported(&clause.name, context);
-            self.unsupported = true;
-            return;
-        }
         if CLAUSES.iter().any(|(name, _)| *name == word) || STATEMENTS.iter().any(|(name, _)| *name == word) {
             let written = clause.written();
             context.error(

@@ -95,6 +95,11 @@ impl FunctionName {
         }
     }
 
+    /// Its derivative jumps, so that only what is not differentiated can contain it.
+    pub(super) fn has_kink(self) -> bool {
+        matches!(self, FunctionName::Abs | FunctionName::Min | FunctionName::Max)
+    }
+
     /// The kind of each argument; `None` for a scalar or a vector.
     pub(super) fn takes(self) -> Option<Kind> {
         match self {

@@ -90,6 +90,11 @@ impl Checker<'_> {
             ExpressionKind::Call(FunctionName::Rate, arguments) => self.rate(arguments, expression.span),
             ExpressionKind::Call(function, arguments) => {
                 self.arguments(*function, arguments);
+                if function.has_kink()
+                    && let Some(message) = self.refuses_kink(function.word())
+                {
+                    return self.note(expression.span, message);
+                }
                 function.gives()
             }
             ExpressionKind::Vector(components) => {
@@ -114,13 +119,23 @@ impl Checker<'_> {
         last
     }
 
+    /// What to say of a function whose derivative jumps, where derivatives are taken.
+    fn refuses_kink(&self, word: &str) -> Option<String> {
+        if self.differentiated {
+            return Some(format!(
+                "the derivative of `{word}` jumps, and `rate` takes derivatives; take `{word}` out of `rate(…)`"
+            ));
+        }
+        self.place.refuses_kink(word)
+    }
+
     /// A time derivative, which is a velocity.
     fn rate(&mut self, arguments: &[Expression], span: Span) -> Option<Kind> {
         if let Some(message) = self.place.refuses_velocity("rate(…)") {
             return self.note(span, message);
         }
         if self.differentiated {
-            return self.note(span, acceleration("rate(…)", "one `rate`"));
+            return self.note(span, self.acceleration("rate(…)", "one `rate`"));
         }
         self.differentiated = true;
         let kind = self.arguments(FunctionName::Rate, arguments);
@@ -156,11 +171,19 @@ impl Checker<'_> {
         let place = self.place;
         match self.meaning(name, |meaning| place.allows(meaning))? {
             Meaning::Speed(_) if self.differentiated => {
-                self.note(name.span(), acceleration(&name.to_string(), &format!("`{name}` itself")))
+                self.note(name.span(), self.acceleration(&name.to_string(), &format!("`{name}` itself")))
             }
+            Meaning::Input(_) if self.differentiated => self.note(
+                name.span(),
+                format!(
+                    "`{name}` is an input, whose rate is never known; take it out of `rate(…)`, and declare an input for \
+                     its rate if that is known"
+                ),
+            ),
             Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => Some(Kind::Scalar),
-            Meaning::Speed(SpeedKind::Scalar) => Some(Kind::Scalar),
-            Meaning::Vector | Meaning::Point | Meaning::Speed(SpeedKind::Vector) => Some(Kind::Vector),
+            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(SpeedKind::Scalar) => Some(Kind::Scalar),
+            Meaning::Speed(SpeedKind::Vector) | Meaning::Input(SpeedKind::Vector) => Some(Kind::Vector),
+            Meaning::Vector | Meaning::Point => Some(Kind::Vector),
             Meaning::Coordinate(CoordinateKind::Rotation) => Some(Kind::Rotation),
             meaning => self.note(
                 name.span(),
@@ -185,7 +208,7 @@ impl Checker<'_> {
                 let written = format!("{name}.{word}");
                 match self.place.refuses_velocity(&written) {
                     Some(message) => message,
-                    None if self.differentiated => acceleration(&written, &format!("`{written}` itself")),
+                    None if self.differentiated => self.acceleration(&written, &format!("`{written}` itself")),
                     None => return Some(Kind::Vector),
                 }
             }
@@ -253,12 +276,12 @@ impl Checker<'_> {
         self.context.error(span, message);
         None
     }
-}
 
-/// What to say of the time derivative of a velocity.
-fn acceleration(written: &str, instead: &str) -> String {
-    format!(
-        "the time derivative of `{written}` is an acceleration, which a constraint of velocities cannot contain; \
-         write {instead}"
-    )
+    /// What to say of the time derivative of a velocity.
+    fn acceleration(&self, written: &str, instead: &str) -> String {
+        format!(
+            "the time derivative of `{written}` is an acceleration, which {} cannot contain; write {instead}",
+            self.place.subject()
+        )
+    }
 }

@@ -9,9 +9,10 @@
 //! |---|---|
 //! | `attributes` | `#[gauss(…)]` → clauses `name`, `name = value`, `name(…)` |
 //! | `scene` | the clauses of the struct: `chart`, `motion`, `crate` |
-//! | `statements` | those of a system, each with one of the next two; `constraint`, `potential`, `limit` |
-//! | `declarations` | `coordinates`, `speeds`, `independent`, `kinematics` |
+//! | `statements` | those of a system, each with one of the next three; `constraint`, `potential`, `damping`, `limit` |
+//! | `declarations` | `coordinates`, `speeds`, `independent`, `input`, `kinematics` |
 //! | `placements` | `body`, `frame`, `particle`, `point` |
+//! | `actions` | `force`, `torque`, `drive`, `spring` |
 //! | `fields` | the clauses of the fields: their roles |
 //! | `roles` | what each role is called and which shapes it takes |
 //! | `shapes` | the written type of a field → shape and scalar |
@@ -22,10 +23,13 @@
 //! | `motion` | what must hold between coordinates, speeds and kinematics |
 //! | `bodies` | what must hold between bodies: names, fields, parents |
 //! | `constraints` | what must hold of constraints and independent speeds |
+//! | `forces` | what must hold of forces and inputs |
+//! | `moving` | what moves with the coordinates and the speeds |
 //! | `assembly`, `system` | a whole system checked, and the type that it has then |
 //! | `names` | the nearest valid word to a misspelt one |
 //! | `context` | the mistakes found so far |
 
+mod actions;
 mod arithmetic;
 mod assembly;
 mod attributes;
@@ -35,9 +39,11 @@ mod context;
 mod declarations;
 mod expression;
 mod fields;
+mod forces;
 mod functions;
 mod kinds;
 mod motion;
+mod moving;
 mod names;
 mod naming;
 mod number;

@@ -48,6 +48,12 @@ pub(super) fn nearest<'a, T: Copy>(word: &str, table: &[(&'a str, T)]) -> Option
         .map(|(_, entry)| entry)
 }
 
+/// `a speed`, `an input`.
+pub(super) fn a(noun: &str) -> String {
+    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {noun}")
+}
+
 /// `` `a`, `b` or `c` ``.
 pub(super) fn list<T>(table: &[(&str, T)]) -> String {
     let mut text = String::new();

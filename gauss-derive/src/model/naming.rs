@@ -4,12 +4,14 @@ use super::Role;
 use super::context::Context;
 use super::fields::Field;
 use super::functions::FUNCTIONS;
+use super::names;
 use super::scope::TIME;
 use super::statements::Statements;
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
-/// Fields, coordinates, speeds, bodies, frames and points have different names, and none that expressions use already.
+/// Fields, coordinates, speeds, inputs, bodies, frames, points and what acts have different names, and none that
+/// expressions use already.
 pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut Context) {
     let is_body = |name: &Ident| {
         let role = |field: &Field<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
@@ -18,6 +20,7 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
     let mut taken: Vec<(&Ident, &str)> = Vec::new();
     let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
     let speeds = statements.speeds.iter().flat_map(|names| &names.names);
+    let inputs = statements.inputs.iter().flat_map(|names| &names.names);
     // A named body is its field.
     let bodies = statements.massive().filter_map(|body| body.name.as_ref());
     let bodies = bodies.filter(|name| !fields.iter().any(|field| same(field.ident, name)));
@@ -26,17 +29,22 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
         .map(|field| (field.ident, "field"))
         .chain(coordinates.map(|coordinate| (&coordinate.ident, "coordinate")))
         .chain(speeds.map(|speed| (&speed.ident, "speed")))
+        .chain(inputs.map(|input| (&input.ident, "input")))
         .chain(bodies.map(|name| (name, "body")))
         .chain(statements.frames().map(|name| (name, "frame")))
-        .chain(statements.points.iter().map(|point| (&point.name, "point")));
+        .chain(statements.points.iter().map(|point| (&point.name, "point")))
+        .chain(statements.forces.iter().filter_map(|clause| Some((clause.name.as_ref()?, clause.noun()))));
     for (name, noun) in all {
         let word = name.unraw().to_string();
         if word == TIME {
-            context.error(name.span(), format!("`{TIME}` is time in expressions and cannot name a {noun}; rename it"));
+            context.error(
+                name.span(),
+                format!("`{TIME}` is time in expressions and cannot name {}; rename it", names::a(noun)),
+            );
         } else if FUNCTIONS.iter().any(|(function, _)| *function == word) {
             context.error(
                 name.span(),
-                format!("`{word}` is a function of expressions and cannot name a {noun}; rename it"),
+                format!("`{word}` is a function of expressions and cannot name {}; rename it", names::a(noun)),
             );
         } else if let Some((_, earlier)) = taken.iter().find(|(earlier, _)| same(earlier, name)) {
             match (*earlier, noun) {
@@ -49,12 +57,24 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
                          write `body({word}, …)`, or remove the field"
                     ),
                 ),
+                ("field", "input") => context.error(
+                    name.span(),
+                    format!(
+                        "`{word}` is a field, whose value is fixed when the kernel is made, and an input, whose value \
+                         arrives at run time; rename or remove one of the two"
+                    ),
+                ),
+                ("force" | "torque" | "drive" | "spring", again) if *earlier == again => {
+                    context.error(name.span(), format!("two {again}s are called `{word}`; rename one of the two"))
+                }
                 (earlier, noun) if earlier == noun => {
                     context.error(name.span(), format!("the {noun} `{word}` is declared twice; remove one of the two"));
                 }
                 (earlier, noun) => {
-                    context
-                        .error(name.span(), format!("`{word}` names a {earlier} and a {noun}; rename one of the two"));
+                    context.error(
+                        name.span(),
+                        format!("`{word}` names {} and {}; rename one of the two", names::a(earlier), names::a(noun)),
+                    );
                 }
             }
         }
@@ -65,6 +85,11 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
 /// Whether expressions use the word already.
 pub(super) fn is_reserved(word: &str) -> bool {
     word == TIME || FUNCTIONS.iter().any(|(function, _)| *function == word)
+}
+
+/// The name without `r#`.
+pub(super) fn word(name: &Ident) -> String {
+    name.unraw().to_string()
 }
 
 /// The same name, raw or not.

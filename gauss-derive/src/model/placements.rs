@@ -57,7 +57,7 @@ pub(super) fn read_body(clause: &Clause, massless: bool, context: &mut Context) 
 }
 
 /// A word alone at the beginning is the name; so may be one after which something is wrong.
-fn may_be_name(argument: &Clause, table: &Table<()>) -> bool {
+pub(super) fn may_be_name(argument: &Clause, table: &Table<()>) -> bool {
     matches!(argument.value, Value::Absent | Value::Malformed)
         && !table.iter().any(|(name, ())| argument.word() == *name)
 }
@@ -129,7 +129,7 @@ pub(super) fn read_point(clause: &Clause, context: &mut Context) -> Option<Point
 }
 
 /// The name of `what` that an argument is said to be.
-fn read_reference(argument: &Clause, what: &str, context: &mut Context) -> Option<Ident> {
+pub(super) fn read_reference(argument: &Clause, what: &str, context: &mut Context) -> Option<Ident> {
     let name = &argument.name;
     let tokens = match &argument.value {
         Value::Malformed => return None,

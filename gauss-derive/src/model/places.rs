@@ -23,6 +23,22 @@ pub(super) enum Place {
     At,
     Potential,
     Constraint(ConstraintKind),
+    /// Of the point where a force acts, in observer axes.
+    ForcePoint,
+    /// Of the point where a force acts, in its body.
+    ForceAt,
+    /// The components of a force.
+    Force,
+    /// The components of a torque.
+    Torque,
+    /// The generalised force on the rate of a coordinate.
+    Drive,
+    /// Where a spring begins or ends.
+    SpringEnd,
+    /// The stiffness, the length or the damping of a spring.
+    Spring(&'static str),
+    /// Rayleigh's.
+    Dissipation,
 }
 
 impl Place {
@@ -31,11 +47,15 @@ impl Place {
         match self {
             Place::Kinematics(None) => true,
             Place::Kinematics(Some(CoordinateKind::Scalar)) | Place::Mass | Place::Potential => kind == Kind::Scalar,
+            Place::Drive | Place::Spring(_) | Place::Dissipation => kind == Kind::Scalar,
             Place::Kinematics(Some(CoordinateKind::Pose)) => kind == Kind::Twist,
             Place::Kinematics(Some(CoordinateKind::Rotation))
             | Place::Position
             | Place::Particle { .. }
             | Place::At => kind == Kind::Vector,
+            Place::ForcePoint | Place::ForceAt | Place::Force | Place::Torque | Place::SpringEnd => {
+                kind == Kind::Vector
+            }
             Place::Rotation => kind == Kind::Rotation,
             Place::Constraint(_) => matches!(kind, Kind::Scalar | Kind::Vector),
         }
@@ -64,6 +84,25 @@ impl Place {
                 "a constraint is a scalar or a vector that is zero",
                 "write numbers that vanish when it holds, such as products of unit vectors",
             ),
+            Place::ForcePoint => {
+                ("the point of a force is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
+            }
+            Place::ForceAt => ("the point of a force in its body is a vector", "write `[x, y, z]`"),
+            Place::Force => ("a force is a vector", "write `[fx, fy, fz]`"),
+            Place::Torque => ("a torque is a vector", "write `[mx, my, mz]`"),
+            Place::Drive => {
+                ("the generalised force on the rate of a scalar coordinate is a scalar", "write one number")
+            }
+            Place::SpringEnd => {
+                ("the end of a spring is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
+            }
+            Place::Spring(word) => {
+                return format!(
+                    "the {word} of a spring is a scalar, found {}; write one number or the name of a field",
+                    found.noun()
+                );
+            }
+            Place::Dissipation => ("a dissipation function is a scalar", "write one number, such as `c * v * v / 2`"),
         };
         format!("{needed}, found {}; {remedy}", found.noun())
     }
@@ -74,26 +113,65 @@ impl Place {
             Meaning::Scalar | Meaning::Vector | Meaning::Unusable(_) => true,
             Meaning::Time | Meaning::Coordinate(_) => !self.is_constant(),
             Meaning::Speed(_) => self.of_velocities(),
+            Meaning::Input(_) => self.is_action(),
             Meaning::Body | Meaning::Frame | Meaning::Point => {
-                matches!(self, Place::Particle { parent: false } | Place::Potential | Place::Constraint(_))
+                self.is_action()
+                    || matches!(
+                        self,
+                        Place::Particle { parent: false }
+                            | Place::Potential
+                            | Place::Constraint(_)
+                            | Place::ForcePoint
+                            | Place::SpringEnd
+                    )
             }
         }
     }
 
+    /// What acts: a function of all that is known at an instant.
+    fn is_action(self) -> bool {
+        matches!(self, Place::Force | Place::Torque | Place::Drive | Place::Dissipation)
+    }
+
     /// Speeds may stand here.
     fn of_velocities(self) -> bool {
-        matches!(self, Place::Kinematics(_) | Place::Constraint(ConstraintKind::Velocity))
+        self.is_action() || matches!(self, Place::Kinematics(_) | Place::Constraint(ConstraintKind::Velocity))
     }
 
     /// Nothing that changes may stand here.
     fn is_constant(self) -> bool {
-        matches!(self, Place::Mass | Place::At)
+        matches!(self, Place::Mass | Place::At | Place::ForceAt | Place::Spring(_))
+    }
+
+    /// What stands here, for messages.
+    pub(super) fn subject(self) -> &'static str {
+        match self {
+            Place::Kinematics(_) => "the rate of a coordinate",
+            Place::Position | Place::Particle { .. } => "a position",
+            Place::Rotation => "a rotation",
+            Place::Mass => "a mass",
+            Place::At => "a point of a body",
+            Place::Potential => "a potential",
+            Place::Constraint(ConstraintKind::Position) => "a constraint of positions",
+            Place::Constraint(ConstraintKind::Velocity) => "a constraint of velocities",
+            Place::ForcePoint | Place::ForceAt => "the point of a force",
+            Place::Force => "a force",
+            Place::Torque => "a torque",
+            Place::Drive => "a generalised force",
+            Place::SpringEnd => "the end of a spring",
+            Place::Spring(_) => "a constant of a spring",
+            Place::Dissipation => "a dissipation function",
+        }
     }
 
     /// What to say of a name that may not stand here.
     pub(super) fn refusal(self, name: &Ident, meaning: &Meaning) -> String {
         let what = meaning.described();
         match (self, meaning) {
+            (_, Meaning::Input(_)) => format!(
+                "`{name}` is an input, whose value is not known before run time, and whose rate is never; inputs stand \
+                 in values of `force`, `torque` and `drive`, and in `damping`"
+            ),
             (Place::Kinematics(_), _) => format!(
                 "`{name}` is {what}, and its velocity follows from the kinematics, not the kinematics from it; \
                  write rates in coordinates, speeds, fields and `t`"
@@ -101,12 +179,23 @@ impl Place {
             (Place::Mass, _) => {
                 format!("`{name}` varies, and the mass of a particle is constant; write numbers and fields only")
             }
+            (Place::Spring(word), _) => {
+                format!("`{name}` varies, and the {word} of a spring is constant; write numbers and fields only")
+            }
             (Place::At, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
                 "`{name}` is {what}, and a point is given in the axes of its own body; write numbers and fields only"
             ),
             (Place::At, _) => {
                 format!("`{name}` varies, and a point is fixed in its body; write numbers and fields only")
             }
+            (Place::ForceAt, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+                "`{name}` is {what}, which is known in observer axes, and with `body` a force acts at a place in the axes \
+                 of that body; write numbers and fields only, or leave `body` out"
+            ),
+            (Place::ForceAt, _) => format!(
+                "`{name}` varies, and with `body` a force acts at a fixed place of that body; write numbers and fields \
+                 only, or leave `body` out"
+            ),
             (Place::Position | Place::Rotation, Meaning::Body | Meaning::Frame) => format!(
                 "`{name}` is {what}, and bodies are placed relative to one another by parents; \
                  write `parent = {name}` and what is relative to it"
@@ -120,12 +209,13 @@ impl Place {
                  the axes of the parent; leave `parent` out, or write the position without `{name}`"
             ),
             (place, _) => {
-                let (subject, remedy) = match place {
-                    Place::Potential => ("a potential", format!("write the potential without `{name}`")),
-                    Place::Rotation => ("a rotation", "speeds stand in `kinematics`".into()),
-                    Place::Constraint(_) => ("a constraint of positions", "write `constraint(velocity = …)`".into()),
-                    _ => ("a position", "speeds stand in `kinematics`".into()),
+                let remedy = match place {
+                    Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
+                    Place::Constraint(_) => "write `constraint(velocity = …)`",
+                    Place::ForcePoint | Place::SpringEnd => "speeds stand in values of forces",
+                    _ => "speeds stand in `kinematics`",
                 };
+                let subject = place.subject();
                 format!("`{name}` is a speed, and {subject} depends on coordinates, fields and `t` only; {remedy}")
             }
         }
@@ -134,11 +224,33 @@ impl Place {
     /// What to say of a velocity, `written` so, where none may stand.
     pub(super) fn refuses_velocity(self, written: &str) -> Option<String> {
         let remedy = match self {
+            place if place.is_action() => return None,
             Place::Constraint(ConstraintKind::Velocity) => return None,
             Place::Constraint(ConstraintKind::Position) => "write `constraint(velocity = …)`",
             Place::Kinematics(_) => "the rates of coordinates are written in speeds",
+            Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
             _ => "remove it",
         };
-        Some(format!("`{written}` is a velocity, which only `constraint(velocity = …)` can contain; {remedy}"))
+        Some(format!(
+            "`{written}` is a velocity, which only `constraint(velocity = …)` and values of forces can contain; {remedy}"
+        ))
+    }
+
+    /// What to say of the function `word`, whose derivative jumps, where derivatives are taken.
+    pub(super) fn refuses_kink(self, word: &str) -> Option<String> {
+        match self {
+            Place::Force | Place::Torque | Place::Drive => None,
+            place if place.is_constant() => {
+                Some(format!("`{word}` stands in values of forces only; make the number a field of the struct"))
+            }
+            Place::Dissipation => Some(format!(
+                "the derivative of `{word}` jumps, and forces are derivatives of a dissipation function; write the force \
+                 itself as `force(…)`, `torque(…)` or `drive(…)`"
+            )),
+            place => Some(format!(
+                "the derivative of `{word}` jumps, and {} is differentiated; only values of forces can contain it",
+                place.subject()
+            )),
+        }
     }
 }

@@ -19,21 +19,13 @@ pub(super) struct Clauses {
     pub(super) chart: Chart,
     pub(super) motion: Motion,
     pub(super) runtime: Path,
-    /// A clause of a later version was written: then the roles that this version needs are not missed.
-    pub(super) unsupported: bool,
     /// The clauses that only systems have; `None` when there are none of them.
     pub(super) statements: Option<Statements>,
     /// `chart` and `motion` where they are written: clauses that only one body has.
     pub(super) of_one_body: Vec<Ident>,
-    /// `limit` where it is written without any clause that makes a system.
-    pub(super) of_system: Option<Ident>,
+    /// Clauses of systems where they are written without any that makes a system: `limit` and what acts.
+    pub(super) of_system: Vec<(Statement, Ident)>,
 }
-
-/// Clauses of the language that this version does not derive yet, with what serves instead; they are refused on structs
-/// and on fields alike.
-pub(super) const UNSUPPORTED: &Table<&str> = &[("force", FORCES), ("damping", FORCES), ("input", FORCES)];
-
-const FORCES: &str = "its forces come from `potential` and from a field with the role `gravity`";
 
 /// Clauses of the struct.
 pub(super) const CLAUSES: &Table<Topic> =
@@ -87,24 +79,27 @@ enum Written {
 /// Reads the attributes of the struct.
 pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Clauses {
     let clauses = attributes::clauses(attributes, Place::Struct, context);
-    // A limit limits a system and makes none.
-    let is_system =
-        clauses.iter().any(|clause| statements::meant(&clause.word()).is_some_and(|meant| meant != Statement::Limit));
+    let is_system = clauses.iter().any(|clause| statements::meant(&clause.word()).is_some_and(Statement::makes_system));
     let mut statements = Statements::default();
     let mut of_one_body = Vec::new();
     let mut charts = Vec::new();
     let mut motion = None;
     let mut runtime = None;
-    let mut unsupported = false;
+    let mut of_system = Vec::new();
     let mut first: Vec<(Topic, String)> = Vec::new();
     for clause in clauses {
         let word = clause.word();
-        if STATEMENTS.iter().any(|(name, _)| *name == word) {
-            statements.read(&clause, context);
+        if let Some(&(_, statement)) = STATEMENTS.iter().find(|(name, _)| *name == word) {
+            if !is_system {
+                of_system.push((statement, clause.name.clone()));
+            }
+            if is_system || statement == Statement::Limit {
+                statements.read(&clause, context);
+            }
             continue;
         }
         let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) else {
-            unsupported |= refuse(&clause, &word, is_system, context);
+            refuse(&clause, &word, is_system, context);
             statements.miss(&clause);
             continue;
         };
@@ -140,20 +135,15 @@ pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Clauses {
         chart,
         motion: motion.unwrap_or(Motion::Free),
         runtime: runtime.flatten().unwrap_or_else(default_runtime),
-        unsupported,
-        of_system: statements.limit.as_ref().filter(|_| !is_system).map(|(name, _)| name.clone()),
+        of_system,
         statements: is_system.then_some(statements),
         of_one_body,
     }
 }
 
-/// Notes why a clause is none of the struct's; true if it is one of a later version.
-fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) -> bool {
+/// Notes why a clause is none of the struct's.
+fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) {
     let span = clause.name.span();
-    if is_unsupported(word) {
-        refuse_unsupported(&clause.name, context);
-        return true;
-    }
     let message = if ROLES.iter().any(|(name, _)| *name == word) {
         format!("`{word}` is the role of a field; write `#[gauss({word})]` on that field")
     } else if CHARTS.iter().any(|(name, _)| *name == word) {
@@ -173,26 +163,12 @@ fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) -
         format!("unknown clause `{word}`; did you mean `{name}`?")
     } else if let Some((name, _)) = names::nearest(word, STATEMENTS) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
-    } else if let Some((name, _)) = names::nearest(word, UNSUPPORTED) {
-        format!("unknown clause `{word}`; the nearest, `{name}`, is not supported by this version")
     } else if is_system {
         format!("unknown clause `{word}`; expected {} or `crate`", names::list(STATEMENTS).replace(" or ", ", "))
     } else {
         format!("unknown clause `{word}`; expected {}", names::list(CLAUSES))
     };
     context.error(span, message);
-    false
-}
-
-/// Whether the word names a clause of a later version.
-pub(super) fn is_unsupported(word: &str) -> bool {
-    UNSUPPORTED.iter().any(|(name, _)| *name == word)
-}
-
-/// Notes a clause of a later version.
-pub(super) fn refuse_unsupported(name: &Ident, context: &mut Context) {
-    let instead = UNSUPPORTED.iter().find(|(word, _)| name.unraw() == word).map_or("", |(_, instead)| instead);
-    context.error(name.span(), format!("`{name}` is not supported by this version; {instead}: remove `{name}`"));
 }
 
 fn read_chart(clause: &Clause, context: &mut Context) -> Option<Written> {

@@ -15,6 +15,8 @@ pub(super) enum Meaning {
     Time,
     Coordinate(CoordinateKind),
     Speed(SpeedKind),
+    /// A value that arrives at run time.
+    Input(SpeedKind),
     /// A field that is a number.
     Scalar,
     /// A field that is a vector of three.
@@ -73,6 +75,9 @@ impl Scope {
         }
         let remedy = match self.nearest(&word) {
             Some((near, meaning)) => format!("did you mean {}`{near}`?", meaning.noun()),
+            None if expected(&Meaning::Input(SpeedKind::Scalar)) => {
+                format!("declare it by `input({word})` if it arrives at run time, or write {}", self.list(expected))
+            }
             None => format!("expected {}", self.list(expected)),
         };
         Err(Some(format!("unknown name `{word}`; {remedy}")))
@@ -93,7 +98,9 @@ impl Scope {
     /// All expected names, by what they are.
     fn list(&self, expected: impl Fn(&Meaning) -> bool) -> String {
         let mut parts = Vec::new();
-        for noun in ["the coordinate ", "the speed ", "the field ", "the body ", "the frame ", "the point "] {
+        for noun in
+            ["the coordinate ", "the speed ", "the input ", "the field ", "the body ", "the frame ", "the point "]
+        {
             let table: Vec<(&str, ())> = self
                 .names
                 .iter()
@@ -101,7 +108,7 @@ impl Scope {
                 .map(|(name, _)| (name.as_str(), ()))
                 .collect();
             if !table.is_empty() {
-                parts.push(format!("a {}({})", &noun[4..], names::list(&table)));
+                parts.push(format!("{}({})", names::a(&noun[4..]), names::list(&table)));
             }
         }
         if expected(&Meaning::Time) {
@@ -121,6 +128,7 @@ impl Meaning {
             Meaning::Time | Meaning::Unusable(_) => "",
             Meaning::Coordinate(_) => "the coordinate ",
             Meaning::Speed(_) => "the speed ",
+            Meaning::Input(_) => "the input ",
             Meaning::Scalar | Meaning::Vector => "the field ",
             Meaning::Body => "the body ",
             Meaning::Frame => "the frame ",
@@ -137,8 +145,8 @@ impl Meaning {
     pub(super) fn described(&self) -> &'static str {
         match self {
             Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => "a scalar",
-            Meaning::Speed(SpeedKind::Scalar) => "a scalar",
-            Meaning::Vector | Meaning::Speed(SpeedKind::Vector) => "a vector",
+            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(SpeedKind::Scalar) => "a scalar",
+            Meaning::Vector | Meaning::Speed(SpeedKind::Vector) | Meaning::Input(SpeedKind::Vector) => "a vector",
             Meaning::Coordinate(CoordinateKind::Pose) => "a pose",
             Meaning::Coordinate(CoordinateKind::Rotation) => "a rotation",
             Meaning::Body => "a body",

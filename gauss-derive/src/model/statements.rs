@@ -1,13 +1,17 @@
-//! The clauses of a system, each read on its own: what `declarations` and `placements` read, constraints, the potential,
-//! and the limit on the size of the code.
+//! The clauses of a system, each read on its own: what `declarations`, `placements` and `actions` read, constraints, the
+//! potential, the dissipation function, and the limit on the size of the code.
 
+use super::actions;
 use super::arithmetic;
 use super::attributes::{self, Clause, Place, Value};
 use super::context::Context;
 use super::declarations::{self, Kinematics, Names};
 use super::names::{self, Table};
 use super::placements;
-use super::{BodyClause, ConstraintClause, ConstraintKind, Coordinate, Expression, ParticleClause, PointClause, Speed};
+use super::{
+    BodyClause, ConstraintClause, ConstraintKind, Coordinate, Expression, ForceClause, ForceKind, InputName,
+    ParticleClause, PointClause, Speed,
+};
 use proc_macro2::{Group, Ident, TokenTree};
 use syn::LitInt;
 
@@ -26,6 +30,10 @@ pub(super) struct Statements {
     pub(super) independent: Option<Names<Ident>>,
     pub(super) limit: Option<(Ident, Option<usize>)>,
     pub(super) potential: Option<(Ident, Option<Expression>)>,
+    pub(super) inputs: Option<Names<InputName>>,
+    pub(super) forces: Vec<ForceClause>,
+    /// `damping = …` is written.
+    damped: bool,
     /// Some clause could not be read: what seems to be missing may be what it says.
     pub(super) missed: bool,
     /// What clauses that could not be read were to say.
@@ -44,6 +52,12 @@ pub(super) enum Statement {
     Constraint,
     Independent,
     Potential,
+    Input,
+    Force,
+    Torque,
+    Drive,
+    Spring,
+    Damping,
     Limit,
 }
 
@@ -59,6 +73,12 @@ pub(super) const STATEMENTS: &Table<Statement> = &[
     ("constraint", Statement::Constraint),
     ("independent", Statement::Independent),
     ("potential", Statement::Potential),
+    ("input", Statement::Input),
+    ("force", Statement::Force),
+    ("torque", Statement::Torque),
+    ("drive", Statement::Drive),
+    ("spring", Statement::Spring),
+    ("damping", Statement::Damping),
     ("limit", Statement::Limit),
 ];
 
@@ -68,6 +88,26 @@ const CONSTRAINT: &Table<ConstraintKind> =
 /// The clause that `word` is, or that it is a misspelling of.
 pub(super) fn meant(word: &str) -> Option<Statement> {
     names::nearest(word, STATEMENTS).map(|(_, statement)| statement)
+}
+
+impl Statement {
+    /// It says what moves: what it stands in is a system. The others are about a system that there is already.
+    pub(super) fn makes_system(self) -> bool {
+        self != Statement::Limit && !self.acts()
+    }
+
+    /// It says what acts.
+    pub(super) fn acts(self) -> bool {
+        matches!(
+            self,
+            Statement::Input
+                | Statement::Force
+                | Statement::Torque
+                | Statement::Drive
+                | Statement::Spring
+                | Statement::Damping
+        )
+    }
 }
 
 impl Statements {
@@ -82,14 +122,17 @@ impl Statements {
             Statement::Independent => self.independent.is_some(),
             Statement::Potential => self.potential.is_some(),
             Statement::Limit => self.limit.is_some(),
+            Statement::Input => self.inputs.is_some(),
+            Statement::Damping => self.damped,
             Statement::Body | Statement::Frame | Statement::Particle | Statement::Point | Statement::Constraint => {
                 false
             }
+            Statement::Force | Statement::Torque | Statement::Drive | Statement::Spring => false,
         };
         if given {
             let name = &clause.name;
             let remedy = match statement {
-                Statement::Potential => "write the sum of the two in one",
+                Statement::Potential | Statement::Damping => "write the sum of the two in one",
                 Statement::Limit => "keep one of the two",
                 _ => "write all of it in one",
             };
@@ -135,6 +178,19 @@ impl Statements {
             Statement::Potential => {
                 let value = value(clause, "k * x * x / 2", context);
                 self.potential = self.potential.take().or(Some((clause.name.clone(), value)));
+            }
+            Statement::Input => {
+                let names = declarations::read_inputs(clause, context);
+                self.inputs = self.inputs.take().or(Some(names));
+            }
+            Statement::Force => self.forces.extend(actions::read_force(clause, context)),
+            Statement::Torque => self.forces.extend(actions::read_torque(clause, context)),
+            Statement::Drive => self.forces.extend(actions::read_drive(clause, context)),
+            Statement::Spring => self.forces.extend(actions::read_spring(clause, context)),
+            Statement::Damping => {
+                self.damped = true;
+                let kind = value(clause, "c * v * v / 2", context).map(ForceKind::Dissipation);
+                self.forces.extend(kind.map(|kind| ForceClause { name: None, kind, span: clause.name.span() }));
             }
             Statement::Limit => {
                 let limit = read_limit(clause, context);
@@ -199,7 +255,7 @@ pub(super) fn name(ident: &Ident, noun: &str, context: &mut Context) -> Option<I
     match syn::parse2::<Ident>(TokenTree::Ident(ident.clone()).into()) {
         Ok(ident) => Some(ident),
         Err(_) => {
-            context.error(ident.span(), format!("`{ident}` is a keyword and cannot name a {noun}"));
+            context.error(ident.span(), format!("`{ident}` is a keyword and cannot name {}", names::a(noun)));
             None
         }
     }

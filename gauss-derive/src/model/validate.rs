@@ -24,7 +24,8 @@ pub(super) fn model(input: &DeriveInput, scene: &Clauses, reader: Reader<'_>, co
     let parameters = parameters.collect();
     let index = |role: Role| owners.iter().find(|(owner, _)| *owner == role).map(|&(_, index)| index);
     let known = |role: Role| index(role).is_some() || reader.meant.contains(&role);
-    if !scene.unsupported && !reader.unsupported {
+    // What becomes a system because of its forces may have other masses.
+    if !scene.of_system.iter().any(|(statement, _)| statement.acts()) {
         for role in [Role::Mass, Role::Inertia] {
             if !known(role) {
                 missing_role(input, role, &name, context);
@@ -34,13 +35,16 @@ pub(super) fn model(input: &DeriveInput, scene: &Clauses, reader: Reader<'_>, co
     for field in &reader.fields {
         check_companion(field, known, &name, context);
     }
-    if let Some(limit) = &scene.of_system {
-        context.error(
-            limit.span(),
-            format!(
-                "`{limit}` is for systems; the equations of one body in a chart are always short: remove `{limit}`"
-            ),
-        );
+    for (statement, name) in &scene.of_system {
+        let message = if statement.acts() {
+            "forces and inputs belong to systems; give the body coordinates: \
+             `coordinates(pose: Pose), body(position = pose.position, rotation = pose.rotation)` in place of `chart` and \
+             `motion`"
+                .into()
+        } else {
+            format!("`{name}` is for systems; the equations of one body in a chart are always short: remove `{name}`")
+        };
+        context.error(name.span(), message);
     }
     let scalar = match scalar {
         Some(scalar) => scalar,

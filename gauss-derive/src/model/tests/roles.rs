@@ -30,7 +30,7 @@ fn unknown_roles() {
         &with("#[gauss(centre_of_mass)] c: Vector3<f64>"),
         &[("centre_of_mass", "unknown role `centre_of_mass`; did you mean `center_of_mass`?")],
     );
-    check(&with("#[gauss(spring)] k: f64"), &[("spring", &format!("unknown role `spring`; expected {ROLES}"))]);
+    check(&with("#[gauss(flywheel)] k: f64"), &[("flywheel", &format!("unknown role `flywheel`; expected {ROLES}"))]);
     check(
         &with("#[gauss(chart = hybrid)] k: f64"),
         &[(

@@ -107,13 +107,14 @@ fn velocities() {
     mistake(
         "constraint(position = arm.velocity.x)",
         "velocity",
-        "`arm.velocity` is a velocity, which only `constraint(velocity = …)` can contain; \
+        "`arm.velocity` is a velocity, which only `constraint(velocity = …)` and values of forces can contain; \
          write `constraint(velocity = …)`",
     );
     mistake(
         "potential = rate(x)",
         "rate",
-        "`rate(…)` is a velocity, which only `constraint(velocity = …)` can contain; remove it",
+        "`rate(…)` is a velocity, which only `constraint(velocity = …)` and values of forces can contain; \
+         write what depends on velocities as `force(…)` or `damping = …`",
     );
     let acceleration = |of: &str, instead: &str| {
         format!(

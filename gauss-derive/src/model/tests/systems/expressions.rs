@@ -50,7 +50,7 @@ fn numbers() {
 #[test]
 fn functions() {
     const FUNCTIONS: &str = "`sin`, `cos`, `tan`, `exp`, `ln`, `sqrt`, `powi`, `atan2`, `dot`, `cross`, \
-        `rotation_x`, `rotation_y`, `rotation_z`, `inverse`, `twist` or `rate`";
+        `rotation_x`, `rotation_y`, `rotation_z`, `inverse`, `twist`, `rate`, `abs`, `min`, `max` or `hypot`";
     check_potential("sine(x)", &[("sine", "unknown function `sine`; did you mean `sin`?")]);
     check_potential("x.powf(2)", &[("powf", "unknown function `powf`; did you mean `powi`?")]);
     check_potential("erf(x)", &[("erf", &format!("unknown function `erf`; expected {FUNCTIONS}"))]);

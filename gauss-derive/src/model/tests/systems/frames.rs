@@ -172,7 +172,8 @@ fn properties() {
     mistake(
         "arm.velocity.x",
         "velocity",
-        "`arm.velocity` is a velocity, which only `constraint(velocity = …)` can contain; remove it",
+        "`arm.velocity` is a velocity, which only `constraint(velocity = …)` and values of forces can contain; \
+         write what depends on velocities as `force(…)` or `damping = …`",
     );
     mistake("arn.position.x", "arn", "unknown name `arn`; did you mean the body `arm`?");
     mistake("somebody.position.x", "somebody", "unknown name `somebody`; expected a body (`arm`) or a frame (`hip`)");

@@ -4,6 +4,7 @@ mod accepted;
 mod bodies;
 mod constraints;
 mod expressions;
+mod forces;
 mod frames;
 mod groups;
 mod names;
@@ -114,13 +115,23 @@ fn nothing_panics() {
         "constraint(velocity = ",
         "independent",
         "potential = ",
+        "input",
+        "force",
+        "force(value = x, body = a, at = ",
+        "torque",
+        "torque(value = ",
+        "drive",
+        "drive(x = ",
+        "spring",
+        "spring(from = ",
+        "damping = ",
         "limit = ",
     ];
     for clause in clauses {
         for first in words {
             for second in words {
                 let (open, close) = match clause {
-                    "constraint(velocity = " => ("", ")"),
+                    clause if clause.contains('(') => ("", ")"),
                     clause if clause.ends_with("= ") => ("", ""),
                     _ => ("(", ")"),
                 };

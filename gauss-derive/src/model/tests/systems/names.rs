@@ -149,12 +149,12 @@ fn places_of_speeds() {
             (
                 "v",
                 "`v` is a speed, and a potential depends on coordinates, fields and `t` only; \
-                 write the potential without `v`",
+                 write what depends on velocities as `force(…)` or `damping = …`",
             ),
             (
                 "v",
                 "`v` is a speed, and a potential depends on coordinates, fields and `t` only; \
-                 write the potential without `v`",
+                 write what depends on velocities as `force(…)` or `damping = …`",
             ),
         ],
     );
@@ -182,7 +182,8 @@ fn clauses_of_one_body() {
         &[(
             "foo",
             "unknown clause `foo`; expected `coordinates`, `speeds`, `kinematics`, `body`, `frame`, \
-             `particle`, `point`, `constraint`, `independent`, `potential`, `limit` or `crate`",
+             `particle`, `point`, `constraint`, `independent`, `potential`, `input`, `force`, `torque`, `drive`, \
+             `spring`, `damping`, `limit` or `crate`",
         )],
     );
     // A misspelt clause is not missing as well.
