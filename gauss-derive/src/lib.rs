@@ -56,7 +56,7 @@ mod translate;
 ///
 /// # Systems
 ///
-/// Any of these clauses but `limit`, in place of `chart` and `motion`, makes a system; its kernel implements
+/// Any of these clauses that says what moves, in place of `chart` and `motion`, makes a system; its kernel implements
 /// `GaussSystem`:
 ///
 /// | clause | meaning |
@@ -71,14 +71,23 @@ mod translate;
 /// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once |
 /// | `independent(v, w)` | the speeds that stay when the constraints are solved for the others at compile time |
 /// | `potential = expr` | a potential of coordinates and time; the role `gravity` acts on everything |
+/// | `input(thrust, wind: Vector3)` | values that arrive at run time |
+/// | `force(name, at = …, value = […])` | a force at a point: both in observer's axes, the point from Ω |
+/// | `force(name, body = other, at = […], value = […], axes = body)` | a force at a point fixed in a body or a frame, at numbers and fields in its axes from O, by default at O; the value in `axes = body`, which is the default, or `axes = observer` |
+/// | `torque(name, body = other, value = […], axes = body, reaction = another)` | a torque, and the opposite one on another body or frame; axes as above |
+/// | `drive(name, theta = expr, x = expr)` | generalised forces on scalar coordinates: each has the power `expr` · dθ/dt |
+/// | `spring(name, from = …, to = …, stiffness = k, length = l, damping = c)` | a spring with a damper between two points, observer's axes from Ω; `length`, at which it is without force, and `damping` are 0 by default |
+/// | `damping = expr` | Rayleigh's dissipation function: its negative partial derivatives by z are generalised forces |
 /// | `limit = 50000` | the most operations that the generated code may have |
 ///
 /// Expressions are Rust arithmetic on coordinates, speeds, fields and the time `t`, with `sin cos tan atan2 exp ln sqrt
-/// powi dot cross` and the rotations `rotation_x rotation_y rotation_z inverse`, which are joined by `*` and turn vectors by
-/// `*`. A coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and `pose.rotation`. Particles
-/// without a parent, potentials and constraints can also name points, which are position vectors, and ask bodies and
-/// frames for `arm.position` (O) and `arm.rotation`, all from Ω in observer's axes. Constraints of velocities can name speeds,
-/// `arm.velocity` (of O), `arm.angular_velocity` and the time derivative `rate(expr)` of what has no speeds in it.
+/// hypot powi dot cross` and the rotations `rotation_x rotation_y rotation_z inverse`, which are joined by `*` and turn
+/// vectors by `*`. A coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and `pose.rotation`.
+/// Particles without a parent, potentials, constraints and forces can also name points, which are position vectors, and ask
+/// bodies and frames for `arm.position` (O) and `arm.rotation`, all from Ω in observer's axes. Constraints of velocities, and
+/// values of forces, torques, drives and `damping`, can name speeds, `arm.velocity` (of O), `arm.angular_velocity` and the
+/// time derivative `rate(expr)` of what has no speeds in it. Only those four can name inputs, and of them all but `damping`
+/// can call `abs min max`, whose derivatives jump. What acts can have a name, which no expression uses.
 ///
 /// # Errors
 ///

@@ -8,8 +8,8 @@ struct Body {
     mass: f64,
     #[gauss(inertia)]
     inertia: Vector3<f64>,
-    #[gauss(spring)]
-    stiffness: f64,
+    #[gauss(flywheel)]
+    momentum: f64,
 }
 
 fn main() {}

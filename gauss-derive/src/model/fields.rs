@@ -6,7 +6,7 @@ use super::names;
 use super::roles::{ROLES, SYSTEM_ROLES};
 use super::scene::CLAUSES;
 use super::shapes::{self, Reading};
-use super::statements::STATEMENTS;
+use super::statements::{self, STATEMENTS};
 use super::{Role, Shape};
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Expr, ExprLit, FieldsNamed, Generics, Lit, Meta, Type};
@@ -110,7 +110,10 @@ impl Reader<'_> {
     fn refuse(&mut self, clause: &Clause, word: &str, context: &mut Context) {
         let span = clause.name.span();
         if CLAUSES.iter().any(|(name, _)| *name == word) || STATEMENTS.iter().any(|(name, _)| *name == word) {
-            let written = clause.written();
+            let written = match clause.value {
+                Value::Absent => statements::form(word).unwrap_or_else(|| clause.written()),
+                _ => clause.written(),
+            };
             context.error(
                 span,
                 format!(

@@ -90,6 +90,14 @@ pub(super) fn meant(word: &str) -> Option<Statement> {
     names::nearest(word, STATEMENTS).map(|(_, statement)| statement)
 }
 
+/// How the clause `word` is written, if it is one of these.
+pub(super) fn form(word: &str) -> Option<String> {
+    STATEMENTS.iter().find(|(name, _)| *name == word).map(|(_, statement)| match statement {
+        Statement::Potential | Statement::Damping | Statement::Limit => format!("{word} = …"),
+        _ => format!("{word}(…)"),
+    })
+}
+
 impl Statement {
     /// It says what moves: what it stands in is a system. The others are about a system that there is already.
     pub(super) fn makes_system(self) -> bool {

@@ -213,6 +213,7 @@ fn clauses_of_systems() {
         `coordinates(pose: Pose), body(position = pose.position, rotation = pose.rotation)` in place of `chart` and \
         `motion`";
     for word in ["input", "force", "torque", "drive", "spring", "damping"] {
+        let form = if word == "damping" { "damping = …".into() } else { format!("{word}(…)") };
         check_body(&format!("#[gauss({word}(a, b = c))]"), &[(word, message)]);
         // What else is missing depends on what the system will be.
         check(&format!("#[gauss({word}(a, b = c))] struct Scene {{ k: f64 }}"), &[(word, message)]);
@@ -220,7 +221,7 @@ fn clauses_of_systems() {
             &format!("struct Scene {{ #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64, #[gauss({word})] k: f64 }}"),
             &[(
                 word,
-                &format!("`{word}` is a clause of the struct, not of a field; write `#[gauss({word})]` above `struct`"),
+                &format!("`{word}` is a clause of the struct, not of a field; write `#[gauss({form})]` above `struct`"),
             )],
         );
     }

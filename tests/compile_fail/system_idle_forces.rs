@@ -1,0 +1,26 @@
+//! What acts on what is at rest.
+
+use gauss_runtime::prelude::*;
+
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, theta, attitude: Rotation),
+    body(arm, position = [x, 0, 0], rotation = rotation_z(theta)),
+    body(gyro, parent = arm, rotation = attitude),
+    frame(wall, position = [l * t, 0, 0]),
+    point(tip, body = arm, at = [l, 0, 0]),
+    force(at = [l, 0, 0], value = [k, 0, 0]),
+    torque(body = wall, value = [0, 0, k]),
+    spring(from = wall.position, to = [0, 0, l], stiffness = k),
+    damping = k * x * x,
+)]
+struct Scene {
+    #[gauss(body)]
+    arm: RigidBody<f64>,
+    #[gauss(body)]
+    gyro: RigidBody<f64>,
+    l: f64,
+    k: f64,
+}
+
+fn main() {}
