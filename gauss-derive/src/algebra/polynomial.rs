@@ -2,7 +2,8 @@
 //!
 //! Atoms are symbols, function values with normalised arguments, opaque constants, and reciprocals of primitive sums.
 //! Two rewriting rules are always on: `cos²x → 1 − sin²x`, and `lm(S)·S⁻¹ → 1 − (S − lm(S))·S⁻¹` for a denominator S
-//! with leading monomial lm(S) (graded lexicographic order); both lower the order of the monomial, so they terminate.
+//! with leading monomial lm(S) (graded order, cosines before all else); both lower the order of the monomial, so they
+//! terminate.
 
 use super::map::Map;
 use std::collections::BTreeMap;
@@ -106,7 +107,13 @@ struct Expander<'g> {
     graph: &'g Graph,
     limit: usize,
     memo: Map<Id, Option<Rc<Polynomial<'g>>>>,
-    denominators: Map<Id, Rc<Polynomial<'g>>>,
+    denominators: Map<Id, Denominator<'g>>,
+}
+
+/// A primitive sum that is divided by, and its leading monomial.
+struct Denominator<'g> {
+    sum: Polynomial<'g>,
+    leading: Monomial,
 }
 
 impl<'g> Expr<'g> {
@@ -203,11 +210,12 @@ impl<'g> Expander<'g> {
             return None;
         };
         let (atom, _) = reciprocal[0];
-        let primitive = Rc::new(factor.scaled_to(self.graph.expr(atom)));
+        let primitive = factor.scaled_to(self.graph.expr(atom));
         let content = factor.ratio_to(&primitive);
         // The order is a well-order on proper monomials only: a denominator with denominators inside stays an atom.
         if primitive.terms.keys().all(|m| m.0.iter().all(|&(_, n)| n > 0)) {
-            self.denominators.insert(atom, primitive);
+            let leading = primitive.leading_monomial().clone();
+            self.denominators.insert(atom, Denominator { sum: primitive, leading });
         }
         let single = Polynomial::term(self.graph, Monomial(vec![(atom, exponent)]), content.pow(exponent));
         self.multiply(&base, &single)
@@ -244,12 +252,11 @@ impl<'g> Expander<'g> {
             if n < 0
                 && let Some(denominator) = self.denominators.get(&atom)
             {
-                let (leading, leading_coefficient) =
-                    denominator.terms.last_key_value().expect("a denominator has terms");
+                let Denominator { sum, leading } = denominator;
                 if let Some(rest) = monomial.over(leading) {
-                    let coefficient = coefficient * leading_coefficient.recip();
+                    let coefficient = coefficient * sum.terms[leading].recip();
                     self.add_reduced(result, rest.times(&Monomial(vec![(atom, 1)])), coefficient);
-                    for (m, c) in &denominator.terms {
+                    for (m, c) in &sum.terms {
                         if m != leading {
                             let c = -(coefficient * *c);
                             self.add_reduced(result, rest.times(m), c);
@@ -343,6 +350,17 @@ impl<'g> Polynomial<'g> {
     fn ratio_to(&self, primitive: &Self) -> Rational {
         let (m, c) = self.terms.first_key_value().expect("a denominator has terms");
         *c * primitive.terms[m].recip()
+    }
+
+    /// The largest in an order that counts cosines before all other atoms, so that `cos² → 1 − sin²` lowers it as well,
+    /// whichever of sine and cosine was made first: by degree, then by the cosines, then by the rest.
+    fn leading_monomial(&self) -> &Monomial {
+        let is_cosine = |id: Id| matches!(self.graph.node(id), Node::Call(Function::Cos, _));
+        let parts = |m: &Monomial| -> (i32, Monomial, Monomial) {
+            let (cosines, rest) = m.0.iter().partition(|(id, _)| is_cosine(*id));
+            (m.degree(), Monomial(cosines), Monomial(rest))
+        };
+        self.terms.keys().max_by_key(|m| parts(m)).expect("a denominator has terms")
     }
 
     fn monomial_expr(&self, monomial: &Monomial) -> Expr<'g> {

@@ -53,6 +53,21 @@ fn normal_forms_decide_identities() {
     assert!((x + y).powi(9).expand(5).is_none());
 }
 
+/// A sine made before its cosine, both in a denominator: `cos² → 1 − sin²` and the rule of the denominator must not undo one
+/// another.
+#[test]
+fn rewriting_sines_in_denominators_ends() {
+    let graph = Graph::new();
+    let [x] = symbols(&graph, ["x"]);
+    let (sin, cos) = (x.sin(), x.cos());
+    let zero = |e: Expr<'_>| e.expand(1000).is_some_and(|p| p.is_zero());
+    let sum = sin.powi(2) + sin * cos;
+    let quotient = sin * cos.powi(2) * sum.recip();
+    assert!(quotient.expand(1000).is_some());
+    // It is s c² = s − s³ on the other side too.
+    assert!(zero(quotient - (sin - sin.powi(3)) * sum.recip()));
+}
+
 #[test]
 fn derivatives_agree_with_differences() {
     let graph = Graph::new();
