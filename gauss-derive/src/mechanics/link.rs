@@ -167,6 +167,12 @@ impl<'g> Link<'g> {
         }
     }
 
+    /// Mass of the displaced fluid and its centre from O, working axes.
+    pub fn displaced(&self) -> Option<(Expr<'g>, Triple<'g>)> {
+        let (mass, center) = self.body()?.displaced?;
+        Some((mass, self.planar.map_or(center, |turn| turn.vector(&center).map(Expr::group))))
+    }
+
     /// The only body axis that it turns about.
     pub fn only_axis(&self) -> Option<usize> {
         let still = |axis: usize| self.angular_velocity[axis].is_zero();

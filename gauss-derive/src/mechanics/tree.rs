@@ -5,7 +5,7 @@ use crate::algebra::{Expr, Graph, Map};
 
 use super::body::Body;
 use super::forces::Force;
-use super::link::{Link, Placement, impulse};
+use super::link::{Link, Matter, Placement, impulse};
 use super::moments::Moments;
 use super::momentum::Weight;
 use super::regroup::regroup;
@@ -36,7 +36,8 @@ pub struct Tree<'g> {
 }
 
 impl<'g> Tree<'g> {
-    /// Components are taken in k where every turn is about one and the same axis, else in body axes.
+    /// Components are taken in k where every turn is about one and the same axis, else in body axes, in which the added mass
+    /// of a fluid is constant.
     pub fn new(
         graph: &'g Graph,
         placements: Vec<Placement<'g>>,
@@ -48,7 +49,8 @@ impl<'g> Tree<'g> {
         let mut turns = placements.iter().flat_map(|p| &p.turns);
         let axis = turns.clone().next().and_then(|turn| turn.axis_and_angle()).map(|(axis, _)| axis);
         let about_it = |turn: &Turn<'g>| turn.axis_and_angle().is_some_and(|(own, _)| Some(own) == axis);
-        let planar = axis.filter(|_| chained && turns.all(about_it));
+        let dry = placements.iter().all(|p| !matches!(&p.matter, Matter::Body(body) if body.added_mass.is_some()));
+        let planar = axis.filter(|_| chained && dry && turns.all(about_it));
         let mut tree = Self { graph, links: Vec::new(), planar, speeds, rates, gravity };
         placements.into_iter().for_each(|placement| tree.hang(placement));
         tree
@@ -67,6 +69,12 @@ impl<'g> Tree<'g> {
     /// Gives to parents what moves with them as well; to be called once all links hang.
     pub fn settle(&mut self) {
         regroup(self.graph, &mut self.links);
+        self.links.iter_mut().for_each(Link::settle);
+    }
+
+    /// Leaves all moments where they were given.
+    #[cfg(test)]
+    pub fn settle_without_regrouping(&mut self) {
         self.links.iter_mut().for_each(Link::settle);
     }
 
@@ -169,6 +177,7 @@ impl<'g> Tree<'g> {
                 together[parent] = together[parent].plus(&moments).map(Expr::group);
             }
         }
+        self.add_carried_fluid(&mut matrix);
         for row in 0..n {
             for column in 0..row {
                 matrix[row][column] = matrix[column][row];
@@ -177,7 +186,37 @@ impl<'g> Tree<'g> {
         matrix
     }
 
-    /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm` and the fluid's share, with ż by its rates in `along`.
+    /// What the fluid around a link adds to A through the motion of its ancestors alone: it is no moment, so it is not in
+    /// what moves together with them.
+    fn add_carried_fluid(&self, matrix: &mut [Vec<Expr<'g>>]) {
+        for (k, link) in self.links.iter().enumerate() {
+            let added = link.body().and_then(|body| body.added_mass.as_ref());
+            let (Some(added), Some(_)) = (added, link.parent) else { continue };
+            let carried: Vec<_> = self.speeds().map(|speed| self.carried_motion(k, speed)).collect();
+            let moves = |z: &usize| !is_zero(&carried[*z].0) || !is_zero(&carried[*z].1);
+            for column in self.speeds().filter(moves) {
+                let (linear, angular) = impulse(added, &carried[column].0, &carried[column].1);
+                for row in (0..=column).filter(moves) {
+                    let entry = dot(&linear, &carried[row].0) + dot(&angular, &carried[row].1);
+                    matrix[row][column] = matrix[row][column] + entry;
+                }
+            }
+        }
+    }
+
+    /// ∂v_O/∂z^α and ∂ω/∂z^α that a link has from its ancestors, in its working axes.
+    fn carried_motion(&self, k: usize, speed: usize) -> (Triple<'g>, Triple<'g>) {
+        let Some(parent) = self.links[k].parent else { return ([self.graph.zero(); 3], [self.graph.zero(); 3]) };
+        let (above, joint) = (&self.links[parent], &self.links[k].joint);
+        let (linear, angular) = self.carried_motion(parent, speed);
+        let own = above.frame.resolve(&above.linear_rows[speed], Axes::Body);
+        let (linear, angular) = (add(&linear, &own), add(&angular, &above.angular_rows[speed]));
+        let moved = add(&linear, &cross(&angular, &joint.offset)).map(Expr::group);
+        (inward(&joint.turns, &moved), inward(&joint.turns, &angular))
+    }
+
+    /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm`, the fluid's share and the
+    /// loads, with ż by its rates in `along`.
     pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
         let accelerations = self.accelerations(along);
         let inertia_forces = self.links.iter().zip(&accelerations);
@@ -298,10 +337,12 @@ impl<'g> Tree<'g> {
             force = frame.body_vector(rate(&q));
             torque = add(&rate(&gamma), &cross(&u, &q));
         }
-        if let (Some((mass, center)), Some(gravity)) = (body.displaced, self.gravity) {
+        if let (Some((mass, center)), Some(gravity)) = (link.displaced(), self.gravity) {
             let lift = frame.space_vector(scale(mass, &gravity));
-            force = force.plus(&lift);
-            torque = add(&torque, &cross(&center, &frame.resolve(&lift, Axes::Body)));
+            let turned = frame.resolve(&lift, Axes::Body);
+            torque = add(&torque, &cross(&center, &turned));
+            // What is handed on to a parent is in body axes.
+            force = force.plus(&if link.is_alone() { lift } else { frame.body_vector(turned) });
         }
         (force, torque)
     }
@@ -338,7 +379,7 @@ impl<'g> Tree<'g> {
         let forces = self.links.iter().map(|link| {
             let frame = &link.frame;
             let (mut mass, mut first) = (link.moments.mass, link.moments.first);
-            if let Some((displaced, center)) = link.body().and_then(|body| body.displaced) {
+            if let Some((displaced, center)) = link.displaced() {
                 mass = mass - displaced;
                 first = subtract(&first, &scale(displaced, &center));
             }
@@ -366,9 +407,9 @@ impl<'g> Tree<'g> {
         let mut gathered: Vec<(Expr<'g>, Triple<'g>)> = Vec::with_capacity(self.links.len());
         for link in &self.links {
             gathered.push(match &link.matter {
-                super::link::Matter::Nothing => (self.graph.zero(), [self.graph.zero(); 3]),
-                super::link::Matter::Particle(mass) => (*mass, [self.graph.zero(); 3]),
-                super::link::Matter::Body(body) => match Weight::new(body) {
+                Matter::Nothing => (self.graph.zero(), [self.graph.zero(); 3]),
+                Matter::Particle(mass) => (*mass, [self.graph.zero(); 3]),
+                Matter::Body(body) => match Weight::new(body) {
                     Some(weight) => (weight.effective_mass, weight.effective_moment),
                     None => (body.mass, body.first_moment()),
                 },
