@@ -33,6 +33,8 @@ mod momentum;
 mod names;
 #[cfg(test)]
 mod proof;
+#[cfg(test)]
+mod random_systems;
 mod regroup;
 mod rotation;
 #[cfg(test)]
