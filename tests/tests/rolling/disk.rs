@@ -286,10 +286,10 @@ fn every_way_gives_the_reference() {
     });
 }
 
-/// Any state of a disk that does not lie flat.
+/// Any state of a disk that is far enough from lying flat, where ρ jumps, for central differences to resolve its motion.
 fn rolling() -> impl Strategy<Value = Rolling> {
     let angle = -3.0..3.0;
-    let q = (-2.0..2.0, -2.0..2.0, angle.clone(), 0.4..2.7, angle);
+    let q = (-2.0..2.0, -2.0..2.0, angle.clone(), 0.7..2.4, angle);
     (q, prop::array::uniform3(-5.0..5.0)).prop_map(|((x, y, phi, theta, psi), w)| Rolling {
         q: SVector::from([x, y, phi, theta, psi]),
         w: Vector3::from(w),
