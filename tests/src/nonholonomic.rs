@@ -3,14 +3,11 @@
 use gauss_runtime::prelude::*;
 
 use crate::laws::{Flow, Sizes, System};
-use crate::trajectory::rows;
-
-/// A quantity of a state, by its name in the references, and its components.
-pub type Observed = (&'static str, Vec<f64>);
+use crate::trajectory::{Seen, rows};
 
 /// R by rows, b, u and ω in body axes, by their names in the references; ḃ is given in observer's axes, ω in the body's.
 #[must_use]
-pub fn rigid_state(pose: &Isometry3<f64>, velocity: Vector3<f64>, omega: Vector3<f64>) -> Vec<Observed> {
+pub fn rigid_state(pose: &Isometry3<f64>, velocity: Vector3<f64>, omega: Vector3<f64>) -> Seen {
     let list = |v: Vector3<f64>| v.iter().copied().collect::<Vec<_>>();
     vec![
         ("R", rows(&pose.rotation)),
@@ -22,7 +19,7 @@ pub fn rigid_state(pose: &Isometry3<f64>, velocity: Vector3<f64>, omega: Vector3
 
 /// [`rigid_state`] of a twist.
 #[must_use]
-pub fn state_of_twist(pose: &Isometry3<f64>, twist: &SVector<f64, 6>) -> Vec<Observed> {
+pub fn state_of_twist(pose: &Isometry3<f64>, twist: &SVector<f64, 6>) -> Seen {
     let (u, omega) = (Vector3::new(twist[0], twist[1], twist[2]), Vector3::new(twist[3], twist[4], twist[5]));
     rigid_state(pose, pose.rotation * u, omega)
 }

@@ -2,8 +2,8 @@
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least};
-use gauss_tests::nonholonomic::{Observed, precise, rigid_state, state_of_twist};
-use gauss_tests::trajectory::{Run, reference, rotation};
+use gauss_tests::nonholonomic::{precise, rigid_state, state_of_twist};
+use gauss_tests::trajectory::{Run, Seen, reference, rotation};
 use proptest::prelude::*;
 
 /// Speeds that solve the constraint.
@@ -104,7 +104,7 @@ fn rates(theta: f64, v: f64, omega: f64) -> SVector<f64, 3> {
     SVector::from([v * theta.cos(), v * theta.sin(), omega])
 }
 
-fn planar(q: &SVector<f64, 3>, rates: &SVector<f64, 3>) -> Vec<Observed> {
+fn planar(q: &SVector<f64, 3>, rates: &SVector<f64, 3>) -> Seen {
     let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), q[2]);
     let pose = Isometry3::from_parts(Translation3::new(q[0], q[1], 0.0), rotation);
     rigid_state(&pose, Vector3::new(rates[0], rates[1], 0.0), Vector3::new(0.0, 0.0, rates[2]))

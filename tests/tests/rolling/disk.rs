@@ -5,8 +5,8 @@
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least};
-use gauss_tests::nonholonomic::{Observed, rigid_state, state_of_twist, twist};
-use gauss_tests::trajectory::Run;
+use gauss_tests::nonholonomic::{rigid_state, state_of_twist, twist};
+use gauss_tests::trajectory::{Run, Seen};
 use proptest::prelude::*;
 
 /// Speeds that solve the rolling.
@@ -244,7 +244,7 @@ impl Rolling {
         (SVector::from([x, y, self.height(), phi, theta, psi]), z)
     }
 
-    fn observed(&self) -> Vec<Observed> {
+    fn observed(&self) -> Seen {
         rigid_state(&self.pose(), self.velocity(), self.omega())
     }
 }

@@ -4,8 +4,8 @@
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least};
-use gauss_tests::nonholonomic::{Observed, precise, rigid_state, state_of_twist, twist};
-use gauss_tests::trajectory::Run;
+use gauss_tests::nonholonomic::{precise, rigid_state, state_of_twist, twist};
+use gauss_tests::trajectory::{Run, Seen};
 use proptest::prelude::*;
 
 /// Speeds that solve the rolling, angles as in the reference: γ = (−cos ρ sin π, sin ρ, cos ρ cos π) of roll ρ and pitch π.
@@ -169,7 +169,7 @@ fn every_way_gives_the_reference() {
     Run { name, system: &in_angles(FLAT), start: (q, w) }.agrees(1.0, |_, q, w| {
         let (pose, velocity) = rolling(&FLAT, &planar(q), w);
         let angles = ("q", q.iter().copied().collect());
-        rigid_state(&pose, velocity, *w).into_iter().chain([angles]).collect::<Vec<Observed>>()
+        rigid_state(&pose, velocity, *w).into_iter().chain([angles]).collect::<Seen>()
     });
     Run { name, system: &eliminated(FLAT), start: (planar(&q), w) }.agrees(1.0, |_, q, w| {
         let (pose, velocity) = rolling(&FLAT, q, w);
