@@ -1,4 +1,5 @@
-//! What the example `kirchhoff_vs_newton_euler` is made of; here and not beside it, so that a test can run it too.
+//! What the example `kirchhoff_vs_newton_euler` is made of; here and not beside it, so that a test can run it too. And what
+//! other examples draw with.
 //!
 //! | module | holds |
 //! |---|---|
@@ -8,11 +9,13 @@
 //! | [`timing`] | nanoseconds per evaluation |
 //! | [`report`] | the text |
 //! | [`figure`] | the picture, its panels in [`panels`] |
+//! | [`rolling`] | the picture of `rolling_disk` |
 
 pub mod figure;
 pub mod measure;
 pub mod panels;
 pub mod report;
+pub mod rolling;
 pub mod simulate;
 pub mod timing;
 pub mod vehicle;

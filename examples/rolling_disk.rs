@@ -1,0 +1,95 @@
+//! A hoop that rolls and wobbles: constraints, consistent initial values, integrals, and the force of the ground.
+//!
+//! `cargo run --release --example rolling_disk [-- FOLDER]` draws its path into `FOLDER`, by default `target/rolling_disk`.
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+use gauss_examples::figure;
+use gauss_examples::rolling::{Floor, Hoop, draw};
+use gauss_runtime::prelude::*;
+
+/// A thin hoop on the floor z = 0. Its axis leans by `lean` from the vertical: at a right angle the hoop stands upright, at zero
+/// it lies flat.
+///
+/// The point that touches the floor rests. This says how fast the centre goes along the heading and across it, which cannot be
+/// integrated, and how high it is, which can.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, y, z, heading, lean, spin),
+    body(hoop, position = [x, y, z], rotation = rotation_z(heading) * rotation_x(lean) * rotation_z(spin)),
+    constraint(velocity = rate(x) * cos(heading) + rate(y) * sin(heading) + r * (rate(spin) + rate(heading) * cos(lean))),
+    constraint(velocity = rate(y) * cos(heading) - rate(x) * sin(heading) + r * sin(lean) * rate(lean)),
+    constraint(position = z - r * sin(lean)),
+)]
+struct RollingDisk {
+    #[gauss(body)]
+    hoop: RigidBody<f64>,
+    r: f64,
+    #[gauss(gravity)]
+    g: f64,
+}
+
+/// m, and kg.
+const RADIUS: f64 = 0.3;
+const MASS: f64 = 1.5;
+const GRAVITY: f64 = 9.81;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/rolling_disk"), PathBuf::from);
+    // Nearly all mass in the rim.
+    let about_axis = 0.9 * MASS * RADIUS * RADIUS;
+    let inertia = Matrix3::from_diagonal(&Vector3::new(0.5, 0.5, 1.0)) * about_axis;
+    let hoop = RigidBody { mass: MASS, center_of_mass: Vector3::zeros(), inertia };
+    let kernel = RollingDisk { hoop, r: RADIUS, g: GRAVITY }.kernel()?;
+    println!("{}\n", RollingDiskKernel::EQUATIONS);
+
+    // What one would type: the height and the velocities do not fit together to the last digit, nor need they.
+    let typed = (SVector::from([0.0, 0.0, 0.28, 0.0, 1.2, 0.0]), SVector::from([1.2, 0.0, 0.0, -0.8, 0.0, -3.7]));
+    let (q, z) = kernel.project(0.0, &typed.0, &typed.1)?;
+    println!("the nearest state that rolls: height {:.6} m, speed {:.6} m/s, spin {:.6} rad/s\n", q[2], z[0], z[5]);
+
+    let path = Simulation::new(&kernel).adaptive(1e-10, 1e-10).run(q, z, 0.0..12.0)?;
+    let (mut off, mut friction, mut lightest) = (0.0_f64, 0.0_f64, f64::INFINITY);
+    for sample in path.iter() {
+        let [along, across, normal] = kernel.multipliers(sample.t, &sample.q, &sample.z, &()).into();
+        friction = friction.max(f64::hypot(along, across) / normal);
+        lightest = lightest.min(normal / (MASS * GRAVITY));
+        off = off.max(kernel.position_residual(sample.t, &sample.q).amax());
+        off = off.max(kernel.velocity_residual(sample.t, &sample.q, &sample.z).amax());
+    }
+
+    println!("   t/s      x/m      y/m   lean/°   along/N  across/N  normal/N   of the floor on the hoop");
+    for n in 0..=12 {
+        let s = path.at(f64::from(n)).expect("inside the run");
+        let [along, across, normal] = kernel.multipliers(s.t, &s.q, &s.z, &()).into();
+        let lean = s.q[4].to_degrees();
+        println!("{:6.1} {:8.3} {:8.3} {lean:8.2} {along:9.3} {across:9.3} {normal:9.3}", s.t, s.q[0], s.q[1]);
+    }
+    println!(
+        "\nit rolls while the coefficient of friction is above {friction:.3}; the floor carries {lightest:.3} of its weight at least"
+    );
+    println!("largest deviation from the constraints in {} steps: {off:.1e} m and m/s", path.len() - 1);
+    println!("{}", monitor(&kernel, &path));
+
+    let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
+    let hoops: Vec<Hoop> = (0..=1200)
+        .map(|n| {
+            let s = path.at(0.01 * f64::from(n)).expect("inside the run");
+            let rotation = turn(Vector3::z_axis(), s.q[3]) * turn(Vector3::x_axis(), s.q[4]);
+            Hoop { centre: Vector3::new(s.q[0], s.q[1], s.q[2]), rotation, radius: RADIUS }
+        })
+        .collect();
+    let svg = draw(
+        &hoops,
+        Floor { grid: 0.25, shown: 8, among: 81 },
+        "A hoop rolls for 12 s: where it touched the floor, and its last 0.8 s",
+    )?;
+    fs::create_dir_all(&folder)?;
+    for (name, contents) in [("rolling_disk.svg", svg.clone().into_bytes()), ("rolling_disk.png", figure::png(&svg)?)] {
+        let file = folder.join(name);
+        fs::write(&file, contents)?;
+        println!("written: {}", file.display());
+    }
+    Ok(())
+}
