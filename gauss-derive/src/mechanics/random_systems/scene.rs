@@ -157,6 +157,8 @@ impl<'g> Symbols<'g> {
             rates,
             tree,
             constraints,
+            inputs: Vec::new(),
+            forces: Vec::new(),
         }
     }
 }
