@@ -85,7 +85,8 @@ pub fn eliminate<'g>(
         Obstacle::Count(wanted) => syn::Error::new(
             named,
             format!(
-                "{total} speeds and {count} scalar constraints leave {wanted} independent; `independent` names {}",
+                "{total} speeds and {count} scalar constraint{} leave {wanted} independent; `independent` names {}",
+                if count == 1 { "" } else { "s" },
                 kept.len()
             ),
         ),

@@ -251,8 +251,24 @@ pub fn check_system_against_definition<'g>(
     if !faults.is_empty() {
         return Err(faults);
     }
-    let Some(mut witness) = states().find(inside) else { return Ok(()) };
-    let unconstrained = witness.stationarity(&arbitrary);
+    // A wrong term is wrong nearly everywhere, roundings grow large near singular states alone: only what disagrees at three
+    // states is refused.
+    let mut verdict = Ok(());
+    for witness in states().filter(inside).take(3) {
+        verdict = compare(witness, formulas, &arbitrary);
+        if verdict.is_ok() {
+            break;
+        }
+    }
+    verdict.map_err(|error| vec![SystemFault::Disagreement(error)])
+}
+
+/// Residuals at the given ż and accelerations, against the definition.
+fn compare<'g>(mut witness: Witness<'_, 'g>, formulas: &[Formula<'g>], arbitrary: &[f64]) -> Result<(), Disagreement> {
+    let system = witness.system;
+    let arrangements =
+        |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
+    let unconstrained = witness.stationarity(arbitrary);
     let jacobian = witness.partials(&system.constraints.on_velocities);
     let with_forces = |witness: &Witness<'_, 'g>, rows: Vec<f64>| -> Vec<f64> {
         // Jᵀλ with the multipliers of the motion.
@@ -261,22 +277,21 @@ pub fn check_system_against_definition<'g>(
         let force = |row: &Vec<f64>| row.iter().zip(&multipliers).map(|(j, l)| j * l).sum::<f64>();
         rows.iter().zip(&jacobian).map(|(r, j)| r - force(j)).collect()
     };
-    let disagreement = |error| vec![SystemFault::Disagreement(error)];
-    witness.state.extend(system.scene.speed_rates.iter().zip(&arbitrary).map(|(s, x)| (s.key(), *x)));
+    witness.state.extend(system.scene.speed_rates.iter().zip(arbitrary).map(|(s, x)| (s.key(), *x)));
     let expected = with_forces(&witness, unconstrained);
     for arrangement in arrangements(Method::GaussResidual) {
-        agree(Method::GaussResidual, &witness.values(arrangement), &expected).map_err(disagreement)?;
+        agree(Method::GaussResidual, &witness.values(arrangement), &expected)?;
     }
+    let scale = expected.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
     for arrangement in arrangements(Method::Acceleration) {
         let rates = witness.values(arrangement);
         let found = with_forces(&witness, witness.stationarity(&rates));
-        let scale = expected.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
         let relative: Vec<f64> = found.iter().map(|x| x / scale).collect();
-        agree(Method::Acceleration, &relative, &vec![0.0; n]).map_err(disagreement)?;
+        agree(Method::Acceleration, &relative, &vec![0.0; relative.len()])?;
         // J ż = γ: what the constraints say of velocities goes on to hold.
         let flow = witness.flow(&rates);
         let drift = witness.along(&flow, &system.constraints.on_velocities);
-        agree(Method::Acceleration, &drift, &vec![0.0; drift.len()]).map_err(disagreement)?;
+        agree(Method::Acceleration, &drift, &vec![0.0; drift.len()])?;
     }
     Ok(())
 }
