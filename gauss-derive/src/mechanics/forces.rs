@@ -4,20 +4,11 @@
 use crate::algebra::{Expr, Map};
 
 use super::link::Link;
-use super::names::Name;
 use super::vector::{Axes, Triple, Vector, add, cross, dot};
 
-/// One element that acts.
-pub struct Force<'g> {
-    /// What the user calls it.
-    #[allow(dead_code, reason = "the accounting of powers, element by element, will ask for it")]
-    pub name: Option<Name>,
-    pub kind: ForceKind<'g>,
-}
-
-/// How an element acts.
+/// One element, by how it acts.
 #[derive(Clone, Copy)]
-pub enum ForceKind<'g> {
+pub enum Force<'g> {
     /// A force at a point that moves, both in observer's axes from Ω.
     AtPoint { at: Triple<'g>, force: Triple<'g> },
     /// A force at a point fixed in a link (body axes from O), and a torque; components in the given axes.
@@ -28,10 +19,10 @@ pub enum ForceKind<'g> {
     Dissipation(Expr<'g>),
 }
 
-impl<'g> ForceKind<'g> {
+impl<'g> Force<'g> {
     /// Resultant and torque about O of the link that it acts on, if that is how it acts.
     pub fn load(&self, links: &[Link<'g>]) -> Option<(usize, Vector<'g>, Triple<'g>)> {
-        let ForceKind::OnLink { link, at, force, torque, axes } = self else { return None };
+        let Force::OnLink { link, at, force, torque, axes } = self else { return None };
         let target = &links[*link];
         let in_working = |a: &Triple<'g>, axes: Axes| target.in_working_axes(a, axes).map(Expr::group);
         let force = in_working(force, *axes);
@@ -43,14 +34,14 @@ impl<'g> ForceKind<'g> {
     /// Its generalised forces where it does not act on a link.
     pub fn generalised(&self, speeds: &[Expr<'g>], rates: &Map<u32, Expr<'g>>) -> Option<Vec<Expr<'g>>> {
         Some(match self {
-            ForceKind::AtPoint { at, force } => {
+            Force::AtPoint { at, force } => {
                 let velocity = at.map(|e| e.derivative(rates).group());
                 let force = force.map(Expr::group);
                 speeds.iter().map(|&z| dot(&force, &velocity.map(|e| e.partial(z)))).collect()
             }
-            ForceKind::OnLink { .. } => return None,
-            ForceKind::OnRate { rate, force } => speeds.iter().map(|&z| rate.partial(z) * force.group()).collect(),
-            ForceKind::Dissipation(function) => speeds.iter().map(|&z| -function.partial(z)).collect(),
+            Force::OnLink { .. } => return None,
+            Force::OnRate { rate, force } => speeds.iter().map(|&z| rate.partial(z) * force.group()).collect(),
+            Force::Dissipation(function) => speeds.iter().map(|&z| -function.partial(z)).collect(),
         })
     }
 }

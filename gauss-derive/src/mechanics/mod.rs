@@ -56,7 +56,7 @@ pub use check::check_against_definition;
 pub use constraint::{Constraint, ConstraintKind, Constraints};
 pub use elimination::{Elimination, Obstacle};
 pub use equations::Section;
-pub use forces::{Force, ForceKind};
+pub use forces::Force;
 pub use link::{Matter, Placement, identity};
 pub use methods::{Formula, Method, Scene};
 pub use names::Name;

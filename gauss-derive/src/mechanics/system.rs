@@ -196,7 +196,7 @@ impl<'g> System<'g> {
     /// Of the potential, and of what acts elsewhere than on links.
     fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
-        let acting = scene.forces.iter().filter_map(|force| force.kind.generalised(&scene.speeds, &scene.rates));
+        let acting = scene.forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
         acting.fold(self.potential_forces(), |sum, forces| sums(&sum, &forces))
     }
 

@@ -5,7 +5,7 @@ use crate::algebra::{Evaluation, Expr, Map, Rational, Tangents};
 
 use super::check::{Disagreement, agree};
 use super::constraint::ConstraintKind;
-use super::forces::ForceKind;
+use super::forces::Force;
 use super::link::{Link, Matter};
 use super::methods::{Formula, Method};
 use super::rotation::rotation_of_quaternion;
@@ -118,22 +118,22 @@ impl<'a, 'g> Witness<'a, 'g> {
         let mut rows = vec![0.0; scene.speeds.len()];
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         for force in &scene.forces {
-            match &force.kind {
-                ForceKind::AtPoint { at, force } => {
+            match force {
+                Force::AtPoint { at, force } => {
                     let velocity = at.map(|e| e.derivative(&scene.rates));
                     let force = self.values(force);
                     let partials = self.partials(&velocity);
                     rows.iter_mut().zip(partials).for_each(|(row, w)| *row += dot(&force, &w));
                 }
-                ForceKind::OnRate { rate, force } => {
+                Force::OnRate { rate, force } => {
                     let force = self.values([force]);
                     let partials = self.partials(&[*rate]);
                     rows.iter_mut().zip(partials).for_each(|(row, w)| *row += dot(&force, &w));
                 }
-                ForceKind::Dissipation(function) => {
+                Force::Dissipation(function) => {
                     rows.iter_mut().zip(self.partials(&[*function])).for_each(|(row, w)| *row -= w[0]);
                 }
-                ForceKind::OnLink { link, at, force, torque, axes } => {
+                Force::OnLink { link, at, force, torque, axes } => {
                     let r: Vec<f64> = self.values(scene.tree.links[*link].rotation.iter().flatten());
                     let in_space = |a: &[Expr<'g>; 3], axes: Axes| -> Vec<f64> {
                         let a = self.values(a);

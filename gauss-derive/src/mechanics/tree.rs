@@ -222,7 +222,7 @@ impl<'g> Tree<'g> {
         let inertia_forces = self.links.iter().zip(&accelerations);
         let mut pairs: Pairs<'g> =
             inertia_forces.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
-        for (link, force, torque) in forces.iter().filter_map(|force| force.kind.load(&self.links)) {
+        for (link, force, torque) in forces.iter().filter_map(|force| force.load(&self.links)) {
             let (linear, angular) = &mut pairs[link];
             *linear = linear.minus(&force).map(Expr::group);
             *angular = subtract(angular, &torque).map(Expr::group);
@@ -234,7 +234,7 @@ impl<'g> Tree<'g> {
     pub fn loads(&self, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
         let none = [self.graph.zero(); 3];
         let mut pairs: Pairs<'g> = self.links.iter().map(|link| (link.frame.zero(), none)).collect();
-        for (link, force, torque) in forces.iter().filter_map(|force| force.kind.load(&self.links)) {
+        for (link, force, torque) in forces.iter().filter_map(|force| force.load(&self.links)) {
             let (linear, angular) = &mut pairs[link];
             *linear = linear.plus(&force);
             *angular = add(angular, &torque);

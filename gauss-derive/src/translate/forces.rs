@@ -5,10 +5,9 @@ use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
-use crate::mechanics::{Axes, Force, ForceKind, Tree};
+use crate::mechanics::{Axes, Force, Tree};
 use crate::model::{self, Expression, ForceAxes};
 
-use super::symbols::name_of;
 use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
@@ -18,22 +17,21 @@ impl<'g> Translator<'_, 'g> {
     pub(super) fn forces(&self, tree: &Tree<'g>) -> syn::Result<(Vec<Force<'g>>, Vec<Expr<'g>>)> {
         let (mut forces, mut potentials) = (Vec::new(), Vec::new());
         for clause in &self.model.forces {
-            let name = clause.name.as_ref().map(name_of);
-            let mut act = |kind| forces.push(Force { name: name.clone(), kind });
+            let mut act = |force| forces.push(force);
             match &clause.kind {
                 model::ForceKind::AtPoint { at, value } => {
-                    act(ForceKind::AtPoint { at: self.vector(at, tree)?, force: self.vector(value, tree)? });
+                    act(Force::AtPoint { at: self.vector(at, tree)?, force: self.vector(value, tree)? });
                 }
                 model::ForceKind::OnBody { body, at, value, axes } => {
                     let none = [self.graph.zero(); 3];
                     let at = at.as_ref().map_or(Ok(none), |at| self.vector(at, tree))?;
                     let force = self.vector(value, tree)?;
-                    act(ForceKind::OnLink { link: self.link(body)?, at, force, torque: none, axes: axes_of(*axes) });
+                    act(Force::OnLink { link: self.link(body)?, at, force, torque: none, axes: axes_of(*axes) });
                 }
                 model::ForceKind::Torque { body, value, axes, reaction } => {
                     let none = [self.graph.zero(); 3];
                     let (link, torque) = (self.link(body)?, self.vector(value, tree)?);
-                    act(ForceKind::OnLink { link, at: none, force: none, torque, axes: axes_of(*axes) });
+                    act(Force::OnLink { link, at: none, force: none, torque, axes: axes_of(*axes) });
                     if let Some(other) = reaction {
                         // The same components in the observer's axes, which both share.
                         let turned = match axes {
@@ -41,7 +39,7 @@ impl<'g> Translator<'_, 'g> {
                             ForceAxes::Body => rotated(&tree.links[link].rotation, &torque),
                         };
                         let torque = turned.map(|e| -e);
-                        act(ForceKind::OnLink {
+                        act(Force::OnLink {
                             link: self.link(other)?,
                             at: none,
                             force: none,
@@ -53,7 +51,7 @@ impl<'g> Translator<'_, 'g> {
                 model::ForceKind::Drive { rates } => {
                     for (coordinate, force) in rates {
                         let rate = self.rate_of_coordinate(coordinate)?;
-                        act(ForceKind::OnRate { rate, force: self.scalar(force, tree)? });
+                        act(Force::OnRate { rate, force: self.scalar(force, tree)? });
                     }
                 }
                 model::ForceKind::Spring { from, to, stiffness, length, damping } => {
@@ -68,10 +66,10 @@ impl<'g> Translator<'_, 'g> {
                     potentials.push((self.scalar(stiffness, tree)? * stretched).half());
                     if let Some(damping) = optional(damping)? {
                         let rate = square.sqrt().derivative(&self.rates).group();
-                        act(ForceKind::Dissipation((damping * rate.powi(2)).half()));
+                        act(Force::Dissipation((damping * rate.powi(2)).half()));
                     }
                 }
-                model::ForceKind::Dissipation(function) => act(ForceKind::Dissipation(self.scalar(function, tree)?)),
+                model::ForceKind::Dissipation(function) => act(Force::Dissipation(self.scalar(function, tree)?)),
             }
         }
         Ok((forces, potentials))

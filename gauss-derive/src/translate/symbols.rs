@@ -290,7 +290,7 @@ impl<'g> Declared<'g> {
     }
 }
 
-pub fn name_of(ident: &Ident) -> Name {
+fn name_of(ident: &Ident) -> Name {
     const GREEK: [&str; 22] = [
         "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",
         "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega",
