@@ -5,7 +5,7 @@ use std::fmt::Display;
 use proc_macro2::{Ident, Span};
 
 use crate::kernel::Kernel;
-use crate::mechanics::{Elimination, Obstacle, System, SystemFault, SystemScene};
+use crate::mechanics::{Coordinate, Elimination, Obstacle, System, SystemFault, SystemScene};
 use crate::model::SystemModel;
 use crate::translate::Translator;
 
@@ -15,7 +15,8 @@ const LIMIT: usize = 50_000;
 /// Rates that are not affine in the speeds.
 pub fn refuse_curved_kinematics(model: &SystemModel, scene: &SystemScene<'_>) -> syn::Result<()> {
     let mut mistakes = Mistakes::default();
-    let mut curved: Vec<usize> = scene.rates_not_affine().into_iter().map(|k| scene.coordinate_of_rate(k)).collect();
+    let mut curved: Vec<usize> =
+        scene.rates_not_affine().into_iter().map(|k| Coordinate::of_component(&scene.coordinates, k)).collect();
     curved.dedup();
     for k in curved {
         let (coordinate, rate) = &model.kinematics[k];

@@ -20,7 +20,7 @@ type Matrix<'g> = [Triple<'g>; 3];
 
 /// `F = linear·a + mixed·α`, `N = mixedᵀ·a + angular·α`: what a motion (a, α) of O asks for.
 #[derive(Clone, Copy)]
-struct Inertia<'g> {
+struct ArticulatedInertia<'g> {
     linear: Matrix<'g>,
     mixed: Matrix<'g>,
     angular: Matrix<'g>,
@@ -56,7 +56,8 @@ impl<'a, 'g> Articulated<'a, 'g> {
     pub fn new(tree: &'a Tree<'g>) -> Option<Self> {
         let dry = |link: &Link<'g>| link.body().is_none_or(|body| body.added_mass.is_none());
         let joints = joint_speeds(tree).filter(|_| tree.links.iter().all(dry))?;
-        let mut inertias: Vec<Inertia<'g>> = tree.links.iter().map(|link| Inertia::of(&link.moments)).collect();
+        let mut inertias: Vec<ArticulatedInertia<'g>> =
+            tree.links.iter().map(|link| ArticulatedInertia::of(&link.moments)).collect();
         let mut pivots: Vec<Vec<Pivot<'g>>> = tree.links.iter().map(|_| Vec::new()).collect();
         for k in (0..tree.links.len()).rev() {
             let link = &tree.links[k];
@@ -201,14 +202,14 @@ fn moved<'g>(a: &Pair<'g>, factor: Expr<'g>, b: &Pair<'g>) -> Pair<'g> {
 }
 
 impl<'g> Pivot<'g> {
-    fn new(speed: usize, row: Pair<'g>, inertia: &Inertia<'g>) -> Self {
+    fn new(speed: usize, row: Pair<'g>, inertia: &ArticulatedInertia<'g>) -> Self {
         let response = inertia.apply(&row);
         let inverse = pair(&row, &response).group().recip();
         Self { speed, row, response, inverse }
     }
 }
 
-impl<'g> Inertia<'g> {
+impl<'g> ArticulatedInertia<'g> {
     fn of(moments: &Moments<'g>) -> Self {
         let zero = moments.mass.graph().zero();
         let linear = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { moments.mass } else { zero }));

@@ -12,8 +12,9 @@ use super::names::Name;
 use super::tree::{Inertia, Tree};
 use super::vector::Triple;
 
-/// Degrees of freedom up to which everything is also tried multiplied out.
-const SMALL: usize = 3;
+/// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of links
+/// that do not, where a free body must be among them.
+const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 const DENSE: usize = 10;
 
@@ -35,6 +36,16 @@ impl<'g> Coordinate<'g> {
             Coordinate::Rotation(_) => 3,
             Coordinate::Pose(..) => 6,
         }
+    }
+
+    /// Of several coordinates the one that a component of their rates belongs to.
+    pub fn of_component(all: &[Self], component: usize) -> usize {
+        let mut end = 0;
+        let ends = all.iter().map(|coordinate| {
+            end += coordinate.size();
+            end
+        });
+        ends.take_while(|end| *end <= component).count()
     }
 
     /// R, where there is one.
@@ -63,8 +74,6 @@ pub struct SystemScene<'g> {
     pub rates: Map<u32, Expr<'g>>,
     pub tree: Tree<'g>,
     pub potential: Option<Expr<'g>>,
-    /// Acceleration of free fall, observer's axes.
-    pub gravity: Option<Triple<'g>>,
     pub constraints: Vec<Constraint<'g>>,
     /// Values that arrive at run time.
     pub inputs: Vec<Expr<'g>>,
@@ -152,7 +161,8 @@ impl<'g> System<'g> {
 
     /// Whether multiplying out would be slow and of no use.
     pub fn is_long(&self) -> bool {
-        self.scene.speeds.len() > SMALL
+        let [chained, apart] = SMALL;
+        self.scene.speeds.len() > if self.scene.tree.is_chained() { chained } else { apart }
     }
 
     fn arrangements(&self) -> Vec<Arrangement<'g>> {
@@ -187,7 +197,7 @@ impl<'g> System<'g> {
         self.scene.speeds.iter().map(|&z| -power.partial(z)).collect()
     }
 
-    /// `R·a_α + M_O·o_α` of weight and buoyancy, and the potential's.
+    /// `∫∂v_P/∂z·dF` of everything that acts: weight and buoyancy, the potential, forces.
     pub fn generalised_forces(&self) -> Vec<Expr<'g>> {
         let loads = self.scene.tree.loads(&self.scene.forces);
         sums(&sums(&self.scene.tree.weights(), &loads), &self.other_forces())
@@ -317,16 +327,6 @@ impl<'g> System<'g> {
 }
 
 impl<'g> SystemScene<'g> {
-    /// The coordinate that a component of ψ belongs to.
-    pub fn coordinate_of_rate(&self, rate: usize) -> usize {
-        let mut first = 0;
-        let after = |coordinate: &Coordinate<'g>| {
-            first += coordinate.size();
-            first
-        };
-        self.coordinates.iter().map(after).position(|end| rate < end).unwrap_or_default()
-    }
-
     /// Rates whose ψ is not affine in z: velocities would then not be linear in z, and (3.4) not this one. Indices into the
     /// kinematics.
     pub fn rates_not_affine(&self) -> Vec<usize> {

@@ -85,7 +85,7 @@ impl<'a, 'g> Witness<'a, 'g> {
         let partials = self.partials(&fields);
         let mut evaluation = Evaluation::new(&self.state);
         let mut rows = vec![0.0; scene.speeds.len()];
-        let gravity = scene.gravity.map(|g| g.map(|e| evaluation.value(e))).unwrap_or_default();
+        let gravity = scene.tree.gravity.map(|g| g.map(|e| evaluation.value(e))).unwrap_or_default();
         for (k, link) in scene.tree.links.iter().enumerate() {
             let moments = Distribution::of(link, &mut evaluation);
             let (mut a, lift) = (field(&accelerations, k), moments.buoyancy);

@@ -21,7 +21,7 @@ impl<'g> System<'g> {
         );
         let mut sections = vec![kinematics];
         if self.is_long() {
-            let words = "too long to print: momenta and forces are summed link by link, from the leaves to the roots";
+            let words = "too long to print";
             sections.push(titled("Gauss condition (3.4)", "Gauss condition (3.4)", remark(words)));
         } else {
             let momenta = scene.momentum_names.iter().zip(self.momentum());

@@ -32,7 +32,8 @@ pub struct Tree<'g> {
     planar: Option<usize>,
     speeds: Vec<Expr<'g>>,
     rates: Map<u32, Expr<'g>>,
-    gravity: Option<Triple<'g>>,
+    /// Acceleration of free fall, observer's axes.
+    pub gravity: Option<Triple<'g>>,
 }
 
 impl<'g> Tree<'g> {

@@ -91,12 +91,7 @@ impl<'a, 'g> Translator<'a, 'g> {
 
     /// The coordinate whose rate a speed is, where none are declared.
     pub fn coordinate_of_speed(&self, speed: usize) -> usize {
-        let mut first = 0;
-        let mut ends = self.declared.coordinates.iter().map(|coordinate| {
-            first += coordinate.size();
-            first
-        });
-        ends.position(|end| speed < end).unwrap_or_default()
+        Coordinate::of_component(&self.declared.coordinates, speed)
     }
 
     /// Names of the speeds as the user wrote them: three for a vector.
@@ -151,7 +146,6 @@ impl<'a, 'g> Translator<'a, 'g> {
             rates: self.rates.clone(),
             tree,
             potential,
-            gravity: self.declared.gravity,
             constraints,
             inputs: self.declared.inputs.clone(),
             forces,

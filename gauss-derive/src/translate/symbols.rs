@@ -109,36 +109,23 @@ fn speed_names(model: &SystemModel) -> Vec<Name> {
 }
 
 /// θ of the speed dθ/dt; else the name of the speed.
-fn momentum_names(model: &SystemModel, speed_names: &[Name]) -> Vec<Name> {
-    if model.speeds.is_some() {
-        return speed_names.to_vec();
-    }
-    let mut names = speed_names.to_vec();
-    let mut first = 0;
-    for coordinate in &model.coordinates {
-        match coordinate.kind {
-            CoordinateKind::Scalar => names[first] = name_of(&coordinate.ident),
-            CoordinateKind::Rotation | CoordinateKind::Pose => {}
-        }
-        first += size_of_coordinate(coordinate.kind);
-    }
-    names
-}
-
-fn size_of_coordinate(kind: CoordinateKind) -> usize {
-    match kind {
-        CoordinateKind::Scalar => 1,
-        CoordinateKind::Rotation => 3,
-        CoordinateKind::Pose => 6,
-    }
+fn momentum_names(model: &SystemModel, coordinates: &[Coordinate<'_>], speed_names: &[Name]) -> Vec<Name> {
+    let renamed = |(k, speed): (usize, &Name)| match &model.speeds {
+        Some(_) => speed.clone(),
+        None => match &model.coordinates[Coordinate::of_component(coordinates, k)] {
+            q if q.kind == CoordinateKind::Scalar => name_of(&q.ident),
+            _ => speed.clone(),
+        },
+    };
+    speed_names.iter().enumerate().map(renamed).collect()
 }
 
 impl<'g> Declared<'g> {
     pub fn new(graph: &'g Graph, model: &SystemModel) -> Self {
         let time = graph.symbol("t", "t", false);
-        let coordinates = model.coordinates.iter().map(|q| coordinate(graph, q)).collect();
+        let coordinates: Vec<Coordinate<'g>> = model.coordinates.iter().map(|q| coordinate(graph, q)).collect();
         let speed_names = speed_names(model);
-        let momentum_names = momentum_names(model, &speed_names);
+        let momentum_names = momentum_names(model, &coordinates, &speed_names);
         let symbols = |name: &dyn Fn(&Name) -> Name| -> Vec<Expr<'g>> {
             speed_names.iter().map(|z| symbol(graph, &name(z), false)).collect()
         };

@@ -151,7 +151,6 @@ impl<'g> Symbols<'g> {
             speed_rates: pick(&self.speed_rates),
             momenta: pick(&self.momenta),
             potential: plan.potential.as_ref().map(|potential| potential.at(&variables)),
-            gravity: self.gravity,
             coordinates,
             kinematics,
             rates,
