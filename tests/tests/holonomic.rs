@@ -385,6 +385,23 @@ fn joint_angles() -> impl Strategy<Value = [f64; 4]> {
     (-3.0..3.0, -1.0..1.0, -3.0..3.0, -1.0..1.0).prop_map(|(a, b, c, d)| [a, b, c, d])
 }
 
+#[test]
+fn cart_pole_has_the_textbook_equations() {
+    let (cart, bob, l, g) = (2.0, 0.3, 0.8, 9.81);
+    let kernel = CartPole { cart, bob, l, g }.kernel().unwrap();
+    for (theta, rate) in [(0.4, 1.1), (-2.0, 0.3), (3.0, -4.0)] {
+        let a = kernel.acceleration(0.0, &SVector::from([0.5, theta]), &SVector::from([0.2, rate]), &());
+        let (s, c) = f64::sin_cos(theta);
+        let force = (cart + bob) * a[0] + bob * l * (c * a[1] - s * rate * rate);
+        let torque = l * a[1] + c * a[0] + g * s;
+        // Terms of order ten, some tens of roundings.
+        assert!(force.abs() < 1e-13 && torque.abs() < 1e-13, "{force:e} {torque:e}");
+    }
+    let (q, z) = (SVector::from([0.1, 2.0]), SVector::from([1.0, -2.0]));
+    laws(&kernel, 0.6, &q, &z, Time::Absent);
+    least(&kernel, 0.6, &q, &z);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 

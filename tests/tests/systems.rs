@@ -117,20 +117,6 @@ struct Suslov {
 
 #[derive(GaussDynamics)]
 #[gauss(
-    coordinates(x, theta),
-    particle(mass = cart, position = [x, 0, 0]),
-    particle(mass = bob, position = [x + l * sin(theta), 0, -l * cos(theta)])
-)]
-struct CartPole {
-    cart: f64,
-    bob: f64,
-    l: f64,
-    #[gauss(gravity)]
-    g: f64,
-}
-
-#[derive(GaussDynamics)]
-#[gauss(
     coordinates(phi, theta, psi),
     body(rotation = rotation_z(phi) * rotation_x(theta) * rotation_z(psi))
 )]
@@ -285,20 +271,6 @@ fn sleigh_has_the_textbook_equations() {
 }
 
 #[test]
-fn cart_pole_has_the_textbook_equations() {
-    let (cart, bob, l, g) = (2.0, 0.3, 0.8, 9.81);
-    let kernel = CartPole { cart, bob, l, g }.kernel().unwrap();
-    for (theta, rate) in [(0.4, 1.1), (-2.0, 0.3), (3.0, -4.0)] {
-        let a = kernel.acceleration(0.0, &SVector::from([0.5, theta]), &SVector::from([0.2, rate]), &());
-        let (s, c) = f64::sin_cos(theta);
-        let force = (cart + bob) * a[0] + bob * l * (c * a[1] - s * rate * rate);
-        let torque = l * a[1] + c * a[0] + g * s;
-        // Terms of order ten, some tens of roundings.
-        assert!(force.abs() < 1e-13 && torque.abs() < 1e-13, "{force:e} {torque:e}");
-    }
-}
-
-#[test]
 fn top_in_coordinates_is_the_top_of_the_jet_chart() {
     let (m, c, i, g) = (1.3, Vector3::new(0.1, -0.2, 0.4), Vector3::new(0.9, 1.1, 1.4), 9.81);
     let system = TopInCoordinates { m, c, i, g }.kernel().unwrap();
@@ -362,7 +334,6 @@ fn laws_of_every_system() {
     holds(&BeadOnHoop { a: 0.8, spin: 5.0, g: 9.81 }.kernel().unwrap(), [0.3], [0.4], Time::Hidden);
     holds(&sleigh().kernel().unwrap(), [1.0, 2.0, 0.4], [0.6, -1.5], Time::Absent);
     holds(&suslov().kernel().unwrap(), [0.2, 1.1, -0.6], [1.2, -0.5], Time::Absent);
-    holds(&CartPole { cart: 2.0, bob: 0.3, l: 0.8, g: 9.81 }.kernel().unwrap(), [0.1, 2.0], [1.0, -2.0], Time::Absent);
     holds(&Wire { m: 1.4, k: 2.0 }.kernel().unwrap(), [0.7], [1.3], Time::Absent);
 }
 
