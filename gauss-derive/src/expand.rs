@@ -26,6 +26,9 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
 }
 
 fn expand_body(model: &Model) -> syn::Result<TokenStream> {
+    if model.acting.is_some() {
+        return Err(bug(&model.ident, &"what acts on a body in a chart is not derived"));
+    }
     let graph = Graph::new();
     let shape = body_shape(model);
     let scene = Scene::new(&graph, model.motion, model.chart, shape);

@@ -5,24 +5,63 @@
 
 use super::context::Context;
 use super::functions::{FUNCTIONS, Function, PROPERTIES};
-use super::{BinaryOperator, Expression, ExpressionKind, names, number};
+use super::{BinaryOperator, Coefficients, Expression, ExpressionKind, attributes, names, number};
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::ext::IdentExt;
 use syn::punctuated::Punctuated;
 use syn::{
-    BinOp, Expr, ExprArray, ExprBinary, ExprCall, ExprField, ExprIndex, ExprMethodCall, Lit, Member, Token, UnOp,
+    BinOp, Expr, ExprArray, ExprBinary, ExprCall, ExprField, ExprGroup, ExprIndex, ExprMethodCall, ExprParen, Lit,
+    Member, Token, UnOp,
 };
 
 /// What there is, for messages about what there is not.
 pub(super) const ALLOWED: &str = "expressions are made of numbers, names, `+ - * /`, brackets, vectors `[a, b, c]`, \
      components `a.x` or `a[0]`, positions and rotations such as `arm.position`, and the functions sin, cos, tan, exp, \
-     ln, sqrt, powi, atan2, dot, cross, rotation_x, rotation_y, rotation_z, inverse, twist, rate, abs, min, max and hypot";
+     ln, sqrt, powi, atan2, dot, cross, rotation_x, rotation_y, rotation_z, inverse, twist, rate, abs, min, max, hypot, \
+     signum, clamp and smooth_step";
 
 /// Reads the tokens that `owner` is said to be.
 pub(super) fn read(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Expression> {
+    convert(&parse(owner, tokens, context)?, context)
+}
+
+/// Reads the tokens of the coefficients of a drag: a list of six, or the name of a field.
+pub(super) fn read_coefficients(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Coefficients> {
+    const REMEDY: &str = "write six scalars `[x, y, z, p, q, r]` in the order (u, ω), or the name of a field that is a \
+         `Vector6` or a `Matrix6`";
+    let parsed = parse(owner, tokens, context)?;
+    let mut bare = &parsed;
+    while let Expr::Group(ExprGroup { expr, .. }) | Expr::Paren(ExprParen { expr, .. }) = bare {
+        bare = expr;
+    }
+    match bare {
+        Expr::Array(array) => {
+            let entries: Vec<_> = array.elems.iter().map(|entry| convert(entry, context)).collect();
+            let count = entries.len();
+            let entries: Vec<Expression> = entries.into_iter().collect::<Option<_>>()?;
+            match <[Expression; 6]>::try_from(entries) {
+                Ok(entries) => return Some(Coefficients::Diagonal(entries.map(Box::new))),
+                Err(_) => context.error(
+                    array.bracket_token.span.open(),
+                    format!("the `{owner}` coefficients of a drag are six, found {count}; {REMEDY}"),
+                ),
+            }
+        }
+        Expr::Path(path) if path.qself.is_none() && path.path.get_ident().is_some() => {
+            return path.path.get_ident().cloned().map(Coefficients::Field);
+        }
+        other => context.error(
+            other.to_token_stream().into_iter().next().map_or_else(Span::call_site, |token| attributes::start(&token)),
+            format!("the `{owner}` coefficients of a drag are six, one for each component; {REMEDY}"),
+        ),
+    }
+    None
+}
+
+fn parse(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Expr> {
     match syn::parse2::<Expr>(tokens.iter().cloned().collect::<TokenStream>()) {
-        Ok(expression) => convert(&expression, context),
+        Ok(expression) => Some(expression),
         Err(error) => {
             let text = error.to_string();
             if text.starts_with("unexpected end of input") {
@@ -208,8 +247,9 @@ fn member(field: &ExprField, context: &mut Context) -> Option<Expression> {
             format!("there is no `.{word}`; did you mean `.{near}`?")
         } else {
             format!(
-                "there is no `.{word}`; the components of a vector are `.x`, `.y` and `.z`, and bodies have `.position`, \
-                 `.rotation`, `.velocity` and `.angular_velocity`"
+                "there is no `.{word}`; the components of a vector are `.x`, `.y` and `.z`, bodies have `.position`, \
+                 `.rotation`, `.velocity`, `.angular_velocity`, `.body_velocity`, `.body_angular_velocity` and \
+                 `.relative_velocity`, and inputs that are wrenches have `.force` and `.torque`"
             )
         };
         context.error(name.span(), message);
@@ -299,7 +339,7 @@ fn apply(
         .iter()
         .map(|value| match value {
             // Vector libraries have `a.dot(&b)`.
-            Expr::Reference(reference) if function.is_some_and(|f| f.arguments() == 2) => {
+            Expr::Reference(reference) if function.is_some_and(|f| f.arguments() > 1) => {
                 convert(&reference.expr, context)
             }
             value => convert(value, context),
@@ -307,7 +347,11 @@ fn apply(
         .collect();
     let function = function?;
     if written.len() != function.arguments() {
-        let takes = if function.arguments() == 1 { "one argument" } else { "two arguments" };
+        let takes = match function.arguments() {
+            1 => "one argument",
+            2 => "two arguments",
+            _ => "three arguments",
+        };
         context.error(
             name.span(),
             format!("`{name}` takes {takes}, found {}; write `{}`", written.len(), function.example()),

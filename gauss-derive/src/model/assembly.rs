@@ -1,23 +1,25 @@
-//! The clauses and fields of a system put together: every name known, every kind right, nothing missing.
+//! The clauses and fields of a system put together: every name known, every kind right, nothing missing. What acts on one body
+//! in a chart is checked in the same way.
 
 use super::bodies;
 use super::constraints;
 use super::context::Context;
+use super::definitions;
 use super::fields::{Field, Reader};
 use super::forces;
 use super::kinds;
 use super::motion;
-use super::naming::{self, same};
+use super::naming::{self, same, word};
 use super::places::Place;
 use super::scene::Clauses;
-use super::scope::{Meaning, Scope};
+use super::scope::{Meaning, Scope, UNNAMED};
 use super::shapes::{Element, Kind};
 use super::statements::{Statement, Statements};
 use super::validate;
-use super::{Expression, ForceClause, Role, Scalar, Shape, SystemField, SystemModel};
+use super::{Expression, ForceKind, Role, Scalar, Shape, SystemField, SystemModel};
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
-use syn::{DeriveInput, GenericParam};
+use syn::{DeriveInput, GenericParam, Path};
 
 /// The checked system; `None` when something is wrong, which is then noted.
 pub(super) fn system(
@@ -26,7 +28,7 @@ pub(super) fn system(
     mut reader: Reader<'_>,
     context: &mut Context,
 ) -> Option<SystemModel> {
-    let mut statements = clauses.statements.unwrap_or_default();
+    let mut statements = clauses.statements;
     for clause in &clauses.of_one_body {
         refuse_clause_of_one_body(clause, context);
     }
@@ -40,34 +42,79 @@ pub(super) fn system(
     motion::check_kinematics(&statements, uncertain, context);
     check_masses(input, &statements, &reader, &owners, &scalar_name, uncertain, context);
     bodies::check(&statements, &reader, &scalar_name, context);
-    let scope = scope(&statements, &reader.fields, &shapes, &scalar_name, uncertain);
-    for (place, expression) in expressions(&statements) {
-        // Of constraints the kind is needed as well.
-        if !matches!(place, Place::Constraint(_)) {
-            kinds::check(expression, place, &scope, context);
-        }
-    }
-    forces::check(&statements, context);
-    constraints::check(&mut statements, &scope, uncertain, context);
+    let unused = check_expressions(&mut statements, &reader, &shapes, &scalar_name, uncertain, context);
     if statements.coordinates.is_none() && !uncertain {
         let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
         context.error(span, "the system has no coordinates; add `coordinates(…)` with their names");
     }
     if context.is_clean() {
         motion::check_dependence(&statements, &expressions(&statements), context);
-        forces::check_effect(&statements, context);
+        check_effect(&statements, &unused, &owners, context);
     }
     let scalar = match scalar {
         Some(scalar) => scalar,
         None => scalar_without_fields(input, &reader.fields, context)?,
     };
-    let fields = reader.fields.iter().zip(shapes).map(|(field, shape)| SystemField {
+    model(input, clauses.runtime, scalar, fields(&reader, &shapes), statements)
+}
+
+/// Checks names and kinds in all expressions, and writes the definitions out; gives back those that are not used.
+pub(super) fn check_expressions(
+    statements: &mut Statements,
+    reader: &Reader<'_>,
+    shapes: &[Shape],
+    scalar: &str,
+    uncertain: bool,
+    context: &mut Context,
+) -> Vec<Ident> {
+    let mut scope = scope(statements, &reader.fields, shapes, scalar, uncertain);
+    definitions::check(&statements.definitions, &mut scope, context);
+    for (place, expression) in expressions(statements) {
+        // Of constraints the kind is needed as well.
+        if !matches!(place, Place::Constraint(_)) {
+            kinds::check(expression, place, &scope, context);
+        }
+    }
+    forces::check(statements, context);
+    forces::check_coefficients(statements, &reader.fields, &scope, scalar, context);
+    let well = constraints::check_kinds(statements, &scope, context);
+    let all: Vec<&Expression> = expressions(statements).into_iter().map(|(_, expression)| expression).collect();
+    let unused = definitions::unused(statements, &all);
+    definitions::inline(statements);
+    constraints::check(statements, &well, uncertain, context);
+    unused
+}
+
+/// Everything that is written does something. Asked only where all else is well.
+pub(super) fn check_effect(statements: &Statements, unused: &[Ident], owners: &[(Role, usize)], context: &mut Context) {
+    forces::check_effect(statements, context);
+    let fluid = owners.iter().any(|(role, _)| matches!(role, Role::AddedMass | Role::DisplacedMass));
+    forces::check_medium(statements, fluid, context);
+    for name in unused {
+        context.error(name.span(), format!("`{name}` is defined and never used; remove it"));
+    }
+}
+
+/// The fields with their shapes.
+pub(super) fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<SystemField> {
+    let field = |(field, &shape): (&Field<'_>, &Shape)| SystemField {
         ident: field.ident.clone(),
         role: field.role.as_ref().map(|claim| claim.role),
         shape,
         documentation: field.documentation.clone(),
-    });
-    let fields = fields.collect();
+    };
+    reader.fields.iter().zip(shapes).map(field).collect()
+}
+
+/// The model; `None` if the coordinates or the kinematics are not known, which is then noted.
+pub(super) fn model(
+    input: &DeriveInput,
+    runtime: Path,
+    scalar: Scalar,
+    fields: Vec<SystemField>,
+    mut statements: Statements,
+) -> Option<SystemModel> {
+    statements.place_at_points();
     let coordinates = statements.coordinates?.names;
     let mut kinematics = Vec::new();
     if let Some(written) = &statements.kinematics {
@@ -81,7 +128,7 @@ pub(super) fn system(
         visibility: input.vis.clone(),
         generics: input.generics.clone(),
         scalar,
-        runtime: clauses.runtime,
+        runtime,
         fields,
         coordinates,
         speeds: statements.speeds.map(|speeds| speeds.names),
@@ -94,6 +141,8 @@ pub(super) fn system(
         limit: statements.limit.and_then(|(_, limit)| limit),
         potential: statements.potential.and_then(|(_, potential)| potential),
         inputs: statements.inputs.map_or_else(Vec::new, |inputs| inputs.names),
+        medium: statements.medium.and_then(|(_, velocity)| velocity),
+        attractions: statements.attractions,
         forces: statements.forces,
     })
 }
@@ -119,7 +168,8 @@ fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
         let kind = coordinates().find(|coordinate| same(&coordinate.ident, name)).map(|coordinate| coordinate.kind);
         all.extend(rate.as_ref().map(|rate| (Place::Kinematics(kind), rate)));
     }
-    for body in &statements.bodies {
+    // In a chart the body is placed by the model, not by the user.
+    for body in statements.bodies.iter().filter(|_| !statements.in_chart) {
         all.extend(body.position.as_ref().map(|position| (Place::Position, position)));
         all.extend(body.rotation.as_ref().map(|rotation| (Place::Rotation, rotation)));
     }
@@ -131,18 +181,83 @@ fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
     if let Some((_, Some(potential))) = &statements.potential {
         all.push((Place::Potential, potential));
     }
-    all.extend(statements.forces.iter().flat_map(ForceClause::expressions));
+    if let Some((_, Some(velocity))) = &statements.medium {
+        all.push((Place::Medium, velocity));
+    }
+    for clause in &statements.attractions {
+        all.push((Place::Constant { word: "gravitational parameter", noun: "central gravity" }, &clause.mu));
+        all.extend(clause.center.as_ref().map(|center| (Place::Center, center)));
+    }
+    for clause in &statements.forces {
+        let on = clause.kind.body_with_place();
+        for (place, expression) in clause.expressions() {
+            match place {
+                // What a point of the body itself is called says where that is in the body.
+                Place::ForceAt { .. } if on.is_some_and(|body| statements.own_point(body, expression).is_some()) => {}
+                Place::ForceAt { .. } if statements.in_chart => all.push((Place::ForceAt { bound: true }, expression)),
+                place => all.push((place, expression)),
+            }
+        }
+    }
     all.extend(statements.constraints.iter().map(|clause| (Place::Constraint(clause.kind), &clause.expression)));
     all
 }
 
 /// Fields that expressions name are computed with, as those with roles are.
-fn mark_named(statements: &Statements, reader: &mut Reader<'_>) {
-    let all = expressions(statements);
+pub(super) fn mark_named(statements: &Statements, reader: &mut Reader<'_>) {
+    let coefficients = forces::coefficient_fields(statements);
     for field in &mut reader.fields {
-        let word = field.ident.unraw().to_string();
-        let usable = matches!(field.reading.kind, Kind::Known(Shape::Scalar | Shape::Vector3));
-        field.computed |= usable && all.iter().any(|(_, expression)| expression.names(&word));
+        field.computed |= match field.reading.kind {
+            Kind::Known(Shape::Scalar | Shape::Vector3) => statements.name(&word(field.ident)),
+            Kind::Known(Shape::Vector6 | Shape::Matrix6) => coefficients.iter().any(|name| same(name, field.ident)),
+            _ => false,
+        };
+    }
+}
+
+impl Statements {
+    /// Whether some expression names `word`.
+    pub(super) fn name(&self, word: &str) -> bool {
+        let definitions = self.definitions.iter().filter_map(|definition| definition.expression.as_ref());
+        let all = expressions(self);
+        all.iter().map(|(_, expression)| *expression).chain(definitions).any(|expression| expression.names(word))
+    }
+
+    /// Calls `change` with every expression.
+    pub(super) fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
+        let rates = self.kinematics.iter_mut().flat_map(|kinematics| &mut kinematics.rates);
+        rates.filter_map(|(_, rate)| rate.as_mut()).for_each(&mut *change);
+        for body in &mut self.bodies {
+            body.position.iter_mut().chain(&mut body.rotation).for_each(&mut *change);
+        }
+        for particle in &mut self.particles {
+            change(&mut particle.mass);
+            change(&mut particle.position);
+        }
+        self.points.iter_mut().for_each(|point| change(&mut point.at));
+        self.constraints.iter_mut().for_each(|constraint| change(&mut constraint.expression));
+        for (_, value) in self.potential.iter_mut().chain(&mut self.medium) {
+            value.iter_mut().for_each(&mut *change);
+        }
+        for clause in &mut self.attractions {
+            change(&mut clause.mu);
+            clause.center.iter_mut().for_each(&mut *change);
+        }
+        self.forces.iter_mut().for_each(|clause| clause.kind.each_expression(change));
+    }
+
+    /// Writes the places of points in the place of their names, where forces act in the axes of the body that has them.
+    fn place_at_points(&mut self) {
+        let mut forces = std::mem::take(&mut self.forces);
+        for clause in &mut forces {
+            let Some(body) = clause.kind.body_with_place().cloned() else { continue };
+            if let ForceKind::OnBody { at: Some(at), .. } | ForceKind::Wrench { at: Some(at), .. } = &mut clause.kind
+                && let Some(point) = self.own_point(&body, at)
+            {
+                *at = point.at.clone();
+            }
+        }
+        self.forces = forces;
     }
 }
 
@@ -212,13 +327,13 @@ fn scope(statements: &Statements, fields: &[Field<'_>], shapes: &[Shape], scalar
     let inputs = statements.inputs.as_ref();
     // Without a clause of coordinates, or of speeds where there are kinematics, every name is one that is missing there.
     let complete = !uncertain
-        && !statements.missed_any(&[Statement::Frame, Statement::Point])
+        && !statements.missed_any(&[Statement::Frame, Statement::Point, Statement::Define])
         && coordinates.is_some_and(|names| names.complete)
         && speeds.map_or(statements.kinematics.is_none(), |names| names.complete)
         && inputs.is_none_or(|names| names.complete);
-    let unnamed = statements.has_unnamed_body().then(|| bodies::unnamed(scalar));
-    let mut scope = Scope::new(complete, unnamed);
-    for coordinate in coordinates.iter().flat_map(|names| &names.names) {
+    let mut scope = Scope::new(complete);
+    // The pose of a body in a chart is the model's own.
+    for coordinate in coordinates.iter().filter(|_| !statements.in_chart).flat_map(|names| &names.names) {
         scope.add(&coordinate.ident, Meaning::Coordinate(coordinate.kind));
     }
     for speed in speeds.iter().flat_map(|names| &names.names) {
@@ -227,12 +342,18 @@ fn scope(statements: &Statements, fields: &[Field<'_>], shapes: &[Shape], scalar
     for input in inputs.iter().flat_map(|names| &names.names) {
         scope.add(&input.ident, Meaning::Input(input.kind));
     }
+    for (index, definition) in statements.definitions.iter().enumerate() {
+        scope.add(&definition.name, Meaning::Definition(index));
+    }
     for (field, shape) in fields.iter().zip(shapes) {
         scope.add(field.ident, meaning(field, *shape, scalar));
     }
     // A body whose field is missing, or something else, is a body all the same.
     for name in statements.massive().filter_map(|body| body.name.as_ref()) {
         scope.add(name, Meaning::Body);
+    }
+    if statements.has_unnamed_body() {
+        scope.add(&Ident::new(UNNAMED, Span::call_site()), Meaning::Body);
     }
     for name in statements.frames() {
         scope.add(name, Meaning::Frame);

@@ -34,6 +34,18 @@ pub(super) enum Place {
     Drive,
     /// In the brackets of `spring(…)`.
     Spring,
+    /// In the brackets of `stop(…)`.
+    Stop,
+    /// In the brackets of `drag(…)`.
+    Drag,
+    /// In the brackets of `wrench(…)`.
+    Wrench,
+    /// In the brackets of `define(…)`.
+    Define,
+    /// In the brackets of `medium(…)`.
+    Medium,
+    /// In the brackets of `central_gravity(…)`.
+    CentralGravity,
 }
 
 impl Place {
@@ -47,12 +59,17 @@ impl Place {
             Place::Constraint => "`position = …` or `velocity = …`",
             Place::Force | Place::Torque => "an argument such as `value = [0, 0, f]`",
             Place::Drive => "a generalised force such as `theta = -k * theta`",
-            Place::Spring => "an argument such as `stiffness = k`",
+            Place::Spring | Place::Stop => "an argument such as `stiffness = k`",
+            Place::Drag => "an argument such as `linear = d`",
+            Place::Wrench => "an argument such as `force = [0, 0, f]`",
+            Place::Define => "a definition such as `u = body.relative_velocity`",
+            Place::Medium => "an argument such as `velocity = [c, 0, 0]`",
+            Place::CentralGravity => "an argument such as `mu = gm`",
         }
     }
 
     /// Whose words these are.
-    fn owner(self) -> &'static str {
+    pub(super) fn owner(self) -> &'static str {
         match self {
             Place::Struct | Place::Field => "gauss",
             Place::Kinematics => "kinematics",
@@ -65,6 +82,12 @@ impl Place {
             Place::Torque => "torque",
             Place::Drive => "drive",
             Place::Spring => "spring",
+            Place::Stop => "stop",
+            Place::Drag => "drag",
+            Place::Wrench => "wrench",
+            Place::Define => "define",
+            Place::Medium => "medium",
+            Place::CentralGravity => "central_gravity",
         }
     }
 }

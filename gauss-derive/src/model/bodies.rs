@@ -3,7 +3,8 @@
 use super::context::Context;
 use super::fields::{Field, Reader};
 use super::names;
-use super::naming::same;
+use super::naming::{same, word};
+use super::scope::UNNAMED;
 use super::statements::{Statement, Statements};
 use super::{BodyClause, ForceKind, Role};
 use proc_macro2::Ident;
@@ -13,16 +14,15 @@ use syn::ext::IdentExt;
 pub(super) fn check(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
     check_names(statements, scalar, context);
     check_fields(statements, reader, scalar, context);
-    check_references(statements, scalar, context);
+    check_references(statements, context);
     check_cycles(&statements.bodies, context);
 }
 
-/// What to say where the body without a name is spoken of.
-pub(super) fn unnamed(scalar: &str) -> String {
-    format!(
-        "the body has no name to refer to it by; write `body(name, …)` with a field \
-         `#[gauss(body)] name: RigidBody<{scalar}>`"
-    )
+impl BodyClause {
+    /// What it is called in expressions and clauses.
+    pub(super) fn word(&self) -> String {
+        self.name.as_ref().map_or_else(|| UNNAMED.to_owned(), word)
+    }
 }
 
 /// The names that bodies have.
@@ -125,11 +125,11 @@ fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, cont
 
 /// The body or frame called `name`.
 fn find(bodies: &[BodyClause], name: &Ident) -> Option<usize> {
-    bodies.iter().position(|body| body.name.as_ref().is_some_and(|own| same(own, name)))
+    bodies.iter().position(|body| body.word() == word(name))
 }
 
 /// Parents, the bodies that points are fixed in, and those that forces act on, are bodies and frames of the system.
-fn check_references(statements: &Statements, scalar: &str, context: &mut Context) {
+fn check_references(statements: &Statements, context: &mut Context) {
     if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;
     }
@@ -144,7 +144,9 @@ fn check_references(statements: &Statements, scalar: &str, context: &mut Context
     references.extend(statements.points.iter().map(|point| (&point.body, None, None)));
     for clause in &statements.forces {
         match &clause.kind {
-            ForceKind::OnBody { body, .. } => references.push((body, None, None)),
+            ForceKind::OnBody { body, .. } | ForceKind::Wrench { body, .. } | ForceKind::Drag { body, .. } => {
+                references.push((body, None, None));
+            }
             ForceKind::Torque { body, reaction, .. } => {
                 references.push((body, None, None));
                 references.extend(reaction.as_ref().map(|reaction| (reaction, Some(body), Some("reaction"))));
@@ -156,20 +158,16 @@ fn check_references(statements: &Statements, scalar: &str, context: &mut Context
         if find(&statements.bodies, written).is_some() {
             continue;
         }
-        if written == "body" && statements.has_unnamed_body() {
-            context.error(written.span(), unnamed(scalar));
-            continue;
-        }
         let names: Vec<String> = statements
             .bodies
             .iter()
-            .filter_map(|body| body.name.as_ref())
-            .filter(|name| !other.is_some_and(|other| same(other, name)))
-            .map(|name| name.unraw().to_string())
+            .map(BodyClause::word)
+            .filter(|name| other.is_none_or(|other| *name != word(other)))
             .collect();
         let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
         let remedy = match names::nearest(&written.unraw().to_string(), &table) {
             Some((near, ())) => format!("did you mean `{near}`?"),
+            None if statements.has_unnamed_body() && table.len() == 1 => format!("the only body is `{UNNAMED}`"),
             None if !table.is_empty() => format!("expected {}", names::list(&table)),
             None => match optional {
                 Some(argument) => format!("there is no other: leave `{argument}` out"),
@@ -205,8 +203,7 @@ fn check_cycles(bodies: &[BodyClause], context: &mut Context) {
         }
         cycle.iter().for_each(|&index| seen[index] = true);
         if let Some(parent) = &bodies[start].parent {
-            let names: Vec<String> =
-                cycle.iter().filter_map(|&index| bodies[index].name.as_ref()).map(|name| format!("`{name}`")).collect();
+            let names: Vec<String> = cycle.iter().map(|&index| format!("`{}`", bodies[index].word())).collect();
             let frames = cycle.iter().filter(|&&index| bodies[index].massless).count();
             let (one, several) = match frames {
                 0 => ("body", "bodies"),

@@ -10,18 +10,23 @@ use super::scope::Scope;
 use super::statements::{Statement, Statements};
 use super::{ConstraintClause, ConstraintKind};
 
-/// Checks the constraints and says which are vectors.
-pub(super) fn check(statements: &mut Statements, scope: &Scope, uncertain: bool, context: &mut Context) {
-    let mut constraints = std::mem::take(&mut statements.constraints);
-    let moving = Moving::new(statements);
-    for constraint in &mut constraints {
+/// Checks names and kinds in the constraints, and says which are vectors; and which are without mistakes.
+pub(super) fn check_kinds(statements: &mut Statements, scope: &Scope, context: &mut Context) -> Vec<bool> {
+    let check = |constraint: &mut ConstraintClause| {
         let place = Place::Constraint(constraint.kind);
-        if let Some(kind) = kinds::check(&constraint.expression, place, scope, context) {
-            constraint.vector = kind == Kind::Vector;
-            check_motion(constraint, &moving, context);
-        }
+        let kind = kinds::check(&constraint.expression, place, scope, context);
+        constraint.vector = kind == Some(Kind::Vector);
+        kind.is_some()
+    };
+    statements.constraints.iter_mut().map(check).collect()
+}
+
+/// Checks what is constrained, in those that are `well`, and the speeds that stay independent.
+pub(super) fn check(statements: &Statements, well: &[bool], uncertain: bool, context: &mut Context) {
+    let moving = Moving::new(statements);
+    for (constraint, _) in statements.constraints.iter().zip(well).filter(|(_, well)| **well) {
+        check_motion(constraint, &moving, context);
     }
-    statements.constraints = constraints;
     check_independent(statements, uncertain, context);
 }
 

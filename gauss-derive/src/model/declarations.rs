@@ -1,11 +1,11 @@
-//! Clauses that declare names: coordinates, speeds and inputs with their kinds, speeds that stay independent, and
-//! kinematics.
+//! Clauses that declare names: coordinates, speeds and inputs with their kinds, speeds that stay independent, kinematics, and
+//! definitions.
 
 use super::attributes::{self, Clause, Place};
 use super::context::Context;
 use super::names::{self, Table};
 use super::statements::{self, brackets, value};
-use super::{Coordinate, CoordinateKind, Expression, InputName, Speed, SpeedKind};
+use super::{Coordinate, CoordinateKind, Expression, InputKind, InputName, Speed, SpeedKind};
 use proc_macro2::{Ident, Span, TokenTree};
 
 /// What a clause declares, in brackets.
@@ -24,8 +24,16 @@ pub(super) struct Kinematics {
     pub(super) complete: bool,
 }
 
+/// `define(name = …)`: one of its equations.
+pub(super) struct Definition {
+    pub(super) name: Ident,
+    /// One that could not be read is kept, so that its name is known.
+    pub(super) expression: Option<Expression>,
+}
+
 const COORDINATES: &Table<CoordinateKind> = &[("Pose", CoordinateKind::Pose), ("Rotation", CoordinateKind::Rotation)];
 const SPEEDS: &Table<SpeedKind> = &[("Vector3", SpeedKind::Vector)];
+const INPUTS: &Table<InputKind> = &[("Vector3", InputKind::Vector), ("Wrench", InputKind::Wrench)];
 
 /// How the names of a clause are declared, for messages.
 struct Language<K: 'static> {
@@ -54,9 +62,9 @@ pub(super) fn read_independent(clause: &Clause, context: &mut Context) -> Names<
     read_names(clause, &language, |ident, ()| ident, context)
 }
 
-/// `input(thrust, wind: Vector3)`.
+/// `input(thrust, wind: Vector3, gust: Wrench)`.
 pub(super) fn read_inputs(clause: &Clause, context: &mut Context) -> Names<InputName> {
-    let language = Language { noun: "input", example: "thrust, rudder", kinds: SPEEDS, scalar: SpeedKind::Scalar };
+    let language = Language { noun: "input", example: "thrust, rudder", kinds: INPUTS, scalar: InputKind::Scalar };
     read_names(clause, &language, |ident, kind| InputName { ident, kind }, context)
 }
 
@@ -168,4 +176,15 @@ pub(super) fn read_kinematics(clause: &Clause, context: &mut Context) -> Kinemat
         kinematics.rates.push((equation.name.clone(), value(equation, "v", context)));
     }
     kinematics
+}
+
+/// `define(u = body.relative_velocity, …)`.
+pub(super) fn read_definitions(clause: &Clause, context: &mut Context) -> Vec<Definition> {
+    let Some(group) = brackets(clause, "name = …", context) else { return Vec::new() };
+    let (equations, _) = statements::arguments(group, Place::Define, context);
+    let read = |equation: &Clause, context: &mut Context| {
+        let name = statements::name(&equation.name, "definition", context)?;
+        Some(Definition { name, expression: value(equation, "…", context) })
+    };
+    equations.iter().filter_map(|equation| read(equation, context)).collect()
 }

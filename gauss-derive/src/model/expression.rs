@@ -89,6 +89,13 @@ pub enum FunctionName {
     Inverse,
     /// Time derivative of a scalar or a vector of t and q: only in constraints of velocities and values of forces.
     Rate,
+    /// −1, 0 or 1: only in values of forces, since it jumps.
+    Signum,
+    /// The value (x, low, high) kept between two limits: only in values of forces, since its derivative jumps.
+    Clamp,
+    /// Of (x, from, to): 0 below `from`, 1 above `to`, `3s² − 2s³` between; only in values of forces, since its second
+    /// derivative jumps.
+    SmoothStep,
     /// Absolute value: only in values of forces, since its derivative jumps.
     Abs,
     /// The lesser of two: only in values of forces, since its derivative jumps.
@@ -99,7 +106,8 @@ pub enum FunctionName {
     Hypot,
 }
 
-/// What can be asked of a body or a frame, all of it in observer axes; of a coordinate that is a pose, the first two.
+/// What can be asked of a body or a frame, in observer axes unless it is said; of a coordinate that is a pose, the first
+/// two; of an input that is a wrench, the last two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Property {
     /// O from Ω.
@@ -110,6 +118,16 @@ pub enum Property {
     Velocity,
     /// ω; only in constraints of velocities and values of forces.
     AngularVelocity,
+    /// u = Rᵀ v_O, the velocity of O in body axes; where the velocity may stand.
+    BodyVelocity,
+    /// ω in body axes; where the angular velocity may stand.
+    BodyAngularVelocity,
+    /// The velocity of O relative to the medium, in body axes; where the velocity may stand.
+    RelativeVelocity,
+    /// The first three components of an input that is a wrench, in the axes of where they are used.
+    Force,
+    /// The last three components of an input that is a wrench, in the axes of where they are used.
+    Torque,
 }
 
 impl Expression {
@@ -128,6 +146,23 @@ impl Expression {
             }
             ExpressionKind::Call(_, arguments) => arguments.iter().for_each(|argument| argument.walk(visit)),
             ExpressionKind::Vector(components) => components.iter().for_each(|component| component.walk(visit)),
+        }
+    }
+
+    /// Calls `change` with each of its parts, not with the parts of these.
+    pub(super) fn each_part(&mut self, change: &mut dyn FnMut(&mut Expression)) {
+        match &mut self.kind {
+            ExpressionKind::Number { .. } | ExpressionKind::Name(_) => {}
+            ExpressionKind::Component(inner, _)
+            | ExpressionKind::Property(inner, _)
+            | ExpressionKind::Negate(inner)
+            | ExpressionKind::Power(inner, _) => change(inner),
+            ExpressionKind::Binary(_, left, right) => {
+                change(left);
+                change(right);
+            }
+            ExpressionKind::Call(_, arguments) => arguments.iter_mut().for_each(change),
+            ExpressionKind::Vector(components) => components.iter_mut().for_each(|component| change(component)),
         }
     }
 

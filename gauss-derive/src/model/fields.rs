@@ -9,7 +9,7 @@ use super::shapes::{self, Reading};
 use super::statements::{self, STATEMENTS};
 use super::{Role, Shape};
 use proc_macro2::{Ident, Span};
-use syn::{Attribute, Expr, ExprLit, FieldsNamed, Generics, Lit, Meta, Type};
+use syn::{Attribute, Data, DeriveInput, Expr, ExprLit, FieldsNamed, Generics, Lit, Meta, Type};
 
 /// One field as written.
 pub(super) struct Field<'a> {
@@ -90,6 +90,14 @@ pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool
         });
     }
     reader
+}
+
+/// Whether some field is a body, which makes the struct a system; mistakes are noted when the fields are read.
+pub(super) fn any_body(input: &DeriveInput) -> bool {
+    let Data::Struct(data) = &input.data else { return false };
+    let is_body = |clause: &Clause| clause.word() == Role::Body.word();
+    let read = |field: &syn::Field| attributes::clauses(&field.attrs, Place::Field, &mut Context::default());
+    data.fields.iter().any(|field| read(field).iter().any(is_body))
 }
 
 impl Reader<'_> {

@@ -1,12 +1,17 @@
 //! What must hold of forces and inputs.
 
 use super::context::Context;
+use super::fields::Field;
 use super::moving::Moving;
 use super::names;
 use super::naming::{same, word};
 use super::places::Place;
+use super::scope::Scope;
+use super::shapes::Kind;
 use super::statements::Statements;
-use super::{CoordinateKind, Expression, ForceClause, ForceKind};
+use super::{
+    Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceClause, ForceKind, Property, Shape,
+};
 use proc_macro2::Ident;
 
 impl ForceClause {
@@ -15,8 +20,11 @@ impl ForceClause {
         match self.kind {
             ForceKind::AtPoint { .. } | ForceKind::OnBody { .. } => "force",
             ForceKind::Torque { .. } => "torque",
+            ForceKind::Wrench { .. } => "wrench",
             ForceKind::Drive { .. } => "drive",
             ForceKind::Spring { .. } => "spring",
+            ForceKind::Stop { .. } => "stop",
+            ForceKind::Drag { .. } => "drag",
             ForceKind::Dissipation(_) => "dissipation function",
         }
     }
@@ -26,20 +34,157 @@ impl ForceClause {
         match &self.kind {
             ForceKind::AtPoint { at, value } => vec![(Place::ForcePoint, at), (Place::Force, value)],
             ForceKind::OnBody { at, value, .. } => {
-                at.iter().map(|at| (Place::ForceAt, at)).chain([(Place::Force, value)]).collect()
+                at.iter().map(|at| (Place::ForceAt { bound: false }, at)).chain([(Place::Force, value)]).collect()
             }
             ForceKind::Torque { value, .. } => vec![(Place::Torque, value)],
+            ForceKind::Wrench { at, force, torque, .. } => {
+                let at = at.iter().map(|at| (Place::ForceAt { bound: true }, at));
+                let force = force.iter().map(|force| (Place::Force, force));
+                at.chain(force).chain(torque.iter().map(|torque| (Place::Torque, torque))).collect()
+            }
             ForceKind::Drive { rates } => rates.iter().map(|(_, value)| (Place::Drive, value)).collect(),
-            ForceKind::Spring { from, to, stiffness, length, damping } => {
-                let ends = [(Place::SpringEnd, from), (Place::SpringEnd, to), (Place::Spring("stiffness"), stiffness)];
-                let length = length.iter().map(|length| (Place::Spring("length"), length));
-                ends.into_iter()
-                    .chain(length)
-                    .chain(damping.iter().map(|damping| (Place::Spring("damping"), damping)))
-                    .collect()
+            ForceKind::Spring { extent, stiffness, length, damping } => {
+                let constants =
+                    [("stiffness", Some(stiffness)), ("length", length.as_ref()), ("damping", damping.as_ref())];
+                extended("a spring", extent, &constants)
+            }
+            ForceKind::Stop { extent, least, most, stiffness, width, damping } => {
+                let constants = [
+                    ("lower limit", least.as_ref()),
+                    ("upper limit", most.as_ref()),
+                    ("stiffness", Some(stiffness)),
+                    ("width", Some(width)),
+                    ("damping", damping.as_ref()),
+                ];
+                extended("a stop", extent, &constants)
+            }
+            ForceKind::Drag { linear, quadratic, .. } => {
+                let entries = linear.iter().chain(quadratic).flat_map(Coefficients::entries);
+                entries.map(|entry| (Place::Coefficient, entry)).collect()
             }
             ForceKind::Dissipation(function) => vec![(Place::Dissipation, function)],
         }
+    }
+}
+
+impl ForceKind {
+    /// The body that its place is in, if its place is in the axes of a body.
+    pub(super) fn body_with_place(&self) -> Option<&Ident> {
+        match self {
+            ForceKind::OnBody { body, .. } | ForceKind::Wrench { body, .. } => Some(body),
+            _ => None,
+        }
+    }
+
+    /// Calls `change` with each of its expressions.
+    pub(super) fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
+        match self {
+            ForceKind::AtPoint { at, value } => [at, value].into_iter().for_each(change),
+            ForceKind::OnBody { at, value, .. } => at.iter_mut().chain([value]).for_each(change),
+            ForceKind::Torque { value, .. } | ForceKind::Dissipation(value) => change(value),
+            ForceKind::Wrench { at, force, torque, .. } => at.iter_mut().chain(force).chain(torque).for_each(change),
+            ForceKind::Drive { rates } => rates.iter_mut().for_each(|(_, value)| change(value)),
+            ForceKind::Spring { extent, stiffness, length, damping } => {
+                extent.each_expression(change);
+                [stiffness].into_iter().chain(length).chain(damping).for_each(change);
+            }
+            ForceKind::Stop { extent, least, most, stiffness, width, damping } => {
+                extent.each_expression(change);
+                [stiffness, width].into_iter().chain(least).chain(most).chain(damping).for_each(change);
+            }
+            ForceKind::Drag { linear, quadratic, .. } => {
+                for coefficients in linear.iter_mut().chain(quadratic) {
+                    if let Coefficients::Diagonal(entries) = coefficients {
+                        entries.iter_mut().for_each(|entry| change(entry));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The expressions of a spring or a stop.
+fn extended<'a>(
+    noun: &'static str,
+    extent: &'a Extent,
+    constants: &[(&'static str, Option<&'a Expression>)],
+) -> Vec<(Place, &'a Expression)> {
+    let mut all = match extent {
+        Extent::Between { from, to } => vec![(Place::End(noun), from), (Place::End(noun), to)],
+        Extent::Along(along) => vec![(Place::Along(noun), along)],
+    };
+    let constant = |&(word, constant): &(_, Option<&'a Expression>)| Some((Place::Constant { word, noun }, constant?));
+    all.extend(constants.iter().filter_map(constant));
+    all
+}
+
+impl Coefficients {
+    fn entries(&self) -> impl Iterator<Item = &Expression> {
+        let entries = match self {
+            Coefficients::Diagonal(entries) => Some(entries),
+            Coefficients::Field(_) => None,
+        };
+        entries.into_iter().flatten().map(|entry| &**entry)
+    }
+}
+
+/// The fields that are the coefficients of drags.
+pub(super) fn coefficient_fields(statements: &Statements) -> Vec<&Ident> {
+    let mut names = Vec::new();
+    for clause in &statements.forces {
+        let ForceKind::Drag { linear, quadratic, .. } = &clause.kind else { continue };
+        names.extend(linear.iter().chain(quadratic).filter_map(|coefficients| match coefficients {
+            Coefficients::Field(name) => Some(name),
+            Coefficients::Diagonal(_) => None,
+        }));
+    }
+    names
+}
+
+/// Coefficients that are fields are six or a matrix.
+pub(super) fn check_coefficients(
+    statements: &Statements,
+    fields: &[Field<'_>],
+    scope: &Scope,
+    scalar: &str,
+    context: &mut Context,
+) {
+    let expected = format!(
+        "six scalars in a list `[x, y, z, p, q, r]`, a `Vector6<{scalar}>` (diagonal) or a `Matrix6<{scalar}>` (full)"
+    );
+    for name in coefficient_fields(statements) {
+        let message = match fields.iter().find(|field| same(field.ident, name)) {
+            Some(field) => match field.reading.kind {
+                Kind::Known(Shape::Vector6 | Shape::Matrix6) => continue,
+                Kind::Alias => format!(
+                    "what the field `{name}` is cannot be read from {}; write `Vector6<{scalar}>` or `Matrix6<{scalar}>` \
+                     for its type",
+                    field.reading.name
+                ),
+                _ => format!(
+                    "the type of the field `{name}` is {}, and the coefficients of a drag are {expected}",
+                    field.reading.name
+                ),
+            },
+            None => match scope.find(name, |_| false) {
+                Ok(meaning) => {
+                    format!("`{name}` is {}, and the coefficients of a drag are {expected}", meaning.described())
+                }
+                Err(None) => continue,
+                Err(Some(_)) => {
+                    let six =
+                        |field: &&Field<'_>| matches!(field.reading.kind, Kind::Known(Shape::Vector6 | Shape::Matrix6));
+                    let names: Vec<String> = fields.iter().filter(six).map(|field| word(field.ident)).collect();
+                    let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
+                    let remedy = match names::nearest(&word(name), &table) {
+                        Some((near, ())) if word(name).chars().count() > 1 => format!("did you mean `{near}`?"),
+                        _ => format!("add `{name}: Matrix6<{scalar}>`, or write a list of six scalars"),
+                    };
+                    format!("no field is called `{name}`; {remedy}")
+                }
+            },
+        };
+        context.error(name.span(), message);
     }
 }
 
@@ -124,8 +269,18 @@ pub(super) fn check_effect(statements: &Statements, context: &mut Context) {
             {
                 format!("neither `{body}` nor `{reaction}` moves, so the torque does nothing; remove it")
             }
-            ForceKind::Spring { from, to, .. } if !moving.in_place(from) && !moving.in_place(to) => {
-                "neither end of the spring moves; name a coordinate, or a body or point that moves".into()
+            ForceKind::Wrench { body, .. } if !moving.moves(body) => at_rest("wrench", body),
+            ForceKind::Drag { body, .. } if !moving.moves(body) => at_rest("drag", body),
+            ForceKind::Spring { extent, .. } | ForceKind::Stop { extent, .. } if !extent.varies(&moving) => {
+                let noun = clause.noun();
+                match extent {
+                    Extent::Between { .. } => {
+                        format!("neither end of the {noun} moves; name a coordinate, or a body or point that moves")
+                    }
+                    Extent::Along(_) => format!(
+                        "what the {noun} acts along does not change: it names no coordinate, and no body or point that moves"
+                    ),
+                }
             }
             ForceKind::Dissipation(function) if !moving.in_velocity(function) => {
                 "the dissipation function contains no velocity of anything that moves, so it brakes nothing; name a \
@@ -145,6 +300,40 @@ pub(super) fn check_effect(statements: &Statements, context: &mut Context) {
                 ident.span(),
                 format!("the input `{ident}` is used nowhere; name it in the value of a force, or remove it"),
             );
+        }
+    }
+}
+
+/// Something depends on the velocity of the medium. `fluid`: some body has added mass, or displaces some of it.
+pub(super) fn check_medium(statements: &Statements, fluid: bool, context: &mut Context) {
+    let Some((name, _)) = &statements.medium else { return };
+    let relative = |part: &Expression| matches!(part.kind, ExpressionKind::Property(_, Property::RelativeVelocity));
+    let felt = statements.forces.iter().any(|clause| {
+        let mut found = matches!(clause.kind, ForceKind::Drag { .. });
+        clause.expressions().iter().for_each(|(_, e)| e.walk(&mut |part| found |= relative(part)));
+        found
+    });
+    if !felt && !fluid {
+        context.error(
+            name.span(),
+            "nothing in the scene feels the medium; add `drag(…)`, name `.relative_velocity` of a body in a force, give \
+             the body a field with the role `added_mass`, or remove `medium`",
+        );
+    }
+}
+
+impl Extent {
+    fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
+        match self {
+            Extent::Between { from, to } => [from, to].into_iter().for_each(change),
+            Extent::Along(along) => change(along),
+        }
+    }
+
+    fn varies(&self, moving: &Moving) -> bool {
+        match self {
+            Extent::Between { from, to } => moving.in_place(from) || moving.in_place(to),
+            Extent::Along(along) => moving.in_place(along),
         }
     }
 }

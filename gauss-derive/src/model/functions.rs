@@ -33,6 +33,9 @@ pub(super) const FUNCTIONS: &Table<Function> = &[
     ("min", Function::Named(FunctionName::Min)),
     ("max", Function::Named(FunctionName::Max)),
     ("hypot", Function::Named(FunctionName::Hypot)),
+    ("signum", Function::Named(FunctionName::Signum)),
+    ("clamp", Function::Named(FunctionName::Clamp)),
+    ("smooth_step", Function::Named(FunctionName::SmoothStep)),
 ];
 
 impl Function {
@@ -50,6 +53,8 @@ impl Function {
             Function::Power => "powi(x, 2)".into(),
             Function::Named(FunctionName::Atan2) => "atan2(y, x)".into(),
             Function::Named(FunctionName::Inverse) => "inverse(r)".into(),
+            Function::Named(FunctionName::Clamp) => "clamp(x, low, high)".into(),
+            Function::Named(FunctionName::SmoothStep) => "smooth_step(x, from, to)".into(),
             Function::Named(name) if name.arguments() == 2 => format!("{}(a, b)", name.word()),
             Function::Named(name) => format!("{}(x)", name.word()),
         }
@@ -79,6 +84,9 @@ impl FunctionName {
             FunctionName::Min => "min",
             FunctionName::Max => "max",
             FunctionName::Hypot => "hypot",
+            FunctionName::Signum => "signum",
+            FunctionName::Clamp => "clamp",
+            FunctionName::SmoothStep => "smooth_step",
         }
     }
 
@@ -91,13 +99,31 @@ impl FunctionName {
             | FunctionName::Min
             | FunctionName::Max
             | FunctionName::Hypot => 2,
+            FunctionName::Clamp | FunctionName::SmoothStep => 3,
             _ => 1,
         }
     }
 
-    /// Its derivative jumps, so that only what is not differentiated can contain it.
+    /// It jumps, or one of its first two derivatives does, so that only what is not differentiated can contain it.
     pub(super) fn has_kink(self) -> bool {
-        matches!(self, FunctionName::Abs | FunctionName::Min | FunctionName::Max)
+        matches!(
+            self,
+            FunctionName::Abs
+                | FunctionName::Min
+                | FunctionName::Max
+                | FunctionName::Signum
+                | FunctionName::Clamp
+                | FunctionName::SmoothStep
+        )
+    }
+
+    /// What of it jumps, for messages.
+    pub(super) fn jump(self) -> String {
+        match self {
+            FunctionName::Signum => "`signum` jumps".into(),
+            FunctionName::SmoothStep => "the second derivative of `smooth_step` jumps".into(),
+            _ => format!("the derivative of `{}` jumps", self.word()),
+        }
     }
 
     /// The kind of each argument; `None` for a scalar or a vector.
@@ -130,6 +156,11 @@ pub(super) const PROPERTIES: &Table<Property> = &[
     ("rotation", Property::Rotation),
     ("velocity", Property::Velocity),
     ("angular_velocity", Property::AngularVelocity),
+    ("body_velocity", Property::BodyVelocity),
+    ("body_angular_velocity", Property::BodyAngularVelocity),
+    ("relative_velocity", Property::RelativeVelocity),
+    ("force", Property::Force),
+    ("torque", Property::Torque),
 ];
 
 impl Property {
@@ -140,6 +171,18 @@ impl Property {
 
     /// It is a velocity.
     pub(super) fn is_velocity(self) -> bool {
-        matches!(self, Property::Velocity | Property::AngularVelocity)
+        matches!(
+            self,
+            Property::Velocity
+                | Property::AngularVelocity
+                | Property::BodyVelocity
+                | Property::BodyAngularVelocity
+                | Property::RelativeVelocity
+        )
+    }
+
+    /// It is a part of a wrench.
+    pub(super) fn is_of_wrench(self) -> bool {
+        matches!(self, Property::Force | Property::Torque)
     }
 }

@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::places::Place;
 use super::scope::{Meaning, Scope};
-use super::{BinaryOperator, CoordinateKind, Expression, ExpressionKind, FunctionName, Property, SpeedKind};
+use super::{BinaryOperator, CoordinateKind, Expression, ExpressionKind, FunctionName, InputKind, Property, SpeedKind};
 use proc_macro2::{Ident, Span};
 
 /// The kind of a value.
@@ -29,7 +29,7 @@ impl Kind {
 
 /// Checks names and kinds of an expression that stands at `place`; its kind, unless something is wrong, which is noted.
 pub(super) fn check(expression: &Expression, place: Place, scope: &Scope, context: &mut Context) -> Option<Kind> {
-    let mut checker = Checker { place, scope, context, differentiated: false };
+    let mut checker = Checker { place, scope, context, differentiated: false, within: None };
     let found = match &expression.kind {
         // Only a whole rate is a twist.
         ExpressionKind::Call(FunctionName::Twist, arguments) if matches!(place, Place::Kinematics(_)) => {
@@ -50,6 +50,8 @@ struct Checker<'a> {
     context: &'a mut Context,
     /// Inside `rate(…)`.
     differentiated: bool,
+    /// Inside a definition, whose name stands in the expression.
+    within: Option<usize>,
 }
 
 impl Checker<'_> {
@@ -91,7 +93,7 @@ impl Checker<'_> {
             ExpressionKind::Call(function, arguments) => {
                 self.arguments(*function, arguments);
                 if function.has_kink()
-                    && let Some(message) = self.refuses_kink(function.word())
+                    && let Some(message) = self.refuses_kink(*function)
                 {
                     return self.note(expression.span, message);
                 }
@@ -120,13 +122,15 @@ impl Checker<'_> {
     }
 
     /// What to say of a function whose derivative jumps, where derivatives are taken.
-    fn refuses_kink(&self, word: &str) -> Option<String> {
+    fn refuses_kink(&self, function: FunctionName) -> Option<String> {
         if self.differentiated {
             return Some(format!(
-                "the derivative of `{word}` jumps, and `rate` takes derivatives; take `{word}` out of `rate(…)`"
+                "{}, and `rate` takes derivatives; take `{}` out of `rate(…)`",
+                function.jump(),
+                function.word()
             ));
         }
-        self.place.refuses_kink(word)
+        self.place.refuses_kink(function)
     }
 
     /// A time derivative, which is a velocity.
@@ -152,16 +156,16 @@ impl Checker<'_> {
     fn meaning(&mut self, name: &Ident, expected: impl Fn(&Meaning) -> bool) -> Option<Meaning> {
         match self.scope.find(name, expected) {
             Ok(Meaning::Unusable(message)) => {
-                self.context.error(name.span(), message);
+                self.note(name.span(), message.clone());
                 None
             }
             Ok(meaning) if self.place.allows(meaning) => Some(meaning.clone()),
             Ok(meaning) => {
-                self.context.error(name.span(), self.place.refusal(name, meaning));
+                self.note(name.span(), self.place.refusal(name, meaning));
                 None
             }
             Err(message) => {
-                self.context.error(name.span(), message?);
+                self.note(name.span(), message?);
                 None
             }
         }
@@ -173,21 +177,39 @@ impl Checker<'_> {
             Meaning::Speed(_) if self.differentiated => {
                 self.note(name.span(), self.acceleration(&name.to_string(), &format!("`{name}` itself")))
             }
-            Meaning::Input(_) if self.differentiated => self.note(
-                name.span(),
-                format!(
-                    "`{name}` is an input, whose rate is never known; take it out of `rate(…)`, and declare an input for \
-                     its rate if that is known"
-                ),
-            ),
+            Meaning::Input(_) if self.differentiated => self.note(name.span(), rate_of_input(name)),
             Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => Some(Kind::Scalar),
-            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(SpeedKind::Scalar) => Some(Kind::Scalar),
-            Meaning::Speed(SpeedKind::Vector) | Meaning::Input(SpeedKind::Vector) => Some(Kind::Vector),
+            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(InputKind::Scalar) => Some(Kind::Scalar),
+            Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => Some(Kind::Vector),
+            Meaning::Input(InputKind::Wrench) => self.note(
+                name.span(),
+                format!("`{name}` is a wrench, which is two vectors; write `{name}.force` or `{name}.torque`"),
+            ),
+            Meaning::Definition(index) => self.definition(name, index),
             Meaning::Vector | Meaning::Point => Some(Kind::Vector),
             Meaning::Coordinate(CoordinateKind::Rotation) => Some(Kind::Rotation),
             meaning => self.note(
                 name.span(),
                 format!("`{name}` is {}; write `{name}.position` or `{name}.rotation`", meaning.described()),
+            ),
+        }
+    }
+
+    /// The kind of a definition, whose expression stands where its name stands.
+    fn definition(&mut self, name: &Ident, index: usize) -> Option<Kind> {
+        let scope = self.scope;
+        match scope.definition(index) {
+            Ok(expression) => {
+                let outside = self.within.replace(index);
+                let kind = self.kind(expression?);
+                self.within = outside;
+                kind
+            }
+            Err(()) => self.note(
+                name.span(),
+                format!(
+                    "the definition of `{name}` is not complete here; definitions name those before them: move it up"
+                ),
             ),
         }
     }
@@ -201,7 +223,11 @@ impl Checker<'_> {
         };
         let place = self.place;
         let pose = Meaning::Coordinate(CoordinateKind::Pose);
-        let has = |meaning: &Meaning| place.allows(meaning) && (meaning.is_body() || *meaning == pose);
+        let wrench = Meaning::Input(InputKind::Wrench);
+        let has = |meaning: &Meaning| {
+            place.allows(meaning)
+                && if property.is_of_wrench() { *meaning == wrench } else { meaning.is_body() || *meaning == pose }
+        };
         let meaning = self.meaning(name, has)?;
         let message = match (&meaning, property) {
             (Meaning::Body | Meaning::Frame, property) if property.is_velocity() => {
@@ -218,6 +244,19 @@ impl Checker<'_> {
             (Meaning::Body | Meaning::Frame | Meaning::Coordinate(CoordinateKind::Pose), Property::Rotation) => {
                 return Some(Kind::Rotation);
             }
+            (Meaning::Input(InputKind::Wrench), Property::Force | Property::Torque) => {
+                if !self.differentiated {
+                    return Some(Kind::Vector);
+                }
+                rate_of_input(name)
+            }
+            (Meaning::Input(InputKind::Wrench), _) => {
+                format!("`{name}` is a wrench and has no `.{word}`; it has `.force` and `.torque`")
+            }
+            (meaning, Property::Force | Property::Torque) => format!(
+                "`{name}` is {} and has no `.{word}`; inputs that are wrenches have: `input(name: Wrench)`",
+                meaning.described()
+            ),
             (Meaning::Coordinate(CoordinateKind::Pose), _) => format!(
                 "a pose has `.position` and `.rotation`, and no `.{word}`; ask it of the body that has this pose"
             ),
@@ -273,7 +312,15 @@ impl Checker<'_> {
     }
 
     fn note(&mut self, span: Span, message: String) -> Option<Kind> {
-        self.context.error(span, message);
+        let Some(definition) = self.within else {
+            self.context.error(span, message);
+            return None;
+        };
+        // It is well by itself, so that the use is what forbids it.
+        if self.scope.is_new(definition, &message) {
+            let (name, subject) = (self.scope.name_of_definition(definition), self.place.subject());
+            self.context.error(span, format!("in the definition of `{name}`, which {subject} uses: {message}"));
+        }
         None
     }
 
@@ -284,4 +331,12 @@ impl Checker<'_> {
             self.place.subject()
         )
     }
+}
+
+/// What to say of an input in `rate(…)`.
+fn rate_of_input(name: &Ident) -> String {
+    format!(
+        "`{name}` is an input, whose rate is never known; take it out of `rate(…)`, and declare an input for its rate if \
+         that is known"
+    )
 }

@@ -10,9 +10,9 @@
 //! | `attributes` | `#[gauss(…)]` → clauses `name`, `name = value`, `name(…)` |
 //! | `scene` | the clauses of the struct: `chart`, `motion`, `crate` |
 //! | `statements` | those of a system, each with one of the next three; `constraint`, `potential`, `damping`, `limit` |
-//! | `declarations` | `coordinates`, `speeds`, `independent`, `input`, `kinematics` |
+//! | `declarations` | `coordinates`, `speeds`, `independent`, `input`, `kinematics`, `define` |
 //! | `placements` | `body`, `frame`, `particle`, `point` |
-//! | `actions` | `force`, `torque`, `drive`, `spring` |
+//! | `actions` | `force`, `torque`, `wrench`, `drag`, `drive`, `spring`, `stop`, `central_gravity`, `medium` |
 //! | `fields` | the clauses of the fields: their roles |
 //! | `roles` | what each role is called and which shapes it takes |
 //! | `shapes` | the written type of a field → shape and scalar |
@@ -24,11 +24,14 @@
 //! | `bodies` | what must hold between bodies: names, fields, parents |
 //! | `constraints` | what must hold of constraints and independent speeds |
 //! | `forces` | what must hold of forces and inputs |
+//! | `definitions` | named expressions, put in the place of their names |
 //! | `moving` | what moves with the coordinates and the speeds |
 //! | `assembly`, `system` | a whole system checked, and the type that it has then |
+//! | `acting` | what acts on one body in a chart, which is said as it is of a system |
 //! | `names` | the nearest valid word to a misspelt one |
 //! | `context` | the mistakes found so far |
 
+mod acting;
 mod actions;
 mod arithmetic;
 mod assembly;
@@ -37,6 +40,7 @@ mod bodies;
 mod constraints;
 mod context;
 mod declarations;
+mod definitions;
 mod expression;
 mod fields;
 mod forces;
@@ -61,8 +65,9 @@ mod validate;
 
 pub use expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 pub use system::{
-    BodyClause, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, ForceAxes, ForceClause, ForceKind,
-    InputName, ParticleClause, PointClause, Speed, SpeedKind, SystemField, SystemModel,
+    Attraction, BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, Extent,
+    ForceAxes, ForceClause, ForceKind, InputKind, InputName, ParticleClause, PointClause, Speed, SpeedKind,
+    SystemField, SystemModel,
 };
 
 use context::Context;
@@ -110,6 +115,9 @@ pub struct Model {
     pub displaced_mass: Option<usize>,
     /// Index of the centre of buoyancy, body axes from O; without it buoyancy acts at O.
     pub center_of_buoyancy: Option<usize>,
+    /// What acts besides weight and buoyancy, if anything is written: the same body as a system whose only coordinate is
+    /// its pose, free whatever `motion` is, and whose only body has no name.
+    pub acting: Option<Box<SystemModel>>,
 }
 
 /// The number type that kernels compute with.
@@ -243,15 +251,15 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
 /// All mistakes of the struct combined, each at the token that is wrong.
 pub fn parse_scene(input: &DeriveInput) -> Result<Scene, Error> {
     let mut context = Context::default();
-    let clauses = scene::read(&input.attrs, &mut context);
+    let clauses = scene::read(&input.attrs, fields::any_body(input), &mut context);
     check_generics(&input.generics, &mut context);
     let scene = named_fields(input, &mut context).and_then(|named| {
-        let reader = fields::read(named, &input.generics, clauses.statements.is_some(), &mut context);
+        let reader = fields::read(named, &input.generics, clauses.is_system, &mut context);
         if reader.system {
             let system = assembly::system(input, clauses, reader, &mut context)?;
             Some(Scene::System(Box::new(system)))
         } else {
-            Some(Scene::Body(Box::new(validate::model(input, &clauses, reader, &mut context)?)))
+            Some(Scene::Body(Box::new(validate::model(input, clauses, reader, &mut context)?)))
         }
     });
     context.finish(scene)

@@ -2,7 +2,7 @@
 
 use super::naming::word;
 use super::statements::Statements;
-use super::{Expression, ExpressionKind, FunctionName, Property};
+use super::{Expression, ExpressionKind, FunctionName};
 use proc_macro2::Ident;
 
 /// What moves, by name.
@@ -20,7 +20,7 @@ impl Moving {
         // A child may be written before its parent: round after round adds those that are moved by what moves.
         for _ in &statements.bodies {
             for body in &statements.bodies {
-                let Some(name) = body.name.as_ref().map(word) else { continue };
+                let name = body.word();
                 let moved = body.parent.as_ref().is_some_and(|parent| places.contains(&word(parent)))
                     || body.position.iter().chain(&body.rotation).any(|e| names_any(e, &places));
                 if moved && !places.contains(&name) {
@@ -54,9 +54,7 @@ impl Moving {
                 ExpressionKind::Call(FunctionName::Rate, arguments) => {
                     arguments.iter().any(|argument| names_any(argument, &self.places))
                 }
-                ExpressionKind::Property(body, Property::Velocity | Property::AngularVelocity) => {
-                    names_any(body, &self.places)
-                }
+                ExpressionKind::Property(body, property) if property.is_velocity() => names_any(body, &self.places),
                 _ => false,
             };
         });

@@ -5,12 +5,12 @@ use super::context::Context;
 use super::fields::Field;
 use super::functions::FUNCTIONS;
 use super::names;
-use super::scope::TIME;
+use super::scope::{TIME, UNNAMED};
 use super::statements::Statements;
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
-/// Fields, coordinates, speeds, inputs, bodies, frames, points and what acts have different names, and none that
+/// Fields, coordinates, speeds, inputs, definitions, bodies, frames, points and what acts have different names, and none that
 /// expressions use already.
 pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut Context) {
     let is_body = |name: &Ident| {
@@ -30,12 +30,25 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
         .chain(coordinates.map(|coordinate| (&coordinate.ident, "coordinate")))
         .chain(speeds.map(|speed| (&speed.ident, "speed")))
         .chain(inputs.map(|input| (&input.ident, "input")))
+        .chain(statements.definitions.iter().map(|definition| (&definition.name, "definition")))
         .chain(bodies.map(|name| (name, "body")))
         .chain(statements.frames().map(|name| (name, "frame")))
         .chain(statements.points.iter().map(|point| (&point.name, "point")))
-        .chain(statements.forces.iter().filter_map(|clause| Some((clause.name.as_ref()?, clause.noun()))));
+        .chain(statements.forces.iter().filter_map(|clause| Some((clause.name.as_ref()?, clause.noun()))))
+        .chain(statements.attractions.iter().filter_map(|clause| Some((clause.name.as_ref()?, "central gravity"))));
     for (name, noun) in all {
         let word = name.unraw().to_string();
+        // A field that nothing names confuses nothing.
+        let confused = statements.has_unnamed_body() && (noun != "field" || statements.name(UNNAMED));
+        if word == UNNAMED && confused {
+            context.error(
+                name.span(),
+                format!(
+                    "`{word}` is the only body in expressions and clauses, and {}; rename the {noun}",
+                    names::a(noun)
+                ),
+            );
+        }
         if word == TIME {
             context.error(
                 name.span(),
@@ -64,8 +77,14 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
                          arrives at run time; rename or remove one of the two"
                     ),
                 ),
-                ("force" | "torque" | "drive" | "spring", again) if *earlier == again => {
-                    context.error(name.span(), format!("two {again}s are called `{word}`; rename one of the two"))
+                (element, again) if element == again && is_element(element) => {
+                    let (stem, ending) = match again {
+                        "wrench" => (again, "es"),
+                        "central gravity" => ("central gravit", "ies"),
+                        _ => (again, "s"),
+                    };
+                    let message = format!("two {stem}{ending} are called `{word}`; rename one of the two");
+                    context.error(name.span(), message);
                 }
                 (earlier, noun) if earlier == noun => {
                     context.error(name.span(), format!("the {noun} `{word}` is declared twice; remove one of the two"));
@@ -80,6 +99,11 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
         }
         taken.push((name, noun));
     }
+}
+
+/// It is what acts.
+fn is_element(noun: &str) -> bool {
+    matches!(noun, "force" | "torque" | "wrench" | "drive" | "spring" | "stop" | "drag" | "central gravity")
 }
 
 /// Whether expressions use the word already.

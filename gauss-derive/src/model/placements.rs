@@ -3,6 +3,7 @@
 use super::attributes::{self, Clause, Place, Value};
 use super::context::Context;
 use super::names::{self, Table};
+use super::scope::UNNAMED;
 use super::statements::{self, brackets, known, value};
 use super::{BodyClause, ParticleClause, PointClause};
 use proc_macro2::{Ident, TokenTree};
@@ -89,8 +90,8 @@ pub(super) fn read_particle(clause: &Clause, context: &mut Context) -> Option<Pa
     Some(ParticleClause { mass: mass?, position: position?, parent, span: clause.name.span() })
 }
 
-/// `None` if something is missing or wrong, which is noted.
-pub(super) fn read_point(clause: &Clause, context: &mut Context) -> Option<PointClause> {
+/// `None` if something is missing or wrong, which is noted. In a chart it is a point of the only body.
+pub(super) fn read_point(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<PointClause> {
     let group = brackets(clause, "name, body = …, at = [x, y, z]", context)?;
     let (arguments, complete) = statements::arguments(group, Place::Point, context);
     let (mut name, mut body, mut at) = (None, None, None);
@@ -121,9 +122,13 @@ pub(super) fn read_point(clause: &Clause, context: &mut Context) -> Option<Point
     for (word, what, example) in
         [("body", "the body that it is fixed in", "body = name"), ("at", "its place in the body", "at = [x, y, z]")]
     {
-        if !given.iter().any(|name| name == word) && !misspelt.contains(&word) {
+        let spared = word == "body" && in_chart;
+        if !given.iter().any(|name| name == word) && !misspelt.contains(&word) && !spared {
             context.error(clause.name.span(), format!("a point needs {what}; add `{example}`"));
         }
+    }
+    if in_chart && !given.iter().any(|name| name == "body") {
+        body = Some(Ident::new(UNNAMED, clause.name.span()));
     }
     Some(PointClause { name: name?, body: body?, at: at?, span: clause.name.span() })
 }

@@ -2,7 +2,7 @@
 
 use super::kinds::Kind;
 use super::scope::Meaning;
-use super::{ConstraintKind, CoordinateKind};
+use super::{ConstraintKind, CoordinateKind, FunctionName};
 use proc_macro2::Ident;
 
 /// Where an expression stands.
@@ -25,20 +25,35 @@ pub(super) enum Place {
     Constraint(ConstraintKind),
     /// Of the point where a force acts, in observer axes.
     ForcePoint,
-    /// Of the point where a force acts, in its body.
-    ForceAt,
+    /// Of the point where a force acts, in its body; `bound`: there is no other way to say where it acts.
+    ForceAt {
+        bound: bool,
+    },
     /// The components of a force.
     Force,
     /// The components of a torque.
     Torque,
     /// The generalised force on the rate of a coordinate.
     Drive,
-    /// Where a spring begins or ends.
-    SpringEnd,
-    /// The stiffness, the length or the damping of a spring.
-    Spring(&'static str),
+    /// Where a spring or a stop begins or ends, with its noun.
+    End(&'static str),
+    /// What a spring or a stop acts along, with its noun.
+    Along(&'static str),
+    /// A constant `word` of `noun`, such as the stiffness of a spring.
+    Constant {
+        word: &'static str,
+        noun: &'static str,
+    },
     /// Rayleigh's.
     Dissipation,
+    /// One of the coefficients of a drag.
+    Coefficient,
+    /// The velocity of the medium.
+    Medium,
+    /// What central gravity attracts to.
+    Center,
+    /// An expression with a name: what it may contain depends on where the name stands.
+    Definition,
 }
 
 impl Place {
@@ -47,17 +62,21 @@ impl Place {
         match self {
             Place::Kinematics(None) => true,
             Place::Kinematics(Some(CoordinateKind::Scalar)) | Place::Mass | Place::Potential => kind == Kind::Scalar,
-            Place::Drive | Place::Spring(_) | Place::Dissipation => kind == Kind::Scalar,
+            Place::Drive | Place::Along(_) | Place::Constant { .. } | Place::Dissipation | Place::Coefficient => {
+                kind == Kind::Scalar
+            }
             Place::Kinematics(Some(CoordinateKind::Pose)) => kind == Kind::Twist,
             Place::Kinematics(Some(CoordinateKind::Rotation))
             | Place::Position
             | Place::Particle { .. }
             | Place::At => kind == Kind::Vector,
-            Place::ForcePoint | Place::ForceAt | Place::Force | Place::Torque | Place::SpringEnd => {
+            Place::ForcePoint | Place::ForceAt { .. } | Place::Force | Place::Torque | Place::End(_) => {
                 kind == Kind::Vector
             }
+            Place::Medium | Place::Center => kind == Kind::Vector,
             Place::Rotation => kind == Kind::Rotation,
             Place::Constraint(_) => matches!(kind, Kind::Scalar | Kind::Vector),
+            Place::Definition => kind != Kind::Twist,
         }
     }
 
@@ -87,21 +106,35 @@ impl Place {
             Place::ForcePoint => {
                 ("the point of a force is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
             }
-            Place::ForceAt => ("the point of a force in its body is a vector", "write `[x, y, z]`"),
+            Place::ForceAt { .. } => ("the point of a force in its body is a vector", "write `[x, y, z]`"),
             Place::Force => ("a force is a vector", "write `[fx, fy, fz]`"),
             Place::Torque => ("a torque is a vector", "write `[mx, my, mz]`"),
             Place::Drive => {
                 ("the generalised force on the rate of a scalar coordinate is a scalar", "write one number")
             }
-            Place::SpringEnd => {
-                ("the end of a spring is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
-            }
-            Place::Spring(word) => {
+            Place::End(noun) => {
                 return format!(
-                    "the {word} of a spring is a scalar, found {}; write one number or the name of a field",
+                    "the end of {noun} is a vector, found {}; write the name of a point, `arm.position` or `[x, y, z]`",
                     found.noun()
                 );
             }
+            Place::Along(noun) => {
+                return format!(
+                    "what {noun} acts along is a scalar, found {}; write one number such as an angle, or `from = …` and \
+                     `to = …` for the distance of two points",
+                    found.noun()
+                );
+            }
+            Place::Constant { word, noun } => {
+                return format!(
+                    "the {word} of {noun} is a scalar, found {}; write one number or the name of a field",
+                    found.noun()
+                );
+            }
+            Place::Coefficient => ("a coefficient of a drag is a scalar", "write one number"),
+            Place::Medium => ("the velocity of the medium is a vector", "write `[cx, cy, cz]`"),
+            Place::Center => ("the center of gravity is a vector", "write `[x, y, z]`"),
+            Place::Definition => ("a definition is a scalar, a vector or a rotation", "write one of them"),
             Place::Dissipation => ("a dissipation function is a scalar", "write one number, such as `c * v * v / 2`"),
         };
         format!("{needed}, found {}; {remedy}", found.noun())
@@ -110,8 +143,9 @@ impl Place {
     /// Whether a name with this meaning may stand here.
     pub(super) fn allows(self, meaning: &Meaning) -> bool {
         match meaning {
-            Meaning::Scalar | Meaning::Vector | Meaning::Unusable(_) => true,
-            Meaning::Time | Meaning::Coordinate(_) => !self.is_constant(),
+            Meaning::Scalar | Meaning::Vector | Meaning::Definition(_) | Meaning::Unusable(_) => true,
+            Meaning::Time => !self.is_constant(),
+            Meaning::Coordinate(_) => !self.is_constant() && !self.is_given(),
             Meaning::Speed(_) => self.of_velocities(),
             Meaning::Input(_) => self.is_action(),
             Meaning::Body | Meaning::Frame | Meaning::Point => {
@@ -122,7 +156,8 @@ impl Place {
                             | Place::Potential
                             | Place::Constraint(_)
                             | Place::ForcePoint
-                            | Place::SpringEnd
+                            | Place::End(_)
+                            | Place::Along(_)
                     )
             }
         }
@@ -130,7 +165,15 @@ impl Place {
 
     /// What acts: a function of all that is known at an instant.
     fn is_action(self) -> bool {
-        matches!(self, Place::Force | Place::Torque | Place::Drive | Place::Dissipation)
+        matches!(
+            self,
+            Place::Force | Place::Torque | Place::Drive | Place::Dissipation | Place::Coefficient | Place::Definition
+        )
+    }
+
+    /// Nothing that moves with the system may stand here, but time may.
+    fn is_given(self) -> bool {
+        matches!(self, Place::Medium | Place::Center)
     }
 
     /// Speeds may stand here.
@@ -140,7 +183,7 @@ impl Place {
 
     /// Nothing that changes may stand here.
     fn is_constant(self) -> bool {
-        matches!(self, Place::Mass | Place::At | Place::ForceAt | Place::Spring(_))
+        matches!(self, Place::Mass | Place::At | Place::ForceAt { .. } | Place::Constant { .. })
     }
 
     /// What stands here, for messages.
@@ -154,13 +197,22 @@ impl Place {
             Place::Potential => "a potential",
             Place::Constraint(ConstraintKind::Position) => "a constraint of positions",
             Place::Constraint(ConstraintKind::Velocity) => "a constraint of velocities",
-            Place::ForcePoint | Place::ForceAt => "the point of a force",
+            Place::ForcePoint | Place::ForceAt { .. } => "the point of a force",
             Place::Force => "a force",
             Place::Torque => "a torque",
             Place::Drive => "a generalised force",
-            Place::SpringEnd => "the end of a spring",
-            Place::Spring(_) => "a constant of a spring",
+            Place::End("a stop") => "the end of a stop",
+            Place::End(_) => "the end of a spring",
+            Place::Along("a stop") => "what a stop acts along",
+            Place::Along(_) => "what a spring acts along",
+            Place::Constant { noun: "a stop", .. } => "a constant of a stop",
+            Place::Constant { noun: "a spring", .. } => "a constant of a spring",
+            Place::Constant { .. } => "a gravitational parameter",
             Place::Dissipation => "a dissipation function",
+            Place::Coefficient => "a coefficient of a drag",
+            Place::Medium => "the velocity of the medium",
+            Place::Center => "a center of gravity",
+            Place::Definition => "a definition",
         }
     }
 
@@ -168,9 +220,21 @@ impl Place {
     pub(super) fn refusal(self, name: &Ident, meaning: &Meaning) -> String {
         let what = meaning.described();
         match (self, meaning) {
+            (Place::Medium, Meaning::Input(_)) => format!(
+                "`{name}` is an input, whose rate is never known, and bodies feel the rate of the velocity of the medium \
+                 by their added mass; write it in `t`, fields and numbers"
+            ),
+            (Place::Medium, _) => format!(
+                "`{name}` is {what}, and there is no added mass in a stream that varies with the place or the motion; write \
+                 the velocity of the medium in `t`, fields and numbers, and the drag in any other stream as `force(…)`"
+            ),
             (_, Meaning::Input(_)) => format!(
                 "`{name}` is an input, whose value is not known before run time, and whose rate is never; inputs stand \
-                 in values of `force`, `torque` and `drive`, and in `damping`"
+                 in values of `force`, `torque`, `wrench` and `drive`, in coefficients of `drag`, and in `damping`"
+            ),
+            (Place::Center, _) => format!(
+                "`{name}` is {what}, and central gravity has a center that is given beforehand; write it in `t`, fields \
+                 and numbers"
             ),
             (Place::Kinematics(_), _) => format!(
                 "`{name}` is {what}, and its velocity follows from the kinematics, not the kinematics from it; \
@@ -179,8 +243,8 @@ impl Place {
             (Place::Mass, _) => {
                 format!("`{name}` varies, and the mass of a particle is constant; write numbers and fields only")
             }
-            (Place::Spring(word), _) => {
-                format!("`{name}` varies, and the {word} of a spring is constant; write numbers and fields only")
+            (Place::Constant { word, noun }, _) => {
+                format!("`{name}` varies, and the {word} of {noun} is constant; write numbers and fields only")
             }
             (Place::At, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
                 "`{name}` is {what}, and a point is given in the axes of its own body; write numbers and fields only"
@@ -188,11 +252,18 @@ impl Place {
             (Place::At, _) => {
                 format!("`{name}` varies, and a point is fixed in its body; write numbers and fields only")
             }
-            (Place::ForceAt, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
-                "`{name}` is {what}, which is known in observer axes, and with `body` a force acts at a place in the axes \
-                 of that body; write numbers and fields only, or leave `body` out"
+            (Place::ForceAt { bound: true }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+                "`{name}` is {what}, which is known in observer axes, and the place where this acts is in the axes of its \
+                 body; write numbers and fields, or the name of a point of that body"
             ),
-            (Place::ForceAt, _) => format!(
+            (Place::ForceAt { bound: true }, _) => format!(
+                "`{name}` varies, and the place where this acts is fixed in its body; write numbers and fields only"
+            ),
+            (Place::ForceAt { .. }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+                "`{name}` is {what}, which is known in observer axes, and with `body` a force acts at a place in the axes \
+                 of that body; write numbers and fields, the name of a point of that body, or leave `body` out"
+            ),
+            (Place::ForceAt { .. }, _) => format!(
                 "`{name}` varies, and with `body` a force acts at a fixed place of that body; write numbers and fields \
                  only, or leave `body` out"
             ),
@@ -212,7 +283,7 @@ impl Place {
                 let remedy = match place {
                     Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
                     Place::Constraint(_) => "write `constraint(velocity = …)`",
-                    Place::ForcePoint | Place::SpringEnd => "speeds stand in values of forces",
+                    Place::ForcePoint | Place::End(_) | Place::Along(_) => "speeds stand in values of forces",
                     _ => "speeds stand in `kinematics`",
                 };
                 let subject = place.subject();
@@ -236,19 +307,22 @@ impl Place {
         ))
     }
 
-    /// What to say of the function `word`, whose derivative jumps, where derivatives are taken.
-    pub(super) fn refuses_kink(self, word: &str) -> Option<String> {
+    /// What to say of a function that is not smooth, where derivatives are taken.
+    pub(super) fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive => None,
-            place if place.is_constant() => {
-                Some(format!("`{word}` stands in values of forces only; make the number a field of the struct"))
-            }
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient | Place::Definition => None,
+            place if place.is_constant() => Some(format!(
+                "`{}` stands in values of forces only; make the number a field of the struct",
+                function.word()
+            )),
             Place::Dissipation => Some(format!(
-                "the derivative of `{word}` jumps, and forces are derivatives of a dissipation function; write the force \
-                 itself as `force(…)`, `torque(…)` or `drive(…)`"
+                "{}, and forces are derivatives of a dissipation function; write the force itself as `force(…)`, \
+                 `torque(…)` or `drive(…)`",
+                function.jump()
             )),
             place => Some(format!(
-                "the derivative of `{word}` jumps, and {} is differentiated; only values of forces can contain it",
+                "{}, and {} is differentiated; only values of forces can contain it",
+                function.jump(),
                 place.subject()
             )),
         }

@@ -19,12 +19,12 @@ pub(super) struct Clauses {
     pub(super) chart: Chart,
     pub(super) motion: Motion,
     pub(super) runtime: Path,
-    /// The clauses that only systems have; `None` when there are none of them.
-    pub(super) statements: Option<Statements>,
+    /// The clauses of a system, or those that say what acts on one body.
+    pub(super) statements: Statements,
+    /// Some clause is one that only systems have.
+    pub(super) is_system: bool,
     /// `chart` and `motion` where they are written: clauses that only one body has.
     pub(super) of_one_body: Vec<Ident>,
-    /// Clauses of systems where they are written without any that makes a system: `limit` and what acts.
-    pub(super) of_system: Vec<(Statement, Ident)>,
 }
 
 /// Clauses of the struct.
@@ -76,26 +76,20 @@ enum Written {
     },
 }
 
-/// Reads the attributes of the struct.
-pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Clauses {
+/// Reads the attributes of the struct; it is a system also if some field of it is a body.
+pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> Clauses {
     let clauses = attributes::clauses(attributes, Place::Struct, context);
     let is_system = clauses.iter().any(|clause| statements::meant(&clause.word()).is_some_and(Statement::makes_system));
-    let mut statements = Statements::default();
+    let mut statements = Statements::new(!is_system && !has_body);
     let mut of_one_body = Vec::new();
     let mut charts = Vec::new();
     let mut motion = None;
     let mut runtime = None;
-    let mut of_system = Vec::new();
     let mut first: Vec<(Topic, String)> = Vec::new();
     for clause in clauses {
         let word = clause.word();
-        if let Some(&(_, statement)) = STATEMENTS.iter().find(|(name, _)| *name == word) {
-            if !is_system {
-                of_system.push((statement, clause.name.clone()));
-            }
-            if is_system || statement == Statement::Limit {
-                statements.read(&clause, context);
-            }
+        if STATEMENTS.iter().any(|(name, _)| *name == word) {
+            statements.read(&clause, context);
             continue;
         }
         let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) else {
@@ -135,8 +129,8 @@ pub(super) fn read(attributes: &[Attribute], context: &mut Context) -> Clauses {
         chart,
         motion: motion.unwrap_or(Motion::Free),
         runtime: runtime.flatten().unwrap_or_else(default_runtime),
-        of_system,
-        statements: is_system.then_some(statements),
+        statements,
+        is_system,
         of_one_body,
     }
 }

@@ -2,12 +2,16 @@
 
 use super::functions::FUNCTIONS;
 use super::names;
-use super::{CoordinateKind, SpeedKind};
+use super::{CoordinateKind, Expression, InputKind, SpeedKind};
 use proc_macro2::Ident;
+use std::cell::RefCell;
 use syn::ext::IdentExt;
 
 /// The name of time.
 pub(super) const TIME: &str = "t";
+
+/// What a body without a name of its own is called in expressions and clauses.
+pub(super) const UNNAMED: &str = "body";
 
 /// What a name stands for.
 #[derive(Clone, PartialEq, Eq)]
@@ -16,7 +20,9 @@ pub(super) enum Meaning {
     Coordinate(CoordinateKind),
     Speed(SpeedKind),
     /// A value that arrives at run time.
-    Input(SpeedKind),
+    Input(InputKind),
+    /// An expression, by its place among the definitions.
+    Definition(usize),
     /// A field that is a number.
     Scalar,
     /// A field that is a vector of three.
@@ -36,13 +42,44 @@ pub(super) struct Scope {
     names: Vec<(String, Meaning)>,
     /// Every name could be read; if not, an unknown name may well be one of those that could not.
     complete: bool,
-    /// What to say of the body if it has no name.
-    unnamed_body: Option<String>,
+    /// What the definitions stand for, as far as they are known to be well by themselves.
+    definitions: Vec<Option<Expression>>,
+    /// Mistakes that uses found in definitions: what several uses forbid is said once.
+    said: RefCell<Vec<(usize, String)>>,
 }
 
 impl Scope {
-    pub(super) fn new(complete: bool, unnamed_body: Option<String>) -> Scope {
-        Scope { names: vec![(TIME.into(), Meaning::Time)], complete, unnamed_body }
+    pub(super) fn new(complete: bool) -> Scope {
+        Scope { names: vec![(TIME.into(), Meaning::Time)], complete, definitions: Vec::new(), said: RefCell::default() }
+    }
+
+    /// Says what the next definition stands for; `None` if something is wrong with it.
+    pub(super) fn define(&mut self, expression: Option<Expression>) {
+        self.definitions.push(expression);
+    }
+
+    /// What a definition stands for.
+    ///
+    /// # Errors
+    /// It comes later.
+    pub(super) fn definition(&self, index: usize) -> Result<Option<&Expression>, ()> {
+        self.definitions.get(index).map(Option::as_ref).ok_or(())
+    }
+
+    /// Whether this is new to be said of the definition.
+    pub(super) fn is_new(&self, definition: usize, message: &str) -> bool {
+        let mut said = self.said.borrow_mut();
+        let new = !said.iter().any(|(other, known)| *other == definition && known == message);
+        if new {
+            said.push((definition, message.to_owned()));
+        }
+        new
+    }
+
+    /// The name of a definition.
+    pub(super) fn name_of_definition(&self, index: usize) -> &str {
+        let named = self.names.iter().find(|(_, meaning)| *meaning == Meaning::Definition(index));
+        named.map_or("", |(name, _)| name)
     }
 
     /// Adds a name; one with two meanings keeps both.
@@ -67,15 +104,12 @@ impl Scope {
         if let Some((_, function)) = FUNCTIONS.iter().find(|(function, _)| *function == word) {
             return Err(Some(format!("`{word}` is a function; write `{}`", function.example())));
         }
-        if word == "body" && self.unnamed_body.is_some() {
-            return Err(self.unnamed_body.clone());
-        }
         if !self.complete {
             return Err(None);
         }
         let remedy = match self.nearest(&word) {
             Some((near, meaning)) => format!("did you mean {}`{near}`?", meaning.noun()),
-            None if expected(&Meaning::Input(SpeedKind::Scalar)) => {
+            None if expected(&Meaning::Input(InputKind::Scalar)) => {
                 format!("declare it by `input({word})` if it arrives at run time, or write {}", self.list(expected))
             }
             None => format!("expected {}", self.list(expected)),
@@ -98,9 +132,16 @@ impl Scope {
     /// All expected names, by what they are.
     fn list(&self, expected: impl Fn(&Meaning) -> bool) -> String {
         let mut parts = Vec::new();
-        for noun in
-            ["the coordinate ", "the speed ", "the input ", "the field ", "the body ", "the frame ", "the point "]
-        {
+        for noun in [
+            "the coordinate ",
+            "the speed ",
+            "the input ",
+            "the definition ",
+            "the field ",
+            "the body ",
+            "the frame ",
+            "the point ",
+        ] {
             let table: Vec<(&str, ())> = self
                 .names
                 .iter()
@@ -129,6 +170,7 @@ impl Meaning {
             Meaning::Coordinate(_) => "the coordinate ",
             Meaning::Speed(_) => "the speed ",
             Meaning::Input(_) => "the input ",
+            Meaning::Definition(_) => "the definition ",
             Meaning::Scalar | Meaning::Vector => "the field ",
             Meaning::Body => "the body ",
             Meaning::Frame => "the frame ",
@@ -145,8 +187,10 @@ impl Meaning {
     pub(super) fn described(&self) -> &'static str {
         match self {
             Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => "a scalar",
-            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(SpeedKind::Scalar) => "a scalar",
-            Meaning::Vector | Meaning::Speed(SpeedKind::Vector) | Meaning::Input(SpeedKind::Vector) => "a vector",
+            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(InputKind::Scalar) => "a scalar",
+            Meaning::Vector | Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => "a vector",
+            Meaning::Input(InputKind::Wrench) => "a wrench",
+            Meaning::Definition(_) => "a definition",
             Meaning::Coordinate(CoordinateKind::Pose) => "a pose",
             Meaning::Coordinate(CoordinateKind::Rotation) => "a rotation",
             Meaning::Body => "a body",

@@ -5,12 +5,13 @@ use super::actions;
 use super::arithmetic;
 use super::attributes::{self, Clause, Place, Value};
 use super::context::Context;
-use super::declarations::{self, Kinematics, Names};
+use super::declarations::{self, Definition, Kinematics, Names};
 use super::names::{self, Table};
+use super::naming::same;
 use super::placements;
 use super::{
-    BodyClause, ConstraintClause, ConstraintKind, Coordinate, Expression, ForceClause, ForceKind, InputName,
-    ParticleClause, PointClause, Speed,
+    Attraction, BodyClause, ConstraintClause, ConstraintKind, Coordinate, Expression, ExpressionKind, ForceClause,
+    ForceKind, InputName, ParticleClause, PointClause, Speed,
 };
 use proc_macro2::{Group, Ident, TokenTree};
 use syn::LitInt;
@@ -18,6 +19,10 @@ use syn::LitInt;
 /// What the clauses of a system say, before their names are checked.
 #[derive(Default)]
 pub(super) struct Statements {
+    /// What they are about is one body in a chart, which needs no name to be spoken of.
+    pub(super) in_chart: bool,
+    /// Some clause says what acts.
+    pub(super) acting: bool,
     /// The name of the first clause: where a mistake of the system as a whole is shown.
     pub(super) first: Option<Ident>,
     pub(super) coordinates: Option<Names<Coordinate>>,
@@ -32,6 +37,9 @@ pub(super) struct Statements {
     pub(super) potential: Option<(Ident, Option<Expression>)>,
     pub(super) inputs: Option<Names<InputName>>,
     pub(super) forces: Vec<ForceClause>,
+    pub(super) definitions: Vec<Definition>,
+    pub(super) attractions: Vec<Attraction>,
+    pub(super) medium: Option<(Ident, Option<Expression>)>,
     /// `damping = …` is written.
     damped: bool,
     /// Some clause could not be read: what seems to be missing may be what it says.
@@ -59,6 +67,12 @@ pub(super) enum Statement {
     Spring,
     Damping,
     Limit,
+    Wrench,
+    Stop,
+    Drag,
+    Define,
+    Medium,
+    CentralGravity,
 }
 
 /// The clauses of systems.
@@ -76,9 +90,15 @@ pub(super) const STATEMENTS: &Table<Statement> = &[
     ("input", Statement::Input),
     ("force", Statement::Force),
     ("torque", Statement::Torque),
+    ("wrench", Statement::Wrench),
     ("drive", Statement::Drive),
     ("spring", Statement::Spring),
+    ("stop", Statement::Stop),
+    ("drag", Statement::Drag),
     ("damping", Statement::Damping),
+    ("medium", Statement::Medium),
+    ("central_gravity", Statement::CentralGravity),
+    ("define", Statement::Define),
     ("limit", Statement::Limit),
 ];
 
@@ -99,30 +119,34 @@ pub(super) fn form(word: &str) -> Option<String> {
 }
 
 impl Statement {
-    /// It says what moves: what it stands in is a system. The others are about a system that there is already.
+    /// It says what moves: what it stands in is a system. The others are about whatever there is already.
     pub(super) fn makes_system(self) -> bool {
-        self != Statement::Limit && !self.acts()
-    }
-
-    /// It says what acts.
-    pub(super) fn acts(self) -> bool {
         matches!(
             self,
-            Statement::Input
-                | Statement::Force
-                | Statement::Torque
-                | Statement::Drive
-                | Statement::Spring
-                | Statement::Damping
+            Statement::Coordinates
+                | Statement::Speeds
+                | Statement::Kinematics
+                | Statement::Body
+                | Statement::Frame
+                | Statement::Particle
+                | Statement::Constraint
+                | Statement::Independent
         )
     }
 }
 
 impl Statements {
+    /// None so far, of a system or of one body in a chart.
+    pub(super) fn new(in_chart: bool) -> Statements {
+        Statements { in_chart, ..Statements::default() }
+    }
+
     /// Reads a clause whose name is in [`STATEMENTS`].
     pub(super) fn read(&mut self, clause: &Clause, context: &mut Context) {
         self.first.get_or_insert_with(|| clause.name.clone());
         let Some(statement) = meant(&clause.word()) else { return };
+        self.acting |= !statement.makes_system() && statement != Statement::Limit;
+        let in_chart = self.in_chart;
         let given = match statement {
             Statement::Coordinates => self.coordinates.is_some(),
             Statement::Speeds => self.speeds.is_some(),
@@ -132,16 +156,14 @@ impl Statements {
             Statement::Limit => self.limit.is_some(),
             Statement::Input => self.inputs.is_some(),
             Statement::Damping => self.damped,
-            Statement::Body | Statement::Frame | Statement::Particle | Statement::Point | Statement::Constraint => {
-                false
-            }
-            Statement::Force | Statement::Torque | Statement::Drive | Statement::Spring => false,
+            Statement::Medium => self.medium.is_some(),
+            _ => false,
         };
         if given {
             let name = &clause.name;
             let remedy = match statement {
                 Statement::Potential | Statement::Damping => "write the sum of the two in one",
-                Statement::Limit => "keep one of the two",
+                Statement::Limit | Statement::Medium => "keep one of the two",
                 _ => "write all of it in one",
             };
             context.error(name.span(), format!("`{name}` is given twice; {remedy}"));
@@ -175,7 +197,7 @@ impl Statements {
                 Some(particle) => self.particles.push(particle),
                 None => self.unread.push(statement),
             },
-            Statement::Point => match placements::read_point(clause, context) {
+            Statement::Point => match placements::read_point(clause, in_chart, context) {
                 Some(point) => self.points.push(point),
                 None => self.unread.push(statement),
             },
@@ -191,10 +213,30 @@ impl Statements {
                 let names = declarations::read_inputs(clause, context);
                 self.inputs = self.inputs.take().or(Some(names));
             }
-            Statement::Force => self.forces.extend(actions::read_force(clause, context)),
-            Statement::Torque => self.forces.extend(actions::read_torque(clause, context)),
+            Statement::Force => self.forces.extend(actions::read_force(clause, in_chart, context)),
+            Statement::Torque => self.forces.extend(actions::read_torque(clause, in_chart, context)),
+            Statement::Wrench => self.forces.extend(actions::read_wrench(clause, in_chart, context)),
+            Statement::Drive if in_chart => context.error(
+                clause.name.span(),
+                "`drive` acts on rates of named coordinates, and one body in a chart has none; write `force(…)` or \
+                 `torque(…)`, or give the body `coordinates(…)` and `body(…)` in place of `chart` and `motion`",
+            ),
             Statement::Drive => self.forces.extend(actions::read_drive(clause, context)),
             Statement::Spring => self.forces.extend(actions::read_spring(clause, context)),
+            Statement::Stop => self.forces.extend(actions::read_stop(clause, context)),
+            Statement::Drag => self.forces.extend(actions::read_drag(clause, in_chart, context)),
+            Statement::Define => {
+                let definitions = declarations::read_definitions(clause, context);
+                if definitions.is_empty() {
+                    self.unread.push(statement);
+                }
+                self.definitions.extend(definitions);
+            }
+            Statement::Medium => {
+                let velocity = actions::read_medium(clause, context);
+                self.medium = self.medium.take().or(Some((clause.name.clone(), velocity)));
+            }
+            Statement::CentralGravity => self.attractions.extend(actions::read_attraction(clause, context)),
             Statement::Damping => {
                 self.damped = true;
                 let kind = value(clause, "c * v * v / 2", context).map(ForceKind::Dissipation);
@@ -226,6 +268,12 @@ impl Statements {
     /// The bodies without mass.
     pub(super) fn frames(&self) -> impl Iterator<Item = &Ident> {
         self.bodies.iter().filter(|body| body.massless).filter_map(|body| body.name.as_ref())
+    }
+
+    /// The point that `at` names, if it is one of `body` itself: its place in the body is known.
+    pub(super) fn own_point(&self, body: &Ident, at: &Expression) -> Option<&PointClause> {
+        let ExpressionKind::Name(name) = &at.kind else { return None };
+        self.points.iter().find(|point| same(&point.name, name) && same(&point.body, body))
     }
 
     /// Some body has no name.
@@ -284,7 +332,7 @@ pub(super) fn value(argument: &Clause, example: &str, context: &mut Context) -> 
 }
 
 /// What follows `=`.
-fn equals<'a>(argument: &'a Clause, example: &str, context: &mut Context) -> Option<&'a [TokenTree]> {
+pub(super) fn equals<'a>(argument: &'a Clause, example: &str, context: &mut Context) -> Option<&'a [TokenTree]> {
     let name = &argument.name;
     match &argument.value {
         Value::Malformed => None,

@@ -43,6 +43,10 @@ pub struct SystemModel {
     pub potential: Option<Expression>,
     /// Values that arrive at run time, in order.
     pub inputs: Vec<InputName>,
+    /// The velocity of the medium: a vector of t, fields and numbers, observer axes; `None`: at rest.
+    pub medium: Option<Expression>,
+    /// Central gravity: each acts on every body and every particle.
+    pub attractions: Vec<Attraction>,
     /// What acts besides gravity and the potential, in the order in which it is written.
     pub forces: Vec<ForceClause>,
 }
@@ -165,16 +169,41 @@ pub enum ConstraintKind {
     Velocity,
 }
 
-/// One value that arrives at run time, or three under one name.
+/// One value that arrives at run time, or several under one name.
 #[derive(Clone)]
 pub struct InputName {
     /// Its name.
     pub ident: Ident,
     /// How many it stands for.
-    pub kind: SpeedKind,
+    pub kind: InputKind,
 }
 
-/// `force(…)`, `torque(…)`, `drive(…)`, `spring(…)` or `damping = …`: an element of what acts.
+/// How many values are under one name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InputKind {
+    /// One.
+    Scalar,
+    /// Three.
+    Vector,
+    /// Six: a force, then a torque, each a vector of its own in expressions.
+    Wrench,
+}
+
+/// `central_gravity(mu = …, center = …)`: the acceleration `−mu d/|d|³` of everything with mass, d from the center.
+#[derive(Clone)]
+pub struct Attraction {
+    /// What its generalised force is called, different from every other name of the system; `None` if it has no name.
+    pub name: Option<Ident>,
+    /// The gravitational parameter: a scalar of fields and numbers.
+    pub mu: Expression,
+    /// Where it attracts to: a vector of t, fields and numbers, observer axes from Ω; `None`: Ω.
+    pub center: Option<Expression>,
+    /// The word `central_gravity`.
+    pub span: Span,
+}
+
+/// `force(…)`, `torque(…)`, `wrench(…)`, `drive(…)`, `spring(…)`, `stop(…)`, `drag(…)` or `damping = …`: an element of
+/// what acts.
 #[derive(Clone)]
 pub struct ForceClause {
     /// What its generalised force is called, different from every other name of the system; `None` if it has no name.
@@ -217,27 +246,86 @@ pub enum ForceKind {
         /// The body or frame that the opposite torque acts on, another one than `body`.
         reaction: Option<Ident>,
     },
+    /// `wrench(body = …, at = …, force = …, torque = …, axes = …)`: a force, a torque or both.
+    Wrench {
+        /// The body or frame that it acts on.
+        body: Ident,
+        /// Where the force acts: a vector of fields and numbers, body axes from O; `None`: at O.
+        at: Option<Expression>,
+        /// A vector; `None` only if there is a torque.
+        force: Option<Expression>,
+        /// A vector; `None` only if there is a force.
+        torque: Option<Expression>,
+        /// Those of both.
+        axes: ForceAxes,
+    },
     /// `drive(theta = …)`: generalised forces; each one delivers the power of its value times the rate of its coordinate.
     Drive {
         /// Scalar coordinates, each once, with scalars.
         rates: Vec<(Ident, Expression)>,
     },
-    /// `spring(from = …, to = …, stiffness = …, length = …, damping = …)`: along the line between two points.
+    /// `spring(from = …, to = …, stiffness = …, length = …, damping = …)` or `spring(along = …, …)`.
     Spring {
-        /// A vector of t and q: observer axes from Ω.
-        from: Expression,
-        /// A vector of t and q: observer axes from Ω.
-        to: Expression,
+        /// What it is the elongation of.
+        extent: Extent,
         /// Force by elongation: a scalar of fields and numbers.
         stiffness: Expression,
-        /// The distance without force: a scalar of fields and numbers; `None`: zero.
+        /// The extent without force: a scalar of fields and numbers; `None`: zero.
         length: Option<Expression>,
         /// Force by rate of elongation: a scalar of fields and numbers; `None`: zero.
         damping: Option<Expression>,
     },
+    /// `stop(along = …, least = …, most = …, stiffness = …, width = …, damping = …)` or `stop(from = …, to = …, …)`:
+    /// pushes the extent back between two limits. Every constant is a scalar of fields and numbers.
+    Stop {
+        /// What is kept within limits.
+        extent: Extent,
+        /// The lower limit; `None` only if there is an upper one.
+        least: Option<Expression>,
+        /// The upper limit; `None` only if there is a lower one.
+        most: Option<Expression>,
+        /// Force by extent beyond a limit.
+        stiffness: Expression,
+        /// The distance, or angle, over which the stop sets in.
+        width: Expression,
+        /// Force by rate of the extent while beyond a limit; `None`: zero.
+        damping: Option<Expression>,
+    },
+    /// `drag(body = …, linear = …, quadratic = …)`: against the velocity relative to the medium, pole O, body axes.
+    Drag {
+        /// The body or frame that it acts on.
+        body: Ident,
+        /// Force by velocity; `None` only if there is a quadratic part.
+        linear: Option<Coefficients>,
+        /// Force by velocity times its magnitude, component by component; `None` only if there is a linear part.
+        quadratic: Option<Coefficients>,
+    },
     /// `damping = …`: Rayleigh's dissipation function, a scalar whose negative partial derivatives by z are the
     /// generalised forces.
     Dissipation(Expression),
+}
+
+/// What a spring or a stop acts along.
+#[derive(Clone)]
+pub enum Extent {
+    /// The distance between two points, each a vector of t and q: observer axes from Ω.
+    Between {
+        /// Where it begins.
+        from: Expression,
+        /// Where it ends.
+        to: Expression,
+    },
+    /// A scalar of t and q, such as the angle of a joint.
+    Along(Expression),
+}
+
+/// Coefficients of a drag, in body axes, pole O, order (u, ω).
+#[derive(Clone)]
+pub enum Coefficients {
+    /// `[a, b, c, d, e, f]`: one for each component, scalars as in values of forces.
+    Diagonal([Box<Expression>; 6]),
+    /// A field that is a `Vector6`, one for each component, or a `Matrix6`.
+    Field(Ident),
 }
 
 /// The axes that the components of a force or a torque are taken in.

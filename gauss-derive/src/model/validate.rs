@@ -1,5 +1,7 @@
 //! What must hold between the fields: shapes that fit their roles, one scalar, no role missing, doubled or alone.
 
+use super::acting;
+use super::assembly;
 use super::context::Context;
 use super::fields::{Claim, Field, Reader};
 use super::names;
@@ -11,54 +13,63 @@ use quote::ToTokens;
 use syn::{DeriveInput, GenericParam};
 
 /// The checked model; `None` when something that it needs is missing, which is then noted.
-pub(super) fn model(input: &DeriveInput, scene: &Clauses, reader: Reader<'_>, context: &mut Context) -> Option<Model> {
+pub(super) fn model(
+    input: &DeriveInput,
+    scene: Clauses,
+    mut reader: Reader<'_>,
+    context: &mut Context,
+) -> Option<Model> {
+    let mut statements = scene.statements;
+    assembly::mark_named(&statements, &mut reader);
     let scalar = common_scalar(&reader.fields);
     let name = scalar_name(scalar.as_ref(), input);
     let (shapes, owners) = shapes(&reader, scalar.as_ref(), &name, "body", context);
+    let index = |role: Role| owners.iter().find(|(owner, _)| *owner == role).map(|&(_, index)| index);
+    let known = |role: Role| index(role).is_some() || reader.meant.contains(&role);
+    for role in [Role::Mass, Role::Inertia] {
+        if !known(role) {
+            missing_role(input, role, &name, context);
+        }
+    }
+    for field in &reader.fields {
+        check_companion(field, known, &name, context);
+    }
+    if let Some((name, _)) = statements.limit.as_ref().filter(|_| !statements.acting) {
+        context.error(
+            name.span(),
+            format!(
+                "the equations of one body in a chart are short where nothing acts but weight and buoyancy; remove `{name}`"
+            ),
+        );
+    }
+    if statements.acting {
+        acting::check(&mut statements, &reader, &shapes, &owners, &name, context);
+    }
+    let scalar = match scalar {
+        Some(scalar) => scalar,
+        None => return hidden_scalar(input, &reader.fields, context),
+    };
+    let acting = if statements.acting {
+        let fields = assembly::fields(&reader, &shapes);
+        Some(Box::new(assembly::model(input, scene.runtime.clone(), scalar.clone(), fields, statements)?))
+    } else {
+        None
+    };
     let parameters = reader.fields.iter().zip(shapes).map(|(field, shape)| Parameter {
         ident: field.ident.clone(),
         role: field.role.as_ref().map(|claim| claim.role),
         shape,
         documentation: field.documentation.clone(),
     });
-    let parameters = parameters.collect();
-    let index = |role: Role| owners.iter().find(|(owner, _)| *owner == role).map(|&(_, index)| index);
-    let known = |role: Role| index(role).is_some() || reader.meant.contains(&role);
-    // What becomes a system because of its forces may have other masses.
-    if !scene.of_system.iter().any(|(statement, _)| statement.acts()) {
-        for role in [Role::Mass, Role::Inertia] {
-            if !known(role) {
-                missing_role(input, role, &name, context);
-            }
-        }
-    }
-    for field in &reader.fields {
-        check_companion(field, known, &name, context);
-    }
-    for (statement, name) in &scene.of_system {
-        let message = if statement.acts() {
-            "forces and inputs belong to systems; give the body coordinates: \
-             `coordinates(pose: Pose), body(position = pose.position, rotation = pose.rotation)` in place of `chart` and \
-             `motion`"
-                .into()
-        } else {
-            format!("`{name}` is for systems; the equations of one body in a chart are always short: remove `{name}`")
-        };
-        context.error(name.span(), message);
-    }
-    let scalar = match scalar {
-        Some(scalar) => scalar,
-        None => return hidden_scalar(input, &reader.fields, context),
-    };
     Some(Model {
         ident: input.ident.clone(),
         visibility: input.vis.clone(),
         generics: input.generics.clone(),
         scalar,
-        runtime: scene.runtime.clone(),
+        runtime: scene.runtime,
         chart: scene.chart,
         motion: scene.motion,
-        parameters,
+        parameters: parameters.collect(),
         mass: index(Role::Mass)?,
         center_of_mass: index(Role::CenterOfMass),
         inertia: index(Role::Inertia)?,
@@ -66,6 +77,7 @@ pub(super) fn model(input: &DeriveInput, scene: &Clauses, reader: Reader<'_>, co
         gravity: index(Role::Gravity),
         displaced_mass: index(Role::DisplacedMass),
         center_of_buoyancy: index(Role::CenterOfBuoyancy),
+        acting,
     })
 }
 

@@ -6,7 +6,7 @@ use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
 use crate::mechanics::{Axes, Force, Tree};
-use crate::model::{self, Expression, ForceAxes};
+use crate::model::{self, Expression, Extent, ForceAxes};
 
 use super::{Translator, bug};
 
@@ -16,6 +16,10 @@ impl<'g> Translator<'_, 'g> {
     /// Everything that acts, and the potentials of springs.
     pub(super) fn forces(&self, tree: &Tree<'g>) -> syn::Result<(Vec<Force<'g>>, Vec<Expr<'g>>)> {
         let (mut forces, mut potentials) = (Vec::new(), Vec::new());
+        let unread = self.model.attractions.iter().map(|a| a.span).chain(self.model.medium.iter().map(|e| e.span));
+        if let Some(span) = unread.into_iter().next() {
+            return Err(bug(span));
+        }
         for clause in &self.model.forces {
             let mut act = |force| forces.push(force);
             match &clause.kind {
@@ -48,13 +52,19 @@ impl<'g> Translator<'_, 'g> {
                         });
                     }
                 }
+                model::ForceKind::Wrench { body, at, force, torque, axes } => {
+                    let none = [self.graph.zero(); 3];
+                    let optional = |e: &Option<Expression>| e.as_ref().map_or(Ok(none), |e| self.vector(e, tree));
+                    let (at, force, torque) = (optional(at)?, optional(force)?, optional(torque)?);
+                    act(Force::OnLink { link: self.link(body)?, at, force, torque, axes: axes_of(*axes) });
+                }
                 model::ForceKind::Drive { rates } => {
                     for (coordinate, force) in rates {
                         let rate = self.rate_of_coordinate(coordinate)?;
                         act(Force::OnRate { rate, force: self.scalar(force, tree)? });
                     }
                 }
-                model::ForceKind::Spring { from, to, stiffness, length, damping } => {
+                model::ForceKind::Spring { extent: Extent::Between { from, to }, stiffness, length, damping } => {
                     let (from, to) = (self.vector(from, tree)?, self.vector(to, tree)?);
                     let square = (0..3).map(|i| (to[i] - from[i]).powi(2)).sum::<Expr<'g>>().group();
                     let optional = |e: &Option<Expression>| e.as_ref().map(|e| self.scalar(e, tree)).transpose();
@@ -69,6 +79,9 @@ impl<'g> Translator<'_, 'g> {
                         act(Force::Dissipation((damping * rate.powi(2)).half()));
                     }
                 }
+                model::ForceKind::Spring { extent: Extent::Along(_), .. }
+                | model::ForceKind::Stop { .. }
+                | model::ForceKind::Drag { .. } => return Err(bug(clause.span)),
                 model::ForceKind::Dissipation(function) => act(Force::Dissipation(self.scalar(function, tree)?)),
             }
         }

@@ -166,7 +166,15 @@ impl<'a, 'g> Translator<'a, 'g> {
         self.name_rotations(&vec![self.graph.zero(); self.declared.size()]);
         let mut inputs = self.declared.inputs.iter().copied();
         for input in &self.model.inputs {
-            let value = self.components(input.kind, &mut inputs);
+            let value = match input.kind {
+                model::InputKind::Scalar => self.components(model::SpeedKind::Scalar, &mut inputs),
+                model::InputKind::Vector => self.components(model::SpeedKind::Vector, &mut inputs),
+                // Nothing asks for its parts yet.
+                model::InputKind::Wrench => {
+                    inputs.nth(5);
+                    continue;
+                }
+            };
             self.names.insert(input.ident.unraw().to_string(), value);
         }
         let mut values = values.iter().copied();

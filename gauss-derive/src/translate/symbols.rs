@@ -5,7 +5,7 @@ use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph};
 use crate::mechanics::{AddedMassShape, Body, BodyShape, Coordinate, GravityShape, InertiaShape, Name, Quantity};
-use crate::model::{self, BodyClause, CoordinateKind, Role, Shape, SpeedKind, SystemField, SystemModel};
+use crate::model::{self, BodyClause, CoordinateKind, InputKind, Role, Shape, SpeedKind, SystemField, SystemModel};
 
 use super::values::Value;
 
@@ -89,6 +89,20 @@ fn named(all: &[(&Ident, SpeedKind)]) -> Vec<Name> {
     names.flatten().collect()
 }
 
+fn input_names(model: &SystemModel) -> Vec<Name> {
+    let names = model.inputs.iter().map(|input| {
+        let name = name_of(&input.ident);
+        match input.kind {
+            InputKind::Scalar => vec![name],
+            InputKind::Vector => components(&name),
+            InputKind::Wrench => {
+                [components(&Name::new("F", "F").of(&name)), components(&Name::new("M", "M").of(&name))].concat()
+            }
+        }
+    });
+    names.flatten().collect()
+}
+
 fn speed_names(model: &SystemModel) -> Vec<Name> {
     match &model.speeds {
         Some(speeds) => named(&speeds.iter().map(|z| (&z.ident, z.kind)).collect::<Vec<_>>()),
@@ -138,10 +152,7 @@ impl<'g> Declared<'g> {
             speed_rates: symbols(&Name::rate),
             momenta: momentum_names.iter().map(|z| symbol(graph, &Name::new("p", "p").of(z), false)).collect(),
             momentum_names,
-            inputs: named(&model.inputs.iter().map(|z| (&z.ident, z.kind)).collect::<Vec<_>>())
-                .iter()
-                .map(|name| symbol(graph, name, false))
-                .collect(),
+            inputs: input_names(model).iter().map(|name| symbol(graph, name, false)).collect(),
             gravity: None,
             fields: Vec::new(),
             bodies: Vec::new(),

@@ -163,6 +163,7 @@ impl<'g> Translator<'_, 'g> {
             }
             Property::Velocity => Value::Vector(link.frame.resolve(&link.velocity, Axes::Space)),
             Property::AngularVelocity => Value::Vector(link.frame.to_space(&link.angular_velocity).map(Expr::group)),
+            _ => return Err(bug(owner.span)),
         })
     }
 

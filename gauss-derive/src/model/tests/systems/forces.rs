@@ -2,7 +2,7 @@
 
 use super::super::{Mistake, check};
 use super::{particle, show, system};
-use crate::model::{Expression, ForceAxes, ForceClause, ForceKind, SpeedKind};
+use crate::model::{Coefficients, Expression, Extent, ForceAxes, ForceClause, ForceKind, InputKind};
 
 /// A body on a turning arm, a base at rest in the observer's frame, a particle and an attitude, with more `clauses`.
 fn acted_on(clauses: &str) -> String {
@@ -48,12 +48,45 @@ fn shown(clause: &ForceClause) -> String {
             let rates: Vec<String> = rates.iter().map(|(name, value)| format!("{name}: {}", show(value))).collect();
             rates.join(", ")
         }
-        ForceKind::Spring { from, to, stiffness, length, damping } => {
-            format!("{} to {}: {} {} {}", show(from), show(to), show(stiffness), optional(length), optional(damping))
+        ForceKind::Spring { extent, stiffness, length, damping } => {
+            format!("{}: {} {} {}", extended(extent), show(stiffness), optional(length), optional(damping))
+        }
+        ForceKind::Stop { extent, least, most, stiffness, width, damping } => format!(
+            "{} from {} to {}: {} {} {}",
+            extended(extent),
+            optional(least),
+            optional(most),
+            show(stiffness),
+            show(width),
+            optional(damping)
+        ),
+        ForceKind::Wrench { body, at, force, torque, axes: in_axes } => {
+            format!("on {body} at {}: {} {} in {}", optional(at), optional(force), optional(torque), axes(*in_axes))
+        }
+        ForceKind::Drag { body, linear, quadratic } => {
+            format!("on {body}: {} {}", coefficients(linear), coefficients(quadratic))
         }
         ForceKind::Dissipation(function) => show(function),
     };
     format!("{} {name}: {what}", clause.noun())
+}
+
+fn extended(extent: &Extent) -> String {
+    match extent {
+        Extent::Between { from, to } => format!("{} to {}", show(from), show(to)),
+        Extent::Along(along) => format!("along {}", show(along)),
+    }
+}
+
+fn coefficients(coefficients: &Option<Coefficients>) -> String {
+    match coefficients {
+        None => "-".into(),
+        Some(Coefficients::Field(name)) => name.to_string(),
+        Some(Coefficients::Diagonal(entries)) => {
+            let entries: Vec<String> = entries.iter().map(|entry| show(entry)).collect();
+            format!("[{}]", entries.join(" "))
+        }
+    }
 }
 
 #[test]
@@ -72,7 +105,7 @@ fn accepted() {
          damping = k * v * v / 2 + rate(theta) * w",
     ));
     let inputs: Vec<_> = model.inputs.iter().map(|input| (input.ident.to_string(), input.kind)).collect();
-    assert_eq!(inputs, [("thrust".into(), SpeedKind::Scalar), ("wind".into(), SpeedKind::Vector)]);
+    assert_eq!(inputs, [("thrust".into(), InputKind::Scalar), ("wind".into(), InputKind::Vector)]);
     let forces: Vec<String> = model.forces.iter().map(shown).collect();
     assert_eq!(
         forces,
