@@ -7,6 +7,7 @@ pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert}
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::{ConstrainedSystem, ProjectionError};
 pub use crate::error::ParameterError;
+pub use crate::forces::{Element, ForcedSystem};
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;
 pub use crate::integrate::{
@@ -16,7 +17,7 @@ pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]
 pub use crate::monitor::{monitor, monitor_body};
 pub use crate::real::Real;
-pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody, RigidBodySystem};
+pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
     UnitQuaternion, Vector3, Vector6,

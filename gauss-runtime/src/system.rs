@@ -50,6 +50,10 @@ pub trait GaussSystem {
     /// [`project`](Self::project) the state after every step.
     const CONSTRAINED: bool = false;
 
+    /// How smooth the accelerations are as functions of the state: adaptive integrators step with more care where they are
+    /// not.
+    const SMOOTHNESS: Smoothness = Smoothness::Smooth;
+
     /// The velocity of the configuration, q̇ = ψ(t, q, z) (3.2), as seen from the body (left-trivialised).
     fn kinematics(
         &self,
@@ -143,6 +147,25 @@ pub trait GaussSystem {
     fn energy(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Scalar {
         self.kinetic_energy(t, q, z) + self.potential_energy(t, q)
     }
+}
+
+/// How smooth the accelerations of a system are as functions of time and state. The least smooth element decides: the order
+/// is that of growing roughness.
+///
+/// A method of order p has local errors of order h^(p+1) only where p derivatives of the acceleration exist. On a step across
+/// a kink they are of order h², across a jump of order h, whatever the method, and so is the error of what is interpolated
+/// within that step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Smoothness {
+    /// As many derivatives as a method asks for, away from singularities of the coordinates.
+    #[default]
+    Smooth,
+    /// Accelerations are continuous, derivatives jump: `abs`, `min`, `max`, `clamp`; of `smooth_step` the second ones.
+    Kinks,
+    /// Accelerations jump: `signum`. Where a system comes to rest on a jump (dry friction) there is no solution in the
+    /// classical sense: adaptive steps shrink to the tolerance over the jump, steps of one length chatter. A steep smooth
+    /// law sticks without either.
+    Jumps,
 }
 
 /// Mass data of one body of a system: the type of the fields that `#[gauss(body)]` marks.
@@ -287,6 +310,8 @@ pub struct Operations {
     pub constraint_function: OperationCount,
     /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers); none without constraints.
     pub multipliers: OperationCount,
+    /// Of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers); none where nothing acts.
+    pub powers: OperationCount,
 }
 
 impl fmt::Display for Operations {
@@ -310,9 +335,11 @@ impl fmt::Display for Operations {
             }
             write!(f, "{name:<20}{count}")?;
         }
-        // A row only where there are constraints.
-        if self.multipliers != OperationCount::default() {
-            write!(f, "\n{:<20}{}", "multipliers", self.multipliers)?;
+        // A row only where there are constraints, or something acts.
+        for (name, count) in [("multipliers", self.multipliers), ("powers", self.powers)] {
+            if count != OperationCount::default() {
+                write!(f, "\n{name:<20}{count}")?;
+            }
         }
         Ok(())
     }
@@ -332,10 +359,12 @@ mod tests {
     }
 
     #[test]
-    fn multipliers_are_listed_where_there_are_any() {
+    fn multipliers_and_powers_are_listed_where_there_are_any() {
         let free = Operations::default();
         assert!(free.to_string().ends_with("constraint_function 0"), "{free}");
         let constrained = Operations { multipliers: OperationCount::new(3, 4, 1, 0, 0), ..free };
         assert!(constrained.to_string().ends_with("\nmultipliers         3 add, 4 mul, 1 div"), "{constrained}");
+        let forced = Operations { powers: OperationCount::new(2, 5, 0, 0, 0), ..constrained };
+        assert!(forced.to_string().ends_with("1 div\npowers              2 add, 5 mul"), "{forced}");
     }
 }

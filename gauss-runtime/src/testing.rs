@@ -12,6 +12,7 @@ use crate::system::{Equations, GaussSystem, Operations};
 
 pub(crate) mod constrained;
 pub(crate) mod dual;
+pub(crate) mod oscillator;
 
 /// Two numbers in lockstep: the smallest SIMD pack.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,6 +118,7 @@ impl<T: Real> GaussSystem for FreeTop<T> {
         gauss_residual: crate::system::OperationCount::new(9, 9, 0, 0, 0),
         constraint_function: crate::system::OperationCount::new(9, 12, 0, 0, 0),
         multipliers: crate::system::OperationCount::new(0, 0, 0, 0, 0),
+        powers: crate::system::OperationCount::new(0, 0, 0, 0, 0),
     };
 
     fn kinematics(&self, _: T, _: &UnitQuaternion<T>, z: &SVector<T, 3>) -> SVector<T, 3> {

@@ -25,8 +25,8 @@ pub fn vector<T: Real, const N: usize>(components: [T; N]) -> SVector<T, N> {
 
 /// A matrix from `entries[row][column]`.
 #[inline(always)]
-pub fn matrix<T: Real, const N: usize>(entries: [[T; N]; N]) -> SMatrix<T, N, N> {
-    let columns: [[T; N]; N] = core::array::from_fn(|column| core::array::from_fn(|row| entries[row][column]));
+pub fn matrix<T: Real, const R: usize, const C: usize>(entries: [[T; C]; R]) -> SMatrix<T, R, C> {
+    let columns: [[T; R]; C] = core::array::from_fn(|column| core::array::from_fn(|row| entries[row][column]));
     SMatrix::from(columns)
 }
 

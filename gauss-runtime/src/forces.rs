@@ -1,0 +1,128 @@
+//! What acts on a system, element by element: generalised forces and powers by name, and the balance of energy.
+//!
+//! With E the kinetic and potential energy, and P_e the power of element e, `dE/dt = Σ P_e + ∂U/∂t`, summed over the elements
+//! whose work the potential energy U does not count already: [`ForcedSystem::supplied_power`].
+
+use core::fmt;
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::configuration::VectorSpace;
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// What acts on a system, element by element: the right-hand side of (3.4).
+///
+/// An element is one clause of the scene that says what acts: gravity, a spring, drag on a body, a motor. Units are those of
+/// the user's parameters: powers in energy per time; component α of a generalised force in power per unit of z_α.
+pub trait ForcedSystem: GaussSystem {
+    /// `SVector<Scalar, E>` with `E = ELEMENTS.len()`: one component for each element.
+    type Powers: VectorSpace<Self::Scalar>;
+
+    /// `SMatrix<Scalar, DOF, E>`: one column for each element.
+    type ElementForces: Columns<Self::Speeds>;
+
+    /// The elements in the order of [`Powers`](Self::Powers): those in the potential energy first. Names are unique.
+    const ELEMENTS: &'static [Element];
+
+    /// The power that each element delivers to the system (negative: takes from it): its forces and torques paired with the
+    /// velocities of what they act on, as the observer sees these.
+    fn powers(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds, input: &Self::Input) -> Self::Powers;
+
+    /// Column e: `∫ ∂v_P/∂z · dF` of element e. The sum of the columns is the right-hand side of (3.4).
+    fn element_forces(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::ElementForces;
+
+    /// dE/dt by what acts, E = T + U: the powers of the elements that are not in the potential energy, plus ∂U/∂t.
+    ///
+    /// It is all of dE/dt unless something is moved as a function of time (a prescribed coordinate, a constraint that depends
+    /// on t): whatever moves it does work as well, and is not an element.
+    fn supplied_power(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Scalar;
+
+    /// The power that the element with this name delivers; `None` when there is no such element.
+    #[inline]
+    fn power(
+        &self,
+        name: &str,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Option<Self::Scalar> {
+        let element = position::<Self>(name)?;
+        Some(self.powers(t, q, z, input).component(element))
+    }
+
+    /// The generalised force `∫ ∂v_P/∂z · dF` of the element with this name; `None` when there is no such element.
+    #[inline]
+    fn generalised_force(
+        &self,
+        name: &str,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Option<Self::Speeds> {
+        let element = position::<Self>(name)?;
+        self.element_forces(t, q, z, input).nth(element)
+    }
+}
+
+/// The place of an element in the lists of a system.
+fn position<S: ForcedSystem + ?Sized>(name: &str) -> Option<usize> {
+    S::ELEMENTS.iter().position(|element| element.name == name)
+}
+
+/// One element of what acts on a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub struct Element {
+    /// Its name in the scene, or the name of its kind where it has none.
+    pub name: &'static str,
+    /// Whether [`potential_energy`](GaussSystem::potential_energy) counts its work.
+    pub conservative: bool,
+}
+
+impl Element {
+    /// An element from its parts, in the order of the fields.
+    #[must_use]
+    pub const fn new(name: &'static str, conservative: bool) -> Self {
+        Self { name, conservative }
+    }
+}
+
+impl fmt::Display for Element {
+    /// `spring (in the potential energy)`, `drag`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)?;
+        if self.conservative { f.write_str(" (in the potential energy)") } else { Ok(()) }
+    }
+}
+
+/// A matrix that is a list of columns `V`.
+pub trait Columns<V> {
+    /// Column `n`, counted from 0; `None` beyond the last.
+    fn nth(&self, n: usize) -> Option<V>;
+}
+
+impl<T: Real, const N: usize, const E: usize> Columns<SVector<T, N>> for SMatrix<T, N, E> {
+    #[inline]
+    fn nth(&self, n: usize) -> Option<SVector<T, N>> {
+        self.data.0.get(n).map(|column| SVector::from(*column))
+    }
+}
+
+#[cfg(test)]
+#[path = "forces_tests.rs"]
+mod tests;
