@@ -252,7 +252,8 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             let count = count_tokens(runtime, Counts::default());
             quote!(multipliers: #count,)
         });
-        quote!(#runtime::system::Operations { kernel: #kernel, #none #(#rows),* })
+        let powers = count_tokens(runtime, Counts::default());
+        quote!(#runtime::system::Operations { kernel: #kernel, #none #(#rows),*, powers: #powers })
     };
     let mut methods = vec![
         (Method::Acceleration, quote!(z: &Self::Speeds, input: &Self::Input), quote!(Self::Speeds)),
