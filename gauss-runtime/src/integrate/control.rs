@@ -4,6 +4,7 @@ use super::error::{IntegrationError, IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
 use super::projection::{accept, consistent_start, on_constraints};
 use super::rkmk::Rkmk;
+use super::step_length::{StepLength, power};
 use super::tableau::Tableau;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
@@ -195,9 +196,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
 
         let mut state = start;
         let mut length = first.min(longest);
-        // Error of the last accepted step; the controller's memory.
-        let mut previous = 1e-4_f64;
-        let mut rejected = false;
+        let mut lengths = StepLength::new(self.estimate_order, S::SMOOTHNESS);
         for _ in 0..limit {
             let left = (end - state.t).lane(0).abs();
             // Stretch by 1 % rather than leave a sliver.
@@ -215,15 +214,15 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             let step = match self.method.step(problem, &state, &rates, signed) {
                 Ok(step) => step,
                 Err(kind) => {
-                    (length, rejected) = (half(kind)?, true);
+                    length = half(kind)?;
+                    lengths.fail();
                     continue;
                 }
             };
             let error = self.scaled_norm(&state, &step.state, &step.error);
             let used = if last { left } else { length };
-            if error > 1.0 {
-                length = used * (0.9 * power(error, -1.0 / self.estimate_order)).max(0.2);
-                rejected = true;
+            if error > lengths.limit() {
+                length = used * lengths.reject(error);
                 continue;
             }
             let mut reached = step.state;
@@ -233,7 +232,8 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             rates = match accept(problem, &mut reached, step.rates) {
                 Ok(rates) => rates,
                 Err(kind) => {
-                    (length, rejected) = (half(kind)?, true);
+                    length = half(kind)?;
+                    lengths.fail();
                     continue;
                 }
             };
@@ -242,14 +242,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             if last {
                 return Ok(state);
             }
-            // PI control (Gustafsson; exponents of Hairer & Wanner II.4), no growth after a rejection.
-            let floor = error.max(1e-10);
-            let k = self.estimate_order;
-            let factor = 0.9 * power(floor, -0.7 / k) * power(previous, 0.4 / k);
-            let most = if rejected { 1.0 } else { 10.0 };
-            length = (used * factor.clamp(0.2, most)).min(longest);
-            previous = floor.max(1e-4);
-            rejected = false;
+            length = (used * lengths.accept(error)).min(longest);
         }
         Err(stopped(state.t, IntegrationErrorKind::TooManySteps { limit }))
     }
@@ -336,11 +329,6 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         };
         if second > 0.0 { second.min(100.0 * guess) } else { guess }
     }
-}
-
-/// `base^exponent` for base > 0.
-fn power(base: f64, exponent: f64) -> f64 {
-    Real::exp(Real::ln(base) * exponent)
 }
 
 /// The integer part of a count; beyond 2⁵³ every number is an integer.

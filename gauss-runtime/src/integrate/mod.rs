@@ -6,6 +6,7 @@
 //! | [`tableau`] | coefficients of Runge–Kutta methods |
 //! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
 //! | [`control`] | fixed steps, adaptive steps |
+//! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
 //! | `projection` | states of a run kept on the constraints |
 //! | [`simulation`] | [`Simulation`], the front |
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
@@ -17,6 +18,7 @@ pub mod form;
 mod projection;
 pub mod rkmk;
 pub mod simulation;
+mod step_length;
 pub mod tableau;
 pub mod trajectory;
 
@@ -32,5 +34,7 @@ pub use trajectory::Trajectory;
 
 #[cfg(all(test, feature = "alloc"))]
 mod product_tests;
+#[cfg(test)]
+mod smoothness_tests;
 #[cfg(all(test, feature = "alloc"))]
 mod tests;

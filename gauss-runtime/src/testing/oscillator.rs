@@ -27,6 +27,26 @@ impl Law for Viscous {
     }
 }
 
+/// A second spring of stiffness 8 for x > 0 only.
+pub(crate) struct OneSided;
+
+impl Law for OneSided {
+    const SMOOTHNESS: Smoothness = Smoothness::Kinks;
+    fn force(x: f64, _: f64) -> f64 {
+        -8.0 * x.max(0.0)
+    }
+}
+
+/// Dry friction of size ½.
+pub(crate) struct Dry;
+
+impl Law for Dry {
+    const SMOOTHNESS: Smoothness = Smoothness::Jumps;
+    fn force(_: f64, v: f64) -> f64 {
+        -0.5 * crate::real::Real::signum(v)
+    }
+}
+
 /// `ẍ = −k(t) x + law(x, ẋ) + input`, `k(t) = 1 + a t`, mass 1.
 pub(crate) struct Oscillator<L> {
     /// a.
