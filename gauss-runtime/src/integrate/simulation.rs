@@ -113,9 +113,13 @@ impl<'k, S: GaussSystem, F, I, C, O> Simulation<'k, S, F, I, C, O> {
     where
         G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input,
     {
+        self.input_from(Feedback(input))
+    }
+
+    /// The input from a type that implements [`InputSource`]: a controller with parameters of its own, or a table.
+    pub fn input_from<J: InputSource<S>>(self, input: J) -> Simulation<'k, S, F, J, C, O> {
         let Self { problem: Problem { system, form, .. }, control, observer, every, limit } = self;
-        let problem = Problem { system, form, input: Feedback(input) };
-        Simulation { problem, control, observer, every, limit }
+        Simulation { problem: Problem { system, form, input }, control, observer, every, limit }
     }
 
     /// Steps of one length, by the Runge–Kutta–Munthe-Kaas method of order 4; the last step is shortened to end in time.
