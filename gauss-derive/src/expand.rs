@@ -4,10 +4,10 @@ use proc_macro2::TokenStream;
 use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::emit::{Derived, Subject, SystemSubject, emit};
+use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
 use crate::kernel::Kernel;
 use crate::mechanics::{
-    AddedMassShape, BodyShape, ConfigurationKind, Elimination, GravityShape, InertiaShape, Scene, System,
+    Acting, AddedMassShape, BodyShape, ConfigurationKind, Elimination, GravityShape, InertiaShape, Scene, System,
     check_against_definition, check_system_against_definition, rotation_of_quaternion,
 };
 use crate::mistakes::{bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_too_much, system_faults};
@@ -26,12 +26,17 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
 }
 
 fn expand_body(model: &Model) -> syn::Result<TokenStream> {
-    if model.acting.is_some() {
-        return Err(bug(&model.ident, &"what acts on a body in a chart is not derived"));
-    }
     let graph = Graph::new();
     let shape = body_shape(model);
-    let scene = Scene::new(&graph, model.motion, model.chart, shape);
+    let mut scene = Scene::new(&graph, model.motion, model.chart, shape);
+    let mut translator = model.acting.as_deref().map(|system| Translator::new(&graph, system));
+    if let Some(translator) = &mut translator {
+        let (observed, elements) = translator.on_one_body()?;
+        let parameters = translator.parameters_of(&scene.body);
+        let inputs = translator.inputs().to_vec();
+        let acting = Acting::new(&observed, &scene.kinematics, &parameters, &elements, inputs);
+        scene = scene.acted_upon(acting);
+    }
     let formulas = scene.formulas();
     check_against_definition(&scene, &formulas).map_err(|error| bug(&model.ident, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
@@ -40,8 +45,14 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
+    let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
+    let plain = model.acting.as_deref().zip(translator.as_ref()).map(|(system, translator)| Plain {
+        fields: &system.fields,
+        sources: translator.sources(),
+        literals: &literals,
+    });
     Ok(emit(&Derived {
-        subject: Subject::Body { model, scene: &scene, inertia: shape.inertia, quaternion },
+        subject: Subject::Body { model, scene: &scene, inertia: shape.inertia, quaternion, plain },
         formulas: &formulas,
         kernel: &kernel,
     }))

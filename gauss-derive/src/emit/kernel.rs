@@ -3,10 +3,11 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::{Expr, Map};
-use crate::kernel::{Counts, Kernel, Program};
-use crate::mechanics::{Formula, InertiaShape, Method, Scene};
-use crate::model::{Model, Scalar};
+use crate::algebra::{Expr, Map, Rational};
+use crate::kernel::{Counts, Kernel, Program, Smoothness};
+use crate::mechanics::{Account, Formula, InertiaShape, Method, Scene};
+use crate::model::{Model, Scalar, SystemField};
+use crate::translate::Source;
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
@@ -33,6 +34,8 @@ pub enum Subject<'a, 'g> {
         inertia: InertiaShape,
         /// Components x, y, z, w of the unit quaternion behind R, where there is one.
         quaternion: Option<[Expr<'g>; 4]>,
+        /// Parameters that only what acts depends on.
+        plain: Option<Plain<'a, 'g>>,
     },
     /// A system in coordinates of its own.
     System(SystemSubject<'a, 'g>),
@@ -46,6 +49,16 @@ pub struct BodySubject<'a, 'g> {
     pub scene: &'a Scene<'g>,
     pub inertia: InertiaShape,
     pub quaternion: Option<[Expr<'g>; 4]>,
+    pub plain: Option<Plain<'a, 'g>>,
+}
+
+/// Parameters without a role, and where the symbols of expressions are read.
+#[derive(Clone, Copy)]
+pub struct Plain<'a, 'g> {
+    pub fields: &'a [SystemField],
+    pub sources: &'a [Source<'g>],
+    /// Literal numbers that symbols stand for.
+    pub literals: &'a [(Rational, Expr<'g>)],
 }
 
 /// What the struct says of itself, whatever it describes.
@@ -88,8 +101,8 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     pub fn body(&'a self) -> Option<BodySubject<'a, 'g>> {
         match self.subject {
-            Subject::Body { model, scene, inertia, quaternion } => {
-                Some(BodySubject { derived: self, model, scene, inertia, quaternion })
+            Subject::Body { model, scene, inertia, quaternion, plain } => {
+                Some(BodySubject { derived: self, model, scene, inertia, quaternion, plain })
             }
             Subject::System(_) => None,
         }
@@ -102,7 +115,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 speed_rates: &scene.kinematics.speed_rates,
                 momenta: &scene.momenta,
                 residuals: &[],
-                inputs: &[],
+                inputs: scene.acting.as_ref().map_or(&[], |acting| &acting.inputs),
             },
             Subject::System(SystemSubject { system, constraints, .. }) => Formal {
                 speeds: &system.scene.speeds,
@@ -136,6 +149,21 @@ impl<'a, 'g> Derived<'a, 'g> {
         &self.kernel.functions[position.expect("a method that is written was derived")]
     }
 
+    pub fn has(&self, method: Method) -> bool {
+        self.formulas.iter().any(|f| f.method == method)
+    }
+
+    fn accounts(&self) -> Vec<Account<'g>> {
+        match self.subject {
+            Subject::Body { scene, .. } => scene.accounts(),
+            Subject::System(SystemSubject { system, .. }) => system.accounts(),
+        }
+    }
+
+    fn smoothness(&self) -> Smoothness {
+        self.program(Method::Acceleration).smoothness()
+    }
+
     pub fn private(&self) -> TokenStream {
         let runtime = self.item().runtime;
         quote!(#runtime::__private)
@@ -148,7 +176,10 @@ impl<'a, 'g> Derived<'a, 'g> {
         let Formal { speeds, speed_rates, momenta, residuals, inputs } = self.formal();
         let mut names: Map<u32, TokenStream> = Map::default();
         let mut arguments = match self.subject {
-            Subject::Body { .. } => self.body().map(|body| body.configuration_arguments()).unwrap_or_default(),
+            Subject::Body { scene, .. } => {
+                names.extend(scene.acting.iter().map(|acting| (acting.time.key(), quote!(t))));
+                self.body().map(|body| body.configuration_arguments()).unwrap_or_default()
+            }
             Subject::System(subject) => {
                 names.insert(subject.system.scene.time.key(), quote!(t));
                 subject.configuration_arguments(self)
@@ -172,9 +203,11 @@ impl<'a, 'g> Derived<'a, 'g> {
         let declarations = declare(program, &arguments, &mut names);
         let (instructions, outputs) = statements(program, &names, &self.scalar());
         let result = match method {
-            Method::KineticEnergy | Method::PotentialEnergy | Method::ConstraintFunction => quote!(#(#outputs)*),
-            Method::MassMatrix => {
-                let rows = outputs.chunks(speeds.len()).map(|row| quote!([#(#row),*]));
+            Method::KineticEnergy | Method::PotentialEnergy | Method::ConstraintFunction | Method::SuppliedPower => {
+                quote!(#(#outputs)*)
+            }
+            Method::MassMatrix | Method::ElementForces => {
+                let rows = outputs.chunks(outputs.len() / speeds.len()).map(|row| quote!([#(#row),*]));
                 quote!(#private::matrix([#(#rows),*]))
             }
             // The volume over the product of the lengths.
@@ -225,8 +258,8 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
     let (text, latex) = (text(derived, &sections), latex(&sections));
     let documentation = rustdoc(derived, &text);
     let (kernel_body, chart, configuration) = match derived.subject {
-        Subject::Body { model, scene, inertia, quaternion } => {
-            let body = BodySubject { derived, model, scene, inertia, quaternion };
+        Subject::Body { model, scene, inertia, quaternion, plain } => {
+            let body = BodySubject { derived, model, scene, inertia, quaternion, plain };
             (kernel_body(&body), body.chart_tokens(), body.configuration_type())
         }
         Subject::System(subject) => (
@@ -240,7 +273,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
          # Errors\nEvery parameter that no body can have, with its field, value and the rule it breaks."
     );
     let operations = {
-        let rows = derived.formulas.iter().zip(&derived.kernel.functions).filter(|(f, _)| f.method < Method::BodyTwist);
+        let rows = derived.formulas.iter().zip(&derived.kernel.functions).filter(|(f, _)| f.method <= Method::Powers);
         let rows = rows.map(|(f, program)| {
             let (field, count) =
                 (Ident::new(method_name(f.method), Span::call_site()), count_tokens(runtime, program.counts()));
@@ -252,8 +285,12 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             let count = count_tokens(runtime, Counts::default());
             quote!(multipliers: #count,)
         });
-        let powers = count_tokens(runtime, Counts::default());
-        quote!(#runtime::system::Operations { kernel: #kernel, #none #(#rows),*, powers: #powers })
+        let still = derived.formulas.iter().all(|f| f.method != Method::Powers);
+        let powerless = still.then(|| {
+            let count = count_tokens(runtime, Counts::default());
+            quote!(powers: #count,)
+        });
+        quote!(#runtime::system::Operations { kernel: #kernel, #none #powerless #(#rows),* })
     };
     let mut methods = vec![
         (Method::Acceleration, quote!(z: &Self::Speeds, input: &Self::Input), quote!(Self::Speeds)),
@@ -306,6 +343,41 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         }
         _ => (TokenStream::new(), None),
     };
+    let forced = derived.has(Method::Powers).then(|| {
+        let accounts = derived.accounts();
+        let count = accounts.len();
+        let elements = accounts.iter().map(|account| {
+            let (name, conservative) = (&account.name, account.conservative);
+            quote!(#runtime::forces::Element::new(#name, #conservative))
+        });
+        let arguments = quote!(z: &Self::Speeds, input: &Self::Input);
+        let methods = [
+            (Method::Powers, arguments.clone(), quote!(Self::Powers)),
+            (Method::ElementForces, arguments.clone(), quote!(Self::ElementForces)),
+            (Method::SuppliedPower, arguments, quote!(Self::Scalar)),
+        ];
+        let methods = methods.into_iter().map(&write);
+        quote! {
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all, clippy::pedantic)]
+            impl #bounded #runtime::forces::ForcedSystem for #name #used {
+                type Powers = #runtime::prelude::SVector<#ty, #count>;
+                type ElementForces = #runtime::prelude::SMatrix<#ty, #n, #count>;
+                const ELEMENTS: &'static [#runtime::forces::Element] = &[#(#elements),*];
+                #(#methods)*
+            }
+        }
+    });
+    // Of what acts alone: kinematics are smooth where they are regular.
+    let smoothness = match derived.smoothness() {
+        Smoothness::Smooth => None,
+        Smoothness::Kinks => Some(quote!(Kinks)),
+        Smoothness::Jumps => Some(quote!(Jumps)),
+    };
+    let smoothness = smoothness.map(|word| {
+        let smoothness = quote!(#runtime::system::Smoothness);
+        quote!(const SMOOTHNESS: #smoothness = #smoothness::#word;)
+    });
     let input = match derived.formal().inputs.len() {
         0 => quote!(()),
         count => quote!(#runtime::prelude::SVector<#ty, #count>),
@@ -365,12 +437,14 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
                 const CHART: #runtime::chart::Chart = #chart;
                 const EQUATIONS: #runtime::system::Equations = #runtime::system::Equations { text: #text, latex: #latex };
                 const OPERATIONS: #runtime::system::Operations = #operations;
+                #smoothness
                 #(#methods)*
                 #projection
             }
 
             #rigid_body
             #constrained
+            #forced
         };
     }
 }

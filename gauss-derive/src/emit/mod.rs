@@ -21,5 +21,5 @@ mod system_tests;
 #[cfg(test)]
 mod tests;
 
-pub use kernel::{Derived, Subject, emit};
+pub use kernel::{Derived, Plain, Subject, emit};
 pub use system::SystemSubject;

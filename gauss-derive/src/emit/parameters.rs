@@ -9,8 +9,9 @@ use crate::kernel::Program;
 use crate::mechanics::{InertiaShape, ParameterSymbol, Quantity};
 use crate::model::{Model, Motion, Parameter};
 
-use super::kernel::{BodySubject, Derived};
+use super::kernel::{BodySubject, Derived, Plain};
 use super::program::statements;
+use super::system_parameters::{element as source_element, plain_fields};
 
 /// The field that gives a quantity.
 fn field(model: &Model, quantity: Quantity) -> Option<&Parameter> {
@@ -76,9 +77,17 @@ pub fn kernel_body(derived: &BodySubject<'_, '_>) -> TokenStream {
             _ => quote!(let #name = #private::entries(&self.#ident);),
         });
     }
-    let symbols: Map<u32, TokenStream> =
+    let mut symbols: Map<u32, TokenStream> =
         derived.scene.body.parameters.iter().map(|p| (p.symbol.key(), element(derived, p))).collect();
-    let checks = checks(derived, &symbols);
+    let mut checks = checks(derived, &symbols);
+    if let Some(Plain { fields, sources, literals }) = derived.plain {
+        let (locals, finite) = plain_fields(derived.derived, fields, sources);
+        read.extend(locals);
+        checks.extend(finite);
+        symbols.extend(sources.iter().map(|s| (s.symbol.key(), source_element(s))));
+        let scalar = derived.derived.scalar();
+        symbols.extend(literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
+    }
     let mass_name = field(model, Quantity::Mass).map(|p| p.ident.unraw().to_string()).unwrap_or_default();
     let kernel = constants(derived.derived, &symbols, &mass_name);
     quote! {

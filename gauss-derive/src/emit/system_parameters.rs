@@ -7,7 +7,7 @@ use syn::ext::IdentExt;
 use crate::algebra::{Expr, Map};
 use crate::kernel::Program;
 use crate::mechanics::{Matter, Quantity};
-use crate::model::{ExpressionKind, Role, Shape, SystemModel};
+use crate::model::{ExpressionKind, Role, Shape, SystemField, SystemModel};
 use crate::translate::{Part, Source};
 
 use super::kernel::Derived;
@@ -17,7 +17,7 @@ use super::system::SystemSubject;
 
 /// The local that holds a field, or one part of a rigid body.
 fn local(field: usize, part: &str) -> Ident {
-    format_ident!("__p{}{}", field, part, span = Span::mixed_site())
+    format_ident!("__f{}{}", field, part, span = Span::mixed_site())
 }
 
 /// The word of a part of a rigid body: the field of `RigidBody` and the end of the local.
@@ -29,7 +29,8 @@ fn word(quantity: Quantity) -> &'static str {
     }
 }
 
-fn element(source: &Source<'_>) -> TokenStream {
+/// How the value of a symbol is written where the locals are.
+pub fn element(source: &Source<'_>) -> TokenStream {
     let plain = local(source.field, "");
     match source.part {
         Part::Scalar => quote!(#plain),
@@ -59,9 +60,9 @@ pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_,
         }
         let (ident, name, said) = (&field.ident, local(k, ""), field.ident.unraw().to_string());
         match field.shape {
-            Shape::Scalar => read.extend(quote!(let #name = self.#ident;)),
-            Shape::Vector3 | Shape::Vector6 => read.extend(quote!(let #name = #private::components(&self.#ident);)),
-            Shape::Matrix3 | Shape::Matrix6 => read.extend(quote!(let #name = #private::entries(&self.#ident);)),
+            Shape::Scalar | Shape::Vector3 | Shape::Vector6 | Shape::Matrix3 | Shape::Matrix6 => {
+                read.extend(read_field(derived, k, field));
+            }
             Shape::RigidBody => {
                 let [mass, center, inertia] = ["mass", "center_of_mass", "inertia"].map(|part| local(k, part));
                 read.extend(quote! {
@@ -99,9 +100,7 @@ pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_,
                 })
             }
             (Some(Role::AddedMass), Shape::Matrix6) => quote!(__check.symmetric(#said, &#name);),
-            (_, Shape::Scalar) => quote!(__check.finite(#said, &[#name]);),
-            (_, Shape::Vector3 | Shape::Vector6) => quote!(__check.finite(#said, &#name);),
-            _ => TokenStream::new(),
+            _ => finite(k, field),
         });
     }
     let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
@@ -129,6 +128,35 @@ pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_,
         __check.finish()?;
         #kernel
     }
+}
+
+/// The local of a field.
+fn read_field(derived: &Derived<'_, '_>, k: usize, field: &SystemField) -> TokenStream {
+    let (private, ident, name) = (derived.private(), &field.ident, local(k, ""));
+    match field.shape {
+        Shape::Scalar => quote!(let #name = self.#ident;),
+        Shape::Vector3 | Shape::Vector6 => quote!(let #name = #private::components(&self.#ident);),
+        _ => quote!(let #name = #private::entries(&self.#ident);),
+    }
+}
+
+fn finite(k: usize, field: &SystemField) -> TokenStream {
+    let (name, said) = (local(k, ""), field.ident.unraw().to_string());
+    match field.shape {
+        Shape::Scalar => quote!(__check.finite(#said, &[#name]);),
+        Shape::Vector3 | Shape::Vector6 => quote!(__check.finite(#said, &#name);),
+        _ => quote!(for __row in &#name { __check.finite(#said, __row); }),
+    }
+}
+
+/// Plain parameters of one body in a chart: their locals, and what is checked of them.
+pub fn plain_fields(
+    derived: &Derived<'_, '_>,
+    fields: &[SystemField],
+    sources: &[Source<'_>],
+) -> (TokenStream, TokenStream) {
+    let plain = fields.iter().enumerate().filter(|(k, f)| f.role.is_none() && sources.iter().any(|s| s.field == *k));
+    plain.map(|(k, field)| (read_field(derived, k, field), finite(k, field))).unzip()
 }
 
 /// Of a body that turns about one of its axes alone only the moment of inertia about that axis enters, and the two

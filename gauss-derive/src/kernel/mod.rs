@@ -21,7 +21,7 @@ use std::fmt;
 use crate::algebra::{Evaluation, Expr, Graph, Map};
 
 use hoist::Hoister;
-pub use program::{Counts, Operand, Operation, Program};
+pub use program::{Counts, Operand, Operation, Program, Smoothness};
 
 /// Programs of a set of functions that share their constants.
 pub struct Kernel<'g> {

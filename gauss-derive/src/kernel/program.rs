@@ -69,6 +69,16 @@ impl Counts {
     }
 }
 
+/// How smooth the outputs of a program are, away from singularities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Smoothness {
+    Smooth,
+    /// Derivatives jump.
+    Kinks,
+    /// Values jump.
+    Jumps,
+}
+
 /// A function as a list of instructions.
 #[derive(Clone, Debug)]
 pub struct Program<'g> {
@@ -105,6 +115,18 @@ impl<'g> Program<'g> {
             }
         }
         counts
+    }
+
+    /// That of its roughest instruction.
+    pub fn smoothness(&self) -> Smoothness {
+        let of = |operation: &Operation<'g>| match operation {
+            Operation::Call(Function::Signum, _) => Smoothness::Jumps,
+            Operation::Call(Function::Abs, _) | Operation::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => {
+                Smoothness::Kinks
+            }
+            _ => Smoothness::Smooth,
+        };
+        self.instructions.iter().map(of).max().unwrap_or(Smoothness::Smooth)
     }
 
     /// Everything that the program reads, repeatedly where it is read repeatedly.

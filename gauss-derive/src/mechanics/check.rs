@@ -27,7 +27,11 @@ impl fmt::Display for Disagreement {
 
 /// Evaluates the condition at one state, with the residual formula at any ż and with every arrangement's acceleration.
 pub fn check_against_definition<'g>(scene: &Scene<'g>, formulas: &[Formula<'g>]) -> Result<(), Disagreement> {
-    let condition = stationarity(&scene.kinematics, &scene.body);
+    let mut condition = stationarity(&scene.kinematics, &scene.body);
+    if let Some(acting) = &scene.acting {
+        let forces = acting.by_definition(&scene.kinematics);
+        condition.iter_mut().zip(forces).for_each(|(row, force)| *row = *row - force);
+    }
     let mut state = sample_state(scene);
     let values = |state: &Map<u32, f64>, outputs: &[Expr<'g>]| -> Vec<f64> {
         let mut evaluation = Evaluation::new(state);
@@ -96,6 +100,10 @@ fn sample_state(scene: &Scene<'_>) -> Map<u32, f64> {
     let rest = kinematics.configuration.iter().chain(&kinematics.speeds).chain(&kinematics.speed_rates);
     for symbol in rest {
         state.entry(symbol.key()).or_insert_with(&mut next);
+    }
+    // Whatever else the expressions of forces read.
+    for key in kinematics.frame.graph.symbol_keys() {
+        state.entry(key).or_insert_with(&mut next);
     }
     state
 }

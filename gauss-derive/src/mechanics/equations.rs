@@ -3,6 +3,7 @@
 use crate::algebra::{Expr, Map, Notation, Polynomial, print};
 use crate::model::Chart;
 
+use super::accounts::{Account, GRAVITY};
 use super::chart::ConfigurationKind;
 use super::methods::Scene;
 use super::names::Name;
@@ -59,6 +60,55 @@ pub(super) fn tidy(e: Expr<'_>) -> Expr<'_> {
     readable(e).map_or(e, |p| p.collect())
 }
 
+/// Generalised forces for a reader: where one is too long to read, all of them as sums over the elements, each under its name.
+pub(super) fn named_sums<'g>(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name]) -> Vec<Expr<'g>> {
+    if !goes_by_element(&whole, accounts) {
+        return whole.into_iter().map(tidy).collect();
+    }
+    let row = |(k, whole): (usize, Expr<'g>)| {
+        let own = |account: &Account<'g>| match account.forces[k] {
+            force if force.is_zero() || account.name == GRAVITY => tidy(force),
+            _ => {
+                let name = names[k].of(&element_name(account));
+                whole.graph().symbol(name.text, name.latex, false)
+            }
+        };
+        accounts.iter().map(own).sum()
+    };
+    whole.into_iter().enumerate().map(row).collect()
+}
+
+fn goes_by_element(whole: &[Expr<'_>], accounts: &[Account<'_>]) -> bool {
+    accounts.len() > 1 && whole.iter().any(|e| readable(*e).is_none())
+}
+
+/// What each element adds, where the sum is printed by element.
+pub(super) fn element_sections<'g>(whole: &[Expr<'g>], accounts: &[Account<'g>], names: &[Name]) -> Vec<Section<'g>> {
+    if !goes_by_element(whole, accounts) {
+        return Vec::new();
+    }
+    let elements = accounts.iter().filter(|account| account.name != GRAVITY);
+    elements.filter_map(|account| element_section(account, names)).collect()
+}
+
+fn element_name(account: &Account<'_>) -> Name {
+    Name::new(&account.name.replace(' ', "_"), &format!("\\text{{{}}}", account.name.replace('_', "\\_")))
+}
+
+/// Nothing of an element that does nothing.
+fn element_section<'g>(account: &Account<'g>, names: &[Name]) -> Option<Section<'g>> {
+    let title = Name::new(&format!("of {}", account.name), &format!("of {}", account.name.replace('_', "\\_")));
+    let there = account.forces.iter().zip(names).filter(|(force, _)| !force.is_zero());
+    let rows: Option<Vec<Row<'g>>> = there
+        .map(|(force, name)| Some(Row::Definition(name.of(&element_name(account)), readable(*force)?.collect())))
+        .collect();
+    let rows = rows.unwrap_or_else(|| {
+        let words = "too long to print";
+        vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))]
+    });
+    (!rows.is_empty()).then_some(Section { title, rows })
+}
+
 impl<'g> Scene<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
     pub fn equations(&self) -> Vec<Section<'g>> {
@@ -73,14 +123,15 @@ impl<'g> Scene<'g> {
                 title: Name::new("active forces (generalised)", "active forces (generalised)"),
                 rows: self.force_rows(),
             },
-            Section {
-                title: Name::new("velocity form A dz/dt = r", "velocity form $A \\dot z = r$"),
-                rows: self.velocity_form_rows().unwrap_or_else(|| {
-                    let words = "too long to print: see the balance above";
-                    vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))]
-                }),
-            },
         ]);
+        sections.extend(element_sections(&self.generalised_forces(), &self.accounts(), &self.force_names()));
+        sections.extend([Section {
+            title: Name::new("velocity form A dz/dt = r", "velocity form $A \\dot z = r$"),
+            rows: self.velocity_form_rows().unwrap_or_else(|| {
+                let words = "too long to print: see the balance above";
+                vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))]
+            }),
+        }]);
         sections.retain(|s| !s.rows.is_empty());
         sections
     }
@@ -172,7 +223,7 @@ impl<'g> Scene<'g> {
 
     /// Bracket and force of every row.
     fn balance_terms(&self) -> Vec<(Expr<'g>, Expr<'g>)> {
-        let forces = self.generalised_forces().into_iter().map(tidy);
+        let forces = named_sums(self.generalised_forces(), &self.accounts(), &self.force_names());
         self.printed_bracket().into_iter().map(tidy).zip(forces).collect()
     }
 

@@ -1,12 +1,46 @@
-//! What acts on a system beside weight, buoyancy and potentials: each force enters through `∫∂v_P/∂z·dF` of (3.4), at the point
-//! where it acts, and nothing else is ever said about it.
+//! What acts beside weight and buoyancy: potentials, and forces, each of which enters through `∫∂v_P/∂z·dF` of (3.4), at the
+//! point where it acts; nothing else is ever said about it.
 
 use crate::algebra::{Expr, Map};
 
 use super::link::Link;
 use super::vector::{Axes, Triple, Vector, add, cross, dot};
 
-/// One element, by how it acts.
+/// One element of what acts, under the name by which its power and its generalised force are known.
+#[derive(Clone)]
+pub struct Element<'g> {
+    pub name: String,
+    pub action: Action<'g>,
+}
+
+/// How an element acts.
+#[derive(Clone)]
+pub enum Action<'g> {
+    /// By a potential, a function of t and q: part of the energy.
+    Potential(Expr<'g>),
+    /// By forces that act together.
+    Forces(Vec<Force<'g>>),
+}
+
+/// The sum of all potentials.
+pub fn potential_of<'g>(elements: &[Element<'g>]) -> Option<Expr<'g>> {
+    let potentials = elements.iter().filter_map(|element| match element.action {
+        Action::Potential(potential) => Some(potential),
+        Action::Forces(_) => None,
+    });
+    potentials.reduce(|sum, potential| sum + potential)
+}
+
+/// All forces, of whichever element.
+pub fn forces_of<'g>(elements: &[Element<'g>]) -> Vec<Force<'g>> {
+    let forces = elements.iter().filter_map(|element| match &element.action {
+        Action::Potential(_) => None,
+        Action::Forces(forces) => Some(forces),
+    });
+    forces.flatten().copied().collect()
+}
+
+/// One force, by how it acts.
 #[derive(Clone, Copy)]
 pub enum Force<'g> {
     /// A force at a point that moves, both in observer's axes from Ω.
@@ -29,6 +63,23 @@ impl<'g> Force<'g> {
         let arm = in_working(at, Axes::Body);
         let torque = add(&in_working(torque, *axes), &cross(&arm, &force)).map(Expr::group);
         Some((*link, target.frame.body_vector(force), torque))
+    }
+
+    /// The power that it delivers: with the velocity of what it acts on, whatever that is due to.
+    pub fn power(&self, links: &[Link<'g>], speeds: &[Expr<'g>], rates: &Map<u32, Expr<'g>>) -> Expr<'g> {
+        match self {
+            Force::AtPoint { at, force } => dot(&force.map(Expr::group), &at.map(|e| e.derivative(rates).group())),
+            Force::OnLink { link, .. } => {
+                let Some((_, force, torque)) = self.load(links) else { return links[*link].frame.graph.zero() };
+                let link = &links[*link];
+                link.frame.dot(&force, &link.velocity) + dot(&torque, &link.angular_velocity)
+            }
+            Force::OnRate { rate, force } => rate.group() * force.group(),
+            Force::Dissipation(function) => {
+                let terms = speeds.iter().map(|&z| -z * function.partial(z));
+                terms.fold(function.graph().zero(), |sum, e| sum + e)
+            }
+        }
     }
 
     /// Its generalised forces where it does not act on a link.

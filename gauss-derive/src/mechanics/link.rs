@@ -188,6 +188,19 @@ impl<'g> Link<'g> {
         }
     }
 
+    /// Components in body axes.
+    pub fn in_body_axes(&self, a: &Vector<'g>) -> Triple<'g> {
+        match &self.planar {
+            Some(turn) => turn.back(&self.frame.resolve(a, Axes::Space)).map(Expr::group),
+            None => self.frame.resolve(a, Axes::Body).map(Expr::group),
+        }
+    }
+
+    /// u = Rᵀ v_O and ω, body axes.
+    pub fn twist(&self) -> (Triple<'g>, Triple<'g>) {
+        (self.in_body_axes(&self.velocity), self.in_body_axes(&self.frame.body_vector(self.angular_velocity)))
+    }
+
     /// Whether nothing is joined to it: its velocities may then keep parts in both frames.
     pub fn is_alone(&self) -> bool {
         self.parent.is_none() && !self.has_children
@@ -235,6 +248,18 @@ pub fn impulse<'g>(added: &[Vec<Expr<'g>>], u: &Triple<'g>, omega: &Triple<'g>) 
         add(&linear, &angular).map(Expr::group)
     };
     (row(0), row(3))
+}
+
+/// `dQ_f/dt` and `dΓ_f/dt + v_O × Q_f` of the fluid's impulse in body axes; `u` is the velocity of O relative to the fluid far
+/// away, `rate` the observer's derivative of a vector in body axes.
+pub fn reaction<'g>(
+    added: &[Vec<Expr<'g>>],
+    u: &Triple<'g>,
+    omega: &Triple<'g>,
+    rate: impl Fn(&Triple<'g>) -> Triple<'g>,
+) -> (Triple<'g>, Triple<'g>) {
+    let (q, gamma) = impulse(added, u, omega);
+    (rate(&q), add(&rate(&gamma), &cross(u, &q)))
 }
 
 pub fn identity(graph: &Graph) -> [Triple<'_>; 3] {

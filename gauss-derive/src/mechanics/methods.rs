@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use crate::algebra::{Expr, Graph, Map, Solver};
 
+use super::accounts::Account;
 use super::body::{Body, BodyShape};
 use super::chart::{ConfigurationKind, Kinematics};
 use super::momentum::{
@@ -12,6 +13,7 @@ use super::momentum::{
 };
 use super::names::Name;
 use super::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
+use super::wrench::{Acting, Wrench};
 use crate::model::{Chart, Motion};
 
 /// The methods that a kernel has, in the order in which they are generated and counted.
@@ -29,6 +31,10 @@ pub enum Method {
     ConstraintFunction,
     /// λ; only with constraints.
     Multipliers,
+    /// One for each element of what acts, as are the columns of the generalised forces; dE/dt. Only where there are elements.
+    Powers,
+    ElementForces,
+    SuppliedPower,
     BodyTwist,
     Speeds,
     BodyMomentum,
@@ -64,6 +70,9 @@ pub struct Scene<'g> {
     pub body: Body<'g>,
     pub matrix: KineticMatrix<'g>,
     pub weight: Option<Weight<'g>>,
+    /// What acts beside weight and buoyancy, and its wrench about O.
+    pub acting: Option<Acting<'g>>,
+    load: Wrench<'g>,
     /// Formal arguments: momenta p, and a twist of O in body axes.
     pub momenta: Vec<Expr<'g>>,
     pub twist: [Expr<'g>; 6],
@@ -94,7 +103,8 @@ impl<'g> Scene<'g> {
         let (linear, angular): (Vec<usize>, Vec<usize>) = kinematics.active.iter().partition(|&&k| k < 3);
         let matrix = KineticMatrix::new(graph, &body, &linear, &angular);
         let weight = Weight::new(&body);
-        let formal = Formal::new(&kinematics);
+        let load = Wrench::zero(graph);
+        let formal = Formal::new(&kinematics, &load);
         let momenta = kinematics
             .momentum_names
             .iter()
@@ -138,6 +148,8 @@ impl<'g> Scene<'g> {
             body,
             matrix,
             weight,
+            acting: None,
+            load,
             momenta,
             twist,
             formal,
@@ -146,6 +158,14 @@ impl<'g> Scene<'g> {
             linear_rows,
             angular_rows,
         }
+    }
+
+    /// The same body with what acts on it beside weight and buoyancy.
+    pub fn acted_upon(mut self, acting: Acting<'g>) -> Self {
+        self.load = acting.total(self.kinematics.frame.graph);
+        self.formal = Formal::new(&self.kinematics, &self.load);
+        self.acting = Some(acting);
+        self
     }
 
     pub fn formulas(&self) -> Vec<Formula<'g>> {
@@ -174,8 +194,28 @@ impl<'g> Scene<'g> {
             single(Method::BodyMomentum, self.body_momentum()),
         ];
         formulas.extend(self.regularity().map(|outputs| single(Method::Regularity, outputs)));
+        if let Some(acting) = &self.acting {
+            formulas.extend(acting.formulas(&self.accounts(), self.kinematics.frame.graph));
+        }
         formulas.sort_by_key(|f| f.method);
         formulas
+    }
+
+    /// One account for each element of what acts, with weight and buoyancy first; none where nothing else acts.
+    pub fn accounts(&self) -> Vec<Account<'g>> {
+        let frame = &self.kinematics.frame;
+        let weight = self.weight.as_ref().map(|w| Wrench {
+            force: w.resultant(frame),
+            torque: self.vector(self.angular_in, w.torque(frame, self.angular_in)),
+        });
+        let accounts = |acting: &Acting<'g>| acting.accounts(&self.kinematics, weight, |w| self.project_wrench(w));
+        self.acting.as_ref().map(accounts).unwrap_or_default()
+    }
+
+    /// `R·a_α + M_O·o_α` of a wrench about O.
+    fn project_wrench(&self, wrench: &Wrench<'g>) -> Vec<Expr<'g>> {
+        let pair = self.resolve(&wrench.force, &wrench.torque);
+        self.project(Pair { linear: pair.linear.map(Expr::group), angular: pair.angular.map(Expr::group) })
     }
 
     /// `None` where the coordinates have no singularity: the volume that the columns of ∂ω/∂q̇ span is constant.
@@ -299,7 +339,7 @@ impl<'g> Scene<'g> {
         }
         replacement.extend(self.kinematics.speeds.iter().zip(speeds).map(|(z, value)| (z.key(), value.group())));
         let forces = self.generalised_forces();
-        bracket.into_iter().zip(forces).map(|(b, f)| b.substitute(&replacement) + f).collect()
+        bracket.into_iter().zip(forces).map(|(b, f)| (b + f).substitute(&replacement)).collect()
     }
 
     /// `Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α` along the flow with ż = 0; Q and Γ_O in the axes of the rows. Where a_α or o_α
@@ -386,18 +426,20 @@ impl<'g> Scene<'g> {
             },
             None => Pair { linear: self.zero(), angular: self.zero() },
         };
-        self.project(pair)
+        let load = self.resolve(&self.load.force, &self.load.torque);
+        let named = |a: &Triple<'g>, b: &Triple<'g>| if is_zero(b) { *a } else { add(a, &b.map(Expr::group)) };
+        self.project(Pair { linear: named(&pair.linear, &load.linear), angular: named(&pair.angular, &load.angular) })
     }
 
     fn balance(&self, arrangement: Arrangement) -> Balance<'g> {
-        solve_balance(&self.kinematics, &self.matrix, self.weight.as_ref(), &self.formal, arrangement)
+        solve_balance(&self.kinematics, &self.matrix, self.weight.as_ref(), &self.load, &self.formal, arrangement)
     }
 
     /// ż from the balance in body axes, through the rate of the kinematics.
     fn acceleration(&self, balance: &Balance<'g>) -> Vec<Expr<'g>> {
         let kinematics = &self.kinematics;
         let frame = &kinematics.frame;
-        let real = self.formal.realisation(kinematics, self.weight.as_ref());
+        let real = self.formal.realisation(kinematics, self.weight.as_ref(), &self.load);
         let realise = |e: Expr<'g>| e.substitute(&real);
         let angular = frame.body_vector(balance.angular.map(realise).map(Expr::group));
         let velocity = frame.resolve(&kinematics.velocity, self.linear_in);
@@ -449,14 +491,15 @@ impl<'g> Scene<'g> {
 
     fn potential_energy(&self) -> Expr<'g> {
         let frame = &self.kinematics.frame;
-        self.weight.as_ref().map_or(frame.graph.zero(), |w| w.potential(frame, &self.kinematics.position))
+        let weight = self.weight.as_ref().map_or(frame.graph.zero(), |w| w.potential(frame, &self.kinematics.position));
+        self.acting.as_ref().and_then(Acting::potential).map_or(weight, |other| weight + other)
     }
 
     /// ∂C/∂ż: `(dQ/dt − R)·a_α + (dΓ_O/dt + v_O × Q − M_O)·o_α` at a given ż.
     fn residual(&self, balance: &Balance<'g>) -> Vec<Expr<'g>> {
         let kinematics = &self.kinematics;
         let frame = &kinematics.frame;
-        let real = self.formal.realisation(kinematics, self.weight.as_ref());
+        let real = self.formal.realisation(kinematics, self.weight.as_ref(), &self.load);
         let bias = |a: Triple<'g>| a.map(|e| e.substitute(&real));
         let along = kinematics.rates_with_accelerations();
         let omega = &kinematics.angular_velocity;
@@ -468,6 +511,7 @@ impl<'g> Scene<'g> {
         let (linear, u_rate) = match self.matrix.isotropic {
             Some(mu) => {
                 let weight = self.weight.as_ref().map_or(frame.zero(), |w| w.resultant(frame));
+                let weight = weight.plus(&frame.space_vector(self.load.force.space));
                 let in_body = add(&coupling, &bias(balance.linear_bias));
                 (a.times(mu).plus(&frame.body_vector(in_body)).minus(&weight), self.in_body(&a))
             }

@@ -10,13 +10,17 @@
 //! - `turn`, `link`: bodies, frames and particles, each relative to its parent.
 //! - `moments`, `regroup`: what their matter amounts to, and what of it moves with the parent as well.
 //! - `tree`, `articulated`: sums over links by recursion, and A ż = r solved link by link.
-//! - `forces`: what acts beside weight and potentials.
+//! - `forces`: what acts beside weight and buoyancy.
+//! - `fields`: what acts on all that a body is made of: central gravity, a medium that moves.
+//! - `wrench`: the same on one body in a chart.
+//! - `accounts`: power and generalised force of each element.
 //! - `constraint`: what coordinates and speeds do not solve by themselves.
 //! - `elimination`: constraints solved for the speeds that depend on others.
 //! - `system`, `system_check`, `system_equations`: the equations of bodies and particles in coordinates of their own.
 //! - `methods`: every method of a kernel as expressions.
 //! - `equations`: the equations for people.
 
+mod accounts;
 mod articulated;
 mod body;
 mod chart;
@@ -24,6 +28,7 @@ mod check;
 mod constraint;
 mod elimination;
 mod equations;
+mod fields;
 mod forces;
 mod gauss;
 mod link;
@@ -49,14 +54,17 @@ pub mod tests;
 mod tree;
 mod turn;
 mod vector;
+mod wrench;
 
+pub use accounts::Account;
 pub use body::{AddedMassShape, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
 pub use chart::ConfigurationKind;
 pub use check::check_against_definition;
 pub use constraint::{Constraint, ConstraintKind, Constraints};
 pub use elimination::{Elimination, Obstacle};
 pub use equations::Section;
-pub use forces::Force;
+pub use fields::{attraction, entrained};
+pub use forces::{Action, Element, Force};
 pub use link::{Matter, Placement, identity};
 pub use methods::{Formula, Method, Scene};
 pub use names::Name;
@@ -65,4 +73,5 @@ pub use system::{Coordinate, System, SystemScene};
 pub use system_check::{SystemFault, check_system_against_definition};
 pub use tree::Tree;
 pub use turn::Turn;
-pub use vector::{Axes, cross, cross_matrix};
+pub use vector::{Axes, cross, cross_matrix, subtract};
+pub use wrench::{Acting, Observed};

@@ -7,6 +7,7 @@ use super::chart::Kinematics;
 use super::vector::{
     Axes, Frame, Triple, Vector, add, apply_block, cross, cross_matrix, dot, is_zero, scale, subtract,
 };
+use super::wrench::Wrench;
 
 /// Terms that a component of a balance may have before it is left as it is.
 const LIMIT: usize = 600;
@@ -147,10 +148,14 @@ pub struct Formal<'g> {
     pub omega: Triple<'g>,
     /// ĝ.
     pub gravity: Triple<'g>,
+    /// What else acts: its resultant, the parts that are given in body and in observer's axes, and its torque about O.
+    pub force: Triple<'g>,
+    pub observed_force: Triple<'g>,
+    pub torque: Triple<'g>,
 }
 
 impl<'g> Formal<'g> {
-    pub fn new(kinematics: &Kinematics<'g>) -> Self {
+    pub fn new(kinematics: &Kinematics<'g>, load: &Wrench<'g>) -> Self {
         let graph = kinematics.frame.graph;
         let on = |axes: &[usize], text: &str, latex: &str| -> Triple<'g> {
             std::array::from_fn(|i| {
@@ -161,22 +166,43 @@ impl<'g> Formal<'g> {
                 }
             })
         };
+        let there = |a: &Triple<'g>| -> Vec<usize> { (0..3).filter(|&i| !a[i].is_zero()).collect() };
+        let whole = |a: &Triple<'g>| if is_zero(a) { Vec::new() } else { vec![0, 1, 2] };
+        let torque = kinematics.frame.resolve(&load.torque, Axes::Body);
         Self {
             u: on(&kinematics.linear_axes(), "u", "u"),
             omega: on(&kinematics.angular_axes(), "ω", "\\omega"),
             gravity: on(&[0, 1, 2], "gb", "\\hat g"),
+            force: on(&there(&load.force.body), "R", "R"),
+            observed_force: on(&whole(&load.force.space), "Rb", "\\hat R"),
+            torque: on(&there(&torque), "M", "M"),
         }
     }
 
     /// Replaces the formal components by what they are in a chart.
-    pub fn realisation(&self, kinematics: &Kinematics<'g>, weight: Option<&Weight<'g>>) -> Map<u32, Expr<'g>> {
+    pub fn realisation(
+        &self,
+        kinematics: &Kinematics<'g>,
+        weight: Option<&Weight<'g>>,
+        load: &Wrench<'g>,
+    ) -> Map<u32, Expr<'g>> {
         let frame = &kinematics.frame;
         let u = frame.resolve(&kinematics.velocity, Axes::Body);
         let omega = frame.resolve(&kinematics.angular_velocity, Axes::Body);
         let zero = frame.zero();
         let gravity = weight.map_or(zero.body, |w| frame.resolve(&frame.space_vector(w.gravity), Axes::Body));
+        let observed = frame.resolve(&frame.space_vector(load.force.space), Axes::Body);
+        let torque = frame.resolve(&load.torque, Axes::Body);
         let mut map = Map::default();
-        for (formal, real) in [(&self.u, u), (&self.omega, omega), (&self.gravity, gravity)] {
+        let pairs = [
+            (&self.u, u),
+            (&self.omega, omega),
+            (&self.gravity, gravity),
+            (&self.force, load.force.body),
+            (&self.observed_force, observed),
+            (&self.torque, torque),
+        ];
+        for (formal, real) in pairs {
             map.extend(formal.iter().zip(real).filter(|(f, _)| !f.is_zero()).map(|(f, r)| (f.key(), r.group())));
         }
         map
@@ -221,6 +247,7 @@ pub fn solve_balance<'g>(
     kinematics: &Kinematics<'g>,
     matrix: &KineticMatrix<'g>,
     weight: Option<&Weight<'g>>,
+    load: &Wrench<'g>,
     formal: &Formal<'g>,
     arrangement: Arrangement,
 ) -> Balance<'g> {
@@ -233,6 +260,7 @@ pub fn solve_balance<'g>(
     let fold = |e: Expr<'g>| if arrangement == Arrangement::Folded { e.collected(LIMIT) } else { e };
     let omega = frame.body_vector(formal.omega);
     let torque = weight.map_or(zero.body, |w| cross(&w.effective_moment, &formal.gravity));
+    let torque = add(&torque, &formal.torque);
     let coupling = matrix.block(0, 3, &formal.omega).map(Expr::group);
     let q = add(&matrix.block(0, 0, &formal.u), &matrix.block(0, 3, &formal.omega)).map(Expr::group);
     let gamma = matrix.angular_momentum(&formal.u, &formal.omega).map(Expr::group);
@@ -254,13 +282,15 @@ pub fn solve_balance<'g>(
     let apply = |inverse: &[Vec<Expr<'g>>], right: &[Expr<'g>]| -> Vec<Expr<'g>> {
         inverse.iter().map(|row| fold(-row.iter().zip(right).map(|(m, r)| *m * *r).sum::<Expr<'g>>()).group()).collect()
     };
+    let weight_in_body = weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
+    let observed_in_body = add(&weight_in_body, &formal.observed_force);
     match matrix.isotropic {
         // Translation eliminated first: a = (R − bias − M₁₂ ω̇)/μ.
         Some(mu) => {
-            let linear_bias = tidy(frame.derivative(&frame.body_vector(coupling), &Map::default(), &omega).body);
+            let turning = frame.derivative(&frame.body_vector(coupling), &Map::default(), &omega).body;
+            let linear_bias = tidy(subtract(&turning, &formal.force));
             let per_mass = mu.recip();
-            let weight_in_body = weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
-            let inner = scale(per_mass, &subtract(&linear_bias, &weight_in_body));
+            let inner = scale(per_mass, &subtract(&linear_bias, &observed_in_body));
             let schur = schur_complement(matrix, per_mass, &angular_axes);
             let reduced = tidy(subtract(&angular_bias, &matrix.block(3, 0, &inner)));
             let angular = spread(&apply(&inverse_of_symmetric(&schur), &pick(&reduced, &angular_axes)), &angular_axes);
@@ -271,6 +301,7 @@ pub fn solve_balance<'g>(
                 Some(w) => observed.plus(&w.resultant(frame).times(per_mass)),
                 None => observed,
             };
+            let linear = linear.plus(&frame.space_vector(load.force.space).times(per_mass));
             let body_part = match linear.body {
                 a if is_zero(&a) => a,
                 a => a.map(Expr::group),
@@ -283,9 +314,8 @@ pub fn solve_balance<'g>(
             }
         }
         None => {
-            let weight_in_body = weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
             let linear_rate = frame.derivative(&frame.body_vector(q), &Map::default(), &omega).body;
-            let linear_bias = tidy(subtract(&linear_rate, &weight_in_body));
+            let linear_bias = tidy(subtract(&linear_rate, &add(&observed_in_body, &formal.force)));
             let mut right = pick(&linear_bias, &kinematics.linear_axes());
             right.extend(pick(&angular_bias, &angular_axes));
             let solution = apply(&inverse_of_symmetric(&matrix.submatrix(&kinematics.active)), &right);

@@ -3,10 +3,11 @@
 
 use crate::algebra::{Expr, Graph, Map, solve_symmetric};
 
+use super::accounts::account_formulas;
 use super::articulated::Articulated;
 use super::constraint::{Constraint, Constraints};
 use super::equations::tidy;
-use super::forces::Force;
+use super::forces::{Element, Force, forces_of, potential_of};
 use super::methods::{Formula, Method};
 use super::names::Name;
 use super::tree::{Inertia, Tree};
@@ -73,16 +74,19 @@ pub struct SystemScene<'g> {
     /// Rates of t and of the symbols of q.
     pub rates: Map<u32, Expr<'g>>,
     pub tree: Tree<'g>,
-    pub potential: Option<Expr<'g>>,
     pub constraints: Vec<Constraint<'g>>,
     /// Values that arrive at run time.
     pub inputs: Vec<Expr<'g>>,
-    pub forces: Vec<Force<'g>>,
+    /// What acts beside weight and buoyancy.
+    pub elements: Vec<Element<'g>>,
 }
 
 /// A system with what its equations are made of.
 pub struct System<'g> {
     pub scene: SystemScene<'g>,
+    /// Of all elements together.
+    pub potential: Option<Expr<'g>>,
+    pub forces: Vec<Force<'g>>,
     pub constraints: Constraints<'g>,
     /// Rates of t and q, and those with ż.
     pub along: Map<u32, Expr<'g>>,
@@ -106,7 +110,8 @@ impl<'g> System<'g> {
         let matrix = scene.tree.mass_matrix();
         // Where links hang on one another entries are short as they are, and long multiplied out.
         let matrix = if scene.tree.is_chained() { grouped(&matrix) } else { tidied(&matrix) };
-        Self { scene, constraints, along, matrix }
+        let (potential, forces) = (potential_of(&scene.elements), forces_of(&scene.elements));
+        Self { scene, potential, forces, constraints, along, matrix }
     }
 
     pub fn formulas(&self) -> Vec<Formula<'g>> {
@@ -134,6 +139,7 @@ impl<'g> System<'g> {
         if !self.constraints.is_empty() {
             formulas.extend(self.constraint_formulas());
         }
+        formulas.extend(account_formulas(&self.accounts(), self.explicit_power()));
         formulas
     }
 
@@ -190,29 +196,29 @@ impl<'g> System<'g> {
         (0..self.scene.speeds.len()).filter(|&k| self.matrix[k].iter().all(|e| e.is_zero())).collect()
     }
 
-    /// −∂(dU/dt)/∂z^α of the potential.
-    fn potential_forces(&self) -> Vec<Expr<'g>> {
-        let zero = self.scene.graph.zero();
-        let power = self.scene.potential.map_or(zero, |potential| potential.derivative(&self.scene.rates));
+    /// −∂(dU/dt)/∂z^α of a potential.
+    pub fn potential_forces(&self, potential: Expr<'g>) -> Vec<Expr<'g>> {
+        let power = potential.derivative(&self.scene.rates);
         self.scene.speeds.iter().map(|&z| -power.partial(z)).collect()
     }
 
     /// `∫∂v_P/∂z·dF` of everything that acts: weight and buoyancy, the potential, forces.
     pub fn generalised_forces(&self) -> Vec<Expr<'g>> {
-        let loads = self.scene.tree.loads(&self.scene.forces);
+        let loads = self.scene.tree.loads(&self.forces);
         sums(&sums(&self.scene.tree.weights(), &loads), &self.other_forces())
     }
 
     /// Of the potential, and of what acts elsewhere than on links.
     fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
-        let acting = scene.forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
-        acting.fold(self.potential_forces(), |sum, forces| sums(&sum, &forces))
+        let acting = self.forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
+        let potential = self.potential.unwrap_or_else(|| scene.graph.zero());
+        acting.fold(self.potential_forces(potential), |sum, forces| sums(&sum, &forces))
     }
 
     /// ∂C/∂ż of the unconstrained C.
     fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia) -> Vec<Expr<'g>> {
-        let inertia = self.scene.tree.residual(along, inertia, &self.scene.forces);
+        let inertia = self.scene.tree.residual(along, inertia, &self.forces);
         inertia.into_iter().zip(self.other_forces()).map(|(r, f)| r - f).collect()
     }
 
@@ -303,7 +309,7 @@ impl<'g> System<'g> {
     }
 
     fn potential_energy(&self) -> Expr<'g> {
-        let own = self.scene.potential.unwrap_or_else(|| self.scene.graph.zero());
+        let own = self.potential.unwrap_or_else(|| self.scene.graph.zero());
         own + self.scene.tree.potential_energy()
     }
 
@@ -340,7 +346,7 @@ impl<'g> SystemScene<'g> {
     }
 }
 
-fn sums<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Vec<Expr<'g>> {
+pub(super) fn sums<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Vec<Expr<'g>> {
     a.iter().zip(b).map(|(a, b)| *a + *b).collect()
 }
 

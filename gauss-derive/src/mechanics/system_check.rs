@@ -99,7 +99,7 @@ impl<'a, 'g> Witness<'a, 'g> {
                 }
             }
         }
-        if let Some(potential) = scene.potential {
+        if let Some(potential) = self.system.potential {
             let power = [potential.derivative(&scene.rates)];
             rows.iter_mut().zip(self.partials(&power)).for_each(|(row, partial)| *row += partial[0]);
         }
@@ -117,7 +117,7 @@ impl<'a, 'g> Witness<'a, 'g> {
         let scene = &self.system.scene;
         let mut rows = vec![0.0; scene.speeds.len()];
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        for force in &scene.forces {
+        for force in &self.system.forces {
             match force {
                 Force::AtPoint { at, force } => {
                     let velocity = at.map(|e| e.derivative(&scene.rates));

@@ -5,7 +5,7 @@ use crate::algebra::{Expr, Graph, Map};
 
 use super::body::Body;
 use super::forces::Force;
-use super::link::{Link, Matter, Placement, impulse};
+use super::link::{Link, Matter, Placement, impulse, reaction};
 use super::moments::Moments;
 use super::momentum::Weight;
 use super::regroup::regroup;
@@ -333,10 +333,10 @@ impl<'g> Tree<'g> {
         let (mut force, mut torque) = (frame.zero(), zero);
         if let Some(added) = &body.added_mass {
             let (u, w) = (frame.resolve(&link.velocity, Axes::Body), &link.angular_velocity);
-            let (q, gamma) = impulse(added, &u, w);
             let rate = |a: &Triple<'g>| add(&a.map(|e| e.derivative(along)), &cross(w, a));
-            force = frame.body_vector(rate(&q));
-            torque = add(&rate(&gamma), &cross(&u, &q));
+            let (resultant, moment) = reaction(added, &u, w, rate);
+            force = frame.body_vector(resultant);
+            torque = moment;
         }
         if let (Some((mass, center)), Some(gravity)) = (link.displaced(), self.gravity) {
             let lift = frame.space_vector(scale(mass, &gravity));

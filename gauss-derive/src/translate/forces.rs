@@ -1,91 +1,267 @@
 //! What acts, as the user wrote it, in symbols: springs become potentials and dissipation functions, torques with a reaction
-//! two loads.
+//! two loads, drag a wrench of the velocity relative to the medium.
+
+use std::collections::HashSet;
 
 use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
-use crate::mechanics::{Axes, Force, Tree};
-use crate::model::{self, Expression, Extent, ForceAxes};
+use crate::mechanics::{Action, Axes, Element, Force, Matter, Tree, attraction, entrained};
+use crate::model::{Coefficients, Expression, Extent, ForceAxes, ForceClause, ForceKind, Property};
 
 use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
 
-impl<'g> Translator<'_, 'g> {
-    /// Everything that acts, and the potentials of springs.
-    pub(super) fn forces(&self, tree: &Tree<'g>) -> syn::Result<(Vec<Force<'g>>, Vec<Expr<'g>>)> {
-        let (mut forces, mut potentials) = (Vec::new(), Vec::new());
-        let unread = self.model.attractions.iter().map(|a| a.span).chain(self.model.medium.iter().map(|e| e.span));
-        if let Some(span) = unread.into_iter().next() {
-            return Err(bug(span));
+/// Names of elements: given ones as they are, others by what they are, numbered from the second on.
+struct Names(HashSet<String>);
+
+impl Names {
+    fn of(&mut self, given: Option<&Ident>, noun: &str) -> String {
+        if let Some(name) = given {
+            return name.unraw().to_string();
         }
-        for clause in &self.model.forces {
-            let mut act = |force| forces.push(force);
-            match &clause.kind {
-                model::ForceKind::AtPoint { at, value } => {
-                    act(Force::AtPoint { at: self.vector(at, tree)?, force: self.vector(value, tree)? });
-                }
-                model::ForceKind::OnBody { body, at, value, axes } => {
-                    let none = [self.graph.zero(); 3];
-                    let at = at.as_ref().map_or(Ok(none), |at| self.vector(at, tree))?;
-                    let force = self.vector(value, tree)?;
-                    act(Force::OnLink { link: self.link(body)?, at, force, torque: none, axes: axes_of(*axes) });
-                }
-                model::ForceKind::Torque { body, value, axes, reaction } => {
-                    let none = [self.graph.zero(); 3];
-                    let (link, torque) = (self.link(body)?, self.vector(value, tree)?);
-                    act(Force::OnLink { link, at: none, force: none, torque, axes: axes_of(*axes) });
-                    if let Some(other) = reaction {
-                        // The same components in the observer's axes, which both share.
-                        let turned = match axes {
-                            ForceAxes::Observer => torque,
-                            ForceAxes::Body => rotated(&tree.links[link].rotation, &torque),
-                        };
-                        let torque = turned.map(|e| -e);
-                        act(Force::OnLink {
-                            link: self.link(other)?,
-                            at: none,
-                            force: none,
-                            torque,
-                            axes: Axes::Space,
-                        });
-                    }
-                }
-                model::ForceKind::Wrench { body, at, force, torque, axes } => {
-                    let none = [self.graph.zero(); 3];
-                    let optional = |e: &Option<Expression>| e.as_ref().map_or(Ok(none), |e| self.vector(e, tree));
-                    let (at, force, torque) = (optional(at)?, optional(force)?, optional(torque)?);
-                    act(Force::OnLink { link: self.link(body)?, at, force, torque, axes: axes_of(*axes) });
-                }
-                model::ForceKind::Drive { rates } => {
-                    for (coordinate, force) in rates {
-                        let rate = self.rate_of_coordinate(coordinate)?;
-                        act(Force::OnRate { rate, force: self.scalar(force, tree)? });
-                    }
-                }
-                model::ForceKind::Spring { extent: Extent::Between { from, to }, stiffness, length, damping } => {
-                    let (from, to) = (self.vector(from, tree)?, self.vector(to, tree)?);
-                    let square = (0..3).map(|i| (to[i] - from[i]).powi(2)).sum::<Expr<'g>>().group();
-                    let optional = |e: &Option<Expression>| e.as_ref().map(|e| self.scalar(e, tree)).transpose();
-                    let stretched = match optional(length)? {
-                        // Without a rest length no root is needed.
-                        None => square,
-                        Some(rest) => (square.sqrt() - rest).powi(2),
-                    };
-                    potentials.push((self.scalar(stiffness, tree)? * stretched).half());
-                    if let Some(damping) = optional(damping)? {
-                        let rate = square.sqrt().derivative(&self.rates).group();
-                        act(Force::Dissipation((damping * rate.powi(2)).half()));
-                    }
-                }
-                model::ForceKind::Spring { extent: Extent::Along(_), .. }
-                | model::ForceKind::Stop { .. }
-                | model::ForceKind::Drag { .. } => return Err(bug(clause.span)),
-                model::ForceKind::Dissipation(function) => act(Force::Dissipation(self.scalar(function, tree)?)),
+        let numbered = (2..).map(|n| format!("{noun} {n}"));
+        let free = std::iter::once(noun.to_owned()).chain(numbered).find(|name| !self.0.contains(name));
+        let name = free.unwrap_or_default();
+        self.0.insert(name.clone());
+        name
+    }
+}
+
+impl<'g> Translator<'_, 'g> {
+    /// Everything that acts beside weight and buoyancy.
+    pub(super) fn elements(&self, tree: &Tree<'g>) -> syn::Result<Vec<Element<'g>>> {
+        let model = self.model;
+        let given = model.forces.iter().filter_map(|clause| clause.name.as_ref());
+        let given = given.chain(model.attractions.iter().filter_map(|clause| clause.name.as_ref()));
+        let mut names = Names(given.map(|name| name.unraw().to_string()).collect());
+        let mut elements = Vec::new();
+        if let Some(potential) = &model.potential {
+            let name = names.of(None, "potential");
+            elements.push(Element { name, action: Action::Potential(self.scalar(potential, tree)?) });
+        }
+        for clause in &model.attractions {
+            let mu = self.scalar(&clause.mu, tree)?;
+            let center = clause.center.as_ref().map(|e| self.vector(e, tree)).transpose()?;
+            let name = names.of(clause.name.as_ref(), "central gravity");
+            elements.push(Element { name, action: Action::Potential(self.attraction(mu, center, tree)) });
+        }
+        let entrained = self.medium(tree)?;
+        if !entrained.is_empty() {
+            elements.push(Element { name: names.of(None, "medium"), action: Action::Forces(entrained) });
+        }
+        for clause in &model.forces {
+            let name = names.of(clause.name.as_ref(), noun(&clause.kind));
+            for (suffix, action) in self.actions(clause, tree)? {
+                elements.push(Element { name: format!("{name}{suffix}"), action });
             }
         }
-        Ok((forces, potentials))
+        Ok(elements)
+    }
+
+    /// How a clause acts; of several elements the later ones have a suffix to the name.
+    fn actions(&self, clause: &ForceClause, tree: &Tree<'g>) -> syn::Result<Vec<(&'static str, Action<'g>)>> {
+        let none = [self.graph.zero(); 3];
+        let vector = |e: &Option<Expression>| e.as_ref().map_or(Ok(none), |e| self.vector(e, tree));
+        let forces = match &clause.kind {
+            ForceKind::AtPoint { at, value } => {
+                vec![Force::AtPoint { at: self.vector(at, tree)?, force: self.vector(value, tree)? }]
+            }
+            ForceKind::OnBody { body, at, value, axes } => {
+                let (link, force) = (self.link(body)?, self.vector(value, tree)?);
+                vec![Force::OnLink { link, at: vector(at)?, force, torque: none, axes: axes_of(*axes) }]
+            }
+            ForceKind::Wrench { body, at, force, torque, axes } => {
+                let (link, axes) = (self.link(body)?, axes_of(*axes));
+                vec![Force::OnLink { link, at: vector(at)?, force: vector(force)?, torque: vector(torque)?, axes }]
+            }
+            ForceKind::Torque { body, value, axes, reaction } => {
+                let (link, torque) = (self.link(body)?, self.vector(value, tree)?);
+                let mut loads = vec![Force::OnLink { link, at: none, force: none, torque, axes: axes_of(*axes) }];
+                if let Some(other) = reaction {
+                    // The same components in the observer's axes, which both share.
+                    let turned = match axes {
+                        ForceAxes::Observer => torque,
+                        ForceAxes::Body => rotated(&tree.links[link].rotation, &torque),
+                    };
+                    let (link, torque) = (self.link(other)?, turned.map(|e| -e));
+                    loads.push(Force::OnLink { link, at: none, force: none, torque, axes: Axes::Space });
+                }
+                loads
+            }
+            ForceKind::Drive { rates } => {
+                let drive = |(coordinate, force): &(Ident, Expression)| -> syn::Result<Force<'g>> {
+                    let rate = self.rate_of_coordinate(coordinate)?;
+                    Ok(Force::OnRate { rate, force: self.scalar(force, tree)? })
+                };
+                rates.iter().map(drive).collect::<syn::Result<_>>()?
+            }
+            ForceKind::Drag { body, linear, quadratic } => {
+                vec![self.drag(body, [linear.as_ref(), quadratic.as_ref()], tree)?]
+            }
+            ForceKind::Dissipation(function) => vec![Force::Dissipation(self.scalar(function, tree)?)],
+            ForceKind::Spring { extent, stiffness, length, damping } => {
+                return self.spring(extent, stiffness, [length.as_ref(), damping.as_ref()], tree);
+            }
+            ForceKind::Stop { extent, least, most, stiffness, width, damping } => {
+                let limits = [least.as_ref(), most.as_ref()];
+                return self.stop(extent, limits, [stiffness, width], damping.as_ref(), tree);
+            }
+        };
+        Ok(vec![("", Action::Forces(forces))])
+    }
+
+    fn optional(&self, e: Option<&Expression>, tree: &Tree<'g>) -> syn::Result<Option<Expr<'g>>> {
+        e.map(|e| self.scalar(e, tree)).transpose()
+    }
+
+    /// The length of what is extended, and its square where no root is needed for that.
+    fn extent(&self, extent: &Extent, tree: &Tree<'g>) -> syn::Result<(Expr<'g>, Expr<'g>)> {
+        Ok(match extent {
+            Extent::Along(e) => {
+                let length = self.scalar(e, tree)?;
+                (length, length.powi(2))
+            }
+            Extent::Between { from, to } => {
+                let (from, to) = (self.vector(from, tree)?, self.vector(to, tree)?);
+                let square = (0..3).map(|i| (to[i] - from[i]).powi(2)).sum::<Expr<'g>>().group();
+                (square.sqrt(), square)
+            }
+        })
+    }
+
+    fn spring(
+        &self,
+        extent: &Extent,
+        stiffness: &Expression,
+        [rest, damping]: [Option<&Expression>; 2],
+        tree: &Tree<'g>,
+    ) -> syn::Result<Vec<(&'static str, Action<'g>)>> {
+        let (length, square) = self.extent(extent, tree)?;
+        let stretched = self.optional(rest, tree)?.map_or(square, |rest| (length - rest).powi(2));
+        let energy = (self.scalar(stiffness, tree)? * stretched).half();
+        let mut actions = vec![("", Action::Potential(energy))];
+        if let Some(damping) = self.optional(damping, tree)? {
+            let rate = length.derivative(&self.rates).group();
+            let function = (damping * rate.powi(2)).half();
+            actions.push((" damping", Action::Forces(vec![Force::Dissipation(function)])));
+        }
+        Ok(actions)
+    }
+
+    /// Beyond a limit a spring sets in over the given width: `½ k s²` with `s = (x + √(x² + w²))/2`, which is x far beyond
+    /// the limit and 0 far before it. What it damps is the rate of s.
+    fn stop(
+        &self,
+        extent: &Extent,
+        [least, most]: [Option<&Expression>; 2],
+        [stiffness, width]: [&Expression; 2],
+        damping: Option<&Expression>,
+        tree: &Tree<'g>,
+    ) -> syn::Result<Vec<(&'static str, Action<'g>)>> {
+        let (length, _) = self.extent(extent, tree)?;
+        let (stiffness, width) = (self.scalar(stiffness, tree)?, self.scalar(width, tree)?);
+        let (least, most) = (self.optional(least, tree)?, self.optional(most, tree)?);
+        let beyond = [least.map(|least| least - length), most.map(|most| length - most)];
+        let pressed = beyond.into_iter().flatten().map(|x| {
+            let x = x.group();
+            (x + (x.powi(2) + width.powi(2)).group().sqrt()).half().group()
+        });
+        let pressed: Vec<Expr<'g>> = pressed.collect();
+        let zero = self.graph.zero();
+        let half_squares = |factor: Expr<'g>, terms: &[Expr<'g>]| {
+            let squares = terms.iter().fold(zero, |sum, e| sum + e.powi(2));
+            (factor * squares).half()
+        };
+        let mut actions = vec![("", Action::Potential(half_squares(stiffness, &pressed)))];
+        if let Some(damping) = self.optional(damping, tree)? {
+            let rates: Vec<Expr<'g>> = pressed.iter().map(|s| s.derivative(&self.rates).group()).collect();
+            actions.push((" damping", Action::Forces(vec![Force::Dissipation(half_squares(damping, &rates))])));
+        }
+        Ok(actions)
+    }
+
+    /// `−D (u − c, ω)` and `−D |(u − c, ω)| (u − c, ω)`, component by component.
+    fn drag(
+        &self,
+        body: &Ident,
+        [linear, quadratic]: [Option<&Coefficients>; 2],
+        tree: &Tree<'g>,
+    ) -> syn::Result<Force<'g>> {
+        let link = self.link(body)?;
+        let twist = self.velocity_of(link, Property::RelativeVelocity, tree).into_iter();
+        let twist: Vec<Expr<'g>> =
+            twist.chain(self.velocity_of(link, Property::BodyAngularVelocity, tree)).map(Expr::group).collect();
+        let mut wrench = [self.graph.zero(); 6];
+        let squares = twist.iter().map(|v| *v * v.abs()).collect();
+        for (coefficients, velocities) in [(linear, twist), (quadratic, squares)] {
+            let Some(coefficients) = coefficients else { continue };
+            let rows: Vec<Vec<Expr<'g>>> = self.coefficients(coefficients, tree)?;
+            for (component, row) in wrench.iter_mut().zip(rows) {
+                *component = row.iter().zip(&velocities).fold(*component, |sum, (d, v)| sum - *d * *v);
+            }
+        }
+        let [f1, f2, f3, m1, m2, m3] = wrench;
+        let at = [self.graph.zero(); 3];
+        Ok(Force::OnLink { link, at, force: [f1, f2, f3], torque: [m1, m2, m3], axes: Axes::Body })
+    }
+
+    /// Six by six.
+    fn coefficients(&self, coefficients: &Coefficients, tree: &Tree<'g>) -> syn::Result<Vec<Vec<Expr<'g>>>> {
+        match coefficients {
+            Coefficients::Diagonal(entries) => {
+                let entries = entries.iter().map(|e| self.scalar(e, tree)).collect::<syn::Result<Vec<_>>>()?;
+                let zero = self.graph.zero();
+                Ok((0..6).map(|i| (0..6).map(|j| if i == j { entries[i] } else { zero }).collect()).collect())
+            }
+            Coefficients::Field(name) => self.declared.matrix(name).cloned().ok_or_else(|| bug(name.span())),
+        }
+    }
+
+    /// Potential energy of everything with mass in the field of a centre.
+    fn attraction(&self, mu: Expr<'g>, center: Option<Triple<'g>>, tree: &Tree<'g>) -> Expr<'g> {
+        let zero = self.graph.zero();
+        let center = center.unwrap_or([zero; 3]);
+        let links = tree.links.iter().filter(|link| !matches!(link.matter, Matter::Nothing));
+        let energies = links.map(|link| {
+            let arm: Triple<'g> = std::array::from_fn(|i| (link.position[i] - center[i]).group());
+            // The field looks the same from all sides: of a particle no axes are needed.
+            let arm = match link.matter {
+                Matter::Body(_) => turned_back(&link.rotation, &arm),
+                _ => arm,
+            };
+            attraction(mu, &link.moments, &arm)
+        });
+        energies.fold(zero, |sum, energy| sum + energy)
+    }
+
+    /// What the velocity of the medium changes beside drag.
+    fn medium(&self, tree: &Tree<'g>) -> syn::Result<Vec<Force<'g>>> {
+        let Some(stream) = self.stream(tree)? else { return Ok(Vec::new()) };
+        let rate = stream.map(|e| e.derivative(&self.rates));
+        let mut forces = Vec::new();
+        for (index, link) in tree.links.iter().enumerate() {
+            let Some(body) = link.body() else { continue };
+            if body.added_mass.is_none() && body.displaced.is_none() {
+                continue;
+            }
+            let [u, omega] =
+                [Property::BodyVelocity, Property::BodyAngularVelocity].map(|p| self.velocity_of(index, p, tree));
+            let in_body = |a: &Triple<'g>| turned_back(&link.rotation, a);
+            let (force, torque) = entrained(self.graph, body, [&u, &omega], &in_body(&stream), &in_body(&rate));
+            if force.iter().chain(&torque).any(|e| !e.is_zero()) {
+                let at = [self.graph.zero(); 3];
+                forces.push(Force::OnLink { link: index, at, force, torque, axes: Axes::Body });
+            }
+        }
+        Ok(forces)
+    }
+
+    /// The velocity of the medium, observer's components.
+    pub(super) fn stream(&self, tree: &Tree<'g>) -> syn::Result<Option<Triple<'g>>> {
+        self.model.medium.as_ref().map(|e| self.vector(e, tree)).transpose()
     }
 
     fn link(&self, name: &Ident) -> syn::Result<usize> {
@@ -99,6 +275,20 @@ impl<'g> Translator<'_, 'g> {
     }
 }
 
+/// What an element without a name is called.
+fn noun(kind: &ForceKind) -> &'static str {
+    match kind {
+        ForceKind::AtPoint { .. } | ForceKind::OnBody { .. } => "force",
+        ForceKind::Torque { .. } => "torque",
+        ForceKind::Wrench { .. } => "wrench",
+        ForceKind::Drive { .. } => "drive",
+        ForceKind::Spring { .. } => "spring",
+        ForceKind::Stop { .. } => "stop",
+        ForceKind::Drag { .. } => "drag",
+        ForceKind::Dissipation(_) => "damping",
+    }
+}
+
 fn axes_of(axes: ForceAxes) -> Axes {
     match axes {
         ForceAxes::Body => Axes::Body,
@@ -106,6 +296,12 @@ fn axes_of(axes: ForceAxes) -> Axes {
     }
 }
 
+/// R a.
 fn rotated<'g>(rotation: &[Triple<'g>; 3], a: &Triple<'g>) -> Triple<'g> {
     std::array::from_fn(|i| (0..3).map(|j| rotation[i][j] * a[j]).sum::<Expr<'g>>().group())
+}
+
+/// Rᵀ a.
+pub(super) fn turned_back<'g>(rotation: &[Triple<'g>; 3], a: &Triple<'g>) -> Triple<'g> {
+    std::array::from_fn(|j| (0..3).map(|i| rotation[i][j] * a[i]).sum::<Expr<'g>>().group())
 }

@@ -18,7 +18,8 @@ use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::mechanics::{
-    Body, Constraint, ConstraintKind, Coordinate, Matter, Placement, SystemScene, Tree, Turn, cross_matrix,
+    Body, Constraint, ConstraintKind, Coordinate, Element, Matter, Observed, Placement, SystemScene, Tree, Turn,
+    cross_matrix,
 };
 use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Property, SystemModel};
 
@@ -39,7 +40,9 @@ pub struct Translator<'a, 'g> {
     /// Literal numbers that are constants of their own.
     literals: RefCell<Vec<(Rational, Expr<'g>)>>,
     /// ḃ of each coordinate that is a pose, where the kinematics give it rather than u.
-    observed: Vec<Option<[Expr<'g>; 3]>>,
+    pose_rates: Vec<Option<[Expr<'g>; 3]>>,
+    /// The motion of the only body, where it is known by symbols of its own.
+    observed: Option<Observed<'g>>,
     /// ψ, and the rates of t and of the symbols of q.
     kinematics: Vec<Expr<'g>>,
     rates: Map<u32, Expr<'g>>,
@@ -57,7 +60,8 @@ impl<'a, 'g> Translator<'a, 'g> {
             links,
             links_of_clauses: vec![0; model.bodies.len()],
             literals: RefCell::default(),
-            observed: vec![None; model.coordinates.len()],
+            pose_rates: vec![None; model.coordinates.len()],
+            observed: None,
             kinematics: Vec::new(),
             rates: Map::default(),
         }
@@ -126,11 +130,7 @@ impl<'a, 'g> Translator<'a, 'g> {
                 turns: Vec::new(),
             });
         }
-        let mut potential = model.potential.as_ref().map(|e| self.scalar(e, &tree)).transpose()?;
-        let (forces, elastic) = self.forces(&tree)?;
-        for energy in elastic {
-            potential = Some(potential.map_or(energy, |sum| sum + energy));
-        }
+        let elements = self.elements(&tree)?;
         let constraints = self.constraints(&tree)?;
         tree.settle();
         Ok(SystemScene {
@@ -145,11 +145,49 @@ impl<'a, 'g> Translator<'a, 'g> {
             kinematics: self.kinematics.clone(),
             rates: self.rates.clone(),
             tree,
-            potential,
             constraints,
             inputs: self.declared.inputs.clone(),
-            forces,
+            elements,
         })
+    }
+
+    /// What acts on the body of a chart, the pose being the only coordinate: the symbols of its motion, and the elements in
+    /// terms of them.
+    ///
+    /// # Errors
+    /// Only what the model should have refused: a bug of this crate.
+    pub fn on_one_body(&mut self) -> syn::Result<(Observed<'g>, Vec<Element<'g>>)> {
+        let speeds = self.declared.speeds.clone();
+        let Some(&Coordinate::Pose(rotation, position)) = self.declared.coordinates.first() else {
+            return Err(bug(self.model.ident.span()));
+        };
+        let observed = Observed::new(self.graph, self.declared.time, rotation, position);
+        self.name_everything(&speeds);
+        self.rates = observed.rates.clone();
+        let body = self.declared.bodies.first().cloned().flatten().ok_or_else(|| bug(self.model.ident.span()))?;
+        let placement = Placement {
+            matter: Matter::Body(Box::new(body)),
+            parent: None,
+            position,
+            velocity_in_own_axes: None,
+            turns: vec![Turn::given(rotation, observed.body_angular_velocity)],
+        };
+        self.links.insert("body".to_owned(), 0);
+        let tree = Tree::new(self.graph, vec![placement], Vec::new(), self.rates.clone(), None);
+        self.observed = Some(observed);
+        self.name_points(&tree)?;
+        let elements = self.elements(&tree)?;
+        self.observed.take().map(|observed| (observed, elements)).ok_or_else(|| bug(self.model.ident.span()))
+    }
+
+    /// Symbols of the only body's parameters here, with those that the same parameters have in another description of it.
+    pub fn parameters_of(&self, body: &Body<'g>) -> Map<u32, Expr<'g>> {
+        self.declared.parameters_of(self.model, body)
+    }
+
+    /// Values that arrive at run time.
+    pub fn inputs(&self) -> &[Expr<'g>] {
+        &self.declared.inputs
     }
 
     fn name_everything(&mut self, values: &[Expr<'g>]) {
@@ -166,15 +204,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         self.name_rotations(&vec![self.graph.zero(); self.declared.size()]);
         let mut inputs = self.declared.inputs.iter().copied();
         for input in &self.model.inputs {
-            let value = match input.kind {
-                model::InputKind::Scalar => self.components(model::SpeedKind::Scalar, &mut inputs),
-                model::InputKind::Vector => self.components(model::SpeedKind::Vector, &mut inputs),
-                // Nothing asks for its parts yet.
-                model::InputKind::Wrench => {
-                    inputs.nth(5);
-                    continue;
-                }
-            };
+            let value = self.input(input.kind, &mut inputs);
             self.names.insert(input.ident.unraw().to_string(), value);
         }
         let mut values = values.iter().copied();
@@ -190,6 +220,15 @@ impl<'a, 'g> Translator<'a, 'g> {
         match kind {
             model::SpeedKind::Scalar => Value::Scalar(next()),
             model::SpeedKind::Vector => Value::Vector([next(), next(), next()]),
+        }
+    }
+
+    fn input(&self, kind: model::InputKind, symbols: &mut dyn Iterator<Item = Expr<'g>>) -> Value<'g> {
+        let mut next = || symbols.next().unwrap_or_else(|| self.graph.zero());
+        match kind {
+            model::InputKind::Scalar => Value::Scalar(next()),
+            model::InputKind::Vector => Value::Vector([next(), next(), next()]),
+            model::InputKind::Wrench => Value::Twist([next(), next(), next()], [next(), next(), next()]),
         }
     }
 
@@ -219,7 +258,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         let mut rates = Vec::new();
         let nothing = self.no_links();
         for (k, (_, e)) in self.model.kinematics.iter().enumerate() {
-            self.observed[k] = self.observed_velocity(k, e, &nothing)?;
+            self.pose_rates[k] = self.observed_velocity(k, e, &nothing)?;
             match self.value(e, &nothing)? {
                 Value::Scalar(rate) => rates.push(rate),
                 Value::Vector(omega) => rates.extend(omega),
@@ -280,7 +319,7 @@ impl<'a, 'g> Translator<'a, 'g> {
                 Coordinate::Pose(matrix, position) => {
                     for (i, (row, b)) in matrix.iter().zip(position).enumerate() {
                         let turned = || (0..3).map(|k| row[k] * rate[k]).sum();
-                        rates.insert(b.key(), self.observed[k].map_or_else(turned, |v| v[i]));
+                        rates.insert(b.key(), self.pose_rates[k].map_or_else(turned, |v| v[i]));
                     }
                 }
             }
@@ -299,9 +338,8 @@ impl<'a, 'g> Translator<'a, 'g> {
             let next = open.remove(ready.ok_or_else(|| bug(clauses[open[0]].span))?);
             let placement = self.placement(next, &clauses[next])?;
             self.links_of_clauses[next] = placements.len();
-            if let Some(name) = &clauses[next].name {
-                self.links.insert(name.unraw().to_string(), placements.len());
-            }
+            let name = clauses[next].name.as_ref().map_or_else(|| "body".to_owned(), |name| name.unraw().to_string());
+            self.links.insert(name, placements.len());
             placements.push(placement);
         }
         Ok(placements)
@@ -338,7 +376,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             return None;
         }
         let k = self.model.coordinates.iter().position(|q| q.ident.unraw() == name)?;
-        if self.observed[k].is_some() {
+        if self.pose_rates[k].is_some() {
             return None;
         }
         match self.declared.rate_of(k, &self.kinematics) {

@@ -3,8 +3,10 @@
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
-use crate::algebra::{Expr, Graph};
-use crate::mechanics::{AddedMassShape, Body, BodyShape, Coordinate, GravityShape, InertiaShape, Name, Quantity};
+use crate::algebra::{Expr, Graph, Map};
+use crate::mechanics::{
+    AddedMassShape, Body, BodyShape, Coordinate, GravityShape, InertiaShape, Name, ParameterSymbol, Quantity,
+};
 use crate::model::{self, BodyClause, CoordinateKind, InputKind, Role, Shape, SpeedKind, SystemField, SystemModel};
 
 use super::values::Value;
@@ -43,6 +45,8 @@ pub struct Declared<'g> {
     pub inputs: Vec<Expr<'g>>,
     /// Acceleration of free fall, observer's axes.
     pub gravity: Option<[Expr<'g>; 3]>,
+    /// Fields that are six by six, or the diagonal of that.
+    matrices: Vec<(String, Vec<Vec<Expr<'g>>>)>,
     /// Fields that expressions can name.
     pub fields: Vec<(String, Value<'g>)>,
     /// One for each clause; none for a frame.
@@ -89,18 +93,15 @@ fn named(all: &[(&Ident, SpeedKind)]) -> Vec<Name> {
     names.flatten().collect()
 }
 
-fn input_names(model: &SystemModel) -> Vec<Name> {
-    let names = model.inputs.iter().map(|input| {
-        let name = name_of(&input.ident);
-        match input.kind {
-            InputKind::Scalar => vec![name],
-            InputKind::Vector => components(&name),
-            InputKind::Wrench => {
-                [components(&Name::new("F", "F").of(&name)), components(&Name::new("M", "M").of(&name))].concat()
-            }
+fn input_names(input: &model::InputName) -> Vec<Name> {
+    let name = name_of(&input.ident);
+    match input.kind {
+        InputKind::Scalar => vec![name],
+        InputKind::Vector => components(&name),
+        InputKind::Wrench => {
+            [components(&Name::new("F", "F").of(&name)), components(&Name::new("M", "M").of(&name))].concat()
         }
-    });
-    names.flatten().collect()
+    }
 }
 
 fn speed_names(model: &SystemModel) -> Vec<Name> {
@@ -152,8 +153,9 @@ impl<'g> Declared<'g> {
             speed_rates: symbols(&Name::rate),
             momenta: momentum_names.iter().map(|z| symbol(graph, &Name::new("p", "p").of(z), false)).collect(),
             momentum_names,
-            inputs: input_names(model).iter().map(|name| symbol(graph, name, false)).collect(),
+            inputs: model.inputs.iter().flat_map(input_names).map(|name| symbol(graph, &name, false)).collect(),
             gravity: None,
+            matrices: Vec::new(),
             fields: Vec::new(),
             bodies: Vec::new(),
             sources: Vec::new(),
@@ -192,6 +194,11 @@ impl<'g> Declared<'g> {
                     self.sources.push(Source { symbol, field, part: Part::Component(i) });
                     symbol
                 })),
+                Shape::Vector6 | Shape::Matrix6 => {
+                    let matrix = self.matrix_field(field, &name, *shape);
+                    self.matrices.push((ident.unraw().to_string(), matrix));
+                    continue;
+                }
                 _ => continue,
             };
             if role.is_some() {
@@ -204,6 +211,42 @@ impl<'g> Declared<'g> {
             }
             self.fields.push((ident.unraw().to_string(), value));
         }
+    }
+
+    fn matrix_field(&mut self, field: usize, name: &Name, shape: Shape) -> Vec<Vec<Expr<'g>>> {
+        let zero = self.graph.zero();
+        let mut entry = |i: usize, j: usize| {
+            let (name, part) = match shape {
+                Shape::Vector6 if i != j => return zero,
+                Shape::Vector6 => (name.index(i), Part::Component(i)),
+                _ => (name.index(i).index(j), Part::Entry(i, j)),
+            };
+            let symbol = symbol(self.graph, &name, true);
+            self.sources.push(Source { symbol, field, part });
+            symbol
+        };
+        (0..6).map(|i| (0..6).map(|j| entry(i, j)).collect()).collect()
+    }
+
+    /// A field that is six by six, or the diagonal of that.
+    pub fn matrix(&self, name: &Ident) -> Option<&Vec<Vec<Expr<'g>>>> {
+        self.matrices.iter().find(|(known, _)| name.unraw() == known).map(|(_, matrix)| matrix)
+    }
+
+    /// Symbols of fields with roles, with those that the same entries have in the given body.
+    pub fn parameters_of(&self, model: &SystemModel, body: &Body<'g>) -> Map<u32, Expr<'g>> {
+        let pair = |source: &Source<'g>| {
+            let quantity = quantity_of(model.fields[source.field].role?)?;
+            let (row, column) = match source.part {
+                Part::Scalar => (0, 0),
+                Part::Component(i) => (i, 0),
+                Part::Entry(i, j) => (i, j),
+                Part::Body(..) => return None,
+            };
+            let same = |p: &&ParameterSymbol<'g>| (p.quantity, p.row, p.column) == (quantity, row, column);
+            body.parameters.iter().find(same).map(|p| (source.symbol.key(), p.symbol))
+        };
+        self.sources.iter().filter_map(pair).collect()
     }
 
     /// The mass data of a body, under the names of the fields that have them.

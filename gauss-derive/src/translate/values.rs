@@ -3,10 +3,11 @@
 use proc_macro2::Span;
 use syn::ext::IdentExt;
 
-use crate::algebra::{BinaryFunction, Expr, Graph, Map, Rational};
-use crate::mechanics::{Axes, Tree, Turn, about_axis, identity};
+use crate::algebra::{BinaryFunction, Expr, Function, Graph, Map, Rational};
+use crate::mechanics::{Axes, Tree, Turn, about_axis, identity, subtract};
 use crate::model::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 
+use super::forces::turned_back;
 use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
@@ -21,7 +22,7 @@ pub enum Value<'g> {
     Rotation(Vec<Piece<'g>>),
     /// R and b.
     Pose(Piece<'g>, Triple<'g>),
-    /// (u, ω).
+    /// (u, ω), or the force and the torque of a wrench.
     Twist(Triple<'g>, Triple<'g>),
 }
 
@@ -83,6 +84,11 @@ fn quarter_turns(angle: &Expression) -> Option<usize> {
     // The nearest double, or one of its neighbours.
     let close = (angle - quarters * std::f64::consts::FRAC_PI_2).abs() <= 2.0 * f64::EPSILON * angle.abs();
     (close && quarters < 1e6).then_some(quarters as usize % 4)
+}
+
+/// Between two limits.
+fn clamped<'g>(x: Expr<'g>, [low, high]: [Expr<'g>; 2]) -> Expr<'g> {
+    x.binary(BinaryFunction::Max, low).binary(BinaryFunction::Min, high)
 }
 
 impl<'g> Translator<'_, 'g> {
@@ -154,17 +160,47 @@ impl<'g> Translator<'_, 'g> {
                 _ => Err(bug(owner.span)),
             };
         }
-        let link = self.links.get(&word).and_then(|&k| tree.links.get(k)).ok_or_else(|| bug(owner.span))?;
+        if let Some(Value::Twist(force, torque)) = self.names.get(&word) {
+            return match property {
+                Property::Force => Ok(Value::Vector(*force)),
+                Property::Torque => Ok(Value::Vector(*torque)),
+                _ => Err(bug(owner.span)),
+            };
+        }
+        let index = *self.links.get(&word).ok_or_else(|| bug(owner.span))?;
+        let link = tree.links.get(index).ok_or_else(|| bug(owner.span))?;
         Ok(match property {
             Property::Position => Value::Vector(link.position),
             Property::Rotation => {
                 // Its angular velocity is not asked for: rotations of bodies are named where vectors are turned.
                 Value::Rotation(vec![Piece::Given(Turn::given(link.rotation, [self.graph.zero(); 3]))])
             }
-            Property::Velocity => Value::Vector(link.frame.resolve(&link.velocity, Axes::Space)),
-            Property::AngularVelocity => Value::Vector(link.frame.to_space(&link.angular_velocity).map(Expr::group)),
-            _ => return Err(bug(owner.span)),
+            Property::Force | Property::Torque => return Err(bug(owner.span)),
+            _ => Value::Vector(self.velocity_of(index, property, tree)),
         })
+    }
+
+    /// A velocity of a link: of O or angular, in observer's axes or in its own.
+    pub(super) fn velocity_of(&self, index: usize, property: Property, tree: &Tree<'g>) -> Triple<'g> {
+        let link = &tree.links[index];
+        if property == Property::RelativeVelocity {
+            let u = self.velocity_of(index, Property::BodyVelocity, tree);
+            // The medium is a checked vector of t and parameters: what cannot be translated is reported where it acts.
+            return match self.stream(tree) {
+                Ok(Some(stream)) => subtract(&u, &turned_back(&link.rotation, &stream)),
+                _ => u,
+            };
+        }
+        match (property, &self.observed) {
+            (Property::Velocity, Some(observed)) => observed.velocity,
+            (Property::BodyVelocity, Some(observed)) => observed.body_velocity,
+            (Property::AngularVelocity, Some(observed)) => observed.angular_velocity,
+            (_, Some(observed)) => observed.body_angular_velocity,
+            (Property::Velocity, None) => link.frame.resolve(&link.velocity, Axes::Space),
+            (Property::BodyVelocity, None) => link.twist().0,
+            (Property::AngularVelocity, None) => link.frame.to_space(&link.angular_velocity).map(Expr::group),
+            (_, None) => link.twist().1,
+        }
     }
 
     fn binary(&self, operator: BinaryOperator, left: Value<'g>, right: Value<'g>) -> Option<Value<'g>> {
@@ -215,6 +251,15 @@ impl<'g> Translator<'_, 'g> {
             (FunctionName::Abs, [a]) => Value::Scalar(scalar(a)?.abs()),
             (FunctionName::Min, [a, b]) => Value::Scalar(scalar(a)?.binary(BinaryFunction::Min, scalar(b)?)),
             (FunctionName::Max, [a, b]) => Value::Scalar(scalar(a)?.binary(BinaryFunction::Max, scalar(b)?)),
+            (FunctionName::Signum, [a]) => Value::Scalar(self.graph.call(Function::Signum, scalar(a)?)),
+            (FunctionName::Clamp, [x, low, high]) => Value::Scalar(clamped(scalar(x)?, [scalar(low)?, scalar(high)?])),
+            (FunctionName::SmoothStep, [x, from, to]) => {
+                let (from, to) = (scalar(from)?, scalar(to)?);
+                let s = (scalar(x)? - from) * (to - from).group().recip();
+                let s = clamped(s, [self.graph.zero(), self.graph.one()]).group();
+                let three = self.graph.integer(3);
+                Value::Scalar(s.powi(2) * (three - s.scale(Rational::from_integer(2))).group())
+            }
             (FunctionName::Hypot, [a, b]) => {
                 let (a, b) = (scalar(a)?, scalar(b)?);
                 Value::Scalar((a * a + b * b).sqrt())

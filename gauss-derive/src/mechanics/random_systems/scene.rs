@@ -3,6 +3,7 @@
 use crate::algebra::{Expr, Graph, Map};
 use crate::mechanics::body::{AddedMassShape, Body, BodyShape, InertiaShape, Quantity};
 use crate::mechanics::constraint::{Constraint, ConstraintKind};
+use crate::mechanics::forces::{Action, Element};
 use crate::mechanics::link::{Matter, Placement};
 use crate::mechanics::names::Name;
 use crate::mechanics::rotation::rotation_of_quaternion;
@@ -150,14 +151,20 @@ impl<'g> Symbols<'g> {
             momentum_names: names("p", kept.len()),
             speed_rates: pick(&self.speed_rates),
             momenta: pick(&self.momenta),
-            potential: plan.potential.as_ref().map(|potential| potential.at(&variables)),
             coordinates,
             kinematics,
             rates,
             tree,
             constraints,
             inputs: Vec::new(),
-            forces: Vec::new(),
+            elements: plan
+                .potential
+                .iter()
+                .map(|potential| Element {
+                    name: "potential".to_owned(),
+                    action: Action::Potential(potential.at(&variables)),
+                })
+                .collect(),
         }
     }
 }

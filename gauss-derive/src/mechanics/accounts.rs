@@ -1,0 +1,84 @@
+//! Accounts: the power and the generalised force of every element of what acts, and what changes the energy.
+
+use crate::algebra::Expr;
+
+use super::forces::{Action, Force};
+use super::methods::{Formula, Method};
+use super::system::{System, sums};
+
+/// One element in the accounts.
+pub struct Account<'g> {
+    pub name: String,
+    /// It is part of the potential energy.
+    pub conservative: bool,
+    /// `∫∂v_P/∂z^α·dF`, one for each speed.
+    pub forces: Vec<Expr<'g>>,
+    pub power: Expr<'g>,
+}
+
+/// What weight and buoyancy are called.
+pub const GRAVITY: &str = "gravity";
+
+/// Powers, generalised forces (speeds by elements, row by row), and dE/dt: the powers of what is not in the energy, and ∂U/∂t.
+pub fn account_formulas<'g>(accounts: &[Account<'g>], explicit_power: Expr<'g>) -> Vec<Formula<'g>> {
+    let Some(first) = accounts.first() else { return Vec::new() };
+    let single = |method, outputs| Formula { method, arrangements: vec![outputs] };
+    let rows = (0..first.forces.len()).flat_map(|row| accounts.iter().map(move |account| account.forces[row]));
+    let outside = accounts.iter().filter(|account| !account.conservative).map(|account| account.power);
+    vec![
+        single(Method::Powers, accounts.iter().map(|account| account.power).collect()),
+        single(Method::ElementForces, rows.collect()),
+        single(Method::SuppliedPower, vec![outside.fold(explicit_power, |sum, power| sum + power)]),
+    ]
+}
+
+/// The elements in the order of the accounts: those of the energy first.
+fn sorted(mut accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {
+    accounts.sort_by_key(|account| !account.conservative);
+    accounts
+}
+
+impl<'g> System<'g> {
+    /// One account for each element, with weight and buoyancy first; none where nothing else acts.
+    pub fn accounts(&self) -> Vec<Account<'g>> {
+        let scene = &self.scene;
+        if scene.elements.is_empty() {
+            return Vec::new();
+        }
+        let potential = |name: &str, potential: Expr<'g>| Account {
+            name: name.to_owned(),
+            conservative: true,
+            forces: self.potential_forces(potential),
+            // What the force does, not the change of the field in time.
+            power: potential.partial(scene.time) - potential.derivative(&scene.rates),
+        };
+        let mut accounts = Vec::new();
+        if scene.tree.gravity.is_some() {
+            let own = potential(GRAVITY, scene.tree.potential_energy());
+            accounts.push(Account { forces: scene.tree.weights(), ..own });
+        }
+        accounts.extend(scene.elements.iter().map(|element| match &element.action {
+            Action::Potential(energy) => potential(&element.name, *energy),
+            Action::Forces(forces) => self.account_of(&element.name, forces),
+        }));
+        sorted(accounts)
+    }
+
+    fn account_of(&self, name: &str, forces: &[Force<'g>]) -> Account<'g> {
+        let scene = &self.scene;
+        let elsewhere = forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
+        let powers = forces.iter().map(|force| force.power(&scene.tree.links, &scene.speeds, &scene.rates));
+        Account {
+            name: name.to_owned(),
+            conservative: false,
+            forces: elsewhere.fold(scene.tree.loads(forces), |sum, own| sums(&sum, &own)),
+            power: powers.fold(scene.graph.zero(), |sum, power| sum + power),
+        }
+    }
+
+    /// ∂U/∂t.
+    pub(super) fn explicit_power(&self) -> Expr<'g> {
+        let potential = self.potential.unwrap_or_else(|| self.scene.graph.zero());
+        potential.partial(self.scene.time) + self.scene.tree.potential_energy().partial(self.scene.time)
+    }
+}
