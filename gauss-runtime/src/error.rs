@@ -1,8 +1,8 @@
-//! Parameters that no body has: which field, which value, which rule.
+//! Parameters that no body has: which field, which value, which rule. And parameters that a body can have, but hardly should.
 
 use core::fmt;
 
-/// The most violations that one error lists; a scene has a handful of fields, and each reports once.
+/// The most violations that one error lists, and the most warnings; a scene has a handful of fields, and each reports once.
 pub const MOST_VIOLATIONS: usize = 8;
 
 /// What a parameter of a body has to satisfy.
@@ -139,9 +139,9 @@ impl fmt::Display for Violation {
 pub struct ParameterError {
     // Boxed where there is an allocator, so that results stay small; the error path may allocate.
     #[cfg(feature = "alloc")]
-    list: alloc::boxed::Box<ViolationList>,
+    list: alloc::boxed::Box<BoundedList<Violation>>,
     #[cfg(not(feature = "alloc"))]
-    list: ViolationList,
+    list: BoundedList<Violation>,
 }
 
 impl ParameterError {
@@ -172,29 +172,148 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
+/// How a matrix of drag acts on the velocity V = (u, ω) of a body relative to the medium.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DragKind {
+    /// `F_i = −Σ_j D_ij V_j`.
+    Linear,
+    /// `F_i = −Σ_j D_ij |V_j| V_j`.
+    Quadratic,
+}
+
+impl fmt::Display for DragKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Linear => "linear",
+            Self::Quadratic => "quadratic",
+        })
+    }
+}
+
+/// What is not wrong with a parameter, but is likely not meant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Finding {
+    /// A matrix of drag D delivers energy. The value is the smallest eigenvalue of its symmetric part, in the units given.
+    ///
+    /// Of linear drag VᵀDV is the power taken. Quadratic drag takes `|V_j| VᵀDV` from velocities whose components all have
+    /// the same size |V_j|; others are not looked at.
+    DragFeedsEnergy {
+        /// Linear or quadratic.
+        kind: DragKind,
+    },
+}
+
+/// One finding about one parameter. The kernel works as given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterWarning {
+    /// The field of the struct of parameters, or what is written in its place.
+    pub field: &'static str,
+    /// The number that the finding is about: see the finding for what it is.
+    pub value: f64,
+    /// The finding.
+    pub finding: Finding,
+}
+
+impl fmt::Display for ParameterWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { field, value, finding } = self;
+        match finding {
+            Finding::DragFeedsEnergy { kind: DragKind::Linear } => write!(
+                f,
+                "`linear` drag feeds energy: the symmetric part of `{field}` has the eigenvalue {value}, and drag is \
+                 −`{field}`·(u, ω); check its signs"
+            ),
+            Finding::DragFeedsEnergy { kind: DragKind::Quadratic } => write!(
+                f,
+                "`quadratic` drag feeds energy: velocities with components V_j of equal size meet it as linear drag, and \
+                 the symmetric part of `{field}` has the eigenvalue {value}; drag is −Σ_j `{field}`_ij |V_j| V_j; check \
+                 its signs"
+            ),
+        }
+    }
+}
+
+/// Every finding about a struct of parameters, in the order of the checks; often none.
+#[derive(Clone, PartialEq)]
+pub struct ParameterWarnings {
+    pub(crate) list: BoundedList<ParameterWarning>,
+}
+
+impl ParameterWarnings {
+    /// Whether there is nothing to say.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.as_slice().is_empty()
+    }
+
+    /// The findings, at most [`MOST_VIOLATIONS`].
+    #[must_use]
+    pub fn as_slice(&self) -> &[ParameterWarning] {
+        self.list.as_slice()
+    }
+
+    /// The findings in order.
+    pub fn iter(&self) -> core::slice::Iter<'_, ParameterWarning> {
+        self.as_slice().iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a ParameterWarnings {
+    type Item = &'a ParameterWarning;
+    type IntoIter = core::slice::Iter<'a, ParameterWarning>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl fmt::Debug for ParameterWarnings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self).finish()
+    }
+}
+
+impl fmt::Display for ParameterWarnings {
+    /// One finding a line; nothing when there are none.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (n, warning) in self.iter().enumerate() {
+            let separator = if n > 0 { "\n" } else { "" };
+            write!(f, "{separator}{warning}")?;
+        }
+        Ok(())
+    }
+}
+
 /// A bounded list, so that checking parameters needs no allocator.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) struct ViolationList {
-    items: [Violation; MOST_VIOLATIONS],
+pub(crate) struct BoundedList<I> {
+    items: [I; MOST_VIOLATIONS],
     count: usize,
 }
 
-impl ViolationList {
-    pub(crate) const fn new() -> Self {
-        let blank = Violation { field: "", value: 0.0, rule: Rule::Finite };
+impl<I: Copy> BoundedList<I> {
+    /// An empty list; `blank` fills what is not used.
+    const fn of(blank: I) -> Self {
         Self { items: [blank; MOST_VIOLATIONS], count: 0 }
     }
 
-    pub(crate) fn as_slice(&self) -> &[Violation] {
+    pub(crate) fn as_slice(&self) -> &[I] {
         &self.items[..self.count]
     }
 
-    /// Adds a violation; what does not fit is dropped, the list says enough by then.
-    pub(crate) fn push(&mut self, violation: Violation) {
+    /// Adds an item; what does not fit is dropped, the list says enough by then.
+    pub(crate) fn push(&mut self, item: I) {
         if let Some(slot) = self.items.get_mut(self.count) {
-            *slot = violation;
+            *slot = item;
             self.count += 1;
         }
+    }
+}
+
+impl BoundedList<Violation> {
+    pub(crate) const fn new() -> Self {
+        Self::of(Violation { field: "", value: 0.0, rule: Rule::Finite })
     }
 
     pub(crate) fn into_result(self) -> Result<(), ParameterError> {
@@ -206,5 +325,12 @@ impl ViolationList {
         #[cfg(not(feature = "alloc"))]
         let list = self;
         Err(ParameterError { list })
+    }
+}
+
+impl BoundedList<ParameterWarning> {
+    pub(crate) const fn new() -> Self {
+        let finding = Finding::DragFeedsEnergy { kind: DragKind::Linear };
+        Self::of(ParameterWarning { field: "", value: 0.0, finding })
     }
 }

@@ -10,7 +10,7 @@
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
 //! | [`integrate`] | geometric and adaptive integrators, [`Simulation`](integrate::Simulation), trajectories |
 //! | [`monitor`] | energy and momentum watched over a run |
-//! | [`error`] | parameters that no body has |
+//! | [`error`] | parameters that no body has, and warnings |
 //! | [`real`] | the scalar: floats, SIMD lanes, dual numbers |
 //!
 //! Mathematics and numbers of equations: Massa & Vignolo, *Newton–Euler, Lagrange and Kirchhoff formulations of rigid body

@@ -6,7 +6,7 @@ pub use gauss_derive::GaussDynamics;
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::{ConstrainedSystem, ProjectionError};
-pub use crate::error::ParameterError;
+pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::eigenvalues::eigenvalues;
-use crate::error::{ParameterError, Rule, Violation, ViolationList};
+use crate::error::{BoundedList, ParameterError, Rule, Violation};
 use crate::real::Real;
 
 /// Collects every rule that the parameters break, one for each field: what follows from a first violation is not
@@ -11,7 +11,7 @@ use crate::real::Real;
 ///
 /// For packs of numbers every lane is checked; the first lane that breaks a rule speaks for the others.
 pub struct ParameterCheck<T> {
-    violations: ViolationList,
+    violations: BoundedList<Violation>,
     scalar: PhantomData<T>,
 }
 
@@ -23,13 +23,13 @@ impl<T: Real> Default for ParameterCheck<T> {
 
 impl<T: Real> ParameterCheck<T> {
     /// The unit of rounding of these checks: they look at lanes in double precision, also where the scalar is wider.
-    const UNIT: f64 = if T::EPSILON > f64::EPSILON { T::EPSILON } else { f64::EPSILON };
+    pub(super) const UNIT: f64 = if T::EPSILON > f64::EPSILON { T::EPSILON } else { f64::EPSILON };
 
     /// No violation so far.
     #[inline(always)]
     #[must_use]
     pub fn new() -> Self {
-        Self { violations: ViolationList::new(), scalar: PhantomData }
+        Self { violations: BoundedList::<Violation>::new(), scalar: PhantomData }
     }
 
     /// Every value is finite.
@@ -220,7 +220,7 @@ impl<T: Real> ParameterCheck<T> {
 }
 
 /// The value parts of one lane.
-fn in_lane<T: Real, const N: usize>(matrix: &[[T; N]; N], lane: usize) -> [[f64; N]; N] {
+pub(super) fn in_lane<T: Real, const N: usize>(matrix: &[[T; N]; N], lane: usize) -> [[f64; N]; N] {
     matrix.map(|row| row.map(|entry| entry.lane(lane)))
 }
 
