@@ -9,7 +9,7 @@
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
 //! | [`integrate`] | geometric and adaptive integrators, [`Simulation`](integrate::Simulation), trajectories |
-//! | [`monitor`] | energy and momentum watched over a run |
+//! | [`monitor`] | energy and momentum watched over a run, energy against the work supplied |
 //! | [`error`] | parameters that no body has, and warnings |
 //! | [`real`] | the scalar: floats, SIMD lanes, dual numbers |
 //!
@@ -21,7 +21,8 @@
 //! - `std` (default): elementary functions of the standard library; implies `alloc`.
 //! - `derive` (default): `#[derive(GaussDynamics)]`.
 //! - `libm`: elementary functions without the standard library. One of `std` and `libm` is needed.
-//! - `alloc`: trajectories without the standard library. Integrators and monitors themselves never allocate.
+//! - `alloc`: trajectories, and what is made of them, without the standard library. Integrators and monitors themselves never
+//!   allocate.
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -16,7 +16,7 @@ pub use crate::integrate::{
 };
 pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]
-pub use crate::monitor::{monitor, monitor_body};
+pub use crate::monitor::{EnergyBalance, monitor, monitor_body, power_balance};
 pub use crate::real::Real;
 pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{

@@ -1,0 +1,195 @@
+//! The energy of a run against the work that was supplied to it.
+
+use core::fmt;
+
+use alloc::vec::Vec;
+
+use crate::forces::ForcedSystem;
+use crate::integrate::{Sample, Trajectory};
+use crate::real::Real;
+
+/// Energy and work at one sample of a run, counted from the first; units of energy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BalancePoint {
+    /// Time.
+    pub t: f64,
+    /// E(t) − E(t₀), E kinetic and potential energy.
+    pub energy: f64,
+    /// `∫ supplied_power dt` from t₀.
+    pub work: f64,
+    /// About how far the integral is off: the differences of two rules of quadrature, added up over the steps.
+    pub uncertainty: f64,
+}
+
+impl BalancePoint {
+    /// Energy that did not come from anywhere: `energy − work`.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.energy - self.work
+    }
+}
+
+/// The balance `E(t) − E(t₀) = ∫ supplied_power dt` over a run: see [`power_balance`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnergyBalance {
+    points: Vec<BalancePoint>,
+}
+
+impl EnergyBalance {
+    /// One point for each sample of the trajectory, the first with zeros.
+    #[must_use]
+    pub fn points(&self) -> &[BalancePoint] {
+        &self.points
+    }
+
+    /// The point of the last sample.
+    #[must_use]
+    pub fn last(&self) -> &BalancePoint {
+        &self.points[self.points.len() - 1]
+    }
+
+    /// The largest |energy − work|; NaN when one is.
+    #[must_use]
+    pub fn largest_residual(&self) -> f64 {
+        let sizes = self.points.iter().map(|point| point.residual().abs());
+        // Written so that a NaN wins and stays.
+        sizes.fold(0.0, |largest, size| if size > largest || size.is_nan() { size } else { largest })
+    }
+}
+
+impl fmt::Display for EnergyBalance {
+    /// `energy +1.2e0 = work +1.3e0 − 1.0e-1, quadrature within 2.0e-9`: at the end of the run.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let end = self.last();
+        let sign = if end.residual() < 0.0 { '−' } else { '+' };
+        write!(
+            f,
+            "energy {:+.6e} = work {:+.6e} {sign} {:.2e}, quadrature within {:.1e}",
+            end.energy,
+            end.work,
+            end.residual().abs(),
+            end.uncertainty
+        )
+    }
+}
+
+/// The balance of energy over a trajectory, with the input that it was run with. The first lane speaks for packs of numbers.
+///
+/// The power is integrated from sample to sample by Gauss–Lobatto quadrature with four nodes, of which the inner two are
+/// interpolated by [`Trajectory::at`]; the interpolation decides its error, of fourth order in the distance of samples.
+/// The uncertainty is the difference to the trapezoidal rule with derivatives at the ends, which uses what is known without
+/// interpolation: `∫P dt = h (P₀ + P₁)/2 + h² (P₀′ − P₁′)/12`, of fourth order with another constant. It has the size of the
+/// error of the quadrature, but is no bound. A residual far beyond it is the integrator's error, or a power that is not
+/// accounted for. Run with [`largest_step`](crate::integrate::Simulation::largest_step) where the quadrature limits.
+///
+/// In systems with something moved as a function of time the residual is the work of whatever moves it: see
+/// [`ForcedSystem::supplied_power`].
+pub fn power_balance<S: ForcedSystem>(
+    system: &S,
+    trajectory: &Trajectory<S>,
+    input: impl Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input,
+) -> EnergyBalance {
+    let power_of = |sample: &Sample<S>| {
+        let input = input(sample.t, &sample.q, &sample.z);
+        system.supplied_power(sample.t, &sample.q, &sample.z, &input).lane(0)
+    };
+    // Every time that is asked for lies between two samples.
+    let power = |t: S::Scalar| trajectory.at(t).map_or(f64::NAN, |sample| power_of(&sample));
+    let energy = |sample: &Sample<S>| system.energy(sample.t, &sample.q, &sample.z).lane(0);
+
+    let first = trajectory.first();
+    let initial = energy(first);
+    let mut points = Vec::with_capacity(trajectory.len());
+    let mut last = BalancePoint { t: first.t.lane(0), energy: 0.0, work: 0.0, uncertainty: 0.0 };
+    points.push(last);
+    for (left, right) in trajectory.iter().zip(trajectory.iter().skip(1)) {
+        let length = right.t - left.t;
+        let h = length.lane(0);
+        let (start, end) = (power_of(left), power_of(right));
+        let after = |part: f64| power(left.t + length * S::Scalar::from_f64(part));
+        let before = |part: f64| power(right.t - length * S::Scalar::from_f64(part));
+        // Nodes of Gauss–Lobatto quadrature on [0, 1].
+        let node = 0.5 - 0.5 * Real::sqrt(0.2_f64);
+        let lobatto = h / 12.0 * (start + end + 5.0 * (after(node) + before(node)));
+        // h·P′ at both ends by differences of second order, over so little that they count as derivatives: their error is
+        // 10⁻⁶ of the third derivative's term.
+        let part = 1.0 / 1024.0;
+        let slope = |p: [f64; 3]| (4.0 * p[1] - 3.0 * p[0] - p[2]) / (2.0 * part);
+        let rise = slope([start, after(part), after(2.0 * part)]);
+        let fall = slope([end, before(part), before(2.0 * part)]);
+        let trapezoid = h * (0.5 * (start + end) + (rise + fall) / 12.0);
+        last = BalancePoint {
+            t: right.t.lane(0),
+            energy: energy(right) - initial,
+            work: last.work + lobatto,
+            uncertainty: last.uncertainty + (lobatto - trapezoid).abs(),
+        };
+        points.push(last);
+    }
+    EnergyBalance { points }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::ops::Range;
+    use nalgebra::SVector;
+    use std::string::ToString;
+
+    use crate::integrate::Simulation;
+    use crate::testing::oscillator::{Oscillator, Viscous};
+
+    type One = SVector<f64, 1>;
+
+    /// An input that depends on everything.
+    fn push(t: f64, q: &One, z: &One) -> f64 {
+        (3.0 * t).sin() + 0.2 * q[0] - 0.1 * z[0]
+    }
+
+    fn run(system: &Oscillator<Viscous>, step: f64, interval: Range<f64>) -> Trajectory<Oscillator<Viscous>> {
+        let run = Simulation::new(system).input(push).fixed_step(step);
+        run.run(One::from([1.0]), One::from([0.3]), interval).expect("runs")
+    }
+
+    #[test]
+    fn energy_is_what_was_supplied_up_to_the_quadrature() {
+        let system = Oscillator::<Viscous>::new(0.3);
+        for interval in [0.0..10.0, 10.0..0.0] {
+            let mut coarser = f64::INFINITY;
+            for step in [0.1, 0.05, 0.025, 0.0125] {
+                let trajectory = run(&system, step, interval.clone());
+                let balance = power_balance(&system, &trajectory, push);
+                assert_eq!(balance.points().len(), trajectory.len());
+                let origin = BalancePoint { t: interval.start, energy: 0.0, work: 0.0, uncertainty: 0.0 };
+                assert_eq!(balance.points()[0], origin);
+                assert_eq!(balance.last().t, interval.end);
+                // Quadrature and integrator are of fourth order, and of about the same constant here.
+                let (residual, uncertainty) = (balance.largest_residual(), balance.last().uncertainty);
+                assert!(residual < 2.0 * uncertainty && residual < coarser / 12.0, "{step}: {balance}");
+                coarser = residual;
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_accounted_for_is_seen() {
+        let system = Oscillator::<Viscous>::new(0.3);
+        let trajectory = run(&system, 0.01, 0.0..10.0);
+        let balance = power_balance(&system, &trajectory, |t, q, z| push(t, q, z) + 1e-3);
+        // The work of that force along x alone.
+        let expected = -1e-3 * (trajectory.last().q[0] - trajectory.first().q[0]);
+        let end = balance.last();
+        assert!((end.residual() - expected).abs() < 2.0 * end.uncertainty, "{balance}");
+        assert!(end.residual().abs() > 100.0 * end.uncertainty, "{balance}");
+    }
+
+    #[test]
+    fn nan_is_not_hidden_and_the_end_is_printed() {
+        let point = BalancePoint { t: 1.0, energy: 2.5, work: 2.75, uncertainty: 1e-9 };
+        let mut balance = EnergyBalance { points: Vec::from([point]) };
+        assert_eq!(balance.to_string(), "energy +2.500000e0 = work +2.750000e0 − 2.50e-1, quadrature within 1.0e-9");
+        assert_eq!(balance.largest_residual(), 0.25);
+        balance.points.insert(0, BalancePoint { energy: f64::NAN, ..point });
+        assert!(balance.largest_residual().is_nan());
+    }
+}
