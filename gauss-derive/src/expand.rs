@@ -53,6 +53,7 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     });
     Ok(emit(&Derived {
         subject: Subject::Body { model, scene: &scene, inertia: shape.inertia, quaternion, plain },
+        drags: &translator.as_ref().map(Translator::drags).unwrap_or_default(),
         formulas: &formulas,
         kernel: &kernel,
     }))
@@ -99,7 +100,8 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         links: &translator.links_of_clauses(),
         quaternions: &quaternions,
     };
-    Ok(emit(&Derived { subject: Subject::System(subject), formulas: &formulas, kernel: &kernel }))
+    let drags = translator.drags();
+    Ok(emit(&Derived { subject: Subject::System(subject), drags: &drags, formulas: &formulas, kernel: &kernel }))
 }
 
 /// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them.

@@ -7,7 +7,7 @@ use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, Formula, InertiaShape, Method, Scene};
 use crate::model::{Model, Scalar, SystemField};
-use crate::translate::Source;
+use crate::translate::{DragMatrix, Source};
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
@@ -15,11 +15,13 @@ use super::documentation::{latex, method_name, rustdoc, text};
 use super::parameters::kernel_body;
 use super::program::{ScalarTokens, statements};
 use super::system::SystemSubject;
-use super::system_parameters::system_kernel_body;
+use super::system_parameters::{system_kernel_body, warnings};
 
 /// Everything known about one derive when code is written.
 pub struct Derived<'a, 'g> {
     pub subject: Subject<'a, 'g>,
+    /// Matrices of drag.
+    pub drags: &'a [DragMatrix<'g>],
     pub formulas: &'a [Formula<'g>],
     pub kernel: &'a Kernel<'g>,
 }
@@ -272,6 +274,13 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         "Checks the parameters and computes once whatever depends on them alone: the kernel of [`{ident}`].\n\n\
          # Errors\nEvery parameter that no body can have, with its field, value and the rule it breaks."
     );
+    let plain = match derived.subject {
+        Subject::Body { plain, .. } => plain,
+        Subject::System(SystemSubject { model, sources, literals, .. }) => {
+            Some(Plain { fields: &model.fields, sources, literals })
+        }
+    };
+    let warnings = plain.map(|plain| warnings(derived, &plain, derived.drags));
     let operations = {
         let rows = derived.formulas.iter().zip(&derived.kernel.functions).filter(|(f, _)| f.method <= Method::Powers);
         let rows = rows.map(|(f, program)| {
@@ -423,6 +432,8 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
                 #visibility fn kernel(&self) -> ::core::result::Result<#name #used, #runtime::error::ParameterError> {
                     #kernel_body
                 }
+
+                #warnings
             }
 
             #[automatically_derived]

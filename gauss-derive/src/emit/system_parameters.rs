@@ -8,9 +8,9 @@ use crate::algebra::{Expr, Map};
 use crate::kernel::Program;
 use crate::mechanics::{Matter, Quantity};
 use crate::model::{ExpressionKind, Role, Shape, SystemField, SystemModel};
-use crate::translate::{Part, Source};
+use crate::translate::{DragMatrix, Part, Source};
 
-use super::kernel::Derived;
+use super::kernel::{Derived, Plain};
 use super::parameters::constants;
 use super::program::statements;
 use super::system::SystemSubject;
@@ -157,6 +157,45 @@ pub fn plain_fields(
 ) -> (TokenStream, TokenStream) {
     let plain = fields.iter().enumerate().filter(|(k, f)| f.role.is_none() && sources.iter().any(|s| s.field == *k));
     plain.map(|(k, field)| (read_field(derived, k, field), finite(k, field))).unzip()
+}
+
+/// `warnings()`: what is likely not meant; only of scenes with drag.
+pub fn warnings(derived: &Derived<'_, '_>, plain: &Plain<'_, '_>, drags: &[DragMatrix<'_>]) -> TokenStream {
+    if drags.is_empty() {
+        return TokenStream::new();
+    }
+    let Plain { fields, sources, literals } = plain;
+    let (private, runtime, ty) = (derived.private(), derived.item().runtime, derived.scalar().ty());
+    let (visibility, scalar) = (derived.item().visibility, derived.scalar());
+    let is_read = |k: usize| sources.iter().any(|s| s.field == k);
+    let read = fields.iter().enumerate().filter(|(k, f)| f.shape != Shape::RigidBody && is_read(*k));
+    let read = read.map(|(k, field)| read_field(derived, k, field));
+    let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
+    symbols.extend(literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
+    let checks = drags.iter().filter_map(|drag| {
+        let program = Program::lower(&drag.entries.concat());
+        // Coefficients that depend on the state are no matrix that could be judged here.
+        if !program.symbols().iter().all(|s| symbols.contains_key(&s.key())) {
+            return None;
+        }
+        let (compute, outputs) = statements(&program, &symbols, &scalar);
+        let rows = outputs.chunks(6).map(|row| quote!([#(#row),*]));
+        let (said, kind) = (&drag.said, if drag.quadratic { quote!(Quadratic) } else { quote!(Linear) });
+        Some(quote!({
+            #compute
+            __warnings.drag(#said, #private::DragKind::#kind, &[#(#rows),*]);
+        }))
+    });
+    quote! {
+        /// What is likely not meant, although a kernel can be made of it: drag that feeds energy, with its eigenvalue.
+        #[allow(unused_variables)]
+        #visibility fn warnings(&self) -> #runtime::error::ParameterWarnings {
+            #(#read)*
+            let mut __warnings = #private::WarningCheck::<#ty>::new();
+            #(#checks)*
+            __warnings.finish()
+        }
+    }
 }
 
 /// Of a body that turns about one of its axes alone only the moment of inertia about that axis enters, and the two

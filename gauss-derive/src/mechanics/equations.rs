@@ -67,7 +67,7 @@ pub(super) fn named_sums<'g>(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], nam
     }
     let row = |(k, whole): (usize, Expr<'g>)| {
         let own = |account: &Account<'g>| match account.forces[k] {
-            force if force.is_zero() || account.name == GRAVITY => tidy(force),
+            force if tidy(force).is_zero() || account.name == GRAVITY => tidy(force),
             _ => {
                 let name = names[k].of(&element_name(account));
                 whole.graph().symbol(name.text, name.latex, false)
@@ -98,7 +98,7 @@ fn element_name(account: &Account<'_>) -> Name {
 /// Nothing of an element that does nothing.
 fn element_section<'g>(account: &Account<'g>, names: &[Name]) -> Option<Section<'g>> {
     let title = Name::new(&format!("of {}", account.name), &format!("of {}", account.name.replace('_', "\\_")));
-    let there = account.forces.iter().zip(names).filter(|(force, _)| !force.is_zero());
+    let there = account.forces.iter().zip(names).filter(|(force, _)| !tidy(**force).is_zero());
     let rows: Option<Vec<Row<'g>>> = there
         .map(|(force, name)| Some(Row::Definition(name.of(&element_name(account)), readable(*force)?.collect())))
         .collect();

@@ -14,6 +14,16 @@ use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
 
+/// The coefficients of a drag.
+#[derive(Clone)]
+pub struct DragMatrix<'g> {
+    /// The field, or the element whose clause lists them.
+    pub said: String,
+    pub quadratic: bool,
+    /// Six by six, order (u, ω), body axes, pole O.
+    pub entries: Vec<Vec<Expr<'g>>>,
+}
+
 /// Names of elements: given ones as they are, others by what they are, numbered from the second on.
 struct Names(HashSet<String>);
 
@@ -54,7 +64,7 @@ impl<'g> Translator<'_, 'g> {
         }
         for clause in &model.forces {
             let name = names.of(clause.name.as_ref(), noun(&clause.kind));
-            for (suffix, action) in self.actions(clause, tree)? {
+            for (suffix, action) in self.actions(clause, &name, tree)? {
                 elements.push(Element { name: format!("{name}{suffix}"), action });
             }
         }
@@ -62,7 +72,12 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// How a clause acts; of several elements the later ones have a suffix to the name.
-    fn actions(&self, clause: &ForceClause, tree: &Tree<'g>) -> syn::Result<Vec<(&'static str, Action<'g>)>> {
+    fn actions(
+        &self,
+        clause: &ForceClause,
+        name: &str,
+        tree: &Tree<'g>,
+    ) -> syn::Result<Vec<(&'static str, Action<'g>)>> {
         let none = [self.graph.zero(); 3];
         let vector = |e: &Option<Expression>| e.as_ref().map_or(Ok(none), |e| self.vector(e, tree));
         let forces = match &clause.kind {
@@ -99,7 +114,7 @@ impl<'g> Translator<'_, 'g> {
                 rates.iter().map(drive).collect::<syn::Result<_>>()?
             }
             ForceKind::Drag { body, linear, quadratic } => {
-                vec![self.drag(body, [linear.as_ref(), quadratic.as_ref()], tree)?]
+                vec![self.drag(name, body, [linear.as_ref(), quadratic.as_ref()], tree)?]
             }
             ForceKind::Dissipation(function) => vec![Force::Dissipation(self.scalar(function, tree)?)],
             ForceKind::Spring { extent, stiffness, length, damping } => {
@@ -186,6 +201,7 @@ impl<'g> Translator<'_, 'g> {
     /// `−D (u − c, ω)` and `−D |(u − c, ω)| (u − c, ω)`, component by component.
     fn drag(
         &self,
+        name: &str,
         body: &Ident,
         [linear, quadratic]: [Option<&Coefficients>; 2],
         tree: &Tree<'g>,
@@ -196,9 +212,14 @@ impl<'g> Translator<'_, 'g> {
             twist.chain(self.velocity_of(link, Property::BodyAngularVelocity, tree)).map(Expr::group).collect();
         let mut wrench = [self.graph.zero(); 6];
         let squares = twist.iter().map(|v| *v * v.abs()).collect();
-        for (coefficients, velocities) in [(linear, twist), (quadratic, squares)] {
+        for (coefficients, velocities, quadratic) in [(linear, twist, false), (quadratic, squares, true)] {
             let Some(coefficients) = coefficients else { continue };
             let rows: Vec<Vec<Expr<'g>>> = self.coefficients(coefficients, tree)?;
+            let said = match coefficients {
+                Coefficients::Field(field) => field.unraw().to_string(),
+                Coefficients::Diagonal(_) => name.to_owned(),
+            };
+            self.drags.borrow_mut().push(DragMatrix { said, quadratic, entries: rows.clone() });
             for (component, row) in wrench.iter_mut().zip(rows) {
                 *component = row.iter().zip(&velocities).fold(*component, |sum, (d, v)| sum - *d * *v);
             }

@@ -23,6 +23,7 @@ use crate::mechanics::{
 };
 use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Property, SystemModel};
 
+pub use forces::DragMatrix;
 use symbols::Declared;
 pub use symbols::{Part, Source};
 use values::{Piece, Value};
@@ -39,6 +40,8 @@ pub struct Translator<'a, 'g> {
     links_of_clauses: Vec<usize>,
     /// Literal numbers that are constants of their own.
     literals: RefCell<Vec<(Rational, Expr<'g>)>>,
+    /// Matrices of drag, for warnings.
+    drags: RefCell<Vec<DragMatrix<'g>>>,
     /// ḃ of each coordinate that is a pose, where the kinematics give it rather than u.
     pose_rates: Vec<Option<[Expr<'g>; 3]>>,
     /// The motion of the only body, where it is known by symbols of its own.
@@ -60,6 +63,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             links,
             links_of_clauses: vec![0; model.bodies.len()],
             literals: RefCell::default(),
+            drags: RefCell::default(),
             pose_rates: vec![None; model.coordinates.len()],
             observed: None,
             kinematics: Vec::new(),
@@ -75,6 +79,11 @@ impl<'a, 'g> Translator<'a, 'g> {
     /// Literal numbers that symbols stand for.
     pub fn literals(&self) -> Vec<(Rational, Expr<'g>)> {
         self.literals.borrow().clone()
+    }
+
+    /// Matrices of drag.
+    pub fn drags(&self) -> Vec<DragMatrix<'g>> {
+        self.drags.borrow().clone()
     }
 
     /// Which link each clause of a body or frame became.
@@ -191,6 +200,7 @@ impl<'a, 'g> Translator<'a, 'g> {
     }
 
     fn name_everything(&mut self, values: &[Expr<'g>]) {
+        self.drags.borrow_mut().clear();
         self.names.clear();
         self.links.clear();
         self.names.insert("t".to_owned(), Value::Scalar(self.declared.time));
