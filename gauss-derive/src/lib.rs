@@ -56,8 +56,8 @@ mod translate;
 ///
 /// # Systems
 ///
-/// Any of these clauses that says what moves, in place of `chart` and `motion`, makes a system; its kernel implements
-/// `GaussSystem`:
+/// Any of these clauses but `point` and `limit`, in place of `chart` and `motion`, makes a system, as does a field that is a
+/// body; its kernel implements `GaussSystem`:
 ///
 /// | clause | meaning |
 /// |---|---|
@@ -70,24 +70,47 @@ mod translate;
 /// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |
 /// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once |
 /// | `independent(v, w)` | the speeds that stay when the constraints are solved for the others at compile time |
-/// | `potential = expr` | a potential of coordinates and time; the role `gravity` acts on everything |
-/// | `input(thrust, wind: Vector3)` | values that arrive at run time |
-/// | `force(name, at = …, value = […])` | a force at a point: both in observer's axes, the point from Ω |
-/// | `force(name, body = other, at = […], value = […], axes = body)` | a force at a point fixed in a body or a frame, at numbers and fields in its axes from O, by default at O; the value in `axes = body`, which is the default, or `axes = observer` |
-/// | `torque(name, body = other, value = […], axes = body, reaction = another)` | a torque, and the opposite one on another body or frame; axes as above |
-/// | `drive(name, theta = expr, x = expr)` | generalised forces on scalar coordinates: each has the power `expr` · dθ/dt |
-/// | `spring(name, from = …, to = …, stiffness = k, length = l, damping = c)` | a spring with a damper between two points, observer's axes from Ω; `length`, at which it is without force, and `damping` are 0 by default |
-/// | `damping = expr` | Rayleigh's dissipation function: its negative partial derivatives by z are generalised forces |
 /// | `limit = 50000` | the most operations that the generated code may have |
 ///
-/// Expressions are Rust arithmetic on coordinates, speeds, fields and the time `t`, with `sin cos tan atan2 exp ln sqrt
-/// hypot powi dot cross` and the rotations `rotation_x rotation_y rotation_z inverse`, which are joined by `*` and turn
-/// vectors by `*`. A coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and `pose.rotation`.
-/// Particles without a parent, potentials, constraints and forces can also name points, which are position vectors, and ask
-/// bodies and frames for `arm.position` (O) and `arm.rotation`, all from Ω in observer's axes. Constraints of velocities, and
-/// values of forces, torques, drives and `damping`, can name speeds, `arm.velocity` (of O), `arm.angular_velocity` and the
-/// time derivative `rate(expr)` of what has no speeds in it. Only those four can name inputs, and of them all but `damping`
-/// can call `abs min max`, whose derivatives jump. What acts can have a name, which no expression uses.
+/// # What acts
+///
+/// These clauses stand in systems, and beside `chart` and `motion` of one body. There the body is called `body`, as is the
+/// only body of a system that has no name of its own; in a chart `body = body` can be left out, and `at = …` is in body axes.
+///
+/// | clause | meaning |
+/// |---|---|
+/// | `potential = expr` | a potential of coordinates and time; the role `gravity` acts on everything |
+/// | `central_gravity(name, mu = gm, center = […])` | the acceleration −μ d/\|d\|³ of all mass, d from the center; `mu` of fields and numbers, `center` of these and `t` in observer's axes from Ω, by default Ω |
+/// | `medium(velocity = […])` | the velocity of the medium, observer's axes, of `t`, fields and numbers: drags, added mass and `relative_velocity` feel it |
+/// | `input(thrust, wind: Vector3, gust: Wrench)` | values that arrive at run time; of a wrench force then torque, `gust.force` and `gust.torque` |
+/// | `define(u = body.relative_velocity, q = u.x * u.x)` | names for expressions: scalars, vectors or rotations. A definition can name those before it and stands for what it is, wherever that may stand |
+/// | `force(name, at = …, value = […])` | in a system: a force at a point, both in observer's axes, the point from Ω |
+/// | `force(name, body = other, at = […], value = […], axes = body)` | a force at a point fixed in a body or a frame, at numbers and fields in its axes from O or at a `point` of that body by its name, by default at O; the value in `axes = body`, which is the default, or `axes = observer` |
+/// | `torque(name, body = other, value = […], axes = body, reaction = another)` | a torque, and the opposite one on another body or frame; axes as above |
+/// | `wrench(name, body = other, at = […], force = […], torque = […], axes = body)` | a force, a torque or both; place and axes as above |
+/// | `drag(name, body = other, linear = d, quadratic = e)` | −D V − Q (\|V\| V), with V = (u, ω) relative to the medium, body axes, pole O, \|V\| V component by component: coefficients are a list of six scalars, which can depend on what forces depend on, or a field `Vector6` (diagonal) or `Matrix6`. One of the two or both |
+/// | `drive(name, theta = expr, x = expr)` | in a system: generalised forces on scalar coordinates, each of the power `expr` · dθ/dt |
+/// | `spring(name, from = …, to = …, stiffness = k, length = l, damping = c)` | a spring with a damper between two points, observer's axes from Ω; `length`, at which it is without force, and `damping` are 0 by default |
+/// | `spring(name, along = theta, stiffness = k, length = l, damping = c)` | the same along any scalar of coordinates and time, such as the angle of a joint |
+/// | `stop(name, along = theta, least = a, most = b, stiffness = k, width = e, damping = c)`, `stop(name, from = …, to = …, …)` | pushes back what leaves the limits, of which one is enough, and sets in smoothly over `width` |
+/// | `damping = expr` | Rayleigh's dissipation function: its negative partial derivatives by z are generalised forces |
+/// | `point(name, body = other, at = […])` | as above |
+///
+/// What acts can have a name, which no expression uses.
+///
+/// # Expressions
+///
+/// Rust arithmetic on coordinates, speeds, fields, definitions and the time `t`, with `sin cos tan atan2 exp ln sqrt hypot powi
+/// dot cross` and the rotations `rotation_x rotation_y rotation_z inverse`, which are joined by `*` and turn vectors by `*`. A
+/// coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and `pose.rotation`. Components are `v.x` or
+/// `v[0]`.
+///
+/// | where | what else |
+/// |---|---|
+/// | particles without a parent, potentials, constraints, points of forces, springs, stops | points, which are position vectors; of bodies and frames `arm.position` (of O) and `arm.rotation`, all from Ω in observer's axes |
+/// | constraints of velocities; values of forces, torques, wrenches and drives; coefficients of drags; `damping` | the same; speeds; `arm.velocity` (of O) and `arm.angular_velocity` in observer's axes; `arm.body_velocity`, `arm.body_angular_velocity` and `arm.relative_velocity` (of O, relative to the medium) in body axes; the time derivative `rate(expr)` of what has no speeds in it |
+/// | values of forces, torques, wrenches and drives; coefficients of drags; `damping` | inputs |
+/// | the same without `damping` | `abs min max clamp(x, low, high) signum smooth_step(x, from, to)`, which are not smooth; the last is 0 below `from`, 1 above `to` and 3s² − 2s³ between |
 ///
 /// # Errors
 ///

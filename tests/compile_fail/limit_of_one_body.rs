@@ -1,4 +1,4 @@
-//! A limit is for systems.
+//! A limit where nothing acts.
 
 use gauss_runtime::prelude::*;
 

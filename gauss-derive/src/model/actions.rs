@@ -109,7 +109,7 @@ impl Element {
     }
 
     fn coefficients(&self, word: &str, context: &mut Context) -> Option<Coefficients> {
-        arithmetic::read_coefficients(word, equals(self.find(word)?, "[x, y, z, p, q, r]", context)?, context)
+        arithmetic::read_coefficients(word, equals(self.find(word)?, "[a, b, c, d, e, f]", context)?, context)
     }
 
     /// `from = …, to = …` or `along = …`; what is missing of it, or too much, is noted.
@@ -158,7 +158,7 @@ impl Element {
     /// Notes that the argument `word` is missing, if it is.
     fn require(&self, word: &str, what: &str, example: &str, context: &mut Context) {
         if self.lacks(word) {
-            context.error(self.span, format!("a {} needs {what}; add `{word} = {example}`", self.noun));
+            context.error(self.span, format!("{} needs {what}; add `{word} = {example}`", names::a(self.noun)));
         }
     }
 
@@ -316,7 +316,7 @@ pub(super) fn read_stop(clause: &Clause, context: &mut Context) -> Option<ForceC
 
 /// `central_gravity(…)`; `None` if something is missing or wrong, which is noted.
 pub(super) fn read_attraction(clause: &Clause, context: &mut Context) -> Option<Attraction> {
-    let element = Element::read(clause, "central gravity", Place::CentralGravity, ATTRACTION, "mu = gm", context)?;
+    let element = Element::read(clause, "attraction", Place::CentralGravity, ATTRACTION, "mu = gm", context)?;
     let mu = element.expression("mu", "gm", context);
     let center = element.expression("center", "[x, y, z]", context);
     element.require("mu", "its gravitational parameter", "gm", context);

@@ -28,7 +28,7 @@ pub(super) fn read(owner: &str, tokens: &[TokenTree], context: &mut Context) -> 
 
 /// Reads the tokens of the coefficients of a drag: a list of six, or the name of a field.
 pub(super) fn read_coefficients(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Coefficients> {
-    const REMEDY: &str = "write six scalars `[x, y, z, p, q, r]` in the order (u, ω), or the name of a field that is a \
+    const REMEDY: &str = "write six scalars `[a, b, c, d, e, f]` in the order (u, ω), or the name of a field that is a \
          `Vector6` or a `Matrix6`";
     let parsed = parse(owner, tokens, context)?;
     let mut bare = &parsed;

@@ -35,7 +35,8 @@ pub(super) fn check(definitions: &[Definition], scope: &mut Scope, context: &mut
             Some(expression) => kinds::check(expression, Place::Definition, scope, context).and(Some(expression)),
             None => None,
         };
-        sizes.push(size.min(LIMIT));
+        // Of those that name it it is not said again.
+        sizes.push(if size > LIMIT { 1 } else { size });
         scope.define(well.cloned());
     }
 }

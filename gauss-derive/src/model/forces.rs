@@ -150,7 +150,7 @@ pub(super) fn check_coefficients(
     context: &mut Context,
 ) {
     let expected = format!(
-        "six scalars in a list `[x, y, z, p, q, r]`, a `Vector6<{scalar}>` (diagonal) or a `Matrix6<{scalar}>` (full)"
+        "six scalars in a list `[a, b, c, d, e, f]`, a `Vector6<{scalar}>` (diagonal) or a `Matrix6<{scalar}>` (full)"
     );
     for name in coefficient_fields(statements) {
         let message = match fields.iter().find(|field| same(field.ident, name)) {

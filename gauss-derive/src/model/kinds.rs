@@ -5,6 +5,7 @@ use super::places::Place;
 use super::scope::{Meaning, Scope};
 use super::{BinaryOperator, CoordinateKind, Expression, ExpressionKind, FunctionName, InputKind, Property, SpeedKind};
 use proc_macro2::{Ident, Span};
+use std::cmp::Ordering;
 
 /// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,12 +206,13 @@ impl Checker<'_> {
                 self.within = outside;
                 kind
             }
-            Err(()) => self.note(
-                name.span(),
-                format!(
-                    "the definition of `{name}` is not complete here; definitions name those before them: move it up"
-                ),
-            ),
+            Err(order) => {
+                let message = match order {
+                    Ordering::Greater => format!("`{name}` is defined later; move its definition up"),
+                    _ => format!("`{name}` is defined by itself; say what it is without `{name}`"),
+                };
+                self.note(name.span(), message)
+            }
         }
     }
 

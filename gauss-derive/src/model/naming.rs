@@ -35,7 +35,7 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
         .chain(statements.frames().map(|name| (name, "frame")))
         .chain(statements.points.iter().map(|point| (&point.name, "point")))
         .chain(statements.forces.iter().filter_map(|clause| Some((clause.name.as_ref()?, clause.noun()))))
-        .chain(statements.attractions.iter().filter_map(|clause| Some((clause.name.as_ref()?, "central gravity"))));
+        .chain(statements.attractions.iter().filter_map(|clause| Some((clause.name.as_ref()?, "attraction"))));
     for (name, noun) in all {
         let word = name.unraw().to_string();
         // A field that nothing names confuses nothing.
@@ -78,12 +78,8 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
                     ),
                 ),
                 (element, again) if element == again && is_element(element) => {
-                    let (stem, ending) = match again {
-                        "wrench" => (again, "es"),
-                        "central gravity" => ("central gravit", "ies"),
-                        _ => (again, "s"),
-                    };
-                    let message = format!("two {stem}{ending} are called `{word}`; rename one of the two");
+                    let ending = if again == "wrench" { "es" } else { "s" };
+                    let message = format!("two {again}{ending} are called `{word}`; rename one of the two");
                     context.error(name.span(), message);
                 }
                 (earlier, noun) if earlier == noun => {
@@ -103,7 +99,7 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
 
 /// It is what acts.
 fn is_element(noun: &str) -> bool {
-    matches!(noun, "force" | "torque" | "wrench" | "drive" | "spring" | "stop" | "drag" | "central gravity")
+    matches!(noun, "force" | "torque" | "wrench" | "drive" | "spring" | "stop" | "drag" | "attraction")
 }
 
 /// Whether expressions use the word already.

@@ -203,8 +203,8 @@ impl Place {
             Place::Drive => "a generalised force",
             Place::End("a stop") => "the end of a stop",
             Place::End(_) => "the end of a spring",
-            Place::Along("a stop") => "what a stop acts along",
-            Place::Along(_) => "what a spring acts along",
+            Place::Along("a stop") => "the extent of a stop",
+            Place::Along(_) => "the extent of a spring",
             Place::Constant { noun: "a stop", .. } => "a constant of a stop",
             Place::Constant { noun: "a spring", .. } => "a constant of a spring",
             Place::Constant { .. } => "a gravitational parameter",
@@ -225,7 +225,7 @@ impl Place {
                  by their added mass; write it in `t`, fields and numbers"
             ),
             (Place::Medium, _) => format!(
-                "`{name}` is {what}, and there is no added mass in a stream that varies with the place or the motion; write \
+                "`{name}` moves with the system, and there is no added mass in a stream that varies with the place; write \
                  the velocity of the medium in `t`, fields and numbers, and the drag in any other stream as `force(…)`"
             ),
             (_, Meaning::Input(_)) => format!(
@@ -233,7 +233,7 @@ impl Place {
                  in values of `force`, `torque`, `wrench` and `drive`, in coefficients of `drag`, and in `damping`"
             ),
             (Place::Center, _) => format!(
-                "`{name}` is {what}, and central gravity has a center that is given beforehand; write it in `t`, fields \
+                "`{name}` moves with the system, and the center of gravity is given beforehand; write it in `t`, fields \
                  and numbers"
             ),
             (Place::Kinematics(_), _) => format!(

@@ -160,7 +160,7 @@ fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) {
     } else if is_system {
         format!("unknown clause `{word}`; expected {} or `crate`", names::list(STATEMENTS).replace(" or ", ", "))
     } else {
-        format!("unknown clause `{word}`; expected {}", names::list(CLAUSES))
+        format!("unknown clause `{word}`; expected {}, or what acts, such as `force(…)`", names::list(CLAUSES))
     };
     context.error(span, message);
 }

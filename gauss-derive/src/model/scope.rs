@@ -5,6 +5,7 @@ use super::names;
 use super::{CoordinateKind, Expression, InputKind, SpeedKind};
 use proc_macro2::Ident;
 use std::cell::RefCell;
+use std::cmp::Ordering;
 use syn::ext::IdentExt;
 
 /// The name of time.
@@ -58,12 +59,12 @@ impl Scope {
         self.definitions.push(expression);
     }
 
-    /// What a definition stands for.
+    /// What a definition stands for; `None` if something is wrong with it.
     ///
     /// # Errors
-    /// It comes later.
-    pub(super) fn definition(&self, index: usize) -> Result<Option<&Expression>, ()> {
-        self.definitions.get(index).map(Option::as_ref).ok_or(())
+    /// It comes after the one that is being read, or is this one.
+    pub(super) fn definition(&self, index: usize) -> Result<Option<&Expression>, Ordering> {
+        self.definitions.get(index).map(Option::as_ref).ok_or(index.cmp(&self.definitions.len()))
     }
 
     /// Whether this is new to be said of the definition.

@@ -1,6 +1,7 @@
 //! Snippets and what is said about them: the message, and the source text that it points at.
 
 mod accepted;
+mod acting;
 mod clauses;
 mod items;
 mod roles;

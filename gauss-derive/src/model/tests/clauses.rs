@@ -156,7 +156,10 @@ fn clauses_given_twice() {
 #[test]
 fn struct_clauses() {
     check_body("#[gauss(char = hybrid)]", &[("char", "unknown clause `char`; did you mean `chart`?")]);
-    check_body("#[gauss(foo = 1)]", &[("foo", "unknown clause `foo`; expected `chart`, `motion` or `crate`")]);
+    check_body(
+        "#[gauss(foo = 1)]",
+        &[("foo", "unknown clause `foo`; expected `chart`, `motion` or `crate`, or what acts, such as `force(…)`")],
+    );
     check_body("#[gauss(hybrid)]", &[("hybrid", "`hybrid` is a chart; write `chart = hybrid`")]);
     check_body("#[gauss(jet(euler_zyx))]", &[("jet", "`jet` is a chart; write `chart = jet(euler_zyx)`")]);
     check_body("#[gauss(jet = euler_zyx)]", &[("jet", "`jet` is a chart; write `chart = jet(euler_zyx)`")]);
@@ -206,17 +209,23 @@ fn attribute_forms() {
     );
 }
 
-/// What acts is said in systems, and makes none of what it stands in.
+/// What acts makes no system of what it stands in, and is said above the struct.
 #[test]
-fn clauses_of_systems() {
-    let message = "forces and inputs belong to systems; give the body coordinates: \
-        `coordinates(pose: Pose), body(position = pose.position, rotation = pose.rotation)` in place of `chart` and \
-        `motion`";
-    for word in ["input", "force", "torque", "drive", "spring", "damping"] {
+fn clauses_of_what_acts() {
+    for word in [
+        "input",
+        "force",
+        "torque",
+        "wrench",
+        "spring",
+        "stop",
+        "drag",
+        "define",
+        "medium",
+        "central_gravity",
+        "damping",
+    ] {
         let form = if word == "damping" { "damping = …".into() } else { format!("{word}(…)") };
-        check_body(&format!("#[gauss({word}(a, b = c))]"), &[(word, message)]);
-        // What else is missing depends on what the system will be.
-        check(&format!("#[gauss({word}(a, b = c))] struct Scene {{ k: f64 }}"), &[(word, message)]);
         check(
             &format!("struct Scene {{ #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64, #[gauss({word})] k: f64 }}"),
             &[(
@@ -225,8 +234,34 @@ fn clauses_of_systems() {
             )],
         );
     }
+    check(
+        "#[gauss(force(at = [0, 0, 0], value = [k, 0, 0]))] struct Scene { k: f64 }",
+        &[
+            (
+                "Scene",
+                "`Scene` has no field with the role `mass`, which every body needs; add `#[gauss(mass)] mass: f64`",
+            ),
+            (
+                "Scene",
+                "`Scene` has no field with the role `inertia`, which every body needs; \
+                 add `#[gauss(inertia)] inertia: Vector3<f64>`",
+            ),
+        ],
+    );
     check_body(
         "#[gauss(damping = k * x, chart = hybird)]",
-        &[("hybird", "unknown chart `hybird`; did you mean `hybrid`?"), ("damping", message)],
+        &[
+            ("hybird", "unknown chart `hybird`; did you mean `hybrid`?"),
+            (
+                "k",
+                "unknown name `k`; declare it by `input(k)` if it arrives at run time, or write a field (`m` or `j`), \
+                 a body (`body`) or `t`",
+            ),
+            (
+                "x",
+                "unknown name `x`; declare it by `input(x)` if it arrives at run time, or write a field (`m` or `j`), \
+                 a body (`body`) or `t`",
+            ),
+        ],
     );
 }

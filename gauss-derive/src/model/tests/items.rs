@@ -55,7 +55,10 @@ fn several_at_once() {
         &[
             ("hybird", "unknown chart `hybird`; did you mean `hybrid`?"),
             ("planer", "unknown motion `planer`; did you mean `planar`?"),
-            ("bogus", "unknown clause `bogus`; expected `chart`, `motion` or `crate`"),
+            (
+                "bogus",
+                "unknown clause `bogus`; expected `chart`, `motion` or `crate`, or what acts, such as `force(…)`",
+            ),
             ("mas", "unknown role `mas`; did you mean `mass`?"),
             ("Matrix6<f64>", &format!("`inertia` cannot be a `Matrix6`; {INERTIA}")),
             (

@@ -213,6 +213,9 @@ fn limit() {
     );
     check(
         "#[gauss(limit = 10)] struct Body { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }",
-        &[("limit", "`limit` is for systems; the equations of one body in a chart are always short: remove `limit`")],
+        &[(
+            "limit",
+            "the equations of one body in a chart are short where nothing acts but weight and buoyancy; remove `limit`",
+        )],
     );
 }

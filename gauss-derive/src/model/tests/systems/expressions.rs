@@ -50,12 +50,18 @@ fn numbers() {
 #[test]
 fn functions() {
     const FUNCTIONS: &str = "`sin`, `cos`, `tan`, `exp`, `ln`, `sqrt`, `powi`, `atan2`, `dot`, `cross`, \
-        `rotation_x`, `rotation_y`, `rotation_z`, `inverse`, `twist`, `rate`, `abs`, `min`, `max` or `hypot`";
+        `rotation_x`, `rotation_y`, `rotation_z`, `inverse`, `twist`, `rate`, `abs`, `min`, `max`, `hypot`, \
+        `signum`, `clamp` or `smooth_step`";
     check_potential("sine(x)", &[("sine", "unknown function `sine`; did you mean `sin`?")]);
     check_potential("x.powf(2)", &[("powf", "unknown function `powf`; did you mean `powi`?")]);
     check_potential("erf(x)", &[("erf", &format!("unknown function `erf`; expected {FUNCTIONS}"))]);
     check_potential("sin(x, y)", &[("sin", "`sin` takes one argument, found 2; write `sin(x)`")]);
     check_potential("a.dot()", &[("dot", "`dot` takes two arguments, found 1; write `dot(a, b)`")]);
+    check_potential("clamp(x, y)", &[("clamp", "`clamp` takes three arguments, found 2; write `clamp(x, low, high)`")]);
+    check_potential(
+        "smooth_step(x)",
+        &[("smooth_step", "`smooth_step` takes three arguments, found 1; write `smooth_step(x, from, to)`")],
+    );
     let exponent = "the exponent of `powi` is an integer literal, such as 2 or -1; \
         for other powers write `sqrt`, or `exp` and `ln`";
     check_potential("powi(x, 0.5)", &[("0.5", exponent)]);
@@ -94,8 +100,9 @@ fn kinds() {
         "a.w",
         &[(
             "w",
-            "there is no `.w`; the components of a vector are `.x`, `.y` and `.z`, and bodies have `.position`, \
-             `.rotation`, `.velocity` and `.angular_velocity`",
+            "there is no `.w`; the components of a vector are `.x`, `.y` and `.z`, bodies have `.position`, `.rotation`, \
+             `.velocity`, `.angular_velocity`, `.body_velocity`, `.body_angular_velocity` and `.relative_velocity`, and \
+             inputs that are wrenches have `.force` and `.torque`",
         )],
     );
     check_potential("a[3]", &[("3", "a vector has the components 0, 1 and 2; write `[0]`, `[1]` or `[2]`")]);

@@ -1,8 +1,8 @@
 //! What acts, and values that arrive at run time.
 
 use super::super::{Mistake, check};
-use super::{particle, show, system};
-use crate::model::{Coefficients, Expression, Extent, ForceAxes, ForceClause, ForceKind, InputKind};
+use super::{particle, shown, system};
+use crate::model::InputKind;
 
 /// A body on a turning arm, a base at rest in the observer's frame, a particle and an attitude, with more `clauses`.
 fn acted_on(clauses: &str) -> String {
@@ -25,68 +25,6 @@ fn mistakes(clauses: &str, expected: &[Mistake<'_>]) {
 #[track_caller]
 fn mistake(clauses: &str, token: &str, message: &str) {
     mistakes(clauses, &[(token, message)]);
-}
-
-/// A clause with all brackets of its expressions.
-fn shown(clause: &ForceClause) -> String {
-    let axes = |axes: ForceAxes| match axes {
-        ForceAxes::Body => "body",
-        ForceAxes::Observer => "observer",
-    };
-    let optional = |e: &Option<Expression>| e.as_ref().map_or("-".into(), show);
-    let name = clause.name.as_ref().map_or("-".into(), ToString::to_string);
-    let what = match &clause.kind {
-        ForceKind::AtPoint { at, value } => format!("at {}: {}", show(at), show(value)),
-        ForceKind::OnBody { body, at, value, axes: in_axes } => {
-            format!("on {body} at {}: {} in {}", optional(at), show(value), axes(*in_axes))
-        }
-        ForceKind::Torque { body, value, axes: in_axes, reaction } => {
-            let reaction = reaction.as_ref().map_or("-".into(), ToString::to_string);
-            format!("on {body} and {reaction}: {} in {}", show(value), axes(*in_axes))
-        }
-        ForceKind::Drive { rates } => {
-            let rates: Vec<String> = rates.iter().map(|(name, value)| format!("{name}: {}", show(value))).collect();
-            rates.join(", ")
-        }
-        ForceKind::Spring { extent, stiffness, length, damping } => {
-            format!("{}: {} {} {}", extended(extent), show(stiffness), optional(length), optional(damping))
-        }
-        ForceKind::Stop { extent, least, most, stiffness, width, damping } => format!(
-            "{} from {} to {}: {} {} {}",
-            extended(extent),
-            optional(least),
-            optional(most),
-            show(stiffness),
-            show(width),
-            optional(damping)
-        ),
-        ForceKind::Wrench { body, at, force, torque, axes: in_axes } => {
-            format!("on {body} at {}: {} {} in {}", optional(at), optional(force), optional(torque), axes(*in_axes))
-        }
-        ForceKind::Drag { body, linear, quadratic } => {
-            format!("on {body}: {} {}", coefficients(linear), coefficients(quadratic))
-        }
-        ForceKind::Dissipation(function) => show(function),
-    };
-    format!("{} {name}: {what}", clause.noun())
-}
-
-fn extended(extent: &Extent) -> String {
-    match extent {
-        Extent::Between { from, to } => format!("{} to {}", show(from), show(to)),
-        Extent::Along(along) => format!("along {}", show(along)),
-    }
-}
-
-fn coefficients(coefficients: &Option<Coefficients>) -> String {
-    match coefficients {
-        None => "-".into(),
-        Some(Coefficients::Field(name)) => name.to_string(),
-        Some(Coefficients::Diagonal(entries)) => {
-            let entries: Vec<String> = entries.iter().map(|entry| show(entry)).collect();
-            format!("[{}]", entries.join(" "))
-        }
-    }
 }
 
 #[test]
@@ -210,14 +148,14 @@ fn torques() {
          struct Scene { #[gauss(body)] arm: RigidBody<f64> }",
         &[("ground", "no body or frame is called `ground`; there is no other: leave `reaction` out")],
     );
-    check(
-        "#[gauss(coordinates(q), body(rotation = rotation_x(q)), torque(body = body, value = [1, 0, 0]))] \
+    // The only body needs no name.
+    let model = system(
+        "#[gauss(coordinates(q), body(rotation = rotation_x(q)), torque(body = body, value = -body.angular_velocity))] \
          struct Scene { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }",
-        &[(
-            "body",
-            "the body has no name to refer to it by; write `body(name, …)` with a field \
-             `#[gauss(body)] name: RigidBody<f64>`",
-        )],
+    );
+    assert_eq!(
+        model.forces.iter().map(shown).collect::<Vec<_>>(),
+        ["torque -: on body and -: (-body.AngularVelocity) in body"]
     );
 }
 
@@ -259,8 +197,10 @@ fn springs() {
         "spring(long), spring(from = tip, too = nail, stiffness = k), \
          spring(from = tip, to = nail, stiffness = x, length = tip, damping = c)",
         &[
-            ("spring", "a spring needs the point where it begins; add `from = …`"),
-            ("spring", "a spring needs the point where it ends; add `to = …`"),
+            (
+                "spring",
+                "a spring needs what it acts along; add `from = …` and `to = …`, two points, or `along = …`, a scalar",
+            ),
             ("spring", "a spring needs its force by elongation; add `stiffness = k`"),
             ("too", "unknown argument of `spring`: `too`; did you mean `to`?"),
             ("x", "`x` varies, and the stiffness of a spring is constant; write numbers and fields only"),
@@ -306,14 +246,14 @@ fn kinds() {
         ],
     );
     mistakes(
-        "force(at = arm, value = c), force(body = arm, at = tip, value = c), force(body = arm, at = [x, 0, 0], value = c), \
+        "force(at = arm, value = c), force(body = arm, at = nail, value = c), force(body = arm, at = [x, 0, 0], value = c), \
          force(at = [v, 0, 0], value = c), force(at = rate(tip), value = c)",
         &[
             ("arm", "`arm` is a body; write `arm.position` or `arm.rotation`"),
             (
-                "tip",
-                "`tip` is a point, which is known in observer axes, and with `body` a force acts at a place in the axes \
-                 of that body; write numbers and fields only, or leave `body` out",
+                "nail",
+                "`nail` is a point, which is known in observer axes, and with `body` a force acts at a place in the axes \
+                 of that body; write numbers and fields, the name of a point of that body, or leave `body` out",
             ),
             (
                 "x",
@@ -371,7 +311,7 @@ fn kinks() {
 #[test]
 fn inputs() {
     let message = "`thrust` is an input, whose value is not known before run time, and whose rate is never; inputs stand \
-        in values of `force`, `torque` and `drive`, and in `damping`";
+        in values of `force`, `torque`, `wrench` and `drive`, in coefficients of `drag`, and in `damping`";
     for clause in [
         "potential = thrust * x",
         "constraint(velocity = v - thrust)",

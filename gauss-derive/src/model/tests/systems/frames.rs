@@ -77,17 +77,11 @@ fn references() {
             ("hipp", "no body or frame is called `hipp`; did you mean `hip`?"),
         ],
     );
-    let unnamed = "the body has no name to refer to it by; write `body(name, …)` with a field \
-        `#[gauss(body)] name: RigidBody<f64>`";
     check(
         "#[gauss(coordinates(q), body(rotation = rotation_x(q)), point(tip, body = body, at = [0, 0, 0]), \
          particle(mass = m, position = body.position), frame(hip, parent = other))] \
          struct Scene { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }",
-        &[
-            ("other", "no body or frame is called `other`; there is no other: leave `parent` out"),
-            ("body", unnamed),
-            ("body", unnamed),
-        ],
+        &[("other", "no body or frame is called `other`; the only body is `body`")],
     );
     check(
         "#[gauss(coordinates(q), particle(mass = m, position = [q, 0, 0]), point(tip, body = arm, at = [0, 0, 0]))] \

@@ -3,6 +3,8 @@
 mod accepted;
 mod bodies;
 mod constraints;
+mod definitions;
+mod elements;
 mod expressions;
 mod forces;
 mod frames;
@@ -10,7 +12,10 @@ mod groups;
 mod names;
 
 use super::{Mistake, check};
-use crate::model::{Expression, ExpressionKind, Scene, SystemModel, parse_scene};
+use crate::model::{
+    Coefficients, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Scene, SystemModel,
+    parse_scene,
+};
 use syn::DeriveInput;
 
 fn system(source: &str) -> SystemModel {
@@ -43,7 +48,7 @@ fn check_potential(value: &str, expected: &[Mistake<'_>]) {
 }
 
 /// An expression with all its brackets.
-fn show(expression: &Expression) -> String {
+pub(super) fn show(expression: &Expression) -> String {
     match &expression.kind {
         ExpressionKind::Number { numerator, denominator: 1 } => numerator.to_string(),
         ExpressionKind::Number { numerator, denominator } => format!("{numerator}/{denominator}"),
@@ -58,6 +63,68 @@ fn show(expression: &Expression) -> String {
             format!("({} {})", function.word(), arguments.join(" "))
         }
         ExpressionKind::Vector([a, b, c]) => format!("[{} {} {}]", show(a), show(b), show(c)),
+    }
+}
+
+/// A clause with all brackets of its expressions.
+pub(super) fn shown(clause: &ForceClause) -> String {
+    let axes = |axes: ForceAxes| match axes {
+        ForceAxes::Body => "body",
+        ForceAxes::Observer => "observer",
+    };
+    let optional = |e: &Option<Expression>| e.as_ref().map_or("-".into(), show);
+    let name = clause.name.as_ref().map_or("-".into(), ToString::to_string);
+    let what = match &clause.kind {
+        ForceKind::AtPoint { at, value } => format!("at {}: {}", show(at), show(value)),
+        ForceKind::OnBody { body, at, value, axes: in_axes } => {
+            format!("on {body} at {}: {} in {}", optional(at), show(value), axes(*in_axes))
+        }
+        ForceKind::Torque { body, value, axes: in_axes, reaction } => {
+            let reaction = reaction.as_ref().map_or("-".into(), ToString::to_string);
+            format!("on {body} and {reaction}: {} in {}", show(value), axes(*in_axes))
+        }
+        ForceKind::Drive { rates } => {
+            let rates: Vec<String> = rates.iter().map(|(name, value)| format!("{name}: {}", show(value))).collect();
+            rates.join(", ")
+        }
+        ForceKind::Spring { extent, stiffness, length, damping } => {
+            format!("{}: {} {} {}", extended(extent), show(stiffness), optional(length), optional(damping))
+        }
+        ForceKind::Stop { extent, least, most, stiffness, width, damping } => format!(
+            "{} from {} to {}: {} {} {}",
+            extended(extent),
+            optional(least),
+            optional(most),
+            show(stiffness),
+            show(width),
+            optional(damping)
+        ),
+        ForceKind::Wrench { body, at, force, torque, axes: in_axes } => {
+            format!("on {body} at {}: {} {} in {}", optional(at), optional(force), optional(torque), axes(*in_axes))
+        }
+        ForceKind::Drag { body, linear, quadratic } => {
+            format!("on {body}: {} {}", coefficients(linear), coefficients(quadratic))
+        }
+        ForceKind::Dissipation(function) => show(function),
+    };
+    format!("{} {name}: {what}", clause.noun())
+}
+
+fn extended(extent: &Extent) -> String {
+    match extent {
+        Extent::Between { from, to } => format!("{} to {}", show(from), show(to)),
+        Extent::Along(along) => format!("along {}", show(along)),
+    }
+}
+
+fn coefficients(coefficients: &Option<Coefficients>) -> String {
+    match coefficients {
+        None => "-".into(),
+        Some(Coefficients::Field(name)) => name.to_string(),
+        Some(Coefficients::Diagonal(entries)) => {
+            let entries: Vec<String> = entries.iter().map(|entry| show(entry)).collect();
+            format!("[{}]", entries.join(" "))
+        }
     }
 }
 
@@ -126,6 +193,17 @@ fn nothing_panics() {
         "spring(from = ",
         "damping = ",
         "limit = ",
+        "wrench",
+        "wrench(force = ",
+        "drag",
+        "drag(linear = ",
+        "stop",
+        "stop(least = x, along = ",
+        "define",
+        "define(d = ",
+        "medium(velocity = ",
+        "central_gravity",
+        "central_gravity(mu = ",
     ];
     for clause in clauses {
         for first in words {
@@ -139,10 +217,13 @@ fn nothing_panics() {
                     format!("{clause}{open}{first} {second}{close}"),
                     format!("coordinates(x), speeds(v: Vector3), body(a), {clause}{open}{first} {second}{close}"),
                 ] {
-                    let source = format!("#[gauss({source})] struct Scene {{ #[gauss(body)] a: RigidBody<f64> }}");
-                    if let Ok(input) = syn::parse_str(&source) {
-                        let _ = parse_scene(&input);
-                        read_snippets += 1;
+                    let system = format!("#[gauss({source})] struct Scene {{ #[gauss(body)] a: RigidBody<f64> }}");
+                    let body = format!("#[gauss({source})] struct Scene {{ #[gauss(mass)] x: f64, a: Matrix6<f64> }}");
+                    for source in [system, body] {
+                        if let Ok(input) = syn::parse_str(&source) {
+                            let _ = parse_scene(&input);
+                            read_snippets += 1;
+                        }
                     }
                 }
             }

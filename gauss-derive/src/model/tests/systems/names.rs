@@ -182,8 +182,9 @@ fn clauses_of_one_body() {
         &[(
             "foo",
             "unknown clause `foo`; expected `coordinates`, `speeds`, `kinematics`, `body`, `frame`, \
-             `particle`, `point`, `constraint`, `independent`, `potential`, `input`, `force`, `torque`, `drive`, \
-             `spring`, `damping`, `limit` or `crate`",
+             `particle`, `point`, `constraint`, `independent`, `potential`, `input`, `force`, `torque`, \
+             `wrench`, `drive`, `spring`, `stop`, `drag`, `damping`, `medium`, `central_gravity`, `define`, `limit` or \
+             `crate`",
         )],
     );
     // A misspelt clause is not missing as well.
