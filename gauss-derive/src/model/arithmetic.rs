@@ -5,7 +5,7 @@
 
 use super::context::Context;
 use super::functions::{FUNCTIONS, Function, PROPERTIES};
-use super::{BinaryOperator, Coefficients, Expression, ExpressionKind, attributes, names, number};
+use super::{BinaryOperator, Coefficients, Expression, ExpressionKind, FunctionName, attributes, names, number};
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::ext::IdentExt;
@@ -360,7 +360,13 @@ fn apply(
     }
     let values: Vec<Expression> = values.into_iter().collect::<Option<_>>()?;
     let kind = match function {
-        Function::Named(name) => ExpressionKind::Call(name, values),
+        Function::Named(function) => {
+            if let Some((span, message)) = wrong_limits(function, &values) {
+                context.error(span, message);
+                return None;
+            }
+            ExpressionKind::Call(function, values)
+        }
         Function::Power => {
             let exponent = written.get(1)?;
             let Some(power) = integer(exponent) else {
@@ -379,4 +385,16 @@ fn apply(
         }
     };
     Some(Expression { kind, span: name.span() })
+}
+
+/// What is wrong with limits that are literals, and where.
+fn wrong_limits(function: FunctionName, values: &[Expression]) -> Option<(Span, &'static str)> {
+    let [_, low, high] = values else { return None };
+    let (a, b) = low.literal().zip(high.literal())?;
+    let message = match function {
+        FunctionName::SmoothStep if a == b => "a smooth step has two ends; write different numbers",
+        FunctionName::Clamp if a > b => "the lower limit is above the upper limit; exchange the two",
+        _ => return None,
+    };
+    Some((low.span, message))
 }

@@ -173,6 +173,15 @@ impl Expression {
         found
     }
 
+    /// A literal with its sign, to the nearest double.
+    pub(super) fn literal(&self) -> Option<f64> {
+        match &self.kind {
+            ExpressionKind::Number { numerator, denominator } => Some(*numerator as f64 / *denominator as f64),
+            ExpressionKind::Negate(inner) => inner.literal().map(|value| -value),
+            _ => None,
+        }
+    }
+
     pub(super) fn is_zero(&self) -> bool {
         match &self.kind {
             ExpressionKind::Number { numerator, .. } => *numerator == 0,

@@ -188,7 +188,7 @@ pub(super) fn check_coefficients(
     }
 }
 
-/// What names alone show: which coordinates are driven, and reactions.
+/// What names and numbers alone show: which coordinates are driven, reactions, limits.
 pub(super) fn check(statements: &Statements, context: &mut Context) {
     for clause in &statements.forces {
         match &clause.kind {
@@ -197,6 +197,20 @@ pub(super) fn check(statements: &Statements, context: &mut Context) {
                 reaction.span(),
                 format!("the torque on `{body}` and its reaction on `{body}` cancel; name another body"),
             ),
+            ForceKind::Stop { least, most, width, .. } => {
+                let literal = |limit: &Option<Expression>| limit.as_ref().and_then(Expression::literal);
+                if let (Some(first), Some((a, b))) = (least, literal(least).zip(literal(most)))
+                    && a >= b
+                {
+                    context.error(first.span, "the lower limit of a stop is below its upper limit; exchange the two");
+                }
+                if width.literal().is_some_and(|width| width <= 0.0) {
+                    context.error(
+                        width.span,
+                        "the width of a stop is the distance over which it sets in; write a positive number",
+                    );
+                }
+            }
             _ => {}
         }
     }

@@ -252,6 +252,20 @@ fn stops_and_springs() {
 }
 
 #[test]
+fn limits_in_numbers() {
+    mistakes(
+        "stop(along = theta, least = 1, most = -1, stiffness = k, width = 0), \
+         drive(theta = clamp(theta, 2, 1.5) + smooth_step(theta, 0.5, 0.5) + smooth_step(theta, 1, 0))",
+        &[
+            ("2", "the lower limit is above the upper limit; exchange the two"),
+            ("0.5", "a smooth step has two ends; write different numbers"),
+            ("1", "the lower limit of a stop is below its upper limit; exchange the two"),
+            ("0", "the width of a stop is the distance over which it sets in; write a positive number"),
+        ],
+    );
+}
+
+#[test]
 fn media() {
     mistakes(
         "input(wind), medium(velocity = [wind, 0, 0]), drag(body = hull, linear = d)",
