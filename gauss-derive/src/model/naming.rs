@@ -10,13 +10,14 @@ use super::statements::Statements;
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
-/// Fields, coordinates, speeds, inputs, definitions, bodies, frames, points and what acts have different names, and none that
-/// expressions use already.
+/// Fields, coordinates, speeds, inputs, definitions, bodies, frames and points have different names, elements of what acts too
+/// among themselves, and none a name that expressions use already.
 pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut Context) {
     let is_body = |name: &Ident| {
         let role = |field: &Field<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
         fields.iter().any(|field| same(field.ident, name) && role(field))
     };
+    // Expressions do not name what acts: a force may have the name of its input.
     let mut taken: Vec<(&Ident, &str)> = Vec::new();
     let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
     let speeds = statements.speeds.iter().flat_map(|names| &names.names);
@@ -59,7 +60,9 @@ pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut
                 name.span(),
                 format!("`{word}` is a function of expressions and cannot name {}; rename it", names::a(noun)),
             );
-        } else if let Some((_, earlier)) = taken.iter().find(|(earlier, _)| same(earlier, name)) {
+        } else if let Some((_, earlier)) =
+            taken.iter().find(|(earlier, known)| same(earlier, name) && is_element(known) == is_element(noun))
+        {
             match (*earlier, noun) {
                 // Two fields of one name are the compiler's to refuse; two bodies are refused with their fields.
                 ("field", "field") | ("body", "body") => {}

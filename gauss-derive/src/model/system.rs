@@ -192,7 +192,7 @@ pub enum InputKind {
 /// `central_gravity(mu = …, center = …)`: the acceleration `−mu d/|d|³` of everything with mass, d from the center.
 #[derive(Clone)]
 pub struct Attraction {
-    /// What its generalised force is called, different from every other name of the system; `None` if it has no name.
+    /// What its generalised force is called, different from those of the other elements; `None` if it has no name.
     pub name: Option<Ident>,
     /// The gravitational parameter: a scalar of fields and numbers.
     pub mu: Expression,
@@ -206,7 +206,7 @@ pub struct Attraction {
 /// what acts.
 #[derive(Clone)]
 pub struct ForceClause {
-    /// What its generalised force is called, different from every other name of the system; `None` if it has no name.
+    /// What its generalised force is called, different from those of the other elements; `None` if it has no name.
     pub name: Option<Ident>,
     /// What acts, and where.
     pub kind: ForceKind,

@@ -130,7 +130,6 @@ fn names() {
             ),
             ("l", "`l` names a field and a definition; rename one of the two"),
             ("j", "`j` names a field and a definition; rename one of the two"),
-            ("k", "`k` names a field and a force; rename one of the two"),
         ],
     );
     mistakes(

@@ -343,7 +343,6 @@ fn central_gravity() {
             ("centre", "unknown argument of `central_gravity`: `centre`; did you mean `center`?"),
             ("sun", "`sun` names a force and an attraction; rename one of the two"),
             ("sun", "`sun` names a force and an attraction; rename one of the two"),
-            ("l", "`l` names a field and an attraction; rename one of the two"),
             (
                 "theta",
                 "`theta` varies, and the gravitational parameter of central gravity is constant; write numbers and \

@@ -377,7 +377,6 @@ fn names() {
             ("abs", "`abs` is a function of expressions and cannot name an input; rename it"),
             ("t", "`t` is time in expressions and cannot name an input; rename it"),
             ("wall", "`wall` names an input and a frame; rename one of the two"),
-            ("k", "`k` names a field and a drive; rename one of the two"),
         ],
     );
     mistakes(
@@ -386,11 +385,8 @@ fn names() {
          spring(hypot, from = tip, to = nail, stiffness = k), spring(if, from = tip, to = nail, stiffness = k)",
         &[
             ("if", "`if` is a keyword and cannot name a spring"),
-            ("tip", "`tip` names a point and a force; rename one of the two"),
             ("pull", "two forces are called `pull`; rename one of the two"),
             ("pull", "`pull` names a force and a torque; rename one of the two"),
-            ("a", "`a` names an input and a drive; rename one of the two"),
-            ("arm", "`arm` names a field and a drive; rename one of the two"),
             ("hypot", "`hypot` is a function of expressions and cannot name a spring; rename it"),
         ],
     );
