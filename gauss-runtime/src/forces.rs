@@ -40,8 +40,8 @@ pub trait ForcedSystem: GaussSystem {
 
     /// dE/dt by what acts, E = T + U: the powers of the elements that are not in the potential energy, plus ∂U/∂t.
     ///
-    /// It is all of dE/dt unless something is moved as a function of time (a prescribed coordinate, a constraint that depends
-    /// on t): whatever moves it does work as well, and is not an element.
+    /// It is all of dE/dt. Where something is moved as a function of time (a prescribed coordinate, a constraint that depends
+    /// on t), whatever moves it does work as well: that is the last element, `guides`, which has no generalised force.
     fn supplied_power(
         &self,
         t: Self::Scalar,

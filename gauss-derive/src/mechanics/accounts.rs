@@ -18,6 +18,8 @@ pub struct Account<'g> {
 
 /// What weight and buoyancy are called.
 pub const GRAVITY: &str = "gravity";
+/// What is called that moves coordinates or constraints as a function of time.
+const GUIDES: &str = "guides";
 
 /// Powers, generalised forces (speeds by elements, row by row), and dE/dt: the powers of what is not in the energy, and ∂U/∂t.
 pub fn account_formulas<'g>(accounts: &[Account<'g>], explicit_power: Expr<'g>) -> Vec<Formula<'g>> {
@@ -39,10 +41,10 @@ fn sorted(mut accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {
 }
 
 impl<'g> System<'g> {
-    /// One account for each element, with weight and buoyancy first; none where nothing else acts.
+    /// One account for each element, with weight and buoyancy first; none where nothing else acts and no guide moves.
     pub fn accounts(&self) -> Vec<Account<'g>> {
         let scene = &self.scene;
-        if scene.elements.is_empty() {
+        if scene.elements.is_empty() && !self.driven {
             return Vec::new();
         }
         let potential = |name: &str, potential: Expr<'g>| Account {
@@ -61,7 +63,25 @@ impl<'g> System<'g> {
             Action::Potential(energy) => potential(&element.name, *energy),
             Action::Forces(forces) => self.account_of(&element.name, forces),
         }));
+        if self.driven {
+            accounts.push(self.account_of_guides(&accounts));
+        }
         sorted(accounts)
+    }
+
+    /// What moves them does work: whatever changes the kinetic energy and is done by nothing else. It has no generalised
+    /// force: its forces do no work in ∂v_P/∂z, or are multipliers.
+    fn account_of_guides(&self, others: &[Account<'g>]) -> Account<'g> {
+        let scene = &self.scene;
+        let rates = scene.speed_rates.iter().zip(self.any_acceleration()).map(|(s, e)| (s.key(), e.group())).collect();
+        let energy = scene.tree.twice_kinetic_energy().half().derivative(&self.along).substitute(&rates);
+        let known = others.iter().map(|account| account.power.group());
+        Account {
+            name: GUIDES.to_owned(),
+            conservative: false,
+            forces: vec![scene.graph.zero(); scene.speeds.len()],
+            power: known.fold(energy, |rest, power| rest - power),
+        }
     }
 
     fn account_of(&self, name: &str, forces: &[Force<'g>]) -> Account<'g> {

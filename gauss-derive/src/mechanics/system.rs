@@ -88,6 +88,8 @@ pub struct System<'g> {
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
     pub constraints: Constraints<'g>,
+    /// Something is moved as a function of time: velocities, or what constraints say of them, do not vanish with z.
+    pub driven: bool,
     /// Rates of t and q, and those with ż.
     pub along: Map<u32, Expr<'g>>,
     /// A.
@@ -111,7 +113,13 @@ impl<'g> System<'g> {
         // Where links hang on one another entries are short as they are, and long multiplied out.
         let matrix = if scene.tree.is_chained() { grouped(&matrix) } else { tidied(&matrix) };
         let (potential, forces) = (potential_of(&scene.elements), forces_of(&scene.elements));
-        Self { scene, potential, forces, constraints, along, matrix }
+        let mut system = Self { scene, potential, forces, constraints, driven: false, along, matrix };
+        let at_rest = system.at_rest();
+        let mut velocities = system.momentum();
+        velocities.push(system.scene.tree.twice_kinetic_energy());
+        velocities.extend(&system.constraints.on_velocities);
+        system.driven = velocities.iter().any(|e| !tidy(e.substitute(&at_rest)).is_zero());
+        system
     }
 
     pub fn formulas(&self) -> Vec<Formula<'g>> {
@@ -237,6 +245,12 @@ impl<'g> System<'g> {
         arrangement.residual.iter().zip(forces).map(|(r, f)| *r - f).collect()
     }
 
+    /// ż in one of the ways in which it is formed.
+    pub(super) fn any_acceleration(&self) -> Vec<Expr<'g>> {
+        let arrangements = self.arrangements();
+        self.accelerations(&arrangements[..1]).swap_remove(0)
+    }
+
     /// A x = right in the ways that are worth trying, with A arranged as given.
     fn solutions(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
         let articulated = if self.is_long() { Articulated::new(&self.scene.tree) } else { None };
@@ -270,7 +284,7 @@ impl<'g> System<'g> {
     }
 
     /// z = 0.
-    fn at_rest(&self) -> Map<u32, Expr<'g>> {
+    pub(super) fn at_rest(&self) -> Map<u32, Expr<'g>> {
         self.scene.speeds.iter().map(|z| (z.key(), self.scene.graph.zero())).collect()
     }
 
