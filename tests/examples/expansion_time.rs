@@ -29,26 +29,37 @@ const RUNS: usize = 15;
 
 fn main() {
     let bodies = [
-        ("principal axes at G", "#[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64>"),
+        ("principal axes at G", "", "#[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64>"),
         (
             "full inertia, G off O, weight",
+            "",
             "#[gauss(mass)] m: f64, #[gauss(center_of_mass)] c: Vector3<f64>, #[gauss(inertia)] i: Matrix3<f64>, \
              #[gauss(gravity)] g: f64",
         ),
         (
             "the same in a fluid, buoyancy",
+            "",
             "#[gauss(mass)] m: f64, #[gauss(center_of_mass)] c: Vector3<f64>, #[gauss(inertia)] i: Matrix3<f64>, \
              #[gauss(added_mass)] x: Matrix6<f64>, #[gauss(gravity)] g: Vector3<f64>, \
              #[gauss(displaced_mass)] d: f64, #[gauss(center_of_buoyancy)] h: Vector3<f64>",
+        ),
+        (
+            "a vehicle: drag, lift, fins, stream",
+            ", input(thrust, rudder), medium(velocity = s * sin(t)), define(v = body.relative_velocity), \
+             drag(quadratic = e), force(lift, at = a, value = [0, k * v.x * v.y, k * v.x * v.z]), \
+             force(fin, at = a, value = [thrust, l * v.x * v.x * rudder, 0])",
+            "#[gauss(mass)] m: f64, #[gauss(center_of_mass)] c: Vector3<f64>, #[gauss(inertia)] i: Vector3<f64>, \
+             #[gauss(added_mass)] x: Matrix6<f64>, #[gauss(gravity)] g: Vector3<f64>, \
+             #[gauss(displaced_mass)] d: f64, s: Vector3<f64>, a: Vector3<f64>, k: f64, l: f64, e: Matrix6<f64>",
         ),
     ];
     let charts = ["left_invariant", "right_invariant", "hybrid", "jet(euler_zyx)", "jet(modified_rodrigues)"];
     let build = if cfg!(debug_assertions) { "unoptimised" } else { "optimised" };
     println!("expansion of one derive, {build} build, median of {RUNS} runs (fastest–slowest) in milliseconds\n");
-    println!("{:<34}{:<26}{:>8}   spread", "body", "chart", "median");
-    for (body, fields) in bodies {
+    println!("{:<37}{:<26}{:>8}   spread", "body", "chart", "median");
+    for (body, clauses, fields) in bodies {
         for chart in charts {
-            let source = format!("#[gauss(chart = {chart})] struct Body {{ {fields} }}");
+            let source = format!("#[gauss(chart = {chart}{clauses})] struct Body {{ {fields} }}");
             let input: syn::DeriveInput = syn::parse_str(&source).expect("the sources above are structs");
             let mut times: Vec<Duration> = (0..RUNS)
                 .map(|_| {
@@ -61,7 +72,7 @@ fn main() {
             times.sort();
             let ms = |t: Duration| t.as_secs_f64() * 1e3;
             println!(
-                "{body:<34}{chart:<26}{:>8.1}   {:.1}–{:.1}",
+                "{body:<37}{chart:<26}{:>8.1}   {:.1}–{:.1}",
                 ms(times[RUNS / 2]),
                 ms(times[0]),
                 ms(times[RUNS - 1])

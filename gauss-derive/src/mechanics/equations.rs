@@ -60,35 +60,33 @@ pub(super) fn tidy(e: Expr<'_>) -> Expr<'_> {
     readable(e).map_or(e, |p| p.collect())
 }
 
-/// Generalised forces for a reader: where one is too long to read, all of them as sums over the elements, each under its name.
-pub(super) fn named_sums<'g>(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name]) -> Vec<Expr<'g>> {
-    if !goes_by_element(&whole, accounts) {
-        return whole.into_iter().map(tidy).collect();
-    }
-    let row = |(k, whole): (usize, Expr<'g>)| {
-        let own = |account: &Account<'g>| match account.forces[k] {
-            force if tidy(force).is_zero() || account.name == GRAVITY => tidy(force),
-            _ => {
-                let name = names[k].of(&element_name(account));
-                whole.graph().symbol(name.text, name.latex, false)
-            }
+/// Generalised forces for a reader.
+pub(super) struct PrintedForces<'g> {
+    /// One for each speed: where one is too long to read, all are sums over the elements, each under its name.
+    pub rows: Vec<Expr<'g>>,
+    /// What each element adds, if they are.
+    pub sections: Vec<Section<'g>>,
+}
+
+impl<'g> PrintedForces<'g> {
+    pub fn new(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name]) -> Self {
+        if accounts.len() < 2 || whole.iter().all(|e| readable(*e).is_some()) {
+            return Self { rows: whole.into_iter().map(tidy).collect(), sections: Vec::new() };
+        }
+        let row = |(k, whole): (usize, Expr<'g>)| {
+            let own = |account: &Account<'g>| match tidy(account.forces[k]) {
+                force if force.is_zero() || account.name == GRAVITY => force,
+                _ => {
+                    let name = names[k].of(&element_name(account));
+                    whole.graph().symbol(name.text, name.latex, false)
+                }
+            };
+            accounts.iter().map(own).sum()
         };
-        accounts.iter().map(own).sum()
-    };
-    whole.into_iter().enumerate().map(row).collect()
-}
-
-fn goes_by_element(whole: &[Expr<'_>], accounts: &[Account<'_>]) -> bool {
-    accounts.len() > 1 && whole.iter().any(|e| readable(*e).is_none())
-}
-
-/// What each element adds, where the sum is printed by element.
-pub(super) fn element_sections<'g>(whole: &[Expr<'g>], accounts: &[Account<'g>], names: &[Name]) -> Vec<Section<'g>> {
-    if !goes_by_element(whole, accounts) {
-        return Vec::new();
+        let elements = accounts.iter().filter(|account| account.name != GRAVITY);
+        let sections = elements.filter_map(|account| element_section(account, names)).collect();
+        Self { rows: whole.into_iter().enumerate().map(row).collect(), sections }
     }
-    let elements = accounts.iter().filter(|account| account.name != GRAVITY);
-    elements.filter_map(|account| element_section(account, names)).collect()
 }
 
 fn element_name(account: &Account<'_>) -> Name {
@@ -112,19 +110,24 @@ fn element_section<'g>(account: &Account<'g>, names: &[Name]) -> Option<Section<
 impl<'g> Scene<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
     pub fn equations(&self) -> Vec<Section<'g>> {
+        let forces = PrintedForces::new(self.generalised_forces(), &self.accounts(), &self.force_names());
+        let terms: Vec<_> = self.printed_bracket().into_iter().map(tidy).zip(forces.rows).collect();
         let mut sections = vec![Section {
             title: Name::new("velocity of O and angular velocity", "velocity of $O$ and angular velocity"),
             rows: self.velocity_rows(),
         }];
         sections.extend(self.momentum_sections());
         sections.extend([
-            Section { title: Name::new("Gauss condition (3.4)", "Gauss condition (3.4)"), rows: self.balance_rows() },
+            Section {
+                title: Name::new("Gauss condition (3.4)", "Gauss condition (3.4)"),
+                rows: self.balance_rows(&terms),
+            },
             Section {
                 title: Name::new("active forces (generalised)", "active forces (generalised)"),
-                rows: self.force_rows(),
+                rows: self.force_rows(&terms),
             },
         ]);
-        sections.extend(element_sections(&self.generalised_forces(), &self.accounts(), &self.force_names()));
+        sections.extend(forces.sections);
         sections.extend([Section {
             title: Name::new("velocity form A dz/dt = r", "velocity form $A \\dot z = r$"),
             rows: self.velocity_form_rows().unwrap_or_else(|| {
@@ -202,12 +205,12 @@ impl<'g> Scene<'g> {
         ]
     }
 
-    /// dp/dt = [Q·(ȧ + v_O × o) + Γ·ȯ] + force.
-    fn balance_rows(&self) -> Vec<Row<'g>> {
+    /// dp/dt = [Q·(ȧ + v_O × o) + Γ·ȯ] + force; the terms are bracket and force of every row.
+    fn balance_rows(&self, terms: &[(Expr<'g>, Expr<'g>)]) -> Vec<Row<'g>> {
         let names = self.kinematics.momentum_names.iter().cloned().zip(self.force_names());
         names
-            .zip(self.balance_terms())
-            .map(|((momentum, force), (bracket, value))| {
+            .zip(terms)
+            .map(|((momentum, force), &(bracket, value))| {
                 let force = (bracket.is_zero() || !value.is_zero()).then_some(force);
                 Row::Balance { momentum, bracket, force }
             })
@@ -215,16 +218,10 @@ impl<'g> Scene<'g> {
     }
 
     /// The forces that the balance names.
-    fn force_rows(&self) -> Vec<Row<'g>> {
-        let named = self.force_names().into_iter().zip(self.balance_terms());
+    fn force_rows(&self, terms: &[(Expr<'g>, Expr<'g>)]) -> Vec<Row<'g>> {
+        let named = self.force_names().into_iter().zip(terms);
         let named = named.filter(|(_, (bracket, value))| bracket.is_zero() || !value.is_zero());
-        named.map(|(name, (_, value))| Row::Definition(name, value)).collect()
-    }
-
-    /// Bracket and force of every row.
-    fn balance_terms(&self) -> Vec<(Expr<'g>, Expr<'g>)> {
-        let forces = named_sums(self.generalised_forces(), &self.accounts(), &self.force_names());
-        self.printed_bracket().into_iter().map(tidy).zip(forces).collect()
+        named.map(|(name, (_, value))| Row::Definition(name, *value)).collect()
     }
 
     /// The rows with everything multiplied out; `None` when one would be too long to read.

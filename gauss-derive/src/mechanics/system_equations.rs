@@ -2,7 +2,7 @@
 
 use crate::algebra::Expr;
 
-use super::equations::{Row, Section, element_sections, named_sums, tidy};
+use super::equations::{PrintedForces, Row, Section, tidy};
 use super::names::Name;
 use super::system::{Coordinate, System};
 
@@ -34,15 +34,15 @@ impl<'g> System<'g> {
             };
             let balance = balance.map(row).collect();
             let names: Vec<Name> = scene.momentum_names.iter().map(force).collect();
-            let accounts = self.accounts();
-            let forces = names.iter().cloned().zip(named_sums(self.generalised_forces(), &accounts, &names));
+            let printed = PrintedForces::new(self.generalised_forces(), &self.accounts(), &names);
+            let forces = names.into_iter().zip(printed.rows);
             let forces = forces.map(|(name, e)| Row::Definition(name, e)).collect();
             sections.extend([
                 titled("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$", momenta),
                 titled("Gauss condition (3.4)", "Gauss condition (3.4)", balance),
                 titled("active forces (generalised)", "active forces (generalised)", forces),
             ]);
-            sections.extend(element_sections(&self.generalised_forces(), &accounts, &names));
+            sections.extend(printed.sections);
         }
         let constraints = self.constraints.on_velocities.iter();
         let constraints = constraints.map(|e| Row::Equation(tidy(*e), scene.graph.zero())).collect();
