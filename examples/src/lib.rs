@@ -10,10 +10,12 @@
 //! | [`report`] | the text |
 //! | [`figure`] | the picture, its panels in [`panels`] |
 //! | [`rolling`] | the picture of `rolling_disk` |
+//! | [`plots`] | plots with plain axes, and where pictures are written |
 
 pub mod figure;
 pub mod measure;
 pub mod panels;
+pub mod plots;
 pub mod report;
 pub mod rolling;
 pub mod simulate;
