@@ -97,7 +97,8 @@ impl LogPanel {
 }
 
 /// `10⁻¹²`.
-fn power_of_ten(decade: f64) -> String {
+#[must_use]
+pub fn power_of_ten(decade: f64) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let superscript = |c: char| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]);
     let exponent: String = format!("{decade:.0}").chars().map(superscript).collect();
