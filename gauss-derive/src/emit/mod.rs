@@ -17,6 +17,8 @@ mod program;
 mod system;
 mod system_parameters;
 #[cfg(test)]
+mod specialisation_tests;
+#[cfg(test)]
 mod system_tests;
 #[cfg(test)]
 mod tests;
