@@ -16,11 +16,14 @@ pub struct Row {
     pub outcome: Result<Outcome, Refusal>,
 }
 
-/// A body in one chart.
+/// A body in one chart, with the clauses of what acts on it.
 macro_rules! body {
-    ($name:ident, ($($chart:tt)*), $motion:ident, { $([$($role:tt)*] $field:ident: ($($type:tt)*)),* $(,)? }) => {
+    (
+        $name:ident, ($($chart:tt)*), $motion:ident, [$($clauses:tt)*],
+        { $([$($role:tt)*] $field:ident: ($($type:tt)*)),* $(,)? }
+    ) => {
         #[derive(GaussDynamics)]
-        #[gauss(chart = $($chart)*, motion = $motion)]
+        #[gauss(chart = $($chart)*, motion = $motion, $($clauses)*)]
         struct $name {
             $(#[gauss($($role)*)] $field: $($type)*),*
         }
@@ -36,11 +39,14 @@ macro_rules! body {
 /// A body in every chart, and `rows`, which runs them all over a scene in both forms.
 macro_rules! every_chart {
     ($(#[$documentation:meta])* $module:ident, $motion:ident, $fields:tt) => {
+        every_chart! { $(#[$documentation])* $module, $motion, [], $fields }
+    };
+    ($(#[$documentation:meta])* $module:ident, $motion:ident, $clauses:tt, $fields:tt) => {
         $(#[$documentation])*
         pub mod $module {
             use super::*;
 
-            every_chart!(@ $motion, $fields,
+            every_chart!(@ $motion, $clauses, $fields,
                 Left = (left_invariant),
                 Right = (right_invariant),
                 Hybrid = (hybrid),
@@ -51,8 +57,8 @@ macro_rules! every_chart {
             );
         }
     };
-    (@ $motion:ident, $fields:tt, $($name:ident = $chart:tt),* $(,)?) => {
-        $(body!($name, $chart, $motion, $fields);)*
+    (@ $motion:ident, $clauses:tt, $fields:tt, $($name:ident = $chart:tt),* $(,)?) => {
+        $(body!($name, $chart, $motion, $clauses, $fields);)*
 
         /// The kernels whose configuration is a group, for runs in velocity form with any steps.
         #[allow(dead_code)] // The order is measured on two of the bodies.
@@ -161,5 +167,32 @@ every_chart! {
         [gravity] gravity: (f64),
         [displaced_mass] displaced: (f64),
         [center_of_buoyancy] buoyancy: (Vector3<f64>),
+    }
+}
+
+every_chart! {
+    /// Weight, linear drag and a push of the observer's at a point off O, each by the clause that is made for it.
+    dragged, free, [
+        drag(linear = [0.4, 0.4, 0.4, 0.05, 0.05, 0.05]),
+        force(push, at = [0.2, 0, 0.1], value = [1, 2, 0.5], axes = observer),
+    ], {
+        [mass] mass: (f64),
+        [inertia] principal: (Vector3<f64>),
+        [gravity] gravity: (f64),
+    }
+}
+
+every_chart! {
+    /// The same as forces and torques by formulas: drag as a wrench in the velocities, the push by its lever.
+    dragged_by_formulas, free, [
+        define(u = body.body_velocity, w = body.body_angular_velocity),
+        define(push = inverse(body.rotation) * [1, 2, 0.5]),
+        wrench(friction, force = -0.4 * u, torque = -0.05 * w),
+        force(push_at_o, body = body, value = push),
+        torque(lever, value = cross([0.2, 0, 0.1], push)),
+    ], {
+        [mass] mass: (f64),
+        [inertia] principal: (Vector3<f64>),
+        [gravity] gravity: (f64),
     }
 }

@@ -19,8 +19,9 @@ use gauss_tests::scene::Scene;
 type Rows = fn(&Scene, Order8) -> Vec<Row>;
 
 /// Scene, motion, and the body that it is computed with. Free tops both held at O and not held; the needle also with the
-/// inertia as a full matrix and with a centre of mass that happens to be zero.
-const SCENES: [(&str, &str, Rows); 22] = [
+/// inertia as a full matrix and with a centre of mass that happens to be zero; drag and a push by the clauses that are made for
+/// them and by formulas.
+const SCENES: [(&str, &str, Rows); 24] = [
     ("free_asym_top", "fixed point", bodies::free_top::rows),
     ("free_asym_top", "free", bodies::free_body::rows),
     ("free_near_separatrix", "fixed point", bodies::free_top::rows),
@@ -43,6 +44,8 @@ const SCENES: [(&str, &str, Rows); 22] = [
     ("kirchhoff_nonintegrable", "free", bodies::kirchhoff::rows),
     ("kirchhoff_buoyant", "free", bodies::submerged::rows),
     ("full_added_mass", "free", bodies::submerged::rows),
+    ("drag_body", "free", bodies::dragged::rows),
+    ("drag_body", "free, by formulas", bodies::dragged_by_formulas::rows),
 ];
 
 /// The estimate of order 5 below this: the truncation error of a step is then near its power 3/2, below rounding.
