@@ -10,18 +10,24 @@
 use std::ops::Index;
 
 use gauss_runtime::constraint::project;
+use gauss_runtime::forces::Columns;
 use gauss_runtime::prelude::*;
 
-/// A kernel that runs by itself.
-pub trait System:
-    GaussSystem<Scalar = f64, Input = (), MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq>
+/// A kernel, whatever its inputs.
+pub trait Driven:
+    GaussSystem<Scalar = f64, MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq>
 {
 }
 
-impl<S> System for S where
-    S: GaussSystem<Scalar = f64, Input = (), MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq>
+impl<S> Driven for S where
+    S: GaussSystem<Scalar = f64, MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq>
 {
 }
+
+/// A kernel that runs by itself.
+pub trait System: Driven + GaussSystem<Input = ()> {}
+
+impl<S> System for S where S: Driven + GaussSystem<Input = ()> {}
 
 type Tangent<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
@@ -73,8 +79,15 @@ pub struct Flow<S: GaussSystem> {
 impl<S: System> Flow<S> {
     /// At a state.
     pub fn new(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds) -> Self {
+        Self::driven(system, t, (q, z), &())
+    }
+}
+
+impl<S: Driven> Flow<S> {
+    /// At a state with values of inputs.
+    pub fn driven(system: &S, t: f64, (q, z): (&S::Configuration, &S::Speeds), input: &S::Input) -> Self {
         let velocity = system.kinematics(t, q, z);
-        let acceleration = system.acceleration(t, q, z, &());
+        let acceleration = system.acceleration(t, q, z, input);
         // Even functions of eight times the fastest angle have a truncation of (8/200)⁸/630 ≈ 1e-14.
         let step = 1.0 / (200.0 * velocity.max_norm().max(1.0));
         Self { t, q: *q, z: *z, velocity, acceleration, step }
@@ -87,11 +100,15 @@ impl<S: System> Flow<S> {
 
     /// The derivative of a function of the state along the flow.
     pub fn rate(&self, f: impl Fn(f64, &S::Configuration, &S::Speeds) -> Vec<f64>) -> Vec<f64> {
-        const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
-        let at = |s: f64| {
+        self.differences(|s| {
             let (t, q, z) = self.at(s);
             f(t, &q, &z)
-        };
+        })
+    }
+
+    /// The derivative at 0 of what changes as fast as the state.
+    fn differences(&self, at: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
+        const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
         let mut sum = vec![0.0; at(0.0).len()];
         for (weight, k) in WEIGHTS.into_iter().zip(1..) {
             let s = self.step * f64::from(k);
@@ -133,6 +150,11 @@ pub struct Sizes {
 impl Sizes {
     /// At a state.
     pub fn of<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds) -> Self {
+        Self::driven(system, t, (q, z), &())
+    }
+
+    /// At a state with values of inputs.
+    pub fn driven<S: Driven>(system: &S, t: f64, (q, z): (&S::Configuration, &S::Speeds), input: &S::Input) -> Self {
         let at_rest = S::Speeds::zero();
         let units: Vec<S::Speeds> = (0..S::DOF)
             .map(|i| {
@@ -166,13 +188,20 @@ impl Sizes {
         let velocity = system.kinematics(t, q, z).max_norm().max(1.0);
         let speed = z.max_norm().max(1.0);
         let acceleration: Vec<f64> =
-            list(&system.acceleration(t, q, z, &())).iter().map(|a| a.abs() + speed * velocity).collect();
+            list(&system.acceleration(t, q, z, input)).iter().map(|a| a.abs() + speed * velocity).collect();
         let forces: Vec<f64> = by(&rows, &acceleration).iter().zip(weight).map(|(a, b)| a + b).collect();
         let momenta = by(&rows, &vec![speed; S::DOF]);
         let accelerations = by(&inverse, &forces);
         let o = S::OPERATIONS;
-        let methods =
-            [o.acceleration, o.momentum, o.velocity, o.momentum_rate, o.gauss_residual, o.constraint_function];
+        let methods = [
+            o.acceleration,
+            o.momentum,
+            o.velocity,
+            o.momentum_rate,
+            o.gauss_residual,
+            o.constraint_function,
+            o.powers,
+        ];
         let operations = methods.iter().map(OperationCount::total).max().map_or(0.0, f64::from).max(16.0);
         Self {
             mass: largest(&by(&rows, &vec![1.0; S::DOF])),
@@ -196,7 +225,7 @@ fn near(what: &str, found: &[f64], expected: &[f64], allowed: f64) {
 }
 
 /// A direction in the space of speeds that no symmetry prefers.
-fn direction<S: System>() -> S::Speeds {
+fn direction<S: Driven>() -> S::Speeds {
     vector(&(0..S::DOF).map(|i| if i % 2 == 0 { 1.0 } else { -0.7 } + 0.1 * i as f64).collect::<Vec<_>>())
 }
 
@@ -258,6 +287,86 @@ pub fn laws<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds, 
     if time != Time::Explicit {
         near("power", &power, &[0.0], allowed);
     }
+}
+
+/// What holds of what acts, in scenes in which nothing is moved as a function of time, with constraints or without; with
+/// constraints the state must be on them.
+///
+/// - The power of each element is its generalised force by z.
+/// - The energy T + U changes at the rate that is supplied: by the elements that are not in it, and by ∂U/∂t.
+///
+/// # Panics
+/// When one of them does not hold.
+#[track_caller]
+pub fn balance<S>(system: &S, t: f64, (q, z): (&S::Configuration, &S::Speeds), input: &S::Input)
+where
+    S: Driven + ForcedSystem,
+{
+    let sizes = Sizes::driven(system, t, (q, z), input);
+    let rounding = sizes.rounding;
+    let flow = Flow::driven(system, t, (q, z), input);
+    assert_eq!(S::Powers::DIM, S::ELEMENTS.len());
+    let own = columns(system, t, (q, z), input);
+    let powered = acting(&own, &sizes) * list(z).iter().map(|z| z.abs()).sum::<f64>().max(1.0);
+
+    let powers = list(&system.powers(t, q, z, input));
+    let speeds = list(z);
+    for ((element, power), column) in S::ELEMENTS.iter().zip(&powers).zip(&own) {
+        let found: f64 = column.iter().zip(&speeds).map(|(a, b)| a * b).sum();
+        near(element.name, &[found], &[*power], rounding * powered);
+        assert_eq!(system.power(element.name, t, q, z, input), Some(*power));
+    }
+
+    let supplied = system.supplied_power(t, q, z, input);
+    let energy = flow.rate(|t, q, z| vec![system.energy(t, q, z)]);
+    let allowed = flow.slack(rounding) * sizes.energy + rounding * (sizes.returned * z.max_norm() + powered);
+    near("dE/dt", &energy, &[supplied], allowed);
+    let outside = S::ELEMENTS.iter().zip(&powers).filter(|(element, _)| !element.conservative);
+    let explicit = flow.differences(|s| vec![system.potential_energy(t + s, q)])[0];
+    near("∂U/∂t", &[supplied - outside.map(|(_, power)| power).sum::<f64>()], &[explicit], allowed);
+}
+
+/// The generalised force of each element.
+fn columns<S>(system: &S, t: f64, (q, z): (&S::Configuration, &S::Speeds), input: &S::Input) -> Vec<Vec<f64>>
+where
+    S: Driven + ForcedSystem,
+{
+    let forces = system.element_forces(t, q, z, input);
+    (0..S::ELEMENTS.len()).map(|n| list(&forces.nth(n).expect("a column for each element"))).collect()
+}
+
+/// How large generalised forces are: what cancels among the elements is not seen in accelerations.
+fn acting(columns: &[Vec<f64>], sizes: &Sizes) -> f64 {
+    columns.iter().map(|column| largest(column)).sum::<f64>() + sizes.force
+}
+
+/// [`balance`], and without constraints: the generalised forces of all elements are the right-hand side of (3.4). What is left of
+/// the residual is inertia, A ż and a quadratic form of z.
+///
+/// # Panics
+/// When one of them does not hold.
+#[track_caller]
+pub fn forced_laws<S>(system: &S, t: f64, (q, z): (&S::Configuration, &S::Speeds), input: &S::Input)
+where
+    S: Driven + ForcedSystem,
+{
+    balance(system, t, (q, z), input);
+    let sizes = Sizes::driven(system, t, (q, z), input);
+    let inertia = |z: &S::Speeds, acceleration: &S::Speeds| -> Vec<f64> {
+        let residual = list(&system.gauss_residual(t, q, z, acceleration, input));
+        let columns = columns(system, t, (q, z), input);
+        (0..S::DOF).map(|i| columns.iter().fold(residual[i], |sum, column| sum + column[i])).collect()
+    };
+    let (none, d) = (S::Speeds::zero(), direction::<S>());
+    let accelerated: Vec<f64> = inertia(z, &d).iter().zip(inertia(z, &none)).map(|(a, b)| a - b).collect();
+    // What acts at twice the velocity is four times as large at most; accelerations d are below two.
+    let acting = acting(&columns(system, t, (q, z), input), &sizes);
+    let allowed = 16.0 * sizes.rounding * (acting + 4.0 * sizes.mass);
+    near("A ż", &accelerated, &inertia(&none, &d), allowed);
+    let quadratic = inertia(z, &none);
+    near("inertia at −z", &inertia(&z.scale(-1.0), &none), &quadratic, allowed);
+    let fourfold: Vec<f64> = quadratic.iter().map(|x| 4.0 * x).collect();
+    near("inertia at 2z", &inertia(&z.scale(2.0), &none), &fourfold, allowed);
 }
 
 /// What holds without constraints only: C(ż + d) − C(ż) = ½ d·A d for every d.

@@ -2,6 +2,7 @@
 //! same, and the balance of power.
 
 use gauss_runtime::prelude::*;
+use gauss_tests::laws::forced_laws;
 use gauss_tests::nonholonomic::state_of_twist;
 use gauss_tests::trajectory::{Run, reference, rotation, triple};
 use proptest::prelude::*;
@@ -50,6 +51,7 @@ fn dragged_body_as_in_the_reference() {
     let pose = Isometry3::from_parts(triple(&initial["b"]).into(), rotation(&initial["R"]));
     let (u, w) = (triple(&initial["body_u"]), triple(&initial["body_omega"]));
     let z = SVector::from([u.x, u.y, u.z, w.x, w.y, w.z]);
+    forced_laws(&kernel, 0.0, (&pose, &z), &());
     Run { name: "drag_body", system: &kernel, start: (pose, z) }.agrees(1.0, |_, q, z| state_of_twist(q, z));
 }
 
@@ -81,6 +83,7 @@ fn damped_oscillator_has_its_closed_form() {
     // ẍ + 2δẋ + ω²(x − x₀) = 0 with x₀ where the push and the spring agree.
     let (delta, square) = (c / (2.0 * m), k / m);
     let frequency = (square - delta * delta).sqrt();
+    forced_laws(&kernel, 0.0, (&x, &v), &SVector::from([push]));
     let equilibrium = rest + push / k;
     let (a, time) = (1.1 - equilibrium, 2.0);
     let b = (-0.4 + delta * a) / frequency;
@@ -204,6 +207,8 @@ proptest! {
         let (q, z) = (SVector::from([a, a + b]), SVector::from([va, va + vb]));
         let second = turned.acceleration(0.0, &q, &z, &input);
         close(&[first[0], first[0] + first[1]], second.as_slice(), 200.0);
+        forced_laws(&driven, 0.0, (&SVector::from(angles), &SVector::from(rates)), &input);
+        forced_laws(&turned, 0.0, (&q, &z), &input);
         // dE/dt is the power of the motors less what friction takes.
         let h = 1e-3;
         let energy = |s: f64| {
@@ -243,6 +248,8 @@ proptest! {
         let first = AtPoint { hull, at }.kernel().unwrap().acceleration(0.0, &pose, &z, &input);
         let second = InBody { hull, at }.kernel().unwrap().acceleration(0.0, &pose, &z, &input);
         close(first.as_slice(), second.as_slice(), 20.0);
+        forced_laws(&AtPoint { hull, at }.kernel().unwrap(), 0.0, (&pose, &z), &input);
+        forced_laws(&InBody { hull, at }.kernel().unwrap(), 0.0, (&pose, &z), &input);
         // Newton and Euler about G, by hand: m a_G = F, and the torque about G changes the spin.
         let kernel = InBody { hull, at }.kernel().unwrap();
         let free = kernel.acceleration(0.0, &pose, &z, &SVector::from([0.0, 0.0]));

@@ -2,7 +2,7 @@
 //! and what holds for every system (residual, momenta, energy).
 
 use gauss_runtime::prelude::*;
-use gauss_tests::laws::{System, Time, laws, least};
+use gauss_tests::laws::{System, Time, forced_laws, laws, least};
 use gauss_tests::trajectory::{Run, Seen, numbers, reference};
 
 #[derive(GaussDynamics)]
@@ -334,7 +334,9 @@ fn laws_of_every_system() {
     holds(&BeadOnHoop { a: 0.8, spin: 5.0, g: 9.81 }.kernel().unwrap(), [0.3], [0.4], Time::Hidden);
     holds(&sleigh().kernel().unwrap(), [1.0, 2.0, 0.4], [0.6, -1.5], Time::Absent);
     holds(&suslov().kernel().unwrap(), [0.2, 1.1, -0.6], [1.2, -0.5], Time::Absent);
-    holds(&Wire { m: 1.4, k: 2.0 }.kernel().unwrap(), [0.7], [1.3], Time::Absent);
+    let wire = Wire { m: 1.4, k: 2.0 }.kernel().unwrap();
+    holds(&wire, [0.7], [1.3], Time::Absent);
+    forced_laws(&wire, 0.6, (&SVector::from([0.7]), &SVector::from([1.3])), &());
 }
 
 #[test]
