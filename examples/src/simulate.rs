@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use gauss_runtime::integrate::{Control, Fixed, Form, InputSource, NoInput, Sample, Tableau};
+use gauss_runtime::integrate::{Control, Fixed, Form, InputSource, NoInput, Rkmk, Sample, Tableau};
 use gauss_runtime::prelude::*;
 
 /// What a run says about itself at one time, in no particular chart.
@@ -96,6 +96,6 @@ fn moment<K: Vessel>(kernel: &K, sample: &Sample<K>) -> Moment {
 ///
 /// With 200 a second its error is below the rounding of this vehicle's motion: more steps do not change the results.
 #[must_use]
-pub fn order_8(steps_per_second: u32) -> Fixed<f64, 12> {
+pub fn order_8(steps_per_second: u32) -> Fixed<f64, Rkmk<f64, 12>> {
     Fixed::with(&Tableau::DORMAND_PRINCE_8, 1.0 / f64::from(steps_per_second))
 }

@@ -2,7 +2,8 @@
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{
-    Control, Form, InputSource, IntegrationError, IntegrationErrorKind, Part, Problem, Rates, Rkmk, State, Tableau,
+    Control, Form, InputSource, IntegrationError, IntegrationErrorKind, OneStep, Part, Problem, Rates, Rkmk, State,
+    Tableau,
 };
 use gauss_runtime::system::GaussSystem;
 

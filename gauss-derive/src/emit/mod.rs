@@ -14,10 +14,10 @@ mod documentation;
 mod kernel;
 mod parameters;
 mod program;
-mod system;
-mod system_parameters;
 #[cfg(test)]
 mod specialisation_tests;
+mod system;
+mod system_parameters;
 #[cfg(test)]
 mod system_tests;
 #[cfg(test)]

@@ -188,7 +188,7 @@ pub fn warnings(derived: &Derived<'_, '_>, plain: &Plain<'_, '_>, drags: &[DragM
     });
     quote! {
         /// What is likely not meant, although a kernel can be made of it: drag that feeds energy, with its eigenvalue.
-        #[allow(unused_variables)]
+        #[allow(unused_variables, dead_code)]
         #visibility fn warnings(&self) -> #runtime::error::ParameterWarnings {
             #(#read)*
             let mut __warnings = #private::WarningCheck::<#ty>::new();

@@ -2,6 +2,7 @@
 
 use super::error::{IntegrationError, IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use super::one_step::OneStep;
 use super::projection::{accept, consistent_start, on_constraints};
 use super::rkmk::Rkmk;
 use super::step_length::{StepLength, power};
@@ -28,10 +29,10 @@ pub trait Control<S: GaussSystem> {
     ) -> Result<State<S>, IntegrationError>;
 }
 
-/// Steps of one length, by a Runge–Kutta–Munthe-Kaas method of S stages. The last one ends where it should.
+/// Steps of one length, by any method of one step. The last one ends where it should.
 #[derive(Clone, Copy, Debug)]
-pub struct Fixed<T, const S: usize = 4> {
-    method: Rkmk<T, S>,
+pub struct Fixed<T, M = Rkmk<T, 4>> {
+    method: M,
     step: T,
 }
 
@@ -43,11 +44,19 @@ impl<T: Real> Fixed<T> {
     }
 }
 
-impl<T: Real, const S: usize> Fixed<T, S> {
-    /// Any method, for example [`Tableau::DORMAND_PRINCE_8`].
+impl<T: Real, const S: usize> Fixed<T, Rkmk<T, S>> {
+    /// The Runge–Kutta–Munthe-Kaas method of any tableau, for example [`Tableau::DORMAND_PRINCE_8`].
     #[must_use]
     pub fn with(tableau: &Tableau<S>, step: T) -> Self {
-        Self { method: Rkmk::new(tableau), step }
+        Self::by(Rkmk::new(tableau), step)
+    }
+}
+
+impl<T: Real, M> Fixed<T, M> {
+    /// Any method.
+    #[must_use]
+    pub fn by(method: M, step: T) -> Self {
+        Self { method, step }
     }
 }
 
@@ -112,7 +121,7 @@ fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
     Ok(((end - start.t).lane(0), start, rates))
 }
 
-impl<S: GaussSystem, const N: usize> Control<S> for Fixed<S::Scalar, N> {
+impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
     fn drive<F: Form<S>, I: InputSource<S>>(
         &self,
         problem: &Problem<'_, S, F, I>,

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`form`] | velocity form and momentum form, inputs, and the [`Problem`] that a method sees |
 //! | [`tableau`] | coefficients of Runge–Kutta methods |
+//! | [`one_step`] | what a method of one step is and keeps |
 //! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
 //! | [`control`] | fixed steps, adaptive steps |
 //! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
@@ -15,6 +16,7 @@
 pub mod control;
 pub mod error;
 pub mod form;
+pub mod one_step;
 mod projection;
 pub mod rkmk;
 pub mod simulation;
@@ -25,6 +27,7 @@ pub mod trajectory;
 pub use control::{Adaptive, Control, Fixed};
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
+pub use one_step::{OneStep, Properties, Step};
 pub use rkmk::Rkmk;
 pub use simulation::Simulation;
 pub use tableau::Tableau;

@@ -6,6 +6,7 @@
 
 use super::error::{IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use super::one_step::{OneStep, Properties, Step};
 use super::tableau::{Rational, Tableau};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
@@ -23,17 +24,6 @@ pub struct Rkmk<T, const S: usize> {
     order: u32,
     has_error: bool,
     first_same_as_last: bool,
-}
-
-/// The outcome of one step.
-#[derive(Clone, Copy, Debug)]
-pub struct Step<S: GaussSystem> {
-    /// The state at its end.
-    pub state: State<S>,
-    /// The estimated error of the step in the tangent space, and in y. Zero for a method without an embedded one.
-    pub error: Rates<S>,
-    /// The derivatives at the end, when the method has them for nothing.
-    pub rates: Option<Rates<S>>,
 }
 
 impl<T: Real, const S: usize> Rkmk<T, S> {
@@ -57,27 +47,24 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
     pub fn order(&self) -> u32 {
         self.order
     }
+}
 
-    /// One step of length `h` from `state`, where the derivatives are `rates`. The end is not brought back onto
-    /// constraints: [`Control`](super::control::Control) does that.
-    ///
-    /// # Errors
-    /// [`IntegrationErrorKind::IncrementTooLarge`] when a stage turns by more than π,
-    /// [`IntegrationErrorKind::SingularChart`] at a singularity of the coordinates,
-    /// [`IntegrationErrorKind::NonFinite`] when anything overflows or is undefined. The state given is untouched.
+impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Rkmk<Sys::Scalar, S> {
+    fn properties(&self) -> Properties {
+        Properties::of_order(self.order)
+    }
+
+    /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
+    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
-    pub fn step<Sys, F, I>(
+    fn step<F: Form<Sys>, I: InputSource<Sys>>(
         &self,
         problem: &Problem<'_, Sys, F, I>,
         state: &State<Sys>,
         rates: &Rates<Sys>,
-        h: T,
-    ) -> Result<Step<Sys>, IntegrationErrorKind>
-    where
-        Sys: GaussSystem<Scalar = T>,
-        F: Form<Sys>,
-        I: InputSource<Sys>,
-    {
+        h: Sys::Scalar,
+    ) -> Result<Step<Sys>, IntegrationErrorKind> {
+        let one = <Sys::Scalar as Real>::one();
         // Derivatives in the algebra: dexp_inv(σ, V) and ẏ. At σ = 0 the former is V.
         let mut stages = [*rates; S];
         let mut last = *rates;
@@ -87,7 +74,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
             let stage: State<Sys> = State {
                 t: self.c[i].fma(h, state.t),
                 q: state.q.retract(&sigma.configuration),
-                y: state.y.add_scaled(T::one(), &sigma.variables),
+                y: state.y.add_scaled(one, &sigma.variables),
             };
             last = problem.rates(&stage);
             stages[i] = Rates {
@@ -101,7 +88,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         let end: State<Sys> = State {
             t: state.t + h,
             q: state.q.retract(&sigma.configuration).renormalise(),
-            y: state.y.add_scaled(T::one(), &sigma.variables),
+            y: state.y.add_scaled(one, &sigma.variables),
         };
         check_chart(problem, state, &end)?;
         let error: Rates<Sys> = if self.has_error {
@@ -122,7 +109,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
 /// Refuses steps that touch a singularity of the coordinates or pass over one: they would go on with numbers that mean
 /// nothing. At a regularity of √ε velocities have lost half of their digits.
 #[inline(always)]
-fn check_chart<S: GaussSystem, F, I>(
+pub(super) fn check_chart<S: GaussSystem, F, I>(
     problem: &Problem<'_, S, F, I>,
     start: &State<S>,
     end: &State<S>,
@@ -155,7 +142,7 @@ fn combination<S: GaussSystem>(h: S::Scalar, weights: &[S::Scalar], stages: &[Ra
 
 /// Refuses rotations beyond half a turn. A NaN passes here and is caught at the end of the step.
 #[inline(always)]
-fn check_increment<S: GaussSystem>(increment: &Rates<S>) -> Result<(), IntegrationErrorKind> {
+pub(super) fn check_increment<S: GaussSystem>(increment: &Rates<S>) -> Result<(), IntegrationErrorKind> {
     let angle = S::Configuration::increment_angle(&increment.configuration);
     if angle > core::f64::consts::PI && angle.is_finite() {
         Err(IntegrationErrorKind::IncrementTooLarge { angle })

@@ -1,0 +1,61 @@
+//! What a method of one step is: the seam at which methods are added.
+
+use super::error::IntegrationErrorKind;
+use super::form::{Form, InputSource, Problem, Rates, State};
+use crate::system::GaussSystem;
+
+/// What a method keeps, and how accurate it is: stated, and tested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Properties {
+    /// The global error is of order `h^order`.
+    pub order: u32,
+    /// A step back undoes a step, up to rounding and the tolerance of iterations.
+    pub symmetric: bool,
+    /// The map of a step on the cotangent bundle is symplectic (on a Lie–Poisson space: a Poisson map).
+    pub symplectic: bool,
+    /// Momenta that the symmetry of the scene keeps are kept up to rounding.
+    pub keeps_momentum: bool,
+    /// The energy is kept up to rounding and the tolerance of iterations.
+    pub keeps_energy: bool,
+}
+
+impl Properties {
+    /// A method of the given order that keeps nothing.
+    #[must_use]
+    pub const fn of_order(order: u32) -> Self {
+        Self { order, symmetric: false, symplectic: false, keeps_momentum: false, keeps_energy: false }
+    }
+}
+
+/// The outcome of one step.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<S: GaussSystem> {
+    /// The state at its end.
+    pub state: State<S>,
+    /// The estimated error of the step in the tangent space, and in y. Zero for a method without an estimate.
+    pub error: Rates<S>,
+    /// The derivatives at the end, when the method has them for nothing.
+    pub rates: Option<Rates<S>>,
+}
+
+/// A method that makes one step of a given length: with [`Fixed`](super::control::Fixed) an integrator.
+///
+/// A method of your own needs [`step`](Self::step) alone.
+pub trait OneStep<S: GaussSystem> {
+    /// What the method keeps, and its order.
+    fn properties(&self) -> Properties;
+
+    /// One step of length `h` from `state`, where the derivatives are `rates`. The end is not brought back onto
+    /// constraints: [`Control`](super::control::Control) does that.
+    ///
+    /// # Errors
+    /// When the step cannot be made; the state given is untouched.
+    fn step<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<Step<S>, IntegrationErrorKind>;
+}
