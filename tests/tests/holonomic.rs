@@ -2,7 +2,7 @@
 //! both choices are one motion.
 
 use gauss_runtime::prelude::*;
-use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least, position_rates};
+use gauss_tests::laws::{Time, balance, constrained_laws, corresponds, laws, least, position_rates};
 use gauss_tests::trajectory::{Run, reference, rows};
 use proptest::prelude::*;
 
@@ -470,10 +470,12 @@ proptest! {
         let (coordinates, angles) = foucault(0.7, l, 0.3, 0.85);
         let (q, z) = (SVector::from(q), SVector::from(z));
         laws(&angles, t, &q, &z, Time::Hidden);
+        balance(&angles, t, (&q, &z), &());
         least(&angles, t, &q, &z);
         corresponds(&angles, &coordinates, t, (&q, &z), |_, q, z| horizontal(l, q, z));
         let (x, v) = horizontal(l, &q, &z);
         laws(&coordinates, t, &x, &v, Time::Hidden);
+        balance(&coordinates, t, (&x, &v), &());
         least(&coordinates, t, &x, &v);
     }
 }

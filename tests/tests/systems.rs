@@ -2,7 +2,7 @@
 //! and what holds for every system (residual, momenta, energy).
 
 use gauss_runtime::prelude::*;
-use gauss_tests::laws::{System, Time, forced_laws, laws, least};
+use gauss_tests::laws::{System, Time, balance, forced_laws, laws, least};
 use gauss_tests::trajectory::{Run, Seen, numbers, reference};
 
 #[derive(GaussDynamics)]
@@ -331,7 +331,9 @@ fn laws_of_every_system() {
     holds(&double_pendulum().kernel().unwrap(), [2.0, -1.0], [0.5, 1.0], Time::Absent);
     let (upper, lower, l1, g) = (arm(1.5, 0.9), arm(0.8, 0.6), 0.9, 9.81);
     holds(&Arms { upper, lower, l1, g }.kernel().unwrap(), [0.4, 1.3], [0.7, -1.1], Time::Absent);
-    holds(&BeadOnHoop { a: 0.8, spin: 5.0, g: 9.81 }.kernel().unwrap(), [0.3], [0.4], Time::Hidden);
+    let bead = BeadOnHoop { a: 0.8, spin: 5.0, g: 9.81 }.kernel().unwrap();
+    holds(&bead, [0.3], [0.4], Time::Hidden);
+    balance(&bead, 0.6, (&SVector::from([0.3]), &SVector::from([0.4])), &());
     holds(&sleigh().kernel().unwrap(), [1.0, 2.0, 0.4], [0.6, -1.5], Time::Absent);
     holds(&suslov().kernel().unwrap(), [0.2, 1.1, -0.6], [1.2, -0.5], Time::Absent);
     let wire = Wire { m: 1.4, k: 2.0 }.kernel().unwrap();

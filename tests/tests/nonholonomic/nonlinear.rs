@@ -2,7 +2,7 @@
 //! has it (Appell 1911, Chetaev 1932).
 
 use gauss_runtime::prelude::*;
-use gauss_tests::laws::{Time, corresponds, laws};
+use gauss_tests::laws::{Time, balance, corresponds, laws};
 use gauss_tests::nonholonomic::{gains_energy, precise};
 use proptest::prelude::*;
 
@@ -113,11 +113,13 @@ proptest! {
         // The constraint does work, 2λv·v, at this rate: m g v_z.
         laws(&cartesian, 0.0, &q, &z, Time::Explicit);
         gains_energy(&cartesian, 0.0, &q, &z, m * G * z[2]);
+        balance(&cartesian, 0.0, (&q, &z), &());
 
         let rates = SVector::from([c * z[0] + s * z[1], (c * z[1] - s * z[0]) / r, z[2]]);
         let cylinder = SVector::from([r, phi, height]);
         laws(&around, 0.0, &cylinder, &rates, Time::Explicit);
         gains_energy(&around, 0.0, &cylinder, &rates, m * G * z[2]);
+        balance(&around, 0.0, (&cylinder, &rates), &());
         corresponds(&around, &cartesian, 0.0, (&cylinder, &rates), |_, q, z| {
             let ((s, c), [r, across]) = (q[1].sin_cos(), [q[0], q[0] * z[1]]);
             (SVector::from([r * c, r * s, q[2]]), SVector::from([c * z[0] - s * across, s * z[0] + c * across, z[2]]))

@@ -2,7 +2,7 @@
 //! inertia. Their centre is at O = G.
 
 use gauss_runtime::prelude::*;
-use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least};
+use gauss_tests::laws::{Time, balance, constrained_laws, corresponds, laws, least};
 use gauss_tests::nonholonomic::{
     gains_energy, gains_energy_by_constraints, precise, rigid_state, state_of_twist, twist,
 };
@@ -303,6 +303,7 @@ proptest! {
         let velocity = carried(&q.1, &omega, 1.5);
         let own = on_turntable();
         laws(&own, 0.0, &q, &omega, Time::Explicit);
+        balance(&own, 0.0, (&q, &omega), &());
         least(&own, 0.0, &q, &omega);
         // b̈ = (2/7) Ω k₃ × ḃ, so the table's friction works by turning the ball alone.
         let rate = own.acceleration(0.0, &q, &omega, &());
@@ -314,6 +315,7 @@ proptest! {
         let z = Vector3::new(velocity.x, velocity.y, omega.z);
         let solved = by_centre();
         laws(&solved, t, &q, &z, Time::Explicit);
+        balance(&solved, t, (&q, &z), &());
         least(&solved, t, &q, &z);
         corresponds(&solved, &own, t, (&q, &z), |_, q, z| (*q, rolling(&q.1, z)));
         let found = solved.acceleration(t, &q, &z, &());
@@ -328,6 +330,7 @@ proptest! {
         let swayed = twist(&rotation, carried(&q.1, &omega, 1.5 + 1.6 * (2.0 * t).cos()), omega);
         for (kernel, z) in [(even, z), (swaying, swayed)] {
             laws(&kernel, t, &pose, &z, Time::Explicit);
+            balance(&kernel, t, (&pose, &z), &());
             constrained_laws(&kernel, t, &pose, &z);
             gains_energy_by_constraints(&kernel, t, &pose, &z);
         }
