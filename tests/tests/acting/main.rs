@@ -10,3 +10,4 @@ mod scenes;
 mod alone;
 mod charts;
 mod observed;
+mod scalars;
