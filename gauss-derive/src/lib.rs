@@ -82,7 +82,7 @@ mod translate;
 /// | `potential = expr` | a potential of coordinates and time; the role `gravity` acts on everything |
 /// | `central_gravity(name, mu = gm, center = […])` | the acceleration −μ d/\|d\|³ of all mass, d from the center; `mu` of fields and numbers, `center` of these and `t` in observer's axes from Ω, by default Ω |
 /// | `medium(velocity = […])` | the velocity of the medium, observer's axes, of `t`, fields and numbers: drags, added mass and `relative_velocity` feel it |
-/// | `input(thrust, wind: Vector3, gust: Wrench)` | values that arrive at run time; of a wrench force then torque, `gust.force` and `gust.torque` |
+/// | `input(thrust = "N", wind: Vector3 = "m/s", gust: Wrench)` | values that arrive at run time, with their units if these are to be checked; of a wrench force then torque, `gust.force` and `gust.torque` |
 /// | `define(u = body.relative_velocity, q = u.x * u.x)` | names for expressions: scalars, vectors or rotations. A definition can name those before it and stands for what it is, wherever that may stand |
 /// | `force(name, at = …, value = […])` | in a system: a force at a point, both in observer's axes, the point from Ω |
 /// | `force(name, body = other, at = […], value = […], axes = body)` | a force at a point fixed in a body or a frame, at numbers and fields in its axes from O or at a `point` of that body by its name, by default at O; the value in `axes = body`, which is the default, or `axes = observer` |
@@ -111,6 +111,19 @@ mod translate;
 /// | constraints of velocities; values of forces, torques, wrenches and drives; coefficients of drags; `damping` | the same; speeds; `arm.velocity` (of O) and `arm.angular_velocity` in observer's axes; `arm.body_velocity`, `arm.body_angular_velocity` and `arm.relative_velocity` (of O, relative to the medium) in body axes; the time derivative `rate(expr)` of what has no speeds in it |
 /// | values of forces, torques, wrenches and drives; coefficients of drags; `damping` | inputs |
 /// | the same without `damping` | `abs min max clamp(x, low, high) signum smooth_step(x, from, to)`, which are not smooth; the last is 0 below `from`, 1 above `to` and 3s² − 2s³ between |
+///
+/// # Units
+///
+/// Fields and inputs can have units: `#[gauss(unit = "N s^2/m^2")] k: f64`, `#[gauss(mass, unit = "kg")] m: f64`,
+/// `input(rudder = "rad")`. One unit that is written has all of the scene checked: terms of sums, arguments of functions, and
+/// what stands where N, N m, J, W, m or m/s are needed. Roles have the units of the SI, `t` is in s, positions and velocities
+/// of bodies are in m, m/s and rad/s. What has no unit, such as coordinates, agrees with everything; so does a number in a sum
+/// or alone, while as a factor it is a pure number: `2 * t` is in s.
+///
+/// Units are coherent ones of the SI, since values are used as they are: `kg m s N J W Pa Hz rad 1`. They are joined by a space,
+/// `*` or `·`; what follows `/` divides, and several factors after one `/` stand in brackets, `kg/(m s)`; powers are whole, `m^2`,
+/// `s^-1` or `m²`. A radian has no dimension. A wrench is in N and N m, and what has parts with different units, such as added
+/// mass, a `RigidBody` or the coefficients of a drag as a field, takes none.
 ///
 /// # Errors
 ///

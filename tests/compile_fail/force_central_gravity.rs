@@ -1,11 +1,11 @@
-//! Central gravity without its parameter, to a center that moves, under a name that is taken.
+//! Central gravity without its parameter, to a center that moves, under the name of another element.
 
 use gauss_runtime::prelude::*;
 
 #[derive(GaussDynamics)]
 #[gauss(
     central_gravity(center = [0, 0, 0]),
-    central_gravity(k, mu = body.position.x),
+    central_gravity(mu = body.position.x),
     central_gravity(sun, mu = k, center = body.position),
     central_gravity(mu = k, centre = [0, 0, 0]),
     force(sun, at = [0, 0, 0], value = [k, 0, 0]),

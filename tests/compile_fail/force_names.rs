@@ -1,4 +1,5 @@
-//! Inputs and definitions that are called like parameters, like the body and like one another.
+//! Inputs and definitions that are called like parameters, like the body and like one another; elements called like
+//! time and like a function.
 
 use gauss_runtime::prelude::*;
 
@@ -7,7 +8,8 @@ use gauss_runtime::prelude::*;
     chart = jet(euler_zyx),
     input(k, body, gust: Wrench),
     define(m = 2, gust = k),
-    force(j, at = [0, 0, 0], value = [k, body, gust]),
+    force(sin, at = [0, 0, 0], value = [k, body, gust]),
+    torque(t, value = [k, 0, 0]),
 )]
 struct Body {
     #[gauss(mass)]

@@ -1,4 +1,4 @@
-//! Elements of one name, and a name that is taken.
+//! Elements of one name, of one kind and of two.
 
 use gauss_runtime::prelude::*;
 
@@ -11,7 +11,9 @@ use gauss_runtime::prelude::*;
     point(tip, body = arm, at = [l, 0, 0]),
     force(pull, at = tip, value = [k, 0, 0]),
     force(pull, at = tip, value = [k, 0, 0]),
-    torque(tip, body = arm, value = [0, 0, k]),
+    torque(pull, body = arm, value = [0, 0, k]),
+    spring(tip, from = [0, 0, 0], to = tip, stiffness = k),
+    drag(tip, body = arm, linear = [k, 0, 0, 0, 0, 0]),
 )]
 struct Scene {
     #[gauss(body)]

@@ -5,6 +5,7 @@ use super::bodies;
 use super::constraints;
 use super::context::Context;
 use super::definitions;
+use super::dimensions;
 use super::fields::{Field, Reader};
 use super::forces;
 use super::kinds;
@@ -67,6 +68,7 @@ pub(super) fn check_expressions(
     uncertain: bool,
     context: &mut Context,
 ) -> Vec<Ident> {
+    let earlier = context.count();
     let mut scope = scope(statements, &reader.fields, shapes, scalar, uncertain);
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions(statements) {
@@ -80,6 +82,10 @@ pub(super) fn check_expressions(
     let well = constraints::check_kinds(statements, &scope, context);
     let all: Vec<&Expression> = expressions(statements).into_iter().map(|(_, expression)| expression).collect();
     let unused = definitions::unused(statements, &all);
+    // Only what is well otherwise has dimensions.
+    if context.count() == earlier {
+        dimensions::check(statements, &reader.fields, context);
+    }
     definitions::inline(statements);
     constraints::check(statements, &well, uncertain, context);
     unused
@@ -101,6 +107,7 @@ pub(super) fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<SystemField> 
         ident: field.ident.clone(),
         role: field.role.as_ref().map(|claim| claim.role),
         shape,
+        unit: field.unit.clone(),
         documentation: field.documentation.clone(),
     };
     reader.fields.iter().zip(shapes).map(field).collect()

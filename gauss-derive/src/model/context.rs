@@ -10,6 +10,7 @@ use syn::Error;
 #[must_use = "`finish` reports the mistakes"]
 pub(super) struct Context {
     mistakes: Option<Error>,
+    count: usize,
 }
 
 impl Context {
@@ -28,6 +29,11 @@ impl Context {
         self.mistakes.is_none()
     }
 
+    /// How many mistakes there are so far.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
     /// The value, or every mistake combined.
     pub(super) fn finish<T>(self, value: Option<T>) -> Result<T, Error> {
         match (self.mistakes, value) {
@@ -42,6 +48,7 @@ impl Context {
     }
 
     fn push(&mut self, mistake: Error) {
+        self.count += 1;
         match &mut self.mistakes {
             Some(mistakes) => mistakes.combine(mistake),
             None => self.mistakes = Some(mistake),

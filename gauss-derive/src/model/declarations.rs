@@ -3,6 +3,7 @@
 
 use super::attributes::{self, Clause, Place};
 use super::context::Context;
+use super::fields;
 use super::names::{self, Table};
 use super::statements::{self, brackets, value};
 use super::{Coordinate, CoordinateKind, Expression, InputKind, InputName, Speed, SpeedKind};
@@ -41,37 +42,62 @@ struct Language<K: 'static> {
     example: &'static str,
     kinds: &'static Table<K>,
     scalar: K,
+    /// Units may follow, `thrust = "N"`.
+    units: bool,
 }
 
 /// `coordinates(x, pose: Pose)`.
 pub(super) fn read_coordinates(clause: &Clause, context: &mut Context) -> Names<Coordinate> {
-    let language =
-        Language { noun: "coordinate", example: "x, y, theta", kinds: COORDINATES, scalar: CoordinateKind::Scalar };
-    read_names(clause, &language, |ident, kind| Coordinate { ident, kind }, context)
+    let language = Language {
+        noun: "coordinate",
+        example: "x, y, theta",
+        kinds: COORDINATES,
+        scalar: CoordinateKind::Scalar,
+        units: false,
+    };
+    read_names(clause, &language, |ident, kind, _| Coordinate { ident, kind }, context)
 }
 
 /// `speeds(v, w: Vector3)`.
 pub(super) fn read_speeds(clause: &Clause, context: &mut Context) -> Names<Speed> {
-    let language = Language { noun: "speed", example: "v, omega", kinds: SPEEDS, scalar: SpeedKind::Scalar };
-    read_names(clause, &language, |ident, kind| Speed { ident, kind }, context)
+    let language =
+        Language { noun: "speed", example: "v, omega", kinds: SPEEDS, scalar: SpeedKind::Scalar, units: false };
+    read_names(clause, &language, |ident, kind, _| Speed { ident, kind }, context)
 }
 
 /// `independent(v, w)`.
 pub(super) fn read_independent(clause: &Clause, context: &mut Context) -> Names<Ident> {
-    let language = Language { noun: "speed", example: "v, omega", kinds: &[], scalar: () };
-    read_names(clause, &language, |ident, ()| ident, context)
+    let language = Language { noun: "speed", example: "v, omega", kinds: &[], scalar: (), units: false };
+    read_names(clause, &language, |ident, (), _| ident, context)
 }
 
-/// `input(thrust, wind: Vector3, gust: Wrench)`.
+/// `input(thrust = "N", wind: Vector3 = "m/s", gust: Wrench)`.
 pub(super) fn read_inputs(clause: &Clause, context: &mut Context) -> Names<InputName> {
-    let language = Language { noun: "input", example: "thrust, rudder", kinds: INPUTS, scalar: InputKind::Scalar };
-    read_names(clause, &language, |ident, kind| InputName { ident, kind }, context)
+    let language =
+        Language { noun: "input", example: "thrust, rudder", kinds: INPUTS, scalar: InputKind::Scalar, units: true };
+    let mut of_wrenches = Vec::new();
+    let make = |ident: Ident, kind, unit: Option<(String, Span)>| {
+        if let (InputKind::Wrench, Some((_, span))) = (kind, &unit) {
+            of_wrenches.push((ident.clone(), *span));
+        }
+        InputName { ident, kind, unit: unit.map(|(text, _)| text).filter(|_| kind != InputKind::Wrench) }
+    };
+    let names = read_names(clause, &language, make, context);
+    for (ident, span) in of_wrenches {
+        context.error(
+            span,
+            format!(
+                "a wrench has two units, N of its force and N m of its torque, without being told; write `{ident}: Wrench`"
+            ),
+        );
+    }
+    names
 }
 
 fn read_names<N, K: Copy>(
     clause: &Clause,
     language: &Language<K>,
-    make: impl Fn(Ident, K) -> N,
+    mut make: impl FnMut(Ident, K, Option<(String, Span)>) -> N,
     context: &mut Context,
 ) -> Names<N> {
     let noun = language.noun;
@@ -95,11 +121,16 @@ fn read_names<N, K: Copy>(
             names.complete = false;
             continue;
         };
+        let equals = |token: &TokenTree| matches!(token, TokenTree::Punct(equals) if equals.as_char() == '=');
+        let (rest, unit) = match rest.iter().position(equals).filter(|_| language.units) {
+            Some(index) => (&rest[..index], fields::read_unit(&ident, &rest[index + 1..], rest[index].span(), context)),
+            None => (rest, None),
+        };
         match rest {
-            [] => names.names.push(make(ident, language.scalar)),
+            [] => names.names.push(make(ident, language.scalar, unit)),
             [TokenTree::Punct(colon), ty @ ..] if colon.as_char() == ':' => {
                 match read_kind(&ident, colon.span(), ty, language, context) {
-                    Some(kind) => names.names.push(make(ident, kind)),
+                    Some(kind) => names.names.push(make(ident, kind, unit)),
                     None => names.complete = false,
                 }
             }
@@ -111,7 +142,7 @@ fn read_names<N, K: Copy>(
                         attributes::found(other)
                     ),
                 );
-                names.names.push(make(ident, language.scalar));
+                names.names.push(make(ident, language.scalar, unit));
                 names.complete = false;
             }
         }
@@ -139,6 +170,10 @@ fn read_kind<K: Copy>(
         return Some(kind);
     }
     let written = attributes::written(&ty);
+    if let ([TokenTree::Literal(_)], true, true) = (ty.as_slice(), language.units, written.starts_with('"')) {
+        context.error(colon, format!("a unit follows `=`; write `{ident} = {written}`"));
+        return Some(*scalar);
+    }
     // The last word before any `<…>`: `f64`, `Rotation` of `gauss::Rotation`, `Vector3` of `Vector3<f64>`.
     let head = written.split('<').next().unwrap_or_default();
     let word = head.rsplit("::").next().unwrap_or_default().trim();

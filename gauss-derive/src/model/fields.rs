@@ -1,15 +1,19 @@
-//! The clauses of the fields: the role that each one plays, and the word that says its shape.
+//! The clauses of the fields: the role that each one plays, the word that says its shape, and its unit.
 
 use super::attributes::{self, Clause, Place, Value};
 use super::context::Context;
 use super::names;
 use super::roles::{ROLES, SYSTEM_ROLES};
 use super::scene::CLAUSES;
-use super::shapes::{self, Reading};
+use super::shapes::{self, Kind, Reading};
 use super::statements::{self, STATEMENTS};
+use super::units;
 use super::{Role, Shape};
-use proc_macro2::{Ident, Span};
-use syn::{Attribute, Data, DeriveInput, Expr, ExprLit, FieldsNamed, Generics, Lit, Meta, Type};
+use proc_macro2::{Ident, Span, TokenTree};
+use syn::{Attribute, Data, DeriveInput, Expr, ExprLit, FieldsNamed, Generics, Lit, LitStr, Meta, Type};
+
+/// The clause that says a unit.
+pub(super) const UNIT: &str = "unit";
 
 /// One field as written.
 pub(super) struct Field<'a> {
@@ -19,6 +23,8 @@ pub(super) struct Field<'a> {
     pub(super) role: Option<Claim>,
     /// Its scalar is one that the model computes with: it has a role, or an expression names it.
     pub(super) computed: bool,
+    /// The unit, if one is written and well.
+    pub(super) unit: Option<String>,
     pub(super) documentation: String,
 }
 
@@ -55,7 +61,21 @@ pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool
         // A field of a struct with named fields has a name.
         let Some(ident) = &field.ident else { continue };
         let mut role: Option<Claim> = None;
+        let mut unit: Option<(String, Span)> = None;
         for clause in attributes::clauses(&field.attrs, Place::Field, context) {
+            if clause.word() == UNIT {
+                if unit.is_some() {
+                    let message = format!("the unit of the field `{ident}` is given twice; keep one of the two");
+                    context.error(clause.name.span(), message);
+                }
+                let tokens = match &clause.value {
+                    Value::Malformed => continue,
+                    Value::Equals(tokens) => tokens.clone(),
+                    Value::Absent | Value::Brackets(_) => Vec::new(),
+                };
+                unit = unit.or(read_unit(&clause.name, &tokens, clause.name.span(), context));
+                continue;
+            }
             let Some(claim) = reader.claim(&clause, context) else {
                 continue;
             };
@@ -80,10 +100,19 @@ pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool
                 }
             }
         }
+        let reading = shapes::read(&field.ty, generics);
+        let unit = unit.filter(|(unit, span)| match wrong_unit(ident, role.as_ref(), &reading, unit) {
+            Some(message) => {
+                context.error(*span, message);
+                false
+            }
+            None => true,
+        });
         reader.fields.push(Field {
             ident,
             ty: &field.ty,
-            reading: shapes::read(&field.ty, generics),
+            reading,
+            unit: unit.map(|(unit, _)| unit),
             computed: role.is_some(),
             role,
             documentation: documentation(&field.attrs),
@@ -141,12 +170,67 @@ impl Reader<'_> {
             self.meant.extend(owners);
             return;
         }
+        if names::nearest(word, ROLES).is_none() && names::nearest(word, &[(UNIT, ())]).is_some() {
+            context.error(span, format!("unknown role `{word}`; did you mean `{UNIT}`?"));
+            return;
+        }
         if let Err(Some(meant)) =
             names::resolve("role", &clause.name, if self.system { SYSTEM_ROLES } else { ROLES }, context)
         {
             self.meant.push(meant);
         }
     }
+}
+
+/// The unit in quotes that follows `=`, which is at `span` if nothing does: its text and where it is written; `owner` has it.
+pub(super) fn read_unit(
+    owner: &Ident,
+    tokens: &[TokenTree],
+    span: Span,
+    context: &mut Context,
+) -> Option<(String, Span)> {
+    let tokens = attributes::flat(tokens.iter().cloned().collect());
+    let text = match tokens.as_slice() {
+        [TokenTree::Literal(literal)] => syn::parse_str::<LitStr>(&literal.to_string()).ok(),
+        _ => None,
+    };
+    let span = tokens.first().map_or(span, attributes::start);
+    let Some(text) = text.map(|text| text.value()) else {
+        let written = attributes::written(&tokens);
+        let plain = |c: char| c.is_alphanumeric() || " */^()-".contains(c);
+        let example = if written.is_empty() || !written.chars().all(plain) { "N s/m" } else { written.as_str() };
+        context.error(span, format!("a unit stands in quotes after `=`; write `{owner} = \"{example}\"`"));
+        return None;
+    };
+    match units::read(&text) {
+        Ok(_) => Some((text, span)),
+        Err(message) => {
+            context.error(span, message);
+            None
+        }
+    }
+}
+
+/// What is wrong with the unit of a field.
+fn wrong_unit(field: &Ident, role: Option<&Claim>, reading: &Reading, unit: &str) -> Option<String> {
+    let role = role.map(|claim| claim.role);
+    if let Some((implied, dimension)) = role.and_then(Role::unit) {
+        let word = role.map_or("", Role::word);
+        return (units::read(unit) != Ok(dimension)).then(|| {
+            format!("`{word}` is in {implied}, and the unit of `{field}` is {unit}; write `{UNIT} = \"{implied}\"`")
+        });
+    }
+    let parts = match (role, reading.kind) {
+        (Some(Role::AddedMass), _) => "the blocks of an added mass are in kg, kg m and kg m^2",
+        (_, Kind::Known(Shape::Vector6 | Shape::Matrix6)) => {
+            "what has six components belongs to forces and torques, which have different units"
+        }
+        (Some(Role::Body), _) | (_, Kind::Known(Shape::RigidBody)) => {
+            "a rigid body has a mass in kg, a centre of mass in m and an inertia in kg m^2"
+        }
+        _ => return None,
+    };
+    Some(format!("`{field}` has no one unit: {parts}; remove `{UNIT}`"))
 }
 
 /// The word after `=`, and whether something there was refused.

@@ -24,6 +24,7 @@
 //! | `bodies` | what must hold between bodies: names, fields, parents |
 //! | `constraints` | what must hold of constraints and independent speeds |
 //! | `forces` | what must hold of forces and inputs |
+//! | `units`, `dimensions`, `needs` | units of fields and inputs; dimensions of expressions that follow; which are needed where |
 //! | `definitions` | named expressions, put in the place of their names |
 //! | `moving` | what moves with the coordinates and the speeds |
 //! | `assembly`, `system` | a whole system checked, and the type that it has then |
@@ -41,6 +42,7 @@ mod constraints;
 mod context;
 mod declarations;
 mod definitions;
+mod dimensions;
 mod expression;
 mod fields;
 mod forces;
@@ -50,6 +52,7 @@ mod motion;
 mod moving;
 mod names;
 mod naming;
+mod needs;
 mod number;
 mod placements;
 mod places;
@@ -61,6 +64,7 @@ mod statements;
 mod system;
 #[cfg(test)]
 mod tests;
+mod units;
 mod validate;
 
 pub use expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
@@ -187,6 +191,9 @@ pub struct Parameter {
     pub role: Option<Role>,
     /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].
     pub shape: Shape,
+    /// The unit, if one is written.
+    #[allow(dead_code, reason = "for the legend of the equations")]
+    pub unit: Option<String>,
     /// Its doc comment, trimmed; empty when it has none.
     pub documentation: String,
 }

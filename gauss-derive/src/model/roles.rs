@@ -1,6 +1,7 @@
 //! What each role is called, which shapes it takes and why.
 
 use super::names::Table;
+use super::units::Dimension;
 use super::{Role, Shape};
 
 /// Every role by its word.
@@ -93,6 +94,17 @@ impl Role {
             Role::DisplacedMass => "the mass of the displaced fluid is one number",
             Role::CenterOfBuoyancy => "the centre of buoyancy is a point, in body axes from O",
             Role::Body => "a body of a system has mass, centre of mass and inertia together",
+        }
+    }
+
+    /// The unit of a role that has one, and its dimension.
+    pub(super) fn unit(self) -> Option<(&'static str, Dimension)> {
+        match self {
+            Role::Mass | Role::DisplacedMass => Some(("kg", Dimension::new(1, 0, 0))),
+            Role::CenterOfMass | Role::CenterOfBuoyancy => Some(("m", Dimension::new(0, 1, 0))),
+            Role::Inertia => Some(("kg m^2", Dimension::new(1, 2, 0))),
+            Role::Gravity => Some(("m/s^2", Dimension::new(0, 1, -2))),
+            Role::AddedMass | Role::Body => None,
         }
     }
 

@@ -5,6 +5,7 @@
 
 use super::attributes::{self, Clause, Place, Value, Word};
 use super::context::Context;
+use super::fields::UNIT;
 use super::names::{self, Table};
 use super::roles::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
@@ -138,7 +139,10 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
 /// Notes why a clause is none of the struct's.
 fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) {
     let span = clause.name.span();
-    let message = if ROLES.iter().any(|(name, _)| *name == word) {
+    let message = if word == UNIT {
+        "units are those of fields and inputs; write `#[gauss(unit = \"N\")]` on a field, or `input(thrust = \"N\")`"
+            .into()
+    } else if ROLES.iter().any(|(name, _)| *name == word) {
         format!("`{word}` is the role of a field; write `#[gauss({word})]` on that field")
     } else if CHARTS.iter().any(|(name, _)| *name == word) {
         let chart = match &clause.value {

@@ -60,6 +60,9 @@ pub struct SystemField {
     pub role: Option<Role>,
     /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].
     pub shape: Shape,
+    /// The unit, if one is written.
+    #[allow(dead_code, reason = "for the legend of the equations")]
+    pub unit: Option<String>,
     /// Its doc comment, trimmed; empty when it has none.
     pub documentation: String,
 }
@@ -176,6 +179,8 @@ pub struct InputName {
     pub ident: Ident,
     /// How many it stands for.
     pub kind: InputKind,
+    /// The unit, if one is written; a wrench is in N and N m.
+    pub unit: Option<String>,
 }
 
 /// How many values are under one name.

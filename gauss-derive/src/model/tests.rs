@@ -6,6 +6,7 @@ mod clauses;
 mod items;
 mod roles;
 mod systems;
+mod units;
 
 use super::Model;
 use syn::DeriveInput;

@@ -59,6 +59,7 @@ pub(super) fn model(
         ident: field.ident.clone(),
         role: field.role.as_ref().map(|claim| claim.role),
         shape,
+        unit: field.unit.clone(),
         documentation: field.documentation.clone(),
     });
     Some(Model {

@@ -18,7 +18,7 @@ use crate::model::{
 };
 use syn::DeriveInput;
 
-fn system(source: &str) -> SystemModel {
+pub(super) fn system(source: &str) -> SystemModel {
     match parse_scene(&syn::parse_str::<DeriveInput>(source).expect("the snippet is Rust")) {
         Ok(Scene::System(model)) => *model,
         Ok(Scene::Body(_)) => panic!("one body: {source}"),

@@ -1,0 +1,254 @@
+//! What is needed in which unit: forces in N, torques in N m, positions in m, and so on.
+
+use super::dimensions::{Checker, Found, Value, subject};
+use super::naming::same;
+use super::statements::Statements;
+use super::units::Dimension;
+use super::{
+    BinaryOperator, Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceKind, FunctionName,
+};
+
+/// What a value must be in.
+pub(super) struct Need {
+    /// `the components of a force are`.
+    what: String,
+    /// `N`.
+    unit: String,
+    dimension: Dimension,
+}
+
+impl Need {
+    pub(super) fn new(what: impl Into<String>, (unit, dimension): (&str, Dimension)) -> Need {
+        Need { what: what.into(), unit: unit.into(), dimension }
+    }
+}
+
+pub(super) const LENGTH: (&str, Dimension) = ("m", Dimension::new(0, 1, 0));
+pub(super) const VELOCITY: (&str, Dimension) = ("m/s", Dimension::new(0, 1, -1));
+pub(super) const ANGULAR_VELOCITY: (&str, Dimension) = ("rad/s", Dimension::new(0, 0, -1));
+pub(super) const ANGLE: (&str, Dimension) = ("rad (dimensionless)", Dimension::NONE);
+const MASS: (&str, Dimension) = ("kg", Dimension::new(1, 0, 0));
+pub(super) const FORCE: (&str, Dimension) = ("N", Dimension::new(1, 1, -2));
+pub(super) const TORQUE: (&str, Dimension) = ("N m", Dimension::new(1, 2, -2));
+const ENERGY: (&str, Dimension) = ("J", Dimension::new(1, 2, -2));
+const POWER: (&str, Dimension) = ("W", Dimension::new(1, 2, -3));
+const GRAVITATION: (&str, Dimension) = ("m^3/s^2", Dimension::new(0, 3, -2));
+/// Of drag: linear and quadratic, each of a force and of a torque.
+const COEFFICIENTS: [[(&str, Dimension); 2]; 2] = [
+    [("N s/m", Dimension::new(1, 0, -1)), ("N m s", Dimension::new(1, 2, -1))],
+    [("N s^2/m^2", Dimension::new(1, -1, 0)), ("N m s^2", Dimension::new(1, 2, 0))],
+];
+
+impl Checker<'_> {
+    /// What moves and what has mass.
+    pub(super) fn places(&mut self, statements: &Statements) {
+        let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
+        for (name, rate) in statements.kinematics.iter().flat_map(|kinematics| &kinematics.rates) {
+            let Some(rate) = rate else { continue };
+            let kind = coordinates().find(|coordinate| same(&coordinate.ident, name)).map(|coordinate| coordinate.kind);
+            match (&rate.kind, kind) {
+                (ExpressionKind::Call(FunctionName::Twist, parts), _) => {
+                    let needs = [
+                        ("the velocity of a twist is", VELOCITY),
+                        ("the angular velocity of a twist is", ANGULAR_VELOCITY),
+                    ];
+                    for (part, (what, unit)) in parts.iter().zip(needs) {
+                        self.require(part, &Need::new(what, unit));
+                    }
+                }
+                (_, Some(CoordinateKind::Rotation)) => {
+                    self.require(rate, &Need::new("an angular velocity is", ANGULAR_VELOCITY));
+                }
+                _ => {
+                    self.value(rate);
+                }
+            }
+        }
+        for body in &statements.bodies {
+            self.optional(&body.position, &Need::new("positions are", LENGTH));
+            if let Some(rotation) = &body.rotation {
+                self.value(rotation);
+            }
+        }
+        for particle in &statements.particles {
+            self.require(&particle.mass, &Need::new("the mass of a particle is", MASS));
+            self.require(&particle.position, &Need::new("positions are", LENGTH));
+        }
+        for point in &statements.points {
+            self.require(&point.at, &Need::new("the place of a point is", LENGTH));
+        }
+        if let Some((_, potential)) = &statements.potential {
+            self.optional(potential, &Need::new("a potential is", ENERGY));
+        }
+        if let Some((_, velocity)) = &statements.medium {
+            self.optional(velocity, &Need::new("the velocity of the medium is", VELOCITY));
+        }
+        for clause in &statements.attractions {
+            self.require(&clause.mu, &Need::new("a gravitational parameter is", GRAVITATION));
+            self.optional(&clause.center, &Need::new("a center of gravity is", LENGTH));
+        }
+    }
+
+    /// What acts.
+    pub(super) fn force(&mut self, kind: &ForceKind) {
+        let at_need = Need::new("the place where a force acts is", LENGTH);
+        let force_need = Need::new("the components of a force are", FORCE);
+        let torque_need = Need::new("the components of a torque are", TORQUE);
+        match kind {
+            ForceKind::AtPoint { at, value } => {
+                self.require(at, &at_need);
+                self.require(value, &force_need);
+            }
+            ForceKind::OnBody { at, value, .. } => {
+                self.optional(at, &at_need);
+                self.require(value, &force_need);
+            }
+            ForceKind::Torque { value, .. } => self.require(value, &torque_need),
+            ForceKind::Wrench { at, force, torque, .. } => {
+                self.optional(at, &at_need);
+                self.optional(force, &force_need);
+                self.optional(torque, &torque_need);
+            }
+            ForceKind::Drive { rates } => rates.iter().for_each(|(_, value)| {
+                self.value(value);
+            }),
+            ForceKind::Spring { extent, stiffness, length, damping } => {
+                let constants = self.extent("a spring", extent);
+                self.constant(Some(stiffness), "stiffness", constants.as_ref(), 0);
+                self.constant(length.as_ref(), "length", constants.as_ref(), 1);
+                self.constant(damping.as_ref(), "damping", constants.as_ref(), 2);
+            }
+            ForceKind::Stop { extent, least, most, stiffness, width, damping } => {
+                let constants = self.extent("a stop", extent);
+                self.constant(least.as_ref(), "lower limit", constants.as_ref(), 1);
+                self.constant(most.as_ref(), "upper limit", constants.as_ref(), 1);
+                self.constant(Some(stiffness), "stiffness", constants.as_ref(), 0);
+                self.constant(Some(width), "width", constants.as_ref(), 1);
+                self.constant(damping.as_ref(), "damping", constants.as_ref(), 2);
+            }
+            ForceKind::Drag { linear, quadratic, .. } => {
+                let both = [("linear", linear), ("quadratic", quadratic)];
+                for ((word, coefficients), units) in both.into_iter().zip(COEFFICIENTS) {
+                    let Some(Coefficients::Diagonal(entries)) = coefficients else { continue };
+                    for (index, entry) in entries.iter().enumerate() {
+                        let part = usize::from(index >= 3);
+                        let what = format!("the {} three {word} coefficients of a drag are", ["first", "last"][part]);
+                        self.require(entry, &Need::new(what, units[part]));
+                    }
+                }
+            }
+            ForceKind::Dissipation(function) => self.require(function, &Need::new("a dissipation function is", POWER)),
+        }
+    }
+
+    /// What the constants of `noun` are needed in, if that is known: stiffness, the extent itself, damping.
+    fn extent(&mut self, noun: &str, extent: &Extent) -> Option<(String, [(String, Dimension); 3])> {
+        match extent {
+            Extent::Between { from, to } => {
+                let need = Need::new(format!("the ends of {noun} are"), LENGTH);
+                self.require(from, &need);
+                self.require(to, &need);
+                let units = [("N/m", Dimension::new(1, 0, -2)), LENGTH, ("N s/m", Dimension::new(1, 0, -1))];
+                Some((noun.into(), units.map(|(unit, dimension)| (unit.into(), dimension))))
+            }
+            Extent::Along(along) => {
+                let Found::Known(dimension) = self.value(along).parts()[0] else { return None };
+                let named = if dimension == Dimension::NONE {
+                    "an angle".into()
+                } else if dimension == LENGTH.1 {
+                    "a length".into()
+                } else {
+                    format!("what is in {dimension}")
+                };
+                let own = if dimension == Dimension::NONE { "rad".into() } else { dimension.to_string() };
+                let stiffness = ENERGY.1.over(dimension)?.over(dimension)?;
+                let damping = stiffness.times(Dimension::TIME)?;
+                let units = [(stiffness.to_string(), stiffness), (own, dimension), (damping.to_string(), damping)];
+                Some((format!("{noun} along {named}"), units))
+            }
+        }
+    }
+
+    /// A constant of a spring or a stop, which is the one at `index` of what [`Self::extent`] gives.
+    fn constant(
+        &mut self,
+        value: Option<&Expression>,
+        word: &str,
+        needs: Option<&(String, [(String, Dimension); 3])>,
+        index: usize,
+    ) {
+        let Some(value) = value else { return };
+        let Some((noun, units)) = needs else {
+            self.value(value);
+            return;
+        };
+        let (unit, dimension) = &units[index];
+        self.require(value, &Need::new(format!("the {word} of {noun} is"), (unit, *dimension)));
+    }
+
+    fn optional(&mut self, expression: &Option<Expression>, need: &Need) {
+        if let Some(expression) = expression {
+            self.require(expression, need);
+        }
+    }
+
+    /// Notes what is not in what it must be in: of a vector that is written out, component by component.
+    fn require(&mut self, expression: &Expression, need: &Need) {
+        match &expression.kind {
+            ExpressionKind::Vector(components) => {
+                components.iter().for_each(|component| self.require(component, need));
+            }
+            ExpressionKind::Negate(inner) => self.require(inner, need),
+            _ => {
+                let value = self.value(expression);
+                self.compare(expression, value, need);
+            }
+        }
+    }
+
+    pub(super) fn compare(&mut self, expression: &Expression, value: Value, need: &Need) {
+        let parts = value.parts();
+        let wrong = |part: &Found| matches!(part, Found::Known(dimension) if *dimension != need.dimension);
+        let Some(index) = parts.iter().position(wrong) else { return };
+        let Found::Known(found) = parts[index] else { return };
+        let mut subject = subject(expression, "this");
+        if parts[0] != parts[1] || parts[0] != parts[2] {
+            subject = match subject.strip_suffix('`') {
+                Some(name) => format!("{name}.{}`", ["x", "y", "z"][index]),
+                None => format!("the {} component of {subject}", ["first", "second", "third"][index]),
+            };
+        }
+        let unit = self.unit(expression, found);
+        let Need { what, unit: needed, dimension } = need;
+        let mut remedy = match dimension.over(found) {
+            Some(coefficient) => format!("multiply it by a coefficient in {coefficient}"),
+            None => "correct one of the two".into(),
+        };
+        match self.written(expression) {
+            // That radians are hidden in a coefficient is worth being said.
+            Some(written) if written.contains("rad") && !needed.contains(['/', '(']) => {
+                let below = if written == "rad" { written.into() } else { format!("({written})") };
+                remedy = format!("{remedy} ({needed}/{below})");
+            }
+            Some(_) => remedy.push_str(", or correct its unit"),
+            None => {}
+        }
+        if has_literal_factor(expression) {
+            remedy.push_str(", such as a field with this unit: numbers have none");
+        }
+        let needed = if needed == "1" { "dimensionless".into() } else { format!("in {needed}") };
+        let message = format!("{subject} is {unit}, and {what} {needed}; {remedy}");
+        self.context.error(expression.span, message);
+    }
+}
+
+/// A number is multiplied with something: it may be meant to have a unit.
+fn has_literal_factor(expression: &Expression) -> bool {
+    match &expression.kind {
+        ExpressionKind::Binary(BinaryOperator::Multiply | BinaryOperator::Divide, left, right) => {
+            [left, right].into_iter().any(|side| side.literal().is_some() || has_literal_factor(side))
+        }
+        ExpressionKind::Negate(inner) => has_literal_factor(inner),
+        _ => false,
+    }
+}
