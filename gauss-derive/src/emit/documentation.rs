@@ -5,7 +5,7 @@ use syn::ext::IdentExt;
 use crate::algebra::Notation;
 use crate::kernel::Counts;
 use crate::mechanics::{Method, Section};
-use crate::model::Role;
+use crate::model::{InputKind, Role};
 
 use super::kernel::{Derived, Subject};
 use super::system::SystemSubject;
@@ -52,16 +52,18 @@ pub fn latex(sections: &[Section<'_>]) -> String {
 /// What the letters of the equations stand for: (letter, field, what its author says of it).
 fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
     let fields: Vec<_> = match derived.subject {
-        Subject::Body { model, .. } => model.parameters.iter().map(|p| (p.role, &p.ident, &p.documentation)).collect(),
+        Subject::Body { model, .. } => {
+            model.parameters.iter().map(|p| (p.role, &p.ident, &p.documentation, &p.unit)).collect()
+        }
         Subject::System(SystemSubject { model, .. }) => {
-            model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation)).collect()
+            model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit)).collect()
         }
     };
     fields
         .into_iter()
-        .filter_map(|(role, ident, documentation)| role.map(|role| (role, ident, documentation)))
+        .filter_map(|(role, ident, documentation, unit)| role.map(|role| (role, ident, documentation, unit)))
         .filter(|(role, ..)| *role != Role::Body)
-        .map(|(role, ident, documentation)| {
+        .map(|(role, ident, documentation, unit)| {
             let letter = match role {
                 Role::Mass => "m",
                 Role::CenterOfMass => "c",
@@ -74,7 +76,12 @@ fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
                 Role::Body => "B",
             };
             // The first line says what it is; the rest is for the struct's own page.
-            let said = documentation.lines().next().unwrap_or_default().to_owned();
+            let said = documentation.lines().next().unwrap_or_default();
+            let said = match unit {
+                Some(unit) if said.is_empty() => format!("in {unit}"),
+                Some(unit) => format!("{said} ({unit})"),
+                None => said.to_owned(),
+            };
             (letter, ident.unraw().to_string(), said)
         })
         .collect()
@@ -108,9 +115,43 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     for (letter, field, said) in legend(derived) {
         out.push_str(&format!("| {letter} | `{field}` | {} |\n", said.replace('|', "\\|")));
     }
+    out.push_str(&acting(derived));
     out.push_str("\n# Cost\n\n| method | operations |\n|---|---|\n");
     for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
         out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), operations(program.counts())));
+    }
+    out
+}
+
+/// The components of the input in order, and the elements in the order of their powers.
+fn acting(derived: &Derived<'_, '_>) -> String {
+    let model = match derived.subject {
+        Subject::Body { model, .. } => model.acting.as_deref(),
+        Subject::System(SystemSubject { model, .. }) => Some(model),
+    };
+    let mut out = String::new();
+    let mut next = 0;
+    for input in model.iter().flat_map(|model| &model.inputs) {
+        if next == 0 {
+            out.push_str("\n# Input\n\n| components | input | unit |\n|---|---|---|\n");
+        }
+        let (count, what) = match input.kind {
+            InputKind::Scalar => (1, ""),
+            InputKind::Vector => (3, ": a vector"),
+            InputKind::Wrench => (6, ": a force, then a torque"),
+        };
+        let range = if count == 1 { next.to_string() } else { format!("{next}–{}", next + count - 1) };
+        let unit = input.unit.as_deref().unwrap_or_default();
+        out.push_str(&format!("| {range} | `{}`{what} | {unit} |\n", input.ident.unraw()));
+        next += count;
+    }
+    let accounts = derived.accounts();
+    if !accounts.is_empty() {
+        out.push_str("\n# What acts\n\n| element | |\n|---|---|\n");
+    }
+    for account in accounts {
+        let kind = if account.conservative { "in the potential energy" } else { "" };
+        out.push_str(&format!("| {} | {kind} |\n", account.name));
     }
     out
 }

@@ -155,7 +155,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         self.formulas.iter().any(|f| f.method == method)
     }
 
-    fn accounts(&self) -> Vec<Account<'g>> {
+    pub fn accounts(&self) -> Vec<Account<'g>> {
         match self.subject {
             Subject::Body { scene, .. } => scene.accounts(),
             Subject::System(SystemSubject { system, .. }) => system.accounts(),

@@ -321,7 +321,7 @@ pub(super) fn read_attraction(clause: &Clause, context: &mut Context) -> Option<
     let center = element.expression("center", "[x, y, z]", context);
     element.require("mu", "its gravitational parameter", "gm", context);
     let center = optional(element.find("center"), center)?;
-    Some(Attraction { name: element.name, mu: mu?, center, span: element.span })
+    Some(Attraction { name: element.name, mu: mu?, center })
 }
 
 /// The velocity of `medium(velocity = …)`; `None` if it is missing or wrong, which is noted.

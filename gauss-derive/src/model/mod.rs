@@ -192,7 +192,6 @@ pub struct Parameter {
     /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].
     pub shape: Shape,
     /// The unit, if one is written.
-    #[allow(dead_code, reason = "for the legend of the equations")]
     pub unit: Option<String>,
     /// Its doc comment, trimmed; empty when it has none.
     pub documentation: String,

@@ -61,7 +61,6 @@ pub struct SystemField {
     /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].
     pub shape: Shape,
     /// The unit, if one is written.
-    #[allow(dead_code, reason = "for the legend of the equations")]
     pub unit: Option<String>,
     /// Its doc comment, trimmed; empty when it has none.
     pub documentation: String,
@@ -203,8 +202,6 @@ pub struct Attraction {
     pub mu: Expression,
     /// Where it attracts to: a vector of t, fields and numbers, observer axes from Ω; `None`: Ω.
     pub center: Option<Expression>,
-    /// The word `central_gravity`.
-    pub span: Span,
 }
 
 /// `force(…)`, `torque(…)`, `wrench(…)`, `drive(…)`, `spring(…)`, `stop(…)`, `drag(…)` or `damping = …`: an element of
