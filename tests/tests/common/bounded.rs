@@ -43,8 +43,11 @@ impl Bounded {
     }
 }
 
+// Operations are never inlined: kernels are thousands of them in a row, which would take the compiler twice as long.
+
 impl Add for Bounded {
     type Output = Self;
+    #[inline(never)]
     fn add(self, other: Self) -> Self {
         Self::rounded(self.value + other.value, self.bound + other.bound)
     }
@@ -52,6 +55,7 @@ impl Add for Bounded {
 
 impl Sub for Bounded {
     type Output = Self;
+    #[inline(never)]
     fn sub(self, other: Self) -> Self {
         Self::rounded(self.value - other.value, self.bound + other.bound)
     }
@@ -59,6 +63,7 @@ impl Sub for Bounded {
 
 impl Mul for Bounded {
     type Output = Self;
+    #[inline(never)]
     fn mul(self, other: Self) -> Self {
         let inherited = self.value.abs() * other.bound + other.value.abs() * self.bound + self.bound * other.bound;
         Self::rounded(self.value * other.value, inherited)
@@ -67,6 +72,7 @@ impl Mul for Bounded {
 
 impl Div for Bounded {
     type Output = Self;
+    #[inline(never)]
     fn div(self, other: Self) -> Self {
         let quotient = self.value / other.value;
         Self::rounded(quotient, (self.bound + quotient.abs() * other.bound) / other.least())

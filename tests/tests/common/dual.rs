@@ -25,8 +25,11 @@ impl<T: Real> Dual<T> {
     }
 }
 
+// Operations are never inlined: kernels are thousands of them in a row, which would take the compiler twice as long.
+
 impl<T: Real> Add for Dual<T> {
     type Output = Self;
+    #[inline(never)]
     fn add(self, other: Self) -> Self {
         Self::new(self.value + other.value, self.rate + other.rate)
     }
@@ -34,6 +37,7 @@ impl<T: Real> Add for Dual<T> {
 
 impl<T: Real> Sub for Dual<T> {
     type Output = Self;
+    #[inline(never)]
     fn sub(self, other: Self) -> Self {
         Self::new(self.value - other.value, self.rate - other.rate)
     }
@@ -41,6 +45,7 @@ impl<T: Real> Sub for Dual<T> {
 
 impl<T: Real> Mul for Dual<T> {
     type Output = Self;
+    #[inline(never)]
     fn mul(self, other: Self) -> Self {
         Self::new(self.value * other.value, self.rate * other.value + self.value * other.rate)
     }
@@ -48,6 +53,7 @@ impl<T: Real> Mul for Dual<T> {
 
 impl<T: Real> Div for Dual<T> {
     type Output = Self;
+    #[inline(never)]
     fn div(self, other: Self) -> Self {
         let quotient = self.value / other.value;
         Self::new(quotient, (self.rate - quotient * other.rate) / other.value)
