@@ -1,0 +1,84 @@
+//! The picture: angle, energy and powers of the pendulum; the slider against its exact solution.
+
+use std::error::Error;
+
+use gauss_examples::figure::{COLOURS, INK};
+use gauss_examples::plots::{Line, Plot, sheet};
+use gauss_runtime::prelude::*;
+
+use crate::scene::{Pendulum, PendulumKernel, Slider};
+use crate::{Sliding, slide};
+
+/// Lower end of the axis of powers, W: what the buffer takes is far below it.
+const LEAST_POWER: f64 = -0.2;
+
+/// Draws all four panels.
+///
+/// # Errors
+/// When a panel cannot be laid out, or a slider does not reach its end.
+pub fn draw(
+    pendulum: &Pendulum,
+    kernel: &PendulumKernel,
+    path: &Trajectory<PendulumKernel>,
+    slider: &Slider,
+) -> Result<String, Box<dyn Error>> {
+    let end = path.last().t;
+    let of_path = |value: &dyn Fn(&Sample<PendulumKernel>) -> f64| -> Vec<(f64, f64)> {
+        path.iter().step_by(2).map(|s| (s.t, value(s))).collect()
+    };
+    let plot = |title, y, ends, lines| Plot {
+        title,
+        x: ("time, s", 0.0..end),
+        y: (y, ends),
+        equal: false,
+        lines,
+        marks: Vec::new(),
+    };
+
+    let buffer = Line::new("buffer", COLOURS[1], [(0.0, pendulum.limit), (end, pendulum.limit)]).dashed();
+    let rod = Line::new("rod", COLOURS[0], of_path(&|s| s.q[0]));
+    let angle = plot("Angle", "rad", -1.0..2.0, vec![buffer, rod]);
+
+    let start = kernel.energy(path.first().t, &path.first().q, &path.first().z);
+    let balance = power_balance(kernel, path, |_, _, _| ());
+    let work = balance.points().iter().step_by(2).map(|p| (p.t, start + p.work));
+    let energies = vec![
+        Line::new("kinetic", COLOURS[2], of_path(&|s| kernel.kinetic_energy(s.t, &s.q, &s.z))),
+        Line::new("with potential", COLOURS[0], of_path(&|s| kernel.energy(s.t, &s.q, &s.z))).wide(6),
+        Line::new("start + work", INK, work).dashed().wide(2),
+    ];
+    let energy = plot("Energy, and what dissipation leaves of it", "J", -0.6..0.8, energies);
+
+    let power = |name: &str| {
+        of_path(&|s| kernel.power(name, s.t, &s.q, &s.z, &()).map_or(f64::NAN, |power| power.max(LEAST_POWER)))
+    };
+    let losses = vec![
+        Line::new("damping of the buffer", COLOURS[1], power("buffer damping")).wide(3),
+        Line::new("friction", COLOURS[0], power("friction")).wide(3),
+    ];
+    let powers = plot("Power (peaks of the buffer are cut off)", "W", LEAST_POWER..0.05, losses);
+
+    let smooth = |creep: f64| distances(&slider.smooth(creep).kernel()?, slider);
+    let errors = Plot {
+        title: "A sliding mass: distance from the exact solution",
+        x: ("time, s", 0.0..slider.rests()),
+        y: ("log₁₀ of metres", -13.0..-2.0),
+        equal: false,
+        lines: vec![
+            Line::new("signum", INK, distances(&slider.kernel()?, slider)?).wide(3),
+            Line::new("ε = 10⁻² m/s", COLOURS[1], smooth(1e-2)?).wide(3),
+            Line::new("10⁻³", COLOURS[2], smooth(1e-3)?).wide(3),
+            Line::new("10⁻⁴", COLOURS[0], smooth(1e-4)?).wide(3),
+        ],
+        marks: Vec::new(),
+    };
+    let title = "A pendulum with dry friction, a spiral spring and a buffer";
+    sheet(title, (1600, 1300), &[vec![angle, energy], vec![powers, errors]])
+}
+
+/// Decimal logarithms of the slider's distances from the exact solution.
+fn distances<K: Sliding>(kernel: &K, slider: &Slider) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
+    let path = slide(kernel, slider, 1e-10)?;
+    let samples = (1..=400).filter_map(|n| path.at(slider.rests() * f64::from(n) / 400.0));
+    Ok(samples.map(|s| (s.t, (s.q[0] - slider.exact(s.t)).abs().max(1e-13).log10())).collect())
+}
