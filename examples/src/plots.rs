@@ -133,7 +133,7 @@ impl Plot<'_> {
             .y_desc(self.y.0)
             .axis_desc_style(writing(28))
             .label_style(writing(26))
-            .x_labels(8)
+            .x_labels((inside.0 / (57 * FINE)).clamp(3, 8) as usize)
             .y_labels(7)
             .x_label_formatter(&number)
             .y_label_formatter(&number)
@@ -175,17 +175,43 @@ impl Plot<'_> {
 /// # Errors
 /// When it cannot be laid out.
 pub fn sheet(title: &str, size: (u32, u32), rows: &[Vec<Plot<'_>>]) -> Result<String, Box<dyn Error>> {
+    picture(title, size, |body| {
+        for (plots, row) in rows.iter().zip(body.split_evenly((rows.len(), 1))) {
+            for (plot, place) in plots.iter().zip(row.split_evenly((1, plots.len()))) {
+                plot.draw(&place)?;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// A picture of a size in pixels, with plots in rectangles below a title: their left and upper ends there, widths and heights.
+///
+/// # Errors
+/// When it cannot be laid out.
+pub fn mosaic(title: &str, size: (u32, u32), plots: &[([u32; 4], Plot<'_>)]) -> Result<String, Box<dyn Error>> {
+    picture(title, size, |body| {
+        for (rectangle, plot) in plots {
+            let [left, top, width, height] = rectangle.map(|pixels| pixels * FINE);
+            plot.draw(&body.clone().shrink((left, top), (width, height)))?;
+        }
+        Ok(())
+    })
+}
+
+/// A white page with a title, and what is drawn below it.
+fn picture(
+    title: &str,
+    size: (u32, u32),
+    draw: impl FnOnce(&Area<'_>) -> Result<(), Box<dyn Error>>,
+) -> Result<String, Box<dyn Error>> {
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, (size.0 * FINE, size.1 * FINE)).into_drawing_area();
         root.fill(&WHITE)?;
         root.draw(&Text::new(title.to_owned(), (fine(40), fine(26)), writing(40)))?;
         let (_, body) = root.split_vertically(fine(90));
-        for (plots, row) in rows.iter().zip(body.split_evenly((rows.len(), 1))) {
-            for (plot, place) in plots.iter().zip(row.split_evenly((1, plots.len()))) {
-                plot.draw(&place)?;
-            }
-        }
+        draw(&body)?;
         root.present()?;
     }
     // The units stay those of the view box.
