@@ -1,7 +1,7 @@
 //! The same vehicle written out by hand, as in textbooks, with an integrator of its own: nothing here is generated.
 //!
-//! `M ν̇ + C(ν) ν = τ` with ν = (u v w p q r): T. I. Fossen, *Handbook of Marine Craft Hydrodynamics and Motion Control*, 2011,
-//! chapters 2 (Euler angles), 3 (rigid body), 4 (weight and buoyancy) and 6 (added mass).
+//! `M ν̇ + C(ν) ν = τ` with ν = (u v w p q r): T. I. Fossen, *Handbook of Marine Craft Hydrodynamics and Motion
+//! Control*, 2011, chapters 2 (Euler angles), 3 (rigid body), 4 (weight and buoyancy) and 6 (added mass).
 
 use std::error::Error;
 
@@ -31,7 +31,8 @@ enum Factors {
     Elevator,
 }
 
-/// Reads a coefficient's place and factors off its name: `Yrr` is Y by r |r|, `Muwb` M by u w, `Nuudr` N by u² and the rudder.
+/// Reads a coefficient's place and factors off its name: `Yrr` is Y by r |r|, `Muwb` M by u w, `Nuudr` N by u² and the
+/// rudder.
 fn term(name: &str) -> Option<(usize, Factors)> {
     let letters: Vec<char> = name.chars().collect();
     let row = "XYZKMN".find(*letters.first()?)?;
@@ -154,7 +155,8 @@ impl Fossen {
         rate
     }
 
-    /// Flies a manoeuvre by the classical Runge–Kutta method with so many steps between two moments; poses at the moments.
+    /// Flies a manoeuvre by the classical Runge–Kutta method with so many steps between two moments; poses at the
+    /// moments.
     pub fn fly(&self, manoeuvre: &Manoeuvre, steps: u32) -> Vec<Isometry3<f64>> {
         let (pose, twist) = manoeuvre.start;
         let (b, (phi, theta, psi)) = (pose.translation.vector, pose.rotation.euler_angles());

@@ -1,6 +1,7 @@
 //! The vehicle: what it is and what acts on it, once for each of two charts.
 //!
-//! Body axes: e₁ forward, e₂ starboard, e₃ down, O at the centre of buoyancy. Observer: k₁ north, k₂ east, k₃ down. SI units.
+//! Body axes: e₁ forward, e₂ starboard, e₃ down, O at the centre of buoyancy. Observer: k₁ north, k₂ east, k₃ down. SI
+//! units.
 
 use std::error::Error;
 
@@ -62,8 +63,8 @@ impl Table {
 
 /// The same vehicle in another chart is another word in one attribute.
 ///
-/// Drag, lift and fins are the table, term by term. Its cross terms X_wq, Y_wp, M_uwa, … are not entered: they follow from the
-/// added mass, and would count twice.
+/// Drag, lift and fins are the table, term by term. Its cross terms X_wq, Y_wp, M_uwa, … are not entered: they follow
+/// from the added mass, and would count twice.
 macro_rules! vehicle {
     ($(#[$doc:meta])* $name:ident, $($chart:tt)*) => {
         $(#[$doc])*
@@ -85,7 +86,11 @@ macro_rules! vehicle {
                     nvv * v.y * abs(v.y) + nrr * w.z * abs(w.z),
                 ],
             ),
-            wrench(lift, force = [0, yuv * v.x * v.y, zuw * v.x * v.z], torque = [0, muwb * v.x * v.z, nuvb * v.x * v.y]),
+            wrench(
+                lift,
+                force = [0, yuv * v.x * v.y, zuw * v.x * v.z],
+                torque = [0, muwb * v.x * v.z, nuvb * v.x * v.y],
+            ),
             wrench(
                 fins,
                 force = [
@@ -139,8 +144,10 @@ macro_rules! vehicle {
                     added: table.added_mass()?,
                     displaced: n("buoyancy_N")? / g,
                     gravity: Vector3::new(0.0, 0.0, g),
-                    xuu: n("drag/Xuu")?, yvv: n("drag/Yvv")?, yrr: n("drag/Yrr")?, zww: n("drag/Zww")?, zqq: n("drag/Zqq")?,
-                    kpp: n("drag/Kpp")?, mww: n("drag/Mww")?, mqq: n("drag/Mqq")?, nvv: n("drag/Nvv")?, nrr: n("drag/Nrr")?,
+                    xuu: n("drag/Xuu")?, yvv: n("drag/Yvv")?, yrr: n("drag/Yrr")?,
+                    zww: n("drag/Zww")?, zqq: n("drag/Zqq")?,
+                    kpp: n("drag/Kpp")?, mww: n("drag/Mww")?, mqq: n("drag/Mqq")?,
+                    nvv: n("drag/Nvv")?, nrr: n("drag/Nrr")?,
                     yuv: n("lift/Yuv")?, zuw: n("lift/Zuw")?, muwb: n("lift/Muwb")?, nuvb: n("lift/Nuvb")?,
                     yuudr: n("fins/Yuudr")?, zuuds: n("fins/Zuuds")?, muuds: n("fins/Muuds")?, nuudr: n("fins/Nuudr")?,
                     yurf: n("fins/Yurf")?, zuqf: n("fins/Zuqf")?, muwf: n("fins/Muwf")?, nuvf: n("fins/Nuvf")?,

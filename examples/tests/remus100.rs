@@ -38,8 +38,8 @@ fn accelerations_are_those_of_equations_written_by_hand() {
         );
         let found = kernel.acceleration(0.0, &pose, &twist, &SVector::from(inputs));
         let expected = by_hand.acceleration(&twist, [roll, pitch], inputs);
-        // Forces of up to 1000 N and N m in sums of some 30 terms; the least inertia is that of rolling, 0.25 kg m², and lets
-        // their rounding through fourfold.
+        // Forces of up to 1000 N and N m in sums of some 30 terms; the least inertia is that of rolling, 0.25 kg m²,
+        // and lets their rounding through fourfold.
         let rounding = 30.0 * f64::EPSILON * 1000.0 * 4.0;
         assert!((found - expected).amax() <= rounding, "{found} {expected}");
     }
@@ -60,8 +60,8 @@ fn two_charts_and_the_equations_by_hand_turn_and_dive_alike() {
         let change = distance(&fine, &coarse);
         let apart = distance(&poses(&flight), &fine);
         assert!(apart <= change && change < 1e-6, "{}: {apart:e} {change:e}", manoeuvre.name);
-        // Both charts are integrated to 1e-11 a step, some 1000 steps, in a motion whose deviations grow by e in a second at
-        // most before the turn limits them.
+        // Both charts are integrated to 1e-11 a step, some 1000 steps, in a motion whose deviations grow by e in a
+        // second at most before the turn limits them.
         let other = fly(&by_angles, &manoeuvre).unwrap();
         assert!(distance(&poses(&flight), &poses(&other)) < 1e-8, "{}", manoeuvre.name);
         let [energy, work] = flight.balance;
@@ -95,7 +95,8 @@ fn a_straight_run_has_its_closed_form() {
         assert!((moment.pose.translation.x - way).abs() < 1e-8, "{} s", moment.t);
         assert_eq!(moment.inputs, [0.0, 0.0, thrust]);
     }
-    // As built it pitches a little while it speeds up, and ends at the same speed: 4.8 time constants, 1 − tanh 4.8 = 1e-4.
+    // As built it pitches a little while it speeds up, and ends at the same speed: 4.8 time constants, 1 − tanh 4.8 =
+    // 1e-4.
     let neutral = Remus { displaced: published.mass, ..published }.kernel().unwrap();
     let flight = fly(&neutral, &Manoeuvre::straight(&table).unwrap()).unwrap();
     let end = &flight.moments[flight.moments.len() - 1];
