@@ -1,0 +1,123 @@
+//! A vehicle driven by inputs from a log: `examples/data/recorded_inputs.csv`, made up to look like one, or a file of
+//! yours.
+//!
+//! `cargo run --release --example recorded_inputs [-- FILE.csv [FOLDER]]` draws into `FOLDER`, by default
+//! `target/gauss`.
+
+use std::error::Error;
+use std::fs::File;
+use std::path::PathBuf;
+use std::{env, fs};
+
+use gauss_examples::figure::{COLOURS, INK, png, text_style};
+use gauss_examples::lines::{Axis, Line, Panel};
+use gauss_runtime::prelude::*;
+use plotters::prelude::*;
+
+mod craft;
+mod recording;
+
+use craft::{Craft, CraftKernel, apart, replay, replay_by_hand};
+use recording::{Recording, Row};
+
+/// Where this package has its data.
+const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/recorded_inputs.csv");
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let file = env::args_os().nth(1).map_or_else(|| PathBuf::from(FILE), PathBuf::from);
+    let folder = env::args_os().nth(2).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
+    let recording = Recording::read(File::open(&file)?).map_err(|error| format!("{}, {error}", file.display()))?;
+    let rows = recording.rows();
+    let (from, to) = (rows[0].time, rows[rows.len() - 1].time);
+    println!(
+        "RECORDED INPUTS\n\n{} rows of thrust and rudder, {from} s to {to} s; the REMUS 100 in the plane.",
+        rows.len()
+    );
+
+    let kernel = Craft::published().kernel()?;
+    let samples = replay(&kernel, &recording)?;
+    println!("One evaluation: {}\n", CraftKernel::OPERATIONS.acceleration);
+    println!("     t/s  thrust/N  rudder/°   north/m    east/m     u/m/s     v/m/s     r/°/s");
+    for (sample, row) in samples.iter().zip(rows).step_by(20) {
+        let (place, [u, v, r]) = (sample.q.translation.vector, <[f64; 3]>::from(sample.z));
+        println!(
+            "{:8.1}{:10.3}{:10.2}{:10.3}{:10.3}{u:10.4}{v:10.4}{:10.3}",
+            sample.t,
+            row.thrust,
+            row.rudder.to_degrees(),
+            place.x,
+            place.y,
+            r.to_degrees()
+        );
+    }
+
+    let [fine, coarse] = [40, 20].map(|steps| replay_by_hand(&recording, steps));
+    println!("\nequations by hand, 40 Runge–Kutta steps between two rows: {:.1e} m apart", apart(&samples, &fine));
+    println!("                   20 steps:                               {:.1e} m", apart(&samples, &coarse));
+    // As long as only a constant thrust acts, from rest: u = √(X/|Xuu|) tanh(t √(X |Xuu|)/(m − Xu̇)).
+    let craft = Craft::published();
+    let same = |row: &&Row| row.thrust == rows[0].thrust && row.rudder == 0.0;
+    let steady = rows.iter().take_while(same).count();
+    let surge = craft.mass + craft.added[(0, 0)];
+    let closed = |t: f64| {
+        let (thrust, drag) = (rows[0].thrust, -craft.xuu);
+        (thrust / drag).sqrt() * ((t - from) * (thrust * drag).sqrt() / surge).tanh()
+    };
+    let off = samples[..steady].iter().map(|s| (s.z[0] - closed(s.t)).abs()).fold(0.0, f64::max);
+    println!("closed form of the first {} s, constant thrust from rest:  {off:.1e} m/s", rows[steady - 1].time - from);
+
+    // Without a stop at every row the steps find the kinks by rejected steps.
+    let whole = Simulation::new(&kernel).input_from(&recording).adaptive(1e-11, 1e-12);
+    let path = whole.run(samples[0].q, samples[0].z, from..to)?;
+    let end = samples[samples.len() - 1].q.translation.vector;
+    let missed = (path.last().q.translation.vector - end).norm();
+    println!("in one go over all kinks: {} steps, ends {missed:.1e} m elsewhere", path.len() - 1);
+    println!("joules: {}", power_balance(&kernel, &path, |t, _, _| SVector::from(recording.at(t))));
+
+    let svg = draw(&samples, rows)?;
+    fs::create_dir_all(&folder)?;
+    for (name, contents) in [("recorded_inputs.svg", svg.clone().into_bytes()), ("recorded_inputs.png", png(&svg)?)] {
+        let file = folder.join(name);
+        fs::write(&file, contents)?;
+        println!("written: {}", file.display());
+    }
+    Ok(())
+}
+
+/// What was recorded above, the way below.
+fn draw(samples: &[Sample<CraftKernel>], rows: &[Row]) -> Result<String, Box<dyn Error>> {
+    let [blue, orange, green, _] = COLOURS;
+    let line = |points: Vec<(f64, f64)>, colour, name| Line { points, colour, width: 4, dashed: false, name };
+    let recorded = |value: fn(&Row) -> f64| rows.iter().map(|row| (row.time, value(row))).collect::<Vec<_>>();
+    let end = rows[rows.len() - 1].time;
+    let mut svg = String::new();
+    {
+        let root = SVGBackend::with_string(&mut svg, (1640, 1140)).into_drawing_area();
+        root.fill(&WHITE)?;
+        root.draw(&Text::new("A vehicle driven by recorded inputs", (30, 22), text_style(36, INK)))?;
+        let (_, body) = root.split_vertically(80);
+        let (upper, lower) = body.split_vertically(390);
+        let (left, right) = upper.split_horizontally(820);
+        let time = || Axis::linear("time, s", 0.0..end);
+        let thrust =
+            Panel { title: "Recorded thrust".into(), x: time(), y: Axis::linear("thrust, N", 0.0..6.0), equal: false };
+        thrust.draw(&left, &[line(recorded(|row| row.thrust), orange, ("", 0.0, 0.0))])?;
+        let rudder = Panel {
+            title: "Recorded rudder".into(),
+            x: time(),
+            y: Axis::linear("rudder, °", -12.0..12.0),
+            equal: false,
+        };
+        rudder.draw(&right, &[line(recorded(|row| row.rudder.to_degrees()), green, ("", 0.0, 0.0))])?;
+        let way = Panel {
+            title: "The way of the vehicle".into(),
+            x: Axis::linear("east, m", -56.0..4.0),
+            y: Axis::linear("north, m", -2.0..30.0),
+            equal: true,
+        };
+        let points: Vec<_> = samples.iter().map(|s| (s.q.translation.vector.y, s.q.translation.vector.x)).collect();
+        way.draw(&lower, &[line(points, blue, ("start", 1.0, 0.0)), line(vec![], blue, ("end", -55.5, 23.5))])?;
+        root.present()?;
+    }
+    Ok(svg)
+}
