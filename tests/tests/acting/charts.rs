@@ -1,5 +1,7 @@
 //! Everything acts at once: all charts say the same of it, and so does the scene written as a system.
 
+use std::cell::Cell;
+
 use gauss_runtime::prelude::*;
 
 use proptest::test_runner::TestCaseError;
@@ -120,4 +122,24 @@ fn a_free_body_as_a_system() {
         tally.count(&[Bounded::zero()], 1.0);
         Ok(())
     });
+}
+
+/// The comparison is worth something: one stiffness wrong by one part in 10¹⁰ is noticed.
+#[test]
+fn a_wrong_parameter_is_noticed() {
+    let (noticed, total) = (Cell::new(0), Cell::new(0));
+    explore(Motion::Free, SHARE, |parameters, state, tally| {
+        let (left, dual) = pair::<free::Left<()>>(parameters);
+        let right = observe(&left, &dual, state)?.expect("regular everywhere");
+        tally.count(&right.acceleration, right.scale);
+        let loads = Loads::<f64>::of(parameters);
+        let stiff = loads.stiff * (1.0 + 1e-10);
+        let kernel = free::Left::of(parameters, &Loads { stiff: Bounded::from_f64(stiff), ..Loads::of(parameters) });
+        let dual = free::Left::of(parameters, &Loads { stiff: Dual::from_f64(stiff), ..Loads::of(parameters) });
+        let wrong = observe(&kernel, &dual, state)?.expect("regular everywhere");
+        noticed.set(noticed.get() + u32::from(agree("left", &right, &wrong).is_err()));
+        total.set(total.get() + 1);
+        Ok(())
+    });
+    assert!(10 * noticed.get() >= 9 * total.get(), "{} of {}", noticed.get(), total.get());
 }
