@@ -279,8 +279,10 @@ fn check_masses(
     context: &mut Context,
 ) {
     let known = |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role);
+    // An accelerating medium pushes the displaced mass as gravity does.
+    let pushed = statements.medium.is_some();
     for field in &reader.fields {
-        validate::check_companion(field, known, scalar, context);
+        validate::check_companion(field, |role| known(role) || (role == Role::Gravity && pushed), scalar, context);
     }
     let bodies = statements.massive().count();
     if statements.has_unnamed_body() {

@@ -31,8 +31,10 @@ pub(super) fn model(
             missing_role(input, role, &name, context);
         }
     }
+    // An accelerating medium pushes the displaced mass as gravity does.
+    let pushed = statements.medium.is_some();
     for field in &reader.fields {
-        check_companion(field, known, &name, context);
+        check_companion(field, |role| known(role) || (role == Role::Gravity && pushed), &name, context);
     }
     if let Some((name, _)) = statements.limit.as_ref().filter(|_| !statements.acting) {
         context.error(
