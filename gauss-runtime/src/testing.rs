@@ -12,6 +12,7 @@ use crate::system::{Equations, GaussSystem, Operations};
 
 pub(crate) mod constrained;
 pub(crate) mod dual;
+pub(crate) mod order;
 pub(crate) mod oscillator;
 
 /// Two numbers in lockstep: the smallest SIMD pack.

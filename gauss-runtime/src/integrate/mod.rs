@@ -6,6 +6,7 @@
 //! | [`tableau`] | coefficients of Runge–Kutta methods |
 //! | [`one_step`] | what a method of one step is and keeps |
 //! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
+//! | [`commutator_free`] | a commutator-free method of order 4 |
 //! | [`control`] | fixed steps, adaptive steps |
 //! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
 //! | `projection` | states of a run kept on the constraints |
@@ -13,6 +14,7 @@
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
 //! | [`error`] | [`IntegrationError`] |
 
+pub mod commutator_free;
 pub mod control;
 pub mod error;
 pub mod form;
@@ -24,6 +26,7 @@ mod step_length;
 pub mod tableau;
 pub mod trajectory;
 
+pub use commutator_free::CommutatorFree4;
 pub use control::{Adaptive, Control, Fixed};
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
