@@ -45,6 +45,13 @@ pub enum IntegrationErrorKind {
         /// The regularity at the end of the step.
         regularity: f64,
     },
+    /// The equations of an implicit step are not solved by iteration: a shorter step may do.
+    NotConverged {
+        /// How many iterations were made.
+        iterations: u32,
+        /// How much the last one still changed, relative to the size of the state.
+        residual: f64,
+    },
     /// The state cannot be brought back onto the constraints.
     Projection {
         /// What the projection says.
@@ -112,6 +119,11 @@ impl fmt::Display for IntegrationErrorKind {
                 f,
                 "the coordinates are singular here (regularity {regularity:e}); use another sequence of angles, or a chart \
                  without angles"
+            ),
+            Self::NotConverged { iterations, residual } => write!(
+                f,
+                "the implicit step is not solved after {iterations} iterations, of which the last changes it by {residual:e} \
+                 (relative); use a smaller step"
             ),
             Self::Projection { error } => error.fmt(f),
             Self::InconsistentStart { level, distance } => write!(

@@ -6,6 +6,7 @@
 //! | [`tableau`] | coefficients of Runge–Kutta methods |
 //! | [`one_step`] | what a method of one step is and keeps |
 //! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
+//! | [`collocation`] | Gauss' implicit methods of orders 2, 4, 6, symmetric |
 //! | [`commutator_free`] | a commutator-free method of order 4 |
 //! | [`control`] | fixed steps, adaptive steps |
 //! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
@@ -14,6 +15,7 @@
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
 //! | [`error`] | [`IntegrationError`] |
 
+pub mod collocation;
 pub mod commutator_free;
 pub mod control;
 pub mod error;
@@ -26,6 +28,7 @@ mod step_length;
 pub mod tableau;
 pub mod trajectory;
 
+pub use collocation::Collocation;
 pub use commutator_free::CommutatorFree4;
 pub use control::{Adaptive, Control, Fixed};
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
@@ -38,6 +41,8 @@ pub use trajectory::Sample;
 #[cfg(feature = "alloc")]
 pub use trajectory::Trajectory;
 
+#[cfg(all(test, feature = "alloc"))]
+mod collocation_tests;
 #[cfg(all(test, feature = "alloc"))]
 mod product_tests;
 #[cfg(test)]

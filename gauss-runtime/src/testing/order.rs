@@ -72,6 +72,12 @@ pub(crate) const TORQUE: Feedback<Torque> = Feedback(|t, q, z| {
     [0.8 * up[1] + 0.3 * t.sin(), -0.7 * up[0], 0.2 * z[0] * z[0]]
 });
 
+/// A torque that does not tell forward from backward: of a weight.
+pub(crate) const WEIGHT: Feedback<Torque> = Feedback(|_, q, _| {
+    let up = q.inverse() * SVector::from([0.0, 0.0, 1.0]);
+    [0.6 * up[1], -0.6 * up[0], 0.0]
+});
+
 /// No torque.
 pub(crate) const NONE: Feedback<Torque> = Feedback(|_, _, _| [0.0; 3]);
 
