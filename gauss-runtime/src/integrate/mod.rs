@@ -8,6 +8,7 @@
 //! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
 //! | [`collocation`] | Gauss' implicit methods of orders 2, 4, 6, symmetric |
 //! | [`commutator_free`] | a commutator-free method of order 4 |
+//! | [`composition`] | symmetric methods composed to higher orders |
 //! | [`control`] | fixed steps, adaptive steps |
 //! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
 //! | `projection` | states of a run kept on the constraints |
@@ -17,6 +18,7 @@
 
 pub mod collocation;
 pub mod commutator_free;
+pub mod composition;
 pub mod control;
 pub mod error;
 pub mod form;
@@ -30,6 +32,7 @@ pub mod trajectory;
 
 pub use collocation::Collocation;
 pub use commutator_free::CommutatorFree4;
+pub use composition::{Composed, Composition};
 pub use control::{Adaptive, Control, Fixed};
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};

@@ -25,7 +25,7 @@ pub struct Tableau<const S: usize> {
 const O: Rational = (0, 1);
 
 /// `digits · 10^−places`: a coefficient that is published as a decimal.
-const fn decimal(digits: i64, places: u32) -> Rational {
+pub(super) const fn decimal(digits: i64, places: u32) -> Rational {
     (digits, 10_i64.pow(places))
 }
 
