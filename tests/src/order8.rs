@@ -2,8 +2,8 @@
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{
-    Control, Form, InputSource, IntegrationError, IntegrationErrorKind, OneStep, Part, Problem, Rates, Rkmk, State,
-    Tableau,
+    Control, Emit, Form, InputSource, IntegrationError, IntegrationErrorKind, OneStep, Part, Problem, Rates, Rkmk,
+    State, Tableau,
 };
 use gauss_runtime::system::GaussSystem;
 
@@ -64,7 +64,7 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
         start: State<S>,
         end: f64,
         limit: u64,
-        emit: &mut dyn FnMut(&State<S>, &Rates<S>),
+        emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let stopped = |time, kind| IntegrationError { time, kind };
         let mut state = start;
@@ -72,7 +72,9 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
         if !rates.is_finite() {
             return Err(stopped(state.t, IntegrationErrorKind::NonFinite { part: Part::Derivative }));
         }
-        emit(&state, &rates);
+        if emit(&state, &rates).is_break() {
+            return Ok(state);
+        }
         // A first step far too short costs a few steps: it grows tenfold each time.
         let turn = S::Configuration::increment_angle(&rates.configuration);
         let mut length = self.fixed.unwrap_or(1e-3 / turn.max(1.0));
@@ -120,8 +122,7 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
             if !rates.is_finite() {
                 return Err(stopped(before, IntegrationErrorKind::NonFinite { part: Part::Step }));
             }
-            emit(&state, &rates);
-            if last {
+            if emit(&state, &rates).is_break() || last {
                 return Ok(state);
             }
         }

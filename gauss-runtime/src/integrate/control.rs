@@ -1,5 +1,7 @@
 //! How long steps are: all the same, or as long as a tolerance allows.
 
+use core::ops::ControlFlow;
+
 use super::error::{IntegrationError, IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
 use super::one_step::OneStep;
@@ -11,11 +13,14 @@ use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
+/// What takes the states of a run, with the derivatives there, as they are reached; it breaks to end the run.
+pub type Emit<'a, S> = dyn FnMut(&State<S>, &Rates<S>) -> ControlFlow<()> + 'a;
+
 /// A method with its choice of steps, which carries a state to the end of an interval.
 pub trait Control<S: GaussSystem> {
     /// Integrates from `start` to the time `end` (before or after it), in at most `limit` steps. `emit` gets every state
     /// reached with the derivatives there, the first and the last included. With constraints, all of them satisfy these up
-    /// to rounding.
+    /// to rounding. When `emit` breaks, the run ends there, with the state that it got.
     ///
     /// # Errors
     /// An [`IntegrationError`] with the time of the last state emitted.
@@ -25,8 +30,38 @@ pub trait Control<S: GaussSystem> {
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut dyn FnMut(&State<S>, &Rates<S>),
+        emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError>;
+
+    /// The state a time `h` after `state`, where the derivatives are `rates`, with the accuracy of the method: what events
+    /// and dense output are made of. `h` has the sign of the run and is at most as long as the step that the run made from
+    /// there. It depends continuously on `h` for the controls of this crate, which make one step of that length.
+    ///
+    /// # Errors
+    /// When the step cannot be made.
+    fn within<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        let _ = rates;
+        let nobody = &mut |_: &State<S>, _: &Rates<S>| ControlFlow::Continue(());
+        self.drive(problem, *state, state.t + h, u64::MAX, nobody).map_err(|error| error.kind)
+    }
+}
+
+/// One step by a method, brought onto the constraints where there are any.
+fn one_step<S: GaussSystem, M: OneStep<S>, F: Form<S>, I: InputSource<S>>(
+    method: &M,
+    problem: &Problem<'_, S, F, I>,
+    state: &State<S>,
+    rates: &Rates<S>,
+    h: S::Scalar,
+) -> Result<State<S>, IntegrationErrorKind> {
+    let end = method.step(problem, state, rates, h)?.state;
+    if S::CONSTRAINED { on_constraints(problem, &end) } else { Ok(end) }
 }
 
 /// Steps of one length, by any method of one step. The last one ends where it should.
@@ -128,7 +163,7 @@ impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut dyn FnMut(&State<S>, &Rates<S>),
+        emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let stopped = |t: S::Scalar, kind| IntegrationError { time: t.lane(0), kind };
         let length = self.step.lane(0).abs();
@@ -136,8 +171,7 @@ impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
             return Err(stopped(start.t, IntegrationErrorKind::InvalidStep { step: self.step.lane(0) }));
         }
         let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
-        emit(&start, &rates);
-        if span == 0.0 {
+        if emit(&start, &rates).is_break() || span == 0.0 {
             return Ok(start);
         }
 
@@ -168,9 +202,21 @@ impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
             if !rates.is_finite() {
                 return Err(stopped(reached, IntegrationErrorKind::NonFinite { part: Part::Step }));
             }
-            emit(&state, &rates);
+            if emit(&state, &rates).is_break() {
+                break;
+            }
         }
         Ok(state)
+    }
+
+    fn within<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        one_step(&self.method, problem, state, rates, h)
     }
 }
 
@@ -181,7 +227,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut dyn FnMut(&State<S>, &Rates<S>),
+        emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let stopped = |t: S::Scalar, kind| IntegrationError { time: t.lane(0), kind };
         let (relative, absolute) = (self.relative, self.absolute);
@@ -191,8 +237,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             return Err(stopped(start.t, kind));
         }
         let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
-        emit(&start, &rates);
-        if span == 0.0 {
+        if emit(&start, &rates).is_break() || span == 0.0 {
             return Ok(start);
         }
 
@@ -247,13 +292,22 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
                 }
             };
             state = reached;
-            emit(&state, &rates);
-            if last {
+            if emit(&state, &rates).is_break() || last {
                 return Ok(state);
             }
             length = (used * lengths.accept(error)).min(longest);
         }
         Err(stopped(state.t, IntegrationErrorKind::TooManySteps { limit }))
+    }
+
+    fn within<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        one_step(&self.method, problem, state, rates, h)
     }
 }
 

@@ -90,6 +90,8 @@ pub enum Part {
     Derivative,
     /// The state at the end of a step, or a stage on the way.
     Step,
+    /// The function of an event, at the end of the next step or on the way.
+    Event,
 }
 
 impl fmt::Display for IntegrationErrorKind {
@@ -97,6 +99,7 @@ impl fmt::Display for IntegrationErrorKind {
         match self {
             Self::NonFinite { part } => {
                 let whence = match part {
+                    Part::Event => "the function of an event is",
                     Part::InitialState => "the initial state is",
                     Part::Derivative => "the equations of motion are",
                     Part::Step => "the next step is",

@@ -251,7 +251,7 @@ impl<S: GaussSystem> Form<S> for MomentumForm {
 }
 
 /// A system, a form and an input: all that a method integrates.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Problem<'k, S, F, I> {
     /// The kernel.
     pub system: &'k S,
@@ -259,6 +259,15 @@ pub struct Problem<'k, S, F, I> {
     pub form: F,
     /// Where inputs come from.
     pub input: I,
+}
+
+// Written by hand: the system is only borrowed, and need not be `Copy`.
+impl<S, F: Copy, I: Copy> Copy for Problem<'_, S, F, I> {}
+
+impl<S, F: Clone, I: Clone> Clone for Problem<'_, S, F, I> {
+    fn clone(&self) -> Self {
+        Self { system: self.system, form: self.form.clone(), input: self.input.clone() }
+    }
 }
 
 impl<S: GaussSystem, F: Form<S>, I: InputSource<S>> Problem<'_, S, F, I> {

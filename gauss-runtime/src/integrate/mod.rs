@@ -13,6 +13,7 @@
 //! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
 //! | `projection` | states of a run kept on the constraints |
 //! | [`simulation`] | [`Simulation`], the front |
+//! | [`event`] | where functions of the state pass through zero |
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
 //! | [`error`] | [`IntegrationError`] |
 
@@ -21,6 +22,7 @@ pub mod commutator_free;
 pub mod composition;
 pub mod control;
 pub mod error;
+pub mod event;
 pub mod form;
 pub mod one_step;
 mod projection;
@@ -33,16 +35,17 @@ pub mod trajectory;
 pub use collocation::Collocation;
 pub use commutator_free::CommutatorFree4;
 pub use composition::{Composed, Composition};
-pub use control::{Adaptive, Control, Fixed};
+pub use control::{Adaptive, Control, Emit, Fixed};
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
+pub use event::Crossing;
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
 pub use one_step::{OneStep, Properties, Step};
 pub use rkmk::Rkmk;
-pub use simulation::Simulation;
+pub use simulation::{Observer, Simulation};
 pub use tableau::Tableau;
 pub use trajectory::Sample;
 #[cfg(feature = "alloc")]
-pub use trajectory::Trajectory;
+pub use trajectory::{EventSample, Trajectory};
 
 #[cfg(all(test, feature = "alloc"))]
 mod collocation_tests;

@@ -1,5 +1,6 @@
 //! Runs with constraints: no drift, the order of the method, closed forms, refusals.
 
+use core::ops::ControlFlow;
 use nalgebra::SVector;
 use std::string::ToString;
 use std::vec::Vec;
@@ -151,6 +152,7 @@ fn derivatives_belong_to_the_projected_state() {
         let expected = problem.rates(state);
         assert_eq!((rates.configuration, rates.variables), (expected.configuration, expected.variables));
         seen += 1;
+        ControlFlow::Continue(())
     };
     let start = State { t: 0.0, q, y };
     Adaptive::new(1e-4, 1e-4).drive(&problem, start, 2.0, 1000, &mut check).expect("runs");

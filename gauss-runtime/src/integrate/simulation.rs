@@ -1,14 +1,16 @@
 //! The front of the integrators: say what, in which form and how accurately, then run.
 
-use core::ops::Range;
+use core::ops::{ControlFlow, Range};
 
 use super::control::{Adaptive, Control, Fixed};
-use super::error::IntegrationError;
+use super::error::{IntegrationError, IntegrationErrorKind};
+use super::event::{Crossing, Events, NoEvents, Watch, Watched};
 use super::form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
 use super::trajectory::Sample;
 #[cfg(feature = "alloc")]
 use super::trajectory::Trajectory;
 use crate::configuration::Configuration;
+use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// Nothing is chosen yet; [`Simulation::fixed_step`] or [`Simulation::adaptive`] comes next.
@@ -19,6 +21,11 @@ pub struct Undecided;
 pub trait Observer<S: GaussSystem> {
     /// One sample, in the order of integration.
     fn see(&mut self, sample: &Sample<S>);
+
+    /// An event, by its number, before the sample that ends its step.
+    fn event(&mut self, number: usize, sample: &Sample<S>) {
+        let _ = (number, sample);
+    }
 }
 
 /// Nobody looks.
@@ -77,39 +84,56 @@ assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
 /// Constraints that coordinates and speeds do not solve by themselves hold up to rounding in every sample, because each step
 /// ends with a projection ([`GaussSystem::project`]). Initial values must satisfy them as well, up to the rounding
 /// of what was typed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 #[must_use = "a simulation does nothing before `run`"]
-pub struct Simulation<'k, S, F = VelocityForm, I = NoInput, C = Undecided, O = Unobserved> {
+pub struct Simulation<'k, S, F = VelocityForm, I = NoInput, C = Undecided, O = Unobserved, E = NoEvents> {
     problem: Problem<'k, S, F, I>,
     control: C,
     observer: O,
+    events: E,
     every: u64,
     limit: u64,
+}
+
+// Written by hand: the system is only borrowed, and need not be `Copy`.
+impl<S, F: Copy, I: Copy, C: Copy, O: Copy, E: Copy> Copy for Simulation<'_, S, F, I, C, O, E> {}
+
+impl<S, F: Clone, I: Clone, C: Clone, O: Clone, E: Clone> Clone for Simulation<'_, S, F, I, C, O, E> {
+    fn clone(&self) -> Self {
+        Self {
+            problem: self.problem.clone(),
+            control: self.control.clone(),
+            observer: self.observer.clone(),
+            events: self.events.clone(),
+            every: self.every,
+            limit: self.limit,
+        }
+    }
 }
 
 impl<'k, S: GaussSystem> Simulation<'k, S> {
     /// A run of a kernel, in velocity form and without inputs unless said otherwise.
     pub fn new(system: &'k S) -> Self {
         let problem = Problem { system, form: VelocityForm, input: NoInput };
-        Self { problem, control: Undecided, observer: Unobserved, every: 1, limit: u64::MAX }
+        Self { problem, control: Undecided, observer: Unobserved, events: NoEvents, every: 1, limit: u64::MAX }
     }
 }
 
-impl<'k, S: GaussSystem, F, I, C, O> Simulation<'k, S, F, I, C, O> {
+impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E> {
     /// Which variables are integrated: [`VelocityForm`] or [`MomentumForm`].
-    pub fn form<G: Form<S>>(self, form: G) -> Simulation<'k, S, G, I, C, O> {
-        let Self { problem: Problem { system, input, .. }, control, observer, every, limit } = self;
-        Simulation { problem: Problem { system, form, input }, control, observer, every, limit }
+    pub fn form<G: Form<S>>(self, form: G) -> Simulation<'k, S, G, I, C, O, E> {
+        let Self { problem: Problem { system, input, .. }, control, observer, events, every, limit } = self;
+        Simulation { problem: Problem { system, form, input }, control, observer, events, every, limit }
     }
 
     /// Integrates momenta instead of quasi-velocities.
-    pub fn momentum_form(self) -> Simulation<'k, S, MomentumForm, I, C, O> {
+    pub fn momentum_form(self) -> Simulation<'k, S, MomentumForm, I, C, O, E> {
         self.form(MomentumForm)
     }
 
     /// The input as a function of time and state. It is called at every stage of every step: it should depend on its
     /// arguments only, and smoothly.
-    pub fn input<G>(self, input: G) -> Simulation<'k, S, F, Feedback<G>, C, O>
+    pub fn input<G>(self, input: G) -> Simulation<'k, S, F, Feedback<G>, C, O, E>
     where
         G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input,
     {
@@ -117,31 +141,108 @@ impl<'k, S: GaussSystem, F, I, C, O> Simulation<'k, S, F, I, C, O> {
     }
 
     /// The input from a type that implements [`InputSource`]: a controller with parameters of its own, or a table.
-    pub fn input_from<J: InputSource<S>>(self, input: J) -> Simulation<'k, S, F, J, C, O> {
-        let Self { problem: Problem { system, form, .. }, control, observer, every, limit } = self;
-        Simulation { problem: Problem { system, form, input }, control, observer, every, limit }
+    pub fn input_from<J: InputSource<S>>(self, input: J) -> Simulation<'k, S, F, J, C, O, E> {
+        let Self { problem: Problem { system, form, .. }, control, observer, events, every, limit } = self;
+        Simulation { problem: Problem { system, form, input }, control, observer, events, every, limit }
     }
 
     /// Steps of one length, by the Runge–Kutta–Munthe-Kaas method of order 4; the last step is shortened to end in time.
-    pub fn fixed_step(self, step: S::Scalar) -> Simulation<'k, S, F, I, Fixed<S::Scalar>, O> {
+    pub fn fixed_step(self, step: S::Scalar) -> Simulation<'k, S, F, I, Fixed<S::Scalar>, O, E> {
         self.control(Fixed::new(step))
     }
 
     /// Steps as long as the tolerances allow, by the Dormand–Prince pair 5(4) on the group.
-    pub fn adaptive(self, relative: f64, absolute: f64) -> Simulation<'k, S, F, I, Adaptive<S::Scalar>, O> {
+    pub fn adaptive(self, relative: f64, absolute: f64) -> Simulation<'k, S, F, I, Adaptive<S::Scalar>, O, E> {
         self.control(Adaptive::new(relative, absolute))
     }
 
     /// Any method with its choice of steps.
-    pub fn control<D: Control<S>>(self, control: D) -> Simulation<'k, S, F, I, D, O> {
-        let Self { problem, observer, every, limit, .. } = self;
-        Simulation { problem, control, observer, every, limit }
+    pub fn control<D: Control<S>>(self, control: D) -> Simulation<'k, S, F, I, D, O, E> {
+        let Self { problem, observer, events, every, limit, .. } = self;
+        Simulation { problem, control, observer, events, every, limit }
     }
 
     /// Calls a function with every sample as it comes.
-    pub fn observe<G: FnMut(&Sample<S>)>(self, observer: G) -> Simulation<'k, S, F, I, C, Callback<G>> {
-        let Self { problem, control, every, limit, .. } = self;
-        Simulation { problem, control, observer: Callback(observer), every, limit }
+    pub fn observe<G: FnMut(&Sample<S>)>(self, observer: G) -> Simulation<'k, S, F, I, C, Callback<G>, E> {
+        self.observe_by(Callback(observer))
+    }
+
+    /// Shows every sample, and every event, to a type that implements [`Observer`].
+    pub fn observe_by<P: Observer<S>>(self, observer: P) -> Simulation<'k, S, F, I, C, P, E> {
+        let Self { problem, control, events, every, limit, .. } = self;
+        Simulation { problem, control, observer, events, every, limit }
+    }
+
+    /// Finds the states in which a function of time and state, of its first lane where numbers are packs, passes through
+    /// zero. They are numbered in the order of these calls and of [`until`](Self::until), from 0, and are found in
+    /// [`Trajectory::events`], and by an [`Observer`]. How, and what is not seen: [`event`](super::event).
+    ///
+    #[cfg_attr(
+        feature = "derive",
+        doc = r##"
+The turning points of a pendulum, whose period 4 K(sin ½α) √(ℓ/g) is 2π/agm(1, cos ½α) √(ℓ/g) (Gauss):
+
+```
+use gauss_runtime::prelude::*;
+
+/// A pendulum: a point on a rod, `angle` from the vertical.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(angle),
+    particle(mass = mass, position = [length * sin(angle), 0, -length * cos(angle)]),
+)]
+struct Pendulum {
+    mass: f64,
+    length: f64,
+    #[gauss(gravity)] g: f64,
+}
+
+# fn main() -> Result<(), Box<dyn std::error::Error>> {
+let kernel = Pendulum { mass: 0.3, length: 0.5, g: 9.81 }.kernel()?;
+let (amplitude, at_rest) = (2.0_f64, SVector::from([0.0]));
+let run = Simulation::new(&kernel)
+    .event(Crossing::Any, |_t, _q, z| z[0]) // where it turns back
+    .adaptive(1e-12, 1e-12)
+    .run(SVector::from([amplitude]), at_rest, 0.0..10.0)?;
+
+let (mut a, mut b) = (1.0, (0.5 * amplitude).cos());
+for _ in 0..5 {
+    (a, b) = (0.5 * (a + b), (a * b).sqrt());
+}
+let period = std::f64::consts::TAU / a * (0.5_f64 / 9.81).sqrt();
+for (n, event) in run.events().iter().enumerate() {
+    let turn = &event.sample;
+    assert!((turn.t - 0.5 * period * (n + 1) as f64).abs() < 1e-9);
+    assert!((turn.q[0].abs() - amplitude).abs() < 1e-9 && turn.z[0].abs() < 1e-12);
+}
+assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
+# Ok(())
+# }
+```
+"##
+    )]
+    pub fn event<G>(self, crossing: Crossing, function: G) -> Simulation<'k, S, F, I, C, O, Watched<E, G>>
+    where
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
+    {
+        self.watch(crossing, false, function)
+    }
+
+    /// Ends the run at the first such state, which is then the last sample; it is an [`event`](Self::event) as well.
+    ///
+    /// The state is at zero or beyond it, by rounding. To go on from there with another velocity, as after an impact, ask for
+    /// the one direction in which the function is to pass.
+    pub fn until<G>(self, crossing: Crossing, function: G) -> Simulation<'k, S, F, I, C, O, Watched<E, G>>
+    where
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
+    {
+        self.watch(crossing, true, function)
+    }
+
+    fn watch<G>(self, crossing: Crossing, terminal: bool, function: G) -> Simulation<'k, S, F, I, C, O, Watched<E, G>> {
+        let Self { problem, control, observer, events, every, limit } = self;
+        let events = Watched::after(events, crossing, terminal, function);
+        Simulation { problem, control, observer, events, every, limit }
     }
 
     /// Hands out the first, the last, and every n-th state only (0 counts as 1).
@@ -157,7 +258,7 @@ impl<'k, S: GaussSystem, F, I, C, O> Simulation<'k, S, F, I, C, O> {
     }
 }
 
-impl<S: GaussSystem, F, I, O, const N: usize> Simulation<'_, S, F, I, Adaptive<S::Scalar, N>, O> {
+impl<S: GaussSystem, F, I, O, E, const N: usize> Simulation<'_, S, F, I, Adaptive<S::Scalar, N>, O, E> {
     /// The length of the first step, instead of an estimate.
     pub fn first_step(mut self, length: f64) -> Self {
         self.control.first_step = Some(length);
@@ -171,13 +272,14 @@ impl<S: GaussSystem, F, I, O, const N: usize> Simulation<'_, S, F, I, Adaptive<S
     }
 }
 
-impl<S, F, I, C, O> Simulation<'_, S, F, I, C, O>
+impl<S, F, I, C, O, E> Simulation<'_, S, F, I, C, O, E>
 where
     S: GaussSystem,
     F: Form<S>,
     I: InputSource<S>,
     C: Control<S>,
     O: Observer<S>,
+    E: Events<S>,
 {
     /// Integrates from (q₀, z₀) over the interval, which may run backwards, and keeps every sample.
     ///
@@ -200,7 +302,7 @@ where
     /// reason.
     #[cfg(feature = "alloc")]
     pub fn attempt(
-        mut self,
+        self,
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
@@ -208,15 +310,26 @@ where
         let start = self.start(q0, &z0, interval.start);
         let problem = &self.problem;
         let mut trajectory = Trajectory::starting_with(sample_of(problem, &start));
-        let (every, observer) = (self.every, &mut self.observer);
+        let mut observer = self.observer;
         let mut first = true;
-        let mut record = |state: &State<S>, rates: &Rates<S>| {
-            let sample = sample_of(problem, state);
-            trajectory.record(first, problem, &sample, state, rates);
-            observer.see(&sample);
-            first = false;
-        };
-        let outcome = drive(&self.control, problem, start, interval.end, self.limit, every, &mut record);
+        let outcome = Run { control: &self.control, problem, every: self.every, limit: self.limit }.drive(
+            self.events,
+            start,
+            interval.end,
+            &mut |seen| match seen {
+                Seen::Sample(state, rates) => {
+                    let sample = sample_of(problem, state);
+                    trajectory.record(first, problem, &sample, state, rates);
+                    observer.see(&sample);
+                    first = false;
+                }
+                Seen::Event(number, state) => {
+                    let sample = sample_of(problem, state);
+                    trajectory.record_event(number, sample);
+                    observer.event(number, &sample);
+                }
+            },
+        );
         (trajectory, outcome.err())
     }
 
@@ -225,15 +338,23 @@ where
     /// # Errors
     /// When the run does not reach the end.
     pub fn run_to_end(
-        mut self,
+        self,
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
     ) -> Result<Sample<S>, IntegrationError> {
         let start = self.start(q0, &z0, interval.start);
-        let (problem, observer) = (&self.problem, &mut self.observer);
-        let mut see = |state: &State<S>, _: &Rates<S>| observer.see(&sample_of(problem, state));
-        let end = drive(&self.control, problem, start, interval.end, self.limit, self.every, &mut see)?;
+        let problem = &self.problem;
+        let mut observer = self.observer;
+        let end = Run { control: &self.control, problem, every: self.every, limit: self.limit }.drive(
+            self.events,
+            start,
+            interval.end,
+            &mut |seen| match seen {
+                Seen::Sample(state, _) => observer.see(&sample_of(problem, state)),
+                Seen::Event(number, state) => observer.event(number, &sample_of(problem, state)),
+            },
+        )?;
         Ok(sample_of(problem, &end))
     }
 
@@ -250,36 +371,76 @@ fn sample_of<S: GaussSystem, F: Form<S>, I>(problem: &Problem<'_, S, F, I>, stat
     Sample { t, q, z, p: problem.form.momentum(problem.system, t, &q, &y) }
 }
 
-/// Runs the method and passes on the first, every n-th and the last state reached.
-fn drive<S, F, I, C>(
-    control: &C,
-    problem: &Problem<'_, S, F, I>,
-    start: State<S>,
-    end: S::Scalar,
-    limit: u64,
+/// What a run passes on.
+enum Seen<'a, S: GaussSystem> {
+    Sample(&'a State<S>, &'a Rates<S>),
+    Event(usize, &'a State<S>),
+}
+
+/// What stays the same during a run.
+struct Run<'a, 'k, S, F, I, C> {
+    control: &'a C,
+    problem: &'a Problem<'k, S, F, I>,
     every: u64,
-    pass: &mut dyn FnMut(&State<S>, &Rates<S>),
-) -> Result<State<S>, IntegrationError>
-where
-    S: GaussSystem,
-    F: Form<S>,
-    I: InputSource<S>,
-    C: Control<S>,
-{
-    let mut count = 0_u64;
-    // The last state, when it was not passed on: it is, at the end or at an error.
-    let mut held = None;
-    let outcome = control.drive(problem, start, end, limit, &mut |state, rates| {
-        if count.is_multiple_of(every) {
-            pass(state, rates);
-            held = None;
-        } else {
-            held = Some((*state, *rates));
+    limit: u64,
+}
+
+impl<S: GaussSystem, F: Form<S>, I: InputSource<S>, C: Control<S>> Run<'_, '_, S, F, I, C> {
+    /// Runs the method and passes on the first, every n-th and the last state reached, and the events between them.
+    fn drive<E: Events<S>>(
+        &self,
+        events: E,
+        start: State<S>,
+        end: S::Scalar,
+        pass: &mut dyn FnMut(Seen<'_, S>),
+    ) -> Result<State<S>, IntegrationError> {
+        let mut watch = Watch { control: self.control, problem: self.problem, events };
+        let mut count = 0_u64;
+        // The state before, for events; and whether it is still to be passed on: it is, at the end or at an error.
+        let mut before: Option<(State<S>, Rates<S>)> = None;
+        let mut held = false;
+        let mut stopped: Option<State<S>> = None;
+        let mut failure: Option<IntegrationErrorKind> = None;
+        let outcome = self.control.drive(self.problem, start, end, self.limit, &mut |state, rates| {
+            if E::COUNT > 0 {
+                let found = match &before {
+                    None => watch.begin(state).map(ControlFlow::Continue),
+                    Some((from, slopes)) => {
+                        watch.step(from, slopes, state, &mut |number, state| pass(Seen::Event(number, state)))
+                    }
+                };
+                match found {
+                    Ok(ControlFlow::Continue(())) => {}
+                    Ok(ControlFlow::Break(last)) => {
+                        stopped = Some(last);
+                        return ControlFlow::Break(());
+                    }
+                    Err(kind) => {
+                        failure = Some(kind);
+                        return ControlFlow::Break(());
+                    }
+                }
+            }
+            held = !count.is_multiple_of(self.every);
+            if !held {
+                pass(Seen::Sample(state, rates));
+            }
+            if held || E::COUNT > 0 {
+                before = Some((*state, *rates));
+            }
+            count += 1;
+            ControlFlow::Continue(())
+        });
+        if let Some(last) = stopped {
+            pass(Seen::Sample(&last, &self.problem.rates(&last)));
+            return Ok(last);
         }
-        count += 1;
-    });
-    if let Some((state, rates)) = held {
-        pass(&state, &rates);
+        if let (true, Some((state, rates))) = (held, &before) {
+            pass(Seen::Sample(state, rates));
+        }
+        match failure {
+            Some(kind) => Err(IntegrationError { time: before.map_or(start.t, |(state, _)| state.t).lane(0), kind }),
+            None => outcome,
+        }
     }
-    outcome
 }

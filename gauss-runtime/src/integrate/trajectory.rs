@@ -40,16 +40,29 @@ struct Knot<S: GaussSystem> {
 #[cfg(feature = "alloc")]
 copy_and_debug!(Knot { sample, velocity, acceleration, momentum_rate });
 
+/// A state in which a function passed through zero: see [`Simulation::event`](super::Simulation::event).
+#[cfg(feature = "alloc")]
+pub struct EventSample<S: GaussSystem> {
+    /// Which event, counted from 0 in the order in which they were asked for.
+    pub number: usize,
+    /// The state.
+    pub sample: Sample<S>,
+}
+
+#[cfg(feature = "alloc")]
+copy_and_debug!(EventSample { number, sample });
+
 /// Samples in the order of integration, at least one; a continuous curve through them by [`at`](Self::at).
 #[cfg(feature = "alloc")]
 pub struct Trajectory<S: GaussSystem> {
     knots: Vec<Knot<S>>,
+    events: Vec<EventSample<S>>,
 }
 
 #[cfg(feature = "alloc")]
 impl<S: GaussSystem> Clone for Trajectory<S> {
     fn clone(&self) -> Self {
-        Self { knots: self.knots.clone() }
+        Self { knots: self.knots.clone(), events: self.events.clone() }
     }
 }
 
@@ -67,7 +80,8 @@ impl<S: GaussSystem> Trajectory<S> {
     pub(super) fn starting_with(sample: Sample<S>) -> Self {
         let none = S::Speeds::zero();
         let velocity = TangentOf::<S>::zero();
-        Self { knots: Vec::from([Knot { sample, velocity, acceleration: none, momentum_rate: none }]) }
+        let knots = Vec::from([Knot { sample, velocity, acceleration: none, momentum_rate: none }]);
+        Self { knots, events: Vec::new() }
     }
 
     /// Appends a sample; `first` replaces the one that the trajectory started with.
@@ -85,6 +99,22 @@ impl<S: GaussSystem> Trajectory<S> {
             self.knots.clear();
         }
         self.knots.push(Knot { sample: *sample, velocity: rates.configuration, acceleration, momentum_rate });
+    }
+
+    pub(super) fn record_event(&mut self, number: usize, sample: Sample<S>) {
+        self.events.push(EventSample { number, sample });
+    }
+
+    /// The events in the order in which they happened. They are states of the run by themselves, not samples of the
+    /// trajectory; only one that ended the run is its last sample too.
+    #[must_use]
+    pub fn events(&self) -> &[EventSample<S>] {
+        &self.events
+    }
+
+    /// The times and states of one event, by its number.
+    pub fn events_of(&self, number: usize) -> impl Iterator<Item = &Sample<S>> {
+        self.events.iter().filter(move |event| event.number == number).map(|event| &event.sample)
     }
 
     /// The number of samples, at least 1.

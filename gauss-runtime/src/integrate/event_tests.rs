@@ -1,0 +1,209 @@
+//! Events of an oscillator against its closed form, their order, their ends, and the search by itself.
+
+use core::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::SVector;
+use std::vec::Vec;
+
+use super::*;
+use crate::integrate::tests::slope;
+use crate::integrate::{IntegrationErrorKind, Observer, Sample, Simulation};
+use crate::system::Smoothness;
+use crate::testing::oscillator::{Law, Oscillator};
+
+/// No force beside the spring: x = sin t from (0, 1).
+struct Nothing;
+
+impl Law for Nothing {
+    const SMOOTHNESS: Smoothness = Smoothness::Smooth;
+    fn force(_: f64, _: f64) -> f64 {
+        0.0
+    }
+}
+
+type One = SVector<f64, 1>;
+
+const SPRING: Oscillator<Nothing> = Oscillator::new(0.0);
+
+fn undriven(_: f64, _: &One, _: &One) -> f64 {
+    0.0
+}
+
+fn origin() -> (One, One) {
+    (SVector::from([0.0]), SVector::from([1.0]))
+}
+
+#[test]
+fn events_are_as_accurate_as_the_method_and_lie_on_zero() {
+    let (q0, z0) = origin();
+    let mut points = Vec::new();
+    for h in [0.2, 0.1, 0.05, 0.025] {
+        let run = Simulation::new(&SPRING).input(undriven).event(Crossing::Any, |_, _, z: &One| z[0]).fixed_step(h);
+        let trajectory = run.run(q0, z0, 0.0..20.0).expect("runs");
+        assert_eq!(trajectory.events().len(), 6);
+        let mut worst = 0.0_f64;
+        for (n, sample) in trajectory.events_of(0).enumerate() {
+            worst = worst.max((sample.t - (n as f64 + 0.5) * PI).abs());
+            // Four roundings of the time, at an acceleration of 1, and those of the sums of the step.
+            assert!(sample.z[0].abs() < 8.0 * f64::EPSILON * sample.t, "{}", sample.z[0]);
+        }
+        points.push((h, worst));
+    }
+    let order = slope(&points);
+    assert!((order - 4.0).abs() < 0.2, "{order}: {points:?}");
+
+    let run = Simulation::new(&SPRING).input(undriven).event(Crossing::Any, |_, _, z: &One| z[0]);
+    let trajectory = run.adaptive(1e-12, 1e-12).momentum_form().run(q0, z0, 0.0..20.0).expect("runs");
+    for (n, sample) in trajectory.events_of(0).enumerate() {
+        // Global error: some 400 steps of local errors of at most 1e-12.
+        assert!((sample.t - (n as f64 + 0.5) * PI).abs() < 4e-10);
+    }
+}
+
+#[test]
+fn several_in_one_step_come_in_order_both_ways_and_by_direction() {
+    let (q0, z0) = origin();
+    let above = |level: f64| move |_: f64, q: &One, _: &One| q[0] - level;
+    let run = Simulation::new(&SPRING)
+        .input(undriven)
+        .event(Crossing::Any, above(0.3))
+        .event(Crossing::Rising, above(0.1))
+        .event(Crossing::Falling, above(0.2))
+        .event(Crossing::Any, above(0.4))
+        .event(Crossing::Any, above(0.4));
+    let forward = run.fixed_step(0.5).run(q0, z0, 0.0..3.1).expect("runs");
+    let seen: Vec<_> = forward.events().iter().map(|event| event.number).collect();
+    // On the way up in the first step, on the way down in the last ones; 0.1 not then, 0.2 only then.
+    assert_eq!(seen, [1, 0, 3, 4, 3, 4, 0, 2]);
+    assert!(forward.events().windows(2).all(|pair| pair[0].sample.t <= pair[1].sample.t));
+    // Steps of length ½ have local errors of h⁵/120 = 3e-4.
+    assert!((forward.events()[0].sample.t - 0.1_f64.asin()).abs() < 3e-4);
+
+    let end = forward.last();
+    let backward = run.fixed_step(0.5).run(end.q, end.z, 3.1..0.0).expect("runs");
+    let seen: Vec<_> = backward.events().iter().map(|event| event.number).collect();
+    // Backwards x rises through 0.1 and 0.3 first; the fall of 0.2 is then the one near t = 0.
+    assert_eq!(seen, [1, 0, 3, 4, 3, 4, 0, 2]);
+    assert!(backward.events().windows(2).all(|pair| pair[0].sample.t >= pair[1].sample.t));
+}
+
+#[test]
+fn a_run_ends_at_its_event() {
+    let (q0, z0) = origin();
+    let run = Simulation::new(&SPRING)
+        .input(undriven)
+        .event(Crossing::Falling, |_, _, z: &One| z[0])
+        .until(Crossing::Falling, |_, q: &One, _| q[0])
+        .event(Crossing::Any, |t, _, _| t - 3.2)
+        .event(Crossing::Falling, |_, q: &One, _| q[0]);
+    for every in [1, 7] {
+        let trajectory = run.adaptive(1e-11, 1e-11).every(every).run(q0, z0, 0.0..100.0).expect("runs");
+        let end = trajectory.last();
+        assert!((end.t - PI).abs() < 1e-9 && end.q[0] <= 0.0 && end.q[0] > -1e-14, "{end:?}");
+        let seen: Vec<_> = trajectory.events().iter().map(|event| event.number).collect();
+        // What comes at the same time is told of, what would come later in the step is not.
+        assert_eq!(seen, [0, 1, 3]);
+        assert_eq!(trajectory.events()[1].sample.t, end.t);
+        assert_eq!(trajectory.at(end.t).expect("inside").q, end.q);
+        assert!(trajectory.at(3.2).is_none());
+        let alone = run.adaptive(1e-11, 1e-11).every(every).run_to_end(q0, z0, 0.0..100.0).expect("runs");
+        assert_eq!((alone.t, alone.q, alone.z), (end.t, end.q, end.z));
+    }
+    // A ball on a spring that bounces at 0: started at its event it goes on, in the one direction that is asked for.
+    let bounce = Simulation::new(&SPRING).input(undriven).until(Crossing::Falling, |_, q: &One, _| q[0]);
+    let (mut t, mut q, mut z) = (0.0, q0, z0);
+    for n in 1..=5 {
+        let end = bounce.adaptive(1e-11, 1e-11).run_to_end(q, z, t..100.0).expect("runs");
+        assert!((end.t - f64::from(n) * PI).abs() < 1e-9, "{n}: {}", end.t);
+        (t, q, z) = (end.t, end.q, -end.z);
+    }
+}
+
+/// Counts, and keeps the last event.
+struct Witness<'a> {
+    samples: &'a mut u32,
+    events: &'a mut Vec<(usize, f64)>,
+}
+
+impl<S: GaussSystem> Observer<S> for Witness<'_> {
+    fn see(&mut self, _: &Sample<S>) {
+        *self.samples += 1;
+    }
+    fn event(&mut self, number: usize, sample: &Sample<S>) {
+        self.events.push((number, sample.t.lane(0)));
+    }
+}
+
+#[test]
+fn observers_see_events_without_a_trajectory() {
+    let (q0, z0) = origin();
+    let (mut samples, mut events) = (0, Vec::new());
+    let run = Simulation::new(&SPRING).input(undriven).event(Crossing::Any, |_, _, z: &One| z[0]).fixed_step(0.125);
+    let witness = Witness { samples: &mut samples, events: &mut events };
+    run.observe_by(witness).run_to_end(q0, z0, 0.0..4.0).expect("runs");
+    assert_eq!((samples, events.len(), events[0].0), (33, 1, 0));
+    assert!((events[0].1 - FRAC_PI_2).abs() < 1e-5);
+}
+
+#[test]
+fn jumps_are_found_and_touches_are_not() {
+    let (q0, z0) = origin();
+    let run = Simulation::new(&SPRING)
+        .input(undriven)
+        .event(Crossing::Any, |t, _, _| if t < 1.237 { -1.0 } else { 2.0 })
+        .event(Crossing::Any, |_, q: &One, _| q[0] - 1.000_001)
+        // Twice within one step from 1.5 to 1.6.
+        .event(Crossing::Any, |t, _, _| (t - 1.52) * (t - 1.58));
+    let trajectory = run.fixed_step(0.1).run(q0, z0, 0.0..3.0).expect("runs");
+    assert_eq!(trajectory.events().len(), 1);
+    assert!((trajectory.events()[0].sample.t - 1.237).abs() < 1e-15);
+    // A start on zero is no event, and neither is what leaves it.
+    let run = Simulation::new(&SPRING).input(undriven).event(Crossing::Any, |_, q: &One, _| q[0]);
+    assert!(run.fixed_step(0.1).run(q0, z0, 0.0..3.0).expect("runs").events().is_empty());
+    // A zero at the very end of a step and of the run is one.
+    let run = Simulation::new(&SPRING).input(undriven).event(Crossing::Rising, |t, _, _| t - 3.0);
+    assert_eq!(run.fixed_step(0.1).run(q0, z0, 0.0..3.0).expect("runs").events()[0].sample.t, 3.0);
+}
+
+#[test]
+fn an_event_function_that_is_undefined_stops_the_run() {
+    let (q0, z0) = origin();
+    let run = Simulation::new(&SPRING).input(undriven).event(Crossing::Any, |t: f64, _, _| (1.0 - t).sqrt());
+    let (trajectory, error) = run.fixed_step(0.3).every(2).attempt(q0, z0, 0.0..3.0);
+    let error = error.expect("stops");
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Event });
+    assert_eq!((error.time, trajectory.last().t), (0.3 * 3.0, 0.3 * 3.0));
+    let error = run.fixed_step(0.3).run_to_end(q0, z0, 2.0..3.0).expect_err("stops");
+    assert_eq!((error.time, error.kind), (2.0, IntegrationErrorKind::NonFinite { part: Part::Event }));
+}
+
+#[test]
+fn the_search_ends_on_the_far_side_of_any_zero() {
+    type Case = (&'static str, fn(f64) -> f64, f64);
+    let functions: [Case; 7] = [
+        ("line", |x| x - 0.3, 0.3),
+        ("ninth power", |x| (x - 0.7).powi(9), 0.7),
+        ("wall", |x| ((x - 0.123) * 1e9).atan(), 0.123),
+        ("jump", |x| if x < 1e-7 { 1.0 } else { -1e-300 }, 1e-7),
+        ("exponential", |x| (40.0 * x).exp() - 2.0, 0.05 * core::f64::consts::LN_2 / 2.0),
+        ("root", |x| (x - 0.9).cbrt(), 0.9),
+        ("pole", |x| 1.0 / (x - 0.45), 0.45),
+    ];
+    for (name, function, zero) in functions {
+        let mut evaluations = 0;
+        let found = locate(
+            |x| {
+                evaluations += 1;
+                Ok(function(x))
+            },
+            function(0.0),
+            function(1.0),
+            1e-15,
+        )
+        .expect("defined");
+        let far = function(found) == 0.0 || (function(found) > 0.0) == (function(1.0) > 0.0);
+        // The ninth power is zero in floating point nowhere else, but is below 1e-135 within 1e-15.
+        assert!((found - zero).abs() < 2e-15 && far, "{name}: {found}");
+        assert!(evaluations <= 105, "{name}: {evaluations}");
+    }
+}
