@@ -16,7 +16,7 @@ use proc_macro2::Ident;
 
 impl ForceClause {
     /// What it is called in messages.
-    pub(super) fn noun(&self) -> &'static str {
+    pub fn noun(&self) -> &'static str {
         match self.kind {
             ForceKind::AtPoint { .. } | ForceKind::OnBody { .. } => "force",
             ForceKind::Torque { .. } => "torque",

@@ -63,7 +63,7 @@ impl<'g> Translator<'_, 'g> {
             elements.push(Element { name: names.of(None, "medium"), action: Action::Forces(entrained) });
         }
         for clause in &model.forces {
-            let name = names.of(clause.name.as_ref(), noun(&clause.kind));
+            let name = names.of(clause.name.as_ref(), noun(clause));
             for (suffix, action) in self.actions(clause, &name, tree)? {
                 elements.push(Element { name: format!("{name}{suffix}"), action });
             }
@@ -296,17 +296,11 @@ impl<'g> Translator<'_, 'g> {
     }
 }
 
-/// What an element without a name is called.
-fn noun(kind: &ForceKind) -> &'static str {
-    match kind {
-        ForceKind::AtPoint { .. } | ForceKind::OnBody { .. } => "force",
-        ForceKind::Torque { .. } => "torque",
-        ForceKind::Wrench { .. } => "wrench",
-        ForceKind::Drive { .. } => "drive",
-        ForceKind::Spring { .. } => "spring",
-        ForceKind::Stop { .. } => "stop",
-        ForceKind::Drag { .. } => "drag",
+/// What an element without a name is called: by its clause.
+fn noun(clause: &ForceClause) -> &'static str {
+    match clause.kind {
         ForceKind::Dissipation(_) => "damping",
+        _ => clause.noun(),
     }
 }
 
