@@ -96,8 +96,8 @@ impl<'g> Observed<'g> {
         pairs.map(|(symbol, value)| (symbol.key(), value.group())).collect()
     }
 
-    /// The wrench whose power is what a function of the velocities becomes when these are replaced by partial velocities:
-    /// its derivatives by the velocities.
+    /// The wrench dual to the velocities in a power, which is linear in them, or in a dissipation function: its derivatives
+    /// by them.
     fn dual(&self, power: Expr<'g>) -> Wrench<'g> {
         let by = |symbols: &Triple<'g>| symbols.map(|v| power.partial(v));
         Wrench {
