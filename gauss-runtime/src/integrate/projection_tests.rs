@@ -82,7 +82,7 @@ fn errors<F: Form<Hand<f64, 2, 1>>, const N: usize>(form: F, tableau: &Tableau<N
     let exact: Vec<(SVector<f64, 2>, SVector<f64, 2>)> = (1..=8)
         .map(|k| {
             let end = Simulation::new(&reference)
-                .control(Adaptive::with(&Tableau::DORMAND_PRINCE_8, 1e-12, 1e-12))
+                .control(Adaptive::with(&Tableau::DORMAND_PRINCE_8, 1e-14, 1e-14))
                 .run_to_end(SVector::from([ANGLE]), SVector::from([RATE]), 0.0..0.25 * f64::from(k))
                 .expect("runs");
             let (sine, cosine) = end.q[0].sin_cos();

@@ -21,8 +21,10 @@ pub struct Rkmk<T, const S: usize> {
     b: [T; S],
     c: [T; S],
     error: [T; S],
+    coarse_error: [T; S],
     order: u32,
     has_error: bool,
+    has_coarse_error: bool,
     first_same_as_last: bool,
 }
 
@@ -36,8 +38,10 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
             b: row(&tableau.b),
             c: row(&tableau.c),
             error: row(&tableau.error),
+            coarse_error: row(&tableau.coarse_error),
             order: tableau.order,
             has_error: tableau.embedded_order > 0,
+            has_coarse_error: tableau.coarse_order > 0,
             first_same_as_last: tableau.first_same_as_last,
         }
     }
@@ -47,23 +51,16 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
     pub fn order(&self) -> u32 {
         self.order
     }
-}
 
-impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Rkmk<Sys::Scalar, S> {
-    fn properties(&self) -> Properties {
-        Properties::of_order(self.order)
-    }
-
-    /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
-    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
-    #[inline]
-    fn step<F: Form<Sys>, I: InputSource<Sys>>(
+    /// A step, and its coarser estimate where the tableau has one.
+    #[inline(always)]
+    pub(super) fn step_and_coarse_error<Sys: GaussSystem<Scalar = T>, F: Form<Sys>, I: InputSource<Sys>>(
         &self,
         problem: &Problem<'_, Sys, F, I>,
         state: &State<Sys>,
         rates: &Rates<Sys>,
-        h: Sys::Scalar,
-    ) -> Result<Step<Sys>, IntegrationErrorKind> {
+        h: T,
+    ) -> Result<(Step<Sys>, Option<Rates<Sys>>), IntegrationErrorKind> {
         let one = <Sys::Scalar as Real>::one();
         // Derivatives in the algebra: dexp_inv(σ, V) and ẏ. At σ = 0 the former is V.
         let mut stages = [*rates; S];
@@ -96,13 +93,33 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Rkmk<Sys::Scalar, S> {
         } else {
             Rates { configuration: TangentOf::<Sys>::zero(), variables: Sys::Speeds::zero() }
         };
+        let coarse = self.has_coarse_error.then(|| combination(h, &self.coarse_error, &stages));
         // A stage that is not finite makes the result so, because no later weight can take it out again.
         if !(end.q.is_finite() && end.y.is_finite() && error.is_finite() && last.is_finite()) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
         // The last stage is the result also on a group: its σ is the step's. Renormalising moves it by rounding only.
         let rates = self.first_same_as_last.then_some(last);
-        Ok(Step { state: end, error, rates })
+        Ok((Step { state: end, error, rates }, coarse))
+    }
+}
+
+impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Rkmk<Sys::Scalar, S> {
+    fn properties(&self) -> Properties {
+        Properties::of_order(self.order)
+    }
+
+    /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
+    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
+    #[inline]
+    fn step<F: Form<Sys>, I: InputSource<Sys>>(
+        &self,
+        problem: &Problem<'_, Sys, F, I>,
+        state: &State<Sys>,
+        rates: &Rates<Sys>,
+        h: Sys::Scalar,
+    ) -> Result<Step<Sys>, IntegrationErrorKind> {
+        self.step_and_coarse_error(problem, state, rates, h).map(|(step, _)| step)
     }
 }
 
