@@ -11,8 +11,8 @@ pub use crate::forces::{Element, ForcedSystem};
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;
 pub use crate::integrate::{
-    Adaptive, Crossing, Fixed, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Sample, Simulation,
-    Tableau, VelocityForm,
+    Adaptive, Collocation, CommutatorFree4, Composed, Composition, Crossing, Fixed, InputSource, IntegrationError,
+    IntegrationErrorKind, MomentumForm, Sample, Simulation, Tableau, VelocityForm,
 };
 pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]
