@@ -14,7 +14,8 @@ use core::fmt::Debug;
 
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
-use crate::lie::{se2, se3, so3};
+use crate::lie::carried::two_sum;
+use crate::lie::{carried, se2, se3, so3};
 use crate::real::Real;
 use crate::triple::norm;
 
@@ -98,6 +99,18 @@ impl<T: Real, const N: usize> VectorSpace<T> for SVector<T, N> {
     }
 }
 
+/// `(x + carried) + increment` to nearest, and exactly what is missing there.
+#[inline(always)]
+pub(crate) fn add_carrying<T: Real, V: VectorSpace<T>>(x: &V, increment: &V, carried: &V) -> (V, V) {
+    let (mut sum, mut rest) = (*x, *carried);
+    for i in 0..V::DIM {
+        let (high, low) = two_sum(x.component(i), increment.component(i) + carried.component(i));
+        sum.set_component(i, high);
+        rest.set_component(i, low);
+    }
+    (sum, rest)
+}
+
 /// A pair of vectors: the increments of a pair of configurations, first's components before second's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Product<A, B> {
@@ -154,6 +167,14 @@ pub trait Configuration: Copy + Debug {
     /// `self ∘ exp(tangent)`.
     fn retract(&self, tangent: &Self::Tangent) -> Self;
 
+    /// `meant ∘ exp(tangent)`, brought back to norm 1, where `meant = self ∘ exp(carried)` is known beyond the precision of
+    /// `self`; `carried` becomes that of the result: see [`lie::carried`](crate::lie::carried). Where this is not written, nothing
+    /// is carried.
+    fn retract_carrying(&self, tangent: &Self::Tangent, carried: &mut Self::Tangent) -> Self {
+        let _ = carried;
+        self.retract(tangent).renormalise()
+    }
+
     /// The shortest increment from `self` to `other`: `self.retract(&self.difference(other))` is `other`.
     fn difference(&self, other: &Self) -> Self::Tangent;
 
@@ -198,6 +219,11 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
     }
 
     #[inline(always)]
+    fn retract_carrying(&self, tangent: &Self::Tangent, low: &mut Self::Tangent) -> Self {
+        carried::rotation(self, tangent, low)
+    }
+
+    #[inline(always)]
     fn difference(&self, other: &Self) -> Self::Tangent {
         so3::difference(self, other)
     }
@@ -238,6 +264,11 @@ impl<T: Real> Configuration for Isometry3<T> {
     }
 
     #[inline(always)]
+    fn retract_carrying(&self, tangent: &Self::Tangent, low: &mut Self::Tangent) -> Self {
+        carried::pose(self, tangent, low)
+    }
+
+    #[inline(always)]
     fn difference(&self, other: &Self) -> Self::Tangent {
         se3::difference(self, other)
     }
@@ -275,6 +306,11 @@ impl<T: Real> Configuration for Isometry2<T> {
     #[inline(always)]
     fn retract(&self, tangent: &Self::Tangent) -> Self {
         se2::retract(self, tangent)
+    }
+
+    #[inline(always)]
+    fn retract_carrying(&self, tangent: &Self::Tangent, low: &mut Self::Tangent) -> Self {
+        carried::plane(self, tangent, low)
     }
 
     #[inline(always)]
@@ -319,6 +355,13 @@ impl<T: Real, const N: usize> Configuration for SVector<T, N> {
     }
 
     #[inline(always)]
+    fn retract_carrying(&self, tangent: &Self, low: &mut Self) -> Self {
+        let (sum, rest) = add_carrying(self, tangent, low);
+        *low = rest;
+        sum
+    }
+
+    #[inline(always)]
     fn difference(&self, other: &Self) -> Self {
         Self::from(core::array::from_fn(|i| other.data.0[0][i] - self.data.0[0][i]))
     }
@@ -346,6 +389,14 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
     #[inline(always)]
     fn retract(&self, tangent: &Self::Tangent) -> Self {
         (self.0.retract(&tangent.first), self.1.retract(&tangent.second))
+    }
+
+    #[inline(always)]
+    fn retract_carrying(&self, tangent: &Self::Tangent, low: &mut Self::Tangent) -> Self {
+        (
+            self.0.retract_carrying(&tangent.first, &mut low.first),
+            self.1.retract_carrying(&tangent.second, &mut low.second),
+        )
     }
 
     #[inline(always)]

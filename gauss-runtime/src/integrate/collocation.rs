@@ -15,7 +15,7 @@
 
 use super::error::{IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{OneStep, Properties, Step};
+use super::one_step::{IncrementStep, OneStep, Properties, Step};
 use super::rkmk::{check_chart, check_increment};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
@@ -155,6 +155,30 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Collocation<Sys::Scalar,
         h: Sys::Scalar,
     ) -> Result<Step<Sys>, IntegrationErrorKind> {
         let one = Sys::Scalar::one();
+        let sum = self.increment(problem, state, rates, h)?;
+        let end: State<Sys> = State {
+            t: state.t + h,
+            q: state.q.retract(&sum.configuration).renormalise(),
+            y: state.y.add_scaled(one, &sum.variables),
+        };
+        check_chart(problem, state, &end)?;
+        if !(end.q.is_finite() && end.y.is_finite()) {
+            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        }
+        Ok(Step { state: end, error: null(), rates: None })
+    }
+}
+
+impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::Scalar, S> {
+    #[inline]
+    fn increment<F: Form<Sys>, I: InputSource<Sys>>(
+        &self,
+        problem: &Problem<'_, Sys, F, I>,
+        state: &State<Sys>,
+        rates: &Rates<Sys>,
+        h: Sys::Scalar,
+    ) -> Result<Rates<Sys>, IntegrationErrorKind> {
+        let one = Sys::Scalar::one();
         let half = Sys::Scalar::ratio(1, 2);
         let middle_time = h.fma(half, state.t);
         let mut parts: [Rates<Sys>; S] = core::array::from_fn(|j| self.weighted(j, h, rates));
@@ -203,18 +227,8 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Collocation<Sys::Scalar,
             }
             before = residual;
         }
-
         check_increment::<Sys>(&sum)?;
-        let end: State<Sys> = State {
-            t: state.t + h,
-            q: state.q.retract(&sum.configuration).renormalise(),
-            y: state.y.add_scaled(one, &sum.variables),
-        };
-        check_chart(problem, state, &end)?;
-        if !(end.q.is_finite() && end.y.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
-        }
-        Ok(Step { state: end, error: null(), rates: None })
+        Ok(sum)
     }
 }
 

@@ -53,7 +53,7 @@ pub trait Control<S: GaussSystem> {
 }
 
 /// One step by a method, brought onto the constraints where there are any.
-fn one_step<S: GaussSystem, M: OneStep<S>, F: Form<S>, I: InputSource<S>>(
+pub(super) fn one_step<S: GaussSystem, M: OneStep<S>, F: Form<S>, I: InputSource<S>>(
     method: &M,
     problem: &Problem<'_, S, F, I>,
     state: &State<S>,
@@ -159,6 +159,60 @@ fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
     Ok(((end - start.t).lane(0), start, rates))
 }
 
+/// Steps of length |length|, the last one ending where it should, each made by `advance`.
+#[inline]
+pub(super) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
+    length: S::Scalar,
+    problem: &Problem<'_, S, F, I>,
+    start: State<S>,
+    end: S::Scalar,
+    limit: u64,
+    emit: &mut Emit<'_, S>,
+    mut advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<State<S>, IntegrationErrorKind>,
+) -> Result<State<S>, IntegrationError> {
+    let stopped = |t: S::Scalar, kind| IntegrationError { time: t.lane(0), kind };
+    let positive = length.lane(0).abs();
+    if !(positive.is_finite() && positive > 0.0) {
+        return Err(stopped(start.t, IntegrationErrorKind::InvalidStep { step: length.lane(0) }));
+    }
+    let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
+    if emit(&start, &rates).is_break() || span == 0.0 {
+        return Ok(start);
+    }
+
+    // A remainder of a few roundings of the count is that of h and of the ends, not a step.
+    let count = span.abs() / positive;
+    let unit = S::Scalar::EPSILON.max(f64::EPSILON);
+    let whole = Real::abs(count - round(count)) <= 8.0 * unit * count.max(1.0);
+    let steps = if whole { round(count).max(1.0) } else { floor(count) + 1.0 };
+    if steps > limit as f64 {
+        return Err(stopped(start.t, IntegrationErrorKind::TooManySteps { limit }));
+    }
+    let h = if (span < 0.0) == (length.lane(0) < 0.0) { length } else { -length };
+
+    let mut state = start;
+    let steps = steps as u64;
+    for n in 1..=steps {
+        let last = n == steps;
+        let this = if last { end - state.t } else { h };
+        let reached = state.t;
+        state = advance(&state, &rates, this).map_err(|kind| stopped(reached, kind))?;
+        // Times are multiples of h, not sums of it.
+        state.t = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start.t) };
+        if S::CONSTRAINED {
+            state = on_constraints(problem, &state).map_err(|kind| stopped(reached, kind))?;
+        }
+        rates = problem.rates(&state);
+        if !rates.is_finite() {
+            return Err(stopped(reached, IntegrationErrorKind::NonFinite { part: Part::Step }));
+        }
+        if emit(&state, &rates).is_break() {
+            break;
+        }
+    }
+    Ok(state)
+}
+
 impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
     fn drive<F: Form<S>, I: InputSource<S>>(
         &self,
@@ -168,48 +222,9 @@ impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
         limit: u64,
         emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
-        let stopped = |t: S::Scalar, kind| IntegrationError { time: t.lane(0), kind };
-        let length = self.step.lane(0).abs();
-        if !(length.is_finite() && length > 0.0) {
-            return Err(stopped(start.t, IntegrationErrorKind::InvalidStep { step: self.step.lane(0) }));
-        }
-        let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
-        if emit(&start, &rates).is_break() || span == 0.0 {
-            return Ok(start);
-        }
-
-        // A remainder of a few roundings of the count is that of h and of the ends, not a step.
-        let count = span.abs() / length;
-        let unit = S::Scalar::EPSILON.max(f64::EPSILON);
-        let whole = Real::abs(count - round(count)) <= 8.0 * unit * count.max(1.0);
-        let steps = if whole { round(count).max(1.0) } else { floor(count) + 1.0 };
-        if steps > limit as f64 {
-            return Err(stopped(start.t, IntegrationErrorKind::TooManySteps { limit }));
-        }
-        let h = if (span < 0.0) == (self.step.lane(0) < 0.0) { self.step } else { -self.step };
-
-        let mut state = start;
-        let steps = steps as u64;
-        for n in 1..=steps {
-            let last = n == steps;
-            let this = if last { end - state.t } else { h };
-            let step = self.method.step(problem, &state, &rates, this).map_err(|kind| stopped(state.t, kind))?;
-            let reached = state.t;
-            state = step.state;
-            // Times are multiples of h, not sums of it.
-            state.t = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start.t) };
-            if S::CONSTRAINED {
-                state = on_constraints(problem, &state).map_err(|kind| stopped(reached, kind))?;
-            }
-            rates = problem.rates(&state);
-            if !rates.is_finite() {
-                return Err(stopped(reached, IntegrationErrorKind::NonFinite { part: Part::Step }));
-            }
-            if emit(&state, &rates).is_break() {
-                break;
-            }
-        }
-        Ok(state)
+        steps_of_one_length(self.step, problem, start, end, limit, emit, |state, rates, h| {
+            self.method.step(problem, state, rates, h).map(|step| step.state)
+        })
     }
 
     fn within<F: Form<S>, I: InputSource<S>>(

@@ -10,6 +10,7 @@
 //! | [`commutator_free`] | a commutator-free method of order 4 |
 //! | [`composition`] | symmetric methods composed to higher orders |
 //! | [`control`] | fixed steps, adaptive steps |
+//! | [`compensated`] | fixed steps that carry what is rounded off, for long runs |
 //! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
 //! | `projection` | states of a run kept on the constraints |
 //! | [`simulation`] | [`Simulation`], the front |
@@ -19,6 +20,7 @@
 
 pub mod collocation;
 pub mod commutator_free;
+pub mod compensated;
 pub mod composition;
 pub mod control;
 pub mod error;
@@ -34,12 +36,13 @@ pub mod trajectory;
 
 pub use collocation::Collocation;
 pub use commutator_free::CommutatorFree4;
+pub use compensated::Compensated;
 pub use composition::{Composed, Composition};
 pub use control::{Adaptive, Control, Emit, Fixed};
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
 pub use event::Crossing;
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
-pub use one_step::{OneStep, Properties, Step};
+pub use one_step::{IncrementStep, OneStep, Properties, Step};
 pub use rkmk::Rkmk;
 pub use simulation::{Observer, Simulation};
 pub use tableau::Tableau;

@@ -59,3 +59,20 @@ pub trait OneStep<S: GaussSystem> {
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind>;
 }
+
+/// A method whose step is one increment, `q₁ = q₀ ∘ exp(σ)` and `y₁ = y₀ + Δy`: it can be run with what is rounded off carried from
+/// step to step ([`Compensated`](super::compensated::Compensated)).
+pub trait IncrementStep<S: GaussSystem>: OneStep<S> {
+    /// (σ, Δy) of the step that [`OneStep::step`] makes, up to rounding that is relative to the increment. What it is added to, and
+    /// the result, are not checked.
+    ///
+    /// # Errors
+    /// When the step cannot be made.
+    fn increment<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<Rates<S>, IntegrationErrorKind>;
+}

@@ -6,7 +6,7 @@
 
 use super::error::{IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{OneStep, Properties, Step};
+use super::one_step::{IncrementStep, OneStep, Properties, Step};
 use super::tableau::{Rational, Tableau};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
@@ -19,6 +19,8 @@ use crate::system::GaussSystem;
 pub struct Rkmk<T, const S: usize> {
     a: [[T; S]; S],
     b: [T; S],
+    /// Numerators and denominators of b.
+    fractions: [(T, T); S],
     c: [T; S],
     error: [T; S],
     coarse_error: [T; S],
@@ -36,6 +38,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         Self {
             a: tableau.a.each_ref().map(row),
             b: row(&tableau.b),
+            fractions: tableau.b.map(|(p, q)| (T::from_f64(p as f64), T::from_f64(q as f64))),
             c: row(&tableau.c),
             error: row(&tableau.error),
             coarse_error: row(&tableau.coarse_error),
@@ -52,15 +55,15 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         self.order
     }
 
-    /// A step, and its coarser estimate where the tableau has one.
+    /// The derivatives at the stages in the algebra, and those of the last stage as they are.
     #[inline(always)]
-    pub(super) fn step_and_coarse_error<Sys: GaussSystem<Scalar = T>, F: Form<Sys>, I: InputSource<Sys>>(
+    fn stages<Sys: GaussSystem<Scalar = T>, F: Form<Sys>, I: InputSource<Sys>>(
         &self,
         problem: &Problem<'_, Sys, F, I>,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: T,
-    ) -> Result<(Step<Sys>, Option<Rates<Sys>>), IntegrationErrorKind> {
+    ) -> Result<([Rates<Sys>; S], Rates<Sys>), IntegrationErrorKind> {
         let one = <Sys::Scalar as Real>::one();
         // Derivatives in the algebra: dexp_inv(σ, V) and ẏ. At σ = 0 the former is V.
         let mut stages = [*rates; S];
@@ -79,7 +82,20 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
                 variables: last.variables,
             };
         }
+        Ok((stages, last))
+    }
 
+    /// A step, and its coarser estimate where the tableau has one.
+    #[inline(always)]
+    pub(super) fn step_and_coarse_error<Sys: GaussSystem<Scalar = T>, F: Form<Sys>, I: InputSource<Sys>>(
+        &self,
+        problem: &Problem<'_, Sys, F, I>,
+        state: &State<Sys>,
+        rates: &Rates<Sys>,
+        h: T,
+    ) -> Result<(Step<Sys>, Option<Rates<Sys>>), IntegrationErrorKind> {
+        let one = <Sys::Scalar as Real>::one();
+        let (stages, last) = self.stages(problem, state, rates, h)?;
         let sigma = combination(h, &self.b, &stages);
         check_increment::<Sys>(&sigma)?;
         let end: State<Sys> = State {
@@ -123,6 +139,32 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Rkmk<Sys::Scalar, S> {
     }
 }
 
+impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Rkmk<Sys::Scalar, S> {
+    #[inline]
+    fn increment<F: Form<Sys>, I: InputSource<Sys>>(
+        &self,
+        problem: &Problem<'_, Sys, F, I>,
+        state: &State<Sys>,
+        rates: &Rates<Sys>,
+        h: Sys::Scalar,
+    ) -> Result<Rates<Sys>, IntegrationErrorKind> {
+        let (stages, _) = self.stages(problem, state, rates, h)?;
+        // Rounded weights would make the same error in every step, which adds up like n and not like √n: of the size of a rounding
+        // of h k where their sum is not 1, and h times that elsewhere. So Σ b k is k₁ + Σ b (k − k₁), and the fractions are
+        // divided anew each time, with a rounding that varies.
+        let mut sum: Rates<Sys> = Rates { configuration: TangentOf::<Sys>::zero(), variables: Sys::Speeds::zero() };
+        for (&(p, q), stage) in self.fractions.iter().zip(&stages).skip(1) {
+            let factor = h * p;
+            add_quotient(&mut sum.configuration, factor, q, &stage.configuration, &rates.configuration);
+            add_quotient(&mut sum.variables, factor, q, &stage.variables, &rates.variables);
+        }
+        sum.configuration = sum.configuration.add_scaled(h, &rates.configuration);
+        sum.variables = sum.variables.add_scaled(h, &rates.variables);
+        check_increment::<Sys>(&sum)?;
+        Ok(sum)
+    }
+}
+
 /// Refuses steps that touch a singularity of the coordinates or pass over one: they would go on with numbers that mean
 /// nothing. At a regularity of √ε velocities have lost half of their digits.
 #[inline(always)]
@@ -155,6 +197,15 @@ fn combination<S: GaussSystem>(h: S::Scalar, weights: &[S::Scalar], stages: &[Ra
         }
     }
     sum
+}
+
+/// Adds `factor·(x − origin)/divisor`.
+#[inline(always)]
+fn add_quotient<T: Real, V: VectorSpace<T>>(sum: &mut V, factor: T, divisor: T, x: &V, origin: &V) {
+    for i in 0..V::DIM {
+        let part = factor * (x.component(i) - origin.component(i)) / divisor;
+        sum.set_component(i, sum.component(i) + part);
+    }
 }
 
 /// Refuses rotations beyond half a turn. A NaN passes here and is caught at the end of the step.

@@ -6,9 +6,12 @@
 //! | SE(3) | [`se3`] | isometry (R, b) | (u, ω), pole O |
 //! | SE(2) | [`se2`] | plane isometry | (u₁, u₂, ω) |
 //!
+//! [`carried`] multiplies elements that are known beyond the precision of their components, for long runs.
+//!
 //! Everything is left-trivialised: an increment σ acts on the right, `q ∘ exp(σ)`, so that its derivative is the body
 //! velocity. Each function is written once over [`coefficients`], which hold for every angle.
 
+pub mod carried;
 pub mod coefficients;
 pub mod se2;
 pub mod se3;

@@ -19,14 +19,20 @@ pub(crate) fn isometry<T: Real>(rotation: UnitComplex<T>, translation: [T; 2]) -
     Isometry2 { rotation, translation: Translation { vector: SVector::from(translation) } }
 }
 
-/// The rotation by ω and the displacement `V u`, `V = sin ω/ω + i (1 − cos ω)/ω`.
+/// The rotation by ω and the displacement.
 #[inline(always)]
 fn exp_parts<T: Real>(sigma: &SVector<T, 3>) -> ([T; 2], [T; 2]) {
+    let (sine, cosine) = sigma.data.0[0][2].sin_cos();
+    ([cosine, sine], displacement(sigma))
+}
+
+/// The displacement `V u`, `V = sin ω/ω + i (1 − cos ω)/ω`.
+#[inline(always)]
+pub(super) fn displacement<T: Real>(sigma: &SVector<T, 3>) -> [T; 2] {
     let [u, v, omega] = sigma.data.0[0];
     let s = omega * omega;
-    let (sine, cosine) = omega.sin_cos();
     let (a, b) = (coefficients::sinc(s), omega * coefficients::versine(s));
-    ([cosine, sine], [a * u - b * v, b * u + a * v])
+    [a * u - b * v, b * u + a * v]
 }
 
 /// The plane motion of unit duration with the constant body twist σ = (u₁, u₂, ω).

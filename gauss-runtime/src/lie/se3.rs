@@ -33,7 +33,7 @@ pub(crate) fn isometry<T: Real>(rotation: UnitQuaternion<T>, translation: [T; 3]
 
 /// The translation of `exp(u, ω)`: `V u` with `V = 1 + (1−cos θ)/θ² [ω]× + (θ−sin θ)/θ³ [ω]×²`.
 #[inline(always)]
-fn displacement<T: Real>(u: [T; 3], omega: [T; 3]) -> [T; 3] {
+pub(super) fn displacement<T: Real>(u: [T; 3], omega: [T; 3]) -> [T; 3] {
     let s = dot(omega, omega);
     let once = cross(omega, u);
     axpy(coefficients::cubic(s), cross(omega, once), axpy(coefficients::versine(s), once, u))
