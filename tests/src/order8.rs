@@ -66,11 +66,11 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
         limit: u64,
         emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
-        let stopped = |time, kind| IntegrationError { time, kind };
+        let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         let mut state = start;
         let mut rates = problem.rates(&state);
         if !rates.is_finite() {
-            return Err(stopped(state.t, IntegrationErrorKind::NonFinite { part: Part::Derivative }));
+            return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: Part::Derivative }));
         }
         if emit(&state, &rates).is_break() {
             return Ok(state);
@@ -83,18 +83,18 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
             let last = length >= 0.999 * left;
             let h = if last { left } else { length };
             if state.t + h == state.t {
-                return Err(stopped(state.t, IntegrationErrorKind::StepTooSmall { step: h }));
+                return Err(stopped(&state, IntegrationErrorKind::StepTooSmall { step: h }));
             }
             let (step, error) = match self.method.step(problem, &state, &rates, h) {
                 Ok(step) => {
                     let error = ratio(&state, &step.state, &step.error) / self.tolerance;
                     (step, error)
                 }
-                Err(kind) if self.fixed.is_some() => return Err(stopped(state.t, kind)),
+                Err(kind) if self.fixed.is_some() => return Err(stopped(&state, kind)),
                 Err(kind) => {
                     length = 0.25 * h;
                     if state.t + length == state.t {
-                        return Err(stopped(state.t, kind));
+                        return Err(stopped(&state, kind));
                     }
                     continue;
                 }
@@ -105,7 +105,7 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
                     continue;
                 }
             }
-            let before = state.t;
+            let before = state;
             state = step.state;
             if last {
                 state.t = end;
@@ -115,17 +115,17 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
                 let (system, form) = (problem.system, &problem.form);
                 let speeds = form.speeds(system, state.t, &state.q, &state.y);
                 let projected = system.project(state.t, &state.q, &speeds);
-                let (q, z) = projected.map_err(|error| stopped(before, IntegrationErrorKind::Projection { error }))?;
+                let (q, z) = projected.map_err(|error| stopped(&before, IntegrationErrorKind::Projection { error }))?;
                 state = State { q, y: form.variables(system, state.t, &q, &z), ..state };
             }
             rates = problem.rates(&state);
             if !rates.is_finite() {
-                return Err(stopped(before, IntegrationErrorKind::NonFinite { part: Part::Step }));
+                return Err(stopped(&before, IntegrationErrorKind::NonFinite { part: Part::Step }));
             }
             if emit(&state, &rates).is_break() || last {
                 return Ok(state);
             }
         }
-        Err(stopped(state.t, IntegrationErrorKind::TooManySteps { limit }))
+        Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }))
     }
 }

@@ -170,12 +170,12 @@ pub(super) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>
     emit: &mut Emit<'_, S>,
     mut advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<State<S>, IntegrationErrorKind>,
 ) -> Result<State<S>, IntegrationError> {
-    let stopped = |t: S::Scalar, kind| IntegrationError { time: t.lane(0), kind };
+    let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
     let positive = length.lane(0).abs();
     if !(positive.is_finite() && positive > 0.0) {
-        return Err(stopped(start.t, IntegrationErrorKind::InvalidStep { step: length.lane(0) }));
+        return Err(stopped(&start, IntegrationErrorKind::InvalidStep { step: length.lane(0) }));
     }
-    let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
+    let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
     if emit(&start, &rates).is_break() || span == 0.0 {
         return Ok(start);
     }
@@ -186,7 +186,7 @@ pub(super) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>
     let whole = Real::abs(count - round(count)) <= 8.0 * unit * count.max(1.0);
     let steps = if whole { round(count).max(1.0) } else { floor(count) + 1.0 };
     if steps > limit as f64 {
-        return Err(stopped(start.t, IntegrationErrorKind::TooManySteps { limit }));
+        return Err(stopped(&start, IntegrationErrorKind::TooManySteps { limit }));
     }
     let h = if (span < 0.0) == (length.lane(0) < 0.0) { length } else { -length };
 
@@ -195,17 +195,11 @@ pub(super) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>
     for n in 1..=steps {
         let last = n == steps;
         let this = if last { end - state.t } else { h };
-        let reached = state.t;
-        state = advance(&state, &rates, this).map_err(|kind| stopped(reached, kind))?;
+        let mut next = advance(&state, &rates, this).map_err(|kind| stopped(&state, kind))?;
         // Times are multiples of h, not sums of it.
-        state.t = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start.t) };
-        if S::CONSTRAINED {
-            state = on_constraints(problem, &state).map_err(|kind| stopped(reached, kind))?;
-        }
-        rates = problem.rates(&state);
-        if !rates.is_finite() {
-            return Err(stopped(reached, IntegrationErrorKind::NonFinite { part: Part::Step }));
-        }
+        next.t = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start.t) };
+        rates = accept(problem, &mut next, None).map_err(|kind| stopped(&state, kind))?;
+        state = next;
         if emit(&state, &rates).is_break() {
             break;
         }
@@ -247,14 +241,14 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
         limit: u64,
         emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
-        let stopped = |t: S::Scalar, kind| IntegrationError { time: t.lane(0), kind };
+        let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         let (relative, absolute) = (self.relative, self.absolute);
         let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
         if !(usable(relative) && usable(absolute) && relative + absolute > 0.0) {
             let kind = IntegrationErrorKind::InvalidTolerance { relative, absolute };
-            return Err(stopped(start.t, kind));
+            return Err(stopped(&start, kind));
         }
-        let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(start.t, kind))?;
+        let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
         if emit(&start, &rates).is_break() || span == 0.0 {
             return Ok(start);
         }
@@ -263,7 +257,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
         let longest = self.largest_step.min(span.abs());
         let first = self.first_step.unwrap_or_else(|| self.first_length(problem, &start, &rates, direction));
         if !(first.is_finite() && first > 0.0 && longest > 0.0) {
-            return Err(stopped(start.t, IntegrationErrorKind::InvalidStep { step: first.min(longest) }));
+            return Err(stopped(&start, IntegrationErrorKind::InvalidStep { step: first.min(longest) }));
         }
 
         let mut state = start;
@@ -275,13 +269,13 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             let last = length >= left * 0.99;
             let signed = if last { end - state.t } else { S::Scalar::from_f64(direction * length) };
             if state.t + signed == state.t {
-                return Err(stopped(state.t, IntegrationErrorKind::StepTooSmall { step: length }));
+                return Err(stopped(&state, IntegrationErrorKind::StepTooSmall { step: length }));
             }
             // When a step fails a shorter one may do: half, until the time does not change any more.
             let half = |kind| {
                 let half = 0.5 * length.min(left);
                 let unchanged = state.t + S::Scalar::from_f64(direction * half) == state.t;
-                if unchanged { Err(stopped(state.t, kind)) } else { Ok(half) }
+                if unchanged { Err(stopped(&state, kind)) } else { Ok(half) }
             };
             let (step, coarse) = match self.method.step_and_coarse_error(problem, &state, &rates, signed) {
                 Ok(step) => step,
@@ -315,7 +309,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             }
             length = (used * lengths.accept(error)).min(longest);
         }
-        Err(stopped(state.t, IntegrationErrorKind::TooManySteps { limit }))
+        Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }))
     }
 
     fn within<F: Form<S>, I: InputSource<S>>(

@@ -2,16 +2,57 @@
 
 use core::fmt;
 
-use crate::constraint::{ConstraintLevel, ProjectionError};
+#[cfg(feature = "alloc")]
+use alloc::{boxed::Box, format};
 
-/// An integration that cannot go on. What was reached is kept: see
-/// [`Simulation::attempt`](crate::integrate::Simulation::attempt).
-#[derive(Clone, Copy, Debug, PartialEq)]
+use super::form::{Form, Problem, State};
+use crate::constraint::{ConstraintLevel, ProjectionError};
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// An integration that cannot go on: when, in which state, and why. What was reached is kept: see
+/// [`Simulation::attempt`](crate::integrate::Simulation::attempt), whose last sample is that state.
+#[derive(Clone, Debug, PartialEq)]
 pub struct IntegrationError {
     /// The last time that was reached with a good state.
     pub time: f64,
     /// What went wrong in the step from there.
     pub kind: IntegrationErrorKind,
+    #[cfg(feature = "alloc")]
+    state: Box<str>,
+}
+
+impl IntegrationError {
+    /// The error of a run that was at `state` last.
+    #[must_use]
+    pub fn at<S: GaussSystem, F: Form<S>, I>(
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        kind: IntegrationErrorKind,
+    ) -> Self {
+        #[cfg(not(feature = "alloc"))]
+        let _ = problem;
+        Self {
+            time: state.t.lane(0),
+            kind,
+            #[cfg(feature = "alloc")]
+            state: {
+                let z = problem.form.speeds(problem.system, state.t, &state.q, &state.y);
+                format!("q = {:?}, z = {z:?}", state.q).into_boxed_str()
+            },
+        }
+    }
+
+    /// The last good state (at the start: the one handed over), all digits of q and z in words. Empty without an allocator: the
+    /// observer has seen it then.
+    #[must_use]
+    pub fn state(&self) -> &str {
+        #[cfg(feature = "alloc")]
+        let state = &self.state;
+        #[cfg(not(feature = "alloc"))]
+        let state = "";
+        state
+    }
 }
 
 /// What went wrong in a step.
@@ -146,7 +187,8 @@ impl fmt::Display for IntegrationErrorKind {
 
 impl fmt::Display for IntegrationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "integration stopped at t = {}: {}", self.time, self.kind)
+        write!(f, "integration stopped at t = {}: {}", self.time, self.kind)?;
+        if self.state().is_empty() { Ok(()) } else { write!(f, "; the last good state is {}", self.state()) }
     }
 }
 

@@ -10,7 +10,6 @@ use super::trajectory::Sample;
 #[cfg(feature = "alloc")]
 use super::trajectory::Trajectory;
 use crate::configuration::Configuration;
-use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// Nothing is chosen yet; [`Simulation::fixed_step`] or [`Simulation::adaptive`] comes next.
@@ -373,6 +372,8 @@ fn sample_of<S: GaussSystem, F: Form<S>, I>(problem: &Problem<'_, S, F, I>, stat
 
 /// What a run passes on.
 enum Seen<'a, S: GaussSystem> {
+    // Derivatives are for trajectories.
+    #[cfg_attr(not(feature = "alloc"), allow(dead_code))]
     Sample(&'a State<S>, &'a Rates<S>),
     Event(usize, &'a State<S>),
 }
@@ -439,7 +440,10 @@ impl<S: GaussSystem, F: Form<S>, I: InputSource<S>, C: Control<S>> Run<'_, '_, S
             pass(Seen::Sample(state, rates));
         }
         match failure {
-            Some(kind) => Err(IntegrationError { time: before.map_or(start.t, |(state, _)| state.t).lane(0), kind }),
+            Some(kind) => {
+                let last = before.map_or(start, |(state, _)| state);
+                Err(IntegrationError::at(self.problem, &last, kind))
+            }
             None => outcome,
         }
     }

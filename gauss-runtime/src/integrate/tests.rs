@@ -337,7 +337,11 @@ fn what_is_not_finite_is_an_error() {
     assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step });
     assert!((error.time - 1.0).abs() < 0.11 && error.time == trajectory.last().t, "{error}");
     assert!(Configuration::is_finite(&trajectory.last().q) && VectorSpace::is_finite(&trajectory.last().z));
-    assert!(error.to_string().starts_with("integration stopped at t = "), "{error}");
+    // When, why, and where.
+    let last = trajectory.last();
+    assert_eq!(error.state(), std::format!("q = {:?}, z = {:?}", last.q, last.z));
+    let text = error.to_string();
+    assert!(text.starts_with("integration stopped at t = ") && text.ends_with(error.state()), "{text}");
     let (trajectory, error) = failing.adaptive(1e-6, 1e-6).attempt(q0, z0, 0.0..3.0);
     let error = error.expect("stops");
     assert!(matches!(error.kind, IntegrationErrorKind::NonFinite { .. }), "{error}");
