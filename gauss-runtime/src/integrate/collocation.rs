@@ -25,6 +25,10 @@ use crate::system::GaussSystem;
 /// cheaper.
 const MOST_SWEEPS: u32 = 64;
 
+/// Sweeps without progress after which only rounding is left: any iteration that would converge in time gains a digit in as
+/// many.
+const IDLE_SWEEPS: u32 = 4;
+
 /// Gauss' method of S stages and order 2S on the group: 1, 2 or 3 stages.
 ///
 /// Symmetric. In the momentum form it keeps every quadratic integral of equations for the momenta alone up to rounding: T
@@ -184,7 +188,7 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::S
         let mut parts: [Rates<Sys>; S] = core::array::from_fn(|j| self.weighted(j, h, rates));
         let mut sum = total(&parts);
 
-        let mut before = f64::INFINITY;
+        let (mut least, mut idle) = (f64::INFINITY, 0);
         let mut sweep = 0;
         loop {
             sweep += 1;
@@ -218,14 +222,18 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::S
             if residual.is_nan() || !sum.is_finite() {
                 return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
             }
+            idle = if residual < least { 0 } else { idle + 1 };
+            least = least.min(residual);
             // To rounding, and until that gets no better: an iteration that stops earlier leaves an error of one sign.
-            if residual == 0.0 || (residual <= 64.0 * Sys::Scalar::EPSILON && residual >= before) {
+            let rounding = residual <= 64.0 * Sys::Scalar::EPSILON && idle > 0;
+            // Equations that cancel have more rounding than the state, which then is all that is left to change.
+            let noise = least <= Real::sqrt(Sys::Scalar::EPSILON) && idle >= IDLE_SWEEPS;
+            if residual == 0.0 || rounding || noise {
                 break;
             }
             if sweep == MOST_SWEEPS {
                 return Err(IntegrationErrorKind::NotConverged { iterations: sweep, residual });
             }
-            before = residual;
         }
         check_increment::<Sys>(&sum)?;
         Ok(sum)

@@ -198,6 +198,20 @@ fn what_does_not_converge_is_an_error_in_words() {
     assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step });
 }
 
+/// A torque whose rounding is 1e5 times that of the state, as where large terms cancel.
+#[test]
+fn rounding_of_the_equations_is_not_taken_for_divergence() {
+    let noisy = Feedback(|t: f64, q: &UnitQuaternion<f64>, z: &SVector<f64, 3>| {
+        (TORQUE.0)(t, q, z).map(|component| component + 1e-11 * (z[0] * 1e15).fract())
+    });
+    let problem = Problem { system: &TOP, form: VelocityForm, input: noisy };
+    let clean = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+    let (start, method) = (start_by_velocity(), Collocation::order_4());
+    let found = distance(&march(&method, &problem, &start, 1.0, 10), &march(&method, &clean, &start, 1.0, 10));
+    // In a unit of time, by inertias of ½ and more, carried on about as large.
+    assert!(found < 4e-11, "{found:e}");
+}
+
 #[test]
 fn a_state_at_rest_stays() {
     let problem = Problem { system: &TOP, form: VelocityForm, input: NONE };
