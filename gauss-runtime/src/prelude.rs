@@ -12,7 +12,7 @@ pub use crate::forces::{Element, ForcedSystem};
 pub use crate::integrate::Trajectory;
 pub use crate::integrate::{
     Adaptive, Collocation, CommutatorFree4, Composed, Composition, Crossing, Fixed, InputSource, IntegrationError,
-    IntegrationErrorKind, MomentumForm, Sample, Simulation, Tableau, VelocityForm,
+    IntegrationErrorKind, MomentumForm, Sample, Simulation, Tableau, Variational, VelocityForm,
 };
 pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]

@@ -1,6 +1,6 @@
 //! Methods of one step on derived kernels: orders against reference solutions, and what they keep over long runs.
 
-use gauss_runtime::integrate::{OneStep, Properties, Rkmk};
+use gauss_runtime::integrate::{OneStep, Properties, Rkmk, Variational};
 use gauss_runtime::prelude::*;
 use gauss_tests::integrals::Moment;
 use gauss_tests::scene::{Scene, quaternion_of};
@@ -65,6 +65,8 @@ fn orders_on_a_heavy_top_against_its_reference() {
         order(&scene, Collocation::order_6(), [150, 600]),
         order(&scene, Composed::new(&Composition::KAHAN_LI_6, midpoint), [150, 600]),
         order(&scene, Composed::new(&Composition::KAHAN_LI_8, midpoint), [75, 300]),
+        order(&scene, Variational, [600, 2400]),
+        order(&scene, Composed::new(&Composition::KAHAN_LI_6, Variational), [300, 1200]),
         order(&scene, Rkmk::new(&Tableau::DORMAND_PRINCE_8), [75, 300]),
         order(&scene, Rkmk::new(&Tableau::VERNER_9), [75, 150]),
     ] {
@@ -120,4 +122,32 @@ fn integrals_of_clebsch_are_kept_to_rounding() {
     // A method that does not keep them loses them in proportion to time.
     let changes = change_of_clebsch(CommutatorFree4, step, steps);
     assert!(changes.iter().all(|&change| change > 1e6 * walk), "{changes:?}");
+}
+
+/// A body in fluid with all 6×6 coupled: momenta in space, and p² and p·π, which follow from them.
+#[test]
+fn a_variational_method_keeps_the_momenta_of_a_body_in_fluid() {
+    let scene = Scene::load("kirchhoff_clebsch");
+    let p = &scene.parameters;
+    let kernel = Kirchhoff { mass: p.mass, inertia: p.principal, added: p.added }.kernel().expect("a body");
+    let (pose, z) = (scene.initial.pose(), scene.initial.twist());
+    let (first, energy) = (kernel.space_momentum(0.0, &pose, &z), kernel.energy(0.0, &pose, &z));
+    let (step, steps) = (0.05, 10_000);
+    let (mut momentum, mut halves) = (0.0_f64, [0.0_f64; 2]);
+    Simulation::new(&kernel)
+        .momentum_form()
+        .control(Fixed::by(Variational, step))
+        .observe(|sample| {
+            let now = kernel.space_momentum(sample.t, &sample.q, &sample.z);
+            // About Ω, from which the body goes away: rounding is of b × p.
+            let lever = 1.0 + sample.q.translation.vector.norm();
+            momentum = momentum.max((now - first).amax() / (lever * first.norm()));
+            let worst = &mut halves[usize::from(sample.t > 0.5 * step * f64::from(steps))];
+            *worst = worst.max((kernel.energy(sample.t, &sample.q, &sample.z) / energy - 1.0).abs());
+        })
+        .run_to_end(pose, z, 0.0..step * f64::from(steps))
+        .expect("runs");
+    // Each step rounds momenta and attitude by some 4ε, of both signs.
+    assert!(momentum < 4.0 * f64::EPSILON * f64::from(steps).sqrt(), "{momentum:e}");
+    assert!(halves[1] < 1.2 * halves[0] && halves[0] < 4.0 * step * step, "{halves:?}");
 }

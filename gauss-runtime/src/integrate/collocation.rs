@@ -15,19 +15,12 @@
 
 use super::error::{IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use super::iteration::{Progress, relative_change, worst};
 use super::one_step::{IncrementStep, OneStep, Properties, Step};
 use super::rkmk::{check_chart, check_increment};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::GaussSystem;
-
-/// Sweeps after which the iteration is given up: 53 gain a binary digit each, and where a sweep gains less a shorter step is
-/// cheaper.
-const MOST_SWEEPS: u32 = 64;
-
-/// Sweeps without progress after which only rounding is left: any iteration that would converge in time gains a digit in as
-/// many.
-const IDLE_SWEEPS: u32 = 4;
 
 /// Gauss' method of S stages and order 2S on the group: 1, 2 or 3 stages.
 ///
@@ -188,10 +181,8 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::S
         let mut parts: [Rates<Sys>; S] = core::array::from_fn(|j| self.weighted(j, h, rates));
         let mut sum = total(&parts);
 
-        let (mut least, mut idle) = (f64::INFINITY, 0);
-        let mut sweep = 0;
+        let mut progress = Progress::new();
         loop {
-            sweep += 1;
             let middle = state.q.retract(&sum.configuration.scale(half));
             let y = state.y.add_scaled(half, &sum.variables);
             let mut residual = 0.0_f64;
@@ -219,20 +210,8 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::S
                 parts[i] = next;
             }
             sum = total(&parts);
-            if residual.is_nan() || !sum.is_finite() {
-                return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
-            }
-            idle = if residual < least { 0 } else { idle + 1 };
-            least = least.min(residual);
-            // To rounding, and until that gets no better: an iteration that stops earlier leaves an error of one sign.
-            let rounding = residual <= 64.0 * Sys::Scalar::EPSILON && idle > 0;
-            // Equations that cancel have more rounding than the state, which then is all that is left to change.
-            let noise = least <= Real::sqrt(Sys::Scalar::EPSILON) && idle >= IDLE_SWEEPS;
-            if residual == 0.0 || rounding || noise {
+            if progress.finished::<Sys::Scalar>(residual)? {
                 break;
-            }
-            if sweep == MOST_SWEEPS {
-                return Err(IntegrationErrorKind::NotConverged { iterations: sweep, residual });
             }
         }
         check_increment::<Sys>(&sum)?;
@@ -254,22 +233,11 @@ fn total<S: GaussSystem, const N: usize>(parts: &[Rates<S>; N]) -> Rates<S> {
     sum
 }
 
-/// The larger one; NaN where one of them is.
-fn worst(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
-}
-
 /// How much a part of the increment changes, relative to the state and its increment: angles to 1 rad, translations to the distance
 /// from the origin, variables to the largest of them.
 fn change<S: GaussSystem>(state: &State<S>, sum: &Rates<S>, old: &Rates<S>, new: &Rates<S>) -> f64 {
     let mut result = 0.0_f64;
-    let mut see = |old: S::Scalar, new: S::Scalar, size: f64| {
-        for lane in 0..S::Scalar::LANES {
-            let difference = (new.lane(lane) - old.lane(lane)).abs();
-            // Nothing may change by what is nothing beside it, also where the size is 0.
-            result = worst(result, if difference == 0.0 { 0.0 } else { difference / size });
-        }
-    };
+    let mut see = |old, new, size| result = worst(result, relative_change(old, new, size));
     let moved = sum.configuration.max_norm();
     for i in 0..TangentOf::<S>::DIM {
         see(old.configuration.component(i), new.configuration.component(i), state.q.magnitude(i).max(moved));

@@ -12,6 +12,8 @@
 //! | [`control`] | fixed steps, adaptive steps |
 //! | [`compensated`] | fixed steps that carry what is rounded off, for long runs |
 //! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
+//! | [`variational`] | a variational method in the left-invariant chart: symplectic, keeps momenta |
+//! | `iteration` | when the iteration of an implicit step ends |
 //! | `projection` | states of a run kept on the constraints |
 //! | [`simulation`] | [`Simulation`], the front |
 //! | [`event`] | where functions of the state pass through zero |
@@ -26,6 +28,7 @@ pub mod control;
 pub mod error;
 pub mod event;
 pub mod form;
+mod iteration;
 pub mod one_step;
 mod projection;
 pub mod rkmk;
@@ -33,6 +36,7 @@ pub mod simulation;
 mod step_length;
 pub mod tableau;
 pub mod trajectory;
+pub mod variational;
 
 pub use collocation::Collocation;
 pub use commutator_free::CommutatorFree4;
@@ -49,6 +53,7 @@ pub use tableau::Tableau;
 pub use trajectory::Sample;
 #[cfg(feature = "alloc")]
 pub use trajectory::{EventSample, Trajectory};
+pub use variational::Variational;
 
 #[cfg(all(test, feature = "alloc"))]
 mod collocation_tests;

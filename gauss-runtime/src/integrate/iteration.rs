@@ -1,0 +1,61 @@
+//! When an iteration of an implicit step has come to its end.
+
+use super::error::{IntegrationErrorKind, Part};
+use crate::real::Real;
+
+/// Sweeps after which an iteration is given up: 53 gain a binary digit each, and where a sweep gains less a shorter step is
+/// cheaper.
+const MOST_SWEEPS: u32 = 64;
+
+/// Sweeps without progress after which only rounding is left: any iteration that would converge in time gains a digit in as
+/// many.
+const IDLE_SWEEPS: u32 = 4;
+
+/// Follows how much the sweeps of an iteration change, relative to the size of the state.
+pub(super) struct Progress {
+    sweeps: u32,
+    least: f64,
+    idle: u32,
+}
+
+impl Progress {
+    pub(super) fn new() -> Self {
+        Self { sweeps: 0, least: f64::INFINITY, idle: 0 }
+    }
+
+    /// Takes the change of one more sweep; whether it was the last one.
+    ///
+    /// To rounding, and until that gets no better: an iteration that stops earlier leaves an error of one sign.
+    pub(super) fn finished<T: Real>(&mut self, residual: f64) -> Result<bool, IntegrationErrorKind> {
+        if residual.is_nan() {
+            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        }
+        self.sweeps += 1;
+        self.idle = if residual < self.least { 0 } else { self.idle + 1 };
+        self.least = self.least.min(residual);
+        let rounding = residual <= 64.0 * T::EPSILON && self.idle > 0;
+        // Equations that cancel have more rounding than the state, which then is all that is left to change.
+        let noise = self.least <= Real::sqrt(T::EPSILON) && self.idle >= IDLE_SWEEPS;
+        if residual == 0.0 || rounding || noise {
+            return Ok(true);
+        }
+        if self.sweeps == MOST_SWEEPS {
+            return Err(IntegrationErrorKind::NotConverged { iterations: self.sweeps, residual });
+        }
+        Ok(false)
+    }
+}
+
+/// The larger one; NaN where one of them is.
+pub(super) fn worst(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
+
+/// The largest change between two numbers over their lanes, relative to a size. Nothing changes by what is nothing beside it,
+/// also where the size is 0.
+pub(super) fn relative_change<T: Real>(old: T, new: T, size: f64) -> f64 {
+    (0..T::LANES).fold(0.0, |result, lane| {
+        let difference = (new.lane(lane) - old.lane(lane)).abs();
+        worst(result, if difference == 0.0 { 0.0 } else { difference / size })
+    })
+}
