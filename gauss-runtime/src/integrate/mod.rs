@@ -18,8 +18,10 @@
 //! | [`simulation`] | [`Simulation`], the front |
 //! | [`event`] | where functions of the state pass through zero |
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
+//! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov |
 //! | [`error`] | [`IntegrationError`] |
 
+pub mod body;
 pub mod collocation;
 pub mod commutator_free;
 pub mod compensated;
@@ -38,6 +40,7 @@ pub mod tableau;
 pub mod trajectory;
 pub mod variational;
 
+pub use body::{FreeFlow, MoserVeselov};
 pub use collocation::Collocation;
 pub use commutator_free::CommutatorFree4;
 pub use compensated::Compensated;

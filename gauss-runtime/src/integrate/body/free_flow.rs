@@ -1,0 +1,301 @@
+//! The exact motion of a free rigid body, over any span of time in one call.
+//!
+//! Momentum: with e and o the principal axes across, and a the axis about which y runs, all of
+//! `y = (E cn, O sn, A dn)` or, shifted by a quarter of the period, `y = (E cd, O sd, A′ nd)`. The first form is taken when
+//! a has the smallest moment and the second when it has the largest, so that e is the axis with the larger of the other two
+//! moments when a is the smallest: every amplitude is a sum of squares then, and the modulus a difference of what was given.
+//!
+//! Attitude: R = R_ℓ(ψ) R_y(−β) R_a(−θ), with θ, β the direction of y seen from a and ψ the angle about the constant momentum ℓ
+//! in space. ψ̇ = |y| (y_e²/I_e + y_o²/I_o)/(y_e² + y_o²), an average of two rates: the integral of the third kind enters as a
+//! sum of positive terms with no pole in sight.
+//!
+//! Sources: Celledoni, Fassò, Säfström & Zanna (SIAM J. Sci. Comput. 30, 2008); van Zon & Schofield (J. Comput. Phys. 225, 2007);
+//! Carlson (Numer. Algorithms 10, 1995); the arrangement is ours.
+
+use nalgebra::{SVector, Vector3};
+
+use super::elliptic::{Jacobi, Modulus, complete};
+use super::inertia::{FreeMotion, Turn};
+use crate::integrate::error::{IntegrationErrorKind, Part};
+use crate::lie::so3;
+use crate::real::Real;
+use crate::triple::{Triple, dot, quaternion, triple, unit_quaternion};
+
+/// The exact free motion of a body with given principal moments, in less than a microsecond.
+///
+/// Errors: a few roundings of the angle through which the body turns, and of the phase of its wobble times how much the motion
+/// depends on it. Energy and the length of the momentum are kept to a few roundings a call, which are not of one sign.
+///
+/// For `f64`: the number of operations depends on the state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeFlow {
+    /// In units of `unit`.
+    moments: Triple<f64>,
+    inverse: Triple<f64>,
+    unit: f64,
+    /// Axes from the smallest moment to the largest.
+    order: [usize; 3],
+    /// I₁(I₃ − I₂) and I₃(I₂ − I₁), sorted: y stays on the side of axis 3 when the first times y₃² exceeds the second times y₁².
+    sides: [f64; 2],
+}
+
+/// A right-handed frame along principal axes.
+#[derive(Clone, Copy)]
+struct Frame {
+    axes: [usize; 3],
+    signs: Triple<f64>,
+}
+
+/// The constants of a motion: see the module.
+#[derive(Clone, Copy)]
+struct Orbit {
+    /// Axes e, o, a.
+    frame: Frame,
+    modulus: Modulus,
+    complement: f64,
+    /// E, O, A or A′.
+    amplitudes: Triple<f64>,
+    /// Whether the second form is used.
+    shifted: bool,
+    /// (O/E)².
+    ratio: f64,
+    /// du/dt.
+    rate: f64,
+}
+
+impl FreeFlow {
+    /// The motion of a body with the given principal moments, which are greater than zero.
+    #[must_use]
+    pub fn new(moments: [f64; 3]) -> Self {
+        let unit = power_of_two(moments.iter().fold(0.0_f64, |m, &i| m.max(i)));
+        let moments = moments.map(|i| i / unit);
+        let mut order = [0, 1, 2];
+        for (i, j) in [(0, 1), (1, 2), (0, 1)] {
+            if moments[order[i]] > moments[order[j]] {
+                order.swap(i, j);
+            }
+        }
+        let [smallest, middle, largest] = order.map(|axis| moments[axis]);
+        let sides = [smallest * (largest - middle), largest * (middle - smallest)];
+        Self { moments, inverse: moments.map(|i| 1.0 / i), unit, order, sides }
+    }
+
+    /// The turn and the new momentum, in units in which the largest component of y and the largest moment are between 1 and 2.
+    fn flow(&self, y: Triple<f64>, t: f64) -> ([f64; 4], Triple<f64>) {
+        let [first, second] = self.sides;
+        let [smallest, middle, largest] = self.order;
+        let steady = |y: Triple<f64>| (so3_exp(core::array::from_fn(|i| t * y[i] * self.inverse[i])), y);
+        if second == 0.0 && (first == 0.0 || y[largest] == 0.0) {
+            return steady(y);
+        }
+        let upper = second == 0.0 || first * y[largest] * y[largest] > second * y[smallest] * y[smallest];
+        let (about, third) = if upper { (largest, smallest) } else { (smallest, largest) };
+        let Some(orbit) = self.orbit(y, [about, middle, third], upper) else {
+            return steady(y);
+        };
+        let seen = orbit.frame.see(y);
+        let weights = orbit.frame.axes.map(|axis| self.inverse[axis]);
+        let length = Real::sqrt(dot(seen, seen));
+
+        let before = orbit.phase_of(seen);
+        let (phase, integral_before) = before.integrals(orbit.ratio, orbit.complement);
+        let reached = phase + orbit.rate * t;
+        let half_period = 2.0 * orbit.modulus.quarter_period();
+        let turns = round(reached / half_period);
+        let rest = if turns == 0.0 { reached } else { reached - turns * half_period };
+        let mut after = orbit.modulus.jacobi(rest);
+        let (_, mut integral) = after.integrals(orbit.ratio, orbit.complement);
+        integral -= integral_before;
+        if turns != 0.0 {
+            integral += 2.0 * turns * complete(orbit.ratio, orbit.complement);
+            // Half a period changes the signs of sn and cn.
+            let sign = if 0.5 * turns == round(0.5 * turns) { 1.0 } else { -1.0 };
+            (after.sn, after.cn) = (sign * after.sn, sign * after.cn);
+        }
+
+        let psi = length * (weights[0] * t + (weights[1] - weights[0]) * orbit.ratio * (integral / orbit.rate));
+        let now = restore(orbit.momentum(after), seen, weights);
+        let [x, y, z, w] = relative_rotation(seen, now, psi, length);
+        let [x, y, z] = orbit.frame.unsee([x, y, z]);
+        ([x, y, z, w], orbit.frame.unsee(now))
+    }
+
+    /// The constants of the motion through y; `axes` are a, b (the middle one) and c. `None` when y does not move, or
+    /// so slowly or so little that squares cannot tell.
+    fn orbit(&self, y: Triple<f64>, axes: [usize; 3], upper: bool) -> Option<Orbit> {
+        let [ia, ib, ic] = axes.map(|axis| self.moments[axis]);
+        let [square_a, square_b, square_c] = axes.map(|axis| y[axis] * y[axis]);
+        // The separatrix is y_a² = r y_c²; least and most are the extremes of y_a².
+        let r = ia * (ic - ib) / (ic * (ib - ia));
+        let edge = Real::sqrt(r * square_c);
+        let most = square_a + square_b * (ia * (ic - ib) / (ib * (ic - ia)));
+        let least = ((y[axes[0]].abs() - edge).max(0.0) * (y[axes[0]].abs() + edge)).min(most);
+        if most == 0.0 {
+            return None;
+        }
+        // Nearer to the separatrix than squares can tell is on it.
+        let least = if least < 1e-300 * most { 0.0 } else { least };
+        let complement = Real::sqrt(least / most);
+        let growth = ib * (ic - ia) / (ic * (ib - ia));
+        let shifted = upper && least > 0.0;
+        let [about, b, c] = axes;
+        let (even, odd) = if shifted { (b, c) } else { (c, b) };
+        let (ratio, even_square, about_square) = if shifted {
+            (least / most / growth, square_b + growth * square_c, least)
+        } else {
+            (growth, square_c + square_b / growth, most)
+        };
+        if even_square == 0.0 || ratio == 0.0 {
+            return None;
+        }
+        let frame = Frame::leaning([even, odd, about], y);
+        let even_amplitude = Real::sqrt(even_square);
+        let even_amplitude = if y[even] < 0.0 { -even_amplitude } else { even_amplitude };
+        // ẏ_o = y_a y_e (1/I_e − 1/I_a): the sign of what follows at phase 0.
+        let grows = (self.moments[even] < self.moments[about]) == (even_amplitude > 0.0);
+        let odd_amplitude = Real::sqrt(ratio * even_square);
+        Some(Orbit {
+            frame,
+            modulus: Modulus::of_complement(complement),
+            complement,
+            amplitudes: [even_amplitude, if grows { odd_amplitude } else { -odd_amplitude }, Real::sqrt(about_square)],
+            shifted,
+            ratio,
+            rate: Real::sqrt(most * ((ic - ia) * (ib - ia) / (ib * ic))) / ia,
+        })
+    }
+}
+
+impl FreeMotion<f64> for FreeFlow {
+    fn order(&self) -> Option<u32> {
+        None
+    }
+
+    fn symplectic(&self) -> bool {
+        true
+    }
+
+    fn turn(&self, y: &Vector3<f64>, h: f64) -> Result<Turn<f64>, IntegrationErrorKind> {
+        let y = triple(y);
+        // A NaN passes here and is caught below.
+        let scale = power_of_two(y.iter().fold(0.0_f64, |m, &c| m.max(c.abs())));
+        let scaled = y.map(|c| c / scale);
+        let (rotation, reached) = self.flow(scaled, h * (scale / self.unit));
+        let change = core::array::from_fn(|i| (reached[i] - scaled[i]) * scale);
+        if !rotation.iter().chain(&change).all(|c| Real::is_finite(*c)) {
+            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        }
+        Ok(Turn { rotation: so3::renormalise(&unit_quaternion(rotation)), change: SVector::from(change) })
+    }
+}
+
+impl Frame {
+    /// The frame along (even, odd, about) with directions such that it is right-handed and y leans towards its third axis.
+    fn leaning(axes: [usize; 3], y: Triple<f64>) -> Self {
+        let side = if y[axes[2]] < 0.0 { -1.0 } else { 1.0 };
+        let hand = if (axes[0] + 1) % 3 == axes[1] { side } else { -side };
+        Self { axes, signs: [1.0, hand, side] }
+    }
+
+    fn see(&self, v: Triple<f64>) -> Triple<f64> {
+        core::array::from_fn(|i| self.signs[i] * v[self.axes[i]])
+    }
+
+    fn unsee(&self, v: Triple<f64>) -> Triple<f64> {
+        let mut seen = [0.0; 3];
+        for i in 0..3 {
+            seen[self.axes[i]] = self.signs[i] * v[i];
+        }
+        seen
+    }
+}
+
+impl Orbit {
+    /// sn, cn and dn of a momentum on the orbit, with cn ≥ 0: the sign of E is that of y_e.
+    fn phase_of(&self, seen: Triple<f64>) -> Jacobi {
+        let [even, odd, about] = self.amplitudes;
+        let (dn, factor) = if self.shifted { (about / seen[2], about / seen[2]) } else { (seen[2] / about, 1.0) };
+        Jacobi { sn: factor * seen[1] / odd, cn: factor * seen[0] / even, dn }
+    }
+
+    fn momentum(&self, Jacobi { sn, cn, dn }: Jacobi) -> Triple<f64> {
+        let [even, odd, about] = self.amplitudes;
+        if self.shifted { [even * cn / dn, odd * sn / dn, about / dn] } else { [even * cn, odd * sn, about * dn] }
+    }
+}
+
+/// Takes the rounding out of energy and length, which it would leave by the same bits in every call: repeated calls would drift.
+/// Both defects are differences of nearly equal sums, the energy's relative to the axis that y is nearest to, so that small
+/// deviations from a steady motion count with their own size.
+fn restore(now: Triple<f64>, before: Triple<f64>, weights: Triple<f64>) -> Triple<f64> {
+    let nearest = (1..3).fold(0, |best, i| if now[i].abs() > now[best].abs() { i } else { best });
+    let relative = weights.map(|w| w - weights[nearest]);
+    let excess = |y: Triple<f64>| (0..3).fold(0.0, |sum, i| relative[i].fma(y[i] * y[i], sum));
+    // Not the square of a root: its rounding would be of one sign for one length.
+    let square = dot(before, before);
+    let kept = excess(before);
+    // The gradient of the energy along the sphere.
+    let slope: Triple<f64> = core::array::from_fn(|i| now[i] * (relative[i] - kept / square));
+    let steepness = dot(slope, slope);
+    let step = if steepness > 0.0 { 0.5 * (kept - excess(now)) / steepness } else { 0.0 };
+    // From afar the rounding of the energy is more than what is left of it near the saddle: only what is rounding of y is taken.
+    let rounding = 16.0 * f64::EPSILON;
+    let step = if step * step * steepness <= rounding * rounding * square { step } else { 0.0 };
+    let stretch = 0.5 * (square - dot(now, now)) / square;
+    core::array::from_fn(|i| step.fma(slope[i], stretch.fma(now[i], now[i])))
+}
+
+/// R_z(θ₀) R_y(β₀) R_z(ψ) R_y(−β₁) R_z(−θ₁), where θ and β are the polar angles of two momenta of the given length with
+/// positive third components.
+fn relative_rotation(before: Triple<f64>, after: Triple<f64>, psi: f64, length: f64) -> [f64; 4] {
+    let across = |y: Triple<f64>| Real::sqrt(y[0] * y[0] + y[1] * y[1]);
+    let tilt = |y: Triple<f64>| {
+        let sum = length + y[2];
+        (Real::sqrt(0.5 * sum / length), across(y) / Real::sqrt(2.0 * length * sum))
+    };
+    let heading = |y: Triple<f64>| {
+        let size = across(y);
+        if size > 0.0 { half_angle(y[0] / size, y[1] / size) } else { (1.0, 0.0) }
+    };
+    let ((c0, s0), (c1, s1)) = (tilt(before), tilt(after));
+    let ((e0, f0), (e1, f1)) = (heading(before), heading(after));
+    let (sine, cosine) = Real::sin_cos(0.5 * psi);
+    // R_y(β₀) R_z(ψ) R_y(−β₁).
+    let (w, z) = (cosine * (c0 * c1 + s0 * s1), sine * (c0 * c1 - s0 * s1));
+    let (x, y) = (sine * (s0 * c1 + c0 * s1), cosine * (s0 * c1 - c0 * s1));
+    // Turns about z act on (w, z) by the difference of the angles, on (x, y) by the sum.
+    let (dc, ds) = (e0 * e1 + f0 * f1, f0 * e1 - e0 * f1);
+    let (sc, ss) = (e0 * e1 - f0 * f1, f0 * e1 + e0 * f1);
+    let q = [sc * x - ss * y, ss * x + sc * y, ds * w + dc * z, dc * w - ds * z];
+    // Of the two quaternions that of the smaller turn.
+    if q[3] < 0.0 { q.map(|c| -c) } else { q }
+}
+
+/// (cos θ/2, sin θ/2) from (cos θ, sin θ).
+fn half_angle(cosine: f64, sine: f64) -> (f64, f64) {
+    if cosine >= 0.0 {
+        let half = Real::sqrt(0.5 * (1.0 + cosine));
+        (half, 0.5 * sine / half)
+    } else {
+        let half = Real::sqrt(0.5 * (1.0 - cosine));
+        let half = if sine < 0.0 { -half } else { half };
+        (0.5 * sine / half, half)
+    }
+}
+
+/// The rotation by a rotation vector of any length.
+fn so3_exp(sigma: Triple<f64>) -> [f64; 4] {
+    quaternion(&so3::exp(&SVector::from(sigma)))
+}
+
+/// The largest power of two that does not exceed a number; units of this size round nothing, and leave no component at 1, where
+/// floating-point numbers lie twice as densely below as above and roundings are not of random sign.
+fn power_of_two(x: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
+    f64::from_bits(x.to_bits() & EXPONENT).max(f64::MIN_POSITIVE)
+}
+
+/// To the nearest integer; beyond 2⁵¹ what is given is one, or has no digits left that would tell.
+fn round(x: f64) -> f64 {
+    if x.abs() < 2.0e15 { (x + if x < 0.0 { -0.5 } else { 0.5 }) as i64 as f64 } else { x }
+}
