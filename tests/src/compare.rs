@@ -29,7 +29,7 @@ pub struct Outcome {
 }
 
 /// Why a run did not reach the end.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Refusal {
     /// The initial or the final state has no coordinates.
     Chart(ChartError),
