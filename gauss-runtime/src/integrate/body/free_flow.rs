@@ -27,6 +27,21 @@ use crate::triple::{Triple, dot, quaternion, triple, unit_quaternion};
 /// depends on it. Energy and the length of the momentum are kept to a few roundings a call, which are not of one sign.
 ///
 /// For `f64`: the number of operations depends on the state.
+///
+/// ```
+/// use gauss_runtime::integrate::FreeFlow;
+/// use gauss_runtime::integrate::body::FreeMotion;
+/// use gauss_runtime::prelude::*;
+///
+/// // A wing nut, thrown with a little wobble about its middle axis: where is it after a quarter of an hour?
+/// let flow = FreeFlow::new([1.0, 2.0, 3.0]);
+/// let y = Vector3::new(1e-3, 2.0, 0.0);
+/// let turn = flow.turn(&y, 900.0)?;
+/// let later = y + turn.change;
+/// // The momentum in space is what it was.
+/// assert!((turn.rotation * later - y).norm() < 1e-14);
+/// # Ok::<(), gauss_runtime::integrate::IntegrationErrorKind>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeFlow {
     /// In units of `unit`.

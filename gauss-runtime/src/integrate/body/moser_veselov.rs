@@ -75,6 +75,9 @@ impl<T: Real> FreeMotion<T> for MoserVeselov<T> {
     #[inline]
     fn turn(&self, y: &Vector3<T>, h: T) -> Result<Turn<T>, IntegrationErrorKind> {
         let (one, half) = (T::one(), T::ratio(1, 2));
+        if h == T::zero() {
+            return Ok(Turn { rotation: unit_quaternion([h, h, h, one]), change: SVector::from([h; 3]) });
+        }
         // Angles: h times a velocity.
         let y = scaled(h / self.unit, triple(y));
         let inverse = self.inverse;
