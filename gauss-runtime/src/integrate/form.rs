@@ -153,6 +153,9 @@ pub trait Form<S: GaussSystem>: Copy {
     /// The momenta p of y.
     fn momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds;
 
+    /// y of a state given by its momenta.
+    fn of_momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, p: &S::Speeds) -> S::Speeds;
+
     /// V and ẏ.
     fn rates<I: InputSource<S>>(self, system: &S, input: &I, state: &State<S>) -> Rates<S>;
 
@@ -191,6 +194,11 @@ impl<S: GaussSystem> Form<S> for VelocityForm {
     }
 
     #[inline(always)]
+    fn of_momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, p: &S::Speeds) -> S::Speeds {
+        system.velocity(t, q, p)
+    }
+
+    #[inline(always)]
     fn rates<I: InputSource<S>>(self, system: &S, input: &I, state: &State<S>) -> Rates<S> {
         let State { t, q, y } = state;
         let input = input.input(*t, q, y);
@@ -225,6 +233,11 @@ impl<S: GaussSystem> Form<S> for MomentumForm {
     #[inline(always)]
     fn momentum(self, _: &S, _: S::Scalar, _: &S::Configuration, y: &S::Speeds) -> S::Speeds {
         *y
+    }
+
+    #[inline(always)]
+    fn of_momentum(self, _: &S, _: S::Scalar, _: &S::Configuration, p: &S::Speeds) -> S::Speeds {
+        *p
     }
 
     #[inline(always)]
