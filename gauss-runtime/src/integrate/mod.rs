@@ -18,7 +18,7 @@
 //! | [`simulation`] | [`Simulation`], the front |
 //! | [`event`] | where functions of the state pass through zero |
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
-//! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov |
+//! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov, splitting |
 //! | [`error`] | [`IntegrationError`] |
 
 pub mod body;
@@ -40,7 +40,7 @@ pub mod tableau;
 pub mod trajectory;
 pub mod variational;
 
-pub use body::{FreeFlow, MoserVeselov};
+pub use body::{FreeFlow, MoserVeselov, Scheme, Splitting, SplittingError};
 pub use collocation::Collocation;
 pub use commutator_free::CommutatorFree4;
 pub use compensated::Compensated;

@@ -18,6 +18,9 @@ pub struct Turn<T> {
 }
 
 /// A way to move a free rigid body that turns about a fixed point: exactly, or by a discretisation.
+///
+/// A type of your own that implements it becomes a splitting method by
+/// [`Splitting::with`](super::splitting::Splitting::with).
 pub trait FreeMotion<T: Real> {
     /// The order of the global error; `None` when there is none but rounding.
     fn order(&self) -> Option<u32>;

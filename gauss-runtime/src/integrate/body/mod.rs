@@ -1,22 +1,34 @@
-//! Bodies with constant inertia: their free motion, exactly or by an integrable discretisation.
+//! Bodies with constant inertia: their free motion, exactly or by an integrable discretisation, and splitting methods that
+//! put kicks of force between.
 //!
 //! | file | holds |
 //! |---|---|
 //! | [`inertia`] | principal axes, and the increment that a free motion makes |
 //! | [`free_flow`] | [`FreeFlow`]: the exact motion over any span of time |
 //! | [`moser_veselov`] | [`MoserVeselov`]: the discrete Moser–Veselov method with its corrections to order 10 |
+//! | [`scheme`] | [`Scheme`]: lengths of kicks and drifts, orders 2 to 8 |
+//! | [`splitting`] | [`Splitting`]: a step for a kernel |
+//! | [`configuration`](mod@configuration) | what a splitting needs to know of attitudes and poses |
 
+pub mod configuration;
 mod corrections;
 mod elliptic;
 pub mod free_flow;
 pub mod inertia;
 pub mod moser_veselov;
+pub mod scheme;
+pub mod splitting;
 
+pub use configuration::{BodyConfiguration, SplittingError};
 pub use free_flow::FreeFlow;
 pub use inertia::{FreeMotion, PrincipalAxes, Turn};
 pub use moser_veselov::MoserVeselov;
+pub use scheme::Scheme;
+pub use splitting::Splitting;
 
 #[cfg(test)]
 mod elliptic_values;
 #[cfg(test)]
 mod free_tests;
+#[cfg(test)]
+mod splitting_tests;

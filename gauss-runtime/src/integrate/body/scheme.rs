@@ -1,0 +1,163 @@
+//! Lengths of kicks and drifts: splitting methods as tables.
+
+/// A symmetric splitting method: kick, drift, kick, …, kick, as fractions of the step.
+///
+/// A kick changes the momentum by the force at rest, a drift is free motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scheme {
+    kicks: &'static [f64],
+    drifts: &'static [f64],
+    order: u32,
+}
+
+impl Scheme {
+    /// Kick half, drift, kick half: order 2, one force a step.
+    pub const STRANG: Self = Self::new(&[0.5, 0.5], &[1.0], 2);
+
+    /// Order 4 with six forces a step and an error constant some hundred times below that of compositions: it uses that the
+    /// kinetic energy is quadratic in the momenta (Blanes & Moan, J. Comput. Appl. Math. 142, 2002, SRKN₆ᵇ). The first choice
+    /// for bodies.
+    pub const BLANES_MOAN_4: Self = Self::new(&BLANES_MOAN_KICKS, &BLANES_MOAN_DRIFTS, 4);
+
+    /// Order 6, nine forces a step (Kahan & Li, Math. Comp. 66, 1997, s9odr6a).
+    pub const KAHAN_LI_6: Self = Self::new(&halves::<9, 10>(&KAHAN_LI_6), &KAHAN_LI_6, 6);
+
+    /// Order 8, seventeen forces a step (Kahan & Li 1997, s17odr8a).
+    pub const KAHAN_LI_8: Self = Self::new(&halves::<17, 18>(&KAHAN_LI_8), &KAHAN_LI_8, 8);
+
+    /// A scheme of your own. One kick more than drifts; both read the same backwards, and add up to 1.
+    ///
+    /// # Panics
+    /// When the numbers do not match, so that a constant does not compile.
+    #[must_use]
+    pub const fn new(kicks: &'static [f64], drifts: &'static [f64], order: u32) -> Self {
+        assert!(kicks.len() == drifts.len() + 1, "there is one kick more than drifts");
+        assert!(is_symmetric(kicks) && is_symmetric(drifts), "the scheme reads the same backwards");
+        Self { kicks, drifts, order }
+    }
+
+    /// The order of the global error, with exact drifts.
+    #[must_use]
+    pub const fn order(&self) -> u32 {
+        self.order
+    }
+
+    /// The kicks, as fractions of the step.
+    #[must_use]
+    pub const fn kicks(&self) -> &'static [f64] {
+        self.kicks
+    }
+
+    /// The drifts, as fractions of the step.
+    #[must_use]
+    pub const fn drifts(&self) -> &'static [f64] {
+        self.drifts
+    }
+}
+
+const fn is_symmetric(values: &[f64]) -> bool {
+    let mut i = 0;
+    while 2 * i < values.len() {
+        if values[i] != values[values.len() - 1 - i] {
+            return false;
+        }
+        i += 1;
+    }
+    true
+}
+
+const BLANES_MOAN_DRIFTS: [f64; 6] = {
+    let (a1, a2) = (0.245_298_957_184_271, 0.604_872_665_711_08);
+    let a3 = 0.5 - (a1 + a2);
+    [a1, a2, a3, a3, a2, a1]
+};
+
+const BLANES_MOAN_KICKS: [f64; 7] = {
+    let (b1, b2, b3) = (0.082_984_406_417_405_2, 0.396_309_801_498_368, -0.039_056_304_922_348_6);
+    [b1, b2, b3, 1.0 - 2.0 * (b1 + b2 + b3), b3, b2, b1]
+};
+
+const KAHAN_LI_6: [f64; 9] = mirrored(&[
+    0.392_161_444_007_314_1,
+    0.332_599_136_789_359_43,
+    -0.706_246_172_557_639_3,
+    0.082_213_596_293_550_8,
+    0.798_543_990_934_83,
+]);
+
+const KAHAN_LI_8: [f64; 17] = mirrored(&[
+    0.130_202_483_088_890_07,
+    0.561_162_981_775_108_4,
+    -0.389_474_962_644_847_27,
+    0.158_841_906_555_155_6,
+    -0.395_903_894_133_237_57,
+    0.184_539_640_978_315_7,
+    0.258_374_387_686_322_04,
+    0.295_011_723_609_310_3,
+    -0.605_508_533_830_034_6,
+]);
+
+/// The first half and the middle, continued backwards.
+const fn mirrored<const N: usize>(half: &[f64]) -> [f64; N] {
+    let mut all = [0.0; N];
+    let mut i = 0;
+    while i < N {
+        all[i] = half[if 2 * i < N { i } else { N - 1 - i }];
+        i += 1;
+    }
+    all
+}
+
+/// Kicks of a composition of Strang steps: neighbouring half kicks at one place are one.
+const fn halves<const N: usize, const K: usize>(drifts: &[f64; N]) -> [f64; K] {
+    assert!(K == N + 1);
+    let mut kicks = [0.0; K];
+    let mut i = 0;
+    while i < N {
+        kicks[i] += 0.5 * drifts[i];
+        kicks[i + 1] += 0.5 * drifts[i];
+        i += 1;
+    }
+    kicks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Scheme; 4] = [Scheme::STRANG, Scheme::BLANES_MOAN_4, Scheme::KAHAN_LI_6, Scheme::KAHAN_LI_8];
+
+    #[test]
+    fn kicks_and_drifts_add_up_to_a_step() {
+        for scheme in ALL {
+            for part in [scheme.kicks(), scheme.drifts()] {
+                // As many roundings as there are numbers.
+                let sum: f64 = part.iter().sum();
+                assert!((sum - 1.0).abs() <= part.len() as f64 * f64::EPSILON, "{scheme:?}: {sum}");
+            }
+        }
+    }
+
+    /// For a harmonic oscillator steps are products of shears; their trace is 2 cos h + O(h^(order + 2)). All schemes, not only
+    /// compositions, have to pass.
+    #[test]
+    fn an_oscillator_sees_the_order() {
+        for scheme in ALL {
+            let error = |h: f64| {
+                let (mut q, mut p) = ([1.0, 0.0], [0.0, 1.0]);
+                for (i, kick) in scheme.kicks().iter().enumerate() {
+                    for k in 0..2 {
+                        p[k] -= kick * h * q[k];
+                        if let Some(drift) = scheme.drifts().get(i) {
+                            q[k] += drift * h * p[k];
+                        }
+                    }
+                }
+                (0.5 * (q[0] + p[1]) - h.cos()).abs()
+            };
+            let slope = (error(0.8) / error(0.4)).log2();
+            let expected = f64::from(scheme.order() + 2);
+            assert!((slope - expected).abs() < 0.5, "{scheme:?}: {slope} {expected}");
+        }
+    }
+}
