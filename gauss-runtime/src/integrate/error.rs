@@ -81,7 +81,7 @@ pub enum IntegrationErrorKind {
         angle: f64,
     },
     /// The coordinates are singular here, or change sides of a singularity in the step: see
-    /// [`GaussSystem::regularity`](crate::system::GaussSystem::regularity).
+    /// [`GaussSystem::regularity`].
     SingularChart {
         /// The regularity at the end of the step.
         regularity: f64,
@@ -99,7 +99,7 @@ pub enum IntegrationErrorKind {
         error: ProjectionError,
     },
     /// The initial state violates the constraints by more than the rounding of what was typed:
-    /// [`GaussSystem::project`](crate::system::GaussSystem::project) makes it consistent.
+    /// [`GaussSystem::project`] makes it consistent.
     InconsistentStart {
         /// Whether the configuration is wrong, or the velocity only.
         level: ConstraintLevel,
