@@ -21,7 +21,7 @@ use crate::lie::so3;
 use crate::real::Real;
 use crate::triple::{Triple, dot, quaternion, triple, unit_quaternion};
 
-/// The exact free motion of a body with given principal moments, in less than a microsecond.
+/// The exact free motion of a body with given principal moments, in one call of some thousand operations.
 ///
 /// Errors: a few roundings of the angle through which the body turns, and of the phase of its wobble times how much the motion
 /// depends on it. Energy and the length of the momentum are kept to a few roundings a call, which are not of one sign.

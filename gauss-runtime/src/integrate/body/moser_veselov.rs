@@ -22,7 +22,7 @@ const MOST_ITERATIONS: u32 = 20;
 ///
 /// Symmetric; energy, |y| and the momentum in space are kept up to rounding. Without corrections the map is symplectic; with
 /// them y moves by a Poisson map, but how the attitude follows is a gradient of the same function only as far as the corrections
-/// go. No elementary functions: one step is some 250 operations.
+/// go. No elementary functions.
 ///
 /// Steps that turn the body by much more than 1 rad, or a body whose moments differ much by correspondingly less, end with
 /// [`IntegrationErrorKind::NotConverged`].

@@ -14,8 +14,8 @@ impl Scheme {
     /// Kick half, drift, kick half: order 2, one force a step.
     pub const STRANG: Self = Self::new(&[0.5, 0.5], &[1.0], 2);
 
-    /// Order 4 with six forces a step and an error constant some hundred times below that of compositions: it uses that the
-    /// kinetic energy is quadratic in the momenta (Blanes & Moan, J. Comput. Appl. Math. 142, 2002, SRKN₆ᵇ). The first choice
+    /// Order 4 with six forces a step and a small error constant, because it uses that the kinetic energy is quadratic in the
+    /// momenta (Blanes & Moan, J. Comput. Appl. Math. 142, 2002, SRKN₆ᵇ). The first choice
     /// for bodies.
     pub const BLANES_MOAN_4: Self = Self::new(&BLANES_MOAN_KICKS, &BLANES_MOAN_DRIFTS, 4);
 
