@@ -120,6 +120,11 @@ pub enum IntegrationErrorKind {
     },
     /// An end of the interval of time is not finite.
     InvalidInterval,
+    /// A state was asked for at a time that the run does not cover.
+    OutsideRun {
+        /// The time.
+        time: f64,
+    },
 }
 
 /// Where a number that is not finite was seen first.
@@ -180,6 +185,7 @@ impl fmt::Display for IntegrationErrorKind {
                 f,
                 "tolerances {relative:e} (relative) and {absolute:e} (absolute) must be finite, not negative, not both 0"
             ),
+            Self::OutsideRun { time } => write!(f, "the run does not cover t = {time}"),
             Self::InvalidInterval => f.write_str("the interval of time has an end that is not finite"),
         }
     }

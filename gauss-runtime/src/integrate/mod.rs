@@ -19,6 +19,7 @@
 //! | [`event`] | where functions of the state pass through zero |
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
 //! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov, splitting |
+//! | `dense` | `Dense`: states between samples with the accuracy of the method |
 //! | [`error`] | [`IntegrationError`] |
 
 pub mod body;
@@ -27,6 +28,8 @@ pub mod commutator_free;
 pub mod compensated;
 pub mod composition;
 pub mod control;
+#[cfg(feature = "alloc")]
+pub mod dense;
 pub mod error;
 pub mod event;
 pub mod form;
@@ -46,6 +49,8 @@ pub use commutator_free::CommutatorFree4;
 pub use compensated::Compensated;
 pub use composition::{Composed, Composition};
 pub use control::{Adaptive, Control, Emit, Fixed};
+#[cfg(feature = "alloc")]
+pub use dense::Dense;
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
 pub use event::Crossing;
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};

@@ -3,6 +3,8 @@
 use core::ops::{ControlFlow, Range};
 
 use super::control::{Adaptive, Control, Fixed};
+#[cfg(feature = "alloc")]
+use super::dense::Dense;
 use super::error::{IntegrationError, IntegrationErrorKind};
 use super::event::{Crossing, Events, NoEvents, Watch, Watched};
 use super::form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
@@ -271,7 +273,7 @@ impl<S: GaussSystem, F, I, O, E, const N: usize> Simulation<'_, S, F, I, Adaptiv
     }
 }
 
-impl<S, F, I, C, O, E> Simulation<'_, S, F, I, C, O, E>
+impl<'k, S, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E>
 where
     S: GaussSystem,
     F: Form<S>,
@@ -307,29 +309,29 @@ where
         interval: Range<S::Scalar>,
     ) -> (Trajectory<S>, Option<IntegrationError>) {
         let start = self.start(q0, &z0, interval.start);
-        let problem = &self.problem;
-        let mut trajectory = Trajectory::starting_with(sample_of(problem, &start));
-        let mut observer = self.observer;
-        let mut first = true;
-        let outcome = Run { control: &self.control, problem, every: self.every, limit: self.limit }.drive(
-            self.events,
-            start,
-            interval.end,
-            &mut |seen| match seen {
-                Seen::Sample(state, rates) => {
-                    let sample = sample_of(problem, state);
-                    trajectory.record(first, problem, &sample, state, rates);
-                    observer.see(&sample);
-                    first = false;
-                }
-                Seen::Event(number, state) => {
-                    let sample = sample_of(problem, state);
-                    trajectory.record_event(number, sample);
-                    observer.event(number, &sample);
-                }
-            },
-        );
-        (trajectory, outcome.err())
+        let Self { problem, control, observer, events, every, limit } = self;
+        Run { control: &control, problem: &problem, every, limit }.keep(events, observer, start, interval.end)
+    }
+
+    /// Like [`run`](Self::run), but keeps the method too, so that between samples [`Dense::at`] has the accuracy of the method and
+    /// not that of an interpolation.
+    ///
+    /// # Errors
+    /// When the run does not reach the end.
+    #[cfg(feature = "alloc")]
+    pub fn run_dense(
+        self,
+        q0: S::Configuration,
+        z0: S::Speeds,
+        interval: Range<S::Scalar>,
+    ) -> Result<Dense<'k, S, F, I, C>, IntegrationError> {
+        let start = self.start(q0, &z0, interval.start);
+        let Self { problem, control, observer, events, every, limit } = self;
+        let run = Run { control: &control, problem: &problem, every, limit };
+        match run.keep(events, observer, start, interval.end) {
+            (trajectory, None) => Ok(Dense::new(trajectory, problem, control, every == 1)),
+            (_, Some(error)) => Err(error),
+        }
     }
 
     /// Integrates without keeping anything, and gives the final state; an observer sees the others. Needs no memory.
@@ -364,7 +366,7 @@ where
 }
 
 /// Both velocities and momenta of a state.
-fn sample_of<S: GaussSystem, F: Form<S>, I>(problem: &Problem<'_, S, F, I>, state: &State<S>) -> Sample<S> {
+pub(super) fn sample_of<S: GaussSystem, F: Form<S>, I>(problem: &Problem<'_, S, F, I>, state: &State<S>) -> Sample<S> {
     let State { t, q, y } = *state;
     let z = problem.form.speeds(problem.system, t, &q, &y);
     Sample { t, q, z, p: problem.form.momentum(problem.system, t, &q, &y) }
@@ -387,6 +389,34 @@ struct Run<'a, 'k, S, F, I, C> {
 }
 
 impl<S: GaussSystem, F: Form<S>, I: InputSource<S>, C: Control<S>> Run<'_, '_, S, F, I, C> {
+    /// Keeps every sample and event.
+    #[cfg(feature = "alloc")]
+    fn keep<O: Observer<S>, E: Events<S>>(
+        &self,
+        events: E,
+        mut observer: O,
+        start: State<S>,
+        end: S::Scalar,
+    ) -> (Trajectory<S>, Option<IntegrationError>) {
+        let problem = self.problem;
+        let mut trajectory = Trajectory::starting_with(sample_of(problem, &start));
+        let mut first = true;
+        let outcome = self.drive(events, start, end, &mut |seen| match seen {
+            Seen::Sample(state, rates) => {
+                let sample = sample_of(problem, state);
+                trajectory.record(first, problem, &sample, state, rates);
+                observer.see(&sample);
+                first = false;
+            }
+            Seen::Event(number, state) => {
+                let sample = sample_of(problem, state);
+                trajectory.record_event(number, sample);
+                observer.event(number, &sample);
+            }
+        });
+        (trajectory, outcome.err())
+    }
+
     /// Runs the method and passes on the first, every n-th and the last state reached, and the events between them.
     fn drive<E: Events<S>>(
         &self,

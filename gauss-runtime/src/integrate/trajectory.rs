@@ -156,6 +156,17 @@ impl<S: GaussSystem> Trajectory<S> {
     #[must_use]
     pub fn at(&self, t: S::Scalar) -> Option<Sample<S>> {
         let time = t.lane(0);
+        let after = self.knot_from(t)?;
+        let right = self.knots.get(after)?;
+        if right.sample.t.lane(0) == time || after == 0 {
+            return Some(Sample { t, ..right.sample });
+        }
+        Some(hermite(&self.knots[after - 1], right, t))
+    }
+
+    /// The number of the first sample that is not before `t`, if the trajectory covers it.
+    pub(super) fn knot_from(&self, t: S::Scalar) -> Option<usize> {
+        let time = t.lane(0);
         let of = |knot: &Knot<S>| knot.sample.t.lane(0);
         let (first, last) = (self.first().t.lane(0), self.last().t.lane(0));
         let backward = last < first;
@@ -163,12 +174,7 @@ impl<S: GaussSystem> Trajectory<S> {
         if !inside {
             return None;
         }
-        let after = self.knots.partition_point(|knot| if backward { of(knot) > time } else { of(knot) < time });
-        let right = self.knots.get(after)?;
-        if of(right) == time || after == 0 {
-            return Some(Sample { t, ..right.sample });
-        }
-        Some(hermite(&self.knots[after - 1], right, t))
+        Some(self.knots.partition_point(|knot| if backward { of(knot) > time } else { of(knot) < time }))
     }
 }
 
