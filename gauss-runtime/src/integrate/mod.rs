@@ -20,6 +20,8 @@
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
 //! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov, splitting |
 //! | `dense` | `Dense`: states between samples with the accuracy of the method |
+//! | [`method`] | methods and forms chosen at run time |
+//! | `tune` | the cheapest method for a scene, measured on it |
 //! | [`error`] | [`IntegrationError`] |
 
 pub mod body;
@@ -34,6 +36,7 @@ pub mod error;
 pub mod event;
 pub mod form;
 mod iteration;
+pub mod method;
 pub mod one_step;
 mod projection;
 pub mod rkmk;
@@ -41,6 +44,8 @@ pub mod simulation;
 mod step_length;
 pub mod tableau;
 pub mod trajectory;
+#[cfg(feature = "alloc")]
+pub mod tune;
 pub mod variational;
 
 pub use body::{FreeFlow, MoserVeselov, Scheme, Splitting, SplittingError};
@@ -54,6 +59,7 @@ pub use dense::Dense;
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
 pub use event::Crossing;
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
+pub use method::{EitherForm, Method};
 pub use one_step::{IncrementStep, OneStep, Properties, Step};
 pub use rkmk::Rkmk;
 pub use simulation::{Observer, Simulation};
@@ -61,6 +67,8 @@ pub use tableau::Tableau;
 pub use trajectory::Sample;
 #[cfg(feature = "alloc")]
 pub use trajectory::{EventSample, Trajectory};
+#[cfg(feature = "alloc")]
+pub use tune::{Candidate, TuneError, Tuned};
 pub use variational::Variational;
 
 #[cfg(all(test, feature = "alloc"))]

@@ -88,12 +88,12 @@ assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
 #[derive(Debug)]
 #[must_use = "a simulation does nothing before `run`"]
 pub struct Simulation<'k, S, F = VelocityForm, I = NoInput, C = Undecided, O = Unobserved, E = NoEvents> {
-    problem: Problem<'k, S, F, I>,
+    pub(super) problem: Problem<'k, S, F, I>,
     control: C,
     observer: O,
     events: E,
     every: u64,
-    limit: u64,
+    pub(super) limit: u64,
 }
 
 // Written by hand: the system is only borrowed, and need not be `Copy`.

@@ -1,0 +1,173 @@
+//! Methods and forms that are chosen at run time, as [`Simulation::tune`](super::Simulation::tune) does.
+
+use core::fmt;
+
+use super::collocation::Collocation;
+use super::commutator_free::CommutatorFree4;
+use super::control::{Adaptive, Control, Emit, Fixed};
+use super::error::{IntegrationError, IntegrationErrorKind};
+use super::form::{Form, InputSource, MomentumForm, Problem, Rates, State, VelocityForm};
+use super::tableau::Tableau;
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// A method with its step or tolerances, chosen at run time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method<T> {
+    /// Runge–Kutta–Munthe-Kaas steps of order 4 and one length.
+    RungeKutta4 {
+        /// Their length.
+        step: T,
+    },
+    /// Commutator-free steps of order 4 and one length.
+    CommutatorFree4 {
+        /// Their length.
+        step: T,
+    },
+    /// Steps of Gauss' collocation of order 6 and one length.
+    Gauss6 {
+        /// Their length.
+        step: T,
+    },
+    /// The pair of Dormand and Prince of order 5.
+    DormandPrince5 {
+        /// The relative tolerance of a step.
+        relative: f64,
+        /// The absolute tolerance of a step.
+        absolute: f64,
+    },
+    /// The pair of Dormand and Prince of order 8.
+    DormandPrince8 {
+        /// The relative tolerance of a step.
+        relative: f64,
+        /// The absolute tolerance of a step.
+        absolute: f64,
+    },
+}
+
+/// Calls a method of [`Control`] of what is meant by a [`Method`].
+macro_rules! dispatch {
+    ($method:expr, $control:ident => $call:expr) => {
+        match *$method {
+            Method::RungeKutta4 { step } => {
+                let $control = Fixed::new(step);
+                $call
+            }
+            Method::CommutatorFree4 { step } => {
+                let $control = Fixed::by(CommutatorFree4, step);
+                $call
+            }
+            Method::Gauss6 { step } => {
+                let $control = Fixed::by(Collocation::order_6(), step);
+                $call
+            }
+            Method::DormandPrince5 { relative, absolute } => {
+                let $control = Adaptive::new(relative, absolute);
+                $call
+            }
+            Method::DormandPrince8 { relative, absolute } => {
+                let $control = Adaptive::with(&Tableau::DORMAND_PRINCE_8, relative, absolute);
+                $call
+            }
+        }
+    };
+}
+
+impl<S: GaussSystem> Control<S> for Method<S::Scalar> {
+    fn drive<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        start: State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut Emit<'_, S>,
+    ) -> Result<State<S>, IntegrationError> {
+        dispatch!(self, control => control.drive(problem, start, end, limit, emit))
+    }
+
+    fn within<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        dispatch!(self, control => control.within(problem, state, rates, h))
+    }
+}
+
+impl<T: Real> fmt::Display for Method<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, step) = match *self {
+            Self::RungeKutta4 { step } => ("Runge–Kutta 4", step),
+            Self::CommutatorFree4 { step } => ("commutator-free 4", step),
+            Self::Gauss6 { step } => ("Gauss 6", step),
+            Self::DormandPrince5 { relative, absolute } | Self::DormandPrince8 { relative, absolute } => {
+                let order = if matches!(self, Self::DormandPrince5 { .. }) { 5 } else { 8 };
+                return write!(f, "Dormand–Prince {order}, tolerances {relative:.1e} and {absolute:.1e}");
+            }
+        };
+        write!(f, "{name}, step {:.3e}", step.lane(0))
+    }
+}
+
+/// A form of the equations, chosen at run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EitherForm {
+    /// [`VelocityForm`].
+    Velocity,
+    /// [`MomentumForm`].
+    Momentum,
+}
+
+/// The same method of the form that is meant.
+macro_rules! either {
+    ($form:expr, $method:ident($($argument:expr),*)) => {
+        match $form {
+            EitherForm::Velocity => VelocityForm.$method($($argument),*),
+            EitherForm::Momentum => MomentumForm.$method($($argument),*),
+        }
+    };
+}
+
+impl<S: GaussSystem> Form<S> for EitherForm {
+    #[inline]
+    fn variables(self, system: &S, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
+        either!(self, variables(system, t, q, z))
+    }
+    #[inline]
+    fn speeds(self, system: &S, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        either!(self, speeds(system, t, q, y))
+    }
+    #[inline]
+    fn momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        either!(self, momentum(system, t, q, y))
+    }
+    #[inline]
+    fn of_momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, p: &S::Speeds) -> S::Speeds {
+        either!(self, of_momentum(system, t, q, p))
+    }
+    #[inline]
+    fn rates<I: InputSource<S>>(self, system: &S, input: &I, state: &State<S>) -> Rates<S> {
+        either!(self, rates(system, input, state))
+    }
+    #[inline]
+    fn both_rates<I: InputSource<S>>(
+        self,
+        system: &S,
+        input: &I,
+        state: &State<S>,
+        known: &S::Speeds,
+    ) -> (S::Speeds, S::Speeds) {
+        either!(self, both_rates(system, input, state, known))
+    }
+}
+
+impl fmt::Display for EitherForm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Velocity => "velocity",
+            Self::Momentum => "momentum",
+        })
+    }
+}
