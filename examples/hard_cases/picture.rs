@@ -17,7 +17,7 @@ const HEAD: i32 = 160;
 const ROW: i32 = 46;
 const FOOT: i32 = 100;
 /// Where the axis begins and ends, and its powers of ten: figure over target.
-const AXIS: (i32, i32) = (840, 1330);
+const AXIS: (i32, i32) = (690, 1320);
 const DECADES: (f64, f64) = (-6.0, 12.0);
 
 /// Right ends of the two columns of numbers.
@@ -115,12 +115,15 @@ fn draw_row(root: &Area<'_>, row: &Row<'_>, y: i32) -> Result<(), Box<dyn Error>
     }
     let (least, most) = ends.iter().fold((i32::MAX, i32::MIN), |(a, b), &x| (a.min(x), b.max(x)));
     root.draw(&PathElement::new(vec![(least, y), (most, y)], PALE.stroke_width(5)))?;
+    if let Some((_, naive)) = &first.naive {
+        // Beside a dot, not on it.
+        let x = place(naive / first.target);
+        let hidden = dots.iter().any(|dot| (dot.0 - x).abs() < 14);
+        mark(root, (if hidden { x + 22 } else { x }, y), GREY, true)?;
+    }
     for (x, verdict) in dots {
         let colour = if verdict == Verdict::Pass { COLOURS[0] } else { COLOURS[1] };
         mark(root, (x, y), colour, false)?;
-    }
-    if let Some((_, naive)) = &first.naive {
-        mark(root, (place(naive / first.target), y), GREY, true)?;
     }
     let best = row.measures.iter().fold(f64::INFINITY, |best, m| best.min(m.reached));
     let colour = if best <= first.target { INK } else { COLOURS[1] };

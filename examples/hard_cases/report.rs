@@ -46,11 +46,15 @@ pub fn print(case: &Case, measures: &[Measure]) {
         println!("  {:what$}  {:method$}  {reached:>8}  {target:>8}  {naive:>8}  {}", m.what, m.method, words(m));
     }
     let mut said = Vec::new();
+    let mut notes: Vec<&str> = measures.iter().map(|m| m.note.as_str()).filter(|note| !note.is_empty()).collect();
+    notes.dedup();
+    let several = notes.len() > 1;
     for m in measures {
-        let because = if m.reason.is_empty() { String::new() } else { format!("target: {}", m.reason) };
-        let naive = m.naive.as_ref().map_or(String::new(), |(how, _)| format!("naive: {how}"));
-        for line in [because, naive, m.note.clone()] {
-            if !line.is_empty() && !said.contains(&line) {
+        let labelled = |label: &str, text: &str| (!text.is_empty()).then(|| format!("{label}: {text}"));
+        let naive = m.naive.as_ref().and_then(|(how, _)| labelled("naive", how));
+        let note = labelled(if several { &m.method } else { "note" }, &m.note);
+        for line in [labelled("target", &m.reason), naive, note].into_iter().flatten() {
+            if !said.contains(&line) {
                 println!("    {line}");
                 said.push(line);
             }

@@ -9,8 +9,17 @@ use suite::scenes::Scene;
 use suite::truth::Body;
 use suite::{CASES, Effort, Verdict};
 
-/// What is short of its target, by case and method, and why. Whoever mends one takes it off this list.
-const SHORT: [(&str, &str, &str); 0] = [];
+/// What is short of its target: case, figure (its beginning), method (its beginning), and why. Whoever mends one takes it off.
+const SHORT: [(&str, &str, &str, &str); 8] = [
+    ("separatrix", "60 s", "order 8", "rounding at the flip grows afterwards: the exact flow has no steps to round"),
+    ("separatrix", "60 s", "Gauss 6", "the same"),
+    ("fast_top", "150 rad/s, h", "order", "general methods resolve the spin, splitting does not need to"),
+    ("fast_top", "50 rad/s, h", "order 8", "the same"),
+    ("far_away", "10 s", "observer's axes, Ω", "(Q, Γ_Ω) and ξ̂ cancel at |b|: Ω should move with the body"),
+    ("needle", "2 s", "full inertia, momenta", "velocities from momenta with a full tensor of condition 1e6"),
+    ("stiff_drag", "h × rate", "", "no linearly implicit method yet"),
+    ("units", "lengths", "two bodies", "the kernel's constants hold products of two moments of inertia"),
+];
 
 /// Runs cases and compares what is short of its target with the list.
 #[track_caller]
@@ -20,7 +29,9 @@ fn run(names: &[&str]) {
         let case = CASES.iter().find(|case| case.name == *name).expect("a case of this name");
         let measures = (case.run)(Effort::Quick).unwrap_or_else(|error| panic!("{name}, {}: {error}", case.about));
         for m in &measures {
-            let known = SHORT.iter().any(|(case, method, _)| case == name && *method == m.method);
+            let known = SHORT.iter().any(|(case, what, method, _)| {
+                case == name && m.what.starts_with(what) && m.method.starts_with(method)
+            });
             if known != (m.verdict() == Verdict::Short) {
                 let (reached, target) = (m.reached, m.target);
                 wrong += &format!("{name}: {} by {}: {reached:e}, target {target:e} ({})", m.what, m.method, m.reason);

@@ -25,9 +25,23 @@ pub fn gauss_6(step: f64) -> Fixed<f64, Collocation<f64, 3>> {
     Fixed::by(Collocation::order_6(), step)
 }
 
+/// Splitting of order 4 over the exact free motion: spin costs nothing, and a body without forces needs one step.
+macro_rules! splitting {
+    ($kernel:expr, $step:expr) => {{
+        use gauss_runtime::integrate::{Scheme, Splitting};
+        gauss_runtime::integrate::Fixed::by(Splitting::exact($kernel, Scheme::BLANES_MOAN_4)?, $step)
+    }};
+}
+pub(super) use splitting;
+
 /// Dormand and Prince, order 8, with steps for errors near rounding.
 pub fn tight() -> Adaptive<f64, 12> {
-    Adaptive::with(&Tableau::DORMAND_PRINCE_8, 1e-14, 1e-14)
+    adaptive_8(1e-14)
+}
+
+/// The same with another tolerance.
+pub fn adaptive_8(tolerance: f64) -> Adaptive<f64, 12> {
+    Adaptive::with(&Tableau::DORMAND_PRINCE_8, tolerance, tolerance)
 }
 
 /// A run from a pose and a twist to its end, and the number of steps. Where a run stops the error is infinite.

@@ -94,6 +94,17 @@ pub fn run_top_implicitly(data: &MassData, from: &State, duration: f64, h: f64, 
     }
 }
 
+/// The quaternion of a free top whose angular momentum in space is known, and its ω: nothing is normalised.
+pub fn top_from_space(
+    inertia: &Vector3<f64>,
+    q: &SVector<f64, 4>,
+    momentum: &Vector3<f64>,
+) -> (SVector<f64, 4>, Vector3<f64>) {
+    let q = [q[0], q[1], q[2], q[3]];
+    let omega = (matrix(q).transpose() * momentum).component_div(inertia);
+    (quaternion_rate(q, &omega).into(), omega)
+}
+
 /// Energy of a free top.
 pub fn energy(inertia: &Matrix3<f64>, y: &SVector<f64, 7>) -> f64 {
     let omega = Vector3::new(y[4], y[5], y[6]);

@@ -24,7 +24,7 @@ fn sinking<C: Control<SinkingKernel>>(kernel: &SinkingKernel, control: C, rate: 
             let truth = 9.81 / rate * (-rate * duration).exp_m1();
             ((end.z[2] - truth).abs() / (9.81 / rate), format!("{steps} steps"))
         }
-        Err(error) => (f64::INFINITY, error.to_string()),
+        Err(error) => (f64::INFINITY, error.to_string().split("; ").next().unwrap_or_default().into()),
     }
 }
 
@@ -154,8 +154,12 @@ pub fn units(_: Effort) -> Measures {
                         Ok(found) => worst = worse(worst, ulps(&unit.state(&found, false), plain)),
                         Err(error) => {
                             worst = f64::INFINITY;
-                            let body = if held { "top" } else { "projectile" };
-                            note += &format!("{body}, 1e{}: {error} ", 150 * sign);
+                            let body = if held { "a top" } else { "a projectile" };
+                            let said = format!("{body} × 1e{}: {error}", 150 * sign);
+                            let said = said.split("; ").next().unwrap_or_default();
+                            if !note.contains(said) {
+                                note += &format!("{}{said}", if note.is_empty() { "" } else { "; " });
+                            }
                         }
                     }
                 }
