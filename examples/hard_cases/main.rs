@@ -1,11 +1,12 @@
 //! A suite of hard cases: where rigid-body programs lose digits, blow up, or say nothing, measured.
 //!
-//! `cargo run --release --example hard_cases [-- NAME…] [--full]`: all cases, or those named; `--full` makes the long runs as
-//! long as 1e8 steps (some minutes). The table is printed, and written with a picture into `target/gauss`.
+//! `cargo run --release --example hard_cases [-- NAME…] [--full]`: all cases, or those named; `--full` makes the
+//! long runs as long as 1e8 steps (some minutes). The table is printed, and written with a picture into
+//! `target/gauss`.
 //!
-//! Every figure is the better the smaller it is. It stands beside its target and beside what a naive program gets, whose
-//! formulas are right. Truth is a reference solution to 36 digits, or a closed form, or the same motion by equations typed in
-//! `suite/truth.rs` to 30 digits: never a derived kernel.
+//! Every figure is the better the smaller it is. It stands beside its target and beside what a naive program gets,
+//! whose formulas are right. Truth is a reference solution to 36 digits, or a closed form, or the same motion by
+//! equations typed in `suite/truth.rs` to 30 digits: never a derived kernel.
 
 mod picture;
 mod report;

@@ -1,5 +1,5 @@
-//! The overview: every figure over its target, on one logarithmic axis, with what a naive program gets. Methods that were
-//! measured in the same way share a row.
+//! The overview: every figure over its target, on one logarithmic axis, with what a naive program gets. Methods that
+//! were measured in the same way share a row.
 
 use std::error::Error;
 

@@ -9,7 +9,8 @@ use suite::scenes::Scene;
 use suite::truth::Body;
 use suite::{CASES, Effort, Verdict};
 
-/// What is short of its target: case, figure (its beginning), method (its beginning), and why. Whoever mends one takes it off.
+/// What is short of its target: case, figure (its beginning), method (its beginning), and why. Whoever mends one
+/// takes it off.
 const SHORT: [(&str, &str, &str, &str); 8] = [
     ("separatrix", "60 s", "order 8", "rounding at the flip grows afterwards: the exact flow has no steps to round"),
     ("separatrix", "60 s", "Gauss 6", "the same"),
@@ -92,8 +93,8 @@ fn truth_is_that_of_the_references() {
         let body = if held { Body::held(&scene.data()) } else { Body::free(&scene.data()) };
         let (pose, twist) = (scene.initial.pose(), scene.initial.twist());
         let found = body.after(scene.duration, &pose, &twist);
-        // Parameters and initial values are rounded to doubles, some thirty numbers. Each changes the final state by what the
-        // reference says of one rounding, and a moment of inertia the rate of turning too.
+        // Parameters and initial values are rounded to doubles, some thirty numbers. Each changes the final state by
+        // what the reference says of one rounding, and a moment of inertia the rate of turning too.
         let angle = scene.initial.omega.norm().max(scene.last.omega.norm()) * scene.duration;
         let allowed = 30.0 * (scene.floor + f64::EPSILON * (1.0 + angle));
         let error = found.distance(&scene.last);

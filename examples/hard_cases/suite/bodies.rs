@@ -162,8 +162,8 @@ pub fn needle(effort: Effort) -> Measures {
 }
 
 pub fn light_body(effort: Effort) -> Measures {
-    // Sway and yaw, surge and roll coupled so strongly that one combination hardly has inertia: eigenvalues of the matrix
-    // scaled to a unit diagonal are 1 ± (1 − δ), its condition 2/δ.
+    // Sway and yaw, surge and roll coupled so strongly that one combination hardly has inertia: eigenvalues of the
+    // matrix scaled to a unit diagonal are 1 ± (1 − δ), its condition 2/δ.
     let delta = 4e-6;
     let (mass, inertia) = (1e-3, Vector3::new(1e-4, 1e-4, 1e-4));
     let added = |delta: f64| {

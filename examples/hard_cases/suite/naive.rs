@@ -80,7 +80,8 @@ pub fn run_top(data: &MassData, from: &State, duration: f64, h: f64) -> State {
     state_of_top(&runge_kutta(top(data), top_state(from), duration / steps, steps as u64, |_| ()))
 }
 
-/// Euler's implicit method, by fixed-point iteration, on a top; the quaternion is normalised. It damps whatever oscillates.
+/// Euler's implicit method, by fixed-point iteration, on a top; the quaternion is normalised. It damps whatever
+/// oscillates.
 pub fn run_top_implicitly(data: &MassData, from: &State, duration: f64, h: f64, mut see: impl FnMut(&SVector<f64, 7>)) {
     let (f, mut y) = (top(data), top_state(from));
     for _ in 0..(duration / h).round() as u64 {

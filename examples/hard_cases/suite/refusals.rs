@@ -14,7 +14,8 @@ use super::{Effort, Measure, naive};
 
 type Measures = Result<Vec<Measure>, Box<dyn Error>>;
 
-/// The error of the speed of sinking after `duration` from rest, relative to the final speed; infinite where the run stops.
+/// The error of the speed of sinking after `duration` from rest, relative to the final speed; infinite where the run
+/// stops.
 fn sinking<C: Control<SinkingKernel>>(kernel: &SinkingKernel, control: C, rate: f64, duration: f64) -> (f64, String) {
     let mut steps = -1_i64;
     let run = Simulation::new(kernel).control(control).observe(|_| steps += 1);

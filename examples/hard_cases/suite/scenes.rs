@@ -44,7 +44,12 @@ macro_rules! in_charts {
 }
 
 in_charts! {
-    { [mass] mass: (f64), [center_of_mass] center: (Vector3<f64>), [inertia] inertia: (Matrix3<f64>), [gravity] gravity: (f64) }
+    {
+        [mass] mass: (f64),
+        [center_of_mass] center: (Vector3<f64>),
+        [inertia] inertia: (Matrix3<f64>),
+        [gravity] gravity: (f64)
+    }
     /// A top under its weight.
     HeavyTop [motion = fixed_point]
     /// In the angles of precession, nutation and spin, which are one at the upright.
@@ -95,7 +100,9 @@ pub struct Sinking {
 #[gauss(
     coordinates(x, y, z, heading, lean, spin),
     body(hoop, position = [x, y, z], rotation = rotation_z(heading) * rotation_x(lean) * rotation_z(spin)),
-    constraint(velocity = rate(x) * cos(heading) + rate(y) * sin(heading) + r * (rate(spin) + rate(heading) * cos(lean))),
+    constraint(
+        velocity = rate(x) * cos(heading) + rate(y) * sin(heading) + r * (rate(spin) + rate(heading) * cos(lean))
+    ),
     constraint(velocity = rate(y) * cos(heading) - rate(x) * sin(heading) + r * sin(lean) * rate(lean)),
     constraint(position = z - r * sin(lean)),
 )]

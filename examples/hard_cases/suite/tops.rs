@@ -111,7 +111,8 @@ struct Flips {
 }
 
 impl Flips {
-    /// The value with its derivative: at a flip the second derivative vanishes too, so the tangent hits zero to third order.
+    /// The value with its derivative: at a flip the second derivative vanishes too, so the tangent hits zero to
+    /// third order.
     fn see(&mut self, t: f64, value: f64, rate: f64) {
         if self.last.is_some_and(|before| (before < 0.0) != (value < 0.0)) {
             self.count += 1;

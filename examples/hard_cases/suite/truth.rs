@@ -1,6 +1,8 @@
-//! The motion of one rigid body to 30 digits, by equations typed here: Kirchhoff's, with weight, solved by Taylor series.
+//! The motion of one rigid body to 30 digits, by equations typed here: Kirchhoff's, with weight, solved by Taylor
+//! series.
 //!
-//! All that the derive does is absent: the state is momentum (Q, Γ) about O in body axes, the rows γᵢ of R and the place b;
+//! All that the derive does is absent: the state is momentum (Q, Γ) about O in body axes, the rows γᵢ of R and the
+//! place b;
 //!
 //! ```text
 //! Q′ = Q×ω + F,  Γ′ = Γ×ω + Q×u + c×F,  F = −m g γ₃,  γᵢ′ = γᵢ×ω,  bᵢ′ = γᵢ·u,  (u, ω) = M⁻¹(Q, Γ)
@@ -223,7 +225,8 @@ impl Body {
     }
 }
 
-/// How far the series converge, from their last two terms: the shortest of linear momentum, angular momentum and rotation.
+/// How far the series converge, from their last two terms: the shortest of linear momentum, angular momentum and
+/// rotation.
 fn radius(series: &[Coefficient; ORDER + 1]) -> f64 {
     let largest = |values: &[Twofold]| values.iter().fold(0.0_f64, |m, v| m.max(v.value().abs()));
     let parts: [fn(&Coefficient) -> Vec<Twofold>; 3] =
