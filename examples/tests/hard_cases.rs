@@ -1,5 +1,6 @@
 //! The suite of hard cases in its quick form, and its source of truth against published numbers.
 
+#[allow(dead_code)] // The program runs longer ones too.
 #[path = "../hard_cases/suite/mod.rs"]
 mod suite;
 
