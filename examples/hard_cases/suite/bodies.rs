@@ -52,7 +52,7 @@ pub fn far_away(effort: Effort) -> Measures {
         ("hybrid", end(&hybrid, VelocityForm, tight(), &start, duration)),
         ("observer's axes, Ω", end(&right, VelocityForm, tight(), &start, duration)),
         ("observer's axes, Ω, momenta, 1e-12", momentum),
-        ("observer's axes, Ω moved to the body", end(&right, VelocityForm, tight(), &near(&start), duration).map(back)),
+        ("observer's axes, moved Ω", end(&right, VelocityForm, tight(), &near(&start), duration).map(back)),
     ]
     .into_iter()
     .map(|(method, found)| {

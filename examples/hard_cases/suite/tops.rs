@@ -308,7 +308,7 @@ pub fn chaos(effort: Effort) -> Measures {
     let (start, data) = (scene.initial, scene.data());
     let body = Body::held(&data);
     let (pose, twist) = (start.pose(), start.twist());
-    let (tolerance, count) = if effort == Effort::Quick { (1e-13, 15) } else { (1e-3, 150) };
+    let (tolerance, count) = if effort == Effort::Quick { (1e-13, 60) } else { (1e-3, 150) };
     let truth = body.path(1.0, count, &pose, &twist);
     let off = body.path(1.0, count, &pose, &(twist * (1.0 + f64::EPSILON)));
 
