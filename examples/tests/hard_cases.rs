@@ -18,7 +18,12 @@ const SHORT: [(&str, &str, &str, &str); 9] = [
     ("fast_top", "150 rad/s, h", "order", "general methods resolve the spin, splitting does not need to"),
     ("fast_top", "50 rad/s, h", "order 8", "the same"),
     ("far_away", "10 s", "observer's axes, Ω", "(Q, Γ_Ω) and ξ̂ cancel at |b|: Ω should move with the body"),
-    ("needle", "2 s", "full inertia, momenta", "velocities from momenta with a full tensor of condition 1e6"),
+    (
+        "needle",
+        "2 s",
+        "full inertia, momenta",
+        "momenta with a full tensor of condition 1e6 lose digits that principal moments keep",
+    ),
     (
         "energy",
         "energy",
