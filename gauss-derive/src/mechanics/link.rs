@@ -188,6 +188,11 @@ impl<'g> Link<'g> {
         }
     }
 
+    /// The body axes e seen from k, whatever the working axes are.
+    pub fn axes(&self) -> Frame<'g> {
+        Frame { graph: self.frame.graph, rotation: self.rotation }
+    }
+
     /// Components in body axes.
     pub fn in_body_axes(&self, a: &Vector<'g>) -> Triple<'g> {
         match &self.planar {

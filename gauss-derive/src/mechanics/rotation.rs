@@ -91,6 +91,13 @@ pub fn about_axis<'g>(graph: &'g Graph, axis: usize, angle: Expr<'g>) -> [Triple
     })
 }
 
+/// Poisson's rates of the entries of R, by their keys: Ṙ = R [ω]× with ω in body axes.
+pub fn poisson<'g>(rotation: &[Triple<'g>; 3], omega: &Triple<'g>) -> impl Iterator<Item = (u32, Expr<'g>)> + use<'g> {
+    let (rotation, turn) = (*rotation, cross_matrix(omega));
+    let rate = move |n: usize| (0..3).map(|k| rotation[n / 3][k] * turn[k][n % 3]).sum();
+    (0..9).map(move |n| (rotation[n / 3][n % 3].key(), rate(n)))
+}
+
 pub fn product<'g>(a: &[Triple<'g>; 3], b: &[Triple<'g>; 3]) -> [Triple<'g>; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }

@@ -8,7 +8,8 @@ use super::chart::Kinematics;
 use super::forces::{Action, Element, Force};
 use super::methods::Formula;
 use super::names::Name;
-use super::vector::{Axes, Frame, Triple, Vector, add, cross, cross_matrix, dot};
+use super::rotation::poisson;
+use super::vector::{Axes, Frame, Triple, Vector, add, cross, dot};
 
 /// Symbols for the motion of a body: its pose, and its velocities in both frames, so that what is written in the one or in the
 /// other is never turned there and back.
@@ -57,14 +58,8 @@ impl<'g> Observed<'g> {
             std::array::from_fn(|i| graph.symbol(name.index(i).text, name.index(i).latex, false))
         };
         let (velocity, spin) = (symbols(Name::new("b", "b").dot()), symbols(Name::new("ω", "\\omega")));
-        let turn = cross_matrix(&spin);
-        // Ṙ = R [ω]× (Poisson).
         let mut rates = Map::from_iter([(time.key(), graph.one())]);
-        for row in &rotation {
-            for (j, entry) in row.iter().enumerate() {
-                rates.insert(entry.key(), (0..3).map(|k| row[k] * turn[k][j]).sum());
-            }
-        }
+        rates.extend(poisson(&rotation, &spin));
         rates.extend(position.iter().zip(velocity).map(|(b, rate)| (b.key(), rate)));
         Self {
             graph,

@@ -99,7 +99,7 @@ impl<'g> Translator<'_, 'g> {
                     // The same components in the observer's axes, which both share.
                     let turned = match axes {
                         ForceAxes::Observer => torque,
-                        ForceAxes::Body => rotated(&tree.links[link].rotation, &torque),
+                        ForceAxes::Body => tree.links[link].axes().to_space(&torque).map(Expr::group),
                     };
                     let (link, torque) = (self.link(other)?, turned.map(|e| -e));
                     loads.push(Force::OnLink { link, at: none, force: none, torque, axes: Axes::Space });
@@ -250,7 +250,7 @@ impl<'g> Translator<'_, 'g> {
             let arm: Triple<'g> = std::array::from_fn(|i| (link.position[i] - center[i]).group());
             // The field looks the same from all sides: of a particle no axes are needed.
             let arm = match link.matter {
-                Matter::Body(_) => turned_back(&link.rotation, &arm),
+                Matter::Body(_) => link.axes().to_body(&arm).map(Expr::group),
                 _ => arm,
             };
             attraction(mu, &link.moments, &arm)
@@ -270,7 +270,7 @@ impl<'g> Translator<'_, 'g> {
             }
             let [u, omega] =
                 [Property::BodyVelocity, Property::BodyAngularVelocity].map(|p| self.velocity_of(index, p, tree));
-            let in_body = |a: &Triple<'g>| turned_back(&link.rotation, a);
+            let in_body = |a: &Triple<'g>| link.axes().to_body(a).map(Expr::group);
             let (force, torque) = entrained(self.graph, body, [&u, &omega], &in_body(&stream), &in_body(&rate));
             if force.iter().chain(&torque).any(|e| !e.is_zero()) {
                 let at = [self.graph.zero(); 3];
@@ -309,14 +309,4 @@ fn axes_of(axes: ForceAxes) -> Axes {
         ForceAxes::Body => Axes::Body,
         ForceAxes::Observer => Axes::Space,
     }
-}
-
-/// R a.
-fn rotated<'g>(rotation: &[Triple<'g>; 3], a: &Triple<'g>) -> Triple<'g> {
-    std::array::from_fn(|i| (0..3).map(|j| rotation[i][j] * a[j]).sum::<Expr<'g>>().group())
-}
-
-/// Rᵀ a.
-pub(super) fn turned_back<'g>(rotation: &[Triple<'g>; 3], a: &Triple<'g>) -> Triple<'g> {
-    std::array::from_fn(|j| (0..3).map(|i| rotation[i][j] * a[i]).sum::<Expr<'g>>().group())
 }

@@ -19,7 +19,7 @@ use syn::ext::IdentExt;
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::mechanics::{
     Body, Constraint, ConstraintKind, Coordinate, Element, Matter, Observed, Placement, SystemScene, Tree, Turn,
-    cross_matrix,
+    poisson,
 };
 use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Property, SystemModel};
 
@@ -236,8 +236,8 @@ impl<'a, 'g> Translator<'a, 'g> {
     fn input(&self, kind: model::InputKind, symbols: &mut dyn Iterator<Item = Expr<'g>>) -> Value<'g> {
         let mut next = || symbols.next().unwrap_or_else(|| self.graph.zero());
         match kind {
-            model::InputKind::Scalar => Value::Scalar(next()),
-            model::InputKind::Vector => Value::Vector([next(), next(), next()]),
+            model::InputKind::Scalar => self.components(model::SpeedKind::Scalar, symbols),
+            model::InputKind::Vector => self.components(model::SpeedKind::Vector, symbols),
             model::InputKind::Wrench => Value::Twist([next(), next(), next()], [next(), next(), next()]),
         }
     }
@@ -303,20 +303,10 @@ impl<'a, 'g> Translator<'a, 'g> {
     /// Rates of t and of the symbols of q: Ṙ = R [ω]× (Poisson), ḃ = R u.
     fn rates(&self) -> Map<u32, Expr<'g>> {
         let mut rates: Map<u32, Expr<'g>> = Map::from_iter([(self.declared.time.key(), self.graph.one())]);
-        let mut turning = |matrix: &[[Expr<'g>; 3]; 3], omega: &[Expr<'g>]| {
-            let turn = cross_matrix(&[omega[0], omega[1], omega[2]]);
-            for row in matrix {
-                for (j, entry) in row.iter().enumerate() {
-                    rates.insert(entry.key(), (0..3).map(|k| row[k] * turn[k][j]).sum());
-                }
-            }
-        };
         for (k, coordinate) in self.declared.coordinates.iter().enumerate() {
             let rate = self.declared.rate_of(k, &self.kinematics);
-            match coordinate {
-                Coordinate::Scalar(_) => {}
-                Coordinate::Rotation(matrix) => turning(matrix, rate),
-                Coordinate::Pose(matrix, _) => turning(matrix, &rate[3..]),
+            if let (Some(matrix), &[.., w1, w2, w3]) = (coordinate.rotation(), rate) {
+                rates.extend(poisson(matrix, &[w1, w2, w3]));
             }
         }
         for (k, coordinate) in self.declared.coordinates.iter().enumerate() {
@@ -400,10 +390,8 @@ impl<'a, 'g> Translator<'a, 'g> {
             let at = self.vector(&clause.at, tree)?;
             let link = self.links.get(&clause.body.unraw().to_string()).map(|&k| &tree.links[k]);
             let link = link.ok_or_else(|| bug(clause.span))?;
-            let position: [Expr<'g>; 3] = std::array::from_fn(|i| {
-                let turned: Expr<'g> = (0..3).map(|j| link.rotation[i][j] * at[j]).sum();
-                link.position[i] + turned.group()
-            });
+            let turned = link.axes().to_space(&at);
+            let position: [Expr<'g>; 3] = std::array::from_fn(|i| link.position[i] + turned[i].group());
             self.names.insert(clause.name.unraw().to_string(), Value::Vector(position));
         }
         Ok(())

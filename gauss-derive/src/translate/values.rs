@@ -7,7 +7,6 @@ use crate::algebra::{BinaryFunction, Expr, Function, Graph, Map, Rational};
 use crate::mechanics::{Axes, Tree, Turn, about_axis, identity, subtract};
 use crate::model::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 
-use super::forces::turned_back;
 use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
@@ -187,7 +186,7 @@ impl<'g> Translator<'_, 'g> {
             let u = self.velocity_of(index, Property::BodyVelocity, tree);
             // The medium is a checked vector of t and parameters: what cannot be translated is reported where it acts.
             return match self.stream(tree) {
-                Ok(Some(stream)) => subtract(&u, &turned_back(&link.rotation, &stream)),
+                Ok(Some(stream)) => subtract(&u, &link.axes().to_body(&stream).map(Expr::group)),
                 _ => u,
             };
         }
