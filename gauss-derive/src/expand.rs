@@ -7,10 +7,12 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
 use crate::kernel::Kernel;
 use crate::mechanics::{
-    Acting, AddedMassShape, BodyShape, ConfigurationKind, Elimination, GravityShape, InertiaShape, Scene, System,
-    check_against_definition, check_system_against_definition, rotation_of_quaternion,
+    Acting, AddedMassShape, BodyShape, ConfigurationKind, Elimination, Formula, GravityShape, InertiaShape, Scene,
+    System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
 };
-use crate::mistakes::{bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_too_much, system_faults};
+use crate::mistakes::{
+    bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_series, refuse_too_much, system_faults,
+};
 use crate::model::{self, Model, Shape, SystemModel};
 use crate::translate::Translator;
 
@@ -37,14 +39,19 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
         let acting = Acting::new(&observed, &scene.kinematics, &parameters, &elements, inputs);
         scene = scene.acted_upon(acting);
     }
-    let formulas = scene.formulas();
+    let mut formulas = scene.formulas();
     check_against_definition(&scene, &formulas).map_err(|error| bug(&model.ident, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
-    let functions: Vec<_> = formulas.iter().map(|f| f.arrangements.clone()).collect();
+    if model.taylor.is_some() {
+        formulas.push(scene.component_rates(quaternion, &formulas));
+    }
+    let functions: Vec<_> = formulas.iter().map(Formula::candidates).collect();
     let kernel = Kernel::lower(&graph, &functions, &rotation).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
+    let has_inputs = translator.as_ref().is_some_and(|translator| !translator.inputs().is_empty());
+    refuse_series(model.taylor.as_ref(), has_inputs, &formulas, &kernel)?;
     let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
     let plain = model.acting.as_deref().zip(translator.as_ref()).map(|(system, translator)| Plain {
         fields: &system.fields,
@@ -83,12 +90,16 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         .map_err(|faults| system_faults(model, &translator, &system, &faults))?;
     formulas.extend(elimination.iter().flat_map(Elimination::formulas));
     let (quaternions, definitions) = system_rotations(&graph, &system);
-    let functions: Vec<_> = formulas.iter().map(|f| f.arrangements.clone()).collect();
+    if model.taylor.is_some() {
+        formulas.push(system.component_rates(&quaternions, &formulas));
+    }
+    let functions: Vec<_> = formulas.iter().map(Formula::candidates).collect();
     let kernel = Kernel::lower(&graph, &functions, &definitions).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
     refuse_too_much(model, &kernel)?;
+    refuse_series(model.taylor.as_ref(), !model.inputs.is_empty(), &formulas, &kernel)?;
     let constrained = elimination.as_ref().map_or(&system, |elimination| &elimination.whole);
     let subject = SystemSubject {
         model,

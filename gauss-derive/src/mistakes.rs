@@ -5,7 +5,7 @@ use std::fmt::Display;
 use proc_macro2::{Ident, Span};
 
 use crate::kernel::Kernel;
-use crate::mechanics::{Coordinate, Elimination, Obstacle, System, SystemFault, SystemScene};
+use crate::mechanics::{Coordinate, Elimination, Formula, Method, Obstacle, System, SystemFault, SystemScene};
 use crate::model::SystemModel;
 use crate::translate::Translator;
 
@@ -25,6 +25,36 @@ pub fn refuse_curved_kinematics(model: &SystemModel, scene: &SystemScene<'_>) ->
             format!(
                 "the rate of `{coordinate}` is not affine in the speeds, so velocities would not be linear in them; \
                  choose speeds in which every rate is a sum of terms with one speed each"
+            ),
+        );
+    }
+    mistakes.finish()
+}
+
+/// Motions without a power series in time that can be written beforehand.
+pub fn refuse_series(
+    taylor: Option<&Ident>,
+    has_inputs: bool,
+    formulas: &[Formula<'_>],
+    kernel: &Kernel<'_>,
+) -> syn::Result<()> {
+    let Some(taylor) = taylor else { return Ok(()) };
+    let mut mistakes = Mistakes::default();
+    if has_inputs {
+        mistakes.push(
+            taylor.span(),
+            "inputs arrive at run time, so the motion has no power series that is known beforehand; \
+             write them as functions of `t` and of fields, or remove `taylor`"
+                .into(),
+        );
+    }
+    let rates = formulas.iter().zip(&kernel.functions).find(|(formula, _)| formula.method == Method::ComponentRates);
+    if let Some(function) = rates.and_then(|(_, program)| program.function_without_series()) {
+        mistakes.push(
+            taylor.span(),
+            format!(
+                "`{function}`, or an element made of it, has no power series where it is not smooth; \
+                 write a smooth law in its place, or remove `taylor`"
             ),
         );
     }

@@ -49,6 +49,7 @@ pub mod lie;
 pub mod monitor;
 pub mod prelude;
 pub mod real;
+pub mod series;
 pub mod system;
 
 mod triple;

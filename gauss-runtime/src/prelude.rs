@@ -12,12 +12,13 @@ pub use crate::forces::{Element, ForcedSystem};
 pub use crate::integrate::Trajectory;
 pub use crate::integrate::{
     Adaptive, Collocation, CommutatorFree4, Composed, Composition, Crossing, Fixed, InputSource, IntegrationError,
-    IntegrationErrorKind, MomentumForm, Sample, Simulation, Tableau, Variational, VelocityForm,
+    IntegrationErrorKind, MomentumForm, Sample, Simulation, Tableau, Taylor, Variational, VelocityForm,
 };
 pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]
 pub use crate::monitor::{EnergyBalance, monitor, monitor_body, power_balance};
 pub use crate::real::Real;
+pub use crate::series::TaylorSystem;
 pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,

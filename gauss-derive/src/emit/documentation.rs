@@ -190,6 +190,7 @@ pub fn method_name(method: Method) -> &'static str {
         Method::VelocityResidual => "velocity_residual",
         Method::PositionCorrection => "position_correction",
         Method::VelocityCorrection => "velocity_correction",
+        Method::ComponentRates => "expand",
         Method::Powers => "powers",
         Method::ElementForces => "element_forces",
         Method::SuppliedPower => "supplied_power",

@@ -146,7 +146,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         (0..self.kernel.constant_symbols.len()).map(|k| format_ident!("k{}", k)).collect()
     }
 
-    fn program(&self, method: Method) -> &Program<'g> {
+    pub fn program(&self, method: Method) -> &Program<'g> {
         let position = self.formulas.iter().position(|f| f.method == method);
         &self.kernel.functions[position.expect("a method that is written was derived")]
     }
@@ -171,26 +171,43 @@ impl<'a, 'g> Derived<'a, 'g> {
         quote!(#runtime::__private)
     }
 
+    /// How constants are written in methods.
+    pub fn constant_names(&self) -> Map<u32, TokenStream> {
+        let symbols = self.kernel.constant_symbols.iter().zip(self.constant_fields());
+        symbols.map(|(symbol, field)| (symbol.key(), quote!(self.#field))).collect()
+    }
+
+    /// The symbol of the time, where something can depend on it.
+    pub fn time(&self) -> Option<Expr<'g>> {
+        match self.subject {
+            Subject::Body { scene, .. } => scene.acting.as_ref().map(|acting| acting.time),
+            Subject::System(subject) => Some(subject.system.scene.time),
+        }
+    }
+
+    /// The configuration `q` taken apart.
+    pub fn configuration_arguments(&'a self) -> Vec<Argument<'g>> {
+        match self.subject {
+            Subject::Body { .. } => self.body().map(|body| body.configuration_arguments()).unwrap_or_default(),
+            Subject::System(subject) => subject.configuration_arguments(self),
+        }
+    }
+
+    /// A vector taken apart.
+    pub fn vector_argument(&self, name: TokenStream, symbols: &[Expr<'g>]) -> Argument<'g> {
+        let private = self.private();
+        Argument { array: quote!(#private::components(#name)), symbols: symbols.to_vec() }
+    }
+
     /// The body of a method: arguments taken apart, instructions, result.
-    fn method_body(&self, method: Method) -> TokenStream {
+    fn method_body(&'a self, method: Method) -> TokenStream {
         let private = self.private();
         let program = self.program(method);
         let Formal { speeds, speed_rates, momenta, residuals, inputs } = self.formal();
-        let mut names: Map<u32, TokenStream> = Map::default();
-        let mut arguments = match self.subject {
-            Subject::Body { scene, .. } => {
-                names.extend(scene.acting.iter().map(|acting| (acting.time.key(), quote!(t))));
-                self.body().map(|body| body.configuration_arguments()).unwrap_or_default()
-            }
-            Subject::System(subject) => {
-                names.insert(subject.system.scene.time.key(), quote!(t));
-                subject.configuration_arguments(self)
-            }
-        };
-        let vector = |name: TokenStream, symbols: &[Expr<'g>]| Argument {
-            array: quote!(#private::components(#name)),
-            symbols: symbols.to_vec(),
-        };
+        let mut names = self.constant_names();
+        names.extend(self.time().map(|time| (time.key(), quote!(t))));
+        let mut arguments = self.configuration_arguments();
+        let vector = |name: TokenStream, symbols: &[Expr<'g>]| self.vector_argument(name, symbols);
         arguments.push(vector(quote!(z), speeds));
         arguments.push(vector(quote!(p), momenta));
         arguments.push(vector(quote!(acceleration), speed_rates));
@@ -199,9 +216,6 @@ impl<'a, 'g> Derived<'a, 'g> {
         }
         arguments.push(vector(quote!(residual), residuals));
         arguments.push(vector(quote!(input), inputs));
-        for (symbol, field) in self.kernel.constant_symbols.iter().zip(self.constant_fields()) {
-            names.insert(symbol.key(), quote!(self.#field));
-        }
         let declarations = declare(program, &arguments, &mut names);
         let (instructions, outputs) = statements(program, &names, &self.scalar());
         let result = match method {
@@ -387,6 +401,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         let smoothness = quote!(#runtime::system::Smoothness);
         quote!(const SMOOTHNESS: #smoothness = #smoothness::#word;)
     });
+    let series = derived.series(&bounded, &used);
     let input = match derived.formal().inputs.len() {
         0 => quote!(()),
         count => quote!(#runtime::prelude::SVector<#ty, #count>),
@@ -456,6 +471,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             #rigid_body
             #constrained
             #forced
+            #series
         };
     }
 }

@@ -6,6 +6,7 @@
 //! - `system_parameters`: the same for systems.
 //! - `body`: what is particular to one body in a chart.
 //! - `kernel`: the kernel struct and its implementations of the runtime's traits.
+//! - `series`: the recurrences of power series in time.
 //! - `documentation`: equations and costs as text, LaTeX and rustdoc.
 
 mod arguments;
@@ -14,6 +15,7 @@ mod documentation;
 mod kernel;
 mod parameters;
 mod program;
+mod series;
 #[cfg(test)]
 mod specialisation_tests;
 mod system;

@@ -57,35 +57,48 @@ fn cosine(k: usize) -> Ident {
     format_ident!("__c{}", k, span = Span::mixed_site())
 }
 
+/// How an operand is written. `symbols` says how each symbol is.
+pub fn operand(operand: &Operand<'_>, symbols: &Map<u32, TokenStream>, scalar: &ScalarTokens<'_>) -> TokenStream {
+    match operand {
+        Operand::Symbol(e) => symbols.get(&e.key()).cloned().unwrap_or_else(|| {
+            // A program reads only symbols that its caller declared; anything else is a bug in this crate.
+            let message = format!("bug in gauss-derive: the symbol `{e:?}` has no source");
+            quote!(::core::compile_error!(#message))
+        }),
+        Operand::Number(n) => scalar.number(n),
+        Operand::Value(k) => {
+            let name = value(*k);
+            quote!(#name)
+        }
+        Operand::Sine(k) => {
+            let name = sine(*k);
+            quote!(#name)
+        }
+        Operand::Cosine(k) => {
+            let name = cosine(*k);
+            quote!(#name)
+        }
+    }
+}
+
 /// The statements of a program, and its outputs as expressions. `symbols` says how each symbol is written.
 pub fn statements(
     program: &Program<'_>,
     symbols: &Map<u32, TokenStream>,
     scalar: &ScalarTokens<'_>,
 ) -> (TokenStream, Vec<TokenStream>) {
+    statements_with(program, symbols, scalar, |wanted| program.operands().any(|o| o == wanted))
+}
+
+/// The same; of a sine and a cosine those have names that are `wanted`.
+pub fn statements_with<'g>(
+    program: &Program<'g>,
+    symbols: &Map<u32, TokenStream>,
+    scalar: &ScalarTokens<'_>,
+    wanted: impl Fn(Operand<'g>) -> bool,
+) -> (TokenStream, Vec<TokenStream>) {
     let real = &scalar.real;
-    let write = |operand: &Operand<'_>| -> TokenStream {
-        match operand {
-            Operand::Symbol(e) => symbols.get(&e.key()).cloned().unwrap_or_else(|| {
-                // A program reads only symbols that its caller declared; anything else is a bug in this crate.
-                let message = format!("bug in gauss-derive: the symbol `{e:?}` has no source");
-                quote!(::core::compile_error!(#message))
-            }),
-            Operand::Number(n) => scalar.number(n),
-            Operand::Value(k) => {
-                let name = value(*k);
-                quote!(#name)
-            }
-            Operand::Sine(k) => {
-                let name = sine(*k);
-                quote!(#name)
-            }
-            Operand::Cosine(k) => {
-                let name = cosine(*k);
-                quote!(#name)
-            }
-        }
-    };
+    let write = |o: &Operand<'_>| operand(o, symbols, scalar);
     let mut body = TokenStream::new();
     for (k, instruction) in program.instructions.iter().enumerate() {
         let name = value(k);
@@ -121,9 +134,8 @@ pub fn statements(
             }
             Operation::SineCosine(a) => {
                 let (a, s, c) = (write(a), sine(k), cosine(k));
-                let read = |wanted: Operand<'_>| program.operands().any(|o| o == wanted);
-                let s = if read(Operand::Sine(k)) { quote!(#s) } else { quote!(_) };
-                let c = if read(Operand::Cosine(k)) { quote!(#c) } else { quote!(_) };
+                let s = if wanted(Operand::Sine(k)) { quote!(#s) } else { quote!(_) };
+                let c = if wanted(Operand::Cosine(k)) { quote!(#c) } else { quote!(_) };
                 quote!(let (#s, #c) = #real::sin_cos(#a);)
             }
         };

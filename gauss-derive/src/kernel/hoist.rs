@@ -38,6 +38,11 @@ impl<'a, 'g> Hoister<'a, 'g> {
         self.constants
     }
 
+    /// Whether a symbol is that of a constant.
+    pub fn is_hoisted(&self, symbol: Expr<'g>) -> bool {
+        self.constants.iter().any(|(constant, _)| *constant == symbol)
+    }
+
     fn is_constant(&mut self, e: Expr<'g>) -> bool {
         e.is_constant(&mut self.constant)
     }

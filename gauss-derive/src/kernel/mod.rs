@@ -33,6 +33,28 @@ pub struct Kernel<'g> {
     pub constant_symbols: Vec<Expr<'g>>,
 }
 
+/// A function to be lowered: lists of outputs that are equal, of which the cheapest is taken.
+pub struct Candidates<'g> {
+    pub arrangements: Vec<Vec<Expr<'g>>>,
+    pub cost: Cost,
+}
+
+impl<'g> Candidates<'g> {
+    /// Arrangements of which values are wanted.
+    pub fn of_values(arrangements: Vec<Vec<Expr<'g>>>) -> Self {
+        Self { arrangements, cost: Cost::Values }
+    }
+}
+
+/// What a function is to be cheap for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cost {
+    /// Its values.
+    Values,
+    /// The power series of its values.
+    Series,
+}
+
 /// A program does not compute what its expressions say: an error of this crate, never of its user.
 #[derive(Debug)]
 pub struct Miscompiled {
@@ -50,21 +72,26 @@ impl fmt::Display for Miscompiled {
 }
 
 impl<'g> Kernel<'g> {
-    /// Lowers functions given as lists of outputs, each in one or more equivalent arrangements, of which the cheapest
-    /// is taken. `definitions` are symbols that stand for expressions of the arguments. Every program is then run at a
+    /// Lowers functions, each of which has an arrangement. `definitions` are symbols that stand for expressions of the arguments. Every program is then run at a
     /// pseudo-random point and compared with its expressions.
     pub fn lower(
         graph: &'g Graph,
-        functions: &[Vec<Vec<Expr<'g>>>],
+        functions: &[Candidates<'g>],
         definitions: &Map<u32, Expr<'g>>,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
         let mut programs = Vec::with_capacity(functions.len());
         let mut chosen = Vec::with_capacity(functions.len());
-        for arrangements in functions {
-            let lowered = arrangements.iter().map(|outputs| (Program::lower(&hoister.hoist(outputs)), outputs));
+        for Candidates { arrangements, cost } in functions {
+            let lowered: Vec<_> =
+                arrangements.iter().map(|outputs| (Program::lower(&hoister.hoist(outputs)), outputs)).collect();
+            let cost_of = |program: &Program<'g>| match cost {
+                Cost::Values => program.counts().cost(),
+                Cost::Series => program.series_cost(|symbol| hoister.is_hoisted(symbol)),
+            };
             let (program, outputs) = lowered
-                .min_by_key(|(program, _)| program.counts().cost())
+                .into_iter()
+                .min_by_key(|(program, _)| cost_of(program))
                 .expect("a function has at least one arrangement");
             programs.push(program);
             chosen.push(outputs);

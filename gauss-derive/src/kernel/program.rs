@@ -18,6 +18,20 @@ pub enum Operand<'g> {
     Cosine(usize),
 }
 
+impl<'g> Operand<'g> {
+    /// Whether it changes when the symbols change that are not `constant`; `moving` tells it of earlier instructions.
+    pub fn moves(&self, moving: &[bool], constant: impl Fn(Expr<'g>) -> bool) -> bool {
+        match *self {
+            Operand::Number(_) => false,
+            Operand::Symbol(symbol) => !constant(symbol),
+            Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) => moving[k],
+        }
+    }
+}
+
+/// What a product of series costs in one order, where a sum costs 1: a lane of multiply-adds over the lower orders and two more.
+const SERIES_PRODUCT: u32 = 5;
+
 /// One step; its result is `Value(index of the step)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation<'g> {
@@ -127,6 +141,86 @@ impl<'g> Program<'g> {
             _ => Smoothness::Smooth,
         };
         self.instructions.iter().map(of).max().unwrap_or(Smoothness::Smooth)
+    }
+
+    /// Which instructions compute something that changes, when the symbols change that are not `constant`.
+    pub fn moving(&self, constant: impl Fn(Expr<'g>) -> bool) -> Vec<bool> {
+        let mut moving: Vec<bool> = Vec::with_capacity(self.instructions.len());
+        for instruction in &self.instructions {
+            let moves = instruction.operands().any(|operand| operand.moves(&moving, &constant));
+            moving.push(moves);
+        }
+        moving
+    }
+
+    /// Which instructions add up or multiply something that one other instruction adds to something else, and nobody else reads.
+    pub fn added_once(&self) -> Vec<bool> {
+        let mut uses = vec![0_usize; self.instructions.len()];
+        let mut added = vec![false; self.instructions.len()];
+        for operand in self.operands() {
+            if let Operand::Value(k) = operand {
+                uses[k] += 1;
+            }
+        }
+        for instruction in &self.instructions {
+            let addends = match instruction {
+                Operation::Add(a, b) | Operation::Subtract(a, b) => [Some(a), Some(b)],
+                Operation::MultiplyAdd(_, _, c) | Operation::MultiplySubtract(_, _, c) | Operation::Negate(c) => {
+                    [Some(c), None]
+                }
+                _ => [None, None],
+            };
+            for addend in addends.into_iter().flatten() {
+                if let Operand::Value(k) = addend {
+                    added[*k] = true;
+                }
+            }
+        }
+        let adds = |instruction: &Operation<'g>| {
+            matches!(
+                instruction,
+                Operation::Add(..)
+                    | Operation::Subtract(..)
+                    | Operation::Negate(_)
+                    | Operation::Multiply(..)
+                    | Operation::MultiplyAdd(..)
+                    | Operation::MultiplySubtract(..)
+            )
+        };
+        (0..added.len()).map(|k| added[k] && uses[k] == 1 && adds(&self.instructions[k])).collect()
+    }
+
+    /// What one order of the power series of the outputs costs, roughly: products of what changes are sums over all lower orders.
+    pub fn series_cost(&self, constant: impl Fn(Expr<'g>) -> bool) -> u32 {
+        let moving = self.moving(&constant);
+        let cost = |(instruction, &moves): (&Operation<'g>, &bool)| {
+            let both = |a: &Operand<'g>, b: &Operand<'g>| a.moves(&moving, &constant) && b.moves(&moving, &constant);
+            match instruction {
+                _ if !moves => 0,
+                Operation::Multiply(a, b) | Operation::MultiplyAdd(a, b, _) | Operation::MultiplySubtract(a, b, _)
+                    if both(a, b) =>
+                {
+                    SERIES_PRODUCT
+                }
+                Operation::Divide(_, b) if b.moves(&moving, &constant) => SERIES_PRODUCT,
+                Operation::Call(..) => SERIES_PRODUCT,
+                Operation::SineCosine(_) => 2 * SERIES_PRODUCT,
+                Operation::Binary(..) => 4 * SERIES_PRODUCT,
+                _ => 1,
+            }
+        };
+        self.instructions.iter().zip(&moving).map(cost).sum()
+    }
+
+    /// A function without a power series that the program calls, as users write it.
+    pub fn function_without_series(&self) -> Option<&'static str> {
+        self.instructions.iter().find_map(|instruction| match instruction {
+            Operation::Call(Function::Abs, _) => Some("abs"),
+            Operation::Call(Function::Signum, _) => Some("signum"),
+            Operation::Binary(BinaryFunction::Min, ..) => Some("min"),
+            Operation::Binary(BinaryFunction::Max, ..) => Some("max"),
+            _ => None,
+        })
     }
 
     /// Everything that the program reads, repeatedly where it is read repeatedly.

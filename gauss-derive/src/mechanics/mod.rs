@@ -25,6 +25,7 @@ mod articulated;
 mod body;
 mod chart;
 mod check;
+mod component_rates;
 mod constraint;
 mod elimination;
 mod equations;

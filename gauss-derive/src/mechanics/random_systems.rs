@@ -17,7 +17,7 @@ mod scene;
 mod witness;
 
 use crate::algebra::{Graph, Map};
-use crate::kernel::{Kernel, Program};
+use crate::kernel::{Candidates, Kernel, Program};
 
 use super::elimination::Elimination;
 use super::methods::{Formula, Method};
@@ -45,7 +45,8 @@ struct Compiled<'g> {
 impl<'g> Compiled<'g> {
     fn new(graph: &'g Graph, symbols: &Symbols<'g>, formulas: &[Formula<'g>], what: &str) -> Self {
         let each = formulas.iter().flat_map(|f| f.arrangements.iter().map(|outputs| (f.method, outputs.clone())));
-        let (methods, outputs): (Vec<_>, Vec<_>) = each.map(|(method, outputs)| (method, vec![outputs])).unzip();
+        let (methods, outputs): (Vec<_>, Vec<_>) =
+            each.map(|(method, outputs)| (method, Candidates::of_values(vec![outputs]))).unzip();
         let kernel = Kernel::lower(graph, &outputs, &symbols.definitions);
         let kernel = kernel.unwrap_or_else(|error| panic!("{what}: {error}"));
         assert!(!graph.overflowed(), "{what}: a coefficient left the range of 64-bit fractions");

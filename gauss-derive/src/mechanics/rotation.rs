@@ -4,7 +4,7 @@ use crate::algebra::{Expr, Graph};
 use crate::model::RotationChart;
 
 use super::names::Name;
-use super::vector::{Triple, cross_matrix, dot};
+use super::vector::{Axes, Triple, cross, cross_matrix, dot};
 
 /// Names of a rotation chart's coordinates.
 pub fn coordinate_names(chart: RotationChart) -> Vec<Name> {
@@ -61,6 +61,17 @@ pub fn rotation_of<'g>(graph: &'g Graph, chart: RotationChart, q: &[Expr<'g>]) -
 pub fn rotation_of_quaternion<'g>(graph: &'g Graph, [x, y, z, w]: [Expr<'g>; 4]) -> [Triple<'g>; 3] {
     let half = cross_plus_square(w, &[x, y, z]);
     std::array::from_fn(|i| std::array::from_fn(|j| identity(graph, i, j) + half[i][j].scale(2.into())))
+}
+
+/// Rates of a unit quaternion (x, y, z, w) by an angular velocity: ½ q ω with ω in body axes, ½ ω q in space axes.
+pub fn quaternion_rate<'g>([x, y, z, w]: [Expr<'g>; 4], omega: &Triple<'g>, axes: Axes) -> [Expr<'g>; 4] {
+    let v = [x, y, z];
+    let turned = match axes {
+        Axes::Body => cross(&v, omega),
+        Axes::Space => cross(omega, &v),
+    };
+    let [a, b, c] = std::array::from_fn(|k| (w * omega[k] + turned[k]).half());
+    [a, b, c, -dot(&v, omega).half()]
 }
 
 /// `w [v]× + [v]×²`: half of what a quaternion (v, w) adds to the identity.

@@ -56,7 +56,7 @@ pub(super) fn system(
         Some(scalar) => scalar,
         None => scalar_without_fields(input, &reader.fields, context)?,
     };
-    model(input, clauses.runtime, scalar, fields(&reader, &shapes), statements)
+    model(input, clauses.runtime, clauses.taylor, scalar, fields(&reader, &shapes), statements)
 }
 
 /// Checks names and kinds in all expressions, and writes the definitions out; gives back those that are not used.
@@ -117,6 +117,7 @@ pub(super) fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<SystemField> 
 pub(super) fn model(
     input: &DeriveInput,
     runtime: Path,
+    taylor: Option<Ident>,
     scalar: Scalar,
     fields: Vec<SystemField>,
     mut statements: Statements,
@@ -136,6 +137,7 @@ pub(super) fn model(
         generics: input.generics.clone(),
         scalar,
         runtime,
+        taylor,
         fields,
         coordinates,
         speeds: statements.speeds.map(|speeds| speeds.names),

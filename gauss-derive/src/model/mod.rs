@@ -122,6 +122,8 @@ pub struct Model {
     /// What acts besides weight and buoyancy, if anything is written: the same body as a system whose only coordinate is
     /// its pose, free whatever `motion` is, and whose only body has no name.
     pub acting: Option<Box<SystemModel>>,
+    /// `taylor`, where it is written: power series of the motion are wanted.
+    pub taylor: Option<Ident>,
 }
 
 /// The number type that kernels compute with.

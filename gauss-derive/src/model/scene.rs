@@ -1,7 +1,7 @@
 //! The clauses of the struct: which equations are wanted. Those of systems are read by `statements`.
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
-//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`.
+//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor`.
 
 use super::attributes::{self, Clause, Place, Value, Word};
 use super::context::Context;
@@ -20,6 +20,8 @@ pub(super) struct Clauses {
     pub(super) chart: Chart,
     pub(super) motion: Motion,
     pub(super) runtime: Path,
+    /// `taylor`, where it is written.
+    pub(super) taylor: Option<Ident>,
     /// The clauses of a system, or those that say what acts on one body.
     pub(super) statements: Statements,
     /// Some clause is one that only systems have.
@@ -30,13 +32,14 @@ pub(super) struct Clauses {
 
 /// Clauses of the struct.
 pub(super) const CLAUSES: &Table<Topic> =
-    &[("chart", Topic::Chart), ("motion", Topic::Motion), ("crate", Topic::Runtime)];
+    &[("chart", Topic::Chart), ("motion", Topic::Motion), ("crate", Topic::Runtime), ("taylor", Topic::Taylor)];
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Topic {
     Chart,
     Motion,
     Runtime,
+    Taylor,
 }
 
 /// `None` stands for `jet`, which needs to know the motion.
@@ -86,6 +89,7 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
     let mut charts = Vec::new();
     let mut motion = None;
     let mut runtime = None;
+    let mut taylor = None;
     let mut first: Vec<(Topic, String)> = Vec::new();
     for clause in clauses {
         let word = clause.word();
@@ -106,7 +110,7 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
         } else {
             first.push((topic, clause.written()));
         }
-        if topic != Topic::Runtime {
+        if matches!(topic, Topic::Chart | Topic::Motion) {
             of_one_body.push(clause.name.clone());
         }
         // Of clauses given twice the first counts, but mistakes in the second are found all the same. A system is told
@@ -116,6 +120,7 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
             Topic::Chart => charts.push(read_chart(&clause, context)),
             Topic::Motion => motion = motion.or(Some(read_motion(&clause, context))),
             Topic::Runtime => runtime = runtime.or(Some(read_runtime(&clause, context))),
+            Topic::Taylor => taylor = taylor.or(read_bare(&clause, context)),
         }
     }
     // A clause left out means its default; a clause that could not be read is known to be unknown.
@@ -130,6 +135,7 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
         chart,
         motion: motion.unwrap_or(Motion::Free),
         runtime: runtime.flatten().unwrap_or_else(default_runtime),
+        taylor,
         statements,
         is_system,
         of_one_body,
@@ -291,6 +297,19 @@ fn read_motion(clause: &Clause, context: &mut Context) -> Option<Motion> {
         return None;
     }
     Some(motion)
+}
+
+/// A clause that is its name alone.
+fn read_bare(clause: &Clause, context: &mut Context) -> Option<Ident> {
+    match &clause.value {
+        Value::Absent => Some(clause.name.clone()),
+        Value::Malformed => None,
+        Value::Equals(_) | Value::Brackets(_) => {
+            let name = &clause.name;
+            context.error(name.span(), format!("`{name}` takes no value; write `{name}` alone"));
+            None
+        }
+    }
 }
 
 fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {

@@ -17,6 +17,8 @@ pub struct SystemModel {
     pub scalar: Scalar,
     /// Where the generated code finds the runtime: `::gauss_runtime`, or what `crate = path` says.
     pub runtime: Path,
+    /// `taylor`, where it is written: power series of the motion are wanted.
+    pub taylor: Option<Ident>,
     /// Every field of the struct, in order.
     pub fields: Vec<SystemField>,
     /// The coordinates q, in order.

@@ -140,7 +140,7 @@ impl<T: Real, const S: usize> Adaptive<T, S> {
 
 /// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the first
 /// step.
-fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
+pub(super) fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
     problem: &Problem<'_, S, F, I>,
     start: &State<S>,
     end: S::Scalar,

@@ -17,6 +17,7 @@
 //! | `projection` | states of a run kept on the constraints |
 //! | [`simulation`] | [`Simulation`], the front |
 //! | [`event`] | where functions of the state pass through zero |
+//! | [`taylor`] | power series of the solution, where the derive gives them |
 //! | [`trajectory`] | [`Sample`], `Trajectory` |
 //! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov, splitting |
 //! | `dense` | `Dense`: states between samples with the accuracy of the method |
@@ -43,6 +44,7 @@ pub mod rkmk;
 pub mod simulation;
 mod step_length;
 pub mod tableau;
+pub mod taylor;
 pub mod trajectory;
 #[cfg(feature = "alloc")]
 pub mod tune;
@@ -64,6 +66,7 @@ pub use one_step::{IncrementStep, OneStep, Properties, Step};
 pub use rkmk::Rkmk;
 pub use simulation::{Observer, Simulation};
 pub use tableau::Tableau;
+pub use taylor::Taylor;
 pub use trajectory::Sample;
 #[cfg(feature = "alloc")]
 pub use trajectory::{EventSample, Trajectory};

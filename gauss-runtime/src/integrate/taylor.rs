@@ -1,0 +1,229 @@
+//! Taylor's method: each step sums the power series of the solution, as far as the tolerance asks for.
+//!
+//! The coefficients come from the derive (`#[gauss(taylor)]`, [`TaylorSystem`]), exact up to rounding at any order, so a step may be
+//! nearly as long as the radius of convergence allows: at tolerances of 1e-9 and less the cheapest way to a trajectory of a smooth
+//! system. Order and step are those of Jorba & Zou (Experimental Mathematics 14, 2005): the last two terms of the series are to
+//! be as small as the tolerance. No step is rejected.
+
+use super::control::{Control, Emit, prepare};
+use super::error::{IntegrationError, IntegrationErrorKind, Part};
+use super::form::{Form, InputSource, Problem, Rates, State};
+use super::projection::{accept, on_constraints};
+use super::rkmk::check_chart;
+use super::step_length::power;
+use crate::configuration::{Configuration, VectorSpace};
+use crate::real::Real;
+use crate::series::{MAX_ORDER, PowerSeries, TaylorSystem};
+
+/// Steps of Taylor's method, as long as the tolerances allow.
+///
+/// The momentum form is integrated as the velocity form is, from and to momenta at the ends of steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Taylor {
+    relative: f64,
+    absolute: f64,
+    order: Option<usize>,
+    largest_step: f64,
+}
+
+/// Orders per e-fold of the tolerance, to begin with. At order p steps are as long as ρ ε^(1/p): ½ is best where the cost of a step
+/// goes with p², 1 where it goes with p.
+const ORDERS: f64 = 0.75;
+
+/// The lowest order that is chosen, and how far apart orders are compared.
+const LOWEST: usize = 6;
+const APART: usize = 4;
+
+impl Taylor {
+    /// What the series of each component leaves out in a step is kept about `absolute + relative·size`, where the size is 1 for a
+    /// rotation, the largest component of a translation, |q| for a plain coordinate and |z| for a speed.
+    #[must_use]
+    pub fn new(relative: f64, absolute: f64) -> Self {
+        Self { relative, absolute, order: None, largest_step: f64::INFINITY }
+    }
+
+    /// Series of one order, from 2 to [`MAX_ORDER`], instead of one that follows from the tolerance.
+    #[must_use]
+    pub fn of_order(mut self, order: usize) -> Self {
+        self.order = Some(order.clamp(2, MAX_ORDER));
+        self
+    }
+
+    /// The longest step.
+    #[must_use]
+    pub fn largest_step(mut self, length: f64) -> Self {
+        self.largest_step = length;
+        self
+    }
+
+    /// About the last term of the series beside the first.
+    fn tolerance(&self) -> f64 {
+        self.relative.max(self.absolute).clamp(1e-18, 0.1)
+    }
+
+    fn first_order(&self) -> usize {
+        let order = -Real::ln(self.tolerance()) * ORDERS + 2.0;
+        self.order.unwrap_or((order as usize).clamp(LOWEST, MAX_ORDER))
+    }
+
+    /// The lengths of steps at the given orders: what is left out of the series is as large as the tolerance there. `guess` is
+    /// about as long, for the sizes.
+    fn lengths<S: TaylorSystem, const N: usize>(&self, series: &S::Series, orders: [usize; N], guess: f64) -> [f64; N] {
+        let mut excess = [[0.0_f64; 2]; N];
+        let mut first = 0;
+        for &group in S::GROUPS {
+            for lane in 0..S::Scalar::LANES {
+                let value = |k: usize, i: usize| series.coefficient(k).component(i).lane(lane);
+                let largest = |of: &dyn Fn(usize) -> f64| {
+                    let worse = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
+                    (first..first + group).map(of).fold(0.0, worse)
+                };
+                let size = largest(&|i| value(0, i).abs().max((value(0, i) + guess * value(1, i)).abs()));
+                let tolerance = (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
+                for (excess, order) in excess.iter_mut().zip(orders) {
+                    for (worst, k) in excess.iter_mut().zip([order - 1, order]) {
+                        let term = largest(&|i| value(k, i).abs()) / tolerance;
+                        // A NaN stays.
+                        *worst = if term > *worst || term.is_nan() { term } else { *worst };
+                    }
+                }
+            }
+            first += group;
+        }
+        core::array::from_fn(|n| {
+            // The terms fall to the tolerance at a ratio r; those left out are r/(1 − r) of the last one together.
+            let ratio = power(self.tolerance(), 1.0 / orders[n] as f64);
+            let length = |excess: f64, k: usize| power(excess * ratio / (1.0 - ratio), -1.0 / k as f64);
+            let (a, b) = (length(excess[n][0], orders[n] - 1), length(excess[n][1], orders[n]));
+            if a < b || a.is_nan() { a } else { b }
+        })
+    }
+}
+
+/// What a step costs, relatively: a part for each step, one for each order, one for each product of two orders. Measured on bodies.
+fn cost(order: usize) -> f64 {
+    let p = order as f64;
+    1.0 + p / 3.0 + p * p / 200.0
+}
+
+/// The order for the next step, when steps are `long` at this order and `short` at one that is lower by [`APART`]: one that makes
+/// more way for its cost.
+fn better_order(order: usize, short: f64, long: f64) -> usize {
+    let gain = long / short;
+    if gain * cost(order - APART) < cost(order) {
+        return (order - 2).max(LOWEST);
+    }
+    // ln h is affine in 1/p.
+    let p = order as f64;
+    let further = power(gain, (p - APART as f64) / (p + APART as f64));
+    if further * cost(order) > cost(order + APART) { (order + 2).min(MAX_ORDER) } else { order }
+}
+
+/// The state a time h after the one that the series starts from.
+fn summed<S, F, I>(
+    problem: &Problem<'_, S, F, I>,
+    t: S::Scalar,
+    series: &S::Series,
+    order: usize,
+    h: S::Scalar,
+) -> State<S>
+where
+    S: TaylorSystem,
+    F: Form<S>,
+{
+    let (q, z) = problem.system.state_of(&series.at(order, h));
+    let q = q.renormalise();
+    State { t: t + h, q, y: problem.form.variables(problem.system, t + h, &q, &z) }
+}
+
+fn expanded<S: TaylorSystem, F: Form<S>, I>(
+    problem: &Problem<'_, S, F, I>,
+    state: &State<S>,
+    order: usize,
+    series: &mut S::Series,
+) {
+    let State { t, q, y } = state;
+    problem.system.expand(*t, q, &problem.form.speeds(problem.system, *t, q, y), order, series);
+}
+
+impl<S: TaylorSystem> Control<S> for Taylor {
+    fn drive<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        start: State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut Emit<'_, S>,
+    ) -> Result<State<S>, IntegrationError> {
+        let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
+        let (relative, absolute) = (self.relative, self.absolute);
+        let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
+        if !(usable(relative) && usable(absolute) && relative + absolute > 0.0) {
+            return Err(stopped(&start, IntegrationErrorKind::InvalidTolerance { relative, absolute }));
+        }
+        let (span, start, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
+        if emit(&start, &rates).is_break() || span == 0.0 {
+            return Ok(start);
+        }
+        let longest = self.largest_step.min(span.abs());
+        if !(longest > 0.0) {
+            return Err(stopped(&start, IntegrationErrorKind::InvalidStep { step: longest }));
+        }
+        let direction = if span < 0.0 { -1.0 } else { 1.0 };
+        let mut order = self.first_order();
+        let mut series = S::Series::zero();
+        let mut state = start;
+        let mut guess = 0.0;
+        for _ in 0..limit {
+            expanded(problem, &state, order, &mut series);
+            let lower = order.saturating_sub(APART).max(2);
+            let [short, length] = self.lengths::<S, 2>(&series, [lower, order], direction * guess);
+            // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
+            if length.is_nan() {
+                return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: Part::Derivative }));
+            }
+            let length = length.min(longest);
+            let left = (end - state.t).lane(0).abs();
+            let last = length >= left * 0.999;
+            let h = if last { end - state.t } else { S::Scalar::from_f64(direction * length) };
+            if state.t + h == state.t {
+                return Err(stopped(&state, IntegrationErrorKind::StepTooSmall { step: length }));
+            }
+            let mut reached = summed(problem, state.t, &series, order, h);
+            if last {
+                reached.t = end;
+            }
+            if !(reached.q.is_finite() && reached.y.is_finite()) {
+                return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: Part::Step }));
+            }
+            check_chart(problem, &state, &reached).map_err(|kind| stopped(&state, kind))?;
+            let rates: Rates<S> = accept(problem, &mut reached, None).map_err(|kind| stopped(&state, kind))?;
+            state = reached;
+            if emit(&state, &rates).is_break() || last {
+                return Ok(state);
+            }
+            guess = length;
+            if self.order.is_none() && length < longest {
+                order = better_order(order, short, length);
+            }
+        }
+        Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }))
+    }
+
+    fn within<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        _: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        let mut series = S::Series::zero();
+        let order = self.order.unwrap_or(MAX_ORDER);
+        expanded(problem, state, order, &mut series);
+        let end = summed(problem, state.t, &series, order, h);
+        if !(end.q.is_finite() && end.y.is_finite()) {
+            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        }
+        if S::CONSTRAINED { on_constraints(problem, &end) } else { Ok(end) }
+    }
+}
