@@ -25,6 +25,7 @@ mod translate;
 /// | | `hybrid`: ḃ in observer's axes, ω in body axes | |
 /// | | `jet(euler_zyx)` and the other eleven sequences, `jet(rodrigues)`, `jet(modified_rodrigues)`; `jet` in the plane: rates of coordinates (Lagrange) | |
 /// | `motion` | `free`, `fixed_point` (O stays at Ω), `planar` (in k₁k₂) | `free` |
+/// | `taylor` | alone: power series of the motion in time as well, for the integrator `Taylor`; of smooth systems without inputs | none |
 /// | `crate` | where the runtime is, when it has another name | `::gauss_runtime` |
 ///
 /// # The fields: `#[gauss(role)]`
@@ -57,7 +58,7 @@ mod translate;
 /// # Systems
 ///
 /// Any of these clauses but `point` and `limit`, in place of `chart` and `motion`, makes a system, as does a field that is a
-/// body; its kernel implements `GaussSystem`:
+/// body; its kernel implements `GaussSystem`, with `taylor` also `TaylorSystem`:
 ///
 /// | clause | meaning |
 /// |---|---|

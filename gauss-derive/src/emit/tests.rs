@@ -57,6 +57,16 @@ fn acceleration_of_a_vehicle_in_a_fluid() {
     insta::assert_snapshot!(function(VEHICLE, "acceleration"));
 }
 
+/// Products of series become lanes, sums of the rest are trees.
+#[test]
+fn power_series_of_a_free_top() {
+    let source = "#[gauss(motion = fixed_point, taylor)] struct Top {
+        #[gauss(mass)] mass: f64,
+        #[gauss(inertia)] inertia: Vector3<f64>,
+    }";
+    insta::assert_snapshot!(function(source, "expand"));
+}
+
 #[test]
 fn parameters_of_a_vehicle_in_a_fluid() {
     insta::assert_snapshot!(function(VEHICLE, "kernel"));
