@@ -83,10 +83,24 @@ pub struct Series<T, const V: usize, const L: usize> {
     variables: [SVector<T, V>; MAX_ORDER + 1],
     left: [Row<T, L>; MAX_ORDER + 1],
     right: [Row<T, L>; MAX_ORDER + 1],
+    /// What is known of the sums of the next order.
+    ahead: Row<T, L>,
 }
 
 /// Products whose sums are formed side by side: as many as fit in vector registers together with the factors.
-const BLOCK: usize = 16;
+const BLOCK: usize = if cfg!(target_feature = "avx") { 16 } else { 8 };
+
+/// The number of products is a multiple of this.
+const PACK: usize = 4;
+
+/// `sums[i] += row[from + i]·factors[i]`: a macro, because arrays that go through functions do not always stay in registers.
+macro_rules! add_products {
+    ($n:expr, $sums:ident, $row:expr, $from:expr, $factors:ident) => {
+        for i in 0..$n {
+            $sums[i] = $row.0[$from + i].fma($factors[i], $sums[i]);
+        }
+    };
+}
 
 impl<T: Real, const V: usize, const L: usize> Series<T, V, L> {
     /// The coefficients of order k.
@@ -108,63 +122,83 @@ impl<T: Real, const V: usize, const L: usize> Series<T, V, L> {
         self.right[k] = Row(right);
     }
 
-    /// `Σ_{0 < j < k} leftⱼ rightₖ₋ⱼ` of every product: all but the first and the last term of the coefficient of order k.
+    /// `Σ_{0 < j < k} leftⱼ rightₖ₋ⱼ` of every product: all but the first and the last term of the coefficient of order k. Orders
+    /// are to be asked for one after the other, from 1.
     // Inlined, its packs would be taken apart to suit what their elements are added to.
     #[inline(never)]
-    pub fn convolution(&self, k: usize) -> [T; L] {
+    pub fn convolution(&mut self, k: usize) -> [T; L] {
         let mut sums = [T::zero(); L];
         let mut from = 0;
-        while from + BLOCK <= L {
-            sums[from..from + BLOCK].copy_from_slice(&self.block::<BLOCK>(k, from));
-            from += BLOCK;
-        }
-        while from + PACK <= L {
-            sums[from..from + PACK].copy_from_slice(&self.block::<PACK>(k, from));
-            from += PACK;
-        }
-        sums
-    }
-
-    /// N of these sums. The factors of order k − 1 have been stored only just, so their terms come last; two sums go side by
-    /// side, since each addition waits for the one before.
-    #[inline(always)]
-    fn block<const N: usize>(&self, k: usize, from: usize) -> [T; N] {
-        // A macro, because arrays that go through a function do not always stay in registers.
-        macro_rules! add {
-            ($sum:ident, $left:expr, $right:expr) => {
-                for i in 0..N {
-                    $sum[i] = $left.0[from + i].fma($right.0[from + i], $sum[i]);
+        macro_rules! blocks {
+            ($width:expr) => {
+                while from + $width <= L {
+                    let block =
+                        if k % 2 == 1 { self.odd::<{ $width }>(k, from) } else { self.even::<{ $width }>(k, from) };
+                    sums[from..from + $width].copy_from_slice(&block);
+                    from += $width;
                 }
             };
         }
-        let (mut even, mut odd) = ([T::zero(); N], [T::zero(); N]);
-        if k > 3 {
-            let (left, right) = (&self.left[2..k - 1], &self.right[2..k - 1]);
-            let (pairs, facing) = (left.chunks_exact(2), right.rchunks_exact(2));
-            let single = pairs.remainder().first().zip(facing.remainder().first());
-            for (a, b) in pairs.zip(facing) {
-                add!(even, a[0], b[1]);
-                add!(odd, a[1], b[0]);
-            }
-            if let Some((a, b)) = single {
-                add!(even, a, b);
-            }
-        }
+        blocks!(BLOCK);
+        blocks!(8);
+        blocks!(PACK);
+        sums
+    }
+
+    /// N of the sums of an odd order k, and of those of order k + 1 what can be known: twice as much is done with what is loaded.
+    /// The factors of order k − 1 have been stored only just, so they are read last.
+    #[inline(always)]
+    fn odd<const N: usize>(&mut self, k: usize, from: usize) -> [T; N] {
+        let (left, right) = (&self.left, &self.right);
+        let (mut sums, mut ahead) = ([T::zero(); N], [T::zero(); N]);
         if k > 1 {
-            add!(odd, self.left[1], self.right[k - 1]);
+            let mut above = part::<T, L, N>(&right[k - 2], from);
+            if k > 3 {
+                for (a, b) in left[3..k - 1].iter().zip(right[2..k - 2].iter().rev()) {
+                    let below = part::<T, L, N>(b, from);
+                    add_products!(N, sums, a, from, below);
+                    add_products!(N, ahead, a, from, above);
+                    above = below;
+                }
+                let second = part::<T, L, N>(&right[k - 2], from);
+                add_products!(N, sums, left[2], from, second);
+            }
+            let fresh = part::<T, L, N>(&right[k - 1], from);
+            add_products!(N, sums, left[1], from, fresh);
+            add_products!(N, ahead, left[2], from, fresh);
+            let first = part::<T, L, N>(&right[1], from);
+            add_products!(N, sums, left[k - 1], from, first);
+            if k > 3 {
+                let second = part::<T, L, N>(&right[2], from);
+                add_products!(N, ahead, left[k - 1], from, second);
+            }
         }
+        self.ahead.0[from..from + N].copy_from_slice(&ahead);
+        sums
+    }
+
+    /// N of the sums of an even order, of which but the outermost terms are known.
+    #[inline(always)]
+    fn even<const N: usize>(&self, k: usize, from: usize) -> [T; N] {
+        let (left, right) = (&self.left, &self.right);
+        let mut sums = part::<T, L, N>(&self.ahead, from);
+        let fresh = part::<T, L, N>(&right[k - 1], from);
+        add_products!(N, sums, left[1], from, fresh);
         if k > 2 {
-            add!(even, self.left[k - 1], self.right[1]);
+            let first = part::<T, L, N>(&right[1], from);
+            add_products!(N, sums, left[k - 1], from, first);
         }
-        for i in 0..N {
-            even[i] = even[i] + odd[i];
-        }
-        even
+        sums
     }
 }
 
-/// What the number of products is rounded up to a multiple of.
-const PACK: usize = 4;
+/// N elements of a row.
+#[inline(always)]
+fn part<T: Real, const L: usize, const N: usize>(row: &Row<T, L>, from: usize) -> [T; N] {
+    let mut part = [T::zero(); N];
+    part.copy_from_slice(&row.0[from..from + N]);
+    part
+}
 
 impl<T: Real, const V: usize, const L: usize> PowerSeries<T> for Series<T, V, L> {
     type Variables = SVector<T, V>;
@@ -175,6 +209,7 @@ impl<T: Real, const V: usize, const L: usize> PowerSeries<T> for Series<T, V, L>
             variables: [VectorSpace::zero(); MAX_ORDER + 1],
             left: [row; MAX_ORDER + 1],
             right: [row; MAX_ORDER + 1],
+            ahead: row,
         }
     }
 

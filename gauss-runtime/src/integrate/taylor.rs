@@ -10,7 +10,6 @@ use super::error::{IntegrationError, IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State};
 use super::projection::{accept, on_constraints};
 use super::rkmk::check_chart;
-use super::step_length::power;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::series::{MAX_ORDER, PowerSeries, TaylorSystem};
@@ -66,37 +65,43 @@ impl Taylor {
         self.order.unwrap_or((order as usize).clamp(LOWEST, MAX_ORDER))
     }
 
-    /// The lengths of steps at the given orders: what is left out of the series is as large as the tolerance there. `guess` is
-    /// about as long, for the sizes.
-    fn lengths<S: TaylorSystem, const N: usize>(&self, series: &S::Series, orders: [usize; N], guess: f64) -> [f64; N] {
-        let mut excess = [[0.0_f64; 2]; N];
+    /// ln of what a series leaves out beside its last term: terms fall to the tolerance at a ratio r in each order, and those left
+    /// out are r/(1 − r) of the last one together.
+    fn tail(&self, order: usize) -> f64 {
+        let ratio = Real::exp(Real::ln(self.tolerance()) / order as f64);
+        Real::ln(ratio / (1.0 - ratio))
+    }
+
+    /// ln of the longest steps at two orders with the given tails, so that what is left out of the series is within the tolerance.
+    /// It is judged by the last two terms, since one of them may be small by chance. `guess` is about as long, for the sizes.
+    fn lengths<S: TaylorSystem>(&self, series: &S::Series, judged: [(usize, f64); 2], guess: f64) -> [f64; 2] {
+        let mut excess = [[0.0_f64; 2]; 2];
+        let worse = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
         let mut first = 0;
         for &group in S::GROUPS {
             for lane in 0..S::Scalar::LANES {
                 let value = |k: usize, i: usize| series.coefficient(k).component(i).lane(lane);
-                let largest = |of: &dyn Fn(usize) -> f64| {
-                    let worse = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
-                    (first..first + group).map(of).fold(0.0, worse)
-                };
-                let size = largest(&|i| value(0, i).abs().max((value(0, i) + guess * value(1, i)).abs()));
-                let tolerance = (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
-                for (excess, order) in excess.iter_mut().zip(orders) {
-                    for (worst, k) in excess.iter_mut().zip([order - 1, order]) {
-                        let term = largest(&|i| value(k, i).abs()) / tolerance;
-                        // A NaN stays.
-                        *worst = if term > *worst || term.is_nan() { term } else { *worst };
+                let (mut size, mut terms) = (0.0, [[0.0_f64; 2]; 2]);
+                for i in first..first + group {
+                    let start = value(0, i);
+                    size = worse(worse(size, start.abs()), (start + guess * value(1, i)).abs());
+                    for (terms, (order, _)) in terms.iter_mut().zip(judged) {
+                        *terms = [worse(terms[0], value(order - 1, i).abs()), worse(terms[1], value(order, i).abs())];
                     }
+                }
+                let tolerance = (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
+                for (excess, terms) in excess.iter_mut().zip(terms) {
+                    *excess = [worse(excess[0], terms[0] / tolerance), worse(excess[1], terms[1] / tolerance)];
                 }
             }
             first += group;
         }
-        core::array::from_fn(|n| {
-            // The terms fall to the tolerance at a ratio r; those left out are r/(1 − r) of the last one together.
-            let ratio = power(self.tolerance(), 1.0 / orders[n] as f64);
-            let length = |excess: f64, k: usize| power(excess * ratio / (1.0 - ratio), -1.0 / k as f64);
-            let (a, b) = (length(excess[n][0], orders[n] - 1), length(excess[n][1], orders[n]));
-            if a < b || a.is_nan() { a } else { b }
-        })
+        let length = |[before, last]: [f64; 2], (order, tail): (usize, f64)| {
+            let of = |excess: f64, k: usize| -(Real::ln(excess) + tail) / k as f64;
+            let (before, last) = (of(before, order - 1), of(last, order));
+            if before < last || before.is_nan() { before } else { last }
+        };
+        [length(excess[0], judged[0]), length(excess[1], judged[1])]
     }
 }
 
@@ -106,17 +111,38 @@ fn cost(order: usize) -> f64 {
     1.0 + p / 3.0 + p * p / 200.0
 }
 
-/// The order for the next step, when steps are `long` at this order and `short` at one that is lower by [`APART`]: one that makes
-/// more way for its cost.
-fn better_order(order: usize, short: f64, long: f64) -> usize {
-    let gain = long / short;
-    if gain * cost(order - APART) < cost(order) {
-        return (order - 2).max(LOWEST);
+/// The order of the series, and what goes with it.
+struct Order {
+    /// Orders to judge steps at: [`APART`] lower, and the present one, with their tails.
+    judged: [(usize, f64); 2],
+    /// ln of the least gain in length that makes up for the lower order's lower cost, and for a higher order's higher cost.
+    worth: [f64; 2],
+}
+
+impl Order {
+    fn new(control: &Taylor, order: usize) -> Self {
+        let lower = order.saturating_sub(APART).max(2);
+        let worth = |from: usize, to: usize| Real::ln(cost(to) / cost(from));
+        Self {
+            judged: [lower, order].map(|order| (order, control.tail(order))),
+            worth: [worth(lower, order), worth(order, order + APART)],
+        }
     }
-    // ln h is affine in 1/p.
-    let p = order as f64;
-    let further = power(gain, (p - APART as f64) / (p + APART as f64));
-    if further * cost(order) > cost(order + APART) { (order + 2).min(MAX_ORDER) } else { order }
+
+    fn value(&self) -> usize {
+        self.judged[1].0
+    }
+
+    /// The order that makes more way for its cost, from ln of the lengths of steps.
+    fn better(&self, [short, long]: [f64; 2]) -> usize {
+        let ([(lower, _), (order, _)], gain) = (self.judged, long - short);
+        if gain < self.worth[0] {
+            return (order - 2).max(LOWEST.min(order));
+        }
+        // ln h is affine in 1/p.
+        let further = gain * lower as f64 / (order + APART) as f64;
+        if further > self.worth[1] { (order + 2).min(MAX_ORDER) } else { order }
+    }
 }
 
 /// The state a time h after the one that the series starts from.
@@ -170,14 +196,14 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             return Err(stopped(&start, IntegrationErrorKind::InvalidStep { step: longest }));
         }
         let direction = if span < 0.0 { -1.0 } else { 1.0 };
-        let mut order = self.first_order();
+        let mut order = Order::new(self, self.first_order());
         let mut series = S::Series::zero();
         let mut state = start;
         let mut guess = 0.0;
         for _ in 0..limit {
-            expanded(problem, &state, order, &mut series);
-            let lower = order.saturating_sub(APART).max(2);
-            let [short, length] = self.lengths::<S, 2>(&series, [lower, order], direction * guess);
+            expanded(problem, &state, order.value(), &mut series);
+            let lengths = self.lengths::<S>(&series, order.judged, direction * guess);
+            let length = Real::exp(lengths[1]);
             // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
             if length.is_nan() {
                 return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: Part::Derivative }));
@@ -189,7 +215,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             if state.t + h == state.t {
                 return Err(stopped(&state, IntegrationErrorKind::StepTooSmall { step: length }));
             }
-            let mut reached = summed(problem, state.t, &series, order, h);
+            let mut reached = summed(problem, state.t, &series, order.value(), h);
             if last {
                 reached.t = end;
             }
@@ -204,7 +230,10 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             }
             guess = length;
             if self.order.is_none() && length < longest {
-                order = better_order(order, short, length);
+                let better = order.better(lengths);
+                if better != order.value() {
+                    order = Order::new(self, better);
+                }
             }
         }
         Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }))
