@@ -5,10 +5,10 @@ use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map};
 use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
-use crate::kernel::Kernel;
+use crate::kernel::{Candidates, Cost, Kernel};
 use crate::mechanics::{
-    Acting, AddedMassShape, BodyShape, ConfigurationKind, Elimination, Formula, GravityShape, InertiaShape, Scene,
-    System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
+    Acting, AddedMassShape, BodyShape, ConfigurationKind, Elimination, Formula, GravityShape, InertiaShape, Method,
+    Scene, System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
 };
 use crate::mistakes::{
     bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_series, refuse_too_much, system_faults,
@@ -45,7 +45,7 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     if model.taylor.is_some() {
         formulas.push(scene.component_rates(quaternion, &formulas));
     }
-    let functions: Vec<_> = formulas.iter().map(Formula::candidates).collect();
+    let functions: Vec<_> = formulas.iter().map(candidates).collect();
     let kernel = Kernel::lower(&graph, &functions, &rotation).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
@@ -93,7 +93,7 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     if model.taylor.is_some() {
         formulas.push(system.component_rates(&quaternions, &formulas));
     }
-    let functions: Vec<_> = formulas.iter().map(Formula::candidates).collect();
+    let functions: Vec<_> = formulas.iter().map(candidates).collect();
     let kernel = Kernel::lower(&graph, &functions, &definitions).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
@@ -113,6 +113,12 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     };
     let drags = translator.drags();
     Ok(emit(&Derived { subject: Subject::System(subject), drags: &drags, formulas: &formulas, kernel: &kernel }))
+}
+
+/// What a formula is lowered from.
+fn candidates<'g>(formula: &Formula<'g>) -> Candidates<'g> {
+    let cost = if formula.method == Method::ComponentRates { Cost::Series } else { Cost::Values };
+    Candidates { arrangements: formula.arrangements.clone(), cost }
 }
 
 /// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them.

@@ -39,6 +39,7 @@ pub struct Candidates<'g> {
     pub cost: Cost,
 }
 
+#[cfg(test)]
 impl<'g> Candidates<'g> {
     /// Arrangements of which values are wanted.
     pub fn of_values(arrangements: Vec<Vec<Expr<'g>>>) -> Self {

@@ -3,7 +3,6 @@
 use std::cmp::Ordering;
 
 use crate::algebra::{Expr, Graph, Map, Solver};
-use crate::kernel::{Candidates, Cost};
 
 use super::accounts::Account;
 use super::body::{Body, BodyShape};
@@ -55,14 +54,6 @@ pub enum Method {
 pub struct Formula<'g> {
     pub method: Method,
     pub arrangements: Vec<Vec<Expr<'g>>>,
-}
-
-impl<'g> Formula<'g> {
-    /// What is lowered.
-    pub fn candidates(&self) -> Candidates<'g> {
-        let candidates = Candidates::of_values(self.arrangements.clone());
-        if self.method == Method::ComponentRates { Candidates { cost: Cost::Series, ..candidates } } else { candidates }
-    }
 }
 
 /// Terms that a volume of partial angular velocities may have on the way to its normal form.
