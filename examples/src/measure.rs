@@ -66,7 +66,7 @@ impl Comparison {
     /// # Errors
     /// When a run stops before its end.
     pub fn of(fleet: &Fleet, duration: f64) -> Result<Self, Box<dyn Error>> {
-        let (precise, everyday) = (order_8(PRECISE_RATE), Fixed::new(EVERYDAY_STEP));
+        let (precise, everyday) = (order_8(PRECISE_RATE), Fixed::with(&Tableau::RK4, EVERYDAY_STEP));
         let steps = |rate: f64| (SAMPLING * rate).round() as u64;
         let rate = f64::from(PRECISE_RATE);
         let fine = Plan { duration, every: steps(rate) };

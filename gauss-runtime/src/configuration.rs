@@ -17,7 +17,7 @@ use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 use crate::lie::carried::two_sum;
 use crate::lie::{carried, se2, se3, so3};
 use crate::real::Real;
-use crate::triple::norm;
+use crate::triple::{norm, quaternion, rotate, rotate_back, triple, unit_quaternion};
 
 /// A finite-dimensional linear space over `T`: quasi-velocities, momenta, forces, increments of a configuration.
 pub trait VectorSpace<T: Real>: Copy + Debug {
@@ -164,6 +164,10 @@ pub trait Configuration: Copy + Debug {
     /// The Lie algebra: increments, and velocities per unit of time.
     type Tangent: VectorSpace<Self::Scalar>;
 
+    /// The numbers that a configuration consists of: the linear space in which the group lies, and in which
+    /// [`RungeKutta`](crate::integrate::RungeKutta) works.
+    type Components: VectorSpace<Self::Scalar>;
+
     /// `self ∘ exp(tangent)`.
     fn retract(&self, tangent: &Self::Tangent) -> Self;
 
@@ -186,6 +190,23 @@ pub trait Configuration: Copy + Debug {
     ///
     /// The sign of the ½ is that of increments on the right; with increments on the left it would be −½.
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent;
+
+    /// The components.
+    fn components(&self) -> Self::Components;
+
+    /// The configuration of the components as they are, also beside the group: [`renormalise`](Self::renormalise) brings it back.
+    fn from_components(components: &Self::Components) -> Self;
+
+    /// The time derivatives of the components when the configuration moves with the left-trivialised `velocity`:
+    /// `d/dt components(q ∘ exp(t·velocity))` at t = 0.
+    ///
+    /// Stages of a step lie beside the group by a little. There any smooth continuation will do, whose flow stays on the group
+    /// when it starts there; a product of the components and the velocity, as for quaternions `½ q ∘ (ω, 0)`, is one.
+    fn component_rates(&self, velocity: &Self::Tangent) -> Self::Components;
+
+    /// The left-trivialised increment that changes the components by `change`, to first order in it; what leads off the group is
+    /// dropped. `q.tangent(&q.component_rates(&v))` is v.
+    fn tangent(&self, change: &Self::Components) -> Self::Tangent;
 
     /// Whether every component is finite.
     fn is_finite(&self) -> bool;
@@ -212,6 +233,7 @@ pub trait Configuration: Copy + Debug {
 impl<T: Real> Configuration for UnitQuaternion<T> {
     type Scalar = T;
     type Tangent = SVector<T, 3>;
+    type Components = SVector<T, 4>;
 
     #[inline(always)]
     fn retract(&self, tangent: &Self::Tangent) -> Self {
@@ -233,9 +255,30 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
         so3::dexp_inv(v, w)
     }
 
+    /// x, y, z, w: i, j, k first.
+    #[inline(always)]
+    fn components(&self) -> Self::Components {
+        self.as_ref().coords
+    }
+
+    #[inline(always)]
+    fn from_components(components: &Self::Components) -> Self {
+        unit_quaternion(components.data.0[0])
+    }
+
+    #[inline(always)]
+    fn component_rates(&self, velocity: &Self::Tangent) -> Self::Components {
+        SVector::from(so3::component_rates(quaternion(self), triple(velocity)))
+    }
+
+    #[inline(always)]
+    fn tangent(&self, change: &Self::Components) -> Self::Tangent {
+        SVector::from(so3::tangent(quaternion(self), change.data.0[0]))
+    }
+
     #[inline]
     fn is_finite(&self) -> bool {
-        crate::triple::quaternion(self).iter().all(|c| c.is_finite())
+        quaternion(self).iter().all(|c| c.is_finite())
     }
 
     #[inline(always)]
@@ -257,6 +300,7 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
 impl<T: Real> Configuration for Isometry3<T> {
     type Scalar = T;
     type Tangent = SVector<T, 6>;
+    type Components = SVector<T, 7>;
 
     #[inline(always)]
     fn retract(&self, tangent: &Self::Tangent) -> Self {
@@ -276,6 +320,32 @@ impl<T: Real> Configuration for Isometry3<T> {
     #[inline(always)]
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
         se3::dexp_inv(v, w)
+    }
+
+    /// x, y, z, w of the quaternion, then b in the observer's axes.
+    #[inline(always)]
+    fn components(&self) -> Self::Components {
+        let ([x, y, z, w], [a, b, c]) = (quaternion(&self.rotation), triple(&self.translation.vector));
+        SVector::from([x, y, z, w, a, b, c])
+    }
+
+    #[inline(always)]
+    fn from_components(components: &Self::Components) -> Self {
+        let [x, y, z, w, a, b, c] = components.data.0[0];
+        se3::isometry(unit_quaternion([x, y, z, w]), [a, b, c])
+    }
+
+    #[inline(always)]
+    fn component_rates(&self, velocity: &Self::Tangent) -> Self::Components {
+        let (rotation, (u, omega)) = (quaternion(&self.rotation), se3::split(velocity));
+        let ([x, y, z, w], [a, b, c]) = (so3::component_rates(rotation, omega), rotate(rotation, u));
+        SVector::from([x, y, z, w, a, b, c])
+    }
+
+    #[inline(always)]
+    fn tangent(&self, change: &Self::Components) -> Self::Tangent {
+        let (rotation, [x, y, z, w, a, b, c]) = (quaternion(&self.rotation), change.data.0[0]);
+        se3::join(rotate_back(rotation, [a, b, c]), so3::tangent(rotation, [x, y, z, w]))
     }
 
     #[inline]
@@ -302,6 +372,7 @@ impl<T: Real> Configuration for Isometry3<T> {
 impl<T: Real> Configuration for Isometry2<T> {
     type Scalar = T;
     type Tangent = SVector<T, 3>;
+    type Components = SVector<T, 4>;
 
     #[inline(always)]
     fn retract(&self, tangent: &Self::Tangent) -> Self {
@@ -321,6 +392,32 @@ impl<T: Real> Configuration for Isometry2<T> {
     #[inline(always)]
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
         se2::dexp_inv(v, w)
+    }
+
+    /// Cosine and sine of the angle, then b in the observer's axes.
+    #[inline(always)]
+    fn components(&self) -> Self::Components {
+        let (turn, [x, y]) = (self.rotation.as_ref(), self.translation.vector.data.0[0]);
+        SVector::from([turn.re, turn.im, x, y])
+    }
+
+    #[inline(always)]
+    fn from_components(components: &Self::Components) -> Self {
+        let [cosine, sine, x, y] = components.data.0[0];
+        se2::isometry(se2::rotation(cosine, sine), [x, y])
+    }
+
+    #[inline(always)]
+    fn component_rates(&self, velocity: &Self::Tangent) -> Self::Components {
+        let (turn, [u, v, omega]) = (self.rotation.as_ref(), velocity.data.0[0]);
+        SVector::from([-(omega * turn.im), omega * turn.re, turn.re * u - turn.im * v, turn.im * u + turn.re * v])
+    }
+
+    #[inline(always)]
+    fn tangent(&self, change: &Self::Components) -> Self::Tangent {
+        let (turn, [cosine, sine, x, y]) = (self.rotation.as_ref(), change.data.0[0]);
+        let angle = turn.re * sine - turn.im * cosine;
+        SVector::from([turn.re * x + turn.im * y, turn.re * y - turn.im * x, angle])
     }
 
     #[inline]
@@ -348,6 +445,7 @@ impl<T: Real> Configuration for Isometry2<T> {
 impl<T: Real, const N: usize> Configuration for SVector<T, N> {
     type Scalar = T;
     type Tangent = Self;
+    type Components = Self;
 
     #[inline(always)]
     fn retract(&self, tangent: &Self) -> Self {
@@ -371,6 +469,26 @@ impl<T: Real, const N: usize> Configuration for SVector<T, N> {
         *w
     }
 
+    #[inline(always)]
+    fn components(&self) -> Self {
+        *self
+    }
+
+    #[inline(always)]
+    fn from_components(components: &Self) -> Self {
+        *components
+    }
+
+    #[inline(always)]
+    fn component_rates(&self, velocity: &Self) -> Self {
+        *velocity
+    }
+
+    #[inline(always)]
+    fn tangent(&self, change: &Self) -> Self {
+        *change
+    }
+
     #[inline]
     fn is_finite(&self) -> bool {
         VectorSpace::is_finite(self)
@@ -385,6 +503,7 @@ impl<T: Real, const N: usize> Configuration for SVector<T, N> {
 impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (A, B) {
     type Scalar = A::Scalar;
     type Tangent = Product<A::Tangent, B::Tangent>;
+    type Components = Product<A::Components, B::Components>;
 
     #[inline(always)]
     fn retract(&self, tangent: &Self::Tangent) -> Self {
@@ -407,6 +526,26 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
     #[inline(always)]
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
         Product { first: A::dexp_inv(&v.first, &w.first), second: B::dexp_inv(&v.second, &w.second) }
+    }
+
+    #[inline(always)]
+    fn components(&self) -> Self::Components {
+        Product { first: self.0.components(), second: self.1.components() }
+    }
+
+    #[inline(always)]
+    fn from_components(components: &Self::Components) -> Self {
+        (A::from_components(&components.first), B::from_components(&components.second))
+    }
+
+    #[inline(always)]
+    fn component_rates(&self, velocity: &Self::Tangent) -> Self::Components {
+        Product { first: self.0.component_rates(&velocity.first), second: self.1.component_rates(&velocity.second) }
+    }
+
+    #[inline(always)]
+    fn tangent(&self, change: &Self::Components) -> Self::Tangent {
+        Product { first: self.0.tangent(&change.first), second: self.1.tangent(&change.second) }
     }
 
     #[inline]

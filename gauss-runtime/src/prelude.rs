@@ -11,8 +11,9 @@ pub use crate::forces::{Element, ForcedSystem};
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;
 pub use crate::integrate::{
-    Adaptive, Collocation, CommutatorFree4, Composed, Composition, Crossing, Fixed, InputSource, IntegrationError,
-    IntegrationErrorKind, MomentumForm, Sample, Simulation, Tableau, Taylor, Variational, VelocityForm,
+    Adaptive, Classical4, Collocation, CommutatorFree4, Composed, Composition, Crossing, DormandPrince5,
+    DormandPrince8, Fixed, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, RungeKutta, Sample,
+    Simulation, Tableau, Taylor, Variational, VelocityForm, Verner9,
 };
 pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]

@@ -281,26 +281,25 @@ implement_real!(f32, 24;
 /// `p/q` rounded once, to `digits ≤ 53` binary digits, ties to even; by integer long division, because operands beyond
 /// 2⁵³ would be rounded before the division.
 #[cold]
-fn rounded_ratio(p: i64, q: i64, digits: u32) -> f64 {
+pub(crate) const fn rounded_ratio(p: i64, q: i64, digits: u32) -> f64 {
     if p == 0 || q == 0 {
         return p as f64 / q as f64;
     }
-    let numerator = u128::from(p.unsigned_abs());
-    let denominator = u128::from(q.unsigned_abs());
+    let numerator = p.unsigned_abs() as u128;
+    let denominator = q.unsigned_abs() as u128;
     // A shift after which the quotient has at least digits + 1 binary digits; at most 63 + 55 digits are needed.
-    let digits_of = |n: u128| 128 - n.leading_zeros();
-    let shift = (digits + 2 + digits_of(denominator)).saturating_sub(digits_of(numerator));
+    let shift = (digits + 2 + (128 - denominator.leading_zeros())).saturating_sub(128 - numerator.leading_zeros());
     let scaled = numerator << shift;
     let quotient = scaled / denominator;
-    let inexact = scaled % denominator != 0;
-    let surplus = digits_of(quotient) - digits;
+    let inexact = !scaled.is_multiple_of(denominator);
+    let surplus = 128 - quotient.leading_zeros() - digits;
     let kept = quotient >> surplus;
     let half = 1_u128 << (surplus - 1);
     let rest = quotient & ((1 << surplus) - 1);
     let up = rest > half || (rest == half && (inexact || kept & 1 == 1));
-    let mantissa = (kept + u128::from(up)) as f64;
+    let mantissa = (kept + up as u128) as f64;
     // 2^(surplus − shift), exact: the exponent stays within ±128.
-    let exponent = i64::from(surplus) - i64::from(shift);
+    let exponent = surplus as i64 - shift as i64;
     let power = f64::from_bits(((1023 + exponent) as u64) << 52);
     let magnitude = mantissa * power;
     if (p < 0) == (q < 0) { magnitude } else { -magnitude }

@@ -6,7 +6,7 @@
 
 use nalgebra::SVector;
 
-use crate::configuration::VectorSpace;
+use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -15,8 +15,7 @@ pub const MAX_ORDER: usize = 30;
 
 /// A system whose motion can be written as a power series in time: `#[gauss(taylor)]`.
 ///
-/// The variables are the components of the configuration (unit quaternion x, y, z, w before the translation of a pose,
-/// cosine before sine before the translation in the plane, scalar coordinates after the elements of groups) and then z.
+/// The variables are the components of the configuration ([`Configuration::Components`]) and then z.
 pub trait TaylorSystem: GaussSystem<Input = ()> {
     /// The coefficients of all variables.
     type Series: PowerSeries<Self::Scalar>;
@@ -36,13 +35,24 @@ pub trait TaylorSystem: GaussSystem<Input = ()> {
         order: usize,
         series: &mut Self::Series,
     );
-
-    /// The configuration, as its components say, not brought back to norm 1, and z.
-    fn state_of(
-        &self,
-        variables: &<Self::Series as PowerSeries<Self::Scalar>>::Variables,
-    ) -> (Self::Configuration, Self::Speeds);
 }
+
+/// The configuration, as its components say and not brought back onto the group, and z of a value of each variable.
+pub(crate) fn state_of<S: TaylorSystem>(
+    variables: &<S::Series as PowerSeries<S::Scalar>>::Variables,
+) -> (S::Configuration, S::Speeds) {
+    let mut components = ComponentsOf::<S>::zero();
+    for i in 0..ComponentsOf::<S>::DIM {
+        components.set_component(i, variables.component(i));
+    }
+    let mut speeds = S::Speeds::zero();
+    for i in 0..S::DOF {
+        speeds.set_component(i, variables.component(ComponentsOf::<S>::DIM + i));
+    }
+    (S::Configuration::from_components(&components), speeds)
+}
+
+type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Components;
 
 /// Coefficients of several power series.
 pub trait PowerSeries<T: Real> {

@@ -10,6 +10,7 @@ use crate::chart::Chart;
 use crate::real::Real;
 use crate::system::{Equations, GaussSystem, Operations};
 
+pub(crate) mod coasting;
 pub(crate) mod constrained;
 pub(crate) mod dual;
 pub(crate) mod order;

@@ -33,8 +33,8 @@ pub fn twist(rotation: &UnitQuaternion<f64>, velocity: Vector3<f64>, omega: Vect
 
 /// The method of order 8 with steps that leave errors near rounding.
 #[must_use]
-pub fn precise() -> Adaptive<f64, 12> {
-    Adaptive::with(&Tableau::DORMAND_PRINCE_8, 1e-14, 1e-14)
+pub fn precise() -> Adaptive {
+    Adaptive::new(1e-14, 1e-14)
 }
 
 /// T + V grows at this rate along the motion: the power of constraints that do work.

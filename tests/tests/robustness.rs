@@ -63,8 +63,9 @@ fn a_chart_near_its_singularity_is_right_or_refused() {
         let start = body.configuration(&angles.pose(0.0, &q)).expect("a rotation");
         let omega = body.speeds(0.0, &start, &angles.body_twist(0.0, &q, &z));
         let truth = Simulation::new(&body).adaptive(1e-12, 1e-12).run(start, omega, 0.0..1.0).expect("no singularity");
-        // The tolerance of 1e-11 a step over some hundreds of steps, and rounding of the angles divided by the distance.
-        let allowed = 1e-8 + 1e3 * f64::EPSILON / distance;
+        // The tolerance of 1e-11 a step over some hundreds of steps; of the some ten steps that pass the singularity, and the
+        // rounding of the angles, divided by the distance.
+        let allowed = 1e-8 + (10.0 * 1e-11 + 1e3 * f64::EPSILON) / distance;
         let error = end.rotation.angle_to(&truth.last().q);
         assert!(error < allowed, "{error:e} rad at {distance:e} from gimbal lock, allowed {allowed:e}");
     }

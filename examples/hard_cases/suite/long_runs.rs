@@ -61,7 +61,7 @@ pub fn unit_quaternion(effort: Effort) -> Measures {
     };
     // One more than a multiple of anything: the norm is seen at all phases of the motion.
     let every = (count / 10_000).max(1) | 1;
-    let run = Simulation::new(&kernel).control(Fixed::new(STEP)).every(every).observe(see);
+    let run = Simulation::new(&kernel).control(Fixed::with(&Tableau::RK4, STEP)).every(every).observe(see);
     run.run_to_end(q, z, 0.0..STEP * count as f64)?;
 
     let typed_count = count.min(1_000_000);

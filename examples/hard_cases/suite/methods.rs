@@ -35,13 +35,13 @@ macro_rules! splitting {
 pub(super) use splitting;
 
 /// Dormand and Prince, order 8, with steps for errors near rounding.
-pub fn tight() -> Adaptive<f64, 12> {
+pub fn tight() -> Adaptive {
     adaptive_8(1e-14)
 }
 
 /// The same with another tolerance.
-pub fn adaptive_8(tolerance: f64) -> Adaptive<f64, 12> {
-    Adaptive::with(&Tableau::DORMAND_PRINCE_8, tolerance, tolerance)
+pub fn adaptive_8(tolerance: f64) -> Adaptive {
+    Adaptive::new(tolerance, tolerance)
 }
 
 /// A run from a pose and a twist to its end, and the number of steps. Where a run stops the error is infinite.

@@ -43,7 +43,7 @@ pub fn stiff_drag(effort: Effort) -> Measures {
     // Methods with steps a thousand times longer than the drag's time: stable is who stays within where it started.
     let mut measures = Vec::new();
     for (method, (reached, note)) in [
-        ("RKMK 4, h = 1 s", sinking(&kernel, Fixed::new(1.0), rate, duration)),
+        ("RKMK 4, h = 1 s", sinking(&kernel, Fixed::with(&Tableau::RK4, 1.0), rate, duration)),
         ("order 8, h = 1 s", sinking(&kernel, super::methods::order_8(1.0), rate, duration)),
         ("Gauss 6 by fixed point, h = 1 s", sinking(&kernel, super::methods::gauss_6(1.0), rate, duration)),
     ] {
@@ -54,7 +54,7 @@ pub fn stiff_drag(effort: Effort) -> Measures {
                 .note(note),
         );
     }
-    let (reached, note) = sinking(&kernel, Adaptive::new(1e-8, 1e-8), rate, duration);
+    let (reached, note) = sinking(&kernel, Adaptive::with(&Tableau::DORMAND_PRINCE_5, 1e-8, 1e-8), rate, duration);
     measures.push(
         Measure::new("speed with steps by tolerance, relative", "adaptive 5(4), 1e-8", reached, 1e-5)
             .because("tolerance 1e-8 of speeds of 0.01")

@@ -323,7 +323,6 @@ impl<'a, 'g> Derived<'a, 'g> {
         let (left, right): (Vec<_>, Vec<_>) = lanes.into_iter().unzip();
         let (count, width) = (variables.len(), left.len());
         let groups = self.component_groups();
-        let state = self.state_of_components();
         Some(quote! {
             #[automatically_derived]
             #[allow(unused_variables, clippy::all, clippy::pedantic)]
@@ -359,13 +358,6 @@ impl<'a, 'g> Derived<'a, 'g> {
                         __time = __zero;
                     }
                 }
-                fn state_of(
-                    &self,
-                    variables: &<Self::Series as #private::PowerSeries<Self::Scalar>>::Variables,
-                ) -> (Self::Configuration, Self::Speeds) {
-                    let [#(#variables),*] = #private::components(variables);
-                    #state
-                }
             }
         })
     }
@@ -392,39 +384,5 @@ impl<'a, 'g> Derived<'a, 'g> {
         };
         groups.extend(self.speeds().iter().map(|_| 1));
         groups
-    }
-
-    /// Configuration and z from the components, named as `indexed("q", n)`.
-    fn state_of_components(&self) -> TokenStream {
-        let private = self.private();
-        let mut next = 0;
-        let mut take = |count: usize| {
-            let names = (next..next + count).map(|n| indexed("q", n));
-            next += count;
-            quote!([#(#names),*])
-        };
-        let configuration = match self.subject {
-            Subject::Body { scene, .. } => match scene.kinematics.kind {
-                ConfigurationKind::Pose => {
-                    let (rotation, position) = (take(4), take(3));
-                    quote!(#private::isometry_of_components(#rotation, #position))
-                }
-                ConfigurationKind::Rotation => {
-                    let rotation = take(4);
-                    quote!(#private::quaternion_of_components(#rotation))
-                }
-                ConfigurationKind::PlanePose => {
-                    let (rotation, position) = (take(2), take(2));
-                    quote!(#private::plane_of_components(#rotation, #position))
-                }
-                ConfigurationKind::Coordinates => {
-                    let coordinates = take(scene.kinematics.configuration.len());
-                    quote!(#private::vector(#coordinates))
-                }
-            },
-            Subject::System(subject) => subject.configuration_of_components(&private, &mut take),
-        };
-        let speeds = take(self.degrees_of_freedom());
-        quote!((#configuration, #private::vector(#speeds)))
     }
 }

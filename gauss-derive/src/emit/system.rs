@@ -105,31 +105,6 @@ impl<'g> SystemSubject<'_, 'g> {
         arguments
     }
 
-    /// The configuration from its components, of which `take(n)` gives the next n as an array.
-    pub fn configuration_of_components(
-        &self,
-        private: &TokenStream,
-        take: &mut impl FnMut(usize) -> TokenStream,
-    ) -> TokenStream {
-        let factors = self.factors().into_iter().map(|factor| match factor {
-            Factor::Scalars { symbols } => {
-                let scalars = take(symbols.len());
-                quote!(#private::vector(#scalars))
-            }
-            Factor::Group { coordinate } => match self.coordinates()[coordinate] {
-                Coordinate::Pose(..) => {
-                    let (rotation, position) = (take(4), take(3));
-                    quote!(#private::isometry_of_components(#rotation, #position))
-                }
-                _ => {
-                    let rotation = take(4);
-                    quote!(#private::quaternion_of_components(#rotation))
-                }
-            },
-        });
-        nested(factors.collect::<Vec<_>>(), |a, b| quote!((#a, #b)))
-    }
-
     /// The components of an increment of the configuration, in the order of the coordinates, as its type.
     pub fn tangent(&self, derived: &Derived<'_, '_>, outputs: &[TokenStream]) -> TokenStream {
         let private = derived.private();

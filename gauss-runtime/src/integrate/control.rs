@@ -4,11 +4,12 @@ use core::ops::ControlFlow;
 
 use super::error::{IntegrationError, IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::OneStep;
+use super::one_step::{EstimatingStep, OneStep};
 use super::projection::{accept, consistent_start, on_constraints};
 use super::rkmk::Rkmk;
+use super::runge_kutta::RungeKutta;
 use super::step_length::{StepLength, power};
-use super::tableau::Tableau;
+use super::tableau::{DormandPrince8, Tableau};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -66,21 +67,21 @@ pub(super) fn one_step<S: GaussSystem, M: OneStep<S>, F: Form<S>, I: InputSource
 
 /// Steps of one length, by any method of one step. The last one ends where it should.
 #[derive(Clone, Copy, Debug)]
-pub struct Fixed<T, M = Rkmk<T, 4>> {
+pub struct Fixed<T, M = RungeKutta<DormandPrince8, 12>> {
     method: M,
     step: T,
 }
 
 impl<T: Real> Fixed<T> {
-    /// The classical method of order 4 with steps of length |step|; the direction is that of the interval.
+    /// [`RungeKutta`] of [`DormandPrince8`] with steps of length |step|; the direction is that of the interval.
     #[must_use]
     pub fn new(step: T) -> Self {
-        Self::with(&Tableau::RK4, step)
+        Self::by(RungeKutta(DormandPrince8), step)
     }
 }
 
 impl<T: Real, const S: usize> Fixed<T, Rkmk<T, S>> {
-    /// The Runge–Kutta–Munthe-Kaas method of any tableau, for example [`Tableau::DORMAND_PRINCE_8`].
+    /// The Runge–Kutta–Munthe-Kaas method of any tableau, for example [`Tableau::RK4`].
     #[must_use]
     pub fn with(tableau: &Tableau<S>, step: T) -> Self {
         Self::by(Rkmk::new(tableau), step)
@@ -88,53 +89,50 @@ impl<T: Real, const S: usize> Fixed<T, Rkmk<T, S>> {
 }
 
 impl<T: Real, M> Fixed<T, M> {
-    /// Any method.
+    /// Any method, for example `Fixed::by(RungeKutta(Verner9), 0.1)`.
     #[must_use]
     pub fn by(method: M, step: T) -> Self {
         Self { method, step }
     }
 }
 
-/// Steps that keep the estimated error of each within a tolerance: an embedded pair of S stages with a PI controller.
+/// Steps that keep the estimated error of each within a tolerance: an embedded pair, or any other [`EstimatingStep`], with a PI
+/// controller (Gustafsson; Hairer, Nørsett & Wanner II.4).
 #[derive(Clone, Copy, Debug)]
-pub struct Adaptive<T, const S: usize = 7> {
-    method: Rkmk<T, S>,
-    /// The power of the step that the error estimate goes with.
-    estimate_order: f64,
+pub struct Adaptive<M = RungeKutta<DormandPrince8, 12>> {
+    method: M,
     relative: f64,
     absolute: f64,
     pub(super) first_step: Option<f64>,
     pub(super) largest_step: f64,
 }
 
-impl<T: Real> Adaptive<T> {
-    /// Dormand–Prince 5(4).
+impl Adaptive {
+    /// [`RungeKutta`] of [`DormandPrince8`].
     ///
     /// The error of a step is measured component by component against `absolute + relative·size`, where the size is
     /// |y| for velocities or momenta, 1 for a rotation, |b| for a translation and |q| for a plain coordinate, and the root
     /// mean square must not exceed 1.
     #[must_use]
     pub fn new(relative: f64, absolute: f64) -> Self {
-        Self::with(&Tableau::DORMAND_PRINCE_5, relative, absolute)
+        Self::by(RungeKutta(DormandPrince8), relative, absolute)
     }
 }
 
-impl<T: Real, const S: usize> Adaptive<T, S> {
-    /// Any embedded pair. [`Tableau::DORMAND_PRINCE_8`] has two estimates, e of order h⁶ and ê of order h⁴; the error of a step is
-    /// taken for `e²/√(e² + ê²/100)` then, of order h⁸ (DOP853; Hairer, Nørsett & Wanner II.10).
+impl<T: Real, const S: usize> Adaptive<Rkmk<T, S>> {
+    /// The Runge–Kutta–Munthe-Kaas method of any embedded pair.
     #[must_use]
     pub fn with(tableau: &Tableau<S>, relative: f64, absolute: f64) -> Self {
-        Self {
-            method: Rkmk::new(tableau),
-            estimate_order: match tableau.coarse_order {
-                0 => f64::from(tableau.embedded_order + 1),
-                coarse => f64::from(2 * (tableau.embedded_order + 1) - (coarse + 1)),
-            },
-            relative,
-            absolute,
-            first_step: None,
-            largest_step: f64::INFINITY,
-        }
+        Self::by(Rkmk::new(tableau), relative, absolute)
+    }
+}
+
+impl<M> Adaptive<M> {
+    /// Any method that estimates its error, for example `Adaptive::by(RungeKutta(Verner9), 1e-12, 1e-12)`; tolerances as in
+    /// [`Adaptive::new`].
+    #[must_use]
+    pub fn by(method: M, relative: f64, absolute: f64) -> Self {
+        Self { method, relative, absolute, first_step: None, largest_step: f64::INFINITY }
     }
 }
 
@@ -232,7 +230,7 @@ impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
     }
 }
 
-impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
+impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
     fn drive<F: Form<S>, I: InputSource<S>>(
         &self,
         problem: &Problem<'_, S, F, I>,
@@ -262,7 +260,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
 
         let mut state = start;
         let mut length = first.min(longest);
-        let mut lengths = StepLength::new(self.estimate_order, S::SMOOTHNESS);
+        let mut lengths = StepLength::new(self.method.estimate_order(), S::SMOOTHNESS);
         for _ in 0..limit {
             let left = (end - state.t).lane(0).abs();
             // Stretch by 1 % rather than leave a sliver.
@@ -277,7 +275,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
                 let unchanged = state.t + S::Scalar::from_f64(direction * half) == state.t;
                 if unchanged { Err(stopped(&state, kind)) } else { Ok(half) }
             };
-            let (step, coarse) = match self.method.step_and_coarse_error(problem, &state, &rates, signed) {
+            let (step, coarse) = match self.method.step_and_estimates(problem, &state, &rates, signed) {
                 Ok(step) => step,
                 Err(kind) => {
                     length = half(kind)?;
@@ -287,7 +285,7 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
             };
             let error = self.scaled_error(&state, &step.state, &step.error, coarse.as_ref());
             let used = if last { left } else { length };
-            if error > lengths.limit() {
+            if error.is_nan() || error > lengths.limit() {
                 length = used * lengths.reject(error);
                 continue;
             }
@@ -323,52 +321,51 @@ impl<S: GaussSystem, const N: usize> Control<S> for Adaptive<S::Scalar, N> {
     }
 }
 
-impl<T: Real, const N: usize> Adaptive<T, N> {
-    /// The error of a step in tolerances, the worst lane.
-    fn scaled_error<S: GaussSystem<Scalar = T>>(
+impl<M> Adaptive<M> {
+    /// The error of a step in tolerances: the root mean square over the components, of the worst lane. NaN when an error is.
+    #[inline(always)]
+    fn scaled_error<S: GaussSystem>(
         &self,
         from: &State<S>,
         to: &State<S>,
         fine: &Rates<S>,
         coarse: Option<&Rates<S>>,
     ) -> f64 {
-        let in_lane = |lane| {
-            let fine = self.scaled_norm_of_lane(from, to, fine, lane);
-            coarse.map_or(fine, |coarse| combined(fine, self.scaled_norm_of_lane(from, to, coarse, lane)))
-        };
-        (0..T::LANES).map(in_lane).fold(0.0, f64::max)
+        let components = (TangentOf::<S>::DIM + S::Speeds::DIM).max(1) as f64;
+        let mut worst = 0.0;
+        for lane in 0..S::Scalar::LANES {
+            let squares = |size: f64, fine: S::Scalar, coarse: Option<S::Scalar>| {
+                // Purely relative control of a null component asks for what is null too.
+                let per_tolerance = 1.0 / (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
+                let square = |error: S::Scalar| {
+                    let ratio = error.lane(lane) * per_tolerance;
+                    ratio * ratio
+                };
+                [square(fine), coarse.map_or(0.0, square)]
+            };
+            let sum = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a + c, b + d];
+            let (mut of_q, mut of_y) = ([0.0; 2], [0.0; 2]);
+            for i in 0..TangentOf::<S>::DIM {
+                let size = from.q.magnitude(i).max(to.q.magnitude(i));
+                let coarse = coarse.map(|coarse| coarse.configuration.component(i));
+                of_q = sum(of_q, squares(size, fine.configuration.component(i), coarse));
+            }
+            for i in 0..S::Speeds::DIM {
+                let size = from.y.component(i).lane(lane).abs().max(to.y.component(i).lane(lane).abs());
+                let coarse = coarse.map(|coarse| coarse.variables.component(i));
+                of_y = sum(of_y, squares(size, fine.variables.component(i), coarse));
+            }
+            let [fine, coarse] = sum(of_q, of_y);
+            let error = Real::sqrt(combined(fine, coarse) * (1.0 / components));
+            // Written so that a NaN stays.
+            worst = if error <= worst { worst } else { error };
+        }
+        worst
     }
 
     /// The root mean square of the components of `error`, each against its tolerance; the worst lane.
-    fn scaled_norm<S: GaussSystem<Scalar = T>>(&self, from: &State<S>, to: &State<S>, error: &Rates<S>) -> f64 {
+    fn scaled_norm<S: GaussSystem>(&self, from: &State<S>, to: &State<S>, error: &Rates<S>) -> f64 {
         self.scaled_error(from, to, error, None)
-    }
-
-    fn scaled_norm_of_lane<S: GaussSystem<Scalar = T>>(
-        &self,
-        from: &State<S>,
-        to: &State<S>,
-        error: &Rates<S>,
-        lane: usize,
-    ) -> f64 {
-        let mut sum = 0.0;
-        for i in 0..TangentOf::<S>::DIM {
-            let size = from.q.magnitude(i).max(to.q.magnitude(i));
-            let ratio = self.against(error.configuration.component(i).lane(lane), size);
-            sum += ratio * ratio;
-        }
-        for i in 0..S::Speeds::DIM {
-            let size = from.y.component(i).lane(lane).abs().max(to.y.component(i).lane(lane).abs());
-            let ratio = self.against(error.variables.component(i).lane(lane), size);
-            sum += ratio * ratio;
-        }
-        Real::sqrt(sum / (TangentOf::<S>::DIM + S::Speeds::DIM).max(1) as f64)
-    }
-
-    /// An error against its tolerance. Purely relative control of a null component asks for what is null too.
-    fn against(&self, error: f64, size: f64) -> f64 {
-        let tolerance = self.absolute + self.relative * size;
-        if error == 0.0 { 0.0 } else { error.abs() / tolerance.max(f64::MIN_POSITIVE) }
     }
 
     /// A first step from the sizes of the state, of its derivative and of the change of the derivative over an Euler step
@@ -381,15 +378,16 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         direction: f64,
     ) -> f64
     where
-        S: GaussSystem<Scalar = T>,
+        S: GaussSystem,
         F: Form<S>,
         I: InputSource<S>,
+        M: EstimatingStep<S>,
     {
         let size = {
             // The state itself as an "error": |y| with the magnitudes of q.
             let mut sizes: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: start.y };
             for i in 0..TangentOf::<S>::DIM {
-                sizes.configuration.set_component(i, T::from_f64(start.q.magnitude(i)));
+                sizes.configuration.set_component(i, S::Scalar::from_f64(start.q.magnitude(i)));
             }
             self.scaled_norm(start, start, &sizes)
         };
@@ -402,7 +400,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let turn = S::Configuration::increment_angle(&rates.configuration);
         let guess = if turn * guess > 0.1 { 0.1 / turn } else { guess };
 
-        let h = T::from_f64(direction * guess);
+        let h = S::Scalar::from_f64(direction * guess);
         let euler = State {
             t: start.t + h,
             q: start.q.retract(&rates.configuration.scale(h)),
@@ -413,25 +411,25 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             return guess * 1e-3;
         }
         let change = Rates {
-            configuration: next.configuration.add_scaled(-T::one(), &rates.configuration),
-            variables: next.variables.add_scaled(-T::one(), &rates.variables),
+            configuration: next.configuration.add_scaled(-S::Scalar::one(), &rates.configuration),
+            variables: next.variables.add_scaled(-S::Scalar::one(), &rates.variables),
         };
         let curvature = self.scaled_norm(start, start, &change) / guess;
         let steepest = speed.max(curvature);
         let second = if steepest <= 1e-15 {
             (guess * 1e-3).max(1e-6)
         } else {
-            power(0.01 / steepest, 1.0 / self.estimate_order)
+            power(0.01 / steepest, 1.0 / self.method.estimate_order())
         };
         if second > 0.0 { second.min(100.0 * guess) } else { guess }
     }
 }
 
-/// `e²/√(e² + ê²/100)`: e itself where ê is too large or too small beside it for the formula to be computed.
+/// The square of `e²/√(e² + ê²/100)` from the squares of e and ê: that of e itself where ê is too large or too small beside it
+/// for the formula to be computed.
 fn combined(fine: f64, coarse: f64) -> f64 {
-    let ratio = 0.1 * (coarse / fine);
-    let divisor = Real::sqrt(1.0 + ratio * ratio);
-    if divisor.is_finite() { fine / divisor } else { fine }
+    let part = fine / (fine + 0.01 * coarse);
+    if part > 0.0 { fine * part } else { fine }
 }
 
 /// The integer part of a count; beyond 2⁵³ every number is an integer.
@@ -446,27 +444,28 @@ fn round(count: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrate::{Simulation, VelocityForm};
+    use crate::integrate::{DormandPrince5, Simulation, VelocityForm, Verner9};
     use crate::testing::FreeTop;
     use crate::testing::order::{TOP, TORQUE, distance, fitted_order, march, start_by_velocity};
 
     #[test]
     fn two_estimates_make_one() {
-        assert_eq!(combined(1e-3, 0.0), 1e-3);
+        assert_eq!(combined(1e-6, 0.0), 1e-6);
         // e = 3, ê/10 = 4.
-        assert!((combined(3.0, 40.0) - 9.0 / 5.0).abs() < 4.0 * f64::EPSILON);
+        assert!((combined(9.0, 1600.0) - (9.0_f64 / 5.0).powi(2)).abs() < 4.0 * f64::EPSILON);
         // What cannot be computed is not taken for small.
         assert_eq!(combined(0.0, 0.0), 0.0);
         assert_eq!(combined(0.0, 1.0), 0.0);
-        assert_eq!(combined(1e-200, 1.0), 1e-200);
+        assert_eq!(combined(1e-200, f64::INFINITY), 1e-200);
         assert_eq!(combined(f64::INFINITY, f64::INFINITY), f64::INFINITY);
+        assert!(combined(f64::NAN, 1.0).is_nan());
     }
 
     /// Over some states of a motion together, because where a leading term vanishes the slope says nothing.
     #[test]
     fn estimates_go_with_the_power_that_the_control_takes() {
-        fn measured<const S: usize>(tableau: &Tableau<S>) -> (f64, f64) {
-            let control = Adaptive::with(tableau, 0.0, 1.0);
+        fn measured(method: impl EstimatingStep<FreeTop<f64>>) -> (f64, f64) {
+            let control = Adaptive::by(method, 0.0, 1.0);
             let problem = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
             let points = [0.05, 0.065, 0.08, 0.1].map(|h| {
                 let mut start: State<FreeTop<f64>> = start_by_velocity();
@@ -474,18 +473,22 @@ mod tests {
                 for _ in 0..20 {
                     start = march(&control.method, &problem, &start, 0.5, 5);
                     let rates = problem.rates(&start);
-                    let (step, coarse) =
-                        control.method.step_and_coarse_error(&problem, &start, &rates, h).expect("steps");
+                    let (step, coarse) = control.method.step_and_estimates(&problem, &start, &rates, h).expect("steps");
                     sum += control.scaled_error(&start, &step.state, &step.error, coarse.as_ref());
                 }
                 (h, sum)
             });
             // The sum of twenty estimates, each of steps a tenth long and less.
-            (control.estimate_order, fitted_order(&points, f64::EPSILON))
+            (control.method.estimate_order(), fitted_order(&points, f64::EPSILON))
         }
-        for (stated, found) in
-            [measured(&Tableau::DORMAND_PRINCE_5), measured(&Tableau::DORMAND_PRINCE_8), measured(&Tableau::VERNER_9)]
-        {
+        for (stated, found) in [
+            measured(Rkmk::new(&Tableau::DORMAND_PRINCE_5)),
+            measured(Rkmk::new(&Tableau::DORMAND_PRINCE_8)),
+            measured(Rkmk::new(&Tableau::VERNER_9)),
+            measured(RungeKutta(DormandPrince5)),
+            measured(RungeKutta(DormandPrince8)),
+            measured(RungeKutta(Verner9)),
+        ] {
             assert!((found - stated).abs() < 0.5, "{found} instead of {stated}");
         }
     }
@@ -494,29 +497,38 @@ mod tests {
     /// more so the smaller the tolerance.
     #[test]
     fn high_orders_keep_the_tolerance_for_less() {
-        fn run<const S: usize>(tableau: &Tableau<S>, tolerance: f64) -> (f64, usize) {
+        fn run(method: impl EstimatingStep<FreeTop<f64>>, stages: usize, tolerance: f64) -> (f64, usize, usize) {
             let start = start_by_velocity();
-            let control = Adaptive::with(tableau, tolerance, tolerance);
+            let control = Adaptive::by(method, tolerance, tolerance);
             let run = Simulation::new(&TOP).input_from(TORQUE).control(control).run(start.q, start.y, 0.0..10.0);
             let run = run.expect("runs");
             let end = run.last();
             let problem = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
             let exact = march(&Rkmk::new(&Tableau::VERNER_9), &problem, &start, 10.0, 1000);
-            (distance(&State { t: end.t, q: end.q, y: end.z }, &exact), (run.len() - 1) * S)
+            let steps = run.len() - 1;
+            (distance(&State { t: end.t, q: end.q, y: end.z }, &exact), steps, steps * stages)
         }
         for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
-            let (five, eight, nine) = (
-                run(&Tableau::DORMAND_PRINCE_5, tolerance),
-                run(&Tableau::DORMAND_PRINCE_8, tolerance),
-                run(&Tableau::VERNER_9, tolerance),
-            );
-            // Errors of steps add up, and are carried on about as large; sizes are up to 2.
-            for (error, steps) in [(five.0, five.1 / 7), (eight.0, eight.1 / 12), (nine.0, nine.1 / 16)] {
-                assert!(error < 3.0 * steps as f64 * tolerance, "{tolerance:e}: {error:e} in {steps} steps");
-            }
-            assert!(eight.1 < five.1 && nine.1 < five.1, "{tolerance:e}: {} {} {}", five.1, eight.1, nine.1);
-            if tolerance == 1e-12 {
-                assert!(4 * eight.1 < five.1 && nine.1 < eight.1, "{} {} {}", five.1, eight.1, nine.1);
+            for [five, eight, nine] in [
+                [
+                    run(Rkmk::new(&Tableau::DORMAND_PRINCE_5), 6, tolerance),
+                    run(Rkmk::new(&Tableau::DORMAND_PRINCE_8), 12, tolerance),
+                    run(Rkmk::new(&Tableau::VERNER_9), 16, tolerance),
+                ],
+                [
+                    run(RungeKutta(DormandPrince5), 6, tolerance),
+                    run(RungeKutta(DormandPrince8), 12, tolerance),
+                    run(RungeKutta(Verner9), 16, tolerance),
+                ],
+            ] {
+                // Errors of steps add up, and are carried on about as large; sizes are up to 2.
+                for (error, steps, _) in [five, eight, nine] {
+                    assert!(error < 3.0 * steps as f64 * tolerance, "{tolerance:e}: {error:e} in {steps} steps");
+                }
+                assert!(eight.2 < five.2 && nine.2 < five.2, "{tolerance:e}: {} {} {}", five.2, eight.2, nine.2);
+                if tolerance == 1e-12 {
+                    assert!(3 * eight.2 < five.2 && nine.2 < eight.2, "{} {} {}", five.2, eight.2, nine.2);
+                }
             }
         }
     }

@@ -7,7 +7,7 @@ use std::vec::Vec;
 
 use super::*;
 use crate::integrate::tests::slope;
-use crate::integrate::{IntegrationErrorKind, Observer, Sample, Simulation};
+use crate::integrate::{Classical4, Fixed, IntegrationErrorKind, Observer, RungeKutta, Sample, Simulation};
 use crate::system::Smoothness;
 use crate::testing::oscillator::{Law, Oscillator};
 
@@ -38,7 +38,8 @@ fn events_are_as_accurate_as_the_method_and_lie_on_zero() {
     let (q0, z0) = origin();
     let mut points = Vec::new();
     for h in [0.2, 0.1, 0.05, 0.025] {
-        let run = Simulation::new(&SPRING).input(undriven).event(Crossing::Any, |_, _, z: &One| z[0]).fixed_step(h);
+        let run = Simulation::new(&SPRING).input(undriven).event(Crossing::Any, |_, _, z: &One| z[0]);
+        let run = run.control(Fixed::by(RungeKutta(Classical4), h));
         let trajectory = run.run(q0, z0, 0.0..20.0).expect("runs");
         assert_eq!(trajectory.events().len(), 6);
         let mut worst = 0.0_f64;

@@ -50,7 +50,7 @@ macro_rules! dispatch {
     ($method:expr, $control:ident => $call:expr) => {
         match *$method {
             Method::RungeKutta4 { step } => {
-                let $control = Fixed::new(step);
+                let $control = Fixed::with(&Tableau::RK4, step);
                 $call
             }
             Method::CommutatorFree4 { step } => {
@@ -62,7 +62,7 @@ macro_rules! dispatch {
                 $call
             }
             Method::DormandPrince5 { relative, absolute } => {
-                let $control = Adaptive::new(relative, absolute);
+                let $control = Adaptive::with(&Tableau::DORMAND_PRINCE_5, relative, absolute);
                 $call
             }
             Method::DormandPrince8 { relative, absolute } => {

@@ -5,6 +5,7 @@
 //! | [`form`] | velocity form and momentum form, inputs, and the [`Problem`] that a method sees |
 //! | [`tableau`] | coefficients of Runge–Kutta methods |
 //! | [`one_step`] | what a method of one step is and keeps |
+//! | [`runge_kutta`] | Runge–Kutta steps on the components, brought back onto the group |
 //! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
 //! | [`collocation`] | Gauss' implicit methods of orders 2, 4, 6, symmetric |
 //! | [`commutator_free`] | a commutator-free method of order 4 |
@@ -41,6 +42,7 @@ pub mod method;
 pub mod one_step;
 mod projection;
 pub mod rkmk;
+pub mod runge_kutta;
 pub mod simulation;
 mod step_length;
 pub mod tableau;
@@ -62,10 +64,11 @@ pub use error::{IntegrationError, IntegrationErrorKind, Part};
 pub use event::Crossing;
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
 pub use method::{EitherForm, Method};
-pub use one_step::{IncrementStep, OneStep, Properties, Step};
+pub use one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
 pub use rkmk::Rkmk;
+pub use runge_kutta::RungeKutta;
 pub use simulation::{Observer, Simulation};
-pub use tableau::Tableau;
+pub use tableau::{Classical4, Coefficients, DormandPrince5, DormandPrince8, Tableau, Verner9};
 pub use taylor::Taylor;
 pub use trajectory::Sample;
 #[cfg(feature = "alloc")]

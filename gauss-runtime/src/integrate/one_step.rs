@@ -60,6 +60,30 @@ pub trait OneStep<S: GaussSystem> {
     ) -> Result<Step<S>, IntegrationErrorKind>;
 }
 
+/// A method that estimates the error of its steps: with [`Adaptive`](super::control::Adaptive) an integrator whose steps are as long as
+/// a tolerance allows.
+pub trait EstimatingStep<S: GaussSystem>: OneStep<S> {
+    /// The power of the step that the estimate goes with where the motion is smooth.
+    fn estimate_order(&self) -> f64;
+
+    /// The step that [`OneStep::step`] makes, with its estimate in [`Step::error`], and a second, coarser estimate ê where the
+    /// method has one: the error of a step is then taken for `e²/√(e² + ê²/100)`, which goes with a higher power of the step than
+    /// e (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.10).
+    ///
+    /// # Errors
+    /// When the step cannot be made; the state given is untouched.
+    #[inline]
+    fn step_and_estimates<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<(Step<S>, Option<Rates<S>>), IntegrationErrorKind> {
+        self.step(problem, state, rates, h).map(|step| (step, None))
+    }
+}
+
 /// A method whose step is one increment, `q₁ = q₀ ∘ exp(σ)` and `y₁ = y₀ + Δy`: it can be run with what is rounded off carried from
 /// step to step ([`Compensated`](super::compensated::Compensated)).
 pub trait IncrementStep<S: GaussSystem>: OneStep<S> {

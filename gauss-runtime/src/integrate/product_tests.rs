@@ -4,81 +4,15 @@ use nalgebra::{Isometry3, Quaternion, SVector, UnitQuaternion};
 
 use super::*;
 use crate::__private::product;
-use crate::chart::Chart;
 use crate::configuration::{Configuration, Product, VectorSpace};
 use crate::lie::{se3, so3};
 use crate::monitor::monitor;
 use crate::real::Real;
-use crate::system::{Equations, GaussSystem, Operations};
-use crate::testing::{FreeTop, Pack};
+use crate::testing::Pack;
+use crate::testing::coasting::{Coasting, increment};
 
 /// What systems with coordinates `pose: Pose, attitude: Rotation, x, y` have.
 type Mixed<T> = (Isometry3<T>, (UnitQuaternion<T>, SVector<T, 2>));
-
-/// Speeds that push and drag alone change, each by itself, on any configuration: `V = z`, `ż = push − drag z`.
-#[derive(Clone, Copy)]
-struct Coasting<C: Configuration> {
-    push: C::Tangent,
-    drag: C::Scalar,
-}
-
-impl<C: Configuration> GaussSystem for Coasting<C> {
-    type Scalar = C::Scalar;
-    type Configuration = C;
-    type Speeds = C::Tangent;
-    type MassMatrix = ();
-    type Input = ();
-    const DOF: usize = <C::Tangent as VectorSpace<C::Scalar>>::DIM;
-    const CHART: Chart = Chart::Own;
-    const EQUATIONS: Equations = Equations { text: "", latex: "" };
-    const OPERATIONS: Operations = FreeTop::<C::Scalar>::OPERATIONS;
-
-    fn kinematics(&self, _: C::Scalar, _: &C, z: &C::Tangent) -> C::Tangent {
-        *z
-    }
-    fn acceleration(&self, _: C::Scalar, _: &C, z: &C::Tangent, (): &()) -> C::Tangent {
-        self.push.add_scaled(-self.drag, z)
-    }
-    fn momentum(&self, _: C::Scalar, _: &C, z: &C::Tangent) -> C::Tangent {
-        *z
-    }
-    fn velocity(&self, _: C::Scalar, _: &C, p: &C::Tangent) -> C::Tangent {
-        *p
-    }
-    fn momentum_rate(&self, t: C::Scalar, q: &C, p: &C::Tangent, (): &()) -> C::Tangent {
-        self.acceleration(t, q, p, &())
-    }
-    fn mass_matrix(&self, _: C::Scalar, _: &C) {}
-    fn kinetic_energy(&self, _: C::Scalar, _: &C, z: &C::Tangent) -> C::Scalar {
-        let squares = (0..Self::DOF).map(|i| z.component(i) * z.component(i));
-        C::Scalar::ratio(1, 2) * squares.fold(C::Scalar::zero(), |sum, square| sum + square)
-    }
-    fn potential_energy(&self, _: C::Scalar, _: &C) -> C::Scalar {
-        C::Scalar::zero()
-    }
-    fn gauss_residual(&self, t: C::Scalar, q: &C, z: &C::Tangent, acceleration: &C::Tangent, (): &()) -> C::Tangent {
-        acceleration.add_scaled(-C::Scalar::one(), &self.acceleration(t, q, z, &()))
-    }
-    fn constraint_function(
-        &self,
-        t: C::Scalar,
-        q: &C,
-        z: &C::Tangent,
-        acceleration: &C::Tangent,
-        (): &(),
-    ) -> C::Scalar {
-        self.kinetic_energy(t, q, &self.gauss_residual(t, q, z, acceleration, &()))
-    }
-}
-
-/// An increment with components of both signs, angles about 1.
-fn increment<V: VectorSpace<T>, T: Real>(seed: f64) -> V {
-    let mut v = V::zero();
-    for i in 0..V::DIM {
-        v.set_component(i, T::from_f64((seed + 2.3 * i as f64).sin()));
-    }
-    v
-}
 
 fn start<T: Real>() -> Mixed<T> {
     let rotation = so3::exp(&increment(5.0));
@@ -90,23 +24,30 @@ fn parts<T: Real>(z: &<Mixed<T> as Configuration>::Tangent) -> (SVector<T, 6>, S
 }
 
 /// The end of a run of one factor.
-fn run<C: Configuration>(q: C, z: C::Tangent, push: C::Tangent) -> Sample<Coasting<C>> {
+fn run<C: Configuration>(q: C, z: C::Tangent, push: C::Tangent, on_components: bool) -> Sample<Coasting<C>> {
     let number = C::Scalar::from_f64;
-    Simulation::new(&Coasting { push, drag: number(0.3) })
-        .fixed_step(number(0.1))
-        .run_to_end(q, z, number(0.0)..number(2.0))
-        .expect("runs")
+    let system = Coasting { push, drag: number(0.3) };
+    let (run, step, span) = (Simulation::new(&system), number(0.1), number(0.0)..number(2.0));
+    if on_components {
+        run.control(Fixed::by(RungeKutta(DormandPrince8), step)).run_to_end(q, z, span)
+    } else {
+        run.control(Fixed::with(&Tableau::RK4, step)).run_to_end(q, z, span)
+    }
+    .expect("runs")
 }
 
 fn factors_run_by_themselves<T: Real>() {
     let (q, z, push) = (start::<T>(), increment(2.0), increment(3.0));
-    let whole = run(q, z, push);
     let ((z1, z2, z3), (f1, f2, f3)) = (parts(&z), parts(&push));
-    let (pose, attitude, point) = (run(q.0, z1, f1), run(q.1.0, z2, f2), run(q.1.1, z3, f3));
-    assert_eq!(crate::__private::isometry3(&whole.q.0), crate::__private::isometry3(&pose.q));
-    assert_eq!(crate::__private::quaternion(&whole.q.1.0), crate::__private::quaternion(&attitude.q));
-    assert_eq!(crate::__private::components(&whole.q.1.1), crate::__private::components(&point.q));
-    assert_eq!(whole.z, product(pose.z, product(attitude.z, point.z)));
+    for on_components in [false, true] {
+        let whole = run(q, z, push, on_components);
+        let pose = run(q.0, z1, f1, on_components);
+        let (attitude, point) = (run(q.1.0, z2, f2, on_components), run(q.1.1, z3, f3, on_components));
+        assert_eq!(crate::__private::isometry3(&whole.q.0), crate::__private::isometry3(&pose.q));
+        assert_eq!(crate::__private::quaternion(&whole.q.1.0), crate::__private::quaternion(&attitude.q));
+        assert_eq!(crate::__private::components(&whole.q.1.1), crate::__private::components(&point.q));
+        assert_eq!(whole.z, product(pose.z, product(attitude.z, point.z)));
+    }
 }
 
 #[test]
@@ -121,10 +62,12 @@ fn trajectories_and_monitors_of_products() {
     // Constant speeds: q₀ ∘ exp(t z) at any time, and no change of energy.
     let (q, z) = (start::<f64>(), increment::<<Mixed<f64> as Configuration>::Tangent, f64>(2.0));
     let system: Coasting<Mixed<f64>> = Coasting { push: VectorSpace::<f64>::zero(), drag: 0.0 };
+    // For methods in the algebra that is no approximation.
+    let (steps, pair) = (Fixed::with(&Tableau::RK4, 0.25), Adaptive::with(&Tableau::DORMAND_PRINCE_5, 1e-8, 1e-8));
     for (form, run) in [
-        ("fixed", Simulation::new(&system).fixed_step(0.25).run(q, z, 0.0..2.0)),
-        ("adaptive", Simulation::new(&system).adaptive(1e-8, 1e-8).run(q, z, 0.0..2.0)),
-        ("momenta", Simulation::new(&system).momentum_form().adaptive(1e-8, 1e-8).run(q, z, 0.0..2.0)),
+        ("fixed", Simulation::new(&system).control(steps).run(q, z, 0.0..2.0)),
+        ("adaptive", Simulation::new(&system).control(pair).run(q, z, 0.0..2.0)),
+        ("momenta", Simulation::new(&system).momentum_form().control(pair).run(q, z, 0.0..2.0)),
     ] {
         let trajectory = run.expect("runs");
         assert_eq!(monitor(&system, &trajectory).energy.largest(), 0.0, "{form}");

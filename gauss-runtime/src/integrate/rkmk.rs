@@ -6,8 +6,8 @@
 
 use super::error::{IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{IncrementStep, OneStep, Properties, Step};
-use super::tableau::{Rational, Tableau};
+use super::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
+use super::tableau::{Rational, Tableau, estimate_order};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -25,6 +25,7 @@ pub struct Rkmk<T, const S: usize> {
     error: [T; S],
     coarse_error: [T; S],
     order: u32,
+    estimate_order: f64,
     has_error: bool,
     has_coarse_error: bool,
     first_same_as_last: bool,
@@ -43,6 +44,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
             error: row(&tableau.error),
             coarse_error: row(&tableau.coarse_error),
             order: tableau.order,
+            estimate_order: estimate_order(tableau),
             has_error: tableau.embedded_order > 0,
             has_coarse_error: tableau.coarse_order > 0,
             first_same_as_last: tableau.first_same_as_last,
@@ -85,9 +87,8 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         Ok((stages, last))
     }
 
-    /// A step, and its coarser estimate where the tableau has one.
     #[inline(always)]
-    pub(super) fn step_and_coarse_error<Sys: GaussSystem<Scalar = T>, F: Form<Sys>, I: InputSource<Sys>>(
+    fn advance<Sys: GaussSystem<Scalar = T>, F: Form<Sys>, I: InputSource<Sys>>(
         &self,
         problem: &Problem<'_, Sys, F, I>,
         state: &State<Sys>,
@@ -135,7 +136,24 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Rkmk<Sys::Scalar, S> {
         rates: &Rates<Sys>,
         h: Sys::Scalar,
     ) -> Result<Step<Sys>, IntegrationErrorKind> {
-        self.step_and_coarse_error(problem, state, rates, h).map(|(step, _)| step)
+        self.advance(problem, state, rates, h).map(|(step, _)| step)
+    }
+}
+
+impl<Sys: GaussSystem, const S: usize> EstimatingStep<Sys> for Rkmk<Sys::Scalar, S> {
+    fn estimate_order(&self) -> f64 {
+        self.estimate_order
+    }
+
+    #[inline]
+    fn step_and_estimates<F: Form<Sys>, I: InputSource<Sys>>(
+        &self,
+        problem: &Problem<'_, Sys, F, I>,
+        state: &State<Sys>,
+        rates: &Rates<Sys>,
+        h: Sys::Scalar,
+    ) -> Result<(Step<Sys>, Option<Rates<Sys>>), IntegrationErrorKind> {
+        self.advance(problem, state, rates, h)
     }
 }
 
@@ -211,7 +229,13 @@ fn add_quotient<T: Real, V: VectorSpace<T>>(sum: &mut V, factor: T, divisor: T, 
 /// Refuses rotations beyond half a turn. A NaN passes here and is caught at the end of the step.
 #[inline(always)]
 pub(super) fn check_increment<S: GaussSystem>(increment: &Rates<S>) -> Result<(), IntegrationErrorKind> {
-    let angle = S::Configuration::increment_angle(&increment.configuration);
+    check_turn::<S>(&increment.configuration)
+}
+
+/// [`check_increment`] of the increment of a configuration.
+#[inline(always)]
+pub(super) fn check_turn<S: GaussSystem>(increment: &TangentOf<S>) -> Result<(), IntegrationErrorKind> {
+    let angle = S::Configuration::increment_angle(increment);
     if angle > core::f64::consts::PI && angle.is_finite() {
         Err(IntegrationErrorKind::IncrementTooLarge { angle })
     } else {

@@ -147,13 +147,15 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E> {
         Simulation { problem: Problem { system, form, input }, control, observer, events, every, limit }
     }
 
-    /// Steps of one length, by the Runge–Kutta–Munthe-Kaas method of order 4; the last step is shortened to end in time.
+    /// Steps of one length, by [`RungeKutta`](super::RungeKutta) of order 8 (Dormand and Prince); the last step is shortened to end
+    /// in time.
     pub fn fixed_step(self, step: S::Scalar) -> Simulation<'k, S, F, I, Fixed<S::Scalar>, O, E> {
         self.control(Fixed::new(step))
     }
 
-    /// Steps as long as the tolerances allow, by the Dormand–Prince pair 5(4) on the group.
-    pub fn adaptive(self, relative: f64, absolute: f64) -> Simulation<'k, S, F, I, Adaptive<S::Scalar>, O, E> {
+    /// Steps as long as the tolerances allow, by [`RungeKutta`](super::RungeKutta) of order 8 (Dormand and Prince): see
+    /// [`Adaptive::new`].
+    pub fn adaptive(self, relative: f64, absolute: f64) -> Simulation<'k, S, F, I, Adaptive, O, E> {
         self.control(Adaptive::new(relative, absolute))
     }
 
@@ -259,7 +261,7 @@ assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
     }
 }
 
-impl<S: GaussSystem, F, I, O, E, const N: usize> Simulation<'_, S, F, I, Adaptive<S::Scalar, N>, O, E> {
+impl<S: GaussSystem, F, I, O, E, M> Simulation<'_, S, F, I, Adaptive<M>, O, E> {
     /// The length of the first step, instead of an estimate.
     pub fn first_step(mut self, length: f64) -> Self {
         self.control.first_step = Some(length);

@@ -1,5 +1,7 @@
 //! Butcher tableaux of explicit Runge–Kutta methods, in rationals: exact, or decimals to 18 places.
 
+use crate::real::rounded_ratio;
+
 /// A rational coefficient (p, q) = p/q.
 pub type Rational = (i64, i64);
 
@@ -25,6 +27,100 @@ pub struct Tableau<const S: usize> {
     pub coarse_order: u32,
     /// Whether the last stage is the result, so that its derivative is the first one of the next step.
     pub first_same_as_last: bool,
+}
+
+/// A tableau that the compiler knows: the type is the method.
+///
+/// One of your own:
+///
+/// ```
+/// use gauss_runtime::integrate::tableau::{Coefficients, Tableau};
+///
+/// /// Heun's method of order 3.
+/// #[derive(Clone, Copy, Debug, Default)]
+/// struct Heun;
+///
+/// impl Coefficients<3> for Heun {
+///     const TABLEAU: Tableau<3> = Tableau {
+///         a: [[(0, 1); 3], [(1, 3), (0, 1), (0, 1)], [(0, 1), (2, 3), (0, 1)]],
+///         b: [(1, 4), (0, 1), (3, 4)],
+///         c: [(0, 1), (1, 3), (2, 3)],
+///         error: [(0, 1); 3],
+///         order: 3,
+///         embedded_order: 0,
+///         coarse_error: [(0, 1); 3],
+///         coarse_order: 0,
+///         first_same_as_last: false,
+///     };
+/// }
+/// assert_eq!(Heun::A[2], [0.0, 2.0 / 3.0, 0.0]);
+/// ```
+pub trait Coefficients<const S: usize>: Copy {
+    /// The coefficients as fractions. All others follow from them.
+    const TABLEAU: Tableau<S>;
+
+    /// `a`, correctly rounded.
+    const A: [[f64; S]; S] = {
+        let mut rows = [[0.0; S]; S];
+        let mut i = 0;
+        while i < S {
+            rows[i] = rounded(&Self::TABLEAU.a[i]);
+            i += 1;
+        }
+        rows
+    };
+
+    /// `b`, correctly rounded.
+    const WEIGHTS: [f64; S] = rounded(&Self::TABLEAU.b);
+
+    /// `c`, correctly rounded.
+    const TIMES: [f64; S] = rounded(&Self::TABLEAU.c);
+
+    /// The weights of the error estimate, correctly rounded.
+    const ERROR: [f64; S] = rounded(&Self::TABLEAU.error);
+
+    /// The weights of the coarser estimate, correctly rounded.
+    const COARSE_ERROR: [f64; S] = rounded(&Self::TABLEAU.coarse_error);
+}
+
+/// Each number of a row rounded once.
+const fn rounded<const S: usize>(row: &[Rational; S]) -> [f64; S] {
+    let mut values = [0.0; S];
+    let mut j = 0;
+    while j < S {
+        values[j] = rounded_ratio(row[j].0, row[j].1, f64::MANTISSA_DIGITS);
+        j += 1;
+    }
+    values
+}
+
+macro_rules! tableaux {
+    ($($name:ident<$stages:literal> = $tableau:ident, $what:literal;)+) => {$(
+        #[doc = $what]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct $name;
+
+        impl Coefficients<$stages> for $name {
+            const TABLEAU: Tableau<$stages> = Tableau::$tableau;
+        }
+    )+};
+}
+
+tableaux! {
+    Classical4<4> = RK4, "[`Tableau::RK4`] as a type.";
+    DormandPrince5<7> = DORMAND_PRINCE_5, "[`Tableau::DORMAND_PRINCE_5`] as a type.";
+    DormandPrince8<12> = DORMAND_PRINCE_8, "[`Tableau::DORMAND_PRINCE_8`] as a type.";
+    Verner9<16> = VERNER_9, "[`Tableau::VERNER_9`] as a type.";
+}
+
+/// The power of the step that the error estimate of a tableau goes with: that of the embedded method's local error, or where there
+/// are two estimates, e of order p and ê of order r, that of `e²/ê`, 2p − r.
+pub(super) fn estimate_order<const S: usize>(tableau: &Tableau<S>) -> f64 {
+    let fine = tableau.embedded_order + 1;
+    f64::from(match tableau.coarse_order {
+        0 => fine,
+        coarse => 2 * fine - (coarse + 1),
+    })
 }
 
 const O: Rational = (0, 1);

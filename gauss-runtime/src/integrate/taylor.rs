@@ -13,7 +13,7 @@ use super::rkmk::check_chart;
 use super::simulation::Simulation;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
-use crate::series::{MAX_ORDER, PowerSeries, TaylorSystem};
+use crate::series::{MAX_ORDER, PowerSeries, TaylorSystem, state_of};
 
 /// Steps of Taylor's method, as long as the tolerances allow.
 ///
@@ -158,7 +158,7 @@ where
     S: TaylorSystem,
     F: Form<S>,
 {
-    let (q, z) = problem.system.state_of(&series.at(order, h));
+    let (q, z) = state_of::<S>(&series.at(order, h));
     let q = q.renormalise();
     State { t: t + h, q, y: problem.form.variables(problem.system, t + h, &q, &z) }
 }

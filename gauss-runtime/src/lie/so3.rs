@@ -78,6 +78,22 @@ pub fn difference<T: Real>(from: &UnitQuaternion<T>, to: &UnitQuaternion<T>) -> 
     SVector::from(log_components(compose(conjugate(quaternion(from)), quaternion(to))))
 }
 
+/// `½ q ∘ (ω, 0)`: the rates of the components of a quaternion. They are normal to q, so that |q| stays what it is.
+#[inline(always)]
+pub(crate) fn component_rates<T: Real>(q: [T; 4], omega: [T; 3]) -> [T; 4] {
+    let half = scaled(T::ratio(1, 2), omega);
+    let vector = [q[0], q[1], q[2]];
+    let [x, y, z] = axpy(q[3], half, cross(vector, half));
+    [x, y, z, -dot(vector, half)]
+}
+
+/// `2 Im(q̄ ∘ e)`: the body rotation that changes the components of a unit quaternion by e.
+#[inline(always)]
+pub(crate) fn tangent<T: Real>(q: [T; 4], change: [T; 4]) -> [T; 3] {
+    let [x, y, z, _] = compose(conjugate(q), change);
+    [x + x, y + y, z + z]
+}
+
 /// Brings the norm back to 1.
 ///
 /// Near norm 1 each component gets the correction `q·½(1 − |q|²)` *added*, so that it is rounded to nearest and a norm
@@ -94,6 +110,18 @@ pub fn renormalise<T: Real>(rotation: &UnitQuaternion<T>) -> UnitQuaternion<T> {
 /// `1/√(1 − defect) − 1`; to first order where the second order is below rounding.
 #[inline(always)]
 pub(super) fn norm_correction<T: Real>(defect: T) -> T {
-    let far = (T::one() - defect).sqrt().recip() - T::one();
-    T::select_lt(defect * defect, T::from_f64(T::EPSILON), T::ratio(1, 2) * defect, far)
+    let near = T::ratio(1, 2) * defect;
+    // Nearly always so: nothing should wait for the root then.
+    if (0..T::LANES).all(|i| defect.lane(i) * defect.lane(i) < T::EPSILON) {
+        near
+    } else {
+        T::select_lt(defect * defect, T::from_f64(T::EPSILON), near, far_correction(defect))
+    }
+}
+
+/// Not inlined, because compilers would work it out in advance.
+#[cold]
+#[inline(never)]
+fn far_correction<T: Real>(defect: T) -> T {
+    (T::one() - defect).sqrt().recip() - T::one()
 }

@@ -3,7 +3,6 @@
 use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, UnitQuaternion};
 
 use crate::configuration::Product;
-use crate::lie::{se2, se3};
 use crate::real::Real;
 
 /// The components of a vector.
@@ -48,24 +47,6 @@ pub fn isometry3<T: Real>(pose: &Isometry3<T>) -> ([T; 4], [T; 3]) {
 pub fn isometry2<T: Real>(pose: &Isometry2<T>) -> ([T; 2], [T; 2]) {
     let rotation = pose.rotation.as_ref();
     ([rotation.re, rotation.im], components(&pose.translation.vector))
-}
-
-/// The inverse of [`quaternion`]; the norm is left as it is.
-#[inline(always)]
-pub fn quaternion_of_components<T: Real>(components: [T; 4]) -> UnitQuaternion<T> {
-    crate::triple::unit_quaternion(components)
-}
-
-/// The inverse of [`isometry3`]; the norm is left as it is.
-#[inline(always)]
-pub fn isometry_of_components<T: Real>(rotation: [T; 4], translation: [T; 3]) -> Isometry3<T> {
-    se3::isometry(quaternion_of_components(rotation), translation)
-}
-
-/// The inverse of [`isometry2`]; the norm is left as it is.
-#[inline(always)]
-pub fn plane_of_components<T: Real>([cosine, sine]: [T; 2], translation: [T; 2]) -> Isometry2<T> {
-    se2::isometry(se2::rotation(cosine, sine), translation)
 }
 
 /// The increment of a pair of configurations from those of its factors.
