@@ -8,7 +8,9 @@
 //! (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4, "standard projection method").
 //!
 //! Beside Runge–Kutta–Munthe-Kaas methods ([`rkmk`](super::rkmk)) of the same tableau a stage needs neither exp nor dexp⁻¹. What is
-//! lost: a rotation of constant angular velocity is not exact.
+//! lost: a rotation of constant angular velocity is not exact, and stages lie off the group by their own error. What the
+//! equations keep everywhere is kept to the last bit, as momenta with ṗ ≡ 0 are; what they keep only because rotation matrices are
+//! orthogonal, as the total momentum of several bodies in the observer's axes, is kept within the tolerance.
 //!
 //! The coefficients are constants of the type, and stages are written out one after the other: null weights leave no trace in
 //! the code, and derivatives stay in registers where there are enough of them.
