@@ -7,8 +7,9 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
 use crate::kernel::{Candidates, Cost, Kernel};
 use crate::mechanics::{
-    Acting, AddedMassShape, BodyShape, ConfigurationKind, Elimination, Formula, GravityShape, InertiaShape, Method,
-    Scene, System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
+    Acting, AddedMassShape, BodyShape, ConfigurationKind, Elimination, Formula, GravityShape, InertiaShape,
+    Linearization, Method, Scene, System, check_against_definition, check_system_against_definition,
+    rotation_of_quaternion,
 };
 use crate::mistakes::{
     bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_series, refuse_too_much, system_faults,
@@ -42,16 +43,19 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     let mut formulas = scene.formulas();
     check_against_definition(&scene, &formulas).map_err(|error| bug(&model.ident, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
-    if model.taylor.is_some() {
+    let linearization = model.wanted.linearize.then(|| Linearization::of_body(&scene, &formulas));
+    if model.wanted.taylor.is_some() {
         formulas.push(scene.component_rates(quaternion, &formulas));
     }
     let functions: Vec<_> = formulas.iter().map(candidates).collect();
-    let kernel = Kernel::lower(&graph, &functions, &rotation).map_err(|error| bug(&model.ident, &error))?;
+    let differentiated = linearization.as_ref().map(|l| &l.differentiated);
+    let kernel =
+        Kernel::lower(&graph, &functions, &rotation, differentiated).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
     let has_inputs = translator.as_ref().is_some_and(|translator| !translator.inputs().is_empty());
-    refuse_series(model.taylor.as_ref(), has_inputs, &formulas, &kernel)?;
+    refuse_series(model.wanted.taylor.as_ref(), has_inputs, &formulas, &kernel)?;
     let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
     let plain = model.acting.as_deref().zip(translator.as_ref()).map(|(system, translator)| Plain {
         fields: &system.fields,
@@ -63,6 +67,7 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
         drags: &translator.as_ref().map(Translator::drags).unwrap_or_default(),
         formulas: &formulas,
         kernel: &kernel,
+        linearization: linearization.as_ref(),
     }))
 }
 
@@ -90,16 +95,19 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         .map_err(|faults| system_faults(model, &translator, &system, &faults))?;
     formulas.extend(elimination.iter().flat_map(Elimination::formulas));
     let (quaternions, definitions) = system_rotations(&graph, &system);
-    if model.taylor.is_some() {
+    let linearization = model.wanted.linearize.then(|| Linearization::of_system(&system, &formulas));
+    if model.wanted.taylor.is_some() {
         formulas.push(system.component_rates(&quaternions, &formulas));
     }
     let functions: Vec<_> = formulas.iter().map(candidates).collect();
-    let kernel = Kernel::lower(&graph, &functions, &definitions).map_err(|error| bug(&model.ident, &error))?;
+    let differentiated = linearization.as_ref().map(|l| &l.differentiated);
+    let kernel =
+        Kernel::lower(&graph, &functions, &definitions, differentiated).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
     refuse_too_much(model, &kernel)?;
-    refuse_series(model.taylor.as_ref(), !model.inputs.is_empty(), &formulas, &kernel)?;
+    refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), &formulas, &kernel)?;
     let constrained = elimination.as_ref().map_or(&system, |elimination| &elimination.whole);
     let subject = SystemSubject {
         model,
@@ -112,7 +120,13 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         quaternions: &quaternions,
     };
     let drags = translator.drags();
-    Ok(emit(&Derived { subject: Subject::System(subject), drags: &drags, formulas: &formulas, kernel: &kernel }))
+    Ok(emit(&Derived {
+        subject: Subject::System(subject),
+        drags: &drags,
+        formulas: &formulas,
+        kernel: &kernel,
+        linearization: linearization.as_ref(),
+    }))
 }
 
 /// What a formula is lowered from.

@@ -80,7 +80,13 @@ pub fn refuse_idle_speeds(
 
 /// More code than the compiler should be given without being asked.
 pub fn refuse_too_much(model: &SystemModel, kernel: &Kernel<'_>) -> syn::Result<()> {
-    let operations = kernel.functions.iter().chain([&kernel.constants]).map(|p| p.instructions.len()).sum::<usize>();
+    let operations = kernel
+        .functions
+        .iter()
+        .chain(&kernel.tangents)
+        .chain([&kernel.constants])
+        .map(|p| p.instructions.len())
+        .sum::<usize>();
     let limit = model.limit.unwrap_or(LIMIT);
     if operations <= limit {
         return Ok(());

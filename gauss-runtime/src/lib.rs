@@ -5,6 +5,7 @@
 //! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): what a kernel offers |
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): what acts, element by element; powers and the balance of energy |
+//! | [`linearize`] | [`LinearizedSystem`](linearize::LinearizedSystem): exact derivatives by state, time and input |
 //! | [`configuration`] | groups as configurations, linear spaces of increments |
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
@@ -46,6 +47,7 @@ pub mod error;
 pub mod forces;
 pub mod integrate;
 pub mod lie;
+pub mod linearize;
 pub mod monitor;
 pub mod prelude;
 pub mod real;

@@ -12,9 +12,10 @@ pub use crate::forces::{Element, ForcedSystem};
 pub use crate::integrate::Trajectory;
 pub use crate::integrate::{
     Adaptive, Classical4, Collocation, CommutatorFree4, Composed, Composition, Crossing, DormandPrince5,
-    DormandPrince8, Fixed, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, RungeKutta, Sample,
-    Simulation, Tableau, Taylor, Variational, VelocityForm, Verner9,
+    DormandPrince8, Fixed, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta,
+    Sample, Simulation, Tableau, Taylor, Variational, VelocityForm, Verner9,
 };
+pub use crate::linearize::{Linearization, LinearizedSystem};
 pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]
 pub use crate::monitor::{EnergyBalance, monitor, monitor_body, power_balance};

@@ -5,13 +5,14 @@ use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
-use crate::mechanics::{Account, Formula, InertiaShape, Method, Scene};
+use crate::mechanics::{Account, Formula, InertiaShape, Linearization, Method, Scene};
 use crate::model::{Model, Scalar, SystemField};
 use crate::translate::{DragMatrix, Source};
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
 use super::documentation::{latex, method_name, rustdoc, text};
+use super::linearize::linearized_system;
 use super::parameters::kernel_body;
 use super::program::{ScalarTokens, statements};
 use super::system::SystemSubject;
@@ -24,6 +25,8 @@ pub struct Derived<'a, 'g> {
     pub drags: &'a [DragMatrix<'g>],
     pub formulas: &'a [Formula<'g>],
     pub kernel: &'a Kernel<'g>,
+    /// What is differentiated by the state, where that is asked for.
+    pub linearization: Option<&'a Linearization<'g>>,
 }
 
 /// What is derived.
@@ -199,10 +202,8 @@ impl<'a, 'g> Derived<'a, 'g> {
         Argument { array: quote!(#private::components(#name)), symbols: symbols.to_vec() }
     }
 
-    /// The body of a method: arguments taken apart, instructions, result.
-    fn method_body(&'a self, method: Method) -> TokenStream {
-        let private = self.private();
-        let program = self.program(method);
+    /// Arguments taken apart and the instructions of a program; its outputs.
+    pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
         let Formal { speeds, speed_rates, momenta, residuals, inputs } = self.formal();
         let mut names = self.constant_names();
         names.extend(self.time().map(|time| (time.key(), quote!(t))));
@@ -218,6 +219,13 @@ impl<'a, 'g> Derived<'a, 'g> {
         arguments.push(vector(quote!(input), inputs));
         let declarations = declare(program, &arguments, &mut names);
         let (instructions, outputs) = statements(program, &names, &self.scalar());
+        (quote!(#declarations #instructions), outputs)
+    }
+
+    /// The body of a method: arguments taken apart, instructions, result.
+    fn method_body(&self, method: Method) -> TokenStream {
+        let (private, speeds) = (self.private(), self.speeds());
+        let (instructions, outputs) = self.computed(self.program(method));
         let result = match method {
             Method::KineticEnergy | Method::PotentialEnergy | Method::ConstraintFunction | Method::SuppliedPower => {
                 quote!(#(#outputs)*)
@@ -237,7 +245,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             },
             _ => quote!(#private::vector([#(#outputs),*])),
         };
-        quote!(#declarations #instructions #result)
+        quote!(#instructions #result)
     }
 
     pub fn degrees_of_freedom(&self) -> usize {
@@ -245,7 +253,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 }
 
-fn count_tokens(runtime: &syn::Path, counts: Counts) -> TokenStream {
+pub fn count_tokens(runtime: &syn::Path, counts: Counts) -> TokenStream {
     let Counts { additions, multiplications, divisions, roots, transcendentals } = counts;
     quote!(#runtime::system::OperationCount::new(#additions, #multiplications, #divisions, #roots, #transcendentals))
 }
@@ -434,6 +442,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             }
         }
     });
+    let linearized = linearized_system(derived, &quote!(impl #bounded), &quote!(#name #used));
     quote! {
         #[doc = #documentation]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
@@ -472,6 +481,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             #constrained
             #forced
             #series
+            #linearized
         };
     }
 }

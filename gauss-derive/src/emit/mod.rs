@@ -7,12 +7,14 @@
 //! - `body`: what is particular to one body in a chart.
 //! - `kernel`: the kernel struct and its implementations of the runtime's traits.
 //! - `series`: the recurrences of power series in time.
+//! - `linearize`: derivatives by the state.
 //! - `documentation`: equations and costs as text, LaTeX and rustdoc.
 
 mod arguments;
 mod body;
 mod documentation;
 mod kernel;
+mod linearize;
 mod parameters;
 mod program;
 mod series;

@@ -1,5 +1,7 @@
 //! Instructions as `let` statements: no loops, no branches, no allocation.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -81,25 +83,38 @@ pub fn operand(operand: &Operand<'_>, symbols: &Map<u32, TokenStream>, scalar: &
     }
 }
 
+/// Instructions in a row. Every `let` is a scope within that of the one before it, and compilers recurse into them: thousands overflow
+/// their stacks. Longer programs are written in blocks that hand on what later ones need.
+pub const BLOCK: usize = 256;
+
 /// The statements of a program, and its outputs as expressions. `symbols` says how each symbol is written.
 pub fn statements(
     program: &Program<'_>,
     symbols: &Map<u32, TokenStream>,
     scalar: &ScalarTokens<'_>,
 ) -> (TokenStream, Vec<TokenStream>) {
-    statements_with(program, symbols, scalar, |wanted| program.operands().any(|o| o == wanted))
+    statements_kept(program, symbols, scalar, Kept::AsRead)
 }
 
-/// The same; of a sine and a cosine those have names that are `wanted`.
-pub fn statements_with<'g>(
+/// What of the results of a program has a name afterwards.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Kept {
+    /// What the program itself reads, and its outputs.
+    AsRead,
+    /// All of it.
+    Everything,
+}
+
+/// The same, with names for whatever is to be read besides.
+pub fn statements_kept<'g>(
     program: &Program<'g>,
     symbols: &Map<u32, TokenStream>,
     scalar: &ScalarTokens<'_>,
-    wanted: impl Fn(Operand<'g>) -> bool,
+    kept: Kept,
 ) -> (TokenStream, Vec<TokenStream>) {
     let real = &scalar.real;
     let write = |o: &Operand<'_>| operand(o, symbols, scalar);
-    let mut body = TokenStream::new();
+    let mut written = Vec::with_capacity(program.instructions.len());
     for (k, instruction) in program.instructions.iter().enumerate() {
         let name = value(k);
         let statement = match instruction {
@@ -134,14 +149,54 @@ pub fn statements_with<'g>(
             }
             Operation::SineCosine(a) => {
                 let (a, s, c) = (write(a), sine(k), cosine(k));
-                let s = if wanted(Operand::Sine(k)) { quote!(#s) } else { quote!(_) };
-                let c = if wanted(Operand::Cosine(k)) { quote!(#c) } else { quote!(_) };
+                let read = |o: Operand<'_>| kept == Kept::Everything || program.operands().any(|other| other == o);
+                let s = if read(Operand::Sine(k)) { quote!(#s) } else { quote!(_) };
+                let c = if read(Operand::Cosine(k)) { quote!(#c) } else { quote!(_) };
                 quote!(let (#s, #c) = #real::sin_cos(#a);)
             }
         };
-        body.extend(statement);
+        written.push(statement);
     }
-    (body, program.outputs.iter().map(write).collect())
+    (in_blocks(program, &written, kept), program.outputs.iter().map(write).collect())
+}
+
+/// The statements one after the other, or block by block where there are many.
+fn in_blocks(program: &Program<'_>, statements: &[TokenStream], kept: Kept) -> TokenStream {
+    if statements.len() <= BLOCK {
+        return quote!(#(#statements)*);
+    }
+    // Of each block, what is read behind it: values, sines and cosines by the index of their instruction.
+    let mut handed_on = vec![BTreeSet::new(); statements.len().div_ceil(BLOCK)];
+    let mut read = |operand: Operand<'_>, reader: usize| {
+        if let Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) = operand
+            && k / BLOCK < reader
+        {
+            let kind = match operand {
+                Operand::Sine(_) => 1,
+                Operand::Cosine(_) => 2,
+                _ => 0,
+            };
+            handed_on[k / BLOCK].insert((k, kind));
+        }
+    };
+    for (k, instruction) in program.instructions.iter().enumerate() {
+        instruction.operands().for_each(|operand| read(operand, k / BLOCK));
+    }
+    program.outputs.iter().for_each(|operand| read(*operand, usize::MAX));
+    if kept == Kept::Everything {
+        for (k, instruction) in program.instructions.iter().enumerate() {
+            match instruction {
+                Operation::SineCosine(_) => [Operand::Sine(k), Operand::Cosine(k)].map(|o| read(o, usize::MAX)),
+                _ => [read(Operand::Value(k), usize::MAX); 2],
+            };
+        }
+    }
+    let names = [value, sine, cosine];
+    let blocks = statements.chunks(BLOCK).zip(handed_on).map(|(statements, results)| {
+        let results: Vec<Ident> = results.into_iter().map(|(k, kind): (usize, usize)| names[kind](k)).collect();
+        quote!(let (#(#results,)*) = { #(#statements)* (#(#results,)*) };)
+    });
+    blocks.collect()
 }
 
 fn function_name(function: Function) -> Ident {

@@ -23,7 +23,7 @@ use crate::kernel::{Operand, Operation, Program};
 use crate::mechanics::{ConfigurationKind, Coordinate, Method};
 
 use super::kernel::{Derived, Subject};
-use super::program::{ScalarTokens, operand, statements_with};
+use super::program::{BLOCK, Kept, ScalarTokens, operand, statements_kept};
 
 /// The number of lanes is a multiple of this: the runtime sums them in packs.
 const PACK: usize = 4;
@@ -212,6 +212,20 @@ impl<'g> Order<'_, 'g> {
     }
 }
 
+/// Statements with the names that they give, block by block where there are many: see [`BLOCK`].
+fn in_blocks(lines: &[(Vec<TokenStream>, TokenStream)]) -> TokenStream {
+    let statements = lines.iter().map(|(_, statement)| statement);
+    if lines.len() <= BLOCK {
+        return quote!(#(#statements)*);
+    }
+    let blocks = lines.chunks(BLOCK).map(|block| {
+        let names: Vec<_> = block.iter().flat_map(|(names, _)| names).collect();
+        let statements = block.iter().map(|(_, statement)| statement);
+        quote!(let (#(#names,)*) = { #(#statements)* (#(#names,)*) };)
+    });
+    blocks.collect()
+}
+
 /// Terms, and products of a number of order k and one of order 0, that are to be added up.
 #[derive(Default)]
 struct Sum {
@@ -296,7 +310,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             let (own, array) = (&variables[start..], &argument.array);
             declarations.extend(quote!(let [#(#own),*] = #array;));
         }
-        let (instructions, rates) = statements_with(program, &names, &scalar, |_| true);
+        let (instructions, rates) = statements_kept(program, &names, &scalar, Kept::Everything);
 
         // Order k.
         let constant = |symbol: crate::algebra::Expr<'g>| !coefficients.contains_key(&symbol.key());
@@ -310,12 +324,18 @@ impl<'a, 'g> Derived<'a, 'g> {
             lanes: Vec::new(),
             once: TokenStream::new(),
         };
-        let mut line = TokenStream::new();
+        let mut lines = Vec::new();
         for (k, instruction) in order.program.instructions.iter().enumerate() {
             if order.moving[k] && !order.inlined[k] {
-                line.extend(order.statement(k, instruction));
+                let names = match instruction {
+                    Operation::SineCosine(_) => vec![named("ws", k), named("wc", k)],
+                    Operation::Binary(..) => vec![named("wr", k), named("w", k)],
+                    _ => vec![named("w", k)],
+                };
+                lines.push((names, order.statement(k, instruction)));
             }
         }
+        let line = in_blocks(&lines);
         let of_order: Vec<TokenStream> =
             program.outputs.iter().map(|o| order.coefficient(o).unwrap_or(zero.clone())).collect();
         let Order { mut lanes, once, .. } = order;

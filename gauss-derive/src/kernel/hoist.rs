@@ -15,7 +15,7 @@ pub struct Hoister<'a, 'g> {
     /// Normal form of a definition → its symbol.
     known: Map<u32, Expr<'g>>,
     /// Symbols that stand for expressions of the arguments.
-    definitions: &'a Map<u32, Expr<'g>>,
+    definitions: Option<&'a Map<u32, Expr<'g>>>,
 }
 
 impl<'a, 'g> Hoister<'a, 'g> {
@@ -26,12 +26,21 @@ impl<'a, 'g> Hoister<'a, 'g> {
             constant: Map::default(),
             constants: Vec::new(),
             known: Map::default(),
-            definitions,
+            definitions: Some(definitions),
         }
     }
 
     pub fn hoist(&mut self, outputs: &[Expr<'g>]) -> Vec<Expr<'g>> {
         outputs.iter().map(|&e| self.visit(e)).collect()
+    }
+
+    /// The same with the symbols that stand for expressions of the arguments left as they are.
+    pub fn hoist_undefined(&mut self, outputs: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let definitions = self.definitions.take();
+        let memo = std::mem::take(&mut self.memo);
+        let hoisted = self.hoist(outputs);
+        (self.definitions, self.memo) = (definitions, memo);
+        hoisted
     }
 
     pub fn into_constants(self) -> Vec<(Expr<'g>, Expr<'g>)> {
@@ -61,7 +70,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
             return self.constant(e);
         }
         match e.view() {
-            NodeView::Symbol(_) => match self.definitions.get(&e.key()) {
+            NodeView::Symbol(_) => match self.definitions.and_then(|definitions| definitions.get(&e.key())) {
                 Some(&definition) => self.visit(definition),
                 None => e,
             },

@@ -4,6 +4,7 @@
 //! - `hoist`: what depends on parameters alone becomes a constant, computed once.
 //! - `factor`: common factors of the terms of a sum are pulled out.
 //! - `network`: sums and products of many terms; parts that occur more than once are split off.
+//! - `tangent`: derivatives of programs.
 //! - `program`: single-assignment instructions, their counts, and an interpreter to check them with.
 //!
 //! Knows nothing of frames or bodies. Every program is checked against the expressions it was made from before it is
@@ -13,15 +14,27 @@ mod factor;
 mod hoist;
 mod network;
 mod program;
+mod tangent;
 #[cfg(test)]
 mod tests;
 
 use std::fmt;
 
-use crate::algebra::{Evaluation, Expr, Graph, Map};
+use crate::algebra::{Evaluation, Expr, Graph, Map, Tangents};
 
 use hoist::Hoister;
 pub use program::{Counts, Operand, Operation, Program, Smoothness};
+pub use tangent::Direction;
+use tangent::with_tangents;
+
+/// Functions and the directions along which their derivatives are wanted.
+pub struct Differentiated<'g> {
+    /// The outputs, in equivalent arrangements.
+    pub arrangements: Vec<Vec<Expr<'g>>>,
+    /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of their own.
+    pub defined: Vec<Expr<'g>>,
+    pub directions: Vec<Direction<'g>>,
+}
 
 /// Programs of a set of functions that share their constants.
 pub struct Kernel<'g> {
@@ -29,6 +42,8 @@ pub struct Kernel<'g> {
     pub constants: Program<'g>,
     /// One program a function, in the order given; the symbols of constants among their inputs are listed below.
     pub functions: Vec<Program<'g>>,
+    /// The outputs of what is differentiated, then all their derivatives along the first direction, and so on.
+    pub tangents: Option<Program<'g>>,
     /// The constants as symbols, in the order of the outputs of `constants`.
     pub constant_symbols: Vec<Expr<'g>>,
 }
@@ -79,6 +94,7 @@ impl<'g> Kernel<'g> {
         graph: &'g Graph,
         functions: &[Candidates<'g>],
         definitions: &Map<u32, Expr<'g>>,
+        differentiated: Option<&Differentiated<'g>>,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
         let mut programs = Vec::with_capacity(functions.len());
@@ -97,12 +113,13 @@ impl<'g> Kernel<'g> {
             programs.push(program);
             chosen.push(outputs);
         }
+        let (tangents, derived) = differentiated.map(|wanted| wanted.lower(&mut hoister)).unzip();
         // Constants that only a dearer arrangement wanted are dropped.
-        let read: Vec<Expr<'g>> = programs.iter().flat_map(Program::symbols).collect();
+        let read: Vec<Expr<'g>> = programs.iter().chain(&tangents).flat_map(Program::symbols).collect();
         let constants = hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(symbol));
         let (constant_symbols, values): (Vec<_>, Vec<_>) = constants.unzip();
-        let kernel = Self { constants: Program::lower(&values), functions: programs, constant_symbols };
-        kernel.check(graph, &chosen, definitions)?;
+        let kernel = Self { constants: Program::lower(&values), functions: programs, tangents, constant_symbols };
+        kernel.check(graph, &chosen, definitions, derived.as_ref())?;
         Ok(kernel)
     }
 
@@ -115,6 +132,7 @@ impl<'g> Kernel<'g> {
         graph: &'g Graph,
         functions: &[&Vec<Expr<'g>>],
         definitions: &Map<u32, Expr<'g>>,
+        derived: Option<&Derived<'_, 'g>>,
     ) -> Result<(), Miscompiled> {
         let outputs = || functions.iter().flat_map(|outputs| outputs.iter());
         let points = (0..16).map(|shift| sample_point(graph, shift, definitions));
@@ -124,7 +142,7 @@ impl<'g> Kernel<'g> {
         };
         let mut refused = Ok(());
         for point in points.filter(inside).take(3) {
-            refused = self.check_at(&point, functions);
+            refused = self.check_at(&point, functions, derived);
             if refused.is_ok() {
                 break;
             }
@@ -132,23 +150,70 @@ impl<'g> Kernel<'g> {
         refused
     }
 
-    fn check_at(&self, point: &Map<u32, f64>, functions: &[&Vec<Expr<'g>>]) -> Result<(), Miscompiled> {
+    fn check_at(
+        &self,
+        point: &Map<u32, f64>,
+        functions: &[&Vec<Expr<'g>>],
+        derived: Option<&Derived<'_, 'g>>,
+    ) -> Result<(), Miscompiled> {
         let mut values = point.clone();
         let constants = self.constants.run(point);
         values.extend(self.constant_symbols.iter().zip(constants).map(|(s, v)| (s.key(), v)));
         let mut evaluation = Evaluation::new(point);
         for (function, (program, outputs)) in self.functions.iter().zip(functions).enumerate() {
-            for (output, (found, e)) in program.run(&values).into_iter().zip(outputs.iter()).enumerate() {
-                let expected = evaluation.value(*e);
-                // Inputs are of order one; hundreds of roundings stay far below, a wrong term far above this.
-                let close = (found - expected).abs() <= 1e-6 * (1.0 + expected.abs());
-                if !close {
-                    return Err(Miscompiled { function, output, expected, found });
-                }
-            }
+            let expected: Vec<f64> = outputs.iter().map(|e| evaluation.value(*e)).collect();
+            compare(function, &program.run(&values), &expected)?;
+        }
+        if let (Some(program), Some(derived)) = (&self.tangents, derived) {
+            compare(self.functions.len(), &program.run(&values), &derived.values(&mut evaluation))?;
         }
         Ok(())
     }
+}
+
+impl<'g> Differentiated<'g> {
+    /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple where
+    /// those of its definition are not: R σ̂ beside what a quaternion makes of it.
+    fn lower<'a>(&'a self, hoister: &mut Hoister<'_, 'g>) -> (Program<'g>, Derived<'a, 'g>) {
+        let definitions = Program::lower(&hoister.hoist(&self.defined));
+        let lowered = self.arrangements.iter().map(|outputs| {
+            let program = Program::lower(&hoister.hoist_undefined(outputs));
+            let program = with_tangents(&program, (&self.defined, &definitions), &self.directions);
+            (program, Derived { outputs, directions: &self.directions })
+        });
+        lowered.min_by_key(|(program, _)| program.counts().cost()).expect("a function has at least one arrangement")
+    }
+}
+
+/// The arrangement that was taken.
+struct Derived<'a, 'g> {
+    outputs: &'a [Expr<'g>],
+    directions: &'a [Direction<'g>],
+}
+
+impl Derived<'_, '_> {
+    /// What the program should compute, by dual numbers through the expressions.
+    fn values(&self, evaluation: &mut Evaluation<'_>) -> Vec<f64> {
+        let mut expected: Vec<f64> = self.outputs.iter().map(|e| evaluation.value(*e)).collect();
+        for direction in self.directions {
+            let rates = direction.iter().map(|(symbol, rate)| (symbol.key(), evaluation.value(*rate))).collect();
+            let mut tangents = Tangents::new(evaluation, &rates);
+            expected.extend(self.outputs.iter().map(|e| tangents.along(*e)));
+        }
+        expected
+    }
+}
+
+/// Refuses what is not computed as expected.
+fn compare(function: usize, found: &[f64], expected: &[f64]) -> Result<(), Miscompiled> {
+    for (output, (&found, &expected)) in found.iter().zip(expected).enumerate() {
+        // Inputs are of order one; hundreds of roundings stay far below, a wrong term far above this.
+        let close = (found - expected).abs() <= 1e-6 * (1.0 + expected.abs());
+        if !close {
+            return Err(Miscompiled { function, output, expected, found });
+        }
+    }
+    Ok(())
 }
 
 /// A value of order one for every symbol, different for each, and the values of what is defined by them.

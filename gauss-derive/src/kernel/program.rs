@@ -6,7 +6,7 @@ use super::factor::Factoring;
 use super::network::{Network, Node, Place};
 
 /// What an instruction works on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Operand<'g> {
     /// An argument of the function or a constant, by its symbol.
     Symbol(Expr<'g>),
@@ -33,7 +33,7 @@ impl<'g> Operand<'g> {
 const SERIES_PRODUCT: u32 = 5;
 
 /// One step; its result is `Value(index of the step)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Operation<'g> {
     Add(Operand<'g>, Operand<'g>),
     Subtract(Operand<'g>, Operand<'g>),
@@ -52,7 +52,23 @@ pub enum Operation<'g> {
 }
 
 impl<'g> Operation<'g> {
-    fn operands(&self) -> impl Iterator<Item = Operand<'g>> + use<'g> {
+    /// The same operation on other operands.
+    pub(super) fn map(&self, mut f: impl FnMut(Operand<'g>) -> Operand<'g>) -> Self {
+        match *self {
+            Operation::Add(a, b) => Operation::Add(f(a), f(b)),
+            Operation::Subtract(a, b) => Operation::Subtract(f(a), f(b)),
+            Operation::Multiply(a, b) => Operation::Multiply(f(a), f(b)),
+            Operation::MultiplyAdd(a, b, c) => Operation::MultiplyAdd(f(a), f(b), f(c)),
+            Operation::MultiplySubtract(a, b, c) => Operation::MultiplySubtract(f(a), f(b), f(c)),
+            Operation::Divide(a, b) => Operation::Divide(f(a), f(b)),
+            Operation::Negate(a) => Operation::Negate(f(a)),
+            Operation::SineCosine(a) => Operation::SineCosine(f(a)),
+            Operation::Call(function, a) => Operation::Call(function, f(a)),
+            Operation::Binary(function, a, b) => Operation::Binary(function, f(a), f(b)),
+        }
+    }
+
+    pub fn operands(&self) -> impl Iterator<Item = Operand<'g>> + use<'g> {
         let (a, b, c) = match *self {
             Operation::Add(a, b)
             | Operation::Subtract(a, b)

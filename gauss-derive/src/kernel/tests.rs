@@ -108,7 +108,8 @@ fn what_depends_on_parameters_alone_is_a_constant() {
     let [m, i1, i2] = ["m", "I1", "I2"].map(|n| graph.symbol(n, n, true));
     let [x, y] = ["x", "y"].map(|n| graph.symbol(n, n, false));
     let outputs = vec![(i1 - i2) * m.recip() * x + (i2 - i1) * m.recip() * y];
-    let kernel = Kernel::lower(&graph, &[Candidates::of_values(vec![outputs])], &Map::default()).expect("a program");
+    let kernel =
+        Kernel::lower(&graph, &[Candidates::of_values(vec![outputs])], &Map::default(), None).expect("a program");
     // One constant serves both terms, up to its sign.
     assert_eq!(kernel.constant_symbols.len(), 1);
     assert_eq!(kernel.functions[0].counts(), Counts { additions: 1, multiplications: 1, ..Counts::default() });
@@ -121,7 +122,7 @@ fn the_cheapest_arrangement_is_taken() {
     let wide = vec![a * a.cos().powi(2) * b + a * a.sin().powi(2) * b + c];
     let narrow = vec![a * b + c];
     let kernel =
-        Kernel::lower(&graph, &[Candidates::of_values(vec![wide, narrow])], &Map::default()).expect("a program");
+        Kernel::lower(&graph, &[Candidates::of_values(vec![wide, narrow])], &Map::default(), None).expect("a program");
     assert_eq!(kernel.functions[0].counts().transcendentals, 0);
 }
 
@@ -130,7 +131,7 @@ fn a_program_that_computes_something_else_is_refused() {
     let graph = Graph::new();
     let [a, b] = ["a", "b"].map(|n| graph.symbol(n, n, false));
     let mut kernel =
-        Kernel::lower(&graph, &[Candidates::of_values(vec![vec![a + b]])], &Map::default()).expect("a program");
+        Kernel::lower(&graph, &[Candidates::of_values(vec![vec![a + b]])], &Map::default(), None).expect("a program");
     kernel.functions[0] = Program::lower(&[a - b]);
-    assert!(kernel.check(&graph, &[&vec![a + b]], &Map::default()).is_err());
+    assert!(kernel.check(&graph, &[&vec![a + b]], &Map::default(), None).is_err());
 }

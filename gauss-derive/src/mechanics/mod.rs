@@ -18,6 +18,7 @@
 //! - `elimination`: constraints solved for the speeds that depend on others.
 //! - `system`, `system_check`, `system_equations`: the equations of bodies and particles in coordinates of their own.
 //! - `methods`: every method of a kernel as expressions.
+//! - `linearize`: what the equations are differentiated along.
 //! - `equations`: the equations for people.
 
 mod accounts;
@@ -32,6 +33,7 @@ mod equations;
 mod fields;
 mod forces;
 mod gauss;
+mod linearize;
 mod link;
 mod methods;
 mod moments;
@@ -66,6 +68,7 @@ pub use elimination::{Elimination, Obstacle};
 pub use equations::Section;
 pub use fields::{attraction, entrained};
 pub use forces::{Action, Element, Force};
+pub use linearize::Linearization;
 pub use link::{Matter, Placement, identity};
 pub use methods::{Formula, Method, Scene};
 pub use names::Name;

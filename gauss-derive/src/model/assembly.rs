@@ -17,7 +17,7 @@ use super::scope::{Meaning, Scope, UNNAMED};
 use super::shapes::{Element, Kind};
 use super::statements::{Statement, Statements};
 use super::validate;
-use super::{Expression, ForceKind, Role, Scalar, Shape, SystemField, SystemModel};
+use super::{Expression, ForceKind, Role, Scalar, Shape, SystemField, SystemModel, Wanted};
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 use syn::{DeriveInput, GenericParam, Path};
@@ -56,7 +56,7 @@ pub(super) fn system(
         Some(scalar) => scalar,
         None => scalar_without_fields(input, &reader.fields, context)?,
     };
-    model(input, clauses.runtime, clauses.taylor, scalar, fields(&reader, &shapes), statements)
+    model(input, clauses.runtime, clauses.wanted, scalar, fields(&reader, &shapes), statements)
 }
 
 /// Checks names and kinds in all expressions, and writes the definitions out; gives back those that are not used.
@@ -117,7 +117,7 @@ pub(super) fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<SystemField> 
 pub(super) fn model(
     input: &DeriveInput,
     runtime: Path,
-    taylor: Option<Ident>,
+    wanted: Wanted,
     scalar: Scalar,
     fields: Vec<SystemField>,
     mut statements: Statements,
@@ -137,7 +137,7 @@ pub(super) fn model(
         generics: input.generics.clone(),
         scalar,
         runtime,
-        taylor,
+        wanted,
         fields,
         coordinates,
         speeds: statements.speeds.map(|speeds| speeds.names),

@@ -8,7 +8,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `attributes` | `#[gauss(…)]` → clauses `name`, `name = value`, `name(…)` |
-//! | `scene` | the clauses of the struct: `chart`, `motion`, `crate` |
+//! | `scene` | the clauses of the struct: `chart`, `motion`, `crate`, `taylor`, `linearize` |
 //! | `statements` | those of a system, each with one of the next three; `constraint`, `potential`, `damping`, `limit` |
 //! | `declarations` | `coordinates`, `speeds`, `independent`, `input`, `kinematics`, `define` |
 //! | `placements` | `body`, `frame`, `particle`, `point` |
@@ -122,8 +122,17 @@ pub struct Model {
     /// What acts besides weight and buoyancy, if anything is written: the same body as a system whose only coordinate is
     /// its pose, free whatever `motion` is, and whose only body has no name.
     pub acting: Option<Box<SystemModel>>,
-    /// `taylor`, where it is written: power series of the motion are wanted.
+    /// What is wanted beside the equations.
+    pub wanted: Wanted,
+}
+
+/// What is wanted beside the equations, each by a clause that is its name alone.
+#[derive(Clone, Default)]
+pub struct Wanted {
+    /// `taylor`, where it is written: power series of the motion.
     pub taylor: Option<Ident>,
+    /// `linearize`: the derivatives of the equations by the state.
+    pub linearize: bool,
 }
 
 /// The number type that kernels compute with.

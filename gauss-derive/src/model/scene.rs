@@ -1,7 +1,7 @@
 //! The clauses of the struct: which equations are wanted. Those of systems are read by `statements`.
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
-//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor`.
+//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `linearize` alone.
 
 use super::attributes::{self, Clause, Place, Value, Word};
 use super::context::Context;
@@ -9,7 +9,7 @@ use super::fields::UNIT;
 use super::names::{self, Table};
 use super::roles::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
-use super::{Chart, Motion, RotationChart};
+use super::{Chart, Motion, RotationChart, Wanted};
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::Parser;
@@ -20,8 +20,8 @@ pub(super) struct Clauses {
     pub(super) chart: Chart,
     pub(super) motion: Motion,
     pub(super) runtime: Path,
-    /// `taylor`, where it is written.
-    pub(super) taylor: Option<Ident>,
+    /// What is wanted beside the equations.
+    pub(super) wanted: Wanted,
     /// The clauses of a system, or those that say what acts on one body.
     pub(super) statements: Statements,
     /// Some clause is one that only systems have.
@@ -31,8 +31,13 @@ pub(super) struct Clauses {
 }
 
 /// Clauses of the struct.
-pub(super) const CLAUSES: &Table<Topic> =
-    &[("chart", Topic::Chart), ("motion", Topic::Motion), ("crate", Topic::Runtime), ("taylor", Topic::Taylor)];
+pub(super) const CLAUSES: &Table<Topic> = &[
+    ("chart", Topic::Chart),
+    ("motion", Topic::Motion),
+    ("crate", Topic::Runtime),
+    ("taylor", Topic::Taylor),
+    ("linearize", Topic::Linearize),
+];
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Topic {
@@ -40,6 +45,7 @@ pub(super) enum Topic {
     Motion,
     Runtime,
     Taylor,
+    Linearize,
 }
 
 /// `None` stands for `jet`, which needs to know the motion.
@@ -89,7 +95,7 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
     let mut charts = Vec::new();
     let mut motion = None;
     let mut runtime = None;
-    let mut taylor = None;
+    let mut wanted = Wanted::default();
     let mut first: Vec<(Topic, String)> = Vec::new();
     for clause in clauses {
         let word = clause.word();
@@ -120,7 +126,14 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
             Topic::Chart => charts.push(read_chart(&clause, context)),
             Topic::Motion => motion = motion.or(Some(read_motion(&clause, context))),
             Topic::Runtime => runtime = runtime.or(Some(read_runtime(&clause, context))),
-            Topic::Taylor => taylor = taylor.or(read_bare(&clause, context)),
+            Topic::Taylor => {
+                wanted.taylor.get_or_insert(clause.name.clone());
+                check_alone(&clause, context);
+            }
+            Topic::Linearize => {
+                wanted.linearize = true;
+                check_alone(&clause, context);
+            }
         }
     }
     // A clause left out means its default; a clause that could not be read is known to be unknown.
@@ -135,7 +148,7 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
         chart,
         motion: motion.unwrap_or(Motion::Free),
         runtime: runtime.flatten().unwrap_or_else(default_runtime),
-        taylor,
+        wanted,
         statements,
         is_system,
         of_one_body,
@@ -168,7 +181,10 @@ fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) {
     } else if let Some((name, _)) = names::nearest(word, STATEMENTS) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
     } else if is_system {
-        format!("unknown clause `{word}`; expected {} or `crate`", names::list(STATEMENTS).replace(" or ", ", "))
+        format!(
+            "unknown clause `{word}`; expected {}, `crate`, `taylor` or `linearize`",
+            names::list(STATEMENTS).replace(" or ", ", ")
+        )
     } else {
         format!("unknown clause `{word}`; expected {}, or what acts, such as `force(…)`", names::list(CLAUSES))
     };
@@ -299,17 +315,15 @@ fn read_motion(clause: &Clause, context: &mut Context) -> Option<Motion> {
     Some(motion)
 }
 
-/// A clause that is its name alone.
-fn read_bare(clause: &Clause, context: &mut Context) -> Option<Ident> {
-    match &clause.value {
-        Value::Absent => Some(clause.name.clone()),
-        Value::Malformed => None,
-        Value::Equals(_) | Value::Brackets(_) => {
-            let name = &clause.name;
-            context.error(name.span(), format!("`{name}` takes no value; write `{name}` alone"));
-            None
-        }
-    }
+/// A clause that says all there is to say by its name.
+fn check_alone(clause: &Clause, context: &mut Context) {
+    let name = &clause.name;
+    let span = match &clause.value {
+        Value::Absent | Value::Malformed => return,
+        Value::Equals(tokens) => tokens.first().map_or(name.span(), attributes::start),
+        Value::Brackets(group) => group.span_open(),
+    };
+    context.error(span, format!("`{name}` takes no value; write `{name}` alone, or leave it out"));
 }
 
 fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {

@@ -1,6 +1,6 @@
 //! A system as the user wrote it, checked: own coordinates and speeds, bodies, particles, constraints and forces.
 
-use super::{Expression, Role, Scalar, Shape};
+use super::{Expression, Role, Scalar, Shape, Wanted};
 use proc_macro2::Span;
 use syn::{Generics, Ident, Path, Visibility};
 
@@ -17,8 +17,8 @@ pub struct SystemModel {
     pub scalar: Scalar,
     /// Where the generated code finds the runtime: `::gauss_runtime`, or what `crate = path` says.
     pub runtime: Path,
-    /// `taylor`, where it is written: power series of the motion are wanted.
-    pub taylor: Option<Ident>,
+    /// What is wanted beside the equations.
+    pub wanted: Wanted,
     /// Every field of the struct, in order.
     pub fields: Vec<SystemField>,
     /// The coordinates q, in order.

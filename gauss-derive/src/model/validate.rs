@@ -53,7 +53,8 @@ pub(super) fn model(
     };
     let acting = if statements.acting {
         let fields = assembly::fields(&reader, &shapes);
-        Some(Box::new(assembly::model(input, scene.runtime.clone(), None, scalar.clone(), fields, statements)?))
+        let (runtime, wanted) = (scene.runtime.clone(), scene.wanted.clone());
+        Some(Box::new(assembly::model(input, runtime, wanted, scalar.clone(), fields, statements)?))
     } else {
         None
     };
@@ -81,7 +82,7 @@ pub(super) fn model(
         displaced_mass: index(Role::DisplacedMass),
         center_of_buoyancy: index(Role::CenterOfBuoyancy),
         acting,
-        taylor: scene.taylor,
+        wanted: scene.wanted,
     })
 }
 

@@ -8,6 +8,7 @@
 //! | [`runge_kutta`] | Runge–Kutta steps on the components, brought back onto the group |
 //! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
 //! | [`collocation`] | Gauss' implicit methods of orders 2, 4, 6, symmetric |
+//! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`commutator_free`] | a commutator-free method of order 4 |
 //! | [`composition`] | symmetric methods composed to higher orders |
 //! | [`control`] | fixed steps, adaptive steps |
@@ -42,6 +43,7 @@ pub mod method;
 pub mod one_step;
 mod projection;
 pub mod rkmk;
+pub mod rosenbrock;
 pub mod runge_kutta;
 pub mod simulation;
 mod step_length;
@@ -66,6 +68,7 @@ pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rate
 pub use method::{EitherForm, Method};
 pub use one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
 pub use rkmk::Rkmk;
+pub use rosenbrock::Rosenbrock;
 pub use runge_kutta::RungeKutta;
 pub use simulation::{Observer, Simulation};
 pub use tableau::{Classical4, Coefficients, DormandPrince5, DormandPrince8, Tableau, Verner9};

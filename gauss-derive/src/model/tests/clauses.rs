@@ -158,7 +158,10 @@ fn struct_clauses() {
     check_body("#[gauss(char = hybrid)]", &[("char", "unknown clause `char`; did you mean `chart`?")]);
     check_body(
         "#[gauss(foo = 1)]",
-        &[("foo", "unknown clause `foo`; expected `chart`, `motion` or `crate`, or what acts, such as `force(…)`")],
+        &[(
+            "foo",
+            "unknown clause `foo`; expected `chart`, `motion`, `crate` or `linearize`, or what acts, such as `force(…)`",
+        )],
     );
     check_body("#[gauss(hybrid)]", &[("hybrid", "`hybrid` is a chart; write `chart = hybrid`")]);
     check_body("#[gauss(jet(euler_zyx))]", &[("jet", "`jet` is a chart; write `chart = jet(euler_zyx)`")]);

@@ -1,0 +1,354 @@
+//! Derivatives of programs: forward differentiation, instruction by instruction, along many directions at once.
+//!
+//! A program is a list of elementary steps, so the chain rule is one rule a step, and what a step costs its derivative costs two or
+//! three times. Products with 0 and 1 are never written, equal instructions are written once, and what no output needs is
+//! left out: outputs that cannot change along a direction are the number 0.
+
+use crate::algebra::{BinaryFunction, Expr, Function, Map, Rational};
+
+use super::program::{Operand, Operation, Program};
+
+/// The rates of the symbols that move, each a number, a symbol, or the negative of one. Others stand still.
+pub type Direction<'g> = Vec<(Expr<'g>, Expr<'g>)>;
+
+/// The outputs of `program`, and then, direction by direction, the derivatives of them all. `bound` are symbols that are outputs of
+/// the other program: what reads them reads these.
+pub fn with_tangents<'g>(
+    program: &Program<'g>,
+    bound: (&[Expr<'g>], &Program<'g>),
+    directions: &[Direction<'g>],
+) -> Program<'g> {
+    let mut writer = Writer::default();
+    let none = Map::default();
+    let (_, values) = writer.copy(bound.1, &none);
+    let symbols: Map<u32, Operand<'g>> = bound.0.iter().map(|symbol| symbol.key()).zip(values).collect();
+    let (places, mut outputs) = writer.copy(program, &symbols);
+    for direction in directions {
+        let mut pass = Pass { writer: &mut writer, program, symbols: &symbols, places: &places, rates: Map::default() };
+        for (symbol, rate) in direction {
+            let rate = pass.rate_of_symbol(*rate);
+            pass.rates.insert(symbol.key(), rate);
+        }
+        outputs.extend(pass.outputs());
+    }
+    writer.finish(outputs)
+}
+
+/// A derivative that is not 0: ± a value.
+#[derive(Clone, Copy)]
+struct Tangent<'g> {
+    negative: bool,
+    value: Operand<'g>,
+}
+
+impl<'g> Tangent<'g> {
+    fn negated(self) -> Self {
+        Self { negative: !self.negative, ..self }
+    }
+}
+
+/// A derivative; `None` is 0.
+type Rate<'g> = Option<Tangent<'g>>;
+
+/// Writes instructions, equal ones once.
+#[derive(Default)]
+struct Writer<'g> {
+    instructions: Vec<Operation<'g>>,
+    known: Map<Operation<'g>, usize>,
+}
+
+#[expect(clippy::mutable_key_type, reason = "an expression is hashed by its index, which never changes")]
+impl<'g> Writer<'g> {
+    fn place(&mut self, operation: Operation<'g>) -> usize {
+        let next = self.instructions.len();
+        let place = *self.known.entry(operation).or_insert(next);
+        if place == next {
+            self.instructions.push(operation);
+        }
+        place
+    }
+
+    fn push(&mut self, operation: Operation<'g>) -> Operand<'g> {
+        Operand::Value(self.place(operation))
+    }
+
+    /// Copies a program, with some of its symbols replaced: where its instructions are now, and its outputs.
+    fn copy(&mut self, program: &Program<'g>, symbols: &Map<u32, Operand<'g>>) -> (Vec<usize>, Vec<Operand<'g>>) {
+        let mut places = Vec::with_capacity(program.instructions.len());
+        for instruction in &program.instructions {
+            let moved = instruction.map(|operand| moved(operand, &places, symbols));
+            places.push(self.place(moved));
+        }
+        let outputs = program.outputs.iter().map(|&operand| moved(operand, &places, symbols)).collect();
+        (places, outputs)
+    }
+
+    /// As a program, without what no output needs.
+    fn finish(self, outputs: Vec<Operand<'g>>) -> Program<'g> {
+        let mut needed = vec![false; self.instructions.len()];
+        let mark = |operand: Operand<'g>, needed: &mut Vec<bool>| {
+            if let Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) = operand {
+                needed[k] = true;
+            }
+        };
+        outputs.iter().for_each(|&operand| mark(operand, &mut needed));
+        for (k, instruction) in self.instructions.iter().enumerate().rev() {
+            if needed[k] {
+                instruction.operands().for_each(|operand| mark(operand, &mut needed));
+            }
+        }
+        // Places of what stays; those of the others are never looked up.
+        let mut places = Vec::with_capacity(needed.len());
+        let mut count = 0;
+        for &stays in &needed {
+            places.push(count);
+            count += usize::from(stays);
+        }
+        let none = Map::default();
+        let kept = self.instructions.iter().zip(&needed).filter(|(_, needed)| **needed);
+        Program {
+            instructions: kept.map(|(i, _)| i.map(|operand| moved(operand, &places, &none))).collect(),
+            outputs: outputs.into_iter().map(|operand| moved(operand, &places, &none)).collect(),
+        }
+    }
+
+    fn written(&mut self, tangent: Tangent<'g>) -> Operand<'g> {
+        match (tangent.negative, tangent.value) {
+            (false, value) => value,
+            (true, Operand::Number(n)) => Operand::Number(-n),
+            (true, value) => self.push(Operation::Negate(value)),
+        }
+    }
+
+    /// a b of values that are not derivatives.
+    fn multiplied(&mut self, a: Operand<'g>, b: Operand<'g>) -> Operand<'g> {
+        match (a, b) {
+            (Operand::Number(n), other) | (other, Operand::Number(n)) if n.is_one() => other,
+            (Operand::Number(n), Operand::Number(m)) => Operand::Number(n * m),
+            _ => self.push(Operation::Multiply(a, b)),
+        }
+    }
+
+    fn reciprocal(&mut self, a: Operand<'g>) -> Operand<'g> {
+        match a {
+            Operand::Number(n) => Operand::Number(n.recip()),
+            _ => self.push(Operation::Divide(Operand::Number(Rational::one()), a)),
+        }
+    }
+
+    /// `rate · factor`.
+    fn times(&mut self, rate: Rate<'g>, factor: Operand<'g>) -> Rate<'g> {
+        let tangent = rate?;
+        let (negative, factor) = match factor {
+            Operand::Number(n) if n.is_zero() => return None,
+            Operand::Number(n) if n.is_negative() => (!tangent.negative, Operand::Number(-n)),
+            _ => (tangent.negative, factor),
+        };
+        Some(Tangent { negative, value: self.multiplied(tangent.value, factor) })
+    }
+
+    fn plus(&mut self, a: Rate<'g>, b: Rate<'g>) -> Rate<'g> {
+        let (Some(a), Some(b)) = (a, b) else { return a.or(b) };
+        if a.value == b.value && a.negative != b.negative {
+            return None;
+        }
+        if let (Operand::Number(n), Operand::Number(m)) = (a.value, b.value) {
+            let sum = if a.negative == b.negative { n.plus(m) } else { n - m };
+            let value = Operand::Number(sum.abs());
+            return (!sum.is_zero()).then_some(Tangent { negative: a.negative != sum.is_negative(), value });
+        }
+        Some(match (a.negative, b.negative) {
+            (negative, other) if negative == other => {
+                Tangent { negative, value: self.push(Operation::Add(a.value, b.value)) }
+            }
+            (false, _) => Tangent { negative: false, value: self.push(Operation::Subtract(a.value, b.value)) },
+            (true, _) => Tangent { negative: false, value: self.push(Operation::Subtract(b.value, a.value)) },
+        })
+    }
+
+    /// `rate · factor + onto`, in one instruction where both are there.
+    fn times_plus(&mut self, rate: Rate<'g>, factor: Operand<'g>, onto: Rate<'g>) -> Rate<'g> {
+        let plain = |operand: Operand<'g>| matches!(operand, Operand::Number(_));
+        match (rate, onto) {
+            (Some(tangent), Some(sum)) if !plain(tangent.value) && !plain(factor) => {
+                let (a, b, c) = (tangent.value, factor, sum.value);
+                let same = tangent.negative == sum.negative;
+                let operation =
+                    if same { Operation::MultiplyAdd(a, b, c) } else { Operation::MultiplySubtract(a, b, c) };
+                Some(Tangent { negative: sum.negative, value: self.push(operation) })
+            }
+            _ => {
+                let product = self.times(rate, factor);
+                self.plus(product, onto)
+            }
+        }
+    }
+}
+
+/// An operand where its instruction is now.
+fn moved<'g>(operand: Operand<'g>, places: &[usize], symbols: &Map<u32, Operand<'g>>) -> Operand<'g> {
+    match operand {
+        Operand::Symbol(e) => symbols.get(&e.key()).copied().unwrap_or(operand),
+        Operand::Number(_) => operand,
+        Operand::Value(k) => Operand::Value(places[k]),
+        Operand::Sine(k) => Operand::Sine(places[k]),
+        Operand::Cosine(k) => Operand::Cosine(places[k]),
+    }
+}
+
+/// The derivatives of one program along one direction.
+struct Pass<'a, 'g> {
+    writer: &'a mut Writer<'g>,
+    program: &'a Program<'g>,
+    symbols: &'a Map<u32, Operand<'g>>,
+    places: &'a [usize],
+    /// Of symbols that move.
+    rates: Map<u32, Rate<'g>>,
+}
+
+impl<'g> Pass<'_, 'g> {
+    fn rate_of_symbol(&self, rate: Expr<'g>) -> Rate<'g> {
+        if rate.is_zero() {
+            return None;
+        }
+        let (c, rest) = rate.split_coefficient();
+        let value =
+            if rest.as_number().is_some() { Operand::Number(c.abs()) } else { self.here(Operand::Symbol(rest)) };
+        let tangent = Tangent { negative: false, value };
+        Some(if c.is_negative() { tangent.negated() } else { tangent })
+    }
+
+    fn outputs(mut self) -> Vec<Operand<'g>> {
+        // Of sines and cosines that of the angle.
+        let mut tangents: Vec<Rate<'g>> = Vec::with_capacity(self.program.instructions.len());
+        for k in 0..self.program.instructions.len() {
+            let tangent = self.instruction(k, &tangents);
+            tangents.push(tangent);
+        }
+        let program = self.program;
+        let written = |operand: &Operand<'g>| match self.rate(*operand, &tangents) {
+            None => Operand::Number(Rational::zero()),
+            Some(tangent) => self.writer.written(tangent),
+        };
+        program.outputs.iter().map(written).collect()
+    }
+
+    /// An operand of the program, as it is read now.
+    fn here(&self, operand: Operand<'g>) -> Operand<'g> {
+        moved(operand, self.places, self.symbols)
+    }
+
+    fn rate(&mut self, operand: Operand<'g>, tangents: &[Rate<'g>]) -> Rate<'g> {
+        match operand {
+            Operand::Number(_) => None,
+            Operand::Symbol(e) => self.rates.get(&e.key()).copied().flatten(),
+            Operand::Value(k) => tangents[k],
+            Operand::Sine(k) => self.writer.times(tangents[k], Operand::Cosine(self.places[k])),
+            Operand::Cosine(k) => self.writer.times(tangents[k], Operand::Sine(self.places[k])).map(Tangent::negated),
+        }
+    }
+
+    fn instruction(&mut self, k: usize, tangents: &[Rate<'g>]) -> Rate<'g> {
+        let own = Operand::Value(self.places[k]);
+        let minus = |rate: Rate<'g>| rate.map(Tangent::negated);
+        match self.program.instructions[k] {
+            Operation::Add(a, b) => {
+                let (da, db) = (self.rate(a, tangents), self.rate(b, tangents));
+                self.writer.plus(da, db)
+            }
+            Operation::Subtract(a, b) => {
+                let (da, db) = (self.rate(a, tangents), self.rate(b, tangents));
+                self.writer.plus(da, minus(db))
+            }
+            Operation::Multiply(a, b) => {
+                let (da, db) = (self.rate(a, tangents), self.rate(b, tangents));
+                let (a, b) = (self.here(a), self.here(b));
+                let first = self.writer.times(da, b);
+                self.writer.times_plus(db, a, first)
+            }
+            Operation::MultiplyAdd(a, b, c) | Operation::MultiplySubtract(a, b, c) => {
+                let subtracts = matches!(self.program.instructions[k], Operation::MultiplySubtract(..));
+                let sign = |rate: Rate<'g>| if subtracts { minus(rate) } else { rate };
+                let dc = self.rate(c, tangents);
+                let (da, db) = (sign(self.rate(a, tangents)), sign(self.rate(b, tangents)));
+                let (a, b) = (self.here(a), self.here(b));
+                let first = self.writer.times_plus(da, b, dc);
+                self.writer.times_plus(db, a, first)
+            }
+            // (a/b)˙ = (ȧ − (a/b) ḃ)/b.
+            Operation::Divide(a, b) => {
+                let (da, db) = (self.rate(a, tangents), self.rate(b, tangents));
+                if da.is_none() && db.is_none() {
+                    return None;
+                }
+                let above = self.writer.times_plus(minus(db), own, da);
+                let b = self.here(b);
+                let reciprocal = self.writer.reciprocal(b);
+                self.writer.times(above, reciprocal)
+            }
+            Operation::Negate(a) => minus(self.rate(a, tangents)),
+            Operation::SineCosine(a) => self.rate(a, tangents),
+            Operation::Call(function, a) => {
+                let da = self.rate(a, tangents);
+                da?;
+                let slope = self.slope(function, a, own)?;
+                self.writer.times(da, slope)
+            }
+            Operation::Binary(BinaryFunction::Atan2, y, x) => {
+                let (dy, dx) = (self.rate(y, tangents), self.rate(x, tangents));
+                if dy.is_none() && dx.is_none() {
+                    return None;
+                }
+                let (y, x) = (self.here(y), self.here(x));
+                let turned = self.writer.times(dy, x);
+                let turned = self.writer.times_plus(minus(dx), y, turned);
+                let square = self.writer.multiplied(y, y);
+                let square = self.writer.push(Operation::MultiplyAdd(x, x, square));
+                let reciprocal = self.writer.reciprocal(square);
+                self.writer.times(turned, reciprocal)
+            }
+            Operation::Binary(function, a, b) => {
+                let (da, db) = (self.rate(a, tangents), self.rate(b, tangents));
+                if da.is_none() && db.is_none() {
+                    return None;
+                }
+                let (a, b) = (self.here(a), self.here(b));
+                let [of_first, of_second] = self.shares(function, a, b);
+                let first = self.writer.times(da, of_first);
+                self.writer.times_plus(db, of_second, first)
+            }
+        }
+    }
+
+    /// f′ at the operand of the program `a`, where f is `own`; `None` is 0.
+    fn slope(&mut self, function: Function, a: Operand<'g>, own: Operand<'g>) -> Option<Operand<'g>> {
+        let a = self.here(a);
+        let number = |p: i64, q: i64| Operand::Number(Rational::new(p, q));
+        Some(match function {
+            Function::Exp => own,
+            Function::Ln => self.writer.reciprocal(a),
+            // At 0, where the slope is infinite, a huge number in its place: 0 stays 0 along directions in which the radicand, such as
+            // the square of a velocity, does not change to first order. Two factors, because 2⁻¹²⁴ is no fraction of 64-bit integers.
+            Function::Sqrt => {
+                let least = self.writer.push(Operation::Multiply(number(1, 1 << 62), number(1, 1 << 62)));
+                let root = self.writer.push(Operation::Binary(BinaryFunction::Max, own, least));
+                self.writer.push(Operation::Divide(number(1, 2), root))
+            }
+            Function::Abs => self.writer.push(Operation::Call(Function::Signum, a)),
+            Function::Signum => return None,
+            Function::Sin | Function::Cos => unreachable!("sines and cosines come in pairs"),
+        })
+    }
+
+    /// How much of each derivative the larger or smaller of two numbers has: 1 and 0, or ½ and ½ where they are equal.
+    fn shares(&mut self, function: BinaryFunction, a: Operand<'g>, b: Operand<'g>) -> [Operand<'g>; 2] {
+        let half = Operand::Number(Rational::new(1, 2));
+        let (x, y) = if function == BinaryFunction::Max { (a, b) } else { (b, a) };
+        let difference = self.writer.push(Operation::Subtract(x, y));
+        let side = self.writer.push(Operation::Call(Function::Signum, difference));
+        [
+            self.writer.push(Operation::MultiplyAdd(half, side, half)),
+            self.writer.push(Operation::MultiplySubtract(half, side, half)),
+        ]
+    }
+}

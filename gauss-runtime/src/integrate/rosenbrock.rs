@@ -1,0 +1,287 @@
+//! RODAS: a linearly implicit method of order 4(3) for stiff scenes, with exact Jacobians.
+//!
+//! Explicit methods need steps as short as the fastest decay of the scene, long after it has died out. A Rosenbrock method solves a
+//! linear system in each stage instead, with the Jacobian that the derive writes
+//! ([`LinearizedSystem`]), and no iteration: it is L-stable, so steps can be as long as what one looks at allows.
+//!
+//! In the chart `q = q₀ ∘ exp(σ)` about the start of the step the equations are `σ̇ = dexp_inv(σ, V)` and ż = f on a linear
+//! space, where the method keeps its order. Their Jacobian at σ = 0 is that of (V, ż) and the first term of dexp⁻¹: ½ [·, V].
+//!
+//! Coefficients: E. Hairer & G. Wanner, *Solving Ordinary Differential Equations II*, IV.7 and IV.10, code RODAS; a test
+//! verifies the order conditions.
+
+use super::error::{IntegrationErrorKind, Part};
+use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use super::one_step::{OneStep, Properties, Step};
+use super::rkmk::{check_chart, check_increment};
+use super::step_length::power;
+use crate::configuration::{Configuration, VectorSpace};
+use crate::linearize::{Factored, LinearModel, LinearizedSystem, brackets};
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+const STAGES: usize = 6;
+
+/// γ of the matrix `1/(hγ) − J`.
+const GAMMA: f64 = 0.25;
+
+/// Stages at `y₀ + Σ a_ij u_j`. The last row makes the embedded solution of order 3, and that with u₆ added is the step: the
+/// method is stiffly accurate.
+const A: [[f64; STAGES]; STAGES] = [
+    [0.0; STAGES],
+    [1.544, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [0.946_678_528_081_582_6, 0.255_701_169_898_328_4, 0.0, 0.0, 0.0, 0.0],
+    [3.314_825_187_068_521, 2.896_124_015_972_201, 0.998_641_913_997_781_7, 0.0, 0.0, 0.0],
+    [1.221_224_509_226_641, 6.019_134_481_288_629, 12.537_083_329_320_87, -0.687_886_036_105_895, 0.0, 0.0],
+    [1.221_224_509_226_641, 6.019_134_481_288_629, 12.537_083_329_320_87, -0.687_886_036_105_895, 1.0, 0.0],
+];
+
+/// Right-hand sides have `Σ c_ij u_j / h` added.
+const C: [[f64; STAGES]; STAGES] = [
+    [0.0; STAGES],
+    [-5.6688, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [-2.430_093_356_833_875, -0.206_359_915_709_191_5, 0.0, 0.0, 0.0, 0.0],
+    [-0.107_352_905_815_137_5, -9.594_562_251_023_355, -20.470_286_148_096_16, 0.0, 0.0, 0.0],
+    [7.496_443_313_967_647, -10.246_804_314_643_52, -33.999_903_528_199_05, 11.708_908_932_061_6, 0.0, 0.0],
+    [
+        8.083_246_795_921_522,
+        -7.981_132_988_064_893,
+        -31.521_594_328_743_71,
+        16.319_305_431_231_36,
+        -6.058_818_238_834_054,
+        0.0,
+    ],
+];
+
+/// Times of the stages, Σ_j α_ij.
+const TIMES: [f64; STAGES] = [0.0, 0.386, 0.21, 0.63, 1.0, 1.0];
+
+/// Right-hand sides have `γ_i h ∂f/∂t` added, γ_i = Σ_j γ_ij.
+const TIME_SLOPES: [f64; STAGES] = [0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0];
+
+/// RODAS of Hairer and Wanner on the group: six stages, order 4 with an estimate of order 3, L-stable, stiffly accurate.
+///
+/// For kernels with `#[gauss(linearize)]`. A step costs a linearisation, a factorisation of the size of the state (twice the degrees of
+/// freedom) and five more evaluations. It keeps no integral, and damps what is faster than the step: not for conservative scenes.
+///
+/// Both forms of the equations are integrated in z: the derivatives are those of ż. Derivatives of the equations by time
+/// are exact. Those of an input that depends on time or state are differences: by time over points within the step, of order
+/// h⁴, as the method; by the state central ones, whose relative error of about 1e-10 limits the order at that size of errors.
+///
+#[cfg_attr(
+    feature = "derive",
+    doc = r##"
+```
+use gauss_runtime::prelude::*;
+
+/// A plate on a film of oil that brakes it within a millisecond, pulled by a soft spring.
+#[derive(GaussDynamics)]
+#[gauss(
+    linearize,
+    coordinates(x),
+    particle(mass = m, position = [x, 0, 0]),
+    spring(along = x, stiffness = k, damping = c),
+)]
+struct Plate {
+    m: f64,
+    k: f64,
+    c: f64,
+}
+
+# fn main() -> Result<(), Box<dyn std::error::Error>> {
+let kernel = Plate { m: 1.0, k: 100.0, c: 1000.0 }.kernel()?;
+let (x, v) = (SVector::from([1.0]), SVector::from([0.0]));
+// ẍ + 1000 ẋ + 100 x = 0 creeps with e^(−t/10): steps a thousand times longer than the film's time.
+let end = Simulation::new(&kernel).control(Fixed::by(Rosenbrock, 1.0)).run_to_end(x, v, 0.0..10.0)?;
+let slow = -500.0 + (500.0_f64 * 500.0 - 100.0).sqrt();
+assert!((end.q[0] / (slow * 10.0).exp() - 1.0).abs() < 1e-3);
+# Ok(())
+# }
+```
+"##
+)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rosenbrock;
+
+type Model<S> = <S as LinearizedSystem>::Linearization;
+type Vector<S> = <Model<S> as LinearModel<<S as GaussSystem>::Scalar>>::Vector;
+
+impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
+    fn properties(&self) -> Properties {
+        Properties::of_order(4)
+    }
+
+    /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
+    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined, as with a singular matrix
+    /// ([`IntegrationErrorKind::NonFinite`]).
+    fn step<F: Form<S>, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        state: &State<S>,
+        _: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<Step<S>, IntegrationErrorKind> {
+        let number = S::Scalar::from_f64;
+        let one = S::Scalar::one();
+        let Problem { system, form, .. } = problem;
+        let start = Start { t: state.t, q: state.q, z: form.speeds(system, state.t, &state.q, &state.y) };
+        let input = problem.input.input(start.t, &start.q, &start.z);
+        let linear = system.linearize(start.t, &start.q, &start.z, &input);
+        let mut bracket = brackets::<S>(&linear);
+        let mut feedback = feedback(problem, &start, &linear);
+        let diagonal = one / (h * number(GAMMA));
+        let factors = Model::<S>::factor(|row, column| {
+            let slope = linear.by_state(row, column) + bracket(row, column) + feedback(row, column);
+            if row == column { diagonal - slope } else { -slope }
+        });
+        let by_time = start.by_time(problem, &linear, &input, h);
+        let reciprocal = one / h;
+
+        let mut stages = [Vector::<S>::zero(); STAGES];
+        let mut increment = Vector::<S>::zero();
+        for i in 0..STAGES {
+            let mut right = if i == 0 {
+                *linear.rate()
+            } else {
+                increment = Vector::<S>::zero();
+                for j in 0..i {
+                    increment = increment.add_scaled(number(A[i][j]), &stages[j]);
+                }
+                let reached = start.moved(&increment)?;
+                start.rates(problem, &increment, &reached, number(TIMES[i]).fma(h, start.t))
+            };
+            for j in 0..i {
+                right = right.add_scaled(number(C[i][j]) * reciprocal, &stages[j]);
+            }
+            right = right.add_scaled(number(TIME_SLOPES[i]) * h, &by_time);
+            stages[i] = factors.solve(&right);
+        }
+        let (q, z) = start.moved(&increment.add_scaled(one, &stages[STAGES - 1]))?;
+        let (configuration, error) = start.split(&stages[STAGES - 1]);
+        let t = state.t + h;
+        let q = q.renormalise();
+        let y = form.variables(system, t, &q, &z);
+        let embedded = form.variables(system, t, &q, &z.add_scaled(-one, &error));
+        let error = Rates { configuration, variables: y.add_scaled(-one, &embedded) };
+        let end = State { t, q, y };
+        check_chart(problem, state, &end)?;
+        if !(end.q.is_finite() && end.y.is_finite() && error.is_finite()) {
+            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        }
+        Ok(Step { state: end, error, rates: None })
+    }
+}
+
+/// Where a step starts, in z.
+struct Start<S: GaussSystem> {
+    t: S::Scalar,
+    q: S::Configuration,
+    z: S::Speeds,
+}
+
+impl<S: LinearizedSystem> Start<S> {
+    /// (σ, δz).
+    fn split(&self, increment: &Vector<S>) -> (TangentOf<S>, S::Speeds) {
+        let (mut sigma, mut speeds) = (TangentOf::<S>::zero(), S::Speeds::zero());
+        for i in 0..TangentOf::<S>::DIM {
+            sigma.set_component(i, increment.component(i));
+        }
+        for i in 0..S::Speeds::DIM {
+            speeds.set_component(i, increment.component(TangentOf::<S>::DIM + i));
+        }
+        (sigma, speeds)
+    }
+
+    /// (q ∘ exp σ, z + δz).
+    fn moved(&self, increment: &Vector<S>) -> Result<(S::Configuration, S::Speeds), IntegrationErrorKind> {
+        let (configuration, variables) = self.split(increment);
+        check_increment::<S>(&Rates { configuration, variables })?;
+        Ok((self.q.retract(&configuration), self.z.add_scaled(S::Scalar::one(), &variables)))
+    }
+
+    /// (dexp_inv(σ, V), ż) at a state that an increment leads to.
+    fn rates<F, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        increment: &Vector<S>,
+        (q, z): &(S::Configuration, S::Speeds),
+        t: S::Scalar,
+    ) -> Vector<S> {
+        let input = problem.input.input(t, q, z);
+        let velocity = problem.system.kinematics(t, q, z);
+        let velocity = S::Configuration::dexp_inv(&self.split(increment).0, &velocity);
+        let acceleration = problem.system.acceleration(t, q, z, &input);
+        let mut rates = Vector::<S>::zero();
+        for i in 0..TangentOf::<S>::DIM {
+            rates.set_component(i, velocity.component(i));
+        }
+        for i in 0..S::Speeds::DIM {
+            rates.set_component(TangentOf::<S>::DIM + i, acceleration.component(i));
+        }
+        rates
+    }
+
+    /// ∂(V, ż)/∂t, that through the input included: its derivative is that of the polynomial through five points of the step, so
+    /// that no table is asked for times outside the run.
+    fn by_time<F, I: InputSource<S>>(
+        &self,
+        problem: &Problem<'_, S, F, I>,
+        linear: &Model<S>,
+        now: &S::Input,
+        h: S::Scalar,
+    ) -> Vector<S> {
+        let mut slope = *linear.by_time();
+        if S::Input::DIM == 0 {
+            return slope;
+        }
+        let mut rate = now.scale(S::Scalar::ratio(-25, 3) / h);
+        for (k, thirds) in [(1, 48), (2, -36), (3, 16), (4, -3)] {
+            let later = problem.input.input(S::Scalar::ratio(k, 4).fma(h, self.t), &self.q, &self.z);
+            rate = rate.add_scaled(S::Scalar::ratio(thirds, 3) / h, &later);
+        }
+        for row in 0..Vector::<S>::DIM {
+            slope.set_component(row, through_input::<S>(linear, row, &rate, slope.component(row)));
+        }
+        slope
+    }
+}
+
+/// `∂(V, ż)/∂input · rate + onto`, one row.
+fn through_input<S: LinearizedSystem>(linear: &Model<S>, row: usize, rate: &S::Input, onto: S::Scalar) -> S::Scalar {
+    (0..S::Input::DIM).fold(onto, |sum, k| linear.by_input(row, k).fma(rate.component(k), sum))
+}
+
+/// Entries of what an input that depends on the state adds to ∂(V, ż)/∂(σ, z), column by column: by central differences over a
+/// distance of ε^⅓, where what they neglect and what they lose by rounding are about the same.
+fn feedback<S: LinearizedSystem, F, I: InputSource<S>>(
+    problem: &Problem<'_, S, F, I>,
+    start: &Start<S>,
+    linear: &Model<S>,
+) -> impl FnMut(usize, usize) -> S::Scalar {
+    let input = |column: usize, distance: f64| {
+        let mut axis = Vector::<S>::zero();
+        axis.set_component(column, S::Scalar::from_f64(distance));
+        let (sigma, speeds) = start.split(&axis);
+        let z = start.z.add_scaled(S::Scalar::one(), &speeds);
+        problem.input.input(start.t, &start.q.retract(&sigma), &z)
+    };
+    let slope = move |column: usize| {
+        let size = match column.checked_sub(TangentOf::<S>::DIM) {
+            None => start.q.magnitude(column),
+            Some(k) => (0..S::Scalar::LANES).map(|lane| start.z.component(k).lane(lane).abs()).fold(0.0, f64::max),
+        };
+        let distance = power(S::Scalar::EPSILON, 1.0 / 3.0) * size.max(1.0);
+        let difference = input(column, distance).add_scaled(-S::Scalar::one(), &input(column, -distance));
+        difference.scale(S::Scalar::from_f64(0.5 / distance))
+    };
+    let mut known = (usize::MAX, S::Input::zero());
+    move |row, column| {
+        if S::Input::DIM == 0 {
+            return S::Scalar::zero();
+        }
+        if known.0 != column {
+            known = (column, slope(column));
+        }
+        through_input::<S>(linear, row, &known.1, S::Scalar::zero())
+    }
+}

@@ -1,0 +1,297 @@
+//! Exact derivatives of the equations of motion by the state, time and the input: what control, estimation and linearly implicit
+//! integrators are made of.
+//!
+//! `#[gauss(linearize)]` on a struct has the derive write them: its kernel then implements [`LinearizedSystem`].
+
+use core::fmt::Debug;
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::configuration::{Configuration, VectorSpace};
+use crate::real::Real;
+use crate::system::{GaussSystem, OperationCount};
+
+/// A system whose equations come with their derivatives, the same instructions differentiated one by one.
+///
+/// The state moves by (σ, δz): `q ∘ exp(σ)` as everywhere in this crate (seen from the body: for a pose its first three components
+/// move O along body axes, the last three turn about them), and `z + δz`. Rates are (V, ż), with V the velocity of the
+/// configuration, q̇ seen from the body.
+///
+#[cfg_attr(
+    feature = "derive",
+    doc = r##"
+```
+use gauss_runtime::prelude::*;
+
+/// A pendulum with a motor at its hinge.
+#[derive(GaussDynamics)]
+#[gauss(
+    linearize,
+    coordinates(theta),
+    particle(mass = m, position = [l * sin(theta), 0, -l * cos(theta)]),
+    input(torque),
+    drive(theta = torque),
+)]
+struct Pendulum {
+    m: f64,
+    l: f64,
+    #[gauss(gravity)]
+    g: f64,
+}
+
+# fn main() -> Result<(), Box<dyn std::error::Error>> {
+let kernel = Pendulum { m: 2.0, l: 0.5, g: 9.81 }.kernel()?;
+// Upright: θ̈ = −(g/l) sin θ + torque/(m l²).
+let (up, still) = (SVector::from([std::f64::consts::PI]), SVector::from([0.0]));
+let linear = kernel.linearize(0.0, &up, &still, &SVector::from([0.0]));
+assert!((linear.by_state[(1, 0)] - 9.81 / 0.5).abs() < 1e-12);
+assert!((linear.by_input[(1, 0)] - 1.0 / (2.0 * 0.25)).abs() < 1e-12);
+assert_eq!(linear.by_state[(0, 1)], 1.0);
+# Ok(())
+# }
+```
+"##
+)]
+pub trait LinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>::Scalar>> {
+    /// [`Linearization`] of this system's sizes.
+    type Linearization: LinearModel<Self::Scalar>;
+
+    /// Which entries of [`Linearization::by_state`] can be other than zero, row by row.
+    const STATE_PATTERN: &'static [&'static [bool]];
+
+    /// Which entries of [`Linearization::by_input`] can be other than zero, row by row.
+    const INPUT_PATTERN: &'static [&'static [bool]];
+
+    /// What [`linearize`](Self::linearize) costs.
+    const LINEARIZE_OPERATIONS: OperationCount;
+
+    /// (V, ż) and all their derivatives, exact up to rounding; under constraints those of the accelerations that satisfy them.
+    ///
+    /// Where a force has a kink (`abs`, `min`, `max`, `clamp`) the derivative is the mean of those on its two sides; that of a jump
+    /// (`signum`) is 0. Where a root is 0 its infinite slope is replaced by a huge one, so that what does not change to first order, such
+    /// as |v| v at rest, has the derivative 0. Non-finite input gives non-finite output.
+    fn linearize(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Linearization;
+}
+
+/// The rates (V, ż) of a state (q, z) and their derivatives. D counts the components of (σ, δz), U those of the input.
+///
+/// | rows | columns of `by_state` | block |
+/// |---|---|---|
+/// | V | σ, then δz | ∂V/∂σ, ∂V/∂z |
+/// | ż | σ, then δz | ∂ż/∂σ, ∂ż/∂z |
+///
+/// V and σ have the components of the increments of the configuration ([`Configuration::Tangent`]). For how a small (σ, δz) beside a
+/// motion changes with time see [`error_matrix`].
+///
+/// [`Configuration::Tangent`]: crate::configuration::Configuration::Tangent
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linearization<T, const D: usize, const U: usize> {
+    /// V, then ż.
+    pub rate: SVector<T, D>,
+    /// ∂(V, ż)/∂(σ, z).
+    pub by_state: SMatrix<T, D, D>,
+    /// ∂(V, ż)/∂t, explicit in time: 0 where the equations do not name it.
+    pub by_time: SVector<T, D>,
+    /// ∂(V, ż)/∂input.
+    pub by_input: SMatrix<T, D, U>,
+}
+
+/// A [`Linearization`] without its sizes, for code over every system. Implemented by that type alone.
+pub trait LinearModel<T: Real>: Copy + Debug {
+    /// `SVector` of (σ, δz).
+    type Vector: VectorSpace<T>;
+    /// `SMatrix` of that size, square.
+    type Matrix: Copy + Debug;
+    /// The same, factored.
+    type Factors: Factored<T, Self::Vector>;
+
+    /// V, then ż.
+    fn rate(&self) -> &Self::Vector;
+    /// Entry of ∂(V, ż)/∂(σ, z).
+    fn by_state(&self, row: usize, column: usize) -> T;
+    /// ∂(V, ż)/∂t.
+    fn by_time(&self) -> &Self::Vector;
+    /// Entry of ∂(V, ż)/∂input.
+    fn by_input(&self, row: usize, column: usize) -> T;
+    /// The matrix with the given entries.
+    fn matrix(entry: impl FnMut(usize, usize) -> T) -> Self::Matrix;
+    /// The factors of the matrix with the given entries. Those of a singular one are not finite.
+    fn factor(entry: impl FnMut(usize, usize) -> T) -> Self::Factors;
+}
+
+/// A square matrix, ready for right-hand sides.
+pub trait Factored<T: Real, V> {
+    /// x with `matrix · x = right`; not finite where the matrix is singular.
+    fn solve(&self, right: &V) -> V;
+}
+
+impl<T: Real, const D: usize, const U: usize> LinearModel<T> for Linearization<T, D, U> {
+    type Vector = SVector<T, D>;
+    type Matrix = SMatrix<T, D, D>;
+    type Factors = Lu<T, D>;
+
+    #[inline(always)]
+    fn rate(&self) -> &SVector<T, D> {
+        &self.rate
+    }
+    #[inline(always)]
+    fn by_state(&self, row: usize, column: usize) -> T {
+        self.by_state.data.0[column][row]
+    }
+    #[inline(always)]
+    fn by_time(&self) -> &SVector<T, D> {
+        &self.by_time
+    }
+    #[inline(always)]
+    fn by_input(&self, row: usize, column: usize) -> T {
+        self.by_input.data.0[column][row]
+    }
+    #[inline]
+    fn matrix(mut entry: impl FnMut(usize, usize) -> T) -> SMatrix<T, D, D> {
+        SMatrix::from(core::array::from_fn::<_, D, _>(|column| core::array::from_fn(|row| entry(row, column))))
+    }
+    #[inline]
+    fn factor(mut entry: impl FnMut(usize, usize) -> T) -> Lu<T, D> {
+        let mut rows = [[T::zero(); D]; D];
+        for column in 0..D {
+            for row in 0..D {
+                rows[row][column] = entry(row, column);
+            }
+        }
+        Lu::new(rows)
+    }
+}
+
+/// The matrix F of `d(σ, δz)/dt = F (σ, δz)`, for what is a small increment away from a motion: what regulators and filters use.
+///
+/// The neighbour `q(t) ∘ exp(σ)` has the velocity V + ∂V/∂σ σ + ∂V/∂z δz, and its increment changes by what that is more than V
+/// and by [σ, V], because it is seen in axes that move. So F is [`Linearization::by_state`] and, where the configuration is a
+/// group, the bracket.
+#[must_use]
+pub fn error_matrix<S: LinearizedSystem>(
+    linear: &S::Linearization,
+) -> <S::Linearization as LinearModel<S::Scalar>>::Matrix {
+    let two = S::Scalar::from_f64(2.0);
+    let mut bracket = brackets::<S>(linear);
+    S::Linearization::matrix(|row, column| two.fma(bracket(row, column), linear.by_state(row, column)))
+}
+
+type Velocity<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
+
+/// Entries of ½ [σ, V] as a matrix on the state, column by column: `dexp_inv(σ, V) = V + ½ [σ, V] + …`, where all further terms are
+/// even in σ, so half the difference of two opposite ones is that term alone.
+pub(crate) fn brackets<S: LinearizedSystem>(linear: &S::Linearization) -> impl FnMut(usize, usize) -> S::Scalar {
+    let components = Velocity::<S>::DIM;
+    let mut velocity = Velocity::<S>::zero();
+    for i in 0..components {
+        velocity.set_component(i, linear.rate().component(i));
+    }
+    let of_axis = move |k: usize| {
+        let mut axis = Velocity::<S>::zero();
+        axis.set_component(k, S::Scalar::one());
+        let ahead = S::Configuration::dexp_inv(&axis, &velocity);
+        let back = S::Configuration::dexp_inv(&axis.scale(-S::Scalar::one()), &velocity);
+        ahead.add_scaled(-S::Scalar::one(), &back).scale(S::Scalar::ratio(1, 2))
+    };
+    // Entries are asked for in any order; the last column is kept.
+    let mut known = (usize::MAX, Velocity::<S>::zero());
+    move |row, column| {
+        if row >= components || column >= components {
+            return S::Scalar::zero();
+        }
+        if known.0 != column {
+            known = (column, of_axis(column));
+        }
+        known.1.component(row)
+    }
+}
+
+/// LU with partial pivoting, on the stack. Lanes share their pivots: the row whose least lane is the largest.
+#[derive(Clone, Copy, Debug)]
+pub struct Lu<T, const D: usize> {
+    /// Multipliers below the diagonal, reciprocal pivots on it, U above.
+    rows: [[T; D]; D],
+    /// Row `k` of the factors is that row of the matrix.
+    order: [usize; D],
+}
+
+impl<T: Real, const D: usize> Lu<T, D> {
+    /// The factors of the matrix with these rows.
+    #[must_use]
+    pub fn new(mut rows: [[T; D]; D]) -> Self {
+        let mut order: [usize; D] = core::array::from_fn(|k| k);
+        let size = |x: T| (0..T::LANES).map(|lane| Real::abs(x.lane(lane))).fold(f64::INFINITY, f64::min);
+        for k in 0..D {
+            let mut best = k;
+            for i in k + 1..D {
+                if size(rows[i][k]) > size(rows[best][k]) {
+                    best = i;
+                }
+            }
+            rows.swap(k, best);
+            order.swap(k, best);
+            let reciprocal = rows[k][k].recip();
+            rows[k][k] = reciprocal;
+            let pivot = rows[k];
+            for row in &mut rows[k + 1..] {
+                // What is structurally zero stays so, and costs nothing.
+                if row[k] == T::zero() {
+                    continue;
+                }
+                let factor = row[k] * reciprocal;
+                row[k] = factor;
+                for j in k + 1..D {
+                    row[j] = (-factor).fma(pivot[j], row[j]);
+                }
+            }
+        }
+        Self { rows, order }
+    }
+}
+
+impl<T: Real, const D: usize> Factored<T, SVector<T, D>> for Lu<T, D> {
+    #[inline]
+    fn solve(&self, right: &SVector<T, D>) -> SVector<T, D> {
+        let mut x: [T; D] = core::array::from_fn(|k| right.data.0[0][self.order[k]]);
+        for i in 1..D {
+            for j in 0..i {
+                x[i] = (-self.rows[i][j]).fma(x[j], x[i]);
+            }
+        }
+        for i in (0..D).rev() {
+            for j in i + 1..D {
+                x[i] = (-self.rows[i][j]).fma(x[j], x[i]);
+            }
+            x[i] *= self.rows[i][i];
+        }
+        SVector::from(x)
+    }
+}
+
+/// The input of a scene without inputs: a space without dimensions.
+impl<T: Real> VectorSpace<T> for () {
+    const DIM: usize = 0;
+
+    #[inline(always)]
+    fn zero() -> Self {}
+    #[inline(always)]
+    fn add_scaled(&self, _: T, (): &Self) -> Self {}
+    #[inline(always)]
+    fn scale(&self, _: T) -> Self {}
+    /// # Panics
+    /// Always: there is no component.
+    fn component(&self, i: usize) -> T {
+        panic!("component {i} of 0")
+    }
+    /// # Panics
+    /// Always: there is no component.
+    fn set_component(&mut self, i: usize, _: T) {
+        panic!("component {i} of 0")
+    }
+}
