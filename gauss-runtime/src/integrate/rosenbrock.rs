@@ -285,3 +285,102 @@ fn feedback<S: LinearizedSystem, F, I: InputSource<S>>(
         through_input::<S>(linear, row, &known.1, S::Scalar::zero())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Matrix = [[f64; STAGES]; STAGES];
+
+    /// α, γ and the weights of both solutions in the form in which conditions are stated: `u = Γ k`, `a = α Γ⁻¹`,
+    /// `c = 1/γ − Γ⁻¹`, `m = b Γ⁻¹`.
+    struct Classical {
+        alpha: Matrix,
+        gamma: Matrix,
+        weights: [f64; STAGES],
+        embedded: [f64; STAGES],
+    }
+
+    fn product(a: &Matrix, b: &Matrix) -> Matrix {
+        core::array::from_fn(|i| core::array::from_fn(|j| (0..STAGES).map(|k| a[i][k] * b[k][j]).sum()))
+    }
+
+    fn row_times(v: &[f64; STAGES], m: &Matrix) -> [f64; STAGES] {
+        core::array::from_fn(|j| (0..STAGES).map(|k| v[k] * m[k][j]).sum())
+    }
+
+    fn dot(a: &[f64; STAGES], b: &[f64; STAGES]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    fn sums(m: &Matrix) -> [f64; STAGES] {
+        m.map(|row| row.iter().sum())
+    }
+
+    fn classical() -> Classical {
+        // Γ by forward substitution: Γ⁻¹ is lower triangular with 1/γ on its diagonal.
+        let mut gamma = [[0.0; STAGES]; STAGES];
+        for column in 0..STAGES {
+            for i in 0..STAGES {
+                let unit = if i == column { 1.0 } else { 0.0 };
+                let known: f64 = (0..i).map(|k| -C[i][k] * gamma[k][column]).sum();
+                gamma[i][column] = (unit - known) * GAMMA;
+            }
+        }
+        let mut last = A[STAGES - 1];
+        let embedded = row_times(&last, &gamma);
+        last[STAGES - 1] = 1.0;
+        Classical { alpha: product(&A, &gamma), gamma, weights: row_times(&last, &gamma), embedded }
+    }
+
+    /// Hairer & Wanner, IV.7, table 7.1, with β = α + γ, the diagonal included: up to order 3, then order 4.
+    fn conditions(m: &Classical, b: &[f64; STAGES]) -> ([f64; 4], [f64; 4]) {
+        let beta: Matrix = core::array::from_fn(|i| core::array::from_fn(|j| m.alpha[i][j] + m.gamma[i][j]));
+        let (alpha_i, beta_i) = (sums(&m.alpha), sums(&beta));
+        let square = alpha_i.map(|x| x * x);
+        let through = row_times(b, &beta);
+        let weighted: [f64; STAGES] = core::array::from_fn(|i| b[i] * alpha_i[i]);
+        (
+            [
+                b.iter().sum::<f64>() - 1.0,
+                dot(b, &beta_i) - 0.5,
+                dot(b, &square) - 1.0 / 3.0,
+                dot(&through, &beta_i) - 1.0 / 6.0,
+            ],
+            [
+                dot(&weighted, &square) - 0.25,
+                dot(&row_times(&weighted, &m.alpha), &beta_i) - 0.125,
+                dot(&through, &square) - 1.0 / 12.0,
+                dot(&row_times(&through, &beta), &beta_i) - 1.0 / 24.0,
+            ],
+        )
+    }
+
+    /// Sums of at most 6³ products of numbers up to 100 that cancel to less than 1.
+    const ROUNDING: f64 = 216.0 * 100.0 * f64::EPSILON;
+
+    #[test]
+    fn order_conditions() {
+        let method = classical();
+        let (third, fourth) = conditions(&method, &method.weights);
+        assert!(third.iter().chain(&fourth).all(|x| x.abs() < ROUNDING), "{third:?} {fourth:?}");
+        let (third, fourth) = conditions(&method, &method.embedded);
+        assert!(third.iter().all(|x| x.abs() < ROUNDING), "{third:?}");
+        assert!(fourth.iter().any(|x| x.abs() > 1e-3), "{fourth:?}");
+        for (stated, sum) in TIMES.iter().zip(sums(&method.alpha)).chain(TIME_SLOPES.iter().zip(sums(&method.gamma))) {
+            assert!((stated - sum).abs() < ROUNDING, "{stated} {sum}");
+        }
+    }
+
+    /// The last stage is the solution with its own rates, so that R(∞) = 0: rows α + γ of the last two stages are the weights.
+    #[test]
+    fn stiffly_accurate() {
+        let method = classical();
+        for (row, weights) in [(STAGES - 2, &method.embedded), (STAGES - 1, &method.weights)] {
+            for j in 0..STAGES {
+                let beta = method.alpha[row][j] + method.gamma[row][j];
+                assert!((beta - weights[j]).abs() < ROUNDING, "{row} {j}: {beta} {}", weights[j]);
+            }
+        }
+    }
+}
