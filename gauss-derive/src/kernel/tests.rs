@@ -2,8 +2,9 @@
 
 use super::factor::Factoring;
 use super::hoist::Hoister;
-use super::{Candidates, Counts, Kernel, Program, sample_point};
-use crate::algebra::{Evaluation, Expr, Graph, Map};
+use super::tangent::with_tangents;
+use super::{Candidates, Counts, Differentiated, Direction, Kernel, Program, sample_point};
+use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
 
 /// A reproducible stream of small integers.
 struct Random(u64);
@@ -134,4 +135,85 @@ fn a_program_that_computes_something_else_is_refused() {
         Kernel::lower(&graph, &[Candidates::of_values(vec![vec![a + b]])], &Map::default(), None).expect("a program");
     kernel.functions[0] = Program::lower(&[a - b]);
     assert!(kernel.check(&graph, &[&vec![a + b]], &Map::default(), None).is_err());
+}
+
+/// Values and derivatives along each direction by the symbolic derivatives of the expressions.
+fn symbolic(outputs: &[Expr<'_>], directions: &[Direction<'_>], point: &Map<u32, f64>) -> Vec<f64> {
+    let mut evaluation = Evaluation::new(point);
+    let mut values: Vec<f64> = outputs.iter().map(|e| evaluation.value(*e)).collect();
+    for direction in directions {
+        let rates: Map<u32, Expr<'_>> = direction.iter().map(|(symbol, rate)| (symbol.key(), *rate)).collect();
+        values.extend(outputs.iter().map(|e| evaluation.value(e.derivative(&rates))));
+    }
+    values
+}
+
+#[test]
+fn tangents_are_the_derivatives_of_the_expressions() {
+    for seed in 0..300 {
+        let graph = Graph::new();
+        let names = ["a", "b", "c", "p", "q"];
+        let leaves: Vec<Expr<'_>> = names.iter().map(|n| graph.symbol(*n, *n, false)).collect();
+        let mut random = Random(seed);
+        let mut outputs: Vec<Expr<'_>> = (0..2).map(|_| random_expr(&mut random, &leaves, 2)).collect();
+        let [a, b] = [outputs[0], outputs[1]];
+        let square = graph.one() + a * a;
+        outputs.extend([square.sqrt() * b.exp(), square.ln() - a, a.binary(BinaryFunction::Atan2, square + b * b)]);
+        outputs.extend([a.binary(BinaryFunction::Max, b), a.binary(BinaryFunction::Min, b) * b]);
+        outputs.extend([Function::Abs, Function::Signum].map(|f| graph.call(f, a) * b));
+        let directions = vec![
+            vec![(leaves[0], graph.one())],
+            vec![(leaves[1], -leaves[4]), (leaves[2], leaves[1]), (leaves[3], graph.integer(-1))],
+            vec![],
+        ];
+        let none = Program::lower(&[]);
+        let program = with_tangents(&Program::lower(&outputs), (&[], &none), &directions);
+        let point = sample_point(&graph, 0, &Map::default());
+        let expected = symbolic(&outputs, &directions, &point);
+        for (k, (x, y)) in expected.iter().zip(program.run(&point)).enumerate() {
+            // Two levels of at most ten operations each, and their derivatives; exponentials are steep.
+            assert!((x - y).abs() <= 1e-11 * (1.0 + x.abs()), "seed {seed}, {k}: {x} became {y}");
+        }
+        // Nothing moves in the last direction: its outputs are numbers.
+        assert!(program.outputs[3 * outputs.len()..].iter().all(|o| *o == super::Operand::Number(0.into())));
+    }
+}
+
+#[test]
+fn tangents_cost_what_the_chain_rule_costs() {
+    let graph = Graph::new();
+    let [a, b, c] = ["a", "b", "c"].map(|n| graph.symbol(n, n, false));
+    let counts = |outputs: &[Expr<'_>], symbols: &[Expr<'_>]| {
+        let directions: Vec<Direction<'_>> = symbols.iter().map(|&s| vec![(s, graph.one())]).collect();
+        with_tangents(&Program::lower(outputs), (&[], &Program::lower(&[])), &directions).counts()
+    };
+    let operations = |additions, multiplications| Counts { additions, multiplications, ..Counts::default() };
+    // (a b + c)˙ is b, a and 1, which are there.
+    assert_eq!(counts(&[a * b + c], &[a, b, c]), operations(1, 1));
+    // (a b c)˙: two more products, since one of two factors is there.
+    assert_eq!(counts(&[a * b * c], &[a, b, c]), operations(0, 4));
+    // What both directions need is written once: 1/b and a/b.
+    assert_eq!(counts(&[a * b.recip()], &[a, b]), Counts { multiplications: 1, divisions: 2, ..Counts::default() });
+}
+
+/// R (three entries of it) is defined by other arguments, and moves by rates of its own.
+#[test]
+fn what_is_defined_moves_by_its_own_rates() {
+    let graph = Graph::new();
+    let [x, y, r, s] = ["x", "y", "r", "s"].map(|n| graph.symbol(n, n, false));
+    let definitions = Map::from_iter([(r.key(), x * x - y * y), (s.key(), x * y + x * y)]);
+    let outputs = vec![r * r + s * y, s];
+    let wanted = Differentiated {
+        arrangements: vec![outputs.clone()],
+        defined: vec![r, s],
+        directions: vec![vec![(r, -s), (s, r)], vec![(y, graph.one())]],
+    };
+    let kernel = Kernel::lower(&graph, &[Candidates::of_values(vec![outputs.clone()])], &definitions, Some(&wanted))
+        .expect("a program");
+    let point = sample_point(&graph, 0, &definitions);
+    let expected = symbolic(&outputs, &wanted.directions, &point);
+    let found = kernel.tangents.expect("asked for").run(&point);
+    for (a, b) in expected.iter().zip(found) {
+        assert!((a - b).abs() <= 1e-13 * (1.0 + a.abs()), "{a} {b}");
+    }
 }

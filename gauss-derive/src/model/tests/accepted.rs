@@ -50,6 +50,13 @@ fn clauses_merge() {
 }
 
 #[test]
+fn derivatives_only_where_they_are_asked_for() {
+    assert!(!model(&body("#[gauss(chart = hybrid)]")).linearize);
+    assert!(model(&body("#[gauss(chart = hybrid, linearize)]")).linearize);
+    assert!(model(&body("#[gauss(linearize, drag(linear = [1, 1, 1, 1, 1, 1]))]")).linearize);
+}
+
+#[test]
 fn every_role_and_shape() {
     let shape = |role: &str, ty: &str| {
         let source = match role.split(' ').next() {

@@ -44,6 +44,23 @@ fn chart_values() {
 }
 
 #[test]
+fn linearize_stands_alone() {
+    check_body(
+        "#[gauss(linearize = true)]",
+        &[("true", "`linearize` takes no value; write `linearize` alone, or leave it out")],
+    );
+    check_body(
+        "#[gauss(linearize(z))]",
+        &[("(", "`linearize` takes no value; write `linearize` alone, or leave it out")],
+    );
+    check_body("#[gauss(linearise)]", &[("linearise", "unknown clause `linearise`; did you mean `linearize`?")]);
+    check_body(
+        "#[gauss(linearize, chart = hybrid, linearize)]",
+        &[("linearize", "`linearize` is given twice; it was given first as `linearize`: keep one of the two")],
+    );
+}
+
+#[test]
 fn rotation_charts() {
     let jet = |argument: &str| format!("#[gauss(chart = jet({argument}))]");
     check_body(

@@ -1,0 +1,235 @@
+//! The linearly implicit method on kernels: its order in every kind of scene, what it does where scenes are stiff, and what it
+//! refuses.
+
+use std::f64::consts::PI;
+
+use gauss_runtime::integrate::{Collocation, Form, InputSource, NoInput, OneStep, Part, Problem, State};
+use gauss_runtime::prelude::*;
+
+/// So many steps of one length.
+fn march<S: GaussSystem<Scalar = f64>>(
+    method: &impl OneStep<S>,
+    problem: &Problem<'_, S, impl Form<S>, impl InputSource<S>>,
+    start: &State<S>,
+    span: f64,
+    steps: u32,
+) -> State<S> {
+    let mut state = *start;
+    let h = span / f64::from(steps);
+    for n in 0..steps {
+        state.t = start.t + f64::from(n) * h;
+        let rates = problem.rates(&state);
+        state = method.step(problem, &state, &rates, h).expect("steps").state;
+    }
+    state
+}
+
+/// The least-squares slope of log error against log step, where the errors are far above rounding, over runs of one unit of time.
+/// The exact end is that of Gauss' method of order 6 with steps a tenth of the shortest.
+fn order<S: LinearizedSystem<Scalar = f64>, F: Form<S>, I: InputSource<S> + Copy>(
+    system: &S,
+    form: F,
+    input: I,
+    q: S::Configuration,
+    z: S::Speeds,
+) -> f64 {
+    let problem = Problem { system, form, input };
+    let start = State { t: 0.3, q, y: form.variables(system, 0.3, &q, &z) };
+    let exact = march(&Collocation::order_6(), &problem, &start, 1.0, 1600);
+    let points = [40_u32, 56, 80, 112, 160].map(|n| {
+        let end = march(&Rosenbrock, &problem, &start, 1.0, n);
+        let error = end.q.difference(&exact.q).max_norm().max(end.y.add_scaled(-1.0, &exact.y).max_norm());
+        assert!(error > 1e-12, "{error:e} is rounding");
+        (f64::from(n).ln(), error.ln())
+    });
+    let count = points.len() as f64;
+    let (mx, my) = (points.iter().map(|p| p.0).sum::<f64>() / count, points.iter().map(|p| p.1).sum::<f64>() / count);
+    -points.iter().map(|(x, y)| (x - mx) * (y - my)).sum::<f64>()
+        / points.iter().map(|(x, _)| (x - mx).powi(2)).sum::<f64>()
+}
+
+/// Slopes tend to the order as steps tend to 0: what they differ by is the share of the next term of the error, a third at most with
+/// these steps.
+fn is_four(what: &str, order: f64) {
+    assert!((order - 4.0).abs() < 0.35, "{what}: {order}");
+}
+
+macro_rules! tossed {
+    ($name:ident, [$($chart:tt)+], $motion:ident) => {
+        /// A body with a thruster, in wind that changes with time.
+        #[derive(GaussDynamics)]
+        #[gauss(
+            linearize,
+            chart = $($chart)+,
+            motion = $motion,
+            medium(velocity = [cos(t), 0.5 * sin(t), 0]),
+            input(thrust),
+            force(at = [0.3, -0.2, 0], value = [thrust, 0.5 * thrust, 0]),
+            torque(body = body, value = [sin(t), 0.3, cos(2 * t)]),
+            drag(linear = [1, 1, 2, 1, 1, 1]),
+        )]
+        struct $name {
+            #[gauss(mass)]
+            m: f64,
+            #[gauss(center_of_mass)]
+            center: Vector3<f64>,
+            #[gauss(inertia)]
+            inertia: Vector3<f64>,
+            #[gauss(gravity)]
+            g: f64,
+        }
+
+        impl $name {
+            fn new() -> Self {
+                Self { m: 1.0, center: Vector3::new(0.1, 0.2, 0.05), inertia: Vector3::new(1.0, 1.6, 2.0), g: 4.0 }
+            }
+        }
+    };
+}
+
+tossed!(Left, [left_invariant], free);
+tossed!(Right, [right_invariant], free);
+tossed!(Hybrid, [hybrid], free);
+tossed!(Euler, [jet(euler_zyx)], free);
+tossed!(Held, [left_invariant], fixed_point);
+tossed!(Plane, [right_invariant], planar);
+
+/// A control law that depends on everything.
+#[derive(Clone, Copy)]
+struct Law;
+
+impl<S: GaussSystem<Scalar = f64, Input = SVector<f64, 1>>> InputSource<S> for Law {
+    fn input(&self, t: f64, q: &S::Configuration, z: &S::Speeds) -> SVector<f64, 1> {
+        let last = S::Speeds::DIM - 1;
+        SVector::from([(3.0 * t).sin() - 2.0 * z.component(last) * z.component(0) + 0.5 * q.magnitude(0)])
+    }
+}
+
+#[test]
+fn order_4_in_every_chart_with_feedback() {
+    let z = SVector::from([0.5, -0.3, 0.2, 1.0, -0.8, 1.2]);
+    let pose =
+        Isometry3::from_parts(Translation3::new(1.0, 2.0, -1.0), UnitQuaternion::from_euler_angles(0.3, -0.5, 1.0));
+    let left = Left::new().kernel().unwrap();
+    is_four("left", order(&left, VelocityForm, Law, pose, z));
+    is_four("left, momenta", order(&left, MomentumForm, Law, pose, z));
+    is_four("right", order(&Right::new().kernel().unwrap(), VelocityForm, Law, pose, z));
+    is_four("hybrid", order(&Hybrid::new().kernel().unwrap(), VelocityForm, Law, pose, z));
+    let angles = SVector::from([1.0, 2.0, -1.0, 0.3, -0.5, 0.4]);
+    is_four("Euler angles", order(&Euler::new().kernel().unwrap(), VelocityForm, Law, angles, z));
+    let held = Held::new().kernel().unwrap();
+    is_four("held", order(&held, VelocityForm, Law, pose.rotation, SVector::from([1.0, -0.8, 1.2])));
+    let plane = Isometry2::new(SVector::from([1.0, 2.0]), 0.7);
+    is_four("plane", order(&Plane::new().kernel().unwrap(), VelocityForm, Law, plane, SVector::from([0.5, -0.3, 1.2])));
+}
+
+/// A hull with a rotor on a sliding axle.
+#[derive(GaussDynamics)]
+#[gauss(
+    linearize,
+    coordinates(s, base: Pose, wheel: Rotation),
+    body(hull, position = base.position, rotation = base.rotation),
+    body(rotor, parent = hull, position = [0.2, 0, s], rotation = wheel),
+    torque(body = rotor, value = [0, sin(3 * t), 1], reaction = hull),
+    spring(along = s, stiffness = 20, length = 0.3, damping = 1),
+    drag(body = hull, linear = [1, 2, 1, 2, 1, 2]),
+)]
+struct Gyrostat {
+    #[gauss(body)]
+    hull: RigidBody<f64>,
+    #[gauss(body)]
+    rotor: RigidBody<f64>,
+}
+
+/// A pendulum as a particle on a sphere.
+#[derive(GaussDynamics)]
+#[gauss(
+    linearize,
+    coordinates(x, y, z),
+    particle(mass = 1, position = [x, y, z]),
+    constraint(position = x * x + y * y + z * z - 1),
+    force(at = [x, y, z], value = [-0.2 * rate(x), -0.2 * rate(y), -0.2 * rate(z)]),
+)]
+struct Bob {
+    #[gauss(gravity)]
+    g: f64,
+}
+
+#[test]
+fn order_4_of_systems() {
+    let body = |mass: f64, x: f64| RigidBody {
+        mass,
+        center_of_mass: Vector3::new(x, 0.1, 0.0),
+        inertia: Matrix3::from_diagonal(&Vector3::new(1.0, 1.5, 2.0)),
+    };
+    let kernel = Gyrostat { hull: body(2.0, 0.1), rotor: body(1.0, -0.2) }.kernel().unwrap();
+    let q = (Isometry3::identity(), (UnitQuaternion::identity(), SVector::from([0.5])));
+    let z = SVector::from([0.5, 0.3, -0.2, 0.4, 0.6, -0.5, 0.7, 0.2, -0.4, 1.5]);
+    is_four("gyrostat", order(&kernel, VelocityForm, NoInput, q, z));
+    // Ends off the sphere are compared as they are: the accelerations of the whole space are integrated to order 4.
+    let bob = Bob { g: 9.81 }.kernel().unwrap();
+    is_four("bob", order(&bob, VelocityForm, NoInput, SVector::from([1.0, 0.0, 0.0]), SVector::from([0.0, 1.5, 0.5])));
+}
+
+/// Brought back onto the sphere after each step.
+#[test]
+fn constraints_are_kept() {
+    let bob = Bob { g: 9.81 }.kernel().unwrap();
+    let (q, z) = (SVector::from([1.0, 0.0, 0.0]), SVector::from([0.0, 1.5, 0.5]));
+    let run = Simulation::new(&bob).control(Fixed::by(Rosenbrock, 0.01)).run(q, z, 0.0..5.0).unwrap();
+    let worst = run.iter().map(|s| (s.q.norm_squared() - 1.0).abs().max(s.q.dot(&s.z).abs())).fold(0.0, f64::max);
+    // Residuals of three products of numbers up to 5.
+    assert!(worst < 1e-14, "{worst:e}");
+}
+
+/// A ball in a liquid so thick that it sinks steadily after a millionth of a step.
+#[derive(GaussDynamics)]
+#[gauss(linearize, drag(linear = drag))]
+struct Sinking {
+    #[gauss(mass)]
+    mass: f64,
+    #[gauss(inertia)]
+    inertia: f64,
+    #[gauss(gravity)]
+    g: f64,
+    drag: Vector6<f64>,
+}
+
+/// R(∞) = 0: u̇ = −g − rate·u is left at −g/rate by one step, whatever it was. The stability function at hλ = −10⁶ is of order
+/// 1/hλ, with a constant of about 10.
+#[test]
+fn what_decays_fast_is_gone_after_a_step() {
+    let rate = 1e6;
+    let kernel = Sinking { mass: 1.0, inertia: 1.0, g: 9.81, drag: Vector6::from_element(rate) }.kernel().unwrap();
+    let run = Simulation::new(&kernel).control(Fixed::by(Rosenbrock, 1.0));
+    let start = Vector6::from([0.3, -0.2, 0.5, 0.1, 0.2, -0.3]);
+    let one = run.run_to_end(Isometry3::identity(), start, 0.0..1.0).unwrap();
+    assert!(one.z.amax() < 1e-4, "{}", one.z);
+    let end = run.run_to_end(Isometry3::identity(), start, 0.0..20.0).unwrap();
+    let speed = (end.q.rotation * Vector3::new(end.z[0], end.z[1], end.z[2])).z;
+    assert!((speed * rate / 9.81 + 1.0).abs() < 1e-9, "{speed:e}");
+}
+
+/// A particle that falls off a parabola: ẍ = x.
+#[derive(GaussDynamics)]
+#[gauss(linearize, coordinates(x), particle(mass = m, position = [x, 0, 0]), potential = -0.5 * m * x * x)]
+struct Falling {
+    m: f64,
+}
+
+#[test]
+fn refusals_say_what_is_wrong() {
+    // 1/(γh) = 1 is an eigenvalue of the Jacobian: no solution, and no number in silence.
+    let falling = Falling { m: 1.0 }.kernel().unwrap();
+    let run = Simulation::new(&falling).control(Fixed::by(Rosenbrock, 4.0));
+    let error = run.run_to_end(SVector::from([1.0]), SVector::from([0.0]), 0.0..4.0).unwrap_err();
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step });
+    // More than half a turn in a stage.
+    let kernel = Sinking { mass: 1.0, inertia: 1.0, g: 0.0, drag: Vector6::zeros() }.kernel().unwrap();
+    let spin = Vector6::from([0.0, 0.0, 0.0, 0.0, 0.0, 10.0]);
+    let run = Simulation::new(&kernel).control(Fixed::by(Rosenbrock, 1.0));
+    let error = run.run_to_end(Isometry3::identity(), spin, 0.0..1.0).unwrap_err();
+    assert!(matches!(error.kind, IntegrationErrorKind::IncrementTooLarge { angle } if angle > PI), "{error}");
+    let run = Simulation::new(&kernel).control(Fixed::by(Rosenbrock, f64::NAN));
+    assert!(run.run_to_end(Isometry3::identity(), spin, 0.0..1.0).is_err());
+}
