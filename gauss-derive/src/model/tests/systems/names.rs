@@ -183,8 +183,8 @@ fn clauses_of_one_body() {
             "foo",
             "unknown clause `foo`; expected `coordinates`, `speeds`, `kinematics`, `body`, `frame`, \
              `particle`, `point`, `constraint`, `independent`, `potential`, `input`, `force`, `torque`, \
-             `wrench`, `drive`, `spring`, `stop`, `drag`, `damping`, `medium`, `central_gravity`, `define`, `limit` or \
-             `crate`",
+             `wrench`, `drive`, `spring`, `stop`, `drag`, `damping`, `medium`, `central_gravity`, `define`, `limit`, \
+             `crate` or `linearize`",
         )],
     );
     // A misspelt clause is not missing as well.
