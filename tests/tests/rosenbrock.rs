@@ -233,3 +233,47 @@ fn refusals_say_what_is_wrong() {
     let run = Simulation::new(&kernel).control(Fixed::by(Rosenbrock, f64::NAN));
     assert!(run.run_to_end(Isometry3::identity(), spin, 0.0..1.0).is_err());
 }
+
+/// A capsule on a weak spring in oil: its own motions die out within 1/rate, and then it creeps.
+#[derive(GaussDynamics)]
+#[gauss(
+    linearize,
+    drag(linear = [c, c, 2 * c, c, c, c]),
+    spring(from = [1, 2, 3], to = body.position + body.rotation * [0, 0, 0.3], stiffness = k),
+)]
+struct Capsule {
+    #[gauss(mass)]
+    m: f64,
+    #[gauss(inertia)]
+    inertia: Vector3<f64>,
+    #[gauss(center_of_mass)]
+    center: Vector3<f64>,
+    #[gauss(gravity)]
+    g: f64,
+    c: f64,
+    k: f64,
+}
+
+#[test]
+fn adaptive_steps_know_nothing_of_stiffness() {
+    let run = |c: f64, tolerance: f64| {
+        let (inertia, center) = (Vector3::new(1.0, 1.2, 0.8), Vector3::new(0.0, 0.01, -0.02));
+        let kernel = Capsule { m: 1.0, inertia, center, g: 9.81, c, k: 0.1 * c }.kernel().unwrap();
+        let control = Adaptive::by(Rosenbrock, tolerance, tolerance);
+        let spin = Vector6::from([0.1, 0.0, 0.0, 0.0, 0.3, 0.0]);
+        let run = Simulation::new(&kernel).control(control).run(Isometry3::identity(), spin, 0.0..10.0).unwrap();
+        (run.last().q, run.len() - 1)
+    };
+    for c in [1e2, 1e4, 1e6] {
+        let (exact, _) = run(c, 1e-11);
+        for tolerance in [1e-4, 1e-6, 1e-8] {
+            let (end, steps) = run(c, tolerance);
+            let error = exact.difference(&end).amax();
+            // Errors of steps add up, and none grows: all motions are damped.
+            assert!(error < steps as f64 * tolerance, "{c:e}, {tolerance:e}: {error:e} in {steps} steps");
+            // The fourth root of the tolerance, times what there is to see; an explicit method would need 2c steps.
+            let most = 5.0 * tolerance.powf(-0.25);
+            assert!((steps as f64) < most, "{c:e}, {tolerance:e}: {steps} steps, more than {most}");
+        }
+    }
+}

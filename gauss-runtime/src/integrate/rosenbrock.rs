@@ -12,7 +12,7 @@
 
 use super::error::{IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{OneStep, Properties, Step};
+use super::one_step::{EstimatingStep, OneStep, Properties, Step};
 use super::rkmk::{check_chart, check_increment};
 use super::step_length::power;
 use crate::configuration::{Configuration, VectorSpace};
@@ -169,6 +169,13 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
         Ok(Step { state: end, error, rates: None })
+    }
+}
+
+/// The estimate is the difference to the solution of order 3.
+impl<S: LinearizedSystem> EstimatingStep<S> for Rosenbrock {
+    fn estimate_order(&self) -> f64 {
+        4.0
     }
 }
 
