@@ -25,6 +25,11 @@ pub fn gauss_6(step: f64) -> Fixed<f64, Collocation<f64, 3>> {
     Fixed::by(Collocation::order_6(), step)
 }
 
+/// RODAS, order 4: stable however stiff the scene is.
+pub fn linearly_implicit(step: f64) -> Fixed<f64, Rosenbrock> {
+    Fixed::by(Rosenbrock, step)
+}
+
 /// Splitting of order 4 over the exact free motion: spin costs nothing, and a body without forces needs one step.
 macro_rules! splitting {
     ($kernel:expr, $step:expr) => {{

@@ -46,6 +46,7 @@ pub fn stiff_drag(effort: Effort) -> Measures {
         ("RKMK 4, h = 1 s", sinking(&kernel, Fixed::with(&Tableau::RK4, 1.0), rate, duration)),
         ("order 8, h = 1 s", sinking(&kernel, super::methods::order_8(1.0), rate, duration)),
         ("Gauss 6 by fixed point, h = 1 s", sinking(&kernel, super::methods::gauss_6(1.0), rate, duration)),
+        ("linearly implicit, h = 1 s", sinking(&kernel, super::methods::linearly_implicit(1.0), rate, duration)),
     ] {
         measures.push(
             Measure::new("h × rate = 1000: speed, relative", method, reached, 1.0)
@@ -60,6 +61,13 @@ pub fn stiff_drag(effort: Effort) -> Measures {
             .because("tolerance 1e-8 of speeds of 0.01")
             .naive("RK4 by hand, h = 3 ms", typed(3e-3))
             .note(format!("{note}: stability, not accuracy, sets them")),
+    );
+    let (reached, note) = sinking(&kernel, Adaptive::by(Rosenbrock, 1e-8, 1e-8), rate, duration);
+    measures.push(
+        Measure::new("speed with steps by tolerance, relative", "linearly implicit, 1e-8", reached, 1e-5)
+            .because("tolerance 1e-8 of speeds of 0.01")
+            .naive("RK4 by hand, h = 3 ms", typed(3e-3))
+            .note(note),
     );
     Ok(measures)
 }

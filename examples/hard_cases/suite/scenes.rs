@@ -84,7 +84,7 @@ in_charts! {
 
 /// A ball that sinks in a thick liquid: `drag` in N·s/m, and N·m·s.
 #[derive(GaussDynamics)]
-#[gauss(drag(linear = drag))]
+#[gauss(linearize, drag(linear = drag))]
 pub struct Sinking {
     #[gauss(mass)]
     pub mass: f64,

@@ -57,7 +57,6 @@ struct Writer<'g> {
     known: Map<Operation<'g>, usize>,
 }
 
-#[expect(clippy::mutable_key_type, reason = "an expression is hashed by its index, which never changes")]
 impl<'g> Writer<'g> {
     fn place(&mut self, operation: Operation<'g>) -> usize {
         let next = self.instructions.len();
