@@ -231,7 +231,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             return Ok(start);
         }
         let longest = self.largest_step.min(span.abs());
-        if !(longest > 0.0) {
+        if longest.is_nan() || longest <= 0.0 {
             return Err(stopped(&start, IntegrationErrorKind::InvalidStep { step: longest }));
         }
         let direction = if span < 0.0 { -1.0 } else { 1.0 };

@@ -177,7 +177,7 @@ fn struct_clauses() {
         "#[gauss(foo = 1)]",
         &[(
             "foo",
-            "unknown clause `foo`; expected `chart`, `motion`, `crate` or `linearize`, or what acts, such as `force(…)`",
+            "unknown clause `foo`; expected `chart`, `motion`, `crate`, `taylor` or `linearize`, or what acts, such as `force(…)`",
         )],
     );
     check_body("#[gauss(hybrid)]", &[("hybrid", "`hybrid` is a chart; write `chart = hybrid`")]);
