@@ -1,0 +1,42 @@
+//! On what the figures were taken.
+
+use std::env::consts::{ARCH, OS};
+use std::fs;
+use std::process::Command;
+use std::thread::available_parallelism;
+
+/// A machine and a compiler.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    /// As the system calls it.
+    pub processor: String,
+    /// How many the program may use; one is used.
+    pub cores: usize,
+    /// Of the compiler on the path, which is the one that Cargo calls unless it is told otherwise.
+    pub compiler: String,
+    /// Architecture, system, and the instructions that matter.
+    pub target: String,
+    /// Processes that wanted to run in the last minutes, where the system says it.
+    pub load: String,
+}
+
+impl Machine {
+    /// This one.
+    #[must_use]
+    pub fn here() -> Self {
+        let unknown = || "unknown".to_owned();
+        let processors = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+        let model = processors.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+        let version = Command::new("rustc").arg("--version").output().ok();
+        let version = version.and_then(|output| String::from_utf8(output.stdout).ok());
+        let fused = if cfg!(target_feature = "fma") { "with" } else { "without" };
+        Self {
+            processor: model.map_or_else(unknown, |(_, name)| name.to_owned()),
+            cores: available_parallelism().map_or(1, Into::into),
+            compiler: version.map_or_else(unknown, |text| text.trim().to_owned()),
+            target: format!("{ARCH}, {OS}, {fused} fused multiply-add"),
+            load: fs::read_to_string("/proc/loadavg")
+                .map_or_else(|_| unknown(), |text| text.split(' ').take(3).collect::<Vec<_>>().join(", ")),
+        }
+    }
+}

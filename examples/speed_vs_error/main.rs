@@ -1,0 +1,95 @@
+//! Speed against error: every method of Gauss on every chart, and what one would otherwise use, on scenes whose ends are known.
+//!
+//! `cargo run --release --example speed_vs_error [-- [--quick] [--to FOLDER] [SCENE…]]` measures all scenes (about five minutes;
+//! `--quick`: a rough look in less than 20 s) and writes a page, a picture and tables into `FOLDER`, by default `target/gauss`.
+//!
+//! A method is one line in `methods.rs`; a scene is a line in `scene.rs`, its data, and the equations by hand.
+
+use std::error::Error;
+use std::path::PathBuf;
+use std::{env, fs};
+
+use gauss_examples::figure;
+use indicatif::{ProgressBar, ProgressStyle};
+
+mod baselines;
+mod bodies;
+mod by_hand;
+mod by_hand_systems;
+mod chart;
+mod entry;
+mod machine;
+mod methods;
+mod overview;
+mod page;
+mod plots;
+mod scene;
+mod study;
+mod systems;
+mod tables;
+
+use machine::Machine;
+use scene::{Scene, scenes};
+use study::{Effort, Study, study};
+
+/// What was asked for.
+struct Order {
+    quick: bool,
+    folder: PathBuf,
+    scenes: Vec<Scene>,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let Order { quick, folder, scenes } = order()?;
+    let effort = if quick { Effort::QUICK } else { Effort::FULL };
+    let machine = Machine::here();
+    println!("{}, {}, load {}\n", machine.processor, machine.compiler, machine.load);
+
+    const PARTS: u64 = 1000;
+    let bar = ProgressBar::new(PARTS * scenes.len() as u64);
+    bar.set_style(ProgressStyle::with_template("{wide_bar} {percent:>3} %  {msg:<42} {eta:>5}")?);
+    let mut studies: Vec<Study> = Vec::new();
+    for (n, scene) in scenes.iter().enumerate() {
+        bar.set_message(scene.title);
+        let done = |part: f64| bar.set_position(n as u64 * PARTS + (part * PARTS as f64) as u64);
+        studies.push(study(scene, &effort, &mut { done })?);
+    }
+    bar.finish_and_clear();
+
+    println!("{}\n", tables::console(&studies));
+    fs::create_dir_all(&folder)?;
+    let picture = overview::overview(&studies);
+    for (name, contents) in [
+        ("speed_vs_error.html", page::page(&studies, &machine, quick).into_bytes()),
+        ("speed_vs_error.csv", tables::csv(&studies)?),
+        ("speed_vs_error.json", serde_json::to_vec(&tables::json(&studies, &machine))?),
+        ("speed_vs_error.svg", picture.clone().into_bytes()),
+        ("speed_vs_error.png", figure::png(&picture)?),
+    ] {
+        let file = folder.join(name);
+        fs::write(&file, contents)?;
+        println!("written: {}", file.display());
+    }
+    Ok(())
+}
+
+fn order() -> Result<Order, Box<dyn Error>> {
+    let mut order = Order { quick: false, folder: PathBuf::from("target/gauss"), scenes: Vec::new() };
+    let all = scenes()?;
+    let mut words = env::args().skip(1);
+    while let Some(word) = words.next() {
+        match word.as_str() {
+            "--quick" => order.quick = true,
+            "--to" => order.folder = words.next().ok_or("--to needs a folder")?.into(),
+            name => {
+                let known = || all.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", ");
+                let scene = all.iter().find(|scene| scene.name == name);
+                order.scenes.push(scene.ok_or_else(|| format!("no scene {name}; there are {}", known()))?.clone());
+            }
+        }
+    }
+    if order.scenes.is_empty() {
+        order.scenes = all;
+    }
+    Ok(order)
+}
