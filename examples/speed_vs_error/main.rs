@@ -1,9 +1,12 @@
-//! Speed against error: every method of Gauss on every chart, and what one would otherwise use, on scenes whose ends are known.
+//! Speed against error: every method of Gauss on every chart, and what one would otherwise use, on scenes whose ends
+//! are known.
 //!
-//! `cargo run --release --example speed_vs_error [-- [--quick] [--to FOLDER] [SCENE…]]` measures all scenes (about five minutes;
-//! `--quick`: a rough look in less than 20 s) and writes a page, a picture and tables into `FOLDER`, by default `target/gauss`.
+//! `cargo run --release --example speed_vs_error [-- [--quick] [--to FOLDER] [SCENE…]]` measures all scenes (three to
+//! four minutes of an idle core; `--quick`: a rough look in a quarter of a minute) and writes a page, a picture and tables
+//! into `FOLDER`, by default `target/gauss`.
 //!
-//! A method is one line in `methods.rs`; a scene is a line in `scene.rs`, its data, and the equations by hand.
+//! A method is one line in `measure/methods.rs`; a scene is one entry in `measure/catalogue.rs` with a struct for the
+//! derive, its data and its equations by hand.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -12,25 +15,13 @@ use std::{env, fs};
 use gauss_examples::figure;
 use indicatif::{ProgressBar, ProgressStyle};
 
-mod baselines;
-mod bodies;
-mod by_hand;
-mod by_hand_systems;
-mod chart;
-mod entry;
-mod machine;
-mod methods;
-mod overview;
-mod page;
-mod plots;
-mod scene;
-mod study;
-mod systems;
-mod tables;
+mod measure;
+mod report;
 
-use machine::Machine;
-use scene::{Scene, scenes};
-use study::{Effort, Study, study};
+use measure::scene::{Scene, scenes};
+use measure::study::{Effort, Study, study};
+use report::machine::Machine;
+use report::{overview, page, tables};
 
 /// What was asked for.
 struct Order {
@@ -50,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     bar.set_style(ProgressStyle::with_template("{wide_bar} {percent:>3} %  {msg:<42} {eta:>5}")?);
     let mut studies: Vec<Study> = Vec::new();
     for (n, scene) in scenes.iter().enumerate() {
-        bar.set_message(scene.title);
+        bar.set_message(scene.about.title);
         let done = |part: f64| bar.set_position(n as u64 * PARTS + (part * PARTS as f64) as u64);
         studies.push(study(scene, &effort, &mut { done })?);
     }
@@ -82,8 +73,8 @@ fn order() -> Result<Order, Box<dyn Error>> {
             "--quick" => order.quick = true,
             "--to" => order.folder = words.next().ok_or("--to needs a folder")?.into(),
             name => {
-                let known = || all.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", ");
-                let scene = all.iter().find(|scene| scene.name == name);
+                let known = || all.iter().map(|scene| scene.about.name).collect::<Vec<_>>().join(", ");
+                let scene = all.iter().find(|scene| scene.about.name == name);
                 order.scenes.push(scene.ok_or_else(|| format!("no scene {name}; there are {}", known()))?.clone());
             }
         }

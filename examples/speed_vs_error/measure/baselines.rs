@@ -1,5 +1,5 @@
-//! What a user would otherwise do: DOP853 of two libraries, the method of Runge and Kutta on a quaternion, and the step of a
-//! game engine, all on equations written by hand.
+//! What a user would otherwise do: DOP853 of two libraries, the method of Runge and Kutta on a quaternion, and the
+//! step of a game engine, all on equations written by hand.
 
 use std::cell::Cell;
 use std::hint::black_box;
@@ -9,8 +9,8 @@ use differential_equations::prelude::{IVP, ODE};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, SVector as OdeVector, System};
 
-use crate::entry::{Ask, Entry, Setting, Side};
-use crate::scene::Target;
+use super::entry::{Ask, Entry, Setting, Side};
+use super::scene::Target;
 
 /// Equations of motion as one types them: velocities first, then where the system is.
 pub trait ByHand<const N: usize> {
@@ -38,7 +38,7 @@ pub fn baselines<E: ByHand<N> + Copy + 'static, const N: usize>(
     start: [f64; N],
     target: &Rc<Target>,
 ) {
-    let mut add = |method, setting, run: fn(&Counted<E>, [f64; N], f64, f64, See<'_, N>) -> Option<[f64; N]>| {
+    let mut add = |method, setting, run: Solve<E, N>| {
         let name = (method, variables, "by hand");
         let target = Rc::clone(target);
         entries.push(Entry::new(name, Side::Baseline, setting, move |value, duration, ask| {
@@ -66,6 +66,10 @@ pub fn baselines<E: ByHand<N> + Copy + 'static, const N: usize>(
     add("semi-implicit Euler", Setting::Step(1), semi_implicit_euler);
 }
 
+/// From a start over a duration, s, with a step or a tolerance, to the end.
+type Solve<E, const N: usize> = fn(&Counted<E>, [f64; N], f64, f64, See<'_, N>) -> Option<[f64; N]>;
+
+/// Sees the states of a run.
 type See<'s, const N: usize> = Option<&'s mut dyn FnMut(f64, &[f64; N])>;
 
 /// Equations that count their evaluations. One of the libraries wants to own them, so the count is shared.
@@ -98,7 +102,8 @@ impl<E: ByHand<N>, const N: usize> ODE<f64, [f64; N]> for Counted<E> {
     }
 }
 
-/// Without dense output, which costs three evaluations a step. The limit of steps is raised: it is not what is compared.
+/// Without dense output, which costs three evaluations a step. The limit of steps is raised: it is not what is
+/// compared.
 fn ode_solvers<E: ByHand<N> + Clone, const N: usize>(
     equations: &Counted<E>,
     start: [f64; N],

@@ -1,4 +1,5 @@
-//! Plots on logarithmic axes as SVG: for the page, where each has its legend beside it, and for the picture, where they share one.
+//! Plots on logarithmic axes as SVG: for the page, where each has its legend beside it, and for the picture, where
+//! they share one.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -229,11 +230,11 @@ impl Chart {
         let mut svg = self.body((0.0, 0.0));
         for (n, series) in self.series.iter().enumerate() {
             let y = 4.4 * a + 1.55 * a * n as f64;
-            svg += &series.style.sample((self.size.0, y - 0.33 * a), 2.6 * a);
-            svg += &words(&series.name, (self.size.0 + 3.2 * a, y), 0.95 * a, "start", INK);
+            svg += &series.style.sample((self.size.0 + a, y - 0.33 * a), 2.6 * a);
+            svg += &words(&series.name, (self.size.0 + 4.2 * a, y), 0.95 * a, "start", INK);
         }
         let height = self.size.1.max(4.4 * a + 1.55 * a * self.series.len() as f64);
-        picture((self.size.0 + (4.2 + 0.6 * longest as f64) * a, height), &svg)
+        picture((self.size.0 + (5.2 + 0.6 * longest as f64) * a, height), &svg)
     }
 }
 

@@ -1,14 +1,16 @@
 //! What is plotted of a scene.
 
-use crate::chart::{Axis, Chart, Mark, Series, Style, decades};
-use crate::entry::{Entry, Side};
-use crate::study::{Point, Study};
+use crate::measure::entry::{Entry, Side};
+use crate::measure::study::{Point, Study};
+
+use super::chart::{Axis, Chart, Mark, Series, Style, decades};
 
 const BLUE: &str = "#0072b2";
 const SKY: &str = "#56b4e9";
 const GREEN: &str = "#009e73";
 const ORANGE: &str = "#e69f00";
 const RED: &str = "#d55e00";
+const BROWN: &str = "#8c564b";
 const PINK: &str = "#cc79a7";
 const BLACK: &str = "#333333";
 const GREY: &str = "#8a8a8a";
@@ -20,12 +22,20 @@ const fn style(colour: &'static str, dash: &'static str, mark: Mark) -> Style {
 /// The colour of a method says its family, the mark which one it is; baselines are grey and black.
 fn style_of(method: &str) -> Style {
     match method {
-        "exact motion" => style(RED, "", Mark::Disc),
+        "exact free flow" => style(RED, "", Mark::Disc),
+        "Moser–Veselov 2" => style(BROWN, "2 3", Mark::Triangle),
+        "Moser–Veselov 4" => style(BROWN, "6 3", Mark::Square),
+        "Moser–Veselov 6" => style(BROWN, "", Mark::Disc),
+        "Moser–Veselov 8" => style(RED, "2 3", Mark::Triangle),
         "Moser–Veselov 10" => style(RED, "6 3", Mark::Square),
-        "RKN 4 of exact motion" => style(RED, "", Mark::Disc),
-        "RKN 4 of Moser–Veselov" => style(RED, "6 3", Mark::Square),
-        "Kahan–Li 6 of Moser–Veselov" => style(RED, "2 3", Mark::Triangle),
-        "Kahan–Li 8 of Moser–Veselov" => style(RED, "", Mark::Diamond),
+        "splitting 2, exact flow" => style(BROWN, "2 3", Mark::Triangle),
+        "splitting 4, exact flow" => style(BROWN, "6 3", Mark::Square),
+        "splitting 6, exact flow" => style(BROWN, "", Mark::Disc),
+        "splitting 8, exact flow" => style(BROWN, "", Mark::Diamond),
+        "splitting 2, Moser–Veselov" => style(RED, "2 3", Mark::Triangle),
+        "splitting 4, Moser–Veselov" => style(RED, "6 3", Mark::Square),
+        "splitting 6, Moser–Veselov" => style(RED, "", Mark::Disc),
+        "splitting 8, Moser–Veselov" => style(RED, "", Mark::Diamond),
         "variational" => style(PINK, "2 3", Mark::Triangle),
         "Kahan–Li 6 of variational" => style(PINK, "6 3", Mark::Square),
         "RKMK 4" => style(ORANGE, "", Mark::Disc),
@@ -82,8 +92,8 @@ fn line(study: &Study, name: String, style: Style, points: &[Point], up: fn(&Poi
 }
 
 /// From the least accurate on the left to the most accurate.
-pub fn error_axis() -> Axis {
-    Axis { label: "error at the end (more accurate to the right)".into(), ends: 0.0..-15.0, decades: true }
+fn error_axis() -> Axis {
+    Axis { label: "error at the end (more accurate to the right)".into(), ends: 0.0..-16.0, decades: true }
 }
 
 /// Time per simulated second.

@@ -5,12 +5,12 @@ use std::rc::Rc;
 
 use gauss_runtime::prelude::*;
 
-use crate::baselines::baselines;
-use crate::by_hand::coordinates;
-use crate::by_hand_systems as by_hand;
-use crate::entry::{Entry, Setup};
-use crate::methods::{explicit, further};
-use crate::scene::{Scene, Target, rows};
+use super::baselines::baselines;
+use super::by_hand::coordinates;
+use super::by_hand_systems as by_hand;
+use super::entry::{Entry, Setup};
+use super::methods::{explicit, further};
+use super::scene::{Scene, Target, rows};
 
 #[derive(GaussDynamics)]
 #[gauss(
@@ -51,7 +51,8 @@ struct DoublePendulum {
     g: f64,
 }
 
-/// A disk by Euler angles, and the angular velocity in the axes of the first two turns: the rolling is solved by the choice of speeds.
+/// A disk by Euler angles, and the angular velocity in the axes of the first two turns: the rolling is solved by the
+/// choice of speeds.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(x, y, phi, theta, psi),
@@ -238,6 +239,8 @@ pub fn rolling_disk(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>
     let equations = by_hand::Disk { mass: m, inertia: [j.x, j.z], radius: r, gravity: g };
     let start = [omega.x, omega.y, omega.z, x, y, z, w, b.x, b.y, b.z];
     baselines(entries, "ω, quaternion, centre", equations, start, target);
+    let start = [omega.x, omega.y, omega.z, 0.0, lean, 0.0, b.x, b.y];
+    baselines(entries, "ω, angles, centre", by_hand::DiskByAngles(equations), start, target);
     Ok(())
 }
 

@@ -5,11 +5,12 @@ use std::rc::Rc;
 
 use gauss_runtime::prelude::*;
 
-use crate::baselines::baselines;
-use crate::by_hand::{self, body_state, coordinates};
-use crate::entry::{Entry, Kernel, Setup};
-use crate::methods::{explicit, further, left_invariant, splitting};
-use crate::scene::{Scene, Target, rows};
+use super::baselines::baselines;
+use super::by_hand::{self, body_state, coordinates};
+use super::entry::{Entry, Kernel, Setup};
+use super::free_motion::{FreeBody, free_motions};
+use super::methods::{explicit, further, left_invariant, splitting};
+use super::scene::{Scene, Target, rows};
 
 /// A body in every chart, and `add`, which adds all methods on all charts.
 macro_rules! every_chart {
@@ -115,8 +116,9 @@ fn setup<S: Kernel + RigidBodySystem>(
 pub fn free_top(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -> Result<(), Box<dyn Error>> {
     let (mass, inertia) = (scene.number("parameters/mass")?, principal(scene)?);
     add_charts!(free_top, { mass, inertia }, scene, target, entries);
-    let kernel = free_top::Left { mass, inertia }.kernel()?;
-    splitting(entries, &setup("body velocities", kernel, scene, target)?, true)?;
+    let momentum = inertia.component_mul(&scene.vector("initial/body_omega")?);
+    let (attitude, end) = (scene.pose()?.rotation, Rc::clone(target));
+    free_motions(entries, &FreeBody { moments: inertia, attitude, momentum, target: end });
     let equations = by_hand::FreeTop(by_hand::Top::new(inertia, Vector3::zeros()));
     baselines(entries, "ω and quaternion", equations, top_state(scene)?, target);
     Ok(())
@@ -131,7 +133,7 @@ pub fn heavy_top(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -
     let (center, gravity) = (center(scene)?, scene.number("parameters/gravity")?);
     add_charts!(heavy_top, { mass, center, inertia, gravity }, scene, target, entries);
     let kernel = heavy_top::Left { mass, center, inertia, gravity }.kernel()?;
-    splitting(entries, &setup("body velocities", kernel, scene, target)?, false)?;
+    splitting(entries, &setup("body velocities", kernel, scene, target)?)?;
     let equations = by_hand::Top::new(inertia, center * (mass * gravity));
     baselines(entries, "ω and quaternion", equations, top_state(scene)?, target);
     Ok(())
@@ -194,8 +196,8 @@ pub fn submerged(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -
     let moment = (center * mass - buoyancy * displaced) * gravity;
     let equations = by_hand::Submerged::new(kinetic, (mass - displaced) * gravity, moment, target.groups() > 1)
         .ok_or("the kinetic matrix has no inverse")?;
-    let start = body_state(&scene.pose()?, &scene.twist()?);
-    baselines(entries, "(u, ω), quaternion, b", equations, start, target);
+    let start = body_state(&scene.pose()?, &(kinetic * scene.twist()?));
+    baselines(entries, "momenta, quaternion, b", equations, start, target);
     Ok(())
 }
 
@@ -207,14 +209,7 @@ pub fn dragged(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -> 
     let (mass, inertia, gravity) =
         (scene.number("parameters/mass")?, principal(scene)?, scene.number("parameters/gravity")?);
     add_charts!(dragged, { mass, inertia, gravity }, scene, target, entries);
-    let equations = by_hand::Dragged {
-        mass,
-        inertia: inertia.into(),
-        gravity,
-        drag: [0.4, 0.05],
-        push: [1.0, 2.0, 0.5],
-        at: [0.2, 0.0, 0.1],
-    };
+    let equations = by_hand::Dragged::new(mass, inertia.into(), gravity);
     let start = body_state(&scene.pose()?, &scene.twist()?);
     baselines(entries, "(u, ω), quaternion, b", equations, start, target);
     Ok(())

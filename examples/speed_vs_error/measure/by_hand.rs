@@ -1,46 +1,55 @@
-//! The equations of motion of every scene, as one types them from a textbook: body-frame velocities and a quaternion, angles
-//! for pendulums. Nothing here is derived by Gauss. Constants are worked out before the run, as a careful author would.
+//! The equations of motion of every scene, as one types them from a textbook: body-frame velocities and a quaternion,
+//! angles for pendulums. Nothing here is derived by Gauss. Constants and reciprocals are worked out before the run,
+//! and fused multiply-adds are used where the target has them, as a careful author would.
 //!
 //! Quaternions are x, y, z, w and take body components to the observer's.
 
 use gauss_runtime::prelude::*;
 
-use crate::baselines::ByHand;
-use crate::scene::rows;
+use super::baselines::ByHand;
+use super::scene::rows;
+
+/// a b + c, fused where that is one instruction.
+#[inline(always)]
+fn fused(a: f64, b: f64, c: f64) -> f64 {
+    if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
+}
 
 /// The vector product.
 #[inline(always)]
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    [fused(a[1], b[2], -a[2] * b[1]), fused(a[2], b[0], -a[0] * b[2]), fused(a[0], b[1], -a[1] * b[0])]
 }
 
 /// Half of q ∘ (ω, 0).
 #[inline(always)]
-fn quaternion_rate([x, y, z, w]: [f64; 4], [a, b, c]: [f64; 3]) -> [f64; 4] {
+pub fn quaternion_rate([x, y, z, w]: [f64; 4], omega: [f64; 3]) -> [f64; 4] {
+    let [a, b, c] = omega.map(|rate| 0.5 * rate);
     [
-        0.5 * (w * a + y * c - z * b),
-        0.5 * (w * b + z * a - x * c),
-        0.5 * (w * c + x * b - y * a),
-        -0.5 * (x * a + y * b + z * c),
+        fused(w, a, fused(y, c, -z * b)),
+        fused(w, b, fused(z, a, -x * c)),
+        fused(w, c, fused(x, b, -y * a)),
+        fused(-x, a, fused(-y, b, -z * c)),
     ]
 }
 
 /// Rᵀk₃: the vertical in body axes.
 #[inline(always)]
-fn vertical([x, y, z, w]: [f64; 4]) -> [f64; 3] {
+pub fn vertical([x, y, z, w]: [f64; 4]) -> [f64; 3] {
     [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)]
 }
 
 /// R v.
 #[inline(always)]
-fn turned([x, y, z, w]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
+pub fn turned([x, y, z, w]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
     let t = cross([x, y, z], v).map(|c| 2.0 * c);
     let s = cross([x, y, z], t);
-    [v[0] + w * t[0] + s[0], v[1] + w * t[1] + s[1], v[2] + w * t[2] + s[2]]
+    [0, 1, 2].map(|n| fused(w, t[n], v[n] + s[n]))
 }
 
+/// Four components brought back to length 1.
 #[inline(always)]
-fn normalise_quaternion(q: &mut [f64]) {
+pub fn normalise_quaternion(q: &mut [f64]) {
     let scale = 1.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
     q.iter_mut().for_each(|x| *x *= scale);
 }
@@ -60,6 +69,7 @@ pub struct Top {
     inertia: [f64; 3],
     /// (I₂ − I₃)/I₁ and so on round.
     ratios: [f64; 3],
+    reciprocals: [f64; 3],
     /// m g c.
     moment: [f64; 3],
 }
@@ -68,7 +78,12 @@ impl Top {
     /// Inertia about O; `moment` is m g times the vector from O to G.
     pub fn new(inertia: Vector3<f64>, moment: Vector3<f64>) -> Self {
         let [i, j, k] = inertia.into();
-        Self { inertia: [i, j, k], ratios: [(j - k) / i, (k - i) / j, (i - j) / k], moment: moment.into() }
+        Self {
+            inertia: [i, j, k],
+            ratios: [(j - k) / i, (k - i) / j, (i - j) / k],
+            reciprocals: [1.0 / i, 1.0 / j, 1.0 / k],
+            moment: moment.into(),
+        }
     }
 }
 
@@ -81,16 +96,8 @@ impl ByHand<7> for Top {
         // The weight −m g γ acts at c.
         let torque = cross(vertical(q), self.moment);
         let [x, y, z, w] = quaternion_rate(q, [a, b, c]);
-        let [i, j, k] = self.inertia;
-        [
-            self.ratios[0] * b * c + torque[0] / i,
-            self.ratios[1] * c * a + torque[1] / j,
-            self.ratios[2] * a * b + torque[2] / k,
-            x,
-            y,
-            z,
-            w,
-        ]
+        let ([r1, r2, r3], [i, j, k]) = (self.ratios, self.reciprocals);
+        [fused(r1 * b, c, torque[0] * i), fused(r2 * c, a, torque[1] * j), fused(r3 * a, b, torque[2] * k), x, y, z, w]
     }
 
     #[inline(always)]
@@ -169,13 +176,16 @@ fn pose_of(y: &[f64; 13]) -> Vec<Vec<f64>> {
 pub struct Ideal {
     masses: [f64; 3],
     inertia: [f64; 3],
+    /// 1/m and 1/J.
+    reciprocals: [[f64; 3]; 2],
 }
 
 impl Ideal {
     /// From the diagonal, order (u, ω).
     pub fn new(diagonal: Vector6<f64>) -> Self {
         let [a, b, c, i, j, k] = diagonal.into();
-        Self { masses: [a, b, c], inertia: [i, j, k] }
+        let reciprocals = [[1.0 / a, 1.0 / b, 1.0 / c], [1.0 / i, 1.0 / j, 1.0 / k]];
+        Self { masses: [a, b, c], inertia: [i, j, k], reciprocals }
     }
 }
 
@@ -190,10 +200,10 @@ impl ByHand<13> for Ideal {
         let l = [j[0] * omega[0], j[1] * omega[1], j[2] * omega[2]];
         let force = cross(p, omega);
         let (spin, slip) = (cross(l, omega), cross(p, u));
-        let torque = [spin[0] + slip[0], spin[1] + slip[1], spin[2] + slip[2]];
+        let [of_masses, of_inertia] = self.reciprocals;
         joined(
-            [force[0] / m[0], force[1] / m[1], force[2] / m[2]],
-            [torque[0] / j[0], torque[1] / j[1], torque[2] / j[2]],
+            [0, 1, 2].map(|n| force[n] * of_masses[n]),
+            [0, 1, 2].map(|n| (spin[n] + slip[n]) * of_inertia[n]),
             quaternion_rate(q, omega),
             turned(q, u),
         )
@@ -214,10 +224,10 @@ impl ByHand<13> for Ideal {
     }
 }
 
-/// Kirchhoff's equations with a full kinetic matrix, weight and buoyancy.
+/// Kirchhoff's equations with a full kinetic matrix, weight and buoyancy, in momenta: one product with a matrix an
+/// evaluation, where velocities would need two.
 #[derive(Clone, Copy)]
 pub struct Submerged {
-    kinetic: [[f64; 6]; 6],
     inverse: [[f64; 6]; 6],
     /// Weight less buoyancy, N, along −k₃.
     heaviness: f64,
@@ -232,13 +242,13 @@ impl Submerged {
     pub fn new(kinetic: Matrix6<f64>, heaviness: f64, moment: Vector3<f64>, place: bool) -> Option<Self> {
         let array = |m: Matrix6<f64>| std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]));
         let inverse = array(kinetic.try_inverse()?);
-        Some(Self { kinetic: array(kinetic), inverse, heaviness, moment: moment.into(), place })
+        Some(Self { inverse, heaviness, moment: moment.into(), place })
     }
 }
 
 #[inline(always)]
 fn times(m: &[[f64; 6]; 6], v: [f64; 6]) -> [f64; 6] {
-    m.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3] * v[3] + row[4] * v[4] + row[5] * v[5])
+    m.map(|row| (1..6).fold(row[0] * v[0], |sum, n| fused(row[n], v[n], sum)))
 }
 
 impl ByHand<13> for Submerged {
@@ -246,24 +256,18 @@ impl ByHand<13> for Submerged {
 
     #[inline(always)]
     fn rates(&self, y: &[f64; 13]) -> [f64; 13] {
-        let (u, omega, q, _) = parts(y);
-        let [p1, p2, p3, l1, l2, l3] = times(&self.kinetic, [u[0], u[1], u[2], omega[0], omega[1], omega[2]]);
-        let (p, l) = ([p1, p2, p3], [l1, l2, l3]);
+        let (p, l, q, _) = parts(y);
+        let [u1, u2, u3, w1, w2, w3] = times(&self.inverse, [p[0], p[1], p[2], l[0], l[1], l[2]]);
+        let (u, omega) = ([u1, u2, u3], [w1, w2, w3]);
         let up = vertical(q);
         let force = cross(p, omega);
         let (spin, slip, weight) = (cross(l, omega), cross(p, u), cross(up, self.moment));
-        let [u1, u2, u3, w1, w2, w3] = times(
-            &self.inverse,
-            [
-                force[0] - self.heaviness * up[0],
-                force[1] - self.heaviness * up[1],
-                force[2] - self.heaviness * up[2],
-                spin[0] + slip[0] + weight[0],
-                spin[1] + slip[1] + weight[1],
-                spin[2] + slip[2] + weight[2],
-            ],
-        );
-        joined([u1, u2, u3], [w1, w2, w3], quaternion_rate(q, omega), turned(q, u))
+        joined(
+            [0, 1, 2].map(|n| fused(-self.heaviness, up[n], force[n])),
+            [0, 1, 2].map(|n| spin[n] + slip[n] + weight[n]),
+            quaternion_rate(q, omega),
+            turned(q, u),
+        )
     }
 
     #[inline(always)]
@@ -278,30 +282,41 @@ impl ByHand<13> for Submerged {
     }
 
     fn energy(&self, y: &[f64; 13]) -> f64 {
-        let (u, omega, q, b) = parts(y);
-        let v = [u[0], u[1], u[2], omega[0], omega[1], omega[2]];
-        let p = times(&self.kinetic, v);
+        let (p, l, q, b) = parts(y);
+        let momenta = [p[0], p[1], p[2], l[0], l[1], l[2]];
+        let v = times(&self.inverse, momenta);
         let up = vertical(q);
-        let kinetic = (0..6).map(|n| 0.5 * v[n] * p[n]).sum::<f64>();
+        let kinetic = (0..6).map(|n| 0.5 * v[n] * momenta[n]).sum::<f64>();
         kinetic + self.heaviness * b[2] + (0..3).map(|n| self.moment[n] * up[n]).sum::<f64>()
     }
 }
 
-/// Newton–Euler equations about G: weight, linear drag on u and ω, and a force of constant observer components at a point.
+/// Newton–Euler equations about G: weight, linear drag on u and ω, and a force of constant observer components at a
+/// point.
 #[derive(Clone, Copy)]
 pub struct Dragged {
-    /// m, kg.
-    pub mass: f64,
-    /// About G, principal.
-    pub inertia: [f64; 3],
-    /// m/s².
-    pub gravity: f64,
-    /// Drag on u and on ω.
-    pub drag: [f64; 2],
+    mass: f64,
+    inertia: [f64; 3],
+    /// 1/m.
+    light: f64,
+    /// 1/J.
+    quick: [f64; 3],
+    gravity: f64,
+    /// On u and on ω.
+    drag: [f64; 2],
     /// Observer axes.
-    pub push: [f64; 3],
+    push: [f64; 3],
     /// Where it acts, body axes.
-    pub at: [f64; 3],
+    at: [f64; 3],
+}
+
+impl Dragged {
+    /// Principal moments about G; drag and push are those of the struct for the derive.
+    pub fn new(mass: f64, inertia: [f64; 3], gravity: f64) -> Self {
+        let (light, quick) = (1.0 / mass, inertia.map(|j| 1.0 / j));
+        let (drag, push, at) = ([0.4, 0.05], [1.0, 2.0, 0.5], [0.2, 0.0, 0.1]);
+        Self { mass, inertia, light, quick, gravity, drag, push, at }
+    }
 }
 
 impl ByHand<13> for Dragged {
@@ -316,10 +331,10 @@ impl ByHand<13> for Dragged {
         let j = self.inertia;
         let l = [j[0] * omega[0], j[1] * omega[1], j[2] * omega[2]];
         let spin = cross(l, omega);
-        let [f, g] = self.drag;
+        let ([f, g], light, quick) = (self.drag, self.light, self.quick);
         joined(
-            [0, 1, 2].map(|n| turn[n] - self.gravity * up[n] + (push[n] - f * u[n]) / self.mass),
-            [0, 1, 2].map(|n| (spin[n] + lever[n] - g * omega[n]) / j[n]),
+            [0, 1, 2].map(|n| fused(push[n] - f * u[n], light, turn[n] - self.gravity * up[n])),
+            [0, 1, 2].map(|n| (spin[n] + lever[n] - g * omega[n]) * quick[n]),
             quaternion_rate(q, omega),
             turned(q, u),
         )

@@ -2,9 +2,9 @@
 
 use gauss_runtime::prelude::*;
 
-use crate::baselines::ByHand;
-use crate::by_hand::cross;
-use crate::scene::rows;
+use super::baselines::ByHand;
+use super::by_hand::{cross, normalise_quaternion, quaternion_rate, turned, vertical};
+use super::scene::rows;
 
 /// A spherical pendulum in Cartesian coordinates: v, then x. The thread pulls by λ = (v² + g·x)/ℓ².
 #[derive(Clone, Copy)]
@@ -53,13 +53,15 @@ impl ByHand<4> for DoublePendulum {
     #[inline(always)]
     fn rates(&self, &[wa, wb, a, b]: &[f64; 4]) -> [f64; 4] {
         let ([m1, m2], [l1, l2], g) = (self.masses, self.lengths, self.gravity);
-        let (s, c) = (a - b).sin_cos();
+        let ((sa, ca), (sb, cb)) = (a.sin_cos(), b.sin_cos());
+        // Of a − b: cheaper than a third sine.
+        let (s, c) = (sa * cb - ca * sb, ca * cb + sa * sb);
         let total = m1 + m2;
-        let first = -m2 * l2 * wb * wb * s - total * g * a.sin();
-        let second = l1 * wa * wa * s - g * b.sin();
+        let first = -m2 * l2 * wb * wb * s - total * g * sa;
+        let second = l1 * wa * wa * s - g * sb;
         // (m₁ + m₂) l₁ ä + m₂ l₂ c b̈ = first, l₁ c ä + l₂ b̈ = second.
-        let down = m1 + m2 * s * s;
-        [(first - m2 * c * second) / (l1 * down), (total * second - c * first) / (l2 * down), wa, wb]
+        let scale = 1.0 / (l1 * l2 * (m1 + m2 * s * s));
+        [l2 * scale * (first - m2 * c * second), l1 * scale * (total * second - c * first), wa, wb]
     }
 
     #[inline(always)]
@@ -96,7 +98,7 @@ impl Disk {
     /// From the centre to the contact, body axes, and γ = Rᵀk₃.
     #[inline(always)]
     fn contact(&self, [x, y, z, w]: [f64; 4]) -> ([f64; 3], [f64; 3]) {
-        let up = [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)];
+        let up = vertical([x, y, z, w]);
         let scale = -self.radius / (up[0] * up[0] + up[1] * up[1]).sqrt();
         ([scale * up[0], scale * up[1], 0.0], up)
     }
@@ -124,19 +126,15 @@ impl ByHand<10> for Disk {
         let across = i + m * self.radius * self.radius;
         let down = 1.0 / (i * across);
         let (r1, r2) = (rho[0], rho[1]);
-        let velocity = {
-            let t = cross([x, y, z], v).map(|c| 2.0 * c);
-            let s = cross([x, y, z], t);
-            [v[0] + w * t[0] + s[0], v[1] + w * t[1] + s[1], v[2] + w * t[2] + s[2]]
-        };
+        let ([x, y, z, w], velocity) = (quaternion_rate(q, omega), turned(q, v));
         [
             down * ((i + m * r1 * r1) * t[0] + m * r1 * r2 * t[1]),
             down * (m * r1 * r2 * t[0] + (i + m * r2 * r2) * t[1]),
             t[2] / (k + m * self.radius * self.radius),
-            0.5 * (w * a + y * c - z * b),
-            0.5 * (w * b + z * a - x * c),
-            0.5 * (w * c + x * b - y * a),
-            -0.5 * (x * a + y * b + z * c),
+            x,
+            y,
+            z,
+            w,
             velocity[0],
             velocity[1],
             velocity[2],
@@ -145,8 +143,7 @@ impl ByHand<10> for Disk {
 
     #[inline(always)]
     fn normalise(&self, y: &mut [f64; 10]) {
-        let scale = 1.0 / (y[3] * y[3] + y[4] * y[4] + y[5] * y[5] + y[6] * y[6]).sqrt();
-        y[3..7].iter_mut().for_each(|x| *x *= scale);
+        normalise_quaternion(&mut y[3..7]);
     }
 
     fn observe(&self, &[_, _, _, x, y, z, w, b1, b2, b3]: &[f64; 10]) -> Vec<Vec<f64>> {
@@ -158,6 +155,52 @@ impl ByHand<10> for Disk {
         let [i, k] = self.inertia;
         let speed: f64 = cross(rho, [a, b, c]).iter().map(|v| v * v).sum();
         0.5 * (self.mass * speed + i * (a * a + b * b) + k * c * c) + self.mass * self.gravity * height
+    }
+}
+
+/// The same disk with ω in the axes of the first two turns (about k₃ by φ, then about the horizontal diameter by θ),
+/// which do not spin with it: ω, then φ, θ, ψ, and x, y of the centre.
+#[derive(Clone, Copy)]
+pub struct DiskByAngles(pub Disk);
+
+impl ByHand<8> for DiskByAngles {
+    const VELOCITIES: usize = 3;
+
+    #[inline(always)]
+    fn rates(&self, &[a, b, c, phi, theta, ..]: &[f64; 8]) -> [f64; 8] {
+        let Disk { mass, inertia: [i, k], radius: r, gravity } = self.0;
+        let ((sp, cp), (st, ct)) = (phi.sin_cos(), theta.sin_cos());
+        // The axes turn with (a, b, b cot θ); the contact pushes at −r e₂ with m times the acceleration of the centre
+        // and g k₃.
+        let about_up = b / st;
+        let carried = about_up * ct;
+        let rolling = mass * r * r;
+        [
+            ((carried * i - (k + rolling) * c) * b - mass * gravity * r * ct) / (i + rolling),
+            (k * c / i - carried) * a,
+            rolling * a * b / (k + rolling),
+            about_up,
+            a,
+            c - carried,
+            r * (a * st * sp - c * cp),
+            -r * (a * st * cp + c * sp),
+        ]
+    }
+
+    #[inline(always)]
+    fn normalise(&self, _: &mut [f64; 8]) {}
+
+    fn observe(&self, &[_, _, _, phi, theta, psi, x, y]: &[f64; 8]) -> Vec<Vec<f64>> {
+        let about = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
+        let (up, node) = (Vector3::z_axis(), Vector3::x_axis());
+        let rotation = about(up, phi) * about(node, theta) * about(up, psi);
+        vec![rows(&rotation), vec![x, y, self.0.radius * theta.sin()]]
+    }
+
+    fn energy(&self, &[a, b, c, _, theta, ..]: &[f64; 8]) -> f64 {
+        let Disk { mass, inertia: [i, k], radius: r, gravity } = self.0;
+        let speed = r * r * (a * a + c * c);
+        0.5 * (mass * speed + i * (a * a + b * b) + k * c * c) + mass * gravity * r * theta.sin()
     }
 }
 

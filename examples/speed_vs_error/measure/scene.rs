@@ -1,84 +1,53 @@
-//! The scenes: parameters, initial and final states from `data/speed_vs_error.json`, and what is said about them.
+//! The data of scenes: parameters, initial and final states from `data/speed_vs_error.json`, and the error against
+//! the end.
 
 use std::error::Error;
 
 use gauss_runtime::prelude::*;
 use serde_json::Value;
 
-/// What kind of motion it is: the targets differ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A body that turns about a point without or with weight.
-    Top,
-    /// A free body in an ideal fluid, without or with weight.
-    Fluid,
-    /// Everything else.
-    Other,
-}
-
-impl Kind {
-    /// How many times as fast as the best baseline the best method is to be.
-    pub fn target(self) -> f64 {
-        if self == Self::Other { 3.0 } else { 5.0 }
-    }
-}
-
-/// What is told of a scene beside its data.
-struct About {
-    name: &'static str,
-    title: &'static str,
-    kind: Kind,
-    /// The fastest rate, rad/s: the longest step is about one radian of it.
-    rate: f64,
-}
-
-const fn about(name: &'static str, title: &'static str, kind: Kind, rate: f64) -> About {
-    About { name, title, kind, rate }
-}
-
-const ABOUT: [About; 20] = [
-    about("hlw_free_body", "Free body", Kind::Top, 1.3),
-    about("free_asym_top", "Free asymmetric top", Kind::Top, 2.0),
-    about("free_near_separatrix", "Free body near its separatrix", Kind::Top, 1.0),
-    about("trajectory_a", "Free body that turns over (trajectory A)", Kind::Top, 1.0),
-    about("hlw_heavy_top", "Heavy asymmetric top", Kind::Top, 2.0),
-    about("bruls_heavy_top", "Heavy top at 150 rad/s", Kind::Top, 150.0),
-    about("simo_wong_top", "Heavy top at 50 rad/s", Kind::Top, 50.0),
-    about("lagrange_top", "Lagrange's top", Kind::Top, 40.0),
-    about("kovalevskaya", "Kovalevskaya's top", Kind::Top, 1.5),
-    about("trajectory_b", "Heavy symmetric top (trajectory B)", Kind::Top, 15.0),
-    about("kirchhoff_clebsch", "Body in fluid, Clebsch's case", Kind::Fluid, 1.5),
-    about("kirchhoff_nonintegrable", "Body in fluid, not integrable", Kind::Fluid, 2.0),
-    about("kirchhoff_buoyant", "Body in fluid with weight and buoyancy", Kind::Fluid, 3.0),
-    about("full_added_mass", "Body in fluid, all added masses coupled", Kind::Fluid, 3.0),
-    about("trajectory_c", "Vehicle in fluid (trajectory C)", Kind::Fluid, 1.5),
-    about("drag_body", "Body with drag and a constant force", Kind::Other, 5.0),
-    about("spherical_pendulum", "Spherical pendulum", Kind::Other, 4.0),
-    about("double_pendulum", "Double pendulum", Kind::Other, 8.0),
-    about("rolling_disk_falling", "Rolling disk", Kind::Other, 6.0),
-    about("chaplygin_sleigh", "Chaplygin's sleigh", Kind::Other, 1.5),
-];
+use super::catalogue::{About, SCENES};
 
 /// A scene.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Scene {
-    /// Short, as on the command line.
-    pub name: &'static str,
-    /// For people.
-    pub title: &'static str,
-    /// What kind of motion.
-    pub kind: Kind,
-    /// The fastest rate, rad/s.
-    pub rate: f64,
+    /// Its entry in the catalogue.
+    pub about: &'static About,
     /// What the data say about it.
     pub description: String,
     /// The motion goes from 0 to here, s.
     pub duration: f64,
-    /// The relative change of the end when the start is off by one, where it is known.
+    /// The relative change of the end when the start is off by a relative one, to first order; where it is known.
     pub sensitivity: Option<f64>,
     /// Errors below this are errors of the reference, which is given to as many digits.
     pub resolution: f64,
+    /// What other systems reach on it, where that is published.
+    pub published: Option<Published>,
     data: Value,
+}
+
+/// Figures that others reached on the same motion, taken on another machine: to be read beside ours, not against them.
+#[derive(Clone, Debug)]
+pub struct Published {
+    /// What was measured, and on what.
+    pub about: String,
+    /// An error of 1e-11 is to be reached in less than this, µs per simulated second, on a machine like that.
+    pub goal: f64,
+    /// The figures.
+    pub figures: Vec<Figure>,
+}
+
+/// A published figure.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// The program.
+    pub system: String,
+    /// Its step or tolerance.
+    pub setting: String,
+    /// µs per simulated second.
+    pub time: f64,
+    /// In the final attitude, rad.
+    pub error: f64,
 }
 
 /// All scenes, in the order of the report.
@@ -86,24 +55,43 @@ pub struct Scene {
 /// # Errors
 /// When the data are not what they should be.
 pub fn scenes() -> Result<Vec<Scene>, Box<dyn Error>> {
-    let file: Value = serde_json::from_str(include_str!("../data/speed_vs_error.json"))?;
+    let file: Value = serde_json::from_str(include_str!("../../data/speed_vs_error.json"))?;
     let list = file["scenes"].as_array().ok_or("the data have no scenes")?;
-    let find = |about: &About| {
+    let find = |about: &'static About| {
         let data = list.iter().find(|data| data["name"] == about.name);
         let data = data.ok_or_else(|| format!("the data have no scene {}", about.name))?.clone();
         Ok(Scene {
-            name: about.name,
-            title: about.title,
-            kind: about.kind,
-            rate: about.rate,
+            about,
             description: data["description"].as_str().unwrap_or_default().to_owned(),
             duration: number(&data["T"])?,
             sensitivity: number(&data["change_per_rounding"]).ok().map(|change| change / (0.5 * f64::EPSILON)),
             resolution: if data["digits"] == 36 { f64::EPSILON } else { 1e-13 },
+            published: match &data["published"] {
+                Value::Null => None,
+                figures => Some(published(&file["published"], figures)?),
+            },
             data,
         })
     };
-    ABOUT.iter().map(find).collect()
+    SCENES.iter().map(find).collect()
+}
+
+fn published(about: &Value, data: &Value) -> Result<Published, Box<dyn Error>> {
+    let text = |value: &Value| value.as_str().map(str::to_owned).ok_or("a published figure lacks a word");
+    let figure = |figure: &Value| {
+        Ok(Figure {
+            system: text(&figure["system"])?,
+            setting: text(&figure["setting"])?,
+            time: number(&figure["us_per_s"])?,
+            error: number(&figure["error"])?,
+        })
+    };
+    let figures = data["figures"].as_array().ok_or("there are no published figures")?;
+    Ok(Published {
+        about: text(about)?,
+        goal: number(&data["goal_us_per_s"])?,
+        figures: figures.iter().map(figure).collect::<Result<_, Box<dyn Error>>>()?,
+    })
 }
 
 impl Scene {
@@ -163,14 +151,14 @@ impl Scene {
     }
 
     fn at(&self, path: &str) -> Result<&Value, Box<dyn Error>> {
-        self.data.pointer(&format!("/{path}")).ok_or_else(|| format!("{} has no {path}", self.name).into())
+        self.data.pointer(&format!("/{path}")).ok_or_else(|| format!("{} has no {path}", self.about.name).into())
     }
 }
 
 /// How far off a final state is: what is seen of it, in groups that have one size each, against the reference.
 ///
-/// The error is the largest difference of an entry of R (for small errors that of an angle in rad) or of a component of a
-/// position, relative to the largest component where that is above 1.
+/// The error is the largest of the groups': of an attitude the angle between the two, rad; of a position its largest
+/// component, relative to the largest of the reference where that is above 1.
 #[derive(Clone, Debug)]
 pub struct Target {
     groups: Vec<Vec<f64>>,
@@ -193,15 +181,21 @@ impl Target {
         if found.len() != self.groups.len() {
             return f64::INFINITY;
         }
-        let mut worst = 0.0_f64;
-        for (found, expected) in found.iter().zip(&self.groups) {
-            let size = expected.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
-            for (found, expected) in found.iter().zip(expected) {
-                let error = (found - expected).abs() / size;
-                worst = if error.is_nan() { f64::INFINITY } else { worst.max(error) };
-            }
-        }
-        worst
+        found.iter().zip(&self.groups).fold(0.0_f64, |worst, (found, expected)| {
+            let differences = found.iter().zip(expected).map(|(found, expected)| (found - expected).abs());
+            let error = if expected.len() == 9 {
+                // The Frobenius norm of the difference of two rotation matrices is √8 sin of half the angle between
+                // them.
+                let squares: f64 = differences.map(|difference| difference * difference).sum();
+                // `min` would drop a NaN.
+                2.0 * (squares / 8.0).sqrt().clamp(0.0, 1.0).asin()
+            } else {
+                let size = expected.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
+                // `max` would drop a NaN.
+                differences.fold(0.0, |worst: f64, x| if x > worst || x.is_nan() { x } else { worst }) / size
+            };
+            if error.is_nan() { f64::INFINITY } else { worst.max(error) }
+        })
     }
 }
 

@@ -1,9 +1,11 @@
 //! The picture for the README: six scenes, the best of Gauss against what a user would otherwise do.
 
-use crate::chart::{Axis, Chart, Series, picture, words};
-use crate::entry::Side;
-use crate::plots::{OURS, baseline_style, methods, time_axis};
-use crate::study::{Point, Study};
+use crate::measure::comparison::Verdict;
+use crate::measure::entry::Side;
+use crate::measure::study::{Point, Study};
+
+use super::chart::{Axis, Chart, Series, picture, words};
+use super::plots::{OURS, baseline_style, methods, time_axis};
 
 /// The scenes shown, where they were run.
 const SHOWN: [&str; 6] =
@@ -14,9 +16,9 @@ const HEAD: f64 = 128.0;
 
 /// The picture, 1600 px wide.
 pub fn overview(studies: &[Study]) -> String {
-    let named = SHOWN.iter().filter_map(|name| studies.iter().find(|study| study.scene.name == *name));
+    let named = SHOWN.iter().filter_map(|name| studies.iter().find(|study| study.scene.about.name == *name));
     let mut shown: Vec<&Study> = named.collect();
-    let others = studies.iter().filter(|study| !SHOWN.contains(&study.scene.name));
+    let others = studies.iter().filter(|study| !SHOWN.contains(&study.scene.about.name));
     shown.extend(others.take(6 - shown.len()));
 
     let mut svg =
@@ -58,13 +60,16 @@ fn panel(study: &Study) -> Chart {
     series.push(Series { name: String::new(), style: OURS, points: ours });
     let gains: Vec<String> = [(1e-4, "10⁻⁴"), (1e-8, "10⁻⁸"), (1e-11, "10⁻¹¹")]
         .into_iter()
-        .filter_map(|(error, name)| Some(format!("{:.1}× at {name}", study.gain(error)?)))
+        .filter_map(|(error, name)| match study.pair(error).verdict() {
+            Verdict::Gain(gain) => Some(format!("{gain:.1}× at {name}")),
+            _ => None,
+        })
         .collect();
     let y = time_axis(&series);
     Chart {
-        title: study.scene.title.split(" (").next().unwrap_or_default().into(),
+        title: study.scene.about.title.split(" (").next().unwrap_or_default().into(),
         subtitle: gains.join(", "),
-        x: Axis { label: "error at the end".into(), ends: 0.0..-14.0, decades: true },
+        x: Axis { label: "error at the end".into(), ends: 0.0..-16.0, decades: true },
         y: Axis { label: "µs per simulated second".into(), ..y },
         series,
         size: PANEL,

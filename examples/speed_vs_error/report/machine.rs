@@ -14,8 +14,10 @@ pub struct Machine {
     pub cores: usize,
     /// Of the compiler on the path, which is the one that Cargo calls unless it is told otherwise.
     pub compiler: String,
-    /// Architecture, system, and the instructions that matter.
+    /// Architecture and system.
     pub target: String,
+    /// How this program was compiled.
+    pub build: String,
     /// Processes that wanted to run in the last minutes, where the system says it.
     pub load: String,
 }
@@ -29,12 +31,26 @@ impl Machine {
         let model = processors.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
         let version = Command::new("rustc").arg("--version").output().ok();
         let version = version.and_then(|output| String::from_utf8(output.stdout).ok());
-        let fused = if cfg!(target_feature = "fma") { "with" } else { "without" };
+        let instructions: Vec<&str> = [
+            ("AVX2", cfg!(target_feature = "avx2")),
+            ("AVX-512", cfg!(target_feature = "avx512f")),
+            ("FMA", cfg!(target_feature = "fma")),
+        ]
+        .into_iter()
+        .filter_map(|(name, on)| on.then_some(name))
+        .collect();
+        let instructions = if instructions.is_empty() {
+            "the least processor of the target".to_owned()
+        } else {
+            instructions.join(", ")
+        };
+        let checks = if cfg!(debug_assertions) { "with debug assertions: times mean little" } else { "release" };
         Self {
             processor: model.map_or_else(unknown, |(_, name)| name.to_owned()),
             cores: available_parallelism().map_or(1, Into::into),
             compiler: version.map_or_else(unknown, |text| text.trim().to_owned()),
-            target: format!("{ARCH}, {OS}, {fused} fused multiply-add"),
+            target: format!("{ARCH}, {OS}"),
+            build: format!("{checks}, compiled for {instructions}; the same for Gauss and the baselines"),
             load: fs::read_to_string("/proc/loadavg")
                 .map_or_else(|_| unknown(), |text| text.split(' ').take(3).collect::<Vec<_>>().join(", ")),
         }

@@ -1,38 +1,52 @@
 //! The measurement of a scene: errors of every method at every setting, then times, then energies over a long run.
 //!
-//! Times are taken in rounds: each round runs every setting of every method once, so that a change of the processor's clock or
-//! other load hits all of them alike. Medians are reported, with quartiles.
+//! Times are taken in rounds: each round runs every setting of every method for at least a millisecond, so that a
+//! change of the processor's clock or other load hits all of them alike. Medians are reported, with quartiles. Runs
+//! that cannot matter, because another is many times as fast and not less accurate, are not in these rounds.
 
 use std::error::Error;
-use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use crate::entry::{Ask, Entry, Setting, Side};
-use crate::scene::{Scene, Target};
-use crate::{bodies, systems};
+use super::entry::{Ask, Entry, Setting, Side};
+use super::scene::Scene;
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// Rounds of timing, after one that warms up.
+    /// Rounds of timing.
     pub rounds: usize,
     /// A time is taken over so many runs that they last this long.
     pub batch: Duration,
-    /// Settings that take more evaluations are left out.
-    pub most_evaluations: u64,
+    /// Steps that take more evaluations for a radian of the fastest rate are left out; tolerances, which end at 1e-14
+    /// anyway, where they take four times as many.
+    pub most_evaluations: f64,
     /// Settings are this many times as dense.
     pub density: f64,
     /// Energies are watched over this many times the motion of the scene.
     pub long: f64,
+    /// Runs that are so many times slower than one that is as accurate are timed once.
+    pub hopeless: f64,
 }
 
 impl Effort {
     /// For figures to be kept.
-    pub const FULL: Self =
-        Self { rounds: 9, batch: Duration::from_micros(300), most_evaluations: 300_000, density: 1.0, long: 20.0 };
+    pub const FULL: Self = Self {
+        rounds: 7,
+        batch: Duration::from_millis(1),
+        most_evaluations: 1500.0,
+        density: 1.0,
+        long: 20.0,
+        hopeless: 8.0,
+    };
     /// For a first look.
-    pub const QUICK: Self =
-        Self { rounds: 3, batch: Duration::from_micros(10), most_evaluations: 15_000, density: 0.4, long: 4.0 };
+    pub const QUICK: Self = Self {
+        rounds: 3,
+        batch: Duration::from_micros(200),
+        most_evaluations: 250.0,
+        density: 0.3,
+        long: 2.0,
+        hopeless: 3.0,
+    };
 }
 
 /// One method at one setting.
@@ -48,6 +62,8 @@ pub struct Point {
     pub evaluations: u64,
     /// Quartiles of µs of computation per s of motion.
     pub time: [f64; 3],
+    /// How many rounds they are of.
+    pub rounds: usize,
 }
 
 impl Point {
@@ -57,7 +73,8 @@ impl Point {
     }
 }
 
-/// The energy of one method over a long run: largest deviations, relative to the first value, in equal parts of the run.
+/// The energy of one method over a long run: largest deviations, relative to the first value, in equal parts of the
+/// run.
 #[derive(Clone, Debug)]
 pub struct Drift {
     /// What the line is called.
@@ -80,48 +97,21 @@ pub struct Study {
     pub drifts: Vec<Drift>,
 }
 
-/// Makes the entries of a scene.
-///
-/// # Errors
-/// When its data are not what they should be.
-pub fn entries(scene: &Scene) -> Result<Vec<Entry>, Box<dyn Error>> {
-    let mut all = Vec::new();
-    let (attitude, pose) = (Rc::new(Target::of(scene, &["R"])), Rc::new(Target::of(scene, &["R", "b"])));
-    let particles = Rc::new(Target::of(scene, &["x", "x1", "x2"]));
-    match scene.name {
-        "hlw_free_body" | "free_asym_top" | "free_near_separatrix" | "trajectory_a" => {
-            bodies::free_top(&mut all, scene, &attitude)?;
-        }
-        "hlw_heavy_top" | "bruls_heavy_top" | "simo_wong_top" | "lagrange_top" | "kovalevskaya" | "trajectory_b" => {
-            bodies::heavy_top(&mut all, scene, &attitude)?;
-        }
-        "kirchhoff_clebsch" | "kirchhoff_nonintegrable" => bodies::ideal(&mut all, scene, &pose)?,
-        "kirchhoff_buoyant" | "full_added_mass" | "trajectory_c" => bodies::submerged(&mut all, scene, &pose)?,
-        "drag_body" => bodies::dragged(&mut all, scene, &pose)?,
-        "spherical_pendulum" => systems::spherical_pendulum(&mut all, scene, &particles)?,
-        "double_pendulum" => systems::double_pendulum(&mut all, scene, &particles)?,
-        "rolling_disk_falling" => systems::rolling_disk(&mut all, scene, &pose)?,
-        "chaplygin_sleigh" => systems::sleigh(&mut all, scene, &pose)?,
-        other => return Err(format!("nobody knows how to move {other}").into()),
-    }
-    Ok(all)
-}
-
 /// Measures a scene; `progress` is called with the part that is done, from 0 to 1.
 ///
 /// # Errors
 /// When its data are not what they should be.
 pub fn study(scene: &Scene, effort: &Effort, progress: &mut dyn FnMut(f64)) -> Result<Study, Box<dyn Error>> {
-    let entries = entries(scene)?;
+    let entries = scene.about.entries(scene)?;
     let (mut points, mut refused) = (Vec::new(), 0);
     for (number, entry) in entries.iter().enumerate() {
         let (found, without) = ladder(number, entry, scene, effort);
-        points.extend(found);
+        points.extend(useful(found));
         refused += without;
         progress(0.2 * (number + 1) as f64 / entries.len() as f64);
     }
     time(&entries, &mut points, scene.duration, effort, &mut |part| progress(0.2 + 0.7 * part));
-    let drifts = if scene.name == "drag_body" { Vec::new() } else { drifts(&entries, scene, effort.long) };
+    let drifts = drifts(&entries, scene, effort.long);
     progress(1.0);
     Ok(Study { scene: scene.clone(), entries, points, refused, drifts })
 }
@@ -137,7 +127,7 @@ fn settings(entry: &Entry, scene: &Scene, effort: &Effort) -> Vec<f64> {
         Setting::Step(order) => {
             // About two settings for each power of ten of the error, and not less than one for each halving.
             let ratio = 10.0_f64.powf(0.5 / f64::from(order)).powf(1.0 / effort.density).clamp(1.15, 4.0);
-            (0..80).map(|n| 1.6 / scene.rate / ratio.powi(n)).collect()
+            (0..80).map(|n| 1.6 / scene.about.rate / ratio.powi(n)).collect()
         }
     }
 }
@@ -145,24 +135,34 @@ fn settings(entry: &Entry, scene: &Scene, effort: &Effort) -> Vec<f64> {
 /// Errors of one method, from coarse to fine, until rounding or the effort ends it; and how many settings were refused.
 fn ladder(number: usize, entry: &Entry, scene: &Scene, effort: &Effort) -> (Vec<Point>, usize) {
     let (mut points, mut refused): (Vec<Point>, usize) = (Vec::new(), 0);
-    let (mut best, mut vain) = (f64::INFINITY, 0);
+    let (mut best, mut vain, mut in_a_row) = (f64::INFINITY, 0, 0);
+    let most = effort.most_evaluations * scene.about.rate * scene.duration;
+    let most = if entry.setting == Setting::Tolerance { 4.0 * most } else { most };
     for setting in settings(entry, scene, effort) {
         if let Setting::Step(_) = entry.setting
-            && scene.duration / setting > effort.most_evaluations as f64
+            && scene.duration / setting > most
         {
             break;
         }
+        let start = Instant::now();
         let Ok((error, evaluations)) = entry.error(setting, scene.duration) else {
             refused += 1;
+            in_a_row += 1;
+            // Steps may be too long; where tolerances cannot be kept there is a singularity of the coordinates.
+            if entry.setting == Setting::Tolerance && in_a_row == 2 {
+                break;
+            }
             continue;
         };
-        if evaluations > effort.most_evaluations {
+        in_a_row = 0;
+        if evaluations as f64 > most {
             break;
         }
         if error < 1.0 {
             // Errors below what the reference resolves say nothing.
             let error = error.max(scene.resolution);
-            points.push(Point { entry: number, setting, error, evaluations, time: [f64::NAN; 3] });
+            let time = [start.elapsed().as_secs_f64() * 1e6 / scene.duration; 3];
+            points.push(Point { entry: number, setting, error, evaluations, time, rounds: 1 });
         }
         vain = if error > 0.7 * best { vain + 1 } else { 0 };
         best = best.min(error);
@@ -173,40 +173,86 @@ fn ladder(number: usize, entry: &Entry, scene: &Scene, effort: &Effort) -> (Vec<
     (points, refused)
 }
 
-fn time(entries: &[Entry], points: &mut [Point], duration: f64, effort: &Effort, progress: &mut dyn FnMut(f64)) {
-    let once = |point: &Point, runs: u32| {
-        let start = Instant::now();
-        for _ in 0..runs {
-            // It reached the end when its error was found.
-            let _ = entries[point.entry].run(point.setting, duration, Ask::Time);
+/// The settings of one method that no other of it beats in both evaluations and error.
+fn useful(points: Vec<Point>) -> Vec<Point> {
+    let beaten =
+        |point: &Point| points.iter().any(|other| other.evaluations < point.evaluations && other.error <= point.error);
+    points.iter().filter(|point| !beaten(point)).copied().collect()
+}
+
+/// Seconds of one run, as the mean of some.
+fn once(entry: &Entry, point: &Point, duration: f64, runs: u32) -> f64 {
+    let start = Instant::now();
+    for _ in 0..runs {
+        // It reached the end when its error was found.
+        let _ = entry.run(point.setting, duration, Ask::Time);
+    }
+    start.elapsed().as_secs_f64() / f64::from(runs)
+}
+
+/// So many runs that they last as long as a batch.
+fn batch_of(entry: &Entry, point: &Point, duration: f64, batch: f64) -> u32 {
+    let mut runs = 1;
+    loop {
+        let wanted = (batch / once(entry, point, duration, runs).max(1e-9)).ceil();
+        if wanted <= f64::from(runs) {
+            return runs;
         }
-        start.elapsed().as_secs_f64() / f64::from(runs)
-    };
-    let runs: Vec<u32> = points
-        .iter()
-        .map(|point| (effort.batch.as_secs_f64() / once(point, 1)).ceil().clamp(1.0, 1e4) as u32)
-        .collect();
-    let mut times = vec![Vec::with_capacity(effort.rounds); points.len()];
+        // A first run is slower than the next ones.
+        runs = (1.3 * wanted).ceil() as u32;
+    }
+}
+
+/// Whether a point is still so many times slower than another that is as accurate. Very short runs are not judged by
+/// their first time.
+fn hopeless(point: &Point, points: &[Point], duration: f64, times: f64) -> bool {
+    const SHORT: f64 = 50.0;
+    let accurate = points.iter().filter(|other| other.error <= point.error);
+    let least = accurate.fold(f64::INFINITY, |least, other| least.min(other.median()));
+    point.median() * duration > SHORT && point.median() > times * least
+}
+
+fn time(entries: &[Entry], points: &mut [Point], duration: f64, effort: &Effort, progress: &mut dyn FnMut(f64)) {
+    let batch = effort.batch.as_secs_f64();
+    let mut timed = Vec::new();
+    for n in 0..points.len() {
+        if hopeless(&points[n], points, duration, effort.hopeless) {
+            // The first time may have been that of an interruption.
+            let again = once(&entries[points[n].entry], &points[n], duration, 1) * 1e6 / duration;
+            points[n].time = [again.min(points[n].median()); 3];
+        }
+        if !hopeless(&points[n], points, duration, effort.hopeless) {
+            timed.push(n);
+        }
+    }
+    let runs: Vec<u32> =
+        timed.iter().map(|&n| batch_of(&entries[points[n].entry], &points[n], duration, batch)).collect();
+    let mut times = vec![Vec::with_capacity(effort.rounds); timed.len()];
     for round in 0..effort.rounds {
-        for ((point, &runs), times) in points.iter().zip(&runs).zip(&mut times) {
-            times.push(once(point, runs) * 1e6 / duration);
+        for ((&n, &runs), times) in timed.iter().zip(&runs).zip(&mut times) {
+            times.push(once(&entries[points[n].entry], &points[n], duration, runs) * 1e6 / duration);
         }
         progress((round + 1) as f64 / effort.rounds as f64);
     }
-    for (point, times) in points.iter_mut().zip(&mut times) {
+    for (&n, times) in timed.iter().zip(&mut times) {
         times.sort_by(f64::total_cmp);
-        point.time = [1, 2, 3].map(|quarter| times[(times.len() - 1) * quarter / 4]);
+        points[n].time = [1, 2, 3].map(|quarter| times[(times.len() - 1) * quarter / 4]);
+        points[n].rounds = times.len();
     }
 }
 
 /// Values on a line.
 const PARTS: usize = 200;
 
-/// Energies of the methods on the first chart, with steps of 0.15 of the fastest rate or a tolerance of 1e-9.
+/// Energies of the methods on the first chart, with steps of 0.15 of the fastest rate or a tolerance of 1e-9; none
+/// where drag takes energy away.
 fn drifts(entries: &[Entry], scene: &Scene, long: f64) -> Vec<Drift> {
+    if !scene.about.conservative() {
+        return Vec::new();
+    }
     let Some(first) = entries.first() else { return Vec::new() };
     let end = long * scene.duration;
-    let step = 0.15 / scene.rate;
+    let step = 0.15 / scene.about.rate;
     let shown = |entry: &&Entry| match entry.side {
         Side::Gauss => {
             let wanted = [
@@ -214,10 +260,11 @@ fn drifts(entries: &[Entry], scene: &Scene, long: f64) -> Vec<Drift> {
                 ("DP 8, fixed", "velocity"),
                 ("Gauss 4", "momentum"),
                 ("variational", "momentum"),
-                ("RKN 4 of Moser–Veselov", "momentum"),
+                ("splitting 4, Moser–Veselov", "momentum"),
                 ("Moser–Veselov 10", "momentum"),
             ];
-            entry.chart == first.chart && wanted.contains(&(entry.method, entry.form))
+            (entry.chart == first.chart || entry.method == "Moser–Veselov 10")
+                && wanted.contains(&(entry.method, entry.form))
         }
         Side::Baseline => entry.method != "DOP853 of differential-equations",
     };
@@ -239,32 +286,4 @@ fn drifts(entries: &[Entry], scene: &Scene, long: f64) -> Vec<Drift> {
         all.push(Drift { name: entry.method.to_owned(), line: line.map(|(part, &value)| (at(part), value)).collect() });
     }
     all
-}
-
-impl Study {
-    /// The points that no other point beats in both error and time, from fast to accurate.
-    pub fn front(&self, keep: impl Fn(&Entry) -> bool) -> Vec<Point> {
-        let mut points: Vec<Point> =
-            self.points.iter().filter(|point| keep(&self.entries[point.entry])).copied().collect();
-        points.sort_by(|a, b| a.median().total_cmp(&b.median()));
-        let mut least = f64::INFINITY;
-        points.retain(|point| {
-            let better = point.error < least;
-            least = least.min(point.error);
-            better
-        });
-        points
-    }
-
-    /// The fastest point with at most this error.
-    pub fn fastest(&self, error: f64, keep: impl Fn(&Entry) -> bool) -> Option<Point> {
-        let good = self.points.iter().filter(|point| point.error <= error && keep(&self.entries[point.entry]));
-        good.min_by(|a, b| a.median().total_cmp(&b.median())).copied()
-    }
-
-    /// How many times as fast as the fastest baseline the fastest method of Gauss is at this error.
-    pub fn gain(&self, error: f64) -> Option<f64> {
-        let of = |side| self.fastest(error, |entry| entry.side == side);
-        Some(of(Side::Baseline)?.median() / of(Side::Gauss)?.median())
-    }
 }

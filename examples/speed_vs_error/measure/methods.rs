@@ -1,0 +1,101 @@
+//! The methods of Gauss, one line each. What no forces act on has more of them in `free_motion`.
+
+use gauss_runtime::integrate::body::BodyConfiguration;
+use gauss_runtime::integrate::{Form, Scheme, Splitting, SplittingError};
+use gauss_runtime::prelude::*;
+
+use super::counted::Counted;
+use super::entry::{Entry, Kernel, Setting, Setup};
+
+/// The explicit methods, in both forms: for every chart.
+pub fn explicit<S: Kernel>(entries: &mut Vec<Entry>, setup: &Setup<S>) {
+    explicit_in(entries, setup, ("velocity", VelocityForm));
+    explicit_in(entries, setup, ("momentum", MomentumForm));
+}
+
+fn explicit_in<S: Kernel, F: Form<Counted<S>> + 'static>(
+    entries: &mut Vec<Entry>,
+    s: &Setup<S>,
+    form: (&'static str, F),
+) {
+    use Setting::{Step, Tolerance};
+    entries.extend([
+        s.entry(("RKMK 4", Step(4)), form, Fixed::new),
+        s.entry(("DP 5(4)", Tolerance), form, |tolerance| Adaptive::new(tolerance, tolerance)),
+        s.entry(("DP 8, fixed", Step(8)), form, |h| Fixed::with(&Tableau::DORMAND_PRINCE_8, h)),
+        s.entry(("DP 8", Tolerance), form, |tolerance| {
+            Adaptive::with(&Tableau::DORMAND_PRINCE_8, tolerance, tolerance)
+        }),
+        s.entry(("Verner 9(8)", Tolerance), form, |tolerance| Adaptive::with(&Tableau::VERNER_9, tolerance, tolerance)),
+    ]);
+}
+
+/// The methods that keep something, and the commutator-free one: for the chart that suits the scene best.
+pub fn further<S: Kernel>(entries: &mut Vec<Entry>, setup: &Setup<S>) {
+    further_in(entries, setup, ("velocity", VelocityForm));
+    further_in(entries, setup, ("momentum", MomentumForm));
+}
+
+fn further_in<S: Kernel, F: Form<Counted<S>> + 'static>(
+    entries: &mut Vec<Entry>,
+    s: &Setup<S>,
+    form: (&'static str, F),
+) {
+    use Setting::Step;
+    entries.extend([
+        s.entry(("DP 5, fixed", Step(5)), form, |h| Fixed::with(&Tableau::DORMAND_PRINCE_5, h)),
+        s.entry(("CF 4", Step(4)), form, |h| Fixed::by(CommutatorFree4, h)),
+        s.entry(("Gauss 2", Step(2)), form, |h| Fixed::by(Collocation::midpoint(), h)),
+        s.entry(("Gauss 4", Step(4)), form, |h| Fixed::by(Collocation::order_4(), h)),
+        s.entry(("Gauss 6", Step(6)), form, |h| Fixed::by(Collocation::order_6(), h)),
+        s.entry(("Kahan–Li 8 of Gauss 2", Step(8)), form, |h| {
+            Fixed::by(Composed::new(&Composition::KAHAN_LI_8, Collocation::midpoint()), h)
+        }),
+    ]);
+}
+
+/// Variational methods, which are for bodies in the left-invariant chart.
+pub fn left_invariant<S: Kernel>(entries: &mut Vec<Entry>, s: &Setup<S>)
+where
+    S::Configuration: Configuration<Tangent = S::Speeds>,
+{
+    use Setting::Step;
+    let form = ("momentum", MomentumForm);
+    entries.extend([
+        s.entry(("variational", Step(2)), form, |h| Fixed::by(Variational, h)),
+        s.entry(("Kahan–Li 6 of variational", Step(6)), form, |h| {
+            Fixed::by(Composed::new(&Composition::KAHAN_LI_6, Variational), h)
+        }),
+    ]);
+}
+
+/// Kicks of force between free motions: for bodies that turn about O, left-invariant chart.
+///
+/// # Errors
+/// When the kernel is not such a body.
+pub fn splitting<S: Kernel>(entries: &mut Vec<Entry>, s: &Setup<S>) -> Result<(), SplittingError>
+where
+    S::Configuration: BodyConfiguration<Tangent = S::Speeds, MassMatrix = S::MassMatrix>,
+{
+    use Setting::Step;
+    let form = ("momentum", MomentumForm);
+    let exact = |name, order, scheme| {
+        let method = Splitting::exact(&s.kernel, scheme)?;
+        Ok(s.entry((name, Step(order)), form, move |h| Fixed::by(method, h)))
+    };
+    let discrete = |name, order, scheme| {
+        let method = Splitting::discrete(&s.kernel, scheme)?;
+        Ok(s.entry((name, Step(order)), form, move |h| Fixed::by(method, h)))
+    };
+    entries.extend([
+        exact("splitting 2, exact flow", 2, Scheme::STRANG)?,
+        exact("splitting 4, exact flow", 4, Scheme::BLANES_MOAN_4)?,
+        exact("splitting 6, exact flow", 6, Scheme::KAHAN_LI_6)?,
+        exact("splitting 8, exact flow", 8, Scheme::KAHAN_LI_8)?,
+        discrete("splitting 2, Moser–Veselov", 2, Scheme::STRANG)?,
+        discrete("splitting 4, Moser–Veselov", 4, Scheme::BLANES_MOAN_4)?,
+        discrete("splitting 6, Moser–Veselov", 6, Scheme::KAHAN_LI_6)?,
+        discrete("splitting 8, Moser–Veselov", 8, Scheme::KAHAN_LI_8)?,
+    ]);
+    Ok(())
+}
