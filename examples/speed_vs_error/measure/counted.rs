@@ -1,10 +1,13 @@
 //! A kernel that counts how often its equations are evaluated, whatever a method does with them.
+//!
+//! A method that asks a trait of its own of a kernel needs that trait passed on here.
 
 use std::cell::Cell;
 
 use gauss_runtime::prelude::*;
+use gauss_runtime::series::PowerSeries;
 
-/// A kernel and a count of its accelerations and rates of momentum. Runs that are timed count too, as those of the
+/// A kernel and a count of its accelerations, rates of momentum and series. Runs that are timed count too, as those of the
 /// baselines do: it is one addition an evaluation.
 #[derive(Clone)]
 pub struct Counted<S> {
@@ -121,5 +124,21 @@ impl<S: GaussSystem> GaussSystem for Counted<S> {
         input: &S::Input,
     ) -> S::Scalar {
         self.kernel.constraint_function(t, q, z, acceleration, input)
+    }
+}
+
+impl<S: TaylorSystem> TaylorSystem for Counted<S> {
+    type Series = S::Series;
+
+    const GROUPS: &'static [usize] = S::GROUPS;
+
+    #[inline(always)]
+    fn expand(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, order: usize, series: &mut S::Series) {
+        self.counting().expand(t, q, z, order, series);
+    }
+
+    #[inline(always)]
+    fn state_of(&self, variables: &<S::Series as PowerSeries<S::Scalar>>::Variables) -> (S::Configuration, S::Speeds) {
+        self.kernel.state_of(variables)
     }
 }

@@ -54,6 +54,12 @@ fn further_in<S: Kernel, F: Form<Counted<S>> + 'static>(
     ]);
 }
 
+/// Power series in time, for kernels with the clause `taylor`.
+pub fn series<S: Kernel + TaylorSystem>(entries: &mut Vec<Entry>, s: &Setup<S>) {
+    let form = ("velocity", VelocityForm);
+    entries.push(s.entry(("Taylor", Setting::Tolerance), form, |tolerance| Taylor::new(tolerance, tolerance)));
+}
+
 /// Variational methods, which are for bodies in the left-invariant chart.
 pub fn left_invariant<S: Kernel>(entries: &mut Vec<Entry>, s: &Setup<S>)
 where

@@ -9,11 +9,12 @@ use super::baselines::baselines;
 use super::by_hand::coordinates;
 use super::by_hand_systems as by_hand;
 use super::entry::{Entry, Setup};
-use super::methods::{explicit, further};
+use super::methods::{explicit, further, series};
 use super::scene::{Scene, Target, rows};
 
 #[derive(GaussDynamics)]
 #[gauss(
+    taylor,
     coordinates(theta, phi),
     particle(mass = 1, position = [l * sin(theta) * cos(phi), l * sin(theta) * sin(phi), -l * cos(theta)]),
 )]
@@ -38,6 +39,7 @@ struct Thread {
 
 #[derive(GaussDynamics)]
 #[gauss(
+    taylor,
     coordinates(a, b),
     particle(mass = m1, position = [l1 * sin(a), 0, -l1 * cos(a)]),
     particle(mass = m2, position = [l1 * sin(a) + l2 * sin(b), 0, -l1 * cos(a) - l2 * cos(b)]),
@@ -55,6 +57,7 @@ struct DoublePendulum {
 /// choice of speeds.
 #[derive(GaussDynamics)]
 #[gauss(
+    taylor,
     coordinates(x, y, phi, theta, psi),
     speeds(w1, w2, w3),
     kinematics(
@@ -79,6 +82,7 @@ struct Disk {
 /// The same without angles: ω in body axes; `up` is the vertical in them.
 #[derive(GaussDynamics)]
 #[gauss(
+    taylor,
     coordinates(x, y, attitude: Rotation),
     speeds(w: Vector3),
     define(
@@ -102,6 +106,7 @@ struct DiskWithoutAngles {
 /// On a knife edge at O, which slides along e₁ only.
 #[derive(GaussDynamics)]
 #[gauss(
+    taylor,
     coordinates(x, y, theta),
     speeds(v, omega),
     kinematics(x = v * cos(theta), y = v * sin(theta), theta = omega),
@@ -153,6 +158,7 @@ pub fn spherical_pendulum(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<T
     };
     explicit(entries, &setup);
     further(entries, &setup);
+    series(entries, &setup);
 
     let kernel = Thread { l, g }.kernel()?;
     let setup = Setup {
@@ -190,6 +196,7 @@ pub fn double_pendulum(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Targ
     };
     explicit(entries, &setup);
     further(entries, &setup);
+    series(entries, &setup);
     let equations = by_hand::DoublePendulum { masses: [m1, m2], lengths: [l1, l2], gravity: g };
     baselines(entries, "angles", equations, [wa, wb, a, b], target);
     Ok(())
@@ -221,6 +228,7 @@ pub fn rolling_disk(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>
         target: Rc::clone(target),
     };
     explicit(entries, &setup);
+    series(entries, &setup);
 
     let setup = Setup {
         chart: "rotation and contact",
@@ -234,6 +242,7 @@ pub fn rolling_disk(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>
     };
     explicit(entries, &setup);
     further(entries, &setup);
+    series(entries, &setup);
 
     let [x, y, z, w] = coordinates(&pose.rotation);
     let equations = by_hand::Disk { mass: m, inertia: [j.x, j.z], radius: r, gravity: g };
@@ -267,6 +276,7 @@ pub fn sleigh(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -> A
     };
     explicit(entries, &setup);
     further(entries, &setup);
+    series(entries, &setup);
 
     let sleigh = RigidBody { mass: m, center_of_mass: lever, inertia: Matrix3::from_diagonal(&j) };
     let kernel = Edge { sleigh }.kernel()?;

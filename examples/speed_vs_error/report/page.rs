@@ -50,8 +50,8 @@ fn introduction(machine: &Machine, quick: bool) -> String {
          that is above 1. The <b>time</b> is that of one thread, per simulated second: the median, with quartiles, \
          of rounds in which all runs take turns, each for a millisecond or more. Runs that are several times slower \
          than one that is as accurate are timed twice, and the smaller time is given. An <b>evaluation</b> is one of \
-         the accelerations or of the rates of momentum; for what moves free bodies without looking at forces it is \
-         one free motion.</p>\n\
+         the accelerations or of the rates of momentum; of Taylor's method it is a series with all its orders, and \
+         of what moves free bodies without looking at forces a free motion.</p>\n\
          <p>Baselines run in the same rounds on equations written by hand, flat, in the variables that suit them \
          best (body-frame velocities or momenta and a quaternion; angles or Cartesian coordinates for systems on \
          scalars), with constants worked out in advance: DOP853 of <code>ode_solvers</code> and of \

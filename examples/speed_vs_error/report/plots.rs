@@ -45,6 +45,7 @@ fn style_of(method: &str) -> Style {
         "DP 8" => style(BLUE, "", Mark::Disc),
         "DP 8, fixed" => style(BLUE, "6 3", Mark::Square),
         "Verner 9(8)" => style(PINK, "", Mark::Disc),
+        "Taylor" => style(PINK, "", Mark::Diamond),
         "Gauss 2" => style(GREEN, "2 3", Mark::Triangle),
         "Gauss 4" => style(GREEN, "6 3", Mark::Square),
         "Gauss 6" => style(GREEN, "", Mark::Disc),
