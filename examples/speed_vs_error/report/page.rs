@@ -19,7 +19,7 @@ td, th { padding: .22rem .6rem; text-align: right; border-bottom: 1px solid #e2e
 td:first-child, th:first-child, .text { text-align: left; }
 .met { background: #cfe8dd; } .ahead { background: #eef4f1; } .behind { background: #f8ddc9; }
 .dim { color: #6a6a6a; } 
-.small { font-size: .72rem; white-space: normal; display: inline-block; width: 6.5rem; line-height: 1.25; }
+.small { font-size: .72rem; white-space: normal; display: inline-block; width: 5rem; line-height: 1.25; }
 svg { max-width: 100%; height: auto; display: block; margin: .6rem 0; }
 td { white-space: nowrap; } .text { white-space: normal; }
 summary { cursor: pointer; color: #0072b2; }
