@@ -7,7 +7,7 @@ use common::agreement::equal;
 use common::body::{Parts, list, speeds};
 use common::bounded::Bounded;
 use common::dual::Dual;
-use gauss_runtime::linearize::LinearModel;
+use gauss_runtime::linearize::{LinearModel, error_matrix};
 use gauss_runtime::prelude::*;
 
 /// A reproducible stream of numbers in [−1, 1].
@@ -355,4 +355,49 @@ fn every_function() {
     }
     let (bounded, dual) = (sample::<Bounded>().kernel(), sample::<Dual<Bounded>>().kernel());
     check(&SVector::<f64, 3>::zeros(), &bounded.unwrap(), &dual.unwrap());
+}
+
+/// A body in a fluid that turns and is pulled.
+#[derive(GaussDynamics)]
+#[gauss(
+    linearize,
+    chart = hybrid,
+    drag(linear = [1, 2, 3, 1, 2, 3], quadratic = [1, 1, 1, 1, 1, 1]),
+    spring(from = [1, 2, 3], to = body.position + body.rotation * [0.3, 0, 0], stiffness = 5),
+)]
+struct Pulled {
+    #[gauss(mass)]
+    m: f64,
+    #[gauss(inertia)]
+    inertia: Vector3<f64>,
+}
+
+/// How an increment between two motions changes, found from motions: d/dt log(q⁻¹ q̃) over a time h to both sides.
+#[test]
+fn small_increments_change_by_the_error_matrix() {
+    let kernel = Pulled { m: 1.5, inertia: Vector3::new(1.0, 1.5, 2.0) }.kernel().unwrap();
+    let q = Isometry3::from_parts(Translation3::new(0.4, -0.2, 0.7), UnitQuaternion::from_euler_angles(0.3, 0.8, -0.5));
+    let z = Vector6::from([1.0, -0.6, 0.8, 0.9, -1.2, 0.7]);
+    let matrix = error_matrix::<PulledKernel>(&kernel.linearize(0.0, &q, &z, &()));
+    let (h, size) = (1e-3, 1e-5);
+    for k in 0..12 {
+        let direction = SVector::<f64, 12>::from_fn(|i, _| if i == k { 1.0 } else { 0.0 });
+        // Opposite neighbours, so that what is left is of third order in their distance.
+        let apart = |t: f64| {
+            let run = Simulation::new(&kernel).fixed_step(h / 4.0);
+            let to = |sign: f64| {
+                let x = direction * (sign * size);
+                let moved = q.retract(&x.fixed_rows::<6>(0).into());
+                run.run_to_end(moved, z + x.fixed_rows::<6>(6), 0.0..t).unwrap()
+            };
+            let (here, there, back) = (run.run_to_end(q, z, 0.0..t).unwrap(), to(1.0), to(-1.0));
+            let sigma = (here.q.difference(&there.q) - here.q.difference(&back.q)) / (2.0 * size);
+            let speeds = (there.z - back.z) / (2.0 * size);
+            SVector::<f64, 12>::from_fn(|i, _| if i < 6 { sigma[i] } else { speeds[i - 6] })
+        };
+        let rate = (apart(h) - apart(-h)) / (2.0 * h);
+        let error = (rate - matrix * direction).amax();
+        // Third derivatives of up to 100, and roundings of 1e-16 / (size h).
+        assert!(error < 100.0 * h * h + 100.0 * f64::EPSILON / (size * h), "direction {k}: {error:e}");
+    }
 }
