@@ -8,6 +8,11 @@ test:
 example:
     cargo run --release --example kirchhoff_vs_newton_euler
 
+# Kernels in the integrators of other crates.
+adapters:
+    cargo test -p gauss-tests --features adapters --test adapters
+    cargo run --release --features other-integrators --example other_integrators
+
 # Formatting and lints, as CI has them.
 lint:
     cargo fmt --all --check

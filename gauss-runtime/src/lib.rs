@@ -10,6 +10,7 @@
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
 //! | [`integrate`] | geometric and adaptive integrators, [`Simulation`](integrate::Simulation), trajectories |
+//! | [`adapters`] | kernels in the integrators of other crates |
 //! | [`monitor`] | energy and momentum watched over a run, energy against the work supplied |
 //! | [`error`] | parameters that no body has, and warnings |
 //! | [`real`] | the scalar: floats, SIMD lanes, dual numbers |
@@ -24,6 +25,7 @@
 //! - `libm`: elementary functions without the standard library. One of `std` and `libm` is needed.
 //! - `alloc`: trajectories, and what is made of them, without the standard library. Integrators and monitors themselves never
 //!   allocate.
+//! - `differential-equations`, `diffsol`, `ode_solvers`: [`adapters`] to the crates of these names; each implies `std`.
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -40,6 +42,7 @@ extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+pub mod adapters;
 pub mod chart;
 pub mod configuration;
 pub mod constraint;

@@ -1,0 +1,215 @@
+//! A kernel, a form and an input as one ordinary differential equation on flat vectors.
+
+#[cfg(feature = "alloc")]
+use alloc::{vec, vec::Vec};
+
+use super::embedding::EmbeddedConfiguration;
+use super::jacobian::{Differences, Given};
+use crate::configuration::VectorSpace;
+use crate::integrate::{
+    Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, Sample, State, VelocityForm,
+};
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// A kernel, a form and an input as `ẋ = f(t, x)`, with x the components of the configuration
+/// ([`EmbeddedConfiguration`]) and then those of y: quasi-velocities z, or momenta p in the momentum form.
+///
+/// Made like a [`Simulation`](crate::integrate::Simulation). It does not bring a state back onto constraints while it runs, as those
+/// do: accelerations satisfy constraints that were differentiated, so states leave them slowly, and
+/// [`GaussSystem::project`] of what comes back repairs a short run. `f` never fails; what is undefined is NaN.
+///
+/// J says how ∂f/∂x is found where an implicit method asks for it.
+///
+#[cfg_attr(
+    feature = "derive",
+    doc = r##"
+One step by hand:
+
+```
+use gauss_runtime::adapters::FlatSystem;
+use gauss_runtime::prelude::*;
+
+/// A heavy top that turns about O.
+#[derive(GaussDynamics)]
+#[gauss(motion = fixed_point)]
+struct Top {
+    #[gauss(mass)]           mass: f64,
+    #[gauss(center_of_mass)] center: Vector3<f64>,
+    #[gauss(inertia)]        inertia: Vector3<f64>,
+    #[gauss(gravity)]        g: f64,
+}
+
+# fn main() -> Result<(), Box<dyn std::error::Error>> {
+let top = Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.4), inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 };
+let kernel = top.kernel()?;
+let system = FlatSystem::new(&kernel);
+// The quaternion x, y, z, w, then ω in body axes.
+let mut x: [f64; 7] = system.vector(0.0, &UnitQuaternion::identity(), &Vector3::new(0.0, 0.1, 20.0));
+let mut slope = [0.0; 7];
+system.rates(0.0, &x, &mut slope);
+for i in 0..7 {
+    x[i] += 1e-3 * slope[i];
+}
+let after = system.sample(1e-3, &x);
+assert!((after.q.norm() - 1.0).abs() < 1e-15);
+# Ok(())
+# }
+```
+"##
+)]
+#[derive(Debug)]
+pub struct FlatSystem<'k, S, F = VelocityForm, I = NoInput, J = Differences> {
+    problem: Problem<'k, S, F, I>,
+    pub(super) jacobian: J,
+}
+
+// Written by hand: the kernel is only borrowed, and need not be `Copy`.
+impl<S, F: Copy, I: Copy, J: Copy> Copy for FlatSystem<'_, S, F, I, J> {}
+
+impl<S, F: Clone, I: Clone, J: Clone> Clone for FlatSystem<'_, S, F, I, J> {
+    fn clone(&self) -> Self {
+        Self { problem: self.problem.clone(), jacobian: self.jacobian.clone() }
+    }
+}
+
+impl<'k, S: GaussSystem> FlatSystem<'k, S> {
+    /// The velocity form without inputs.
+    #[must_use]
+    pub fn new(system: &'k S) -> Self {
+        Self { problem: Problem { system, form: VelocityForm, input: NoInput }, jacobian: Differences }
+    }
+}
+
+impl<'k, S: GaussSystem, F, I, J> FlatSystem<'k, S, F, I, J> {
+    /// Integrates the variables of the given form.
+    #[must_use]
+    pub fn form<G: Form<S>>(self, form: G) -> FlatSystem<'k, S, G, I, J> {
+        let Self { problem: Problem { system, input, .. }, jacobian } = self;
+        FlatSystem { problem: Problem { system, form, input }, jacobian }
+    }
+
+    /// Integrates momenta.
+    #[must_use]
+    pub fn momentum_form(self) -> FlatSystem<'k, S, MomentumForm, I, J> {
+        self.form(MomentumForm)
+    }
+
+    /// Takes the input from a function of time, configuration and quasi-velocities.
+    #[must_use]
+    pub fn input<G>(self, input: G) -> FlatSystem<'k, S, F, Feedback<G>, J>
+    where
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input,
+    {
+        self.input_from(Feedback(input))
+    }
+
+    /// Takes the input from a source.
+    #[must_use]
+    pub fn input_from<K: InputSource<S>>(self, input: K) -> FlatSystem<'k, S, F, K, J> {
+        let Self { problem: Problem { system, form, .. }, jacobian } = self;
+        FlatSystem { problem: Problem { system, form, input }, jacobian }
+    }
+
+    /// Takes `∂f/∂x · v` from `product(t, x, v, result)`, where it is known better than by [`Differences`].
+    #[must_use]
+    pub fn jacobian<G>(self, product: G) -> FlatSystem<'k, S, F, I, Given<G>>
+    where
+        G: Fn(S::Scalar, &[S::Scalar], &[S::Scalar], &mut [S::Scalar]),
+    {
+        self.jacobian_from(Given(product))
+    }
+
+    /// The same from any [`JacobianProduct`](super::jacobian::JacobianProduct).
+    #[must_use]
+    pub fn jacobian_from<K>(self, jacobian: K) -> FlatSystem<'k, S, F, I, K> {
+        FlatSystem { problem: self.problem, jacobian }
+    }
+
+    /// The kernel.
+    #[must_use]
+    pub fn system(&self) -> &'k S {
+        self.problem.system
+    }
+}
+
+impl<S, F, I, J> FlatSystem<'_, S, F, I, J>
+where
+    S: GaussSystem<Configuration: EmbeddedConfiguration>,
+    F: Form<S>,
+    I: InputSource<S>,
+{
+    /// The length of x.
+    pub const DIM: usize = S::Configuration::COMPONENTS + S::Speeds::DIM;
+
+    /// x of a state as an array. Its length is checked when the program is compiled.
+    #[must_use]
+    pub fn vector<const N: usize>(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> [S::Scalar; N] {
+        const { assert!(N == Self::DIM, "the vector has as many components as configuration and speeds together") };
+        let mut x = [S::Scalar::zero(); N];
+        self.write(t, q, z, &mut x);
+        x
+    }
+
+    /// x of a state as a [`Vec`].
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    pub fn to_vec(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> Vec<S::Scalar> {
+        let mut x = vec![S::Scalar::zero(); Self::DIM];
+        self.write(t, q, z, &mut x);
+        x
+    }
+
+    /// x of a state, into the first [`DIM`](Self::DIM) numbers of a slice.
+    ///
+    /// # Panics
+    /// When the slice is shorter.
+    pub fn write(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, x: &mut [S::Scalar]) {
+        let y = self.problem.form.variables(self.problem.system, t, q, z);
+        q.components(|i, value| x[i] = value, 0);
+        for i in 0..S::Speeds::DIM {
+            x[S::Configuration::COMPONENTS + i] = y.component(i);
+        }
+    }
+
+    /// The state at x, with rotations brought to length 1; quasi-velocities and momenta both.
+    ///
+    /// # Panics
+    /// When x is shorter than [`DIM`](Self::DIM).
+    #[must_use]
+    pub fn sample(&self, t: S::Scalar, x: &[S::Scalar]) -> Sample<S> {
+        let Problem { system, form, .. } = &self.problem;
+        let State { t, q, y } = Self::state(t, |i| x[i]);
+        Sample { t, q, z: form.speeds(system, t, &q, &y), p: form.momentum(system, t, &q, &y) }
+    }
+
+    /// `f(t, x)`.
+    ///
+    /// # Panics
+    /// When a slice is shorter than [`DIM`](Self::DIM).
+    #[inline]
+    pub fn rates(&self, t: S::Scalar, x: &[S::Scalar], slope: &mut [S::Scalar]) {
+        self.rates_by(t, |i| x[i], |i, value| slope[i] = value);
+    }
+
+    /// `f(t, x)` for vectors of any type: x is read by `get`, each component of f is handed to `put` with its number, once.
+    #[inline]
+    pub fn rates_by(&self, t: S::Scalar, get: impl Fn(usize) -> S::Scalar, mut put: impl FnMut(usize, S::Scalar)) {
+        let state = Self::state(t, &get);
+        let Rates { configuration, variables } = self.problem.rates(&state);
+        state.q.component_rates(&configuration, get, &mut put, 0);
+        for i in 0..S::Speeds::DIM {
+            put(S::Configuration::COMPONENTS + i, variables.component(i));
+        }
+    }
+
+    #[inline]
+    fn state(t: S::Scalar, get: impl Fn(usize) -> S::Scalar) -> State<S> {
+        let q = S::Configuration::from_components(&get, 0);
+        let mut y = S::Speeds::zero();
+        for i in 0..S::Speeds::DIM {
+            y.set_component(i, get(S::Configuration::COMPONENTS + i));
+        }
+        State { t, q, y }
+    }
+}
