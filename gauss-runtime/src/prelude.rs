@@ -8,13 +8,14 @@ pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::{ConstrainedSystem, ProjectionError};
 pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
-#[cfg(feature = "alloc")]
-pub use crate::integrate::Trajectory;
 pub use crate::integrate::{
-    Adaptive, Classical4, Collocation, CommutatorFree4, Composed, Composition, Crossing, DormandPrince5,
-    DormandPrince8, Fixed, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta,
-    Sample, Simulation, Tableau, Taylor, Variational, VelocityForm, Verner9,
+    Adaptive, Classical4, Collocation, CommutatorFree4, Compensated, Composed, Composition, Crossing, DormandPrince5,
+    DormandPrince8, EnergyMomentum, Fixed, FreeFlow, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm,
+    MoserVeselov, Rosenbrock, RungeKutta, Sample, Scheme, Simulation, Splitting, SplittingError, Tableau, Taylor,
+    Variational, VelocityForm, Verner9,
 };
+#[cfg(feature = "alloc")]
+pub use crate::integrate::{Dense, Trajectory};
 pub use crate::linearize::{Linearization, LinearizedSystem};
 pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]

@@ -15,6 +15,7 @@
 //! | [`compensated`] | fixed steps that carry what is rounded off, for long runs |
 //! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
 //! | [`variational`] | a variational method in the left-invariant chart: symplectic, keeps momenta |
+//! | [`energy_momentum`] | a method that keeps energy and momenta of bodies in the left-invariant chart |
 //! | `iteration` | when the iteration of an implicit step ends |
 //! | `projection` | states of a run kept on the constraints |
 //! | [`simulation`] | [`Simulation`], the front |
@@ -35,6 +36,7 @@ pub mod composition;
 pub mod control;
 #[cfg(feature = "alloc")]
 pub mod dense;
+pub mod energy_momentum;
 pub mod error;
 pub mod event;
 pub mod form;
@@ -62,6 +64,7 @@ pub use composition::{Composed, Composition};
 pub use control::{Adaptive, Control, Emit, Fixed};
 #[cfg(feature = "alloc")]
 pub use dense::Dense;
+pub use energy_momentum::EnergyMomentum;
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
 pub use event::Crossing;
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
