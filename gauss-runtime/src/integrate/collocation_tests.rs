@@ -186,6 +186,10 @@ fn what_does_not_converge_is_an_error_in_words() {
     assert!(matches!(error.kind, IntegrationErrorKind::NotConverged { iterations: 64, residual } if residual > 1.0));
     assert!(error.to_string().contains("not solved after 64 iterations"), "{error}");
     assert!(run().control(Fixed::by(Collocation::order_4(), 1.0)).run(q, z, 0.0..20.0).is_ok());
+    // An iteration that leaves the range of numbers before its sweeps are used up has not converged either.
+    let stiff = Simulation::new(&system).input(|_, _: &_, z: &SVector<f64, 1>| -1e9 * z[0]);
+    let error = stiff.control(Fixed::by(Collocation::order_6(), 10.0)).run(q, z, 0.0..20.0).expect_err("refused");
+    assert!(matches!(error.kind, IntegrationErrorKind::NotConverged { iterations: ..64, residual } if residual > 0.5));
 
     let fast = SVector::from([0.0, 0.0, 40.0]);
     let turning = Simulation::new(&TOP).input_from(NONE);

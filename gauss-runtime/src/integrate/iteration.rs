@@ -11,26 +11,39 @@ const MOST_SWEEPS: u32 = 64;
 /// many.
 const IDLE_SWEEPS: u32 = 4;
 
+/// A sweep that still changes so much of the state is not near a solution.
+const FAR: f64 = 0.1;
+
 /// Follows how much the sweeps of an iteration change, relative to the size of the state.
 pub(super) struct Progress {
     sweeps: u32,
     least: f64,
+    last: f64,
     idle: u32,
 }
 
 impl Progress {
     pub(super) fn new() -> Self {
-        Self { sweeps: 0, least: f64::INFINITY, idle: 0 }
+        Self { sweeps: 0, least: f64::INFINITY, last: 0.0, idle: 0 }
     }
 
     /// Takes the change of one more sweep; whether it was the last one.
     ///
+    /// What is infinite or undefined at once, or where sweeps changed little, is [`IntegrationErrorKind::NonFinite`]; where they changed
+    /// much, [`IntegrationErrorKind::NotConverged`].
+    ///
     /// To rounding, and until that gets no better: an iteration that stops earlier leaves an error of one sign.
     pub(super) fn finished<T: Real>(&mut self, residual: f64) -> Result<bool, IntegrationErrorKind> {
-        if residual.is_nan() {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
-        }
         self.sweeps += 1;
+        if !residual.is_finite() {
+            // What the iteration itself has driven out of range is no fault of the equations: it ran away.
+            return Err(if self.last > FAR {
+                IntegrationErrorKind::NotConverged { iterations: self.sweeps, residual: self.last }
+            } else {
+                IntegrationErrorKind::NonFinite { part: Part::Step }
+            });
+        }
+        self.last = residual;
         self.idle = if residual < self.least { 0 } else { self.idle + 1 };
         self.least = self.least.min(residual);
         let rounding = residual <= 64.0 * T::EPSILON && self.idle > 0;

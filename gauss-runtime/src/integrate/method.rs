@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::collocation::Collocation;
 use super::commutator_free::CommutatorFree4;
+use super::composition::{Composed, Composition};
 use super::control::{Adaptive, Control, Emit, Fixed};
 use super::error::{IntegrationError, IntegrationErrorKind};
 use super::form::{Form, InputSource, MomentumForm, Problem, Rates, State, VelocityForm};
@@ -13,6 +14,7 @@ use crate::system::GaussSystem;
 
 /// A method with its step or tolerances, chosen at run time.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Method<T> {
     /// Runge–Kutta–Munthe-Kaas steps of order 4 and one length.
     RungeKutta4 {
@@ -43,6 +45,48 @@ pub enum Method<T> {
         /// The absolute tolerance of a step.
         absolute: f64,
     },
+    /// Verner's pair of order 9.
+    Verner9 {
+        /// The relative tolerance of a step.
+        relative: f64,
+        /// The absolute tolerance of a step.
+        absolute: f64,
+    },
+    /// Steps of Gauss' collocation of order 4 and one length.
+    Gauss4 {
+        /// Their length.
+        step: T,
+    },
+    /// Gauss' collocation of order 6, composed to order 8 by Kahan and Li.
+    Gauss8 {
+        /// The length of a step, of which the collocation makes seventeen.
+        step: T,
+    },
+}
+
+/// What [`Simulation::tune`](super::Simulation::tune) varies in a method.
+#[cfg(feature = "alloc")]
+pub(super) enum Family<T> {
+    /// The length of its steps, with whose power `order` the error goes.
+    Steps { order: u32, of: fn(T) -> Method<T> },
+    /// Its relative and absolute tolerance, which the error is proportional to.
+    Tolerances { of: fn(f64, f64) -> Method<T> },
+}
+
+#[cfg(feature = "alloc")]
+impl<T> Method<T> {
+    /// All that [`Simulation::tune`](super::Simulation::tune) tries, the likely ones first: what they take bounds the search among the
+    /// rest.
+    pub(super) const FAMILIES: [Family<T>; 8] = [
+        Family::Tolerances { of: |relative, absolute| Self::DormandPrince8 { relative, absolute } },
+        Family::Tolerances { of: |relative, absolute| Self::Verner9 { relative, absolute } },
+        Family::Tolerances { of: |relative, absolute| Self::DormandPrince5 { relative, absolute } },
+        Family::Steps { order: 6, of: |step| Self::Gauss6 { step } },
+        Family::Steps { order: 4, of: |step| Self::Gauss4 { step } },
+        Family::Steps { order: 8, of: |step| Self::Gauss8 { step } },
+        Family::Steps { order: 4, of: |step| Self::RungeKutta4 { step } },
+        Family::Steps { order: 4, of: |step| Self::CommutatorFree4 { step } },
+    ];
 }
 
 /// Calls a method of [`Control`] of what is meant by a [`Method`].
@@ -67,6 +111,18 @@ macro_rules! dispatch {
             }
             Method::DormandPrince8 { relative, absolute } => {
                 let $control = Adaptive::with(&Tableau::DORMAND_PRINCE_8, relative, absolute);
+                $call
+            }
+            Method::Verner9 { relative, absolute } => {
+                let $control = Adaptive::with(&Tableau::VERNER_9, relative, absolute);
+                $call
+            }
+            Method::Gauss4 { step } => {
+                let $control = Fixed::by(Collocation::order_4(), step);
+                $call
+            }
+            Method::Gauss8 { step } => {
+                let $control = Fixed::by(Composed::new(&Composition::KAHAN_LI_8, Collocation::order_6()), step);
                 $call
             }
         }
@@ -98,14 +154,22 @@ impl<S: GaussSystem> Control<S> for Method<S::Scalar> {
 
 impl<T: Real> fmt::Display for Method<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let by_tolerance = |f: &mut fmt::Formatter<'_>, name: &str, relative: f64, absolute: f64| {
+            write!(f, "{name}, tolerances {relative:.1e} and {absolute:.1e}")
+        };
         let (name, step) = match *self {
             Self::RungeKutta4 { step } => ("Runge–Kutta 4", step),
             Self::CommutatorFree4 { step } => ("commutator-free 4", step),
+            Self::Gauss4 { step } => ("Gauss 4", step),
             Self::Gauss6 { step } => ("Gauss 6", step),
-            Self::DormandPrince5 { relative, absolute } | Self::DormandPrince8 { relative, absolute } => {
-                let order = if matches!(self, Self::DormandPrince5 { .. }) { 5 } else { 8 };
-                return write!(f, "Dormand–Prince {order}, tolerances {relative:.1e} and {absolute:.1e}");
+            Self::Gauss8 { step } => ("Gauss 6 composed to 8", step),
+            Self::DormandPrince5 { relative, absolute } => {
+                return by_tolerance(f, "Dormand–Prince 5", relative, absolute);
             }
+            Self::DormandPrince8 { relative, absolute } => {
+                return by_tolerance(f, "Dormand–Prince 8", relative, absolute);
+            }
+            Self::Verner9 { relative, absolute } => return by_tolerance(f, "Verner 9", relative, absolute),
         };
         write!(f, "{name}, step {:.3e}", step.lane(0))
     }

@@ -80,7 +80,7 @@ pub use trajectory::Sample;
 #[cfg(feature = "alloc")]
 pub use trajectory::{EventSample, Trajectory};
 #[cfg(feature = "alloc")]
-pub use tune::{Candidate, TuneError, Tuned};
+pub use tune::{Candidate, Measured, TuneError, Tuned};
 pub use variational::Variational;
 
 #[cfg(all(test, feature = "alloc"))]

@@ -15,7 +15,7 @@ use core::ops::{ControlFlow, Range};
 use super::control::Control;
 use super::error::{IntegrationError, IntegrationErrorKind};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::method::{EitherForm, Method};
+use super::method::{EitherForm, Family, Method};
 use super::simulation::Simulation;
 use super::step_length::power;
 use crate::configuration::{Configuration, VectorSpace};
@@ -41,9 +41,29 @@ pub struct Candidate<T> {
 }
 
 impl<T> Candidate<T> {
+    fn of<S: GaussSystem<Scalar = T>>(measured: Measured<Method<T>>, form: EitherForm) -> Self {
+        let Measured { control: method, error, evaluations, steps, seconds } = measured;
+        Self { method, form, error, evaluations, steps, seconds, operations: evaluations * operations::<S>(form) }
+    }
+
     fn cost(&self) -> f64 {
         self.seconds.unwrap_or(self.operations as f64)
     }
+}
+
+/// A method of your own on the user's scene, with what was measured: see [`Simulation::tune_steps`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured<C> {
+    /// The method, with its setting.
+    pub control: C,
+    /// The largest error in units of the one wanted: at most 1 when it meets that.
+    pub error: f64,
+    /// Evaluations of the equations of motion, as far as they ask for the input: once each.
+    pub evaluations: u64,
+    /// Steps, without rejected ones.
+    pub steps: u64,
+    /// The time of a run in seconds, the shortest of a few; `None` without a clock, or when the error is not met.
+    pub seconds: Option<f64>,
 }
 
 /// What [`Simulation::tune`] found.
@@ -155,7 +175,7 @@ struct Seen<S: GaussSystem> {
 }
 
 impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
-    fn start(&self, form: EitherForm) -> State<S> {
+    fn start<F: Form<S>>(&self, form: F) -> State<S> {
         let (t, q) = (self.interval.start, self.q.renormalise());
         State { t, q, y: form.variables(self.system, t, &q, &self.z) }
     }
@@ -164,7 +184,18 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
         (self.interval.end - self.interval.start).lane(0)
     }
 
-    fn run(&self, method: Method<S::Scalar>, form: EitherForm) -> Result<Seen<S>, IntegrationError> {
+    /// A step of about the given length of which a whole number fills the interval.
+    fn whole(&self, step: f64) -> S::Scalar {
+        let span = self.span().abs();
+        S::Scalar::from_f64(span / Real::max((span / step) as u64 as f64, 1.0))
+    }
+
+    /// Where steps of one length are looked for from.
+    fn mean_step(&self, reference: &Seen<S>) -> f64 {
+        self.span().abs() / reference.steps.max(1) as f64
+    }
+
+    fn run<C: Control<S>, F: Form<S>>(&self, method: &C, form: F) -> Result<Seen<S>, IntegrationError> {
         let count = Cell::new(0);
         let problem = Problem { system: self.system, form, input: Counted { source: self.input, count: &count } };
         let mut seen = Seen { states: Vec::with_capacity(CHECKPOINTS), evaluations: 0, steps: 0 };
@@ -243,8 +274,8 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
                 absolute: self.absolute * factor,
             };
             let pair = self
-                .run(at(tightness), EitherForm::Velocity)
-                .and_then(|first| Ok((first, self.run(at(0.1 * tightness), EitherForm::Momentum)?)));
+                .run(&at(tightness), EitherForm::Velocity)
+                .and_then(|first| Ok((first, self.run(&at(0.1 * tightness), EitherForm::Momentum)?)));
             match pair {
                 Ok((first, second)) => {
                     let apart = self.distance(&first, &second);
@@ -268,27 +299,27 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
 
     /// The coarsest setting of a method that meets the error, or the last one tried. `make` gives the method of a setting whose
     /// error goes like its power `order`. Gives up at more than ten times `budget` evaluations.
-    fn search(
+    fn search<C: Control<S>, F: Form<S>>(
         &self,
         reference: &Seen<S>,
-        form: EitherForm,
-        (make, order): (&dyn Fn(f64) -> Method<S::Scalar>, f64),
+        form: F,
+        (make, order): (&dyn Fn(f64) -> C, f64),
         mut setting: f64,
         budget: f64,
-    ) -> Option<Candidate<S::Scalar>> {
-        let mut best: Option<(f64, Candidate<S::Scalar>)> = None;
+    ) -> Option<Measured<C>> {
+        let mut best: Option<(f64, Measured<C>)> = None;
         let mut last = None;
         for _ in 0..TRIALS {
-            let method = make(setting);
-            let next = match self.run(method, form) {
+            let control = make(setting);
+            let next = match self.run(&control, form) {
                 Ok(seen) => {
                     let error = self.distance(&seen, reference);
                     let Seen { evaluations, steps, .. } = seen;
-                    let operations = evaluations * operations::<S>(form);
-                    let candidate = Candidate { method, form, error, evaluations, steps, seconds: None, operations };
-                    last = Some(candidate);
+                    let measured = Measured { control, error, evaluations, steps, seconds: None };
                     if error <= 1.0 && best.as_ref().is_none_or(|(coarsest, _)| setting > *coarsest) {
-                        best = Some((setting, candidate));
+                        best = Some((setting, measured));
+                    } else {
+                        last = Some(measured);
                     }
                     if (0.2..=1.0).contains(&error) {
                         break;
@@ -315,12 +346,16 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
             }
             setting = next;
         }
-        best.map(|(_, candidate)| candidate).or(last)
+        let mut found = best.map(|(_, measured)| measured).or(last)?;
+        if found.error <= 1.0 {
+            found.seconds = self.time(&found.control, form);
+        }
+        Some(found)
     }
 
     /// The shortest of a few runs, in seconds.
     #[cfg(all(feature = "std", not(target_family = "wasm")))]
-    fn time(&self, method: Method<S::Scalar>, form: EitherForm) -> Option<f64> {
+    fn time<C: Control<S>, F: Form<S>>(&self, method: &C, form: F) -> Option<f64> {
         struct Uncounted<'a, I>(&'a I);
         impl<S: GaussSystem, I: InputSource<S>> InputSource<S> for Uncounted<'_, I> {
             fn input(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input {
@@ -343,7 +378,7 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
     }
 
     #[cfg(not(all(feature = "std", not(target_family = "wasm"))))]
-    fn time(&self, _: Method<S::Scalar>, _: EitherForm) -> Option<f64> {
+    fn time<C: Control<S>, F: Form<S>>(&self, _: &C, _: F) -> Option<f64> {
         None
     }
 }
@@ -363,7 +398,12 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E> {
     /// keeps the error of the whole run within `absolute + relative·size`, component by component, where sizes are the largest
     /// over the run: 1 for a rotation, |b| for a translation, |q| and |z| for a plain coordinate and a quasi-velocity.
     ///
-    /// Runs the scene some fifty times, and gives up runs of more than 100,000 steps: shorten the interval where that is too long,
+    /// What is tried is every [`Method`]: Dormand and Prince's pairs, Verner's, Gauss' collocation alone and composed, Runge–Kutta 4 and the
+    /// commutator-free method. Methods that not every scene admits – splitting, exact free motion, variational – have to be known to
+    /// fit when the program is compiled, which a function for any scene cannot: [`tune_steps`](Self::tune_steps) measures
+    /// one of them in the same way.
+    ///
+    /// Runs the scene some eighty times, and gives up runs of more than 100,000 steps: shorten the interval where that is too long,
     /// but keep what is typical of the motion in it.
     /// Form, control, observers and events that were set are not looked at. Settings near the best ones are as good, and times
     /// vary: what is chosen may differ from call to call, its error does not.
@@ -412,37 +452,26 @@ let end = scene.tuned(&tuned.best).run_to_end(tilted, spinning, 0.0..10.0)?;
     where
         I: InputSource<S>,
     {
-        let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
-        if !(usable(relative) && usable(absolute) && relative + absolute > 0.0) {
-            return Err(TuneError::InvalidTolerance);
-        }
-        let (system, input) = (self.problem.system, &self.problem.input);
-        let limit = self.limit.min(MOST_STEPS);
-        let bench = Bench { system, input, q: q0, z: z0, interval, limit, relative, absolute };
+        let bench = self.bench((q0, z0), interval, relative, absolute)?;
         let (reference, disagreement) = bench.reference()?;
 
-        let span = bench.span().abs();
-        let whole = |step: f64| S::Scalar::from_f64(span / Real::max((span / step) as u64 as f64, 1.0));
-        let five = |f: f64| Method::DormandPrince5 { relative: relative * f, absolute: absolute * f };
-        let eight = |f: f64| Method::DormandPrince8 { relative: relative * f, absolute: absolute * f };
-        let gauss = |step: f64| Method::Gauss6 { step: whole(step) };
-        let classical = |step: f64| Method::RungeKutta4 { step: whole(step) };
-        let free = |step: f64| Method::CommutatorFree4 { step: whole(step) };
-        // Fixed steps are looked for from the mean length of those of the reference on.
-        let mean = span / reference.steps.max(1) as f64;
-        type Family<'a, T> = (&'a dyn Fn(f64) -> Method<T>, f64, f64);
-        let families: [Family<'_, S::Scalar>; 5] =
-            [(&eight, 1.0, 1.0), (&five, 1.0, 1.0), (&gauss, 6.0, mean), (&classical, 4.0, mean), (&free, 4.0, mean)];
         let mut candidates = Vec::new();
         let mut fewest = reference.evaluations as f64;
-        for (make, order, setting) in families {
+        for family in &Method::FAMILIES {
+            let make = |setting: f64| match family {
+                Family::Steps { of, .. } => of(bench.whole(setting)),
+                Family::Tolerances { of } => of(relative * setting, absolute * setting),
+            };
+            let (order, setting) = match family {
+                Family::Steps { order, .. } => (f64::from(*order), bench.mean_step(&reference)),
+                Family::Tolerances { .. } => (1.0, 1.0),
+            };
             for form in [EitherForm::Velocity, EitherForm::Momentum] {
-                let Some(mut found) = bench.search(&reference, form, (make, order), setting, fewest) else { continue };
+                let Some(found) = bench.search(&reference, form, (&make, order), setting, fewest) else { continue };
                 if found.error <= 1.0 {
                     fewest = Real::min(fewest, found.evaluations as f64);
-                    found.seconds = bench.time(found.method, form);
                 }
-                candidates.push(found);
+                candidates.push(Candidate::of::<S>(found, form));
             }
         }
         candidates.sort_by(|a, b| (a.error > 1.0).cmp(&(b.error > 1.0)).then(a.cost().total_cmp(&b.cost())));
@@ -450,6 +479,85 @@ let end = scene.tuned(&tuned.best).run_to_end(tilted, spinning, 0.0..10.0)?;
             Some(&best) if best.error <= 1.0 => Ok(Tuned { best, candidates, disagreement }),
             _ => Err(TuneError::NoCandidate),
         }
+    }
+
+    /// Measures a method of your own that has a step, in the form that was set and against the same reference as [`tune`](Self::tune): the
+    /// longest step that meets the error, and what it costs. `make` gives the method of a step, `order` says how its error goes.
+    ///
+    /// For methods that not every scene admits, and that [`tune`](Self::tune), which is for any scene, cannot try:
+    ///
+    #[cfg_attr(
+        feature = "derive",
+        doc = r##"
+```
+use gauss_runtime::prelude::*;
+
+/// A heavy top that turns about O.
+#[derive(GaussDynamics)]
+#[gauss(motion = fixed_point)]
+struct Top {
+    #[gauss(mass)]           mass: f64,
+    #[gauss(center_of_mass)] center: Vector3<f64>,
+    #[gauss(inertia)]        inertia: Vector3<f64>,
+    #[gauss(gravity)]        g: f64,
+}
+
+# fn main() -> Result<(), Box<dyn std::error::Error>> {
+let top = Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.4), inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 };
+let kernel = top.kernel()?;
+let (tilted, spinning) = (UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0), Vector3::new(0.0, 0.0, 40.0));
+let scene = Simulation::new(&kernel).momentum_form();
+let splitting = Splitting::discrete(&kernel, Scheme::BLANES_MOAN_4)?;
+let found = scene.tune_steps(tilted, spinning, 0.0..0.5, (1e-8, 1e-8), 4, |step| Fixed::by(splitting, step))?;
+println!("{} steps, {:?} s", found.steps, found.seconds);
+let end = scene.control(found.control).run_to_end(tilted, spinning, 0.0..10.0)?;
+# assert!(found.error <= 1.0 && end.t == 10.0);
+# Ok(())
+# }
+```
+"##
+    )]
+    ///
+    /// # Errors
+    /// [`TuneError`] when errors cannot be measured, or no step meets the one that is wanted.
+    pub fn tune_steps<D: Control<S>>(
+        &self,
+        q0: S::Configuration,
+        z0: S::Speeds,
+        interval: Range<S::Scalar>,
+        (relative, absolute): (f64, f64),
+        order: u32,
+        make: impl Fn(S::Scalar) -> D,
+    ) -> Result<Measured<D>, TuneError>
+    where
+        F: Form<S>,
+        I: InputSource<S>,
+    {
+        let bench = self.bench((q0, z0), interval, relative, absolute)?;
+        let (reference, _) = bench.reference()?;
+        let make = |setting: f64| make(bench.whole(setting));
+        // As many evaluations as the reference took at tolerances that are tighter by a hundred and more, and ten times as many.
+        let budget = 10.0 * reference.evaluations as f64;
+        let setting = bench.mean_step(&reference);
+        match bench.search(&reference, self.problem.form, (&make, f64::from(order)), setting, budget) {
+            Some(found) if found.error <= 1.0 => Ok(found),
+            _ => Err(TuneError::NoCandidate),
+        }
+    }
+
+    fn bench(
+        &self,
+        (q, z): (S::Configuration, S::Speeds),
+        interval: Range<S::Scalar>,
+        relative: f64,
+        absolute: f64,
+    ) -> Result<Bench<'_, S, I>, TuneError> {
+        let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
+        if !(usable(relative) && usable(absolute) && relative + absolute > 0.0) {
+            return Err(TuneError::InvalidTolerance);
+        }
+        let (system, input) = (self.problem.system, &self.problem.input);
+        Ok(Bench { system, input, q, z, interval, limit: self.limit.min(MOST_STEPS), relative, absolute })
     }
 
     /// Runs by a candidate of [`tune`](Self::tune).

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 use std::string::ToString;
 
 use super::*;
-use crate::integrate::{Fixed, Tableau};
+use crate::integrate::{Collocation, Fixed, Tableau};
 use crate::testing::order::{TOP, TORQUE, start_by_velocity};
 
 #[test]
@@ -16,7 +16,7 @@ fn what_is_chosen_meets_the_error_and_is_the_cheapest() {
     for wanted in [1e-3, 1e-6, 1e-10] {
         let tuned = scene.tune(start.q, start.y, 0.0..8.0, 0.0, wanted).expect("found");
         assert!(tuned.disagreement <= 0.1 && tuned.best == tuned.candidates[0] && tuned.best.error <= 1.0);
-        assert_eq!(tuned.candidates.len(), 10, "{tuned}");
+        assert_eq!(tuned.candidates.len(), 2 * Method::<f64>::FAMILIES.len(), "{tuned}");
         for candidate in tuned.candidates.iter().filter(|candidate| candidate.error <= 1.0) {
             let end = scene.tuned(candidate).run_to_end(start.q, start.y, 0.0..8.0).expect("runs");
             let error = end.q.difference(&exact.q).max_norm().max((end.z - exact.z).amax());
@@ -57,4 +57,19 @@ fn what_cannot_be_measured_is_refused_in_words() {
     let bad = SVector::from([f64::NAN, 0.0, 0.0]);
     let error = scene.tune(start.q, bad, 0.0..8.0, 0.0, 1e-6).expect_err("refused");
     assert!(error.to_string().contains("initial state"), "{error}");
+}
+
+#[test]
+fn a_method_of_ones_own_is_measured_in_the_same_way() {
+    let start = start_by_velocity();
+    let scene = Simulation::new(&TOP).input_from(TORQUE).momentum_form();
+    let interval = 0.0..8.0;
+    let make = |step| Fixed::by(Collocation::order_6(), step);
+    let found = scene.tune_steps(start.q, start.y, interval.clone(), (0.0, 1e-6), 6, make).expect("found");
+    let tuned = scene.tune(start.q, start.y, interval, 0.0, 1e-6).expect("found");
+    let same = |c: &&Candidate<f64>| matches!(c.method, Method::Gauss6 { .. }) && c.form == EitherForm::Momentum;
+    let listed = tuned.candidates.iter().find(same).expect("listed");
+    assert_eq!((found.error, found.evaluations, found.steps), (listed.error, listed.evaluations, listed.steps));
+    let never = scene.tune_steps(start.q, start.y, 0.0..8.0, (0.0, 1e-10), 1, |step: f64| Fixed::new(step.max(1.0)));
+    assert!(matches!(never, Err(TuneError::NoCandidate)));
 }

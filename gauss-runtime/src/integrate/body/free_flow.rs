@@ -19,7 +19,7 @@ use super::inertia::{FreeMotion, Turn};
 use crate::integrate::error::{IntegrationErrorKind, Part};
 use crate::lie::so3;
 use crate::real::Real;
-use crate::triple::{Triple, dot, quaternion, triple, unit_quaternion};
+use crate::triple::{Triple, add, dot, quaternion, sub, triple, unit_quaternion};
 
 /// The exact free motion of a body with given principal moments, in one call of some thousand operations.
 ///
@@ -95,11 +95,11 @@ impl FreeFlow {
         Self { moments, inverse: moments.map(|i| 1.0 / i), unit, order, sides }
     }
 
-    /// The turn and the new momentum, in units in which the largest component of y and the largest moment are between 1 and 2.
+    /// The turn and the change of the momentum, in units in which the largest component of y and the largest moment are between 1 and 2.
     fn flow(&self, y: Triple<f64>, t: f64) -> ([f64; 4], Triple<f64>) {
         let [first, second] = self.sides;
         let [smallest, middle, largest] = self.order;
-        let steady = |y: Triple<f64>| (so3_exp(core::array::from_fn(|i| t * y[i] * self.inverse[i])), y);
+        let steady = |y: Triple<f64>| (so3_exp(core::array::from_fn(|i| t * y[i] * self.inverse[i])), [0.0; 3]);
         if second == 0.0 && (first == 0.0 || y[largest] == 0.0) {
             return steady(y);
         }
@@ -129,10 +129,10 @@ impl FreeFlow {
         }
 
         let psi = length * (weights[0] * t + (weights[1] - weights[0]) * orbit.ratio * (integral / orbit.rate));
-        let now = restore(orbit.momentum(after), seen, weights);
-        let [x, y, z, w] = relative_rotation(seen, now, psi, length);
+        let change = restore(orbit.momentum(after), seen, weights);
+        let [x, y, z, w] = relative_rotation(seen, add(seen, change), psi, length);
         let [x, y, z] = orbit.frame.unsee([x, y, z]);
-        ([x, y, z, w], orbit.frame.unsee(now))
+        ([x, y, z, w], orbit.frame.unsee(change))
     }
 
     /// The constants of the motion through y; `axes` are a, b (the middle one) and c. `None` when y does not move, or
@@ -195,8 +195,8 @@ impl FreeMotion<f64> for FreeFlow {
         // A NaN passes here and is caught below.
         let scale = power_of_two(y.iter().fold(0.0_f64, |m, &c| m.max(c.abs())));
         let scaled = y.map(|c| c / scale);
-        let (rotation, reached) = self.flow(scaled, h * (scale / self.unit));
-        let change = core::array::from_fn(|i| (reached[i] - scaled[i]) * scale);
+        let (rotation, change) = self.flow(scaled, h * (scale / self.unit));
+        let change = change.map(|c| c * scale);
         if !rotation.iter().chain(&change).all(|c| Real::is_finite(*c)) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
@@ -239,25 +239,27 @@ impl Orbit {
     }
 }
 
-/// Takes the rounding out of energy and length, which it would leave by the same bits in every call: repeated calls would drift.
-/// Both defects are differences of nearly equal sums, the energy's relative to the axis that y is nearest to, so that small
-/// deviations from a steady motion count with their own size.
-fn restore(now: Triple<f64>, before: Triple<f64>, weights: Triple<f64>) -> Triple<f64> {
-    let nearest = (1..3).fold(0, |best, i| if now[i].abs() > now[best].abs() { i } else { best });
+/// The change of the momentum, with the rounding of what was reached taken out of energy and length: it would leave the same bits in
+/// every call, and repeated calls would drift. Both defects are sums of products with the change, so that they are known to a
+/// rounding of it however small it is; the energy's relative to the axis that y is nearest to, so that small deviations from a
+/// steady motion count with their own size.
+fn restore(reached: Triple<f64>, before: Triple<f64>, weights: Triple<f64>) -> Triple<f64> {
+    let nearest = (1..3).fold(0, |best, i| if reached[i].abs() > reached[best].abs() { i } else { best });
     let relative = weights.map(|w| w - weights[nearest]);
-    let excess = |y: Triple<f64>| (0..3).fold(0.0, |sum, i| relative[i].fma(y[i] * y[i], sum));
-    // Not the square of a root: its rounding would be of one sign for one length.
+    let change = sub(reached, before);
+    // x₁² − x₀² = (x₁ − x₀)(x₁ + x₀).
+    let squares: Triple<f64> = core::array::from_fn(|i| change[i] * (before[i] + reached[i]));
     let square = dot(before, before);
-    let kept = excess(before);
+    let kept = (0..3).fold(0.0, |sum, i| relative[i].fma(before[i] * before[i], sum));
     // The gradient of the energy along the sphere.
-    let slope: Triple<f64> = core::array::from_fn(|i| now[i] * (relative[i] - kept / square));
+    let slope: Triple<f64> = core::array::from_fn(|i| reached[i] * (relative[i] - kept / square));
     let steepness = dot(slope, slope);
-    let step = if steepness > 0.0 { 0.5 * (kept - excess(now)) / steepness } else { 0.0 };
+    let step = if steepness > 0.0 { -0.5 * dot(relative, squares) / steepness } else { 0.0 };
     // From afar the rounding of the energy is more than what is left of it near the saddle: only what is rounding of y is taken.
     let rounding = 16.0 * f64::EPSILON;
     let step = if step * step * steepness <= rounding * rounding * square { step } else { 0.0 };
-    let stretch = 0.5 * (square - dot(now, now)) / square;
-    core::array::from_fn(|i| step.fma(slope[i], stretch.fma(now[i], now[i])))
+    let stretch = -0.5 * (squares[0] + squares[1] + squares[2]) / square;
+    core::array::from_fn(|i| step.fma(slope[i], stretch.fma(reached[i], change[i])))
 }
 
 /// R_z(θ₀) R_y(β₀) R_z(ψ) R_y(−β₁) R_z(−θ₁), where θ and β are the polar angles of two momenta of the given length with
