@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): what a kernel offers |
+//! | [`condition`](mod@condition) | how well a mass matrix can be inverted |
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): what acts, element by element; powers and the balance of energy |
 //! | [`linearize`] | [`LinearizedSystem`](linearize::LinearizedSystem): exact derivatives by state, time and input |
@@ -44,6 +45,7 @@ extern crate std;
 
 pub mod adapters;
 pub mod chart;
+pub mod condition;
 pub mod configuration;
 pub mod constraint;
 pub mod error;

@@ -7,7 +7,7 @@ use crate::real::Real;
 
 /// The eigenvalues of a symmetric matrix (its lower triangle is ignored), in no particular order; for a diagonal matrix
 /// those of the axes in order. Finite input is expected; at most 20 sweeps, of which 6 suffice in practice.
-pub(super) fn eigenvalues<const N: usize>(matrix: &[[f64; N]; N]) -> [f64; N] {
+pub(crate) fn eigenvalues<const N: usize>(matrix: &[[f64; N]; N]) -> [f64; N] {
     // Units: the largest entry becomes 1, so that squares neither overflow nor vanish.
     let largest = matrix.iter().flatten().fold(0.0_f64, |m, &e| m.max(e.abs()));
     if largest == 0.0 {
