@@ -1,7 +1,7 @@
 //! Kernels in the integrators of other crates against our own runs: a free body in space and in fluid, a pendulum, in both forms;
 //! with the feature `adapters`.
 
-use gauss_runtime::adapters::{EmbeddedConfiguration, FlatSystem};
+use gauss_runtime::adapters::FlatSystem;
 use gauss_runtime::integrate::{Form, NoInput};
 use gauss_runtime::prelude::*;
 
@@ -64,7 +64,7 @@ fn pendulum() -> PendulumKernel {
 trait Foreign {
     fn run<S, F, I, const N: usize>(&self, system: &FlatSystem<'_, S, F, I>, start: [f64; N], end: f64) -> Vec<f64>
     where
-        S: GaussSystem<Scalar = f64, Configuration: EmbeddedConfiguration>,
+        S: GaussSystem<Scalar = f64>,
         F: Form<S>,
         I: InputSource<S> + Copy;
 }
@@ -74,7 +74,7 @@ struct DifferentialEquations;
 impl Foreign for DifferentialEquations {
     fn run<S, F, I, const N: usize>(&self, system: &FlatSystem<'_, S, F, I>, start: [f64; N], end: f64) -> Vec<f64>
     where
-        S: GaussSystem<Scalar = f64, Configuration: EmbeddedConfiguration>,
+        S: GaussSystem<Scalar = f64>,
         F: Form<S>,
         I: InputSource<S> + Copy,
     {
@@ -90,7 +90,7 @@ struct OdeSolvers;
 impl Foreign for OdeSolvers {
     fn run<S, F, I, const N: usize>(&self, system: &FlatSystem<'_, S, F, I>, start: [f64; N], end: f64) -> Vec<f64>
     where
-        S: GaussSystem<Scalar = f64, Configuration: EmbeddedConfiguration>,
+        S: GaussSystem<Scalar = f64>,
         F: Form<S>,
         I: InputSource<S> + Copy,
     {
@@ -115,7 +115,7 @@ struct Diffsol {
 impl Foreign for Diffsol {
     fn run<S, F, I, const N: usize>(&self, system: &FlatSystem<'_, S, F, I>, start: [f64; N], end: f64) -> Vec<f64>
     where
-        S: GaussSystem<Scalar = f64, Configuration: EmbeddedConfiguration>,
+        S: GaussSystem<Scalar = f64>,
         F: Form<S>,
         I: InputSource<S> + Copy,
     {
@@ -244,7 +244,7 @@ fn differential_equations_get_the_jacobian() {
 fn defaults_are_the_velocity_form_without_inputs() {
     fn dimension<S>(_: FlatSystem<'_, S, VelocityForm, NoInput>) -> usize
     where
-        S: GaussSystem<Input = (), Configuration: EmbeddedConfiguration>,
+        S: GaussSystem<Input = ()>,
     {
         FlatSystem::<'_, S, VelocityForm, NoInput>::DIM
     }

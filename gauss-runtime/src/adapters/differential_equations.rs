@@ -46,7 +46,6 @@ use ::differential_equations::linalg::Matrix;
 use ::differential_equations::ode::ODE;
 use ::differential_equations::traits::{Real as Scalar, State};
 
-use super::embedding::EmbeddedConfiguration;
 use super::flat::FlatSystem;
 use super::jacobian::JacobianProduct;
 use crate::integrate::{Form, InputSource};
@@ -57,7 +56,7 @@ impl<T, Y, S, F, I, J> ODE<T, Y> for FlatSystem<'_, S, F, I, J>
 where
     T: Real + Scalar,
     Y: State<T>,
-    S: GaussSystem<Scalar = T, Configuration: EmbeddedConfiguration>,
+    S: GaussSystem<Scalar = T>,
     F: Form<S>,
     I: InputSource<S>,
     J: JacobianProduct<S, F, I>,

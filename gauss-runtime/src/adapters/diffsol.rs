@@ -44,7 +44,6 @@ assert!((end.q[0] - 1.2 * (-50.0_f64 * 100.0 / 5e4).exp()).abs() < 1e-4);
 
 use ::diffsol::{Closure, ConstantClosure, Matrix, OdeBuilder};
 
-use super::embedding::EmbeddedConfiguration;
 use super::flat::FlatSystem;
 use super::jacobian::JacobianProduct;
 use crate::integrate::{Form, InputSource};
@@ -56,7 +55,7 @@ pub type Builder<M, F, G, H> = OdeBuilder<M, Closure<M, F, G>, ConstantClosure<M
 
 impl<S, F, I, J> FlatSystem<'_, S, F, I, J>
 where
-    S: GaussSystem<Configuration: EmbeddedConfiguration>,
+    S: GaussSystem,
     F: Form<S>,
     I: InputSource<S>,
     J: JacobianProduct<S, F, I>,

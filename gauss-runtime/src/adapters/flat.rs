@@ -3,9 +3,8 @@
 #[cfg(feature = "alloc")]
 use alloc::{vec, vec::Vec};
 
-use super::embedding::EmbeddedConfiguration;
 use super::jacobian::{Differences, Given};
-use crate::configuration::VectorSpace;
+use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::{
     Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, Sample, State, VelocityForm,
 };
@@ -13,7 +12,11 @@ use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// A kernel, a form and an input as `ẋ = f(t, x)`, with x the components of the configuration
-/// ([`EmbeddedConfiguration`]) and then those of y: quasi-velocities z, or momenta p in the momentum form.
+/// ([`Configuration::Components`]) and then those of y: quasi-velocities z, or momenta p in the momentum form.
+///
+/// A rotation's components may have any length: the equations of motion look at the rotation that they are in the direction of, and
+/// change in proportion to their length, which the exact solution then keeps. What an integrator adds to the length is no error of
+/// the rotation; to the velocity of O it is one, of the order of the tolerance.
 ///
 /// Made like a [`Simulation`](crate::integrate::Simulation). It does not bring a state back onto constraints while it runs, as those
 /// do: accelerations satisfy constraints that were differentiated, so states leave them slowly, and
@@ -135,12 +138,15 @@ impl<'k, S: GaussSystem, F, I, J> FlatSystem<'k, S, F, I, J> {
 
 impl<S, F, I, J> FlatSystem<'_, S, F, I, J>
 where
-    S: GaussSystem<Configuration: EmbeddedConfiguration>,
+    S: GaussSystem,
     F: Form<S>,
     I: InputSource<S>,
 {
     /// The length of x.
-    pub const DIM: usize = S::Configuration::COMPONENTS + S::Speeds::DIM;
+    pub const DIM: usize = Self::COMPONENTS + S::Speeds::DIM;
+
+    /// How many of them are those of the configuration.
+    const COMPONENTS: usize = <<S::Configuration as Configuration>::Components as VectorSpace<S::Scalar>>::DIM;
 
     /// x of a state as an array. Its length is checked when the program is compiled.
     #[must_use]
@@ -166,9 +172,12 @@ where
     /// When the slice is shorter.
     pub fn write(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, x: &mut [S::Scalar]) {
         let y = self.problem.form.variables(self.problem.system, t, q, z);
-        q.components(|i, value| x[i] = value, 0);
+        let components = q.components();
+        for i in 0..Self::COMPONENTS {
+            x[i] = components.component(i);
+        }
         for i in 0..S::Speeds::DIM {
-            x[S::Configuration::COMPONENTS + i] = y.component(i);
+            x[Self::COMPONENTS + i] = y.component(i);
         }
     }
 
@@ -179,7 +188,7 @@ where
     #[must_use]
     pub fn sample(&self, t: S::Scalar, x: &[S::Scalar]) -> Sample<S> {
         let Problem { system, form, .. } = &self.problem;
-        let State { t, q, y } = Self::state(t, |i| x[i]);
+        let State { t, q, y } = Self::state(t, |i| x[i]).1;
         Sample { t, q, z: form.speeds(system, t, &q, &y), p: form.momentum(system, t, &q, &y) }
     }
 
@@ -195,21 +204,29 @@ where
     /// `f(t, x)` for vectors of any type: x is read by `get`, each component of f is handed to `put` with its number, once.
     #[inline]
     pub fn rates_by(&self, t: S::Scalar, get: impl Fn(usize) -> S::Scalar, mut put: impl FnMut(usize, S::Scalar)) {
-        let state = Self::state(t, &get);
+        let (unbound, state) = Self::state(t, get);
         let Rates { configuration, variables } = self.problem.rates(&state);
-        state.q.component_rates(&configuration, get, &mut put, 0);
+        let rates = unbound.component_rates(&configuration);
+        for i in 0..Self::COMPONENTS {
+            put(i, rates.component(i));
+        }
         for i in 0..S::Speeds::DIM {
-            put(S::Configuration::COMPONENTS + i, variables.component(i));
+            put(Self::COMPONENTS + i, variables.component(i));
         }
     }
 
+    /// The configuration with the components as they are, and the state that they stand for.
     #[inline]
-    fn state(t: S::Scalar, get: impl Fn(usize) -> S::Scalar) -> State<S> {
-        let q = S::Configuration::from_components(&get, 0);
+    fn state(t: S::Scalar, get: impl Fn(usize) -> S::Scalar) -> (S::Configuration, State<S>) {
+        let mut components = <S::Configuration as Configuration>::Components::zero();
+        for i in 0..Self::COMPONENTS {
+            components.set_component(i, get(i));
+        }
+        let unbound = S::Configuration::from_components(&components);
         let mut y = S::Speeds::zero();
         for i in 0..S::Speeds::DIM {
-            y.set_component(i, get(S::Configuration::COMPONENTS + i));
+            y.set_component(i, get(Self::COMPONENTS + i));
         }
-        State { t, q, y }
+        (unbound, State { t, q: unbound.renormalise(), y })
     }
 }

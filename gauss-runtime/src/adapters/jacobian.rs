@@ -1,6 +1,5 @@
 //! ∂f/∂x times a vector, for implicit methods.
 
-use super::embedding::EmbeddedConfiguration;
 use super::flat::FlatSystem;
 use crate::integrate::{Form, InputSource};
 use crate::real::Real;
@@ -29,7 +28,7 @@ pub struct Differences;
 
 impl<S, F, I> JacobianProduct<S, F, I> for Differences
 where
-    S: GaussSystem<Configuration: EmbeddedConfiguration>,
+    S: GaussSystem,
     F: Form<S>,
     I: InputSource<S>,
 {

@@ -2,7 +2,6 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | [`embedding`] | configurations as numbers in a row: components, and how they change |
 //! | [`flat`] | [`FlatSystem`]: the right-hand side, and what takes states to vectors and back |
 //! | [`jacobian`] | [`JacobianProduct`]: ∂f/∂x times a vector, for implicit methods |
 //! | `differential_equations` | the trait `ODE` of `differential-equations` (feature `differential-equations`) |
@@ -13,7 +12,6 @@
 //! that they do not have, and for programs that are built on one of those crates already. For any other crate [`FlatSystem`] has
 //! all that is needed.
 
-pub mod embedding;
 pub mod flat;
 pub mod jacobian;
 
@@ -24,7 +22,6 @@ pub mod diffsol;
 #[cfg(feature = "ode_solvers")]
 pub mod ode_solvers;
 
-pub use embedding::EmbeddedConfiguration;
 pub use flat::FlatSystem;
 pub use jacobian::{Differences, Given, JacobianProduct};
 

@@ -46,7 +46,6 @@ assert!(end.q.angle_to(&ours.q) < 1e-8 && (end.z - ours.z).norm() < 1e-8);
 use ::ode_solvers::dop_shared::FloatNumber;
 use ::ode_solvers::{DVector, SVector, System};
 
-use super::embedding::EmbeddedConfiguration;
 use super::flat::FlatSystem;
 use crate::integrate::{Form, InputSource};
 use crate::real::Real;
@@ -55,7 +54,7 @@ use crate::system::GaussSystem;
 impl<T, S, F, I, J, const N: usize> System<T, SVector<T, N>> for FlatSystem<'_, S, F, I, J>
 where
     T: Real + FloatNumber,
-    S: GaussSystem<Scalar = T, Configuration: EmbeddedConfiguration>,
+    S: GaussSystem<Scalar = T>,
     F: Form<S>,
     I: InputSource<S>,
 {
@@ -69,7 +68,7 @@ where
 impl<T, S, F, I, J> System<T, DVector<T>> for FlatSystem<'_, S, F, I, J>
 where
     T: Real + FloatNumber,
-    S: GaussSystem<Scalar = T, Configuration: EmbeddedConfiguration>,
+    S: GaussSystem<Scalar = T>,
     F: Form<S>,
     I: InputSource<S>,
 {

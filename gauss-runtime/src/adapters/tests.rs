@@ -1,51 +1,25 @@
-//! Components of configurations and what they say of motion, against the group; products by differences against dual numbers.
-
-use std::vec::Vec;
-
-use nalgebra::{Isometry2, Isometry3, SVector, Translation2, Translation3, UnitComplex, UnitQuaternion, Vector3};
+//! Flat vectors against states; products by differences against dual numbers.
 
 use super::*;
-use crate::configuration::VectorSpace;
 use crate::testing::FreeTop;
 use crate::testing::dual::{Dual, dual};
 use crate::testing::order::{NONE, TOP, start_by_velocity};
 
-/// The components of a configuration, those of its rotation, which come first, times a length.
-fn components<C: EmbeddedConfiguration<Scalar = f64>>(q: &C, rotation: usize, length: f64) -> Vec<f64> {
-    let mut x = std::vec![0.0; C::COMPONENTS];
-    q.components(|i, value| x[i] = value, 0);
-    x[..rotation].iter_mut().for_each(|c| *c *= length);
-    x
-}
-
-/// The components' rates against central differences along `q ∘ exp(s v)`, whatever the length of the rotation's components.
-fn rates_are_those_of_the_group<C: EmbeddedConfiguration<Scalar = f64>>(q: &C, rotation: usize, velocity: &[f64]) {
-    let mut v = C::Tangent::zero();
-    velocity.iter().enumerate().for_each(|(i, &c)| v.set_component(i, c));
-    for length in [1.0, 0.7] {
-        let x = components(q, rotation, length);
-        let again = C::from_components(|i| x[i], 0);
-        assert!(q.difference(&again).max_norm() < 8.0 * f64::EPSILON, "{q:?} {again:?}");
-        let mut found = std::vec![0.0; C::COMPONENTS];
-        again.component_rates(&v, |i| x[i], |i, value| found[i] = value, 0);
-        let h = 1e-5;
-        let at = |s: f64| components(&q.retract(&v.scale(s)), rotation, length);
-        for ((found, there), back) in found.iter().zip(at(h)).zip(at(-h)) {
-            // h² of a third derivative of size 10, and roundings of numbers of size 4 over 2h.
-            assert!((found - (there - back) / (2.0 * h)).abs() < 2e-9, "{found} {}", (there - back) / (2.0 * h));
-        }
-    }
-}
-
+/// A quaternion of another length turns as fast, and the velocities do not see its length.
 #[test]
-fn components_move_as_the_group_does() {
-    let rotation = UnitQuaternion::from_scaled_axis(Vector3::new(0.4, -1.1, 0.7));
-    rates_are_those_of_the_group(&rotation, 4, &[0.3, -0.8, 1.2]);
-    let pose = Isometry3::from_parts(Translation3::new(1.0, -2.0, 4.0), rotation);
-    rates_are_those_of_the_group(&pose, 4, &[0.5, 1.0, -0.3, 0.3, -0.8, 1.2]);
-    let plane = Isometry2::from_parts(Translation2::new(-1.0, 3.0), UnitComplex::new(2.0));
-    rates_are_those_of_the_group(&plane, 2, &[0.5, 1.0, -0.9]);
-    rates_are_those_of_the_group(&(rotation, SVector::from([2.0, -1.0])), 4, &[0.3, -0.8, 1.2, 0.1, 0.6]);
+fn the_length_of_a_quaternion_does_not_count() {
+    let start = start_by_velocity();
+    let system = FlatSystem::new(&TOP).input_from(NONE);
+    let x: [f64; 7] = system.vector(0.0, &start.q, &start.y);
+    let (mut unit, mut shorter) = ([0.0; 7], [0.0; 7]);
+    system.rates(0.0, &x, &mut unit);
+    let scaled = core::array::from_fn::<f64, 7, _>(|i| if i < 4 { 0.7 * x[i] } else { x[i] });
+    system.rates(0.0, &scaled, &mut shorter);
+    for i in 0..7 {
+        let expected = if i < 4 { 0.7 * unit[i] } else { unit[i] };
+        assert!((shorter[i] - expected).abs() <= 8.0 * f64::EPSILON * start.y.amax(), "{i}: {} {expected}", shorter[i]);
+    }
+    assert!(system.sample(0.0, &scaled).q.angle_to(&start.q) < 4.0 * f64::EPSILON);
 }
 
 /// The slope of the differences against dual numbers through the same equations.

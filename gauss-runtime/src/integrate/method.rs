@@ -8,7 +8,8 @@ use super::composition::{Composed, Composition};
 use super::control::{Adaptive, Control, Emit, Fixed};
 use super::error::{IntegrationError, IntegrationErrorKind};
 use super::form::{Form, InputSource, MomentumForm, Problem, Rates, State, VelocityForm};
-use super::tableau::Tableau;
+use super::runge_kutta::RungeKutta;
+use super::tableau::{Classical4, DormandPrince5, DormandPrince8, Verner9};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -16,7 +17,7 @@ use crate::system::GaussSystem;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Method<T> {
-    /// Runge–Kutta–Munthe-Kaas steps of order 4 and one length.
+    /// Classical Runge–Kutta steps of order 4 and one length.
     RungeKutta4 {
         /// Their length.
         step: T,
@@ -94,7 +95,7 @@ macro_rules! dispatch {
     ($method:expr, $control:ident => $call:expr) => {
         match *$method {
             Method::RungeKutta4 { step } => {
-                let $control = Fixed::with(&Tableau::RK4, step);
+                let $control = Fixed::by(RungeKutta(Classical4), step);
                 $call
             }
             Method::CommutatorFree4 { step } => {
@@ -106,15 +107,15 @@ macro_rules! dispatch {
                 $call
             }
             Method::DormandPrince5 { relative, absolute } => {
-                let $control = Adaptive::with(&Tableau::DORMAND_PRINCE_5, relative, absolute);
+                let $control = Adaptive::by(RungeKutta(DormandPrince5), relative, absolute);
                 $call
             }
             Method::DormandPrince8 { relative, absolute } => {
-                let $control = Adaptive::with(&Tableau::DORMAND_PRINCE_8, relative, absolute);
+                let $control = Adaptive::by(RungeKutta(DormandPrince8), relative, absolute);
                 $call
             }
             Method::Verner9 { relative, absolute } => {
-                let $control = Adaptive::with(&Tableau::VERNER_9, relative, absolute);
+                let $control = Adaptive::by(RungeKutta(Verner9), relative, absolute);
                 $call
             }
             Method::Gauss4 { step } => {
