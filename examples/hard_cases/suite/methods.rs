@@ -44,6 +44,11 @@ pub fn tight() -> Adaptive {
     adaptive_8(1e-14)
 }
 
+/// Power series, as long steps and high orders as rounding allows.
+pub fn series() -> Taylor {
+    Taylor::new(1e-16, 1e-16)
+}
+
 /// The same with another tolerance.
 pub fn adaptive_8(tolerance: f64) -> Adaptive {
     Adaptive::new(tolerance, tolerance)

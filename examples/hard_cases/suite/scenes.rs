@@ -10,7 +10,7 @@ use super::truth::MassData;
 
 /// No forces, principal axes, turns about O.
 #[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
+#[gauss(motion = fixed_point, taylor)]
 pub struct FreeTop {
     #[gauss(mass)]
     pub mass: f64,
@@ -51,7 +51,7 @@ in_charts! {
         [gravity] gravity: (f64)
     }
     /// A top under its weight.
-    HeavyTop [motion = fixed_point]
+    HeavyTop [motion = fixed_point, taylor]
     /// In the angles of precession, nutation and spin, which are one at the upright.
     TopByPrecession [motion = fixed_point, chart = jet(euler_zxz)]
     /// In yaw, pitch and roll.

@@ -7,7 +7,7 @@ use gauss_runtime::integrate::{Control, Form};
 use gauss_runtime::prelude::*;
 
 use super::measure::worse;
-use super::methods::{end, gauss_6, order_8, order_9, splitting, tight};
+use super::methods::{end, gauss_6, order_8, order_9, series, splitting, tight};
 use super::scenes::{FreeTop, FreeTopKernel, HeavyTop, Scene, State, TopByPrecession, TopByYaw};
 use super::truth::Body;
 use super::{Effort, Measure, naive};
@@ -78,6 +78,7 @@ pub fn separatrix(_: Effort) -> Measures {
     let runs = [
         ("order 8, velocities", drift(&kernel, VelocityForm, tight(), &scene)?),
         ("order 8, momenta", drift(&kernel, MomentumForm, tight(), &scene)?),
+        ("power series", drift(&kernel, VelocityForm, series(), &scene)?),
         ("Gauss 6, momenta, h = 0.01", drift(&kernel, MomentumForm, gauss_6(0.01), &scene)?),
         ("exact free flow, one step", drift(&kernel, MomentumForm, splitting!(&kernel, scene.duration), &scene)?),
     ];
@@ -292,12 +293,16 @@ pub fn fast_top(_: Effort) -> Measures {
                     .naive(&*typed_words, typed),
             );
         }
-        let (found, steps) = end(&kernel, VelocityForm, tight(), &start, duration)?;
-        measures.push(
-            Measure::new(format!("{words}, any step: worst error"), "order 8, adaptive", found.distance(&last), 1e-12)
-                .naive(typed_words, typed)
-                .note(format!("{steps} steps")),
-        );
+        for (method, (found, steps)) in [
+            ("order 8, adaptive", end(&kernel, VelocityForm, tight(), &start, duration)?),
+            ("power series", end(&kernel, VelocityForm, series(), &start, duration)?),
+        ] {
+            measures.push(
+                Measure::new(format!("{words}, any step: worst error"), method, found.distance(&last), 1e-12)
+                    .naive(&*typed_words, typed)
+                    .note(format!("{steps} steps")),
+            );
+        }
     }
     Ok(measures)
 }

@@ -17,6 +17,7 @@ use nalgebra::{SVector, Vector3};
 use super::elliptic::{Jacobi, Modulus, complete};
 use super::inertia::{FreeMotion, Turn};
 use crate::integrate::error::{IntegrationErrorKind, Part};
+use crate::lie::carried::two_sum;
 use crate::lie::so3;
 use crate::real::Real;
 use crate::triple::{Triple, add, dot, quaternion, sub, triple, unit_quaternion};
@@ -240,26 +241,55 @@ impl Orbit {
 }
 
 /// The change of the momentum, with the rounding of what was reached taken out of energy and length: it would leave the same bits in
-/// every call, and repeated calls would drift. Both defects are sums of products with the change, so that they are known to a
-/// rounding of it however small it is; the energy's relative to the axis that y is nearest to, so that small deviations from a
-/// steady motion count with their own size.
+/// every call, and repeated calls would drift. Both defects are sums of products with the change, in twice the precision because the
+/// rounding of these would also be of one sign for one motion; the energy's relative to the axis that y is nearest to, so that
+/// small deviations from a steady motion count with their own size.
 fn restore(reached: Triple<f64>, before: Triple<f64>, weights: Triple<f64>) -> Triple<f64> {
     let nearest = (1..3).fold(0, |best, i| if reached[i].abs() > reached[best].abs() { i } else { best });
     let relative = weights.map(|w| w - weights[nearest]);
     let change = sub(reached, before);
-    // x₁² − x₀² = (x₁ − x₀)(x₁ + x₀).
-    let squares: Triple<f64> = core::array::from_fn(|i| change[i] * (before[i] + reached[i]));
+    // x₁² − x₀² = (x₁ − x₀)(x₁ + x₀), and what its rounding leaves.
+    let (mut squares, mut rests) = ([0.0; 3], [0.0; 3]);
+    for i in 0..3 {
+        let (after, lost) = two_sum(before[i], change[i]);
+        let (sum, low) = two_sum(before[i], after);
+        let (product, error) = two_product(change[i], sum);
+        (squares[i], rests[i]) = (product, error + change[i] * (low + lost));
+    }
     let square = dot(before, before);
     let kept = (0..3).fold(0.0, |sum, i| relative[i].fma(before[i] * before[i], sum));
     // The gradient of the energy along the sphere.
     let slope: Triple<f64> = core::array::from_fn(|i| reached[i] * (relative[i] - kept / square));
     let steepness = dot(slope, slope);
-    let step = if steepness > 0.0 { -0.5 * dot(relative, squares) / steepness } else { 0.0 };
+    let step = if steepness > 0.0 { -0.5 * weighted_sum(relative, squares, rests) / steepness } else { 0.0 };
     // From afar the rounding of the energy is more than what is left of it near the saddle: only what is rounding of y is taken.
     let rounding = 16.0 * f64::EPSILON;
     let step = if step * step * steepness <= rounding * rounding * square { step } else { 0.0 };
-    let stretch = -0.5 * (squares[0] + squares[1] + squares[2]) / square;
+    let stretch = -0.5 * weighted_sum([1.0; 3], squares, rests) / square;
     core::array::from_fn(|i| step.fma(slope[i], stretch.fma(reached[i], change[i])))
+}
+
+/// `Σ w (x + rest)` in twice the precision (Ogita, Rump & Oishi, SIAM J. Sci. Comput. 26, 2005).
+fn weighted_sum(weights: Triple<f64>, squares: Triple<f64>, rests: Triple<f64>) -> f64 {
+    let (mut sum, mut low) = (0.0, 0.0);
+    for i in 0..3 {
+        let (product, error) = two_product(weights[i], squares[i]);
+        let (next, rest) = two_sum(sum, product);
+        (sum, low) = (next, low + (rest + (error + weights[i] * rests[i])));
+    }
+    sum + low
+}
+
+/// a b to nearest, and exactly what is missing there (Dekker; Veltkamp's factors of 26 digits): also where no fused operation is.
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let split = |x: f64| {
+        // 2²⁷ + 1.
+        let c = 134_217_729.0 * x;
+        let high = c - (c - x);
+        (high, x - high)
+    };
+    let (product, (a1, a2), (b1, b2)) = (a * b, split(a), split(b));
+    (product, a2 * b2 - (((product - a1 * b1) - a2 * b1) - a1 * b2))
 }
 
 /// R_z(θ₀) R_y(β₀) R_z(ψ) R_y(−β₁) R_z(−θ₁), where θ and β are the polar angles of two momenta of the given length with
