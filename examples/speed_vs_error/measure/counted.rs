@@ -5,7 +5,6 @@
 use std::cell::Cell;
 
 use gauss_runtime::prelude::*;
-use gauss_runtime::series::PowerSeries;
 
 /// A kernel and a count of its accelerations, rates of momentum and series. Runs that are timed count too, as those of the
 /// baselines do: it is one addition an evaluation.
@@ -135,10 +134,5 @@ impl<S: TaylorSystem> TaylorSystem for Counted<S> {
     #[inline(always)]
     fn expand(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, order: usize, series: &mut S::Series) {
         self.counting().expand(t, q, z, order, series);
-    }
-
-    #[inline(always)]
-    fn state_of(&self, variables: &<S::Series as PowerSeries<S::Scalar>>::Variables) -> (S::Configuration, S::Speeds) {
-        self.kernel.state_of(variables)
     }
 }

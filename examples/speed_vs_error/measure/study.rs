@@ -256,7 +256,7 @@ fn drifts(entries: &[Entry], scene: &Scene, long: f64) -> Vec<Drift> {
     let shown = |entry: &&Entry| match entry.side {
         Side::Gauss => {
             let wanted = [
-                ("RKMK 4", "velocity"),
+                ("RK 4", "velocity"),
                 ("DP 8, fixed", "velocity"),
                 ("Gauss 4", "momentum"),
                 ("variational", "momentum"),
