@@ -62,7 +62,7 @@ impl<S: GaussSystem, M: IncrementStep<S>> Control<S> for Compensated<S::Scalar, 
             if !(end.q.is_finite() && end.y.is_finite()) {
                 return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
             }
-            Ok(end)
+            Ok((end, None))
         })
     }
 

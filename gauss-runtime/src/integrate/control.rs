@@ -157,6 +157,9 @@ pub(super) fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
     Ok(((end - start.t).lane(0), start, rates))
 }
 
+/// The end of a step, and the derivatives there where they came with it.
+pub(super) type Advanced<S> = (State<S>, Option<Rates<S>>);
+
 /// Steps of length |length|, the last one ending where it should, each made by `advance`.
 #[inline]
 pub(super) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
@@ -166,7 +169,7 @@ pub(super) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>
     end: S::Scalar,
     limit: u64,
     emit: &mut Emit<'_, S>,
-    mut advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<State<S>, IntegrationErrorKind>,
+    mut advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
 ) -> Result<State<S>, IntegrationError> {
     let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
     let positive = length.lane(0).abs();
@@ -193,10 +196,10 @@ pub(super) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>
     for n in 1..=steps {
         let last = n == steps;
         let this = if last { end - state.t } else { h };
-        let mut next = advance(&state, &rates, this).map_err(|kind| stopped(&state, kind))?;
+        let (mut next, known) = advance(&state, &rates, this).map_err(|kind| stopped(&state, kind))?;
         // Times are multiples of h, not sums of it.
         next.t = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start.t) };
-        rates = accept(problem, &mut next, None).map_err(|kind| stopped(&state, kind))?;
+        rates = accept(problem, &mut next, known).map_err(|kind| stopped(&state, kind))?;
         state = next;
         if emit(&state, &rates).is_break() {
             break;
@@ -215,7 +218,7 @@ impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
         emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         steps_of_one_length(self.step, problem, start, end, limit, emit, |state, rates, h| {
-            self.method.step(problem, state, rates, h).map(|step| step.state)
+            self.method.step(problem, state, rates, h).map(|step| (step.state, step.rates))
         })
     }
 
@@ -443,8 +446,12 @@ fn round(count: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use core::cell::Cell;
+
+    use nalgebra::{UnitQuaternion, Vector3};
+
     use super::*;
-    use crate::integrate::{DormandPrince5, Simulation, VelocityForm, Verner9};
+    use crate::integrate::{Classical4, DormandPrince5, Feedback, Simulation, VelocityForm, Verner9};
     use crate::testing::FreeTop;
     use crate::testing::order::{TOP, TORQUE, distance, fitted_order, march, start_by_velocity};
 
@@ -491,6 +498,27 @@ mod tests {
         ] {
             assert!((found - stated).abs() < 0.5, "{found} instead of {stated}");
         }
+    }
+
+    /// A method whose last stage is the end of the step pays for the derivatives there once.
+    #[test]
+    fn fixed_steps_use_the_derivatives_that_come_with_a_step() {
+        const STEPS: u32 = 20;
+        fn evaluations(method: impl OneStep<FreeTop<f64>>) -> u32 {
+            let count = Cell::new(0);
+            let input = Feedback(|t: f64, q: &UnitQuaternion<f64>, z: &Vector3<f64>| {
+                count.set(count.get() + 1);
+                InputSource::<FreeTop<f64>>::input(&TORQUE, t, q, z)
+            });
+            let problem = Problem { system: &TOP, form: VelocityForm, input };
+            let nobody = &mut |_: &State<_>, _: &Rates<_>| ControlFlow::Continue(());
+            let run = Fixed::by(method, 0.1).drive(&problem, start_by_velocity(), 2.0, u64::from(STEPS), nobody);
+            run.expect("runs");
+            count.get()
+        }
+        assert_eq!(evaluations(RungeKutta(DormandPrince5)), 1 + 6 * STEPS);
+        assert_eq!(evaluations(Rkmk::new(&Tableau::DORMAND_PRINCE_5)), 1 + 6 * STEPS);
+        assert_eq!(evaluations(RungeKutta(Classical4)), 1 + 4 * STEPS);
     }
 
     /// Down to rounding, the pairs of orders 8 and 9 stay within a few tolerances and take fewer evaluations than order 5, the

@@ -198,4 +198,6 @@ impl fmt::Display for IntegrationError {
     }
 }
 
+impl core::error::Error for IntegrationErrorKind {}
+
 impl core::error::Error for IntegrationError {}

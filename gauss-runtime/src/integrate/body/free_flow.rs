@@ -41,7 +41,7 @@ use crate::triple::{Triple, add, dot, quaternion, sub, triple, unit_quaternion};
 /// let later = y + turn.change;
 /// // The momentum in space is what it was.
 /// assert!((turn.rotation * later - y).norm() < 1e-14);
-/// # Ok::<(), gauss_runtime::integrate::IntegrationErrorKind>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeFlow {
