@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     println!("{}\n", tables::console(&studies));
     fs::create_dir_all(&folder)?;
-    let picture = overview::overview(&studies);
+    let picture = overview::overview(&studies, &machine);
     for (name, contents) in [
         ("speed_vs_error.html", page::page(&studies, &machine, quick).into_bytes()),
         ("speed_vs_error.csv", tables::csv(&studies)?),

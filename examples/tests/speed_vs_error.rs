@@ -135,8 +135,12 @@ fn evaluations_are_counted() {
     };
     let heavy = |method| count("hlw_heavy_top", method);
     // One at the start, and of 30 steps three stages and the derivative at the end.
+    assert_eq!(heavy("RK 4"), 1 + 30 * 4);
     assert_eq!(heavy("RKMK 4"), 1 + 30 * 4);
     assert_eq!(heavy("CF 4"), 1 + 30 * 4);
+    // The last of seven stages is the first one of the next step; of twelve stages none is.
+    assert_eq!(heavy("DP 5, fixed"), 1 + 30 * 6);
+    assert_eq!(heavy("DP 8, fixed"), 1 + 30 * 12);
     assert_eq!(heavy("RK 4 on quaternions"), 30 * 4);
     assert_eq!(heavy("semi-implicit Euler"), 30);
     // Six kicks without the last, which may be the first of the next step; at most all seven, and the derivative at

@@ -17,7 +17,7 @@ pub struct Effort {
     pub rounds: usize,
     /// A time is taken over so many runs that they last this long.
     pub batch: Duration,
-    /// Steps that take more evaluations for a radian of the fastest rate are left out; tolerances, which end at 1e-14
+    /// Steps that take more evaluations for a radian of the fastest rate are left out; tolerances, which end at 1e-15
     /// anyway, where they take four times as many.
     pub most_evaluations: f64,
     /// Settings are this many times as dense.
@@ -121,8 +121,8 @@ fn settings(entry: &Entry, scene: &Scene, effort: &Effort) -> Vec<f64> {
     match entry.setting {
         Setting::Once => vec![scene.duration],
         Setting::Tolerance => {
-            let count = (24.0 * effort.density) as i32;
-            (0..=count).map(|n| 10.0_f64.powf(-2.0 - 12.0 * f64::from(n) / f64::from(count))).collect()
+            let count = (26.0 * effort.density) as i32;
+            (0..=count).map(|n| 10.0_f64.powf(-2.0 - 13.0 * f64::from(n) / f64::from(count))).collect()
         }
         Setting::Step(order) => {
             // About two settings for each power of ten of the error, and not less than one for each halving.

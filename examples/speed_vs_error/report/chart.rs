@@ -158,10 +158,9 @@ impl Axis {
         (value - self.ends.start) / (self.ends.end - self.ends.start)
     }
 
-    /// Values with grid lines, and what is written there.
-    fn ticks(&self) -> Vec<(f64, String)> {
+    /// Values with grid lines, `most` at most beside the first, and what is written there.
+    fn ticks(&self, most: f64) -> Vec<(f64, String)> {
         let (low, high) = (self.ends.start.min(self.ends.end), self.ends.start.max(self.ends.end));
-        let most = 8.0;
         let step = if self.decades {
             ((high - low) / most).ceil().max(1.0)
         } else {
@@ -193,12 +192,13 @@ impl Chart {
             let ((a, b), (c, d)) = (from, to);
             format!("<path d=\"M{a:.1} {b:.1}L{c:.1} {d:.1}\" stroke=\"{colour}\" stroke-width=\"1.5\"/>\n")
         };
-        for (place, text) in self.x.ticks() {
+        // A label is three letters wide, with the gap before the next one.
+        for (place, text) in self.x.ticks(((x1 - x0) / (3.0 * a)).floor().clamp(1.0, 8.0)) {
             let x = x0 + place * (x1 - x0);
             svg += &line((x, y0), (x, y1), PALE);
             svg += &words(&text, (x, y0 + 1.25 * a), 0.92 * a, "middle", INK);
         }
-        for (place, text) in self.y.ticks() {
+        for (place, text) in self.y.ticks(8.0) {
             let y = y0 + place * (y1 - y0);
             svg += &line((x0, y), (x1, y), PALE);
             svg += &words(&text, (x0 - 0.4 * a, y + 0.33 * a), 0.92 * a, "end", INK);

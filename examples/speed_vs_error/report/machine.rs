@@ -16,8 +16,10 @@ pub struct Machine {
     pub compiler: String,
     /// Architecture and system.
     pub target: String,
-    /// How this program was compiled.
-    pub build: String,
+    /// For which vector instructions this program was compiled.
+    pub instructions: String,
+    /// With or without optimisation.
+    pub build: &'static str,
     /// Processes that wanted to run in the last minutes, where the system says it.
     pub load: String,
 }
@@ -44,13 +46,14 @@ impl Machine {
         } else {
             instructions.join(", ")
         };
-        let checks = if cfg!(debug_assertions) { "with debug assertions: times mean little" } else { "release" };
+        let build = if cfg!(debug_assertions) { "with debug assertions: times mean little" } else { "release" };
         Self {
             processor: model.map_or_else(unknown, |(_, name)| name.to_owned()),
             cores: available_parallelism().map_or(1, Into::into),
             compiler: version.map_or_else(unknown, |text| text.trim().to_owned()),
             target: format!("{ARCH}, {OS}"),
-            build: format!("{checks}, compiled for {instructions}; the same for Gauss and the baselines"),
+            instructions,
+            build,
             load: fs::read_to_string("/proc/loadavg")
                 .map_or_else(|_| unknown(), |text| text.split(' ').take(3).collect::<Vec<_>>().join(", ")),
         }

@@ -5,6 +5,7 @@ use crate::measure::entry::Side;
 use crate::measure::study::{Point, Study};
 
 use super::chart::{Axis, Chart, Series, picture, words};
+use super::machine::Machine;
 use super::plots::{OURS, baseline_style, methods, time_axis};
 
 /// The scenes shown, where they were run.
@@ -13,9 +14,11 @@ const SHOWN: [&str; 6] =
 const PANEL: (f64, f64) = (520.0, 470.0);
 const LETTERS: f64 = 21.0;
 const HEAD: f64 = 128.0;
+/// Runs that are farther off, rad or parts of the size, answer no question.
+const FARTHEST: f64 = 0.3;
 
 /// The picture, 1600 px wide.
-pub fn overview(studies: &[Study]) -> String {
+pub fn overview(studies: &[Study], machine: &Machine) -> String {
     let named = SHOWN.iter().filter_map(|name| studies.iter().find(|study| study.scene.about.name == *name));
     let mut shown: Vec<&Study> = named.collect();
     let others = studies.iter().filter(|study| !SHOWN.contains(&study.scene.about.name));
@@ -43,11 +46,21 @@ pub fn overview(studies: &[Study]) -> String {
         svg += &panel(study).body(corner);
     }
     let rows = shown.len().div_ceil(3) as f64;
-    picture((1600.0, HEAD + rows * PANEL.1 + 16.0), &svg)
+    let height = HEAD + rows * PANEL.1 + 44.0;
+    let Machine { processor, compiler, instructions, .. } = machine;
+    let compiler = compiler.split(" (").next().unwrap_or_default();
+    let foot = format!(
+        "One thread of {processor}, {compiler}, compiled for {instructions}; the same for all. Errors below {FARTHEST}."
+    );
+    svg += &words(&foot, (40.0, height - 16.0), 18.0, "start", "#6a6a6a");
+    picture((1600.0, height), &svg)
 }
 
 fn panel(study: &Study) -> Chart {
-    let points = |points: Vec<Point>| points.iter().map(|point| (point.error, point.median())).collect();
+    let points = |points: Vec<Point>| {
+        let shown = points.iter().filter(|point| point.error < FARTHEST);
+        shown.map(|point| (point.error, point.median())).collect()
+    };
     let mut series: Vec<Series> = methods(study, Side::Baseline)
         .into_iter()
         .map(|method| Series {

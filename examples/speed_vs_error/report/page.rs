@@ -41,7 +41,7 @@ pub fn page(studies: &[Study], machine: &Machine, quick: bool) -> String {
 }
 
 fn introduction(machine: &Machine, quick: bool) -> String {
-    let Machine { processor, cores, compiler, target, build, load } = machine;
+    let Machine { processor, cores, compiler, target, instructions, build, load } = machine;
     let quick = if quick { "<p><b>A quick run: times are rough, and fewer settings were tried.</b></p>" } else { "" };
     format!(
         "<p>Every method of Gauss on every chart and in both forms, and what one would otherwise use, on scenes \
@@ -58,11 +58,12 @@ fn introduction(machine: &Machine, quick: bool) -> String {
          <code>differential-equations</code>, without dense output where that can be said; the method of Runge and \
          Kutta with normalised quaternions; and the semi-implicit step of game engines. Relative and absolute \
          tolerances are equal, for everybody.</p>\n{quick}\
-         <p class=\"dim\">{} ({cores} cores, one used) · {} · {} · {} · load averages at the start {}</p>\n",
+         <p class=\"dim\">{} ({cores} cores, one used) · {} · {} · {build}, compiled for {}; \
+         the same for Gauss and the baselines · load averages at the start {}</p>\n",
         escaped(processor),
         escaped(compiler),
         escaped(target),
-        escaped(build),
+        escaped(instructions),
         escaped(load)
     )
 }

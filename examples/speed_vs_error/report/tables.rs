@@ -88,7 +88,7 @@ pub fn json(studies: &[Study], machine: &Machine) -> Value {
     let Total { pairs, met, faster, geometric_mean } = Total::of(studies);
     json!({
         "machine": { "processor": machine.processor, "cores": machine.cores, "compiler": machine.compiler,
-            "target": machine.target, "build": machine.build, "load": machine.load },
+            "target": machine.target, "instructions": machine.instructions, "build": machine.build, "load": machine.load },
         "total": { "scenes_and_errors": pairs, "target_met": met, "faster": faster, "geometric_mean": geometric_mean },
         "scenes": studies.iter().map(scene).collect::<Vec<_>>(),
     })
