@@ -27,6 +27,12 @@ expansion:
     cargo run --profile unoptimised --example expansion_time
     cargo run --profile unoptimised --example chains
 
+# Speed against error, to be run on a quiet machine: as it is compiled by default, and for this processor.
+speed:
+    cargo run --release --example speed_vs_error -- --to target/gauss/plain
+    RUSTFLAGS="-C target-cpu=native" cargo run --release --target-dir target/native --example speed_vs_error -- --to target/gauss/native
+    cp target/gauss/plain/speed_vs_error.svg target/gauss/plain/speed_vs_error.png docs/
+
 # All that CI does.
 ci:
     bash .ci/run
