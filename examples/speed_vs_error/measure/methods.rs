@@ -22,15 +22,12 @@ fn explicit_in<S: Kernel, F: Form<Counted<S>> + 'static>(
     entries.extend([
         s.entry(("RK 4", Step(4)), form, |h| Fixed::by(RungeKutta(Classical4), h)),
         s.entry(("DP 8, fixed", Step(8)), form, |h| Fixed::by(RungeKutta(DormandPrince8), h)),
-        s.entry(("DP 5(4)", Tolerance), form, |tolerance| {
-            Adaptive::by(RungeKutta(DormandPrince5), tolerance, tolerance)
-        }),
         s.entry(("DP 8", Tolerance), form, |tolerance| Adaptive::by(RungeKutta(DormandPrince8), tolerance, tolerance)),
         s.entry(("Verner 9(8)", Tolerance), form, |tolerance| Adaptive::by(RungeKutta(Verner9), tolerance, tolerance)),
     ]);
 }
 
-/// The methods in the algebra, and those that keep something: for the chart that suits the scene best.
+/// Order 5, the methods in the algebra, and those that keep something: for the chart that suits the scene best.
 pub fn further<S: Kernel>(entries: &mut Vec<Entry>, setup: &Setup<S>) {
     further_in(entries, setup, ("velocity", VelocityForm));
     further_in(entries, setup, ("momentum", MomentumForm));
@@ -44,6 +41,9 @@ fn further_in<S: Kernel, F: Form<Counted<S>> + 'static>(
     use Setting::{Step, Tolerance};
     entries.extend([
         s.entry(("DP 5, fixed", Step(5)), form, |h| Fixed::by(RungeKutta(DormandPrince5), h)),
+        s.entry(("DP 5(4)", Tolerance), form, |tolerance| {
+            Adaptive::by(RungeKutta(DormandPrince5), tolerance, tolerance)
+        }),
         s.entry(("RKMK 4", Step(4)), form, |h| Fixed::with(&Tableau::RK4, h)),
         s.entry(("RKMK 8", Tolerance), form, |tolerance| {
             Adaptive::with(&Tableau::DORMAND_PRINCE_8, tolerance, tolerance)

@@ -41,11 +41,7 @@ impl Machine {
         .into_iter()
         .filter_map(|(name, on)| on.then_some(name))
         .collect();
-        let instructions = if instructions.is_empty() {
-            "the least processor of the target".to_owned()
-        } else {
-            instructions.join(", ")
-        };
+        let instructions = if instructions.is_empty() { format!("any {ARCH}") } else { instructions.join(", ") };
         let build = if cfg!(debug_assertions) { "with debug assertions: times mean little" } else { "release" };
         Self {
             processor: model.map_or_else(unknown, |(_, name)| name.to_owned()),
