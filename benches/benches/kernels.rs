@@ -1,0 +1,44 @@
+//! `cargo bench -p gauss-benches [-- S1 S4 …]`: accelerations of the scenes, generated, by hand and with matrices.
+//!
+//! Prints a table and leaves it in `target/gauss/benchmarks.md`. Options: `--rounds 400`, `--duration 0.001` (seconds a measurement).
+
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+
+use gauss_benches::cases;
+use gauss_benches::measure::times;
+use gauss_benches::report::{Row, table};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let (mut rounds, mut duration, mut wanted) = (400, 1e-3, Vec::new());
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        let mut value = || arguments.next().ok_or(format!("{argument} wants a number"));
+        match argument.as_str() {
+            // Cargo adds it.
+            "--bench" => {}
+            "--rounds" => rounds = value()?.parse()?,
+            "--duration" => duration = value()?.parse()?,
+            _ => wanted.push(argument),
+        }
+    }
+    let mut rows = Vec::new();
+    for case in cases::all()? {
+        if !wanted.is_empty() && !wanted.iter().any(|name| name == case.name) {
+            continue;
+        }
+        for difference in &case.differences {
+            assert!(*difference <= 1e-12, "{}: results differ by {difference:e}", case.name);
+        }
+        eprintln!("{} {} …", case.name, case.what);
+        let times = times(&case.ways, rounds, duration);
+        rows.push(Row { case, times });
+    }
+    let table = table(&rows);
+    println!("{table}");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/gauss");
+    fs::create_dir_all(&folder)?;
+    fs::write(folder.join("benchmarks.md"), table)?;
+    Ok(())
+}
