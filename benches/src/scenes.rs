@@ -67,18 +67,25 @@ pub struct Top {
     g: f64,
 }
 
-/// S5. A double pendulum in the plane; the second angle is that of the joint.
+/// S5. A double pendulum in the plane; the second angle is that of the joint. The centres of mass are on the lines of the links, which
+/// a `RigidBody` could not say: each link is two particles of half its mass, a radius of gyration to each side of its centre of mass.
 #[derive(Clone, Copy, GaussDynamics)]
 #[gauss(
     coordinates(a, c),
-    body(upper, rotation = rotation_y(-a)),
-    body(lower, parent = upper, position = [0, 0, -length], rotation = rotation_y(-c)),
+    frame(upper, rotation = rotation_y(-a)),
+    frame(lower, parent = upper, position = [0, 0, -length], rotation = rotation_y(-c)),
+    particle(mass = half1, parent = upper, position = [0, 0, -near1]),
+    particle(mass = half1, parent = upper, position = [0, 0, -far1]),
+    particle(mass = half2, parent = lower, position = [0, 0, -near2]),
+    particle(mass = half2, parent = lower, position = [0, 0, -far2]),
 )]
 pub struct DoublePendulum {
-    #[gauss(body)]
-    upper: RigidBody<f64>,
-    #[gauss(body)]
-    lower: RigidBody<f64>,
+    half1: f64,
+    near1: f64,
+    far1: f64,
+    half2: f64,
+    near2: f64,
+    far2: f64,
     length: f64,
     #[gauss(gravity)]
     g: f64,
@@ -88,14 +95,16 @@ pub struct DoublePendulum {
 #[derive(Clone, Copy, GaussDynamics)]
 #[gauss(
     coordinates(x, theta),
-    body(cart, position = [x, 0, 0]),
-    body(pole, parent = cart, rotation = rotation_y(theta)),
+    particle(mass = cart, position = [x, 0, 0]),
+    body(position = [x + length * sin(theta), 0, length * cos(theta)], rotation = rotation_y(theta)),
 )]
 pub struct CartPole {
-    #[gauss(body)]
-    cart: RigidBody<f64>,
-    #[gauss(body)]
-    pole: RigidBody<f64>,
+    cart: f64,
+    #[gauss(mass)]
+    pole: f64,
+    #[gauss(inertia)]
+    inertia: Vector3<f64>,
+    length: f64,
     #[gauss(gravity)]
     g: f64,
 }
@@ -240,15 +249,6 @@ pub mod numbers {
     pub const POLE: Link = (0.3, 0.5, 0.025);
 }
 
-/// A link with its centre of mass on the third axis, at ±distance.
-fn link((mass, distance, moment): numbers::Link, sign: f64) -> RigidBody<f64> {
-    let center = Vector3::new(0.0, 0.0, sign * distance);
-    let about_hinge = moment + mass * distance * distance;
-    // The moments about the other axes do not enter; these are those of a thin rod.
-    let inertia = Matrix3::from_diagonal(&Vector3::new(about_hinge, about_hinge, moment));
-    RigidBody { mass, center_of_mass: center, inertia }
-}
-
 /// S1.
 ///
 /// # Errors
@@ -292,8 +292,12 @@ pub fn top() -> Result<TopKernel, ParameterError> {
 /// # Errors
 /// Never, for the parameters of the scenes.
 pub fn double_pendulum() -> Result<DoublePendulumKernel, ParameterError> {
-    let (upper, lower) = (link(numbers::UPPER, -1.0), link(numbers::LOWER, -1.0));
-    DoublePendulum { upper, lower, length: numbers::LENGTH, g: G }.kernel()
+    let ends = |(mass, distance, moment): numbers::Link| {
+        let radius = (moment / mass).sqrt();
+        (mass / 2.0, distance - radius, distance + radius)
+    };
+    let ((half1, near1, far1), (half2, near2, far2)) = (ends(numbers::UPPER), ends(numbers::LOWER));
+    DoublePendulum { half1, near1, far1, half2, near2, far2, length: numbers::LENGTH, g: G }.kernel()
 }
 
 /// S6.
@@ -301,8 +305,9 @@ pub fn double_pendulum() -> Result<DoublePendulumKernel, ParameterError> {
 /// # Errors
 /// Never, for the parameters of the scenes.
 pub fn cart_pole() -> Result<CartPoleKernel, ParameterError> {
-    let cart = RigidBody { mass: numbers::CART, center_of_mass: Vector3::zeros(), inertia: Matrix3::identity() };
-    CartPole { cart, pole: link(numbers::POLE, 1.0), g: G }.kernel()
+    let (pole, length, moment) = numbers::POLE;
+    // The moments about the other axes do not enter.
+    CartPole { cart: numbers::CART, pole, inertia: Vector3::repeat(moment), length, g: G }.kernel()
 }
 
 /// S7, from the description.
