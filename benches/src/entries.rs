@@ -1,7 +1,5 @@
 //! What is timed and counted: one function for each, never inlined, so that each call pays what a call pays.
 
-use gauss_runtime::prelude::*;
-
 use crate::{Dynamics, Generated, by_hand, matrices, scenes};
 
 /// A state of a scene.
@@ -56,38 +54,4 @@ entries! {
     s6_matrices: matrices::CartPole;
     /// S7, generated.
     s7_generated: Generated<scenes::ArmKernel>;
-}
-
-/// ż, q̇ and T of one state: what a step with a look at the energy needs.
-pub type Together<S> = (<S as GaussSystem>::Speeds, <<S as GaussSystem>::Configuration as Configuration>::Tangent, f64);
-
-macro_rules! together {
-    ($($(#[$documentation:meta])* $name:ident: $kernel:ty;)+) => {$(
-        $(#[$documentation])*
-        #[inline(never)]
-        pub fn $name(
-            kernel: &Generated<$kernel>,
-            (q, z): &(<$kernel as GaussSystem>::Configuration, <$kernel as GaussSystem>::Speeds),
-        ) -> Together<$kernel> {
-            let kernel = &kernel.0;
-            (kernel.acceleration(0.0, q, z, &()), kernel.kinematics(0.0, q, z), kernel.kinetic_energy(0.0, q, z))
-        }
-    )+};
-}
-
-together! {
-    /// S1.
-    s1_together: scenes::FreeBodyKernel;
-    /// S2.
-    s2_together: scenes::HeavyBodyKernel;
-    /// S3.
-    s3_together: scenes::ImmersedKernel;
-    /// S4.
-    s4_together: scenes::TopKernel;
-    /// S5.
-    s5_together: scenes::DoublePendulumKernel;
-    /// S6.
-    s6_together: scenes::CartPoleKernel;
-    /// S7.
-    s7_together: scenes::ArmKernel;
 }

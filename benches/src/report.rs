@@ -9,7 +9,7 @@ use crate::measure::{Spread, Times};
 pub struct Row {
     /// The scene.
     pub case: Case,
-    /// Generated, by hand, with matrices; then all of ż, q̇ and T.
+    /// Generated, by hand, with matrices.
     pub times: Times,
 }
 
@@ -33,16 +33,15 @@ pub fn mean(rows: &[Row]) -> Option<f64> {
 pub fn table(rows: &[Row]) -> String {
     let mut text = String::from(
         "| scene | operations | generated, ns | by hand, ns | with matrices, ns | generated / by hand | \
-         generated / with matrices | ż, q̇ and T, ns |\n|---|---|---|---|---|---|---|---|\n",
+         generated / with matrices |\n|---|---|---|---|---|---|---|\n",
     );
     for Row { case, times } in rows {
         let compared = !case.differences.is_empty();
         let cell = |k: usize| if compared { absolute(&times.absolute[k]) } else { "–".into() };
         let quotient = |k: usize| if compared { ratio(&times.ratios[k]) } else { "–".into() };
-        let together = times.absolute.last().map(absolute).unwrap_or_default();
         let _ = writeln!(
             text,
-            "| {} {} | {} | {} | {} | {} | {} | {} | {together} |",
+            "| {} {} | {} | {} | {} | {} | {} | {} |",
             case.name,
             case.what,
             case.operations,
