@@ -59,6 +59,7 @@ pub mod real;
 pub mod series;
 pub mod system;
 
+mod trigonometry;
 mod triple;
 
 #[doc(hidden)]

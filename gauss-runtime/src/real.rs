@@ -9,6 +9,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use crate::trigonometry::sin_cos;
+
 /// A real number, or a pack of them that is worked on lane by lane.
 ///
 /// Implemented for [`f32`] and [`f64`]; implement it for SIMD packs, dual numbers or extended precision to run the same
@@ -186,7 +188,7 @@ macro_rules! elementary {
 }
 
 macro_rules! implement_real {
-    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $sincos:ident) => {
+    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $sincos:expr) => {
         impl Real for $float {
             const LANES: usize = 1;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -250,7 +252,7 @@ macro_rules! implement_real {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                elementary!($float, sin_cos, $sincos; self)
+                $sincos(self)
             }
 
             #[inline(always)]
@@ -273,10 +275,14 @@ macro_rules! implement_real {
 
 implement_real!(f64, 53;
     sqrt sqrt, sin sin, cos cos, tan tan, asin asin, acos acos, atan atan,
-    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 sincos);
+    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 sin_cos);
 implement_real!(f32, 24;
-    sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
-    sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f sincosf);
+sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
+sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f |x: f32| {
+    // Rounded once more than it need be: within 0.5 ulp and a little.
+    let (sine, cosine) = sin_cos(f64::from(x));
+    (sine as f32, cosine as f32)
+});
 
 /// `p/q` rounded once, to `digits ≤ 53` binary digits, ties to even; by integer long division, because operands beyond
 /// 2⁵³ would be rounded before the division.
