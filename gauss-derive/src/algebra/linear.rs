@@ -159,6 +159,26 @@ pub fn solve_symmetric<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<
     solve_by_blocks(matrix, right, matrix.len())
 }
 
+/// The same with blocks of two unknowns solved by Cramer's rule: one division instead of two that wait for one another. For two unknowns,
+/// and not for more, the rule is as accurate as elimination (Higham, Accuracy and Stability of Numerical Algorithms, 2002, 1.10.1).
+/// `None` when there is no such block.
+pub fn solve_pairs<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
+    let blocks = connected_blocks(matrix);
+    let pairs: Vec<[usize; 2]> = blocks.into_iter().filter_map(|block| block.try_into().ok()).collect();
+    if pairs.is_empty() {
+        return None;
+    }
+    let mut solution = solve_symmetric(matrix, right);
+    for [i, j] in pairs {
+        let (a, b, c) = (matrix[i][i], matrix[i.min(j)][i.max(j)], matrix[j][j]);
+        let (f, g) = (right[i].group(), right[j].group());
+        let reciprocal = (a.group() * c.group() - b.group().powi(2)).group().recip();
+        solution[i] = (c.group() * f - b.group() * g).group() * reciprocal;
+        solution[j] = (a.group() * g - b.group() * f).group() * reciprocal;
+    }
+    Some(solution)
+}
+
 /// (x, μ) with `A x + Jᵀ μ = right`, `J x = bias`, for a symmetric positive definite A and rows of J that are independent:
 /// the same elimination of the whole, the multipliers last, so that the pivots are those of A and of −J A⁻¹ Jᵀ.
 pub fn solve_saddle<'g>(

@@ -23,7 +23,7 @@ mod tests;
 
 pub use evaluate::{Evaluation, Tangents};
 pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView};
-pub use linear::{Solver, inverse_of_symmetric, solve_saddle, solve_symmetric};
+pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
 pub use map::Map;
 pub use polynomial::Polynomial;
 pub use print::{Notation, print};

@@ -93,9 +93,10 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// A single figure to compare arrangements by: latency-like weights in units of one addition.
+    /// A single figure to compare arrangements by, in units of one addition. A division or a root keeps its unit busy as long as eight
+    /// additions (Fog, Instruction tables: four cycles where two additions start in each), and everything else waits for it.
     pub fn cost(&self) -> u32 {
-        self.additions + self.multiplications + 4 * (self.divisions + self.roots) + 15 * self.transcendentals
+        self.additions + self.multiplications + 8 * (self.divisions + self.roots) + 15 * self.transcendentals
     }
 }
 

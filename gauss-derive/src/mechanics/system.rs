@@ -1,7 +1,7 @@
 //! Systems of bodies and particles in coordinates of their own: the Gauss condition (3.3), (3.4) summed over all of them,
 //! and every method of their kernels.
 
-use crate::algebra::{Expr, Graph, Map, solve_symmetric};
+use crate::algebra::{Expr, Graph, Map, solve_pairs, solve_symmetric};
 
 use super::accounts::account_formulas;
 use super::articulated::Articulated;
@@ -257,6 +257,7 @@ impl<'g> System<'g> {
         let mut solutions: Vec<Vec<Expr<'g>>> = articulated.iter().map(|a| a.solve(right)).collect();
         if solutions.is_empty() || right.len() <= DENSE {
             solutions.push(solve_symmetric(matrix, right));
+            solutions.extend(solve_pairs(matrix, right));
         }
         solutions
     }
