@@ -53,18 +53,21 @@ pub struct Immersed {
     buoyancy: Vector3<f64>,
 }
 
-/// S4. A heavy top with three different moments, in Euler angles.
+/// S4. A heavy top with three different moments, in Euler angles; its centre of mass is on the third axis, so the weight is a potential.
 #[derive(Clone, Copy, GaussDynamics)]
-#[gauss(chart = jet(euler_zxz), motion = fixed_point)]
+#[gauss(
+    chart = jet(euler_zxz),
+    motion = fixed_point,
+    define(axis = body.rotation * [0, 0, 1]),
+    potential = weight * distance * axis.z,
+)]
 pub struct Top {
     #[gauss(mass)]
     mass: f64,
-    #[gauss(center_of_mass)]
-    center: Vector3<f64>,
     #[gauss(inertia)]
     inertia: Vector3<f64>,
-    #[gauss(gravity)]
-    g: f64,
+    weight: f64,
+    distance: f64,
 }
 
 /// S5. A double pendulum in the plane; the second angle is that of the joint. The centres of mass are on the lines of the links, which
@@ -284,7 +287,7 @@ pub fn immersed() -> Result<ImmersedKernel, ParameterError> {
 /// Never, for the parameters of the scenes.
 pub fn top() -> Result<TopKernel, ParameterError> {
     let (mass, distance, inertia) = numbers::top();
-    Top { mass, center: Vector3::new(0.0, 0.0, distance), inertia, g: G }.kernel()
+    Top { mass, inertia, weight: mass * G, distance }.kernel()
 }
 
 /// S5.

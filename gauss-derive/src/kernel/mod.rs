@@ -4,6 +4,7 @@
 //! - `hoist`: what depends on parameters alone becomes a constant, computed once.
 //! - `factor`: common factors of the terms of a sum are pulled out.
 //! - `network`: sums and products of many terms; parts that occur more than once are split off.
+//! - `signs`: negations led to where they cost nothing.
 //! - `tangent`: derivatives of programs.
 //! - `program`: single-assignment instructions, their counts, and an interpreter to check them with.
 //!
@@ -14,6 +15,7 @@ mod factor;
 mod hoist;
 mod network;
 mod program;
+mod signs;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -110,7 +112,8 @@ impl<'g> Kernel<'g> {
                 .into_iter()
                 .min_by_key(|(program, _)| cost_of(program))
                 .expect("a function has at least one arrangement");
-            programs.push(program);
+            // A power series takes a negation of an addend for an instruction like any other.
+            programs.push(if *cost == Cost::Values { program.with_signs_led_back() } else { program });
             chosen.push(outputs);
         }
         let (tangents, derived) = differentiated.map(|wanted| wanted.lower(&mut hoister)).unzip();

@@ -66,7 +66,10 @@ fn every_pass_keeps_the_values_of_random_expressions() {
         let mut factoring = Factoring::default();
         let factored: Vec<Expr<'_>> = hoisted.iter().map(|e| factoring.rewrite(*e)).collect();
         close("factoring", &values(&factored, &with_constants));
-        close("the program", &Program::lower(&hoisted).run(&with_constants));
+        let program = Program::lower(&hoisted);
+        let results = program.run(&with_constants);
+        close("the program", &results);
+        assert_eq!(program.with_signs_led_back().run(&with_constants), results, "signs, seed {seed}");
     }
 }
 
@@ -101,6 +104,24 @@ fn common_parts_are_computed_once() {
     assert_eq!(counts(&[a.powi(2), a.powi(4)]), operations(0, 2, 0, 0));
     // Parts that become alike only when others were split off.
     assert_eq!(counts(&[a * b * c + d, a * b * c * d, a * b]), operations(1, 3, 0, 0));
+}
+
+/// −(a b − c − d²) is c + d² − a b; what another output reads as well keeps its sign.
+#[test]
+fn signs_are_led_to_where_they_cost_nothing() {
+    let graph = Graph::new();
+    let [a, b, c, d] = ["a", "b", "c", "d"].map(|n| graph.symbol(n, n, false));
+    let results = |program: &Program<'_>| {
+        let negations = program.outputs.iter().filter(|output| match output {
+            super::Operand::Value(k) => matches!(program.instructions[*k], super::Operation::Negate(_)),
+            _ => false,
+        });
+        negations.count()
+    };
+    let one = Program::lower(&[-(a * b - c * d - d * d)]);
+    let both = Program::lower(&[a * b - c, c - a * b]);
+    assert_eq!([results(&one), results(&both)], [1, 1]);
+    assert_eq!([results(&one.with_signs_led_back()), results(&both.with_signs_led_back())], [0, 1]);
 }
 
 #[test]

@@ -172,7 +172,10 @@ impl<'g> Scene<'g> {
 
     pub fn formulas(&self) -> Vec<Formula<'g>> {
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
-        let balances = ARRANGEMENTS.map(|arrangement| self.balance(arrangement));
+        let mut balances = Vec::from(ARRANGEMENTS.map(|arrangement| self.balance(arrangement)));
+        if self.adds_momentum() {
+            balances.push(self.balance(Arrangement::Whole));
+        }
         let residuals: Vec<Vec<Expr<'g>>> = balances[..2].iter().map(|b| self.residual(b)).collect();
         let momentum = self.momentum();
         let (pair, velocity) = self.state_of_momentum();
@@ -201,6 +204,12 @@ impl<'g> Scene<'g> {
         }
         formulas.sort_by_key(|f| f.method);
         formulas
+    }
+
+    /// Whether Q has parts of u and of ω that turn together: then their sum is turned once.
+    fn adds_momentum(&self) -> bool {
+        let coupled = || (0..3).any(|i| (3..6).any(|j| !self.matrix.entries[i][j].is_zero()));
+        self.matrix.isotropic.is_some() && self.linear_in == Axes::Body && coupled()
     }
 
     /// One account for each element of what acts, with weight and buoyancy first; none where nothing else acts.

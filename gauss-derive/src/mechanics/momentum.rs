@@ -218,6 +218,8 @@ pub enum Arrangement {
     Collected,
     /// Collected once more after the solve, so that the inverse is folded into constant coefficients.
     Folded,
+    /// As collected, with ω × (μ u + M₁₂ ω) as one product where the translation is isotropic: dQ/dt = Q̇ + ω × Q.
+    Whole,
 }
 
 pub const ARRANGEMENTS: [Arrangement; 3] = [Arrangement::Structured, Arrangement::Collected, Arrangement::Folded];
@@ -294,6 +296,15 @@ pub fn solve_balance<'g>(
             let schur = schur_complement(matrix, per_mass, &angular_axes);
             let reduced = tidy(subtract(&angular_bias, &matrix.block(3, 0, &inner)));
             let angular = spread(&apply(&inverse_of_symmetric(&schur), &pick(&reduced, &angular_axes)), &angular_axes);
+            if arrangement == Arrangement::Whole {
+                // (Q + M₁₂ ω̇)/μ and its like: what is divided by μ is constant.
+                let momentum = add(&formal.u, &matrix.scaled_block(per_mass, 0, 3, &formal.omega)).map(Expr::group);
+                let turning = frame.derivative(&frame.body_vector(momentum), &Map::default(), &omega).body;
+                let acting = scale(per_mass, &add(&observed_in_body, &formal.force));
+                let rest = add(&turning, &matrix.scaled_block(per_mass, 0, 3, &angular));
+                let linear = LinearAcceleration::Relative(subtract(&acting, &rest).map(Expr::group));
+                return Balance { linear_bias, angular_bias, linear, angular };
+            }
             let rest = add(&linear_bias, &matrix.block(0, 3, &angular));
             let in_body = scale(-per_mass, &rest.map(Expr::group));
             let observed = frame.body_vector(in_body);
