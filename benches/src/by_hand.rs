@@ -207,7 +207,7 @@ impl Dynamics for Top {
     }
 }
 
-/// S5, by the angles from the vertical.
+/// S5.
 #[derive(Clone, Copy, Debug)]
 pub struct DoublePendulum {
     /// Moments: of the upper link with the lower one's mass at its end, of the lower link, and what couples them.
@@ -225,6 +225,17 @@ impl DoublePendulum {
         let weights = [(m1 * c1 + m2 * l) * G, m2 * c2 * G];
         Self { moments: [upper, lower, m2 * l * c2], weights, product: upper * lower }
     }
+
+    /// Rates of the angular velocities of the links; sines of both angles, sine and cosine of what the lower one is ahead.
+    #[inline(always)]
+    fn rates(&self, sines: [f64; 2], (sine, cosine): (f64, f64), speeds: [f64; 2]) -> [f64; 2] {
+        let [upper, lower, coupling] = self.moments;
+        let (off, turning) = (coupling * cosine, coupling * sine);
+        let f1 = minor(turning, speeds[1] * speeds[1], self.weights[0], sines[0]);
+        let f2 = fma(-turning, speeds[0] * speeds[0], -(self.weights[1] * sines[1]));
+        let reciprocal = 1.0 / fma(-off, off, self.product);
+        [minor(lower, f1, off, f2) * reciprocal, minor(upper, f2, off, f1) * reciprocal]
+    }
 }
 
 impl Dynamics for DoublePendulum {
@@ -234,16 +245,25 @@ impl Dynamics for DoublePendulum {
     #[inline]
     fn acceleration(&self, q: &Vector2<f64>, z: &Vector2<f64>) -> Vector2<f64> {
         let (sa, ca) = Real::sin_cos(q[0]);
+        let (sb, cb) = Real::sin_cos(q[1]);
+        self.rates([sa, sb], (minor(sb, ca, cb, sa), fma(sa, sb, ca * cb)), [z[0], z[1]]).into()
+    }
+}
+
+/// S5′.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct JointedPendulum(pub DoublePendulum);
+
+impl Dynamics for JointedPendulum {
+    type Configuration = Vector2<f64>;
+    type Speeds = Vector2<f64>;
+
+    #[inline]
+    fn acceleration(&self, q: &Vector2<f64>, z: &Vector2<f64>) -> Vector2<f64> {
+        let (sa, ca) = Real::sin_cos(q[0]);
         let (sc, cc) = Real::sin_cos(q[1]);
-        let [upper, lower, coupling] = self.moments;
-        let second = z[0] + z[1];
-        let sine_of_sum = fma(sa, cc, ca * sc);
-        let (off, turning) = (coupling * cc, coupling * sc);
-        let f1 = minor(turning, second * second, self.weights[0], sa);
-        let f2 = fma(-turning, z[0] * z[0], -(self.weights[1] * sine_of_sum));
-        let reciprocal = 1.0 / fma(-off, off, self.product);
-        let first = minor(lower, f1, off, f2) * reciprocal;
-        Vector2::new(first, fma(minor(upper, f2, off, f1), reciprocal, -first))
+        let [first, second] = self.0.rates([sa, fma(sa, cc, ca * sc)], (sc, cc), [z[0], z[0] + z[1]]);
+        Vector2::new(first, second - first)
     }
 }
 

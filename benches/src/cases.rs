@@ -117,7 +117,7 @@ pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
         ),
         case!(
             "S5",
-            "double pendulum",
+            "double pendulum, angles from the vertical",
             scenes::double_pendulum()?,
             of_angles::<2>(),
             s5_generated,
@@ -125,6 +125,17 @@ pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
             s5_by_hand,
             matrices::DoublePendulum,
             s5_matrices
+        ),
+        case!(
+            "S5′",
+            "the same, angle of the joint",
+            scenes::jointed_pendulum()?,
+            of_angles::<2>(),
+            s5_jointed_generated,
+            by_hand::JointedPendulum::default(),
+            s5_jointed_by_hand,
+            matrices::JointedPendulum,
+            s5_jointed_matrices
         ),
         case!(
             "S6",

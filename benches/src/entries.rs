@@ -46,6 +46,12 @@ entries! {
     s5_by_hand: by_hand::DoublePendulum;
     /// S5, with matrices.
     s5_matrices: matrices::DoublePendulum;
+    /// S5′, generated.
+    s5_jointed_generated: Generated<scenes::JointedPendulumKernel>;
+    /// S5′, by hand.
+    s5_jointed_by_hand: by_hand::JointedPendulum;
+    /// S5′, with matrices.
+    s5_jointed_matrices: matrices::JointedPendulum;
     /// S6, generated.
     s6_generated: Generated<scenes::CartPoleKernel>;
     /// S6, by hand.

@@ -119,7 +119,7 @@ impl Dynamics for Top {
     }
 }
 
-/// S5: both angles from the vertical, A ż = f, and back to the angle of the joint.
+/// S5: A ż = f.
 #[derive(Clone, Copy, Debug)]
 pub struct DoublePendulum;
 
@@ -130,17 +130,30 @@ impl Dynamics for DoublePendulum {
     #[inline]
     fn acceleration(&self, q: &Vector2<f64>, z: &Vector2<f64>) -> Vector2<f64> {
         let ((m1, c1, i1), (m2, c2, i2), l) = (numbers::UPPER, numbers::LOWER, numbers::LENGTH);
-        let (a, b) = (q[0], q[0] + q[1]);
-        let (first, second) = (z[0], z[0] + z[1]);
         let coupling = m2 * l * c2;
-        let off = coupling * (a - b).cos();
-        let mass = Matrix2::new(i1 + m1 * c1 * c1 + m2 * l * l, off, off, i2 + m2 * c2 * c2);
-        let turning = coupling * (a - b).sin();
+        let (sine, cosine) = (q[0] - q[1]).sin_cos();
+        let mass =
+            Matrix2::new(i1 + m1 * c1 * c1 + m2 * l * l, coupling * cosine, coupling * cosine, i2 + m2 * c2 * c2);
         let right = Vector2::new(
-            -turning * second * second - (m1 * c1 + m2 * l) * G * a.sin(),
-            turning * first * first - m2 * c2 * G * b.sin(),
+            -coupling * sine * z[1] * z[1] - (m1 * c1 + m2 * l) * G * q[0].sin(),
+            coupling * sine * z[0] * z[0] - m2 * c2 * G * q[1].sin(),
         );
-        let rates = mass.cholesky().expect("the mass matrix is positive definite").solve(&right);
+        mass.cholesky().expect("the mass matrix is positive definite").solve(&right)
+    }
+}
+
+/// S5′: from the angle of the joint to those from the vertical and back.
+#[derive(Clone, Copy, Debug)]
+pub struct JointedPendulum;
+
+impl Dynamics for JointedPendulum {
+    type Configuration = Vector2<f64>;
+    type Speeds = Vector2<f64>;
+
+    #[inline]
+    fn acceleration(&self, q: &Vector2<f64>, z: &Vector2<f64>) -> Vector2<f64> {
+        let sum = |v: &Vector2<f64>| Vector2::new(v[0], v[0] + v[1]);
+        let rates = DoublePendulum.acceleration(&sum(q), &sum(z));
         Vector2::new(rates[0], rates[1] - rates[0])
     }
 }

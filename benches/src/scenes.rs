@@ -70,29 +70,60 @@ pub struct Top {
     distance: f64,
 }
 
-/// S5. A double pendulum in the plane; the second angle is that of the joint. The centres of mass are on the lines of the links, which
-/// a `RigidBody` could not say: each link is two particles of half its mass, a radius of gyration to each side of its centre of mass.
-#[derive(Clone, Copy, GaussDynamics)]
-#[gauss(
-    coordinates(a, c),
-    frame(upper, rotation = rotation_y(-a)),
-    frame(lower, parent = upper, position = [0, 0, -length], rotation = rotation_y(-c)),
-    particle(mass = half1, parent = upper, position = [0, 0, -near1]),
-    particle(mass = half1, parent = upper, position = [0, 0, -far1]),
-    particle(mass = half2, parent = lower, position = [0, 0, -near2]),
-    particle(mass = half2, parent = lower, position = [0, 0, -far2]),
-)]
-pub struct DoublePendulum {
-    half1: f64,
-    near1: f64,
-    far1: f64,
-    half2: f64,
-    near2: f64,
-    far2: f64,
-    length: f64,
-    #[gauss(gravity)]
-    g: f64,
+/// The two double pendulums: the centres of mass are on the lines of the links, which a `RigidBody` could not say, so each link is two
+/// particles of half its mass, a radius of gyration to each side of its centre of mass.
+macro_rules! pendulum {
+    ($(#[$documentation:meta])* $name:ident [$($clause:tt)+]) => {
+        $(#[$documentation])*
+        #[derive(Clone, Copy, GaussDynamics)]
+        #[gauss(
+            $($clause)+,
+            frame(upper, rotation = rotation_y(-a)),
+            particle(mass = half1, parent = upper, position = [0, 0, -near1]),
+            particle(mass = half1, parent = upper, position = [0, 0, -far1]),
+            particle(mass = half2, parent = lower, position = [0, 0, -near2]),
+            particle(mass = half2, parent = lower, position = [0, 0, -far2]),
+        )]
+        pub struct $name {
+            half1: f64,
+            near1: f64,
+            far1: f64,
+            half2: f64,
+            near2: f64,
+            far2: f64,
+            length: f64,
+            #[gauss(gravity)]
+            g: f64,
+        }
+
+        impl $name {
+            fn new() -> Self {
+                let ends = |(mass, distance, moment): numbers::Link| {
+                    let radius = (moment / mass).sqrt();
+                    (mass / 2.0, distance - radius, distance + radius)
+                };
+                let ((half1, near1, far1), (half2, near2, far2)) = (ends(numbers::UPPER), ends(numbers::LOWER));
+                Self { half1, near1, far1, half2, near2, far2, length: numbers::LENGTH, g: G }
+            }
+        }
+    };
 }
+
+pendulum!(
+    /// S5. A double pendulum in the plane, angles from the vertical.
+    DoublePendulum [
+        coordinates(a, b),
+        frame(lower, position = [length * sin(a), 0, -length * cos(a)], rotation = rotation_y(-b))
+    ]
+);
+
+pendulum!(
+    /// S5′. The same with the angle of the joint.
+    JointedPendulum [
+        coordinates(a, c),
+        frame(lower, parent = upper, position = [0, 0, -length], rotation = rotation_y(-c))
+    ]
+);
 
 /// S6. A cart and a pole; the angle is zero where the pole stands upright.
 #[derive(Clone, Copy, GaussDynamics)]
@@ -295,12 +326,15 @@ pub fn top() -> Result<TopKernel, ParameterError> {
 /// # Errors
 /// Never, for the parameters of the scenes.
 pub fn double_pendulum() -> Result<DoublePendulumKernel, ParameterError> {
-    let ends = |(mass, distance, moment): numbers::Link| {
-        let radius = (moment / mass).sqrt();
-        (mass / 2.0, distance - radius, distance + radius)
-    };
-    let ((half1, near1, far1), (half2, near2, far2)) = (ends(numbers::UPPER), ends(numbers::LOWER));
-    DoublePendulum { half1, near1, far1, half2, near2, far2, length: numbers::LENGTH, g: G }.kernel()
+    DoublePendulum::new().kernel()
+}
+
+/// S5′.
+///
+/// # Errors
+/// Never, for the parameters of the scenes.
+pub fn jointed_pendulum() -> Result<JointedPendulumKernel, ParameterError> {
+    JointedPendulum::new().kernel()
 }
 
 /// S6.
