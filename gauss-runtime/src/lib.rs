@@ -15,6 +15,8 @@
 //! | [`monitor`] | energy and momentum watched over a run, energy against the work supplied |
 //! | [`error`] | parameters that no body has, and warnings |
 //! | [`real`] | the scalar: floats, SIMD lanes, dual numbers |
+//! | [`simd`] | packs of numbers that are worked on in lockstep |
+//! | `batch` | many states of one scene at once: lanes times threads |
 //!
 //! Mathematics and numbers of equations: Massa & Vignolo, *Newton–Euler, Lagrange and Kirchhoff formulations of rigid body
 //! dynamics: a unified approach*.
@@ -26,6 +28,9 @@
 //! - `libm`: elementary functions without the standard library. One of `std` and `libm` is needed.
 //! - `alloc`: trajectories, and what is made of them, without the standard library. Integrators and monitors themselves never
 //!   allocate.
+//! - `wide`: the vectors of the crate `wide` as scalars, for the widest instructions that the target has; see [`simd`].
+//! - `rayon`: batches on all threads.
+//! - `num-dual`: the dual numbers of that crate as scalars; see [`real`].
 //! - `differential-equations`, `diffsol`, `ode_solvers`: [`adapters`] to the crates of these names; each implies `std`.
 
 #![no_std]
@@ -44,10 +49,14 @@ extern crate alloc;
 extern crate std;
 
 pub mod adapters;
+#[cfg(feature = "alloc")]
+pub mod batch;
 pub mod chart;
 pub mod condition;
 pub mod configuration;
 pub mod constraint;
+#[cfg(feature = "num-dual")]
+mod dual;
 pub mod error;
 pub mod forces;
 pub mod integrate;
@@ -57,6 +66,7 @@ pub mod monitor;
 pub mod prelude;
 pub mod real;
 pub mod series;
+pub mod simd;
 pub mod system;
 
 mod trigonometry;

@@ -3,6 +3,8 @@
 #[cfg(feature = "derive")]
 pub use gauss_derive::GaussDynamics;
 
+#[cfg(feature = "alloc")]
+pub use crate::batch::{Batch, BatchError, Packs, StateError, States};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::{ConstrainedSystem, ProjectionError};
@@ -22,6 +24,7 @@ pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 pub use crate::monitor::{EnergyBalance, monitor, monitor_body, power_balance};
 pub use crate::real::Real;
 pub use crate::series::TaylorSystem;
+pub use crate::simd::Lanes;
 pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,

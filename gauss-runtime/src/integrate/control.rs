@@ -138,7 +138,7 @@ impl<M> Adaptive<M> {
 
 /// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the first
 /// step.
-pub(super) fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
+pub(crate) fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
     problem: &Problem<'_, S, F, I>,
     start: &State<S>,
     end: S::Scalar,
@@ -159,6 +159,15 @@ pub(super) fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
 
 /// The end of a step, and the derivatives there where they came with it.
 pub(super) type Advanced<S> = (State<S>, Option<Rates<S>>);
+
+/// How many steps of a length fill a span of time. A remainder of a few roundings of the count is that of the length and of the
+/// ends, not a step.
+pub(crate) fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
+    let count = span.abs() / length;
+    let unit = T::EPSILON.max(f64::EPSILON);
+    let whole = Real::abs(count - round(count)) <= 8.0 * unit * count.max(1.0);
+    if whole { round(count).max(1.0) } else { floor(count) + 1.0 }
+}
 
 /// Steps of length |length|, the last one ending where it should, each made by `advance`.
 #[inline]
@@ -181,11 +190,7 @@ pub(super) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>
         return Ok(start);
     }
 
-    // A remainder of a few roundings of the count is that of h and of the ends, not a step.
-    let count = span.abs() / positive;
-    let unit = S::Scalar::EPSILON.max(f64::EPSILON);
-    let whole = Real::abs(count - round(count)) <= 8.0 * unit * count.max(1.0);
-    let steps = if whole { round(count).max(1.0) } else { floor(count) + 1.0 };
+    let steps = number_of_steps::<S::Scalar>(span, positive);
     if steps > limit as f64 {
         return Err(stopped(&start, IntegrationErrorKind::TooManySteps { limit }));
     }

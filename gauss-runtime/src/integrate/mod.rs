@@ -63,6 +63,8 @@ pub use compensated::Compensated;
 pub use composition::{Composed, Composition};
 pub use control::{Adaptive, Control, Emit, Fixed};
 #[cfg(feature = "alloc")]
+pub(crate) use control::{number_of_steps, prepare};
+#[cfg(feature = "alloc")]
 pub use dense::Dense;
 pub use energy_momentum::EnergyMomentum;
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
@@ -70,6 +72,8 @@ pub use event::Crossing;
 pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
 pub use method::{EitherForm, Method};
 pub use one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
+#[cfg(feature = "alloc")]
+pub(crate) use projection::accept;
 pub use rkmk::Rkmk;
 pub use rosenbrock::Rosenbrock;
 pub use runge_kutta::RungeKutta;

@@ -14,7 +14,7 @@ use crate::system::GaussSystem;
 /// Brings the end of an accepted step onto the constraints, where there are any, and gives the derivatives there. Those that
 /// came with the step belong to its end before it was projected, and serve without constraints only.
 #[inline(always)]
-pub(super) fn accept<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
+pub(crate) fn accept<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
     problem: &Problem<'_, S, F, I>,
     state: &mut State<S>,
     known: Option<Rates<S>>,

@@ -1,0 +1,230 @@
+//! One block of states over an interval of time, each lane on its own when it fails.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::BatchSystem;
+use super::error::StateError;
+use super::packs::{SingleConfiguration, SingleSpeeds};
+use crate::configuration::Configuration;
+use crate::integrate::{
+    Form, InputSource, IntegrationErrorKind, OneStep, Problem, Rates, State, accept, number_of_steps, prepare,
+};
+use crate::real::Real;
+use crate::simd::Packed;
+
+/// The interval of time of a run, and the length of its steps.
+pub(super) struct Interval {
+    start: f64,
+    end: f64,
+    step: f64,
+}
+
+impl Interval {
+    pub(super) fn new(step: f64, interval: Range<f64>) -> Self {
+        Self { start: interval.start, end: interval.end, step }
+    }
+}
+
+/// A state and the derivatives there.
+type Reached<S> = (State<S>, Rates<S>);
+
+/// A lane that stopped, and the state at which it stands still.
+struct Held<S: BatchSystem> {
+    lane: usize,
+    t: <S::Scalar as Packed>::Single,
+    q: SingleConfiguration<S>,
+    y: SingleSpeeds<S>,
+}
+
+/// A block on its way. The first `states` lanes are states of the batch; those after them repeat the last one.
+struct Block<'a, 'k, S: BatchSystem, F, I, M> {
+    problem: &'a Problem<'k, S, F, I>,
+    method: &'a M,
+    states: usize,
+    held: Vec<Held<S>>,
+    failures: Vec<StateError>,
+}
+
+/// Carries a block, of which the first `states` lanes count, over the interval. What stopped is returned, by lane; (q, z) then holds
+/// the last good state of that lane.
+pub(super) fn advance<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<S>>(
+    problem: &Problem<'_, S, F, I>,
+    method: &M,
+    interval: &Interval,
+    states: usize,
+    (q, z): (&mut S::Configuration, &mut S::Speeds),
+) -> Vec<StateError> {
+    let mut block = Block { problem, method, states, held: Vec::new(), failures: Vec::new() };
+    let Some((span, mut reached)) = block.start(interval, q, z) else { return block.failures };
+    // Lanes that cannot even start get their states back at the end.
+    let (given, refused) = ((*q, *z), block.failures.len());
+
+    let (start, end) = (reached.0.t, S::Scalar::from_f64(interval.end));
+    let steps = if span == 0.0 { 0 } else { number_of_steps::<S::Scalar>(span, interval.step.abs()) as u64 };
+    let h = S::Scalar::from_f64(if span < 0.0 { -interval.step.abs() } else { interval.step.abs() });
+    for n in 1..=steps {
+        // As `Fixed` has it: times are multiples of h, not sums of it, and the last step ends where it should.
+        let last = n == steps;
+        let time = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start) };
+        let this = if last { end - reached.0.t } else { h };
+        match block.step_of_the_able(&reached, this, time) {
+            Some(next) => reached = next,
+            None => break,
+        }
+    }
+
+    let (state, _) = reached;
+    (*q, *z) = (state.q, problem.form.speeds(problem.system, state.t, &state.q, &state.y));
+    for lane in block.failures[..refused].iter().flat_map(|failure| block.lanes_of(failure.state)) {
+        q.replace(lane, &given.0.extract(lane));
+        z.replace(lane, &given.1.extract(lane));
+    }
+    block.failures
+}
+
+impl<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<S>> Block<'_, '_, S, F, I, M> {
+    /// The lanes that hold a state.
+    fn lanes_of(&self, state: usize) -> Range<usize> {
+        let end = if state + 1 == self.states { S::Scalar::WIDTH } else { state + 1 };
+        state..end
+    }
+
+    /// The span of time and the state at its start, which is good in all lanes: lanes that are not hold the state of one that is.
+    /// `None` when none is.
+    fn start(&mut self, interval: &Interval, q: &S::Configuration, z: &S::Speeds) -> Option<(f64, Reached<S>)> {
+        if !(interval.step.is_finite() && interval.step != 0.0) {
+            self.fail_the_rest(interval.start, IntegrationErrorKind::InvalidStep { step: interval.step });
+            return None;
+        }
+        match self.check(interval, q, z) {
+            Ok(started) => Some(started),
+            Err(kind) => {
+                let mut good = None;
+                for state in 0..self.states {
+                    let single = (q.extract(state), z.extract(state));
+                    match self.check(interval, &S::Configuration::repeat(&single.0), &S::Speeds::repeat(&single.1)) {
+                        Ok(_) => good = Some(single),
+                        Err(kind) => self.failures.push(StateError { state, time: interval.start, kind }),
+                    }
+                }
+                let (mut q, mut z) = (*q, *z);
+                for lane in self.failures.iter().flat_map(|failure| self.lanes_of(failure.state)) {
+                    let (good_q, good_z) = good?;
+                    q.replace(lane, &good_q);
+                    z.replace(lane, &good_z);
+                }
+                // Lanes with parameters of their own may all do alone and not together; then there is no one to blame.
+                let Ok(started) = self.check(interval, &q, &z) else {
+                    self.fail_the_rest(interval.start, kind);
+                    return None;
+                };
+                for state in self.failures.iter().map(|failure| failure.state) {
+                    let holding = self.lanes_of(state).map(|lane| Held::at(&started.1.0, lane));
+                    self.held.extend(holding);
+                }
+                Some(started)
+            }
+        }
+    }
+
+    /// The start of a run, refused where a step from there would be.
+    fn check(
+        &self,
+        interval: &Interval,
+        q: &S::Configuration,
+        z: &S::Speeds,
+    ) -> Result<(f64, Reached<S>), IntegrationErrorKind> {
+        let system = self.problem.system;
+        let (t, q) = (S::Scalar::from_f64(interval.start), q.renormalise());
+        let start = State { t, q, y: self.problem.form.variables(system, t, &q, z) };
+        let (span, start, rates) = prepare(self.problem, &start, S::Scalar::from_f64(interval.end))?;
+        let regularity = system.regularity(t, &q);
+        let singular = |regularity: &f64| regularity.abs() <= Real::sqrt(S::Scalar::EPSILON);
+        match (0..S::Scalar::LANES).map(|lane| regularity.lane(lane)).find(singular) {
+            Some(regularity) => Err(IntegrationErrorKind::SingularChart { regularity }),
+            None => Ok((span, (start, rates))),
+        }
+    }
+
+    /// A step to `time`, in which lanes that stopped stand still. When it fails, the lanes that are to blame stop, and the others make
+    /// it. `None` when there are no others.
+    #[inline]
+    fn step_of_the_able(&mut self, from: &Reached<S>, h: S::Scalar, time: S::Scalar) -> Option<Reached<S>> {
+        match self.step(from, self.without_the_held(h), time) {
+            Ok(next) => Some(next),
+            Err(kind) => self.step_after_failure(from, h, time, kind),
+        }
+    }
+
+    /// The error does not tell which lanes fail. They are independent, and a step of length zero succeeds from every good state: so
+    /// each is tried while the others stand still.
+    #[cold]
+    fn step_after_failure(
+        &mut self,
+        from: &Reached<S>,
+        h: S::Scalar,
+        time: S::Scalar,
+        kind: IntegrationErrorKind,
+    ) -> Option<Reached<S>> {
+        let able = |block: &Self, state: usize| block.failures.iter().all(|failure| failure.state != state);
+        for state in (0..self.states).filter(|&state| able(self, state)).collect::<Vec<_>>() {
+            let mut alone = S::Scalar::zero();
+            self.lanes_of(state).for_each(|lane| alone.replace(lane, &h.extract(lane)));
+            if let Err(kind) = self.step(from, alone, time) {
+                self.failures.push(StateError { state, time: from.0.t.extract(state).lane(0), kind });
+                self.held.extend(self.lanes_of(state).map(|lane| Held::at(&from.0, lane)));
+            }
+        }
+        let next = self.step(from, self.without_the_held(h), time).ok().filter(|_| self.failures.len() < self.states);
+        if next.is_none() {
+            let going = (0..self.states).find(|&state| able(self, state)).unwrap_or(0);
+            self.fail_the_rest(from.0.t.extract(going).lane(0), kind);
+        }
+        next
+    }
+
+    /// What is left stops as well.
+    fn fail_the_rest(&mut self, time: f64, kind: IntegrationErrorKind) {
+        for state in 0..self.states {
+            if self.failures.iter().all(|failure| failure.state != state) {
+                self.failures.push(StateError { state, time, kind });
+            }
+        }
+    }
+
+    /// The lengths of a step, zero for lanes that stopped.
+    #[inline(always)]
+    fn without_the_held(&self, mut h: S::Scalar) -> S::Scalar {
+        for held in &self.held {
+            h.replace(held.lane, &Real::zero());
+        }
+        h
+    }
+
+    #[inline(always)]
+    fn step(
+        &self,
+        (state, rates): &Reached<S>,
+        h: S::Scalar,
+        time: S::Scalar,
+    ) -> Result<Reached<S>, IntegrationErrorKind> {
+        let step = self.method.step(self.problem, state, rates, h)?;
+        let (mut next, mut known) = (step.state, step.rates);
+        next.t = time;
+        for held in &self.held {
+            next.t.replace(held.lane, &held.t);
+            next.q.replace(held.lane, &held.q);
+            next.y.replace(held.lane, &held.y);
+            known = None;
+        }
+        let rates = accept(self.problem, &mut next, known)?;
+        Ok((next, rates))
+    }
+}
+
+impl<S: BatchSystem> Held<S> {
+    fn at(state: &State<S>, lane: usize) -> Self {
+        Self { lane, t: state.t.extract(lane), q: state.q.extract(lane), y: state.y.extract(lane) }
+    }
+}

@@ -1,0 +1,195 @@
+//! Packs of numbers that are worked on in lockstep: a kernel or an integrator in packs works on as many states as there are lanes,
+//! for about the price of one.
+//!
+//! | scalar | with |
+//! |---|---|
+//! | [`Lanes<T, N>`](Lanes) | any scalar and any number of lanes: an array, of whose loops the compiler makes vector instructions |
+//! | `wide::f64x4`, `wide::f64x8`, `wide::f32x8`, `wide::f32x16` | the feature `wide`: instructions of that width where the target has them |
+//!
+//! Compilers prefer vectors of 256 bits on most targets that have 512. There `Lanes<f64, 4>` is the array to take, and `wide::f64x8`
+//! the faster scalar; with `-C target-feature=-prefer-256-bit`, `Lanes<f64, 8>` is nearly as fast. The scalar is chosen by the
+//! parameter of the struct that a kernel is derived from, `Body<T>`.
+//!
+//! **Bits.** No operation looks at another lane, and none is reordered: a kernel gives each lane the bits that it would get
+//! alone. So do explicit methods; iterations of implicit ones go on until all lanes are solved.
+
+mod packed;
+#[cfg(feature = "wide")]
+mod wide;
+
+pub use packed::Packed;
+#[cfg(feature = "num-dual")]
+pub(crate) use packed::packs_of_one;
+
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use crate::real::Real;
+
+/// N numbers in lockstep: of `f64`, four fill a vector of 256 bits, eight one of 512.
+///
+/// ```
+/// use gauss_runtime::prelude::*;
+///
+/// let x = Lanes::from_fn(|i| i as f64);
+/// let y: Lanes<f64, 4> = x.fma(x, Lanes::splat(1.0)).sqrt();
+/// assert_eq!(y[3], 10.0_f64.sqrt());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct Lanes<T, const N: usize>(pub [T; N]);
+
+impl<T: Copy, const N: usize> Lanes<T, N> {
+    /// One value in every lane.
+    #[must_use]
+    #[inline(always)]
+    pub const fn splat(value: T) -> Self {
+        Self([value; N])
+    }
+
+    /// The values of a function of the lane.
+    #[must_use]
+    #[inline(always)]
+    pub fn from_fn(value: impl FnMut(usize) -> T) -> Self {
+        Self(core::array::from_fn(value))
+    }
+
+    #[inline(always)]
+    fn map(self, f: impl Fn(T) -> T) -> Self {
+        Self::from_fn(|i| f(self.0[i]))
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
+        Self::from_fn(|i| f(self.0[i], other.0[i]))
+    }
+}
+
+impl<T, const N: usize> core::ops::Index<usize> for Lanes<T, N> {
+    type Output = T;
+
+    #[inline(always)]
+    fn index(&self, lane: usize) -> &T {
+        &self.0[lane]
+    }
+}
+
+impl<T, const N: usize> core::ops::IndexMut<usize> for Lanes<T, N> {
+    #[inline(always)]
+    fn index_mut(&mut self, lane: usize) -> &mut T {
+        &mut self.0[lane]
+    }
+}
+
+macro_rules! lane_by_lane {
+    ($($trait:ident $method:ident $assign_trait:ident $assign:ident;)+) => {$(
+        impl<T: Real, const N: usize> $trait for Lanes<T, N> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                self.zip(other, T::$method)
+            }
+        }
+
+        impl<T: Real, const N: usize> $assign_trait for Lanes<T, N> {
+            #[inline(always)]
+            fn $assign(&mut self, other: Self) {
+                *self = self.$method(other);
+            }
+        }
+    )+};
+}
+
+lane_by_lane! {
+    Add add AddAssign add_assign;
+    Sub sub SubAssign sub_assign;
+    Mul mul MulAssign mul_assign;
+    Div div DivAssign div_assign;
+}
+
+impl<T: Real, const N: usize> Neg for Lanes<T, N> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(T::neg)
+    }
+}
+
+macro_rules! functions {
+    ($($name:ident)+) => {$(
+        #[inline(always)]
+        fn $name(self) -> Self {
+            self.map(T::$name)
+        }
+    )+};
+}
+
+impl<T: Real, const N: usize> Real for Lanes<T, N> {
+    const LANES: usize = N * T::LANES;
+    const EPSILON: f64 = T::EPSILON;
+
+    #[inline(always)]
+    fn lane(self, i: usize) -> f64 {
+        self.0[i / T::LANES].lane(i % T::LANES)
+    }
+
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(T::zero())
+    }
+
+    #[inline(always)]
+    fn one() -> Self {
+        Self::splat(T::one())
+    }
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        Self::splat(T::from_f64(value))
+    }
+
+    #[inline(always)]
+    fn ratio(p: i64, q: i64) -> Self {
+        Self::splat(T::ratio(p, q))
+    }
+
+    #[inline(always)]
+    fn fma(self, b: Self, c: Self) -> Self {
+        Self::from_fn(|i| self.0[i].fma(b.0[i], c.0[i]))
+    }
+
+    functions!(sqrt sin cos tan asin acos atan sinh cosh tanh exp ln abs signum recip);
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let pairs: [(T, T); N] = core::array::from_fn(|i| self.0[i].sin_cos());
+        (Self::from_fn(|i| pairs[i].0), Self::from_fn(|i| pairs[i].1))
+    }
+
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        self.zip(x, T::atan2)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.zip(other, T::min)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.zip(other, T::max)
+    }
+
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        // Without a branch at every lane.
+        self.0.iter().fold(true, |all, x| all & x.is_finite())
+    }
+
+    #[inline(always)]
+    fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
+        Self::from_fn(|i| T::select_lt(a.0[i], b.0[i], x.0[i], y.0[i]))
+    }
+}

@@ -1,0 +1,178 @@
+//! What several states hold in lockstep, and how one of them is put in and taken out.
+
+use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
+
+use super::Lanes;
+use crate::configuration::{Configuration, Product, VectorSpace};
+use crate::real::Real;
+
+/// A number, vector or configuration made of packs: the values of [`WIDTH`](Self::WIDTH) states in lockstep.
+///
+/// A plain scalar is a pack of one. Implemented for the containers that states are made of.
+pub trait Packed: Copy {
+    /// The value of one state.
+    type Single: Copy;
+
+    /// How many states there are.
+    const WIDTH: usize;
+
+    /// One value for every state.
+    fn repeat(single: &Self::Single) -> Self;
+
+    /// The value of the state in a lane.
+    ///
+    /// # Panics
+    /// When `lane ≥ WIDTH`.
+    fn extract(&self, lane: usize) -> Self::Single;
+
+    /// Replaces the value of the state in a lane.
+    ///
+    /// # Panics
+    /// When `lane ≥ WIDTH`.
+    fn replace(&mut self, lane: usize, single: &Self::Single);
+}
+
+/// A scalar that is one number.
+macro_rules! packs_of_one {
+    ($($(#[$attribute:meta])* [$($generics:tt)*] $scalar:ty;)+) => {$(
+        $(#[$attribute])*
+        impl<$($generics)*> $crate::simd::Packed for $scalar {
+            type Single = Self;
+            const WIDTH: usize = 1;
+
+            #[inline(always)]
+            fn repeat(single: &Self) -> Self {
+                *single
+            }
+
+            #[inline(always)]
+            fn extract(&self, lane: usize) -> Self {
+                [*self][lane]
+            }
+
+            #[inline(always)]
+            fn replace(&mut self, lane: usize, single: &Self) {
+                [self][lane].clone_from(single);
+            }
+        }
+    )+};
+}
+#[cfg(feature = "num-dual")]
+pub(crate) use packs_of_one;
+
+packs_of_one! {
+    [] f32;
+    [] f64;
+}
+
+impl<T: Real, const N: usize> Packed for Lanes<T, N> {
+    type Single = T;
+    const WIDTH: usize = N;
+
+    #[inline(always)]
+    fn repeat(single: &T) -> Self {
+        Self::splat(*single)
+    }
+
+    #[inline(always)]
+    fn extract(&self, lane: usize) -> T {
+        self.0[lane]
+    }
+
+    #[inline(always)]
+    fn replace(&mut self, lane: usize, single: &T) {
+        self.0[lane] = *single;
+    }
+}
+
+/// The same numbers in another scalar.
+#[inline]
+fn in_another_scalar<A: Configuration, B: Configuration>(from: &A, number: impl Fn(A::Scalar) -> B::Scalar) -> B {
+    let (from, mut to) = (from.components(), B::Components::zero());
+    for i in 0..<A::Components as VectorSpace<A::Scalar>>::DIM {
+        to.set_component(i, number(from.component(i)));
+    }
+    B::from_components(&to)
+}
+
+/// Configurations, which are components and nothing else.
+macro_rules! packed_components {
+    ($([$($dimension:tt)*] $container:ident<$($argument:ident),+>;)+) => {$(
+        impl<T: Real + Packed<Single: Real>, $($dimension)*> Packed for $container<$($argument),+> {
+            type Single = packed_components!(@single $container $($argument),+);
+            const WIDTH: usize = T::WIDTH;
+
+            #[inline]
+            fn repeat(single: &Self::Single) -> Self {
+                in_another_scalar(single, |number| T::repeat(&number))
+            }
+
+            #[inline]
+            fn extract(&self, lane: usize) -> Self::Single {
+                in_another_scalar(self, |number| number.extract(lane))
+            }
+
+            #[inline]
+            fn replace(&mut self, lane: usize, single: &Self::Single) {
+                let (new, mut components) = (single.components(), self.components());
+                for i in 0..<<Self as Configuration>::Components as VectorSpace<T>>::DIM {
+                    let mut number = components.component(i);
+                    number.replace(lane, &new.component(i));
+                    components.set_component(i, number);
+                }
+                *self = Self::from_components(&components);
+            }
+        }
+    )+};
+    (@single $container:ident T) => { $container<<T as Packed>::Single> };
+    (@single $container:ident T, N) => { $container<<T as Packed>::Single, N> };
+}
+
+packed_components! {
+    [] UnitQuaternion<T>;
+    [] Isometry2<T>;
+    [] Isometry3<T>;
+    [const N: usize] SVector<T, N>;
+}
+
+impl<A: Packed, B: Packed> Packed for (A, B) {
+    type Single = (A::Single, B::Single);
+    const WIDTH: usize = A::WIDTH;
+
+    #[inline]
+    fn repeat(single: &Self::Single) -> Self {
+        (A::repeat(&single.0), B::repeat(&single.1))
+    }
+
+    #[inline]
+    fn extract(&self, lane: usize) -> Self::Single {
+        (self.0.extract(lane), self.1.extract(lane))
+    }
+
+    #[inline]
+    fn replace(&mut self, lane: usize, single: &Self::Single) {
+        self.0.replace(lane, &single.0);
+        self.1.replace(lane, &single.1);
+    }
+}
+
+impl<A: Packed, B: Packed> Packed for Product<A, B> {
+    type Single = Product<A::Single, B::Single>;
+    const WIDTH: usize = A::WIDTH;
+
+    #[inline]
+    fn repeat(single: &Self::Single) -> Self {
+        Self { first: A::repeat(&single.first), second: B::repeat(&single.second) }
+    }
+
+    #[inline]
+    fn extract(&self, lane: usize) -> Self::Single {
+        Product { first: self.first.extract(lane), second: self.second.extract(lane) }
+    }
+
+    #[inline]
+    fn replace(&mut self, lane: usize, single: &Self::Single) {
+        self.first.replace(lane, &single.first);
+        self.second.replace(lane, &single.second);
+    }
+}

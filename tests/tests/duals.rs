@@ -1,0 +1,147 @@
+//! Dual numbers of `num-dual` in kernels and integrators: derivatives of whole simulations by parameters, against differences.
+
+use gauss_runtime::prelude::*;
+use num_dual::{Dual2_64, Dual64, DualSVec64, HyperDual64};
+
+/// A body that turns about O.
+#[derive(GaussDynamics)]
+#[gauss(motion = fixed_point)]
+struct Top<T> {
+    #[gauss(mass)]
+    mass: T,
+    #[gauss(center_of_mass)]
+    center: Vector3<T>,
+    #[gauss(inertia)]
+    inertia: Vector3<T>,
+    #[gauss(gravity)]
+    g: T,
+}
+
+/// The angular velocity after one second, by its mass and its height of the centre of mass.
+fn spin<T: Real>(mass: T, height: T) -> [T; 3] {
+    let number = T::from_f64;
+    let zero = T::zero();
+    let inertia = Vector3::new(number(0.5), number(0.6), number(0.2));
+    let kernel =
+        Top { mass, center: Vector3::new(zero, zero, height), inertia, g: number(9.81) }.kernel().expect("a body");
+    let half: T = number(0.2);
+    let (sine, cosine) = half.sin_cos();
+    let tilted = Unit::new_unchecked(Quaternion::from(SVector::from([sine, zero, zero, cosine])));
+    let turning = Vector3::new(number(0.1), number(-0.2), number(4.0));
+    let end = Simulation::new(&kernel)
+        .control(Fixed::by(CommutatorFree4, number(0.02)))
+        .run_to_end(tilted, turning, zero..T::one())
+        .expect("runs");
+    [end.z[0], end.z[1], end.z[2]]
+}
+
+/// Central differences of a step e, extrapolated: their error is of order e⁴ (1e-12 for 1e-3) and 2 ε/e, some 1e-12, of the largest
+/// number on the way, in each of the fifty steps at worst.
+fn slope(f: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
+    let central = |e: f64| {
+        let (after, before) = (f(e), f(-e));
+        [0, 1, 2].map(|i| (after[i] - before[i]) / (2.0 * e))
+    };
+    let (fine, coarse) = (central(1e-3), central(2e-3));
+    [0, 1, 2].map(|i| (4.0 * fine[i] - coarse[i]) / 3.0)
+}
+
+const MASS: f64 = 0.8;
+const HEIGHT: f64 = 0.3;
+const TOLERANCE: f64 = 1e-9;
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= TOLERANCE * (1.0 + b.abs())
+}
+
+#[test]
+fn derivatives_of_a_run_by_its_parameters_are_those_of_differences() {
+    let by_mass = slope(|e| spin(MASS + e, HEIGHT));
+    let by_height = slope(|e| spin(MASS, HEIGHT + e));
+    let plain = spin(MASS, HEIGHT);
+    let one = spin(Dual64::from_re(MASS).derivative(), Dual64::from_re(HEIGHT));
+    let variables = DualSVec64::<2>::from_re;
+    let mut gradient = [variables(MASS), variables(HEIGHT)];
+    gradient[0].eps = num_dual::Derivative::some(SVector::from([1.0, 0.0]));
+    gradient[1].eps = num_dual::Derivative::some(SVector::from([0.0, 1.0]));
+    let both: [DualSVec64<2>; 3] = spin(gradient[0], gradient[1]);
+    for i in 0..3 {
+        // The values take the same operations, but num-dual divides by reciprocals.
+        assert!((one[i].re - plain[i]).abs() < 1e-12 && (both[i].re - plain[i]).abs() < 1e-12);
+        assert!(near(one[i].eps, by_mass[i]), "{i}: {} for {}", one[i].eps, by_mass[i]);
+        let slopes = both[i].eps.0.expect("it depends on both");
+        assert!(near(slopes[0], by_mass[i]) && near(slopes[1], by_height[i]), "{i}: {slopes:?}");
+    }
+    assert!(by_mass.iter().chain(&by_height).all(|slope| slope.abs() > 1e-3), "{by_mass:?} {by_height:?}");
+}
+
+#[test]
+fn so_are_second_derivatives() {
+    let first =
+        |mass: f64, height: f64| spin(Dual64::from_re(mass).derivative(), Dual64::from_re(height)).map(|x| x.eps);
+    let twice_by_mass = slope(|e| first(MASS + e, HEIGHT));
+    let mixed = slope(|e| first(MASS, HEIGHT + e));
+    let second = spin(Dual2_64::from_re(MASS).derivative(), Dual2_64::from_re(HEIGHT));
+    let cross = spin(HyperDual64::from_re(MASS).derivative1(), HyperDual64::from_re(HEIGHT).derivative2());
+    for i in 0..3 {
+        assert!(near(second[i].v2, twice_by_mass[i]), "{i}: {} for {}", second[i].v2, twice_by_mass[i]);
+        assert!(near(cross[i].eps1eps2, mixed[i]), "{i}: {} for {}", cross[i].eps1eps2, mixed[i]);
+    }
+}
+
+/// Every function of a dual number has the derivative that differences have, where it is smooth; and says when it has none.
+#[test]
+fn functions_know_their_derivatives() {
+    fn functions<T: Real>(x: T) -> Vec<T> {
+        let b = T::from_f64(0.4);
+        vec![
+            x.sqrt(),
+            x.sin(),
+            x.cos(),
+            x.tan(),
+            x.asin(),
+            x.acos(),
+            x.atan(),
+            x.atan2(b),
+            b.atan2(x),
+            x.sinh(),
+            x.cosh(),
+            x.tanh(),
+            x.exp(),
+            x.ln(),
+            x.powi(3),
+            x.powi(-2),
+            (-x).abs(),
+            x.recip(),
+            x.fma(x, b),
+            b.min(x * b),
+            b.max(x + b),
+            T::select_lt(x, T::one(), x * x, T::from_f64(f64::NAN)),
+        ]
+    }
+    let at = functions(Dual64::new(0.7, 1.0));
+    for (number, dual) in at.into_iter().enumerate() {
+        let value = |e: f64| functions(0.7 + e)[number];
+        let central = |e: f64| (value(e) - value(-e)) / (2.0 * e);
+        let expected = (4.0 * central(1e-3) - central(2e-3)) / 3.0;
+        // e⁴ of a fifth derivative up to 1e3, and rounding as above.
+        assert!((dual.eps - expected).abs() < 1e-8 * (1.0 + expected.abs()), "{number}: {} for {expected}", dual.eps);
+    }
+    assert!(!Real::is_finite(Dual64::new(1.0, f64::NAN)) && Real::is_finite(Dual64::new(1.0, 2.0)));
+    assert!(!Real::is_finite(Real::sqrt(Dual64::new(0.0, 1.0))));
+}
+
+/// Lanes of dual numbers: the derivatives of many states at once.
+#[test]
+fn duals_go_into_lanes() {
+    type Pack = Lanes<Dual64, 4>;
+    let masses = [0.5, 0.8, 1.1, 1.4];
+    let mass = Pack::from_fn(|i| Dual64::from_re(masses[i]).derivative());
+    let together = spin(mass, Pack::splat(Dual64::from_re(HEIGHT)));
+    for (lane, mass) in masses.into_iter().enumerate() {
+        let alone = spin(Dual64::from_re(mass).derivative(), Dual64::from_re(HEIGHT));
+        for i in 0..3 {
+            assert_eq!((together[i][lane].re, together[i][lane].eps), (alone[i].re, alone[i].eps));
+        }
+    }
+}
