@@ -1,6 +1,7 @@
 //! `cargo bench -p gauss-benches [-- S1 S4 …]`: accelerations of the scenes, generated, by hand and with matrices.
 //!
-//! Prints a table and leaves it in `target/gauss/benchmarks.md`. Options: `--rounds 400`, `--duration 0.001` (seconds a measurement).
+//! Prints a table and leaves it in `target/gauss/benchmarks.md`. Options: `--rounds 2000`, `--duration 0.0001` (seconds a measurement; much shorter than
+//! what a busy machine gives a program at once).
 
 use std::error::Error;
 use std::fs;
@@ -11,7 +12,7 @@ use gauss_benches::measure::times;
 use gauss_benches::report::{Row, table};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut rounds, mut duration, mut wanted) = (400, 1e-3, Vec::new());
+    let (mut rounds, mut duration, mut wanted) = (2000, 1e-4, Vec::new());
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().ok_or(format!("{argument} wants a number"));

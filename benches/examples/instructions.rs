@@ -1,6 +1,6 @@
 //! Counts the machine instructions of every kernel that is timed, and compares them with the table of this folder.
 //!
-//! `cargo run -p gauss-benches --example instructions [-- --write]`. Kernels are straight lines, so what the compiler writes is what runs,
+//! `cargo run --release -p gauss-benches --example instructions [-- --write]`. Kernels are straight lines, so what the compiler writes is what runs,
 //! up to the branch for angles whose sine is left to the library. Needs a compiler and nothing else: no profiler, no library. Counts hold
 //! for one compiler and one kind of processor (x86-64-v3), whatever the machine; those of another compiler are shown, not compared.
 

@@ -22,10 +22,13 @@ pub struct Case {
     pub differences: Vec<f64>,
 }
 
+/// A function that is timed, and what it computes with.
+type Timed<'d, D, S, R> = (fn(&D, &S) -> R, &'d D);
+
 /// The largest ‖ż − ż′‖/‖ż‖ over all states. By the functions that are timed: a method with one caller is inlined into it.
 fn difference<A, B, S, const N: usize>(
-    (f, a): (fn(&A, &S) -> SVector<f64, N>, &A),
-    (g, b): (fn(&B, &S) -> SVector<f64, N>, &B),
+    (f, a): Timed<'_, A, S, SVector<f64, N>>,
+    (g, b): Timed<'_, B, S, SVector<f64, N>>,
     states: &[S],
 ) -> f64 {
     let of = |state: &S| {
