@@ -1,0 +1,221 @@
+//! How much faster many states are than one after another: accelerations and steps of three bodies, per core, in packs of every kind.
+//!
+//! `cargo run --release --example batch_throughput`; with `RUSTFLAGS="-C target-cpu=native"` in the instructions of the machine, and with
+//! `-C target-feature=-prefer-256-bit` besides in vectors of 512 bits also where the compiler chooses. Ratios mean something within one
+//! run: what is compared is measured in turn.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use gauss_runtime::batch::BatchSystem;
+use gauss_runtime::integrate::{NoInput, OneStep, Problem, State, VelocityForm};
+use gauss_runtime::prelude::*;
+use gauss_runtime::simd::Packed;
+
+/// S1: principal axes at the centre of mass, no force.
+#[derive(GaussDynamics)]
+#[gauss(chart = left_invariant)]
+struct Free<T> {
+    #[gauss(mass)]
+    mass: T,
+    #[gauss(inertia)]
+    inertia: Vector3<T>,
+}
+
+/// S2: O off the centre of mass, weight.
+#[derive(GaussDynamics)]
+#[gauss(chart = left_invariant)]
+struct Heavy<T> {
+    #[gauss(mass)]
+    mass: T,
+    #[gauss(center_of_mass)]
+    center: Vector3<T>,
+    #[gauss(inertia)]
+    inertia: Matrix3<T>,
+    #[gauss(gravity)]
+    g: T,
+}
+
+/// S3: a body in fluid, all 21 added masses, weight and buoyancy at different points.
+#[derive(GaussDynamics)]
+#[gauss(chart = left_invariant)]
+struct Immersed<T> {
+    #[gauss(mass)]
+    mass: T,
+    #[gauss(center_of_mass)]
+    center: Vector3<T>,
+    #[gauss(inertia)]
+    inertia: Matrix3<T>,
+    #[gauss(added_mass)]
+    added: Matrix6<T>,
+    #[gauss(gravity)]
+    g: T,
+    #[gauss(displaced_mass)]
+    displaced: T,
+    #[gauss(center_of_buoyancy)]
+    buoyancy: Vector3<T>,
+}
+
+fn vector<T: Real>(components: [f64; 3]) -> Vector3<T> {
+    Vector3::from(components.map(T::from_f64))
+}
+
+fn tensor<T: Real>() -> Matrix3<T> {
+    let rows = [[1.0, 0.1, -0.05], [0.1, 2.0, 0.2], [-0.05, 0.2, 2.5]];
+    Matrix3::from_fn(|i, j| T::from_f64(rows[i][j]))
+}
+
+fn free<T: Real>() -> FreeKernel<T> {
+    Free { mass: T::from_f64(2.0), inertia: vector([1.0, 2.0, 3.0]) }.kernel().expect("a body")
+}
+
+fn heavy<T: Real>() -> HeavyKernel<T> {
+    let (mass, g) = (T::from_f64(2.0), T::from_f64(9.81));
+    Heavy { mass, center: vector([0.1, -0.05, 0.2]), inertia: tensor(), g }.kernel().expect("a body")
+}
+
+fn immersed<T: Real>() -> ImmersedKernel<T> {
+    let number = T::from_f64;
+    let added = Matrix6::from_fn(|i, j| {
+        let (i, j) = (i.min(j), i.max(j));
+        number(if i == j { 10.0 + 3.0 * i as f64 } else { 0.3 * ((i * 7 + j * 3) % 5) as f64 - 0.6 })
+    });
+    let (center, buoyancy) = (vector([0.01, 0.0, 0.02]), vector([0.02, 0.0, -0.03]));
+    let body = Immersed {
+        mass: number(30.0),
+        center,
+        inertia: tensor(),
+        added,
+        g: number(9.81),
+        displaced: number(30.3),
+        buoyancy,
+    };
+    body.kernel().expect("a body")
+}
+
+const STATES: usize = 128;
+const STEPS: usize = 50;
+const STEP: f64 = 1e-3;
+
+/// Numbers in [−1, 1] without a pattern.
+fn spread(i: usize, k: usize) -> f64 {
+    ((i * 7 + k * 13 + 3) as f64 * 0.618_033_988_749_894_9).fract() * 2.0 - 1.0
+}
+
+fn state(i: usize) -> (Isometry3<f64>, SVector<f64, 6>) {
+    let turn = UnitQuaternion::from_euler_angles(spread(i, 0), spread(i, 1), 3.0 * spread(i, 2));
+    let pose = Isometry3::from_parts(Translation3::new(spread(i, 3), spread(i, 4), spread(i, 5)), turn);
+    (pose, SVector::from(std::array::from_fn(|k| spread(i, 6 + k))))
+}
+
+/// One state, as a caller has it who knows nothing of others: through a call.
+#[inline(never)]
+fn one<S>(kernel: &S, q: &Isometry3<f64>, z: &SVector<f64, 6>) -> SVector<f64, 6>
+where
+    S: GaussSystem<Scalar = f64, Configuration = Isometry3<f64>, Speeds = SVector<f64, 6>, Input = ()>,
+{
+    kernel.acceleration(0.0, q, z, &())
+}
+
+/// Nanoseconds for one acceleration, and for one step of the method, state after state.
+fn single<S>(kernel: &S, method: &impl OneStep<S>) -> [f64; 2]
+where
+    S: GaussSystem<Scalar = f64, Configuration = Isometry3<f64>, Speeds = SVector<f64, 6>, Input = ()>,
+{
+    let states: Vec<_> = (0..STATES).map(state).collect();
+    let mut out = vec![SVector::<f64, 6>::zeros(); STATES];
+    let accelerations = time(|| {
+        for (out, (q, z)) in out.iter_mut().zip(&states) {
+            *out = one(black_box(kernel), q, z);
+        }
+        black_box(&mut out);
+    });
+    let problem = Problem { system: kernel, form: VelocityForm, input: NoInput };
+    let steps = time(|| {
+        for (q, z) in &states {
+            let mut at: State<S> = State { t: 0.0, q: *q, y: *z };
+            for _ in 0..STEPS {
+                let rates = problem.rates(&at);
+                at = method.step(&problem, &at, &rates, STEP).expect("a short step").state;
+            }
+            black_box(at);
+        }
+    });
+    [accelerations / STATES as f64, steps / (STATES * STEPS) as f64]
+}
+
+/// The same in a batch.
+fn batch<S>(kernel: &S, method: &impl OneStep<S>) -> [f64; 2]
+where
+    S: BatchSystem<Input = ()>,
+    S::Configuration: Packed<Single = Isometry3<f64>>,
+    S::Speeds: Packed<Single = SVector<f64, 6>>,
+{
+    let states = States::<S>::from_fn(STATES, state);
+    let batch = Batch::new(kernel);
+    let accelerations = time(|| {
+        black_box(batch.accelerations(0.0, black_box(&states)));
+    });
+    let mut moving = states.clone();
+    let steps = time(|| {
+        moving.clone_from(&states);
+        batch.advance(method, STEP, 0.0..STEP * STEPS as f64, &mut moving).expect("short steps");
+    });
+    [accelerations / STATES as f64, steps / (STATES * STEPS) as f64]
+}
+
+/// Nanoseconds of one call: as many calls as take a fifth of a millisecond.
+fn time(mut work: impl FnMut()) -> f64 {
+    let mut repetitions = 1_u32;
+    loop {
+        let begun = Instant::now();
+        (0..repetitions).for_each(|_| work());
+        let elapsed = begun.elapsed().as_secs_f64();
+        if elapsed > 2e-4 {
+            return 1e9 * elapsed / f64::from(repetitions);
+        }
+        repetitions *= 2;
+    }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn main() {
+    let method = RungeKutta(Classical4);
+    println!("ns per state, and how many times faster than one after another; one thread, medians of 31 rounds");
+    macro_rules! scene {
+        ($name:literal, $kernel:ident) => {{
+            let mut rounds = Vec::new();
+            let one = $kernel::<f64>();
+            let (four, eight) = ($kernel::<Lanes<f64, 4>>(), $kernel::<Lanes<f64, 8>>());
+            let (wide_four, wide_eight) = ($kernel::<wide::f64x4>(), $kernel::<wide::f64x8>());
+            for _ in 0..31 {
+                rounds.push([
+                    single(&one, &method),
+                    batch(&one, &method),
+                    batch(&four, &method),
+                    batch(&eight, &method),
+                    batch(&wide_four, &method),
+                    batch(&wide_eight, &method),
+                ]);
+            }
+            for (k, what) in ["acceleration", "step of order 4"].into_iter().enumerate() {
+                let names =
+                    ["one by one", "batch of f64", "Lanes<f64, 4>", "Lanes<f64, 8>", "wide::f64x4", "wide::f64x8"];
+                print!("{:26}", format!("{} {what}", $name));
+                for (n, name) in names.into_iter().enumerate() {
+                    let value = median(rounds.iter().map(|round| round[n][k]).collect());
+                    let ratio = median(rounds.iter().map(|round| round[0][k] / round[n][k]).collect());
+                    print!(" | {name} {value:.2} ({ratio:.2}x)");
+                }
+                println!();
+            }
+        }};
+    }
+    scene!("S1", free);
+    scene!("S2", heavy);
+    scene!("S3", immersed);
+}
