@@ -61,8 +61,11 @@ fn throw(throws: &[[f64; 6]], bar: &ProgressBar) -> Result<Vec<[f64; 2]>, Box<dy
     Ok(states.iter().map(|(pose, _)| place(&pose)).collect())
 }
 
+/// Where the mean throw lands, and the derivatives of that by the uncertain numbers.
+type Linearised = ([f64; 2], [[f64; 6]; 2]);
+
 /// The end of the mean throw and its derivatives by the six uncertain numbers, from one run in dual numbers.
-fn linearised() -> Result<([f64; 2], [[f64; 6]; 2]), Box<dyn Error>> {
+fn linearised() -> Result<Linearised, Box<dyn Error>> {
     let variables: [DualSVec64<6>; 6] = std::array::from_fn(|k| {
         let mut variable = DualSVec64::from_re(MEAN[k]);
         variable.eps = Derivative::some(SVector::from(std::array::from_fn(|i| f64::from(u8::from(i == k)))));
