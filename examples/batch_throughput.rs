@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use gauss_runtime::batch::BatchSystem;
-use gauss_runtime::integrate::{NoInput, OneStep, Problem, State, VelocityForm};
+use gauss_runtime::integrate::OneStep;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
@@ -118,7 +118,7 @@ where
 }
 
 /// Nanoseconds for one acceleration, and for one step of the method, state after state.
-fn single<S>(kernel: &S, method: &impl OneStep<S>) -> [f64; 2]
+fn single<S>(kernel: &S, method: &(impl OneStep<S> + Copy)) -> [f64; 2]
 where
     S: GaussSystem<Scalar = f64, Configuration = Isometry3<f64>, Speeds = SVector<f64, 6>, Input = ()>,
 {
@@ -130,15 +130,10 @@ where
         }
         black_box(&mut out);
     });
-    let problem = Problem { system: kernel, form: VelocityForm, input: NoInput };
     let steps = time(|| {
         for (q, z) in &states {
-            let mut at: State<S> = State { t: 0.0, q: *q, y: *z };
-            for _ in 0..STEPS {
-                let rates = problem.rates(&at);
-                at = method.step(&problem, &at, &rates, STEP).expect("a short step").state;
-            }
-            black_box(at);
+            let run = Simulation::new(kernel).control(Fixed::by(*method, STEP));
+            black_box(run.run_to_end(*q, *z, 0.0..STEP * STEPS as f64).expect("short steps"));
         }
     });
     [accelerations / STATES as f64, steps / (STATES * STEPS) as f64]

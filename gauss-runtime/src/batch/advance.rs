@@ -149,7 +149,7 @@ impl<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<S>> Block<'_, '_,
 
     /// A step to `time`, in which lanes that stopped stand still. When it fails, the lanes that are to blame stop, and the others make
     /// it. `None` when there are no others.
-    #[inline]
+    #[inline(always)]
     fn step_of_the_able(&mut self, from: &Reached<S>, h: S::Scalar, time: S::Scalar) -> Option<Reached<S>> {
         match self.step(from, self.without_the_held(h), time) {
             Ok(next) => Some(next),
@@ -160,6 +160,7 @@ impl<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<S>> Block<'_, '_,
     /// The error does not tell which lanes fail. They are independent, and a step of length zero succeeds from every good state: so
     /// each is tried while the others stand still.
     #[cold]
+    #[inline(never)]
     fn step_after_failure(
         &mut self,
         from: &Reached<S>,
@@ -171,12 +172,13 @@ impl<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<S>> Block<'_, '_,
         for state in (0..self.states).filter(|&state| able(self, state)).collect::<Vec<_>>() {
             let mut alone = S::Scalar::zero();
             self.lanes_of(state).for_each(|lane| alone.replace(lane, &h.extract(lane)));
-            if let Err(kind) = self.step(from, alone, time) {
+            if let Err(kind) = self.step_apart(from, alone, time) {
                 self.failures.push(StateError { state, time: from.0.t.extract(state).lane(0), kind });
                 self.held.extend(self.lanes_of(state).map(|lane| Held::at(&from.0, lane)));
             }
         }
-        let next = self.step(from, self.without_the_held(h), time).ok().filter(|_| self.failures.len() < self.states);
+        let next =
+            self.step_apart(from, self.without_the_held(h), time).ok().filter(|_| self.failures.len() < self.states);
         if next.is_none() {
             let going = (0..self.states).find(|&state| able(self, state)).unwrap_or(0);
             self.fail_the_rest(from.0.t.extract(going).lane(0), kind);
@@ -200,6 +202,13 @@ impl<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<S>> Block<'_, '_,
             h.replace(held.lane, &Real::zero());
         }
         h
+    }
+
+    /// Code of its own, so that the loop of steps holds one copy of the method and no more.
+    #[cold]
+    #[inline(never)]
+    fn step_apart(&self, from: &Reached<S>, h: S::Scalar, time: S::Scalar) -> Result<Reached<S>, IntegrationErrorKind> {
+        self.step(from, h, time)
     }
 
     #[inline(always)]
