@@ -209,7 +209,7 @@ where
         for n in 0..(leg.seconds / EVERY).round() as u32 {
             // Every moment ends a step: nothing is interpolated.
             let (from, to) = (start + EVERY * f64::from(n), start + EVERY * f64::from(n + 1));
-            let way = Simulation::new(kernel).input(input).adaptive(1e-11, 1e-12).run(q, z, from..to)?;
+            let way = Simulation::new(kernel).input(input).adaptive(1e-12, 1e-13).run(q, z, from..to)?;
             let balance = power_balance(kernel, &way, input);
             flight.balance[0] += balance.last().energy;
             flight.balance[1] += balance.last().work;

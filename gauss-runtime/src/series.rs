@@ -38,7 +38,8 @@ pub trait TaylorSystem: GaussSystem<Input = ()> {
 }
 
 /// The configuration, as its components say and not brought back onto the group, and z of a value of each variable.
-pub(crate) fn state_of<S: TaylorSystem>(
+#[must_use]
+pub fn state_of<S: TaylorSystem>(
     variables: &<S::Series as PowerSeries<S::Scalar>>::Variables,
 ) -> (S::Configuration, S::Speeds) {
     let mut components = ComponentsOf::<S>::zero();

@@ -43,7 +43,7 @@ fn a_chart_near_its_singularity_is_right_or_refused() {
     for distance in [0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 0.1] {
         let q = Vector3::new(0.0, std::f64::consts::FRAC_PI_2 - distance, 0.0);
         let z = Vector3::new(1.0, 0.5, 0.2);
-        let run = Simulation::new(&angles).adaptive(1e-11, 1e-12).max_steps(200_000).run(q, z, 0.0..1.0);
+        let run = Simulation::new(&angles).adaptive(1e-13, 1e-14).max_steps(200_000).run(q, z, 0.0..1.0);
         let end = match run {
             Err(error) => {
                 assert!(
@@ -63,9 +63,9 @@ fn a_chart_near_its_singularity_is_right_or_refused() {
         let start = body.configuration(&angles.pose(0.0, &q)).expect("a rotation");
         let omega = body.speeds(0.0, &start, &angles.body_twist(0.0, &q, &z));
         let truth = Simulation::new(&body).adaptive(1e-12, 1e-12).run(start, omega, 0.0..1.0).expect("no singularity");
-        // The tolerance of 1e-11 a step over some hundreds of steps; of the some ten steps that pass the singularity, and the
-        // rounding of the angles, divided by the distance.
-        let allowed = 1e-8 + (10.0 * 1e-11 + 1e3 * f64::EPSILON) / distance;
+        // Some 1e-11 a step over some hundreds of steps, a hundred times the tolerance because estimates of order 8 are optimistic
+        // this near; and rounding of the angles divided by the distance.
+        let allowed = 1e-8 + 1e3 * f64::EPSILON / distance;
         let error = end.rotation.angle_to(&truth.last().q);
         assert!(error < allowed, "{error:e} rad at {distance:e} from gimbal lock, allowed {allowed:e}");
     }

@@ -85,7 +85,7 @@ pub fn operand(operand: &Operand<'_>, symbols: &Map<u32, TokenStream>, scalar: &
 
 /// Instructions in a row. Every `let` is a scope within that of the one before it, and compilers recurse into them: thousands overflow
 /// their stacks. Longer programs are written in blocks that hand on what later ones need.
-pub const BLOCK: usize = 256;
+const BLOCK: usize = 256;
 
 /// The statements of a program, and its outputs as expressions. `symbols` says how each symbol is written.
 pub fn statements(
@@ -157,17 +157,17 @@ pub fn statements_kept<'g>(
         };
         written.push(statement);
     }
-    (in_blocks(program, &written, kept), program.outputs.iter().map(write).collect())
+    (
+        in_blocks(&handed_on(program, kept).into_iter().zip(written).collect::<Vec<_>>()),
+        program.outputs.iter().map(write).collect(),
+    )
 }
 
-/// The statements one after the other, or block by block where there are many.
-fn in_blocks(program: &Program<'_>, statements: &[TokenStream], kept: Kept) -> TokenStream {
-    if statements.len() <= BLOCK {
-        return quote!(#(#statements)*);
-    }
-    // Of each block, what is read behind it: values, sines and cosines by the index of their instruction.
-    let mut handed_on = vec![BTreeSet::new(); statements.len().div_ceil(BLOCK)];
-    let mut read = |operand: Operand<'_>, reader: usize| {
+/// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.
+fn handed_on(program: &Program<'_>, kept: Kept) -> Vec<Vec<TokenStream>> {
+    // Values, sines and cosines by the index of their instruction.
+    let mut read = vec![BTreeSet::new(); program.instructions.len()];
+    let mut note = |operand: Operand<'_>, reader: usize| {
         if let Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) = operand
             && k / BLOCK < reader
         {
@@ -176,25 +176,42 @@ fn in_blocks(program: &Program<'_>, statements: &[TokenStream], kept: Kept) -> T
                 Operand::Cosine(_) => 2,
                 _ => 0,
             };
-            handed_on[k / BLOCK].insert((k, kind));
+            read[k].insert(kind);
         }
     };
     for (k, instruction) in program.instructions.iter().enumerate() {
-        instruction.operands().for_each(|operand| read(operand, k / BLOCK));
-    }
-    program.outputs.iter().for_each(|operand| read(*operand, usize::MAX));
-    if kept == Kept::Everything {
-        for (k, instruction) in program.instructions.iter().enumerate() {
+        instruction.operands().for_each(|operand| note(operand, k / BLOCK));
+        if kept == Kept::Everything {
             match instruction {
-                Operation::SineCosine(_) => [Operand::Sine(k), Operand::Cosine(k)].map(|o| read(o, usize::MAX)),
-                _ => [read(Operand::Value(k), usize::MAX); 2],
+                Operation::SineCosine(_) => [Operand::Sine(k), Operand::Cosine(k)].map(|o| note(o, usize::MAX)),
+                _ => [note(Operand::Value(k), usize::MAX); 2],
             };
         }
     }
+    program.outputs.iter().for_each(|operand| note(*operand, usize::MAX));
     let names = [value, sine, cosine];
-    let blocks = statements.chunks(BLOCK).zip(handed_on).map(|(statements, results)| {
-        let results: Vec<Ident> = results.into_iter().map(|(k, kind): (usize, usize)| names[kind](k)).collect();
-        quote!(let (#(#results,)*) = { #(#statements)* (#(#results,)*) };)
+    let named = |(k, kinds): (usize, BTreeSet<usize>)| {
+        let name = |kind: usize| {
+            let name = names[kind](k);
+            quote!(#name)
+        };
+        kinds.into_iter().map(name).collect()
+    };
+    read.into_iter().enumerate().map(named).collect()
+}
+
+/// Statements, each with the names that are read behind its block: one after the other, or block by block where there are many.
+pub fn in_blocks(statements: &[(Vec<TokenStream>, TokenStream)]) -> TokenStream {
+    let written = |block: &[(Vec<TokenStream>, TokenStream)]| -> TokenStream {
+        block.iter().map(|(_, statement)| statement.clone()).collect()
+    };
+    if statements.len() <= BLOCK {
+        return written(statements);
+    }
+    let blocks = statements.chunks(BLOCK).map(|block| {
+        let names: Vec<_> = block.iter().flat_map(|(names, _)| names).collect();
+        let statements = written(block);
+        quote!(let (#(#names,)*) = { #statements (#(#names,)*) };)
     });
     blocks.collect()
 }

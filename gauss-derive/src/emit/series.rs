@@ -23,7 +23,7 @@ use crate::kernel::{Operand, Operation, Program};
 use crate::mechanics::{ConfigurationKind, Coordinate, Method};
 
 use super::kernel::{Derived, Subject};
-use super::program::{BLOCK, Kept, ScalarTokens, operand, statements_kept};
+use super::program::{Kept, ScalarTokens, in_blocks, operand, statements_kept};
 
 /// The number of lanes is a multiple of this: the runtime sums them in packs.
 const PACK: usize = 4;
@@ -210,20 +210,6 @@ impl<'g> Order<'_, 'g> {
         let (real, ty) = (&self.scalar.real, self.scalar.ty());
         quote!(<#ty as #real>::zero())
     }
-}
-
-/// Statements with the names that they give, block by block where there are many: see [`BLOCK`].
-fn in_blocks(lines: &[(Vec<TokenStream>, TokenStream)]) -> TokenStream {
-    let statements = lines.iter().map(|(_, statement)| statement);
-    if lines.len() <= BLOCK {
-        return quote!(#(#statements)*);
-    }
-    let blocks = lines.chunks(BLOCK).map(|block| {
-        let names: Vec<_> = block.iter().flat_map(|(names, _)| names).collect();
-        let statements = block.iter().map(|(_, statement)| statement);
-        quote!(let (#(#names,)*) = { #(#statements)* (#(#names,)*) };)
-    });
-    blocks.collect()
 }
 
 /// Terms, and products of a number of order k and one of order 0, that are to be added up.

@@ -136,6 +136,16 @@ impl<M> Adaptive<M> {
     }
 }
 
+/// Refuses tolerances that are negative, not finite, or both zero.
+pub(super) fn check_tolerances(relative: f64, absolute: f64) -> Result<(), IntegrationErrorKind> {
+    let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
+    if usable(relative) && usable(absolute) && relative + absolute > 0.0 {
+        Ok(())
+    } else {
+        Err(IntegrationErrorKind::InvalidTolerance { relative, absolute })
+    }
+}
+
 /// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the first
 /// step.
 pub(crate) fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
@@ -248,12 +258,7 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
-        let (relative, absolute) = (self.relative, self.absolute);
-        let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
-        if !(usable(relative) && usable(absolute) && relative + absolute > 0.0) {
-            let kind = IntegrationErrorKind::InvalidTolerance { relative, absolute };
-            return Err(stopped(&start, kind));
-        }
+        check_tolerances(self.relative, self.absolute).map_err(|kind| stopped(&start, kind))?;
         let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
         if emit(&start, &rates).is_break() || span == 0.0 {
             return Ok(start);

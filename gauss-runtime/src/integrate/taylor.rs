@@ -5,7 +5,7 @@
 //! system. Order and step are those of Jorba & Zou (Experimental Mathematics 14, 2005): the last two terms of the series are to
 //! be as small as the tolerance. No step is rejected.
 
-use super::control::{Control, Emit, prepare};
+use super::control::{Control, Emit, check_tolerances, prepare};
 use super::error::{IntegrationError, IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State};
 use super::projection::{accept, on_constraints};
@@ -221,11 +221,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
-        let (relative, absolute) = (self.relative, self.absolute);
-        let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
-        if !(usable(relative) && usable(absolute) && relative + absolute > 0.0) {
-            return Err(stopped(&start, IntegrationErrorKind::InvalidTolerance { relative, absolute }));
-        }
+        check_tolerances(self.relative, self.absolute).map_err(|kind| stopped(&start, kind))?;
         let (span, start, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
         if emit(&start, &rates).is_break() || span == 0.0 {
             return Ok(start);

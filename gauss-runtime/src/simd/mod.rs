@@ -7,11 +7,12 @@
 //! | `wide::f64x4`, `wide::f64x8`, `wide::f32x8`, `wide::f32x16` | the feature `wide`: instructions of that width where the target has them |
 //!
 //! Compilers prefer vectors of 256 bits on most targets that have 512. There `Lanes<f64, 4>` is the array to take, and `wide::f64x8`
-//! the faster scalar; with `-C target-feature=-prefer-256-bit`, `Lanes<f64, 8>` is nearly as fast. The scalar is chosen by the
+//! the faster scalar (`BENCHMARKS.md`). The scalar is chosen by the
 //! parameter of the struct that a kernel is derived from, `Body<T>`.
 //!
 //! **Bits.** No operation looks at another lane, and none is reordered: a kernel gives each lane the bits that it would get
-//! alone. So do explicit methods; iterations of implicit ones go on until all lanes are solved.
+//! alone. So do explicit methods on components; exponentials of increments choose their series by the largest lane from half a radian
+//! on, and iterations of implicit methods go on until all lanes are solved.
 
 mod packed;
 #[cfg(feature = "wide")]

@@ -2,7 +2,7 @@
 
 use gauss_runtime::integrate::{NoInput, OneStep, Problem, Rkmk, State};
 use gauss_runtime::prelude::*;
-use gauss_runtime::series::{MAX_ORDER, PowerSeries};
+use gauss_runtime::series::{MAX_ORDER, PowerSeries, state_of};
 
 /// τ beside the radius of convergence: terms fall below rounding just at the highest order, so that each order counts.
 const FRACTION: f64 = 0.3;
@@ -57,18 +57,6 @@ fn agrees<S: TaylorSystem<Scalar = f64>>(system: &S, q: S::Configuration, z: S::
         let allowed = f64::from(STEPS) * 8.0 * f64::EPSILON * (scale + rates);
         assert!(apart <= allowed, "{apart:e} > {allowed:e} at τ = {tau}");
     }
-}
-
-/// Variables as a configuration and speeds.
-fn state_of<S: TaylorSystem<Scalar = f64>>(
-    variables: &<S::Series as PowerSeries<f64>>::Variables,
-) -> (S::Configuration, S::Speeds) {
-    let mut components = <S::Configuration as Configuration>::Components::zero();
-    let count = <<S::Configuration as Configuration>::Components as VectorSpace<f64>>::DIM;
-    (0..count).for_each(|i| components.set_component(i, variables.component(i)));
-    let mut z = S::Speeds::zero();
-    (0..S::DOF).for_each(|i| z.set_component(i, variables.component(count + i)));
-    (S::Configuration::from_components(&components), z)
 }
 
 /// Arrays that have been used for another state.
