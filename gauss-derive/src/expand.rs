@@ -3,19 +3,18 @@
 use proc_macro2::TokenStream;
 use syn::DeriveInput;
 
-use crate::algebra::{Expr, Graph, Map};
+use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
-use crate::kernel::{Candidates, Cost, Kernel};
+use crate::kernel::{Candidates, Cost, Kernel, Literals};
 use crate::mechanics::{
-    Acting, AddedMassShape, BodyShape, ConfigurationKind, Elimination, Formula, GravityShape, InertiaShape,
-    Linearization, Method, Scene, System, check_against_definition, check_system_against_definition,
-    rotation_of_quaternion,
+    Acting, ConfigurationKind, Elimination, Formula, Linearization, Method, Scene, System, check_against_definition,
+    check_system_against_definition, rotation_of_quaternion,
 };
 use crate::mistakes::{
     bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_series, refuse_too_much, system_faults,
 };
-use crate::model::{self, Model, Shape, SystemModel};
-use crate::translate::Translator;
+use crate::model::{self, Model, SystemModel};
+use crate::translate::{Translator, body_shape};
 
 /// Expands one struct.
 ///
@@ -30,10 +29,12 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
 
 fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     let graph = Graph::new();
-    let shape = body_shape(model);
-    let mut scene = Scene::new(&graph, model.motion, model.chart, shape);
-    let mut translator = model.acting.as_deref().map(|system| Translator::new(&graph, system));
-    if let Some(translator) = &mut translator {
+    let shape = body_shape(|role| model.shape(role));
+    let mut translator = model.system.as_deref().map(|system| Translator::new(&graph, system)).transpose()?;
+    let given = model.system.as_deref().map_or(&[][..], |system| &system.given);
+    let assigned = translator.as_ref().map_or(Ok(Vec::new()), |translator| translator.assigned(given))?;
+    let mut scene = Scene::new(&graph, model.motion, model.chart, shape, &assigned);
+    if let Some(translator) = translator.as_mut().filter(|_| model.acted_upon) {
         let (observed, elements) = translator.on_one_body()?;
         let parameters = translator.parameters_of(&scene.body);
         let inputs = translator.inputs().to_vec();
@@ -49,21 +50,23 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     }
     let functions: Vec<_> = formulas.iter().map(candidates).collect();
     let differentiated = linearization.as_ref().map(|l| &l.differentiated);
-    let kernel =
-        Kernel::lower(&graph, &functions, &rotation, differentiated).map_err(|error| bug(&model.ident, &error))?;
+    let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
+    let folded = foldable(&model.scalar, &literals);
+    let kernel = Kernel::lower(&graph, &functions, &rotation, differentiated, folded)
+        .map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
     let has_inputs = translator.as_ref().is_some_and(|translator| !translator.inputs().is_empty());
     refuse_series(model.wanted.taylor.as_ref(), has_inputs, &formulas, &kernel)?;
-    let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
-    let plain = model.acting.as_deref().zip(translator.as_ref()).map(|(system, translator)| Plain {
+    let plain = model.system.as_deref().zip(translator.as_ref()).map(|(system, translator)| Plain {
         fields: &system.fields,
         sources: translator.sources(),
         literals: &literals,
+        assigned: &assigned,
     });
     Ok(emit(&Derived {
-        subject: Subject::Body { model, scene: &scene, inertia: shape.inertia, quaternion, plain },
+        subject: Subject::Body { model, scene: &scene, quaternion, plain },
         drags: &translator.as_ref().map(Translator::drags).unwrap_or_default(),
         formulas: &formulas,
         kernel: &kernel,
@@ -73,7 +76,7 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
 
 fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     let graph = Graph::new();
-    let mut translator = Translator::new(&graph, model);
+    let mut translator = Translator::new(&graph, model)?;
     let all: Vec<usize> = (0..translator.speeds().len()).collect();
     let speeds = translator.speeds().to_vec();
     let scene = translator.scene(&speeds, &all)?;
@@ -101,21 +104,27 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     }
     let functions: Vec<_> = formulas.iter().map(candidates).collect();
     let differentiated = linearization.as_ref().map(|l| &l.differentiated);
-    let kernel =
-        Kernel::lower(&graph, &functions, &definitions, differentiated).map_err(|error| bug(&model.ident, &error))?;
+    let literals = translator.literals();
+    let folded = foldable(&model.scalar, &literals);
+    let kernel = Kernel::lower(&graph, &functions, &definitions, differentiated, folded)
+        .map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
     refuse_too_much(model, &kernel)?;
     refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), &formulas, &kernel)?;
     let constrained = elimination.as_ref().map_or(&system, |elimination| &elimination.whole);
+    let assigned_to_bodies =
+        model.bodies.iter().map(|body| translator.assigned(&body.given)).collect::<syn::Result<Vec<_>>>()?;
     let subject = SystemSubject {
         model,
         system: &system,
         constraints: &constrained.constraints,
         can_drift: elimination.as_ref().map_or(!system.constraints.is_empty(), Elimination::can_drift),
         sources: translator.sources(),
-        literals: &translator.literals(),
+        literals: &literals,
+        assigned: &translator.assigned(&model.given)?,
+        assigned_to_bodies: &assigned_to_bodies,
         links: &translator.links_of_clauses(),
         quaternions: &quaternions,
     };
@@ -127,6 +136,11 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         kernel: &kernel,
         linearization: linearization.as_ref(),
     }))
+}
+
+/// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.
+fn foldable<'a, 'g>(scalar: &model::Scalar, literals: &'a [(Rational, Expr<'g>)]) -> Literals<'a, 'g> {
+    (!matches!(scalar, model::Scalar::Parameter(_))).then_some(literals)
 }
 
 /// What a formula is lowered from.
@@ -147,29 +161,6 @@ fn system_rotations<'g>(graph: &'g Graph, system: &System<'g>) -> (Vec<Option<[E
         Some(quaternion)
     });
     (coordinates.collect(), definitions)
-}
-
-/// What the scene has, from the fields that the struct has.
-fn body_shape(model: &Model) -> BodyShape {
-    let shape = |index: usize| model.parameters[index].shape;
-    BodyShape {
-        inertia: match shape(model.inertia) {
-            Shape::Scalar => InertiaShape::Spherical,
-            Shape::Vector3 => InertiaShape::Principal,
-            _ => InertiaShape::Full,
-        },
-        center_of_mass: model.center_of_mass.is_some(),
-        added_mass: model.added_mass.map(|k| match shape(k) {
-            Shape::Vector6 => AddedMassShape::Diagonal,
-            _ => AddedMassShape::Full,
-        }),
-        gravity: model.gravity.map(|k| match shape(k) {
-            Shape::Scalar => GravityShape::Vertical,
-            _ => GravityShape::Vector,
-        }),
-        displaced_mass: model.displaced_mass.is_some(),
-        center_of_buoyancy: model.center_of_buoyancy.is_some(),
-    }
 }
 
 /// Entries of R that are coordinates are stored as a unit quaternion: its components, and the entries in terms of them.

@@ -129,7 +129,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
 /// The components of the input in order, and the elements in the order of their powers.
 fn acting(derived: &Derived<'_, '_>) -> String {
     let model = match derived.subject {
-        Subject::Body { model, .. } => model.acting.as_deref(),
+        Subject::Body { model, .. } => model.system.as_deref(),
         Subject::System(SystemSubject { model, .. }) => Some(model),
     };
     let mut out = String::new();

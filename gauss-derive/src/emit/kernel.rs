@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
-use crate::mechanics::{Account, Formula, InertiaShape, Linearization, Method, Scene};
+use crate::mechanics::{Account, Assigned, Formula, Linearization, Method, Scene};
 use crate::model::{Model, Scalar, SystemField};
 use crate::translate::{DragMatrix, Source};
 use syn::{Generics, Path, Visibility};
@@ -36,7 +36,6 @@ pub enum Subject<'a, 'g> {
     Body {
         model: &'a Model,
         scene: &'a Scene<'g>,
-        inertia: InertiaShape,
         /// Components x, y, z, w of the unit quaternion behind R, where there is one.
         quaternion: Option<[Expr<'g>; 4]>,
         /// Parameters that only what acts depends on.
@@ -52,7 +51,6 @@ pub struct BodySubject<'a, 'g> {
     pub derived: &'a Derived<'a, 'g>,
     pub model: &'a Model,
     pub scene: &'a Scene<'g>,
-    pub inertia: InertiaShape,
     pub quaternion: Option<[Expr<'g>; 4]>,
     pub plain: Option<Plain<'a, 'g>>,
 }
@@ -64,6 +62,8 @@ pub struct Plain<'a, 'g> {
     pub sources: &'a [Source<'g>],
     /// Literal numbers that symbols stand for.
     pub literals: &'a [(Rational, Expr<'g>)],
+    /// Mass data of the body without a name that are written in clauses.
+    pub assigned: &'a [Assigned<'g>],
 }
 
 /// What the struct says of itself, whatever it describes.
@@ -106,8 +106,8 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     pub fn body(&'a self) -> Option<BodySubject<'a, 'g>> {
         match self.subject {
-            Subject::Body { model, scene, inertia, quaternion, plain } => {
-                Some(BodySubject { derived: self, model, scene, inertia, quaternion, plain })
+            Subject::Body { model, scene, quaternion, plain } => {
+                Some(BodySubject { derived: self, model, scene, quaternion, plain })
             }
             Subject::System(_) => None,
         }
@@ -177,7 +177,11 @@ impl<'a, 'g> Derived<'a, 'g> {
     /// How constants are written in methods.
     pub fn constant_names(&self) -> Map<u32, TokenStream> {
         let symbols = self.kernel.constant_symbols.iter().zip(self.constant_fields());
-        symbols.map(|(symbol, field)| (symbol.key(), quote!(self.#field))).collect()
+        let mut names: Map<u32, TokenStream> =
+            symbols.map(|(symbol, field)| (symbol.key(), quote!(self.#field))).collect();
+        let scalar = self.scalar();
+        names.extend(self.kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), scalar.literal(*value))));
+        names
     }
 
     /// The symbol of the time, where something can depend on it.
@@ -282,8 +286,8 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
     let (text, latex) = (text(derived, &sections), latex(&sections));
     let documentation = rustdoc(derived, &text);
     let (kernel_body, chart, configuration) = match derived.subject {
-        Subject::Body { model, scene, inertia, quaternion, plain } => {
-            let body = BodySubject { derived, model, scene, inertia, quaternion, plain };
+        Subject::Body { model, scene, quaternion, plain } => {
+            let body = BodySubject { derived, model, scene, quaternion, plain };
             (kernel_body(&body), body.chart_tokens(), body.configuration_type())
         }
         Subject::System(subject) => (
@@ -298,8 +302,8 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
     );
     let plain = match derived.subject {
         Subject::Body { plain, .. } => plain,
-        Subject::System(SystemSubject { model, sources, literals, .. }) => {
-            Some(Plain { fields: &model.fields, sources, literals })
+        Subject::System(SystemSubject { model, sources, literals, assigned, .. }) => {
+            Some(Plain { fields: &model.fields, sources, literals, assigned })
         }
     };
     let warnings = plain.map(|plain| warnings(derived, &plain, derived.drags));

@@ -11,6 +11,7 @@
 //! - `documentation`: equations and costs as text, LaTeX and rustdoc.
 
 mod arguments;
+mod assigned;
 mod body;
 mod documentation;
 mod kernel;

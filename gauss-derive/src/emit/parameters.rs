@@ -1,30 +1,30 @@
 //! `kernel()`: the fields of the user's struct read, checked, and turned into the constants of the kernel.
 
 use proc_macro2::{Span, TokenStream};
-use quote::{ToTokens, format_ident, quote};
+use quote::{format_ident, quote};
 use syn::ext::IdentExt;
 
-use crate::algebra::{Expr, Map, Rational};
+use crate::algebra::{Map, Rational};
 use crate::kernel::Program;
-use crate::mechanics::{InertiaShape, ParameterSymbol, Quantity};
-use crate::model::{Model, Motion, Parameter};
+use crate::mechanics::{ParameterSymbol, Quantity};
+use crate::model::{Model, Motion, Parameter, Role, Shape};
 
+use super::assigned::assigned_local;
 use super::kernel::{BodySubject, Derived, Plain};
 use super::program::statements;
 use super::system_parameters::{element as source_element, plain_fields};
 
-/// The field that gives a quantity.
-fn field(model: &Model, quantity: Quantity) -> Option<&Parameter> {
-    let index = match quantity {
-        Quantity::Mass => Some(model.mass),
-        Quantity::CenterOfMass => model.center_of_mass,
-        Quantity::Inertia => Some(model.inertia),
-        Quantity::AddedMass => model.added_mass,
-        Quantity::Gravity => model.gravity,
-        Quantity::DisplacedMass => model.displaced_mass,
-        Quantity::CenterOfBuoyancy => model.center_of_buoyancy,
-    };
-    index.and_then(|k| model.parameters.get(k))
+/// The role that gives a quantity.
+fn role(quantity: Quantity) -> Role {
+    match quantity {
+        Quantity::Mass => Role::Mass,
+        Quantity::CenterOfMass => Role::CenterOfMass,
+        Quantity::Inertia => Role::Inertia,
+        Quantity::AddedMass => Role::AddedMass,
+        Quantity::Gravity => Role::Gravity,
+        Quantity::DisplacedMass => Role::DisplacedMass,
+        Quantity::CenterOfBuoyancy => Role::CenterOfBuoyancy,
+    }
 }
 
 const QUANTITIES: [Quantity; 7] = [
@@ -43,14 +43,12 @@ fn local(quantity: Quantity) -> proc_macro2::Ident {
     format_ident!("__p{}", position, span = Span::mixed_site())
 }
 
-/// Is the field a scalar, a vector, or a matrix?
+/// Is the quantity a scalar, a vector, or a matrix?
 fn rank(derived: &BodySubject<'_, '_>, quantity: Quantity) -> usize {
-    let of: Vec<&ParameterSymbol<'_>> =
-        derived.scene.body.parameters.iter().filter(|p| p.quantity == quantity).collect();
-    match of.as_slice() {
-        [_] => 0,
-        several if several.iter().any(|p| p.column > 0) => 2,
-        _ => 1,
+    match derived.model.shape(role(quantity)) {
+        Some(Shape::Matrix3 | Shape::Matrix6) => 2,
+        Some(Shape::Vector3 | Shape::Vector6) => 1,
+        _ => 0,
     }
 }
 
@@ -63,33 +61,44 @@ fn element(derived: &BodySubject<'_, '_>, p: &ParameterSymbol<'_>) -> TokenStrea
     }
 }
 
+/// What speaks for a quantity: its field, or the word of its clause.
+fn said(model: &Model, quantity: Quantity) -> String {
+    let role = role(quantity);
+    model.field(role).map_or_else(|| role.word().to_owned(), |field| field.ident.unraw().to_string())
+}
+
 /// The body of `kernel()`.
 pub fn kernel_body(derived: &BodySubject<'_, '_>) -> TokenStream {
     let (model, runtime) = (derived.model, &derived.model.runtime);
     let private = quote!(#runtime::__private);
     let mut read = TokenStream::new();
+    let mut symbols: Map<u32, TokenStream> =
+        derived.scene.body.parameters.iter().map(|p| (p.symbol.key(), element(derived, p))).collect();
+    let mut finite = TokenStream::new();
+    if let Some(Plain { fields, sources, literals, .. }) = derived.plain {
+        let locals;
+        (locals, finite) = plain_fields(derived.derived, fields, sources);
+        read.extend(locals);
+        symbols.extend(sources.iter().map(|s| (s.symbol.key(), source_element(s))));
+        let scalar = derived.derived.scalar();
+        symbols.extend(literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
+    }
     for quantity in QUANTITIES {
-        let Some(parameter) = field(model, quantity) else { continue };
-        let (name, ident) = (local(quantity), &parameter.ident);
+        let name = local(quantity);
+        let assigned = derived.plain.and_then(|plain| plain.assigned.iter().find(|a| a.quantity == quantity));
+        if let Some(assigned) = assigned {
+            read.extend(assigned_local(derived.derived, &name, assigned, &symbols));
+        }
+        let Some(Parameter { ident, .. }) = model.field(role(quantity)) else { continue };
         read.extend(match rank(derived, quantity) {
             0 => quote!(let #name = self.#ident;),
             1 => quote!(let #name = #private::components(&self.#ident);),
             _ => quote!(let #name = #private::entries(&self.#ident);),
         });
     }
-    let mut symbols: Map<u32, TokenStream> =
-        derived.scene.body.parameters.iter().map(|p| (p.symbol.key(), element(derived, p))).collect();
     let mut checks = checks(derived, &symbols);
-    if let Some(Plain { fields, sources, literals }) = derived.plain {
-        let (locals, finite) = plain_fields(derived.derived, fields, sources);
-        read.extend(locals);
-        checks.extend(finite);
-        symbols.extend(sources.iter().map(|s| (s.symbol.key(), source_element(s))));
-        let scalar = derived.derived.scalar();
-        symbols.extend(literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
-    }
-    let mass_name = field(model, Quantity::Mass).map(|p| p.ident.unraw().to_string()).unwrap_or_default();
-    let kernel = constants(derived.derived, &symbols, &mass_name);
+    checks.extend(finite);
+    let kernel = constants(derived.derived, &symbols, &said(model, Quantity::Mass));
     quote! {
         #read
         #checks
@@ -120,13 +129,8 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
     let (model, runtime) = (derived.model, &derived.model.runtime);
     let scalar = derived.derived.scalar();
     let ty = scalar.ty();
-    let name_of = |quantity| field(model, quantity).map(|p| p.ident.unraw().to_string()).unwrap_or_default();
-    let body = &derived.scene.body;
-    let entry = |e: Expr<'_>| match symbols.get(&e.key()) {
-        Some(tokens) => tokens.clone(),
-        None => scalar.number(&Rational::zero()),
-    };
-    let has = |quantity| field(model, quantity).is_some();
+    let name_of = |quantity| said(model, quantity);
+    let has = |quantity| model.shape(role(quantity)).is_some();
     let mut checks = TokenStream::new();
     let (mass, mass_name) = (local(Quantity::Mass), name_of(Quantity::Mass));
     checks.extend(quote!(__check.mass(#mass_name, #mass);));
@@ -149,24 +153,18 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
     let rows = (0..3).map(|i| {
         let row = (0..3).map(|j| {
             if planar && i == j {
-                entry(body.inertia[2][2])
+                entry_as_written(derived, 2, 2)
             } else if planar {
-                entry(body.mass.graph().zero())
+                scalar.number(&Rational::zero())
             } else {
-                entry_as_written(derived, i, j, &entry)
+                entry_as_written(derived, i, j)
             }
         });
         quote!([#(#row),*])
     });
     checks.extend(quote!(let __inertia = [#(#rows),*]; __check.inertia(#inertia_name, &__inertia);));
     if planar {
-        let all = derived
-            .scene
-            .body
-            .parameters
-            .iter()
-            .filter(|p| p.quantity == Quantity::Inertia)
-            .map(|p| element(derived, p));
+        let all = (0..3).flat_map(|i| (i..3).map(move |j| (i, j))).map(|(i, j)| entry_as_written(derived, i, j));
         checks.extend(quote!(__check.finite(#inertia_name, &[#(#all),*]);));
     }
     if model.motion == Motion::Free && has(Quantity::CenterOfMass) {
@@ -203,15 +201,12 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
 }
 
 /// An entry of the inertia tensor as the user wrote it, so that an asymmetry is seen.
-fn entry_as_written(
-    derived: &BodySubject<'_, '_>,
-    i: usize,
-    j: usize,
-    entry: &impl Fn(Expr<'_>) -> TokenStream,
-) -> TokenStream {
-    if derived.inertia == InertiaShape::Full {
-        let name = local(Quantity::Inertia);
-        return quote!(#name[#i][#j]).into_token_stream();
+fn entry_as_written(derived: &BodySubject<'_, '_>, i: usize, j: usize) -> TokenStream {
+    let name = local(Quantity::Inertia);
+    match rank(derived, Quantity::Inertia) {
+        2 => quote!(#name[#i][#j]),
+        _ if i != j => derived.derived.scalar().number(&Rational::zero()),
+        1 => quote!(#name[#i]),
+        _ => quote!(#name),
     }
-    entry(derived.scene.body.inertia[i][j])
 }

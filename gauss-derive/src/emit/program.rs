@@ -25,19 +25,21 @@ impl ScalarTokens<'_> {
         }
     }
 
+    /// A finite number of a scalar that is a primitive type; digits enough to read back the same one.
+    pub fn literal(&self, value: f64) -> TokenStream {
+        let literal = match self.scalar {
+            Scalar::F32 => Literal::f32_suffixed(value.abs() as f32),
+            Scalar::F64 | Scalar::Parameter(_) => Literal::f64_suffixed(value.abs()),
+        };
+        if value.is_sign_negative() { quote!((-#literal)) } else { quote!(#literal) }
+    }
+
     /// A number, exactly where the scalar can hold it.
     pub fn number(&self, value: &Rational) -> TokenStream {
         let (real, ty) = (&self.real, self.ty());
         let (numerator, denominator) = (value.numer(), value.denom());
         match self.scalar {
-            Scalar::F64 if value.is_dyadic() => {
-                let literal = Literal::f64_suffixed(value.to_f64().abs());
-                if value.is_negative() { quote!((-#literal)) } else { quote!(#literal) }
-            }
-            Scalar::F32 if value.is_dyadic() => {
-                let literal = Literal::f32_suffixed(value.to_f64().abs() as f32);
-                if value.is_negative() { quote!((-#literal)) } else { quote!(#literal) }
-            }
+            Scalar::F64 | Scalar::F32 if value.is_dyadic() => self.literal(value.to_f64()),
             _ if numerator == 0 => quote!(<#ty as #real>::zero()),
             _ if numerator == 1 && denominator == 1 => quote!(<#ty as #real>::one()),
             _ => quote!(<#ty as #real>::ratio(#numerator, #denominator)),

@@ -5,7 +5,7 @@ use quote::quote;
 use syn::Ident;
 
 use crate::algebra::{Expr, Rational};
-use crate::mechanics::{Constraints, Coordinate, Method, System};
+use crate::mechanics::{Assigned, Constraints, Coordinate, Method, System};
 use crate::model::SystemModel;
 use crate::translate::Source;
 
@@ -23,6 +23,9 @@ pub struct SystemSubject<'a, 'g> {
     pub sources: &'a [Source<'g>],
     /// Literal numbers that symbols stand for.
     pub literals: &'a [(Rational, Expr<'g>)],
+    /// Mass data that are written in clauses: of the body without a name, and of each of the others.
+    pub assigned: &'a [Assigned<'g>],
+    pub assigned_to_bodies: &'a [Vec<Assigned<'g>>],
     /// Which link each clause of a body or frame became.
     pub links: &'a [usize],
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate.

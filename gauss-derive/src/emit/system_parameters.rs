@@ -10,6 +10,7 @@ use crate::mechanics::{Matter, Quantity};
 use crate::model::{ExpressionKind, Role, Shape, SystemField, SystemModel};
 use crate::translate::{DragMatrix, Part, Source};
 
+use super::assigned::{assigned_bodies, assigned_local};
 use super::kernel::{Derived, Plain};
 use super::parameters::constants;
 use super::program::statements;
@@ -54,6 +55,13 @@ pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_,
     let ty = derived.scalar().ty();
     let mut read = TokenStream::new();
     let mut checks = TokenStream::new();
+    let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
+    let scalar = derived.scalar();
+    symbols.extend(subject.literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
+    let assigned = model.given.iter().zip(subject.assigned);
+    let assigned =
+        assigned.map(|(given, value)| assigned_local(derived, &local_of_clause(given.role), value, &symbols));
+    let assigned: TokenStream = assigned.collect();
     for (k, field) in model.fields.iter().enumerate() {
         if !sources.iter().any(|s| s.field == k) {
             continue;
@@ -88,24 +96,16 @@ pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_,
         }
         checks.extend(match (field.role, field.shape) {
             (_, Shape::RigidBody | Shape::Other) => TokenStream::new(),
-            (Some(Role::Mass), _) => quote!(__check.mass(#said, #name);),
-            (Some(Role::DisplacedMass), _) => quote!(__check.non_negative(#said, #name);),
-            (Some(Role::Inertia), shape) => {
-                let rows = inertia_rows(&ty, derived, shape, &name);
-                let about_center = central_inertia(model, &said);
-                quote!({
-                    let __inertia = #rows;
-                    __check.inertia(#said, &__inertia);
-                    #about_center
-                })
-            }
-            (Some(Role::AddedMass), Shape::Matrix6) => quote!(__check.symmetric(#said, &#name);),
+            (Some(role), shape) => role_check(derived, model, role, shape, &said, &name),
             _ => finite(k, field),
         });
     }
-    let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
-    let scalar = derived.scalar();
-    symbols.extend(subject.literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
+    for given in &model.given {
+        let (said, name) = (given.role.word(), local_of_clause(given.role));
+        checks.extend(role_check(derived, model, given.role, given.shape, said, &name));
+    }
+    read.extend(assigned);
+    checks.extend(assigned_bodies(derived, subject, &symbols));
     let particles = system.scene.tree.links.iter().filter_map(|link| match link.matter {
         Matter::Particle(mass) => Some(mass),
         _ => None,
@@ -130,6 +130,37 @@ pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_,
     }
 }
 
+/// The local of what a clause says.
+fn local_of_clause(role: Role) -> Ident {
+    format_ident!("__given_{}", role.word(), span = Span::mixed_site())
+}
+
+/// What must hold of mass data and gravity, from fields or clauses.
+fn role_check(
+    derived: &Derived<'_, '_>,
+    model: &SystemModel,
+    role: Role,
+    shape: Shape,
+    said: &str,
+    name: &Ident,
+) -> TokenStream {
+    match (role, shape) {
+        (Role::Mass, _) => quote!(__check.mass(#said, #name);),
+        (Role::DisplacedMass, _) => quote!(__check.non_negative(#said, #name);),
+        (Role::Inertia, shape) => {
+            let rows = inertia_rows(&derived.scalar().ty(), derived, shape, name);
+            let about_center = central_inertia(model, said);
+            quote!({
+                let __inertia = #rows;
+                __check.inertia(#said, &__inertia);
+                #about_center
+            })
+        }
+        (Role::AddedMass, Shape::Matrix6) => quote!(__check.symmetric(#said, &#name);),
+        _ => finite_value(shape, said, name),
+    }
+}
+
 /// The local of a field.
 fn read_field(derived: &Derived<'_, '_>, k: usize, field: &SystemField) -> TokenStream {
     let (private, ident, name) = (derived.private(), &field.ident, local(k, ""));
@@ -141,8 +172,11 @@ fn read_field(derived: &Derived<'_, '_>, k: usize, field: &SystemField) -> Token
 }
 
 fn finite(k: usize, field: &SystemField) -> TokenStream {
-    let (name, said) = (local(k, ""), field.ident.unraw().to_string());
-    match field.shape {
+    finite_value(field.shape, &field.ident.unraw().to_string(), &local(k, ""))
+}
+
+fn finite_value(shape: Shape, said: &str, name: &Ident) -> TokenStream {
+    match shape {
         Shape::Scalar => quote!(__check.finite(#said, &[#name]);),
         Shape::Vector3 | Shape::Vector6 => quote!(__check.finite(#said, &#name);),
         _ => quote!(for __row in &#name { __check.finite(#said, __row); }),
@@ -164,7 +198,7 @@ pub fn warnings(derived: &Derived<'_, '_>, plain: &Plain<'_, '_>, drags: &[DragM
     if drags.is_empty() {
         return TokenStream::new();
     }
-    let Plain { fields, sources, literals } = plain;
+    let Plain { fields, sources, literals, .. } = plain;
     let (private, runtime, ty) = (derived.private(), derived.item().runtime, derived.scalar().ty());
     let (visibility, scalar) = (derived.item().visibility, derived.scalar());
     let is_read = |k: usize| sources.iter().any(|s| s.field == k);
@@ -200,7 +234,12 @@ pub fn warnings(derived: &Derived<'_, '_>, plain: &Plain<'_, '_>, drags: &[DragM
 
 /// Of a body that turns about one of its axes alone only the moment of inertia about that axis enters, and the two
 /// components of the centre of mass across it.
-fn in_plane(derived: &Derived<'_, '_>, axis: usize, said: &str, [mass, center, inertia]: [&Ident; 3]) -> TokenStream {
+pub fn in_plane(
+    derived: &Derived<'_, '_>,
+    axis: usize,
+    said: &str,
+    [mass, center, inertia]: [&Ident; 3],
+) -> TokenStream {
     let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
     let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
     let zero = quote!(<#ty as #real>::zero());
@@ -240,11 +279,13 @@ fn inertia_rows(ty: &TokenStream, derived: &Derived<'_, '_>, shape: Shape, name:
 /// What is left about the centre of mass must be an inertia too, unless O is held at Ω: only m·c and I_O enter then, and m
 /// by itself says nothing.
 fn central_inertia(model: &SystemModel, said: &str) -> TokenStream {
-    let field = |role: Role| model.fields.iter().position(|f| f.role == Some(role));
+    let of = |role: Role| {
+        let field = model.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
+        field.or_else(|| model.given.iter().any(|given| given.role == role).then(|| local_of_clause(role)))
+    };
     let moves = model.bodies.iter().any(|body| body.position.is_some());
-    match (field(Role::Mass), field(Role::CenterOfMass)) {
+    match (of(Role::Mass), of(Role::CenterOfMass)) {
         (Some(mass), Some(center)) if moves => {
-            let (mass, center) = (local(mass, ""), local(center, ""));
             quote!(__check.central_inertia(#said, #mass, #center, &__inertia);)
         }
         _ => TokenStream::new(),

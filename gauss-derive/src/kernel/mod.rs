@@ -22,7 +22,7 @@ mod tests;
 
 use std::fmt;
 
-use crate::algebra::{Evaluation, Expr, Graph, Map, Tangents};
+use crate::algebra::{Evaluation, Expr, Graph, Map, Rational, Tangents};
 
 use hoist::Hoister;
 pub use program::{Counts, Operand, Operation, Program, Smoothness};
@@ -48,7 +48,12 @@ pub struct Kernel<'g> {
     pub tangents: Option<Program<'g>>,
     /// The constants as symbols, in the order of the outputs of `constants`.
     pub constant_symbols: Vec<Expr<'g>>,
+    /// Constants that literal numbers alone determine, with their values.
+    pub known_constants: Vec<(Expr<'g>, f64)>,
 }
+
+/// Symbols that stand for literal numbers. Where the scalar is not known before run time, there is no value to fold.
+pub type Literals<'a, 'g> = Option<&'a [(Rational, Expr<'g>)]>;
 
 /// A function to be lowered: lists of outputs that are equal, of which the cheapest is taken.
 pub struct Candidates<'g> {
@@ -97,6 +102,7 @@ impl<'g> Kernel<'g> {
         functions: &[Candidates<'g>],
         definitions: &Map<u32, Expr<'g>>,
         differentiated: Option<&Differentiated<'g>>,
+        literals: Literals<'_, 'g>,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
         let mut programs = Vec::with_capacity(functions.len());
@@ -120,9 +126,28 @@ impl<'g> Kernel<'g> {
         // Constants that only a dearer arrangement wanted are dropped.
         let read: Vec<Expr<'g>> = programs.iter().chain(&tangents).flat_map(Program::symbols).collect();
         let constants = hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(symbol));
-        let (constant_symbols, values): (Vec<_>, Vec<_>) = constants.unzip();
-        let kernel = Self { constants: Program::lower(&values), functions: programs, tangents, constant_symbols };
-        kernel.check(graph, &chosen, definitions, derived.as_ref())?;
+        let literal_values: Map<u32, f64> =
+            literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
+        let known = |definition: Expr<'g>| {
+            let value = Evaluation::new(&literal_values).value(definition);
+            let made_of_literals = literals.is_some()
+                && Program::lower(&[definition]).symbols().iter().all(|s| literal_values.contains_key(&s.key()));
+            // What has no value is left to `kernel()`, which refuses it.
+            Some(value).filter(|value| made_of_literals && value.is_finite())
+        };
+        let (mut constant_symbols, mut values, mut known_constants) = (Vec::new(), Vec::new(), Vec::new());
+        for (symbol, definition) in constants {
+            match known(definition) {
+                Some(value) => known_constants.push((symbol, value)),
+                None => {
+                    constant_symbols.push(symbol);
+                    values.push(definition);
+                }
+            }
+        }
+        let constants = Program::lower(&values);
+        let kernel = Self { constants, functions: programs, tangents, constant_symbols, known_constants };
+        kernel.check(graph, &chosen, definitions, derived.as_ref(), &literal_values)?;
         Ok(kernel)
     }
 
@@ -136,9 +161,10 @@ impl<'g> Kernel<'g> {
         functions: &[&Vec<Expr<'g>>],
         definitions: &Map<u32, Expr<'g>>,
         derived: Option<&Derived<'_, 'g>>,
+        literals: &Map<u32, f64>,
     ) -> Result<(), Miscompiled> {
         let outputs = || functions.iter().flat_map(|outputs| outputs.iter());
-        let points = (0..16).map(|shift| sample_point(graph, shift, definitions));
+        let points = (0..16).map(|shift| sample_point(graph, shift, definitions, literals));
         let inside = |point: &Map<u32, f64>| {
             let mut evaluation = Evaluation::new(point);
             outputs().all(|e| evaluation.value(*e).is_finite())
@@ -162,6 +188,7 @@ impl<'g> Kernel<'g> {
         let mut values = point.clone();
         let constants = self.constants.run(point);
         values.extend(self.constant_symbols.iter().zip(constants).map(|(s, v)| (s.key(), v)));
+        values.extend(self.known_constants.iter().map(|(s, v)| (s.key(), *v)));
         let mut evaluation = Evaluation::new(point);
         for (function, (program, outputs)) in self.functions.iter().zip(functions).enumerate() {
             let expected: Vec<f64> = outputs.iter().map(|e| evaluation.value(*e)).collect();
@@ -219,8 +246,13 @@ fn compare(function: usize, found: &[f64], expected: &[f64]) -> Result<(), Misco
     Ok(())
 }
 
-/// A value of order one for every symbol, different for each, and the values of what is defined by them.
-fn sample_point<'g>(graph: &'g Graph, shift: u32, definitions: &Map<u32, Expr<'g>>) -> Map<u32, f64> {
+/// A value of order one for every symbol, different for each, but for literals, and the values of what is defined by them.
+fn sample_point<'g>(
+    graph: &'g Graph,
+    shift: u32,
+    definitions: &Map<u32, Expr<'g>>,
+    literals: &Map<u32, f64>,
+) -> Map<u32, f64> {
     let mut point: Map<u32, f64> = graph
         .symbol_keys()
         .into_iter()
@@ -231,6 +263,7 @@ fn sample_point<'g>(graph: &'g Graph, shift: u32, definitions: &Map<u32, Expr<'g
             (key, 0.6 + fraction)
         })
         .collect();
+    point.extend(literals);
     let mut evaluation = Evaluation::new(&point);
     let defined: Vec<(u32, f64)> = definitions.iter().map(|(&symbol, e)| (symbol, evaluation.value(*e))).collect();
     point.extend(defined);

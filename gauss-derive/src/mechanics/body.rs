@@ -1,6 +1,6 @@
 //! The body's parameters as symbols, and integrals over the body as moments.
 
-use crate::algebra::{Expr, Graph};
+use crate::algebra::{Expr, Graph, Map};
 
 use super::names::Name;
 use super::vector::Triple;
@@ -60,7 +60,15 @@ pub struct ParameterSymbol<'g> {
     pub column: usize,
 }
 
-/// The body as the derivation sees it; all entries are symbols, sums of symbols, or zero.
+/// What a quantity is, where it is not read from a parameter of its own: one value, or the components in order.
+#[derive(Clone, Debug)]
+pub struct Assigned<'g> {
+    pub quantity: Quantity,
+    /// Expressions of parameters and numbers.
+    pub values: Vec<Expr<'g>>,
+}
+
+/// The body as the derivation sees it; all entries depend on parameters alone.
 #[derive(Clone)]
 pub struct Body<'g> {
     pub mass: Expr<'g>,
@@ -165,6 +173,23 @@ impl<'g> Body<'g> {
             (mass, center)
         });
         Self { mass, center_of_mass, inertia, added_mass, gravity, displaced, parameters: symbols.list }
+    }
+
+    /// Puts values in the place of the symbols of a quantity, as many as its shape has.
+    pub fn assign(&mut self, assigned: &Assigned<'g>) {
+        let own = |p: &ParameterSymbol<'g>| p.quantity == assigned.quantity;
+        let symbols = self.parameters.iter().filter(|p| own(p)).map(|p| p.symbol.key());
+        let values: Map<u32, Expr<'g>> = symbols.zip(assigned.values.iter().copied()).collect();
+        self.parameters.retain(|p| !own(p));
+        let put = |e: &mut Expr<'g>| *e = e.substitute(&values);
+        put(&mut self.mass);
+        self.center_of_mass.iter_mut().for_each(put);
+        self.inertia.iter_mut().flatten().for_each(put);
+        self.gravity.iter_mut().flatten().for_each(put);
+        if let Some((mass, center)) = &mut self.displaced {
+            put(mass);
+            center.iter_mut().for_each(put);
+        }
     }
 
     /// `∫ x dm = m c`.

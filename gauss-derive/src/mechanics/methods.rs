@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use crate::algebra::{Expr, Graph, Map, Solver};
 
 use super::accounts::Account;
-use super::body::{Body, BodyShape};
+use super::body::{Assigned, Body, BodyShape};
 use super::chart::{ConfigurationKind, Kinematics};
 use super::momentum::{
     ARRANGEMENTS, Arrangement, Balance, Formal, KineticMatrix, LinearAcceleration, Weight, solve_balance,
@@ -98,9 +98,11 @@ pub struct PrintedMomenta<'g> {
 }
 
 impl<'g> Scene<'g> {
-    pub fn new(graph: &'g Graph, motion: Motion, chart: Chart, shape: BodyShape) -> Self {
+    /// Of a body some of whose quantities may be `assigned` other values than parameters of their own.
+    pub fn new(graph: &'g Graph, motion: Motion, chart: Chart, shape: BodyShape, assigned: &[Assigned<'g>]) -> Self {
         let up = if motion == Motion::Planar { 1 } else { 2 };
-        let body = Body::new(graph, shape, up);
+        let mut body = Body::new(graph, shape, up);
+        assigned.iter().for_each(|assigned| body.assign(assigned));
         let kinematics = Kinematics::new(graph, motion, chart);
         let (linear, angular): (Vec<usize>, Vec<usize>) = kinematics.active.iter().partition(|&&k| k < 3);
         let matrix = KineticMatrix::new(graph, &body, &linear, &angular);
@@ -176,7 +178,13 @@ impl<'g> Scene<'g> {
         if self.adds_momentum() {
             balances.push(self.balance(Arrangement::Whole));
         }
-        let residuals: Vec<Vec<Expr<'g>>> = balances[..2].iter().map(|b| self.residual(b)).collect();
+        let short = self.short();
+        let residuals: Vec<Vec<Expr<'g>>> =
+            balances[..2].iter().map(|b| self.residual(b)).chain(short.as_ref().map(|s| s.residual.clone())).collect();
+        let with_short = |method, outputs, short: Option<&Vec<Expr<'g>>>| Formula {
+            method,
+            arrangements: [Some(outputs), short.cloned()].into_iter().flatten().collect(),
+        };
         let momentum = self.momentum();
         let (pair, velocity) = self.state_of_momentum();
         let constraint = residuals.iter().map(|r| vec![self.constraint_function(r)]).collect();
@@ -184,13 +192,17 @@ impl<'g> Scene<'g> {
             single(Method::Kinematics, self.configuration_rate()),
             Formula {
                 method: Method::Acceleration,
-                arrangements: balances.iter().map(|b| self.acceleration(b)).collect(),
+                arrangements: balances
+                    .iter()
+                    .map(|b| self.acceleration(b))
+                    .chain(short.as_ref().map(|s| s.acceleration.clone()))
+                    .collect(),
             },
             single(Method::MomentumRate, self.momentum_rate(pair, &velocity)),
-            single(Method::MassMatrix, self.mass_matrix(&momentum)),
-            single(Method::Momentum, momentum),
-            single(Method::Velocity, velocity),
-            single(Method::KineticEnergy, vec![self.kinetic_energy()]),
+            with_short(Method::MassMatrix, self.mass_matrix(&momentum), short.as_ref().map(|s| &s.matrix)),
+            with_short(Method::Momentum, momentum, short.as_ref().map(|s| &s.momentum)),
+            with_short(Method::Velocity, velocity, short.as_ref().map(|s| &s.velocity)),
+            with_short(Method::KineticEnergy, vec![self.kinetic_energy()], short.as_ref().map(|s| &s.kinetic_energy)),
             single(Method::PotentialEnergy, vec![self.potential_energy()]),
             Formula { method: Method::GaussResidual, arrangements: residuals },
             Formula { method: Method::ConstraintFunction, arrangements: constraint },
@@ -491,7 +503,7 @@ impl<'g> Scene<'g> {
     }
 
     /// T = ½ (Q·v_O + Γ_O·ω).
-    fn kinetic_energy(&self) -> Expr<'g> {
+    pub fn kinetic_energy(&self) -> Expr<'g> {
         let frame = &self.kinematics.frame;
         let (u, omega) = (self.in_body(&self.kinematics.velocity), self.in_body(&self.kinematics.angular_velocity));
         let q = self.matrix.linear_momentum(frame, &self.kinematics.velocity, &omega).map(Expr::group);

@@ -45,6 +45,7 @@ mod proof;
 mod random_systems;
 mod regroup;
 mod rotation;
+mod short;
 #[cfg(test)]
 mod snapshots;
 #[cfg(test)]
@@ -60,7 +61,7 @@ mod vector;
 mod wrench;
 
 pub use accounts::Account;
-pub use body::{AddedMassShape, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
+pub use body::{AddedMassShape, Assigned, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
 pub use chart::ConfigurationKind;
 pub use check::check_against_definition;
 pub use constraint::{Constraint, ConstraintKind, Constraints};

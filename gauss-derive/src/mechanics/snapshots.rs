@@ -33,7 +33,7 @@ fn equations(motion: Motion, chart: Chart, notation: Notation) -> String {
     for (title, shape) in bodies() {
         let graph = Graph::new();
         out.push_str(&format!("=== {title}\n"));
-        for section in Scene::new(&graph, motion, chart, shape).equations() {
+        for section in Scene::new(&graph, motion, chart, shape, &[]).equations() {
             let title = if notation == Notation::Latex { section.title.latex } else { section.title.text };
             out.push_str(&format!("\n{title}\n"));
             for row in section.rows {

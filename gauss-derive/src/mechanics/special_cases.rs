@@ -36,7 +36,7 @@ fn system_of<'g>(graph: &'g Graph, scene: &Scene<'g>) -> Tree<'g> {
 fn a_chart_is_a_system_of_one_link() {
     for (motion, chart) in scenes() {
         let graph = Graph::new();
-        let scene = Scene::new(&graph, motion, chart, GENERAL);
+        let scene = Scene::new(&graph, motion, chart, GENERAL, &[]);
         let tree = system_of(&graph, &scene);
         let relations = relations(&graph, &scene.kinematics);
         let along = scene.kinematics.rates_with_accelerations();
@@ -81,7 +81,7 @@ fn friction<'g>(factors: &[Expr<'g>; 4], velocities: [&Triple<'g>; 4]) -> Expr<'
 }
 
 fn compare_what_acts<'g>(graph: &'g Graph, motion: Motion, chart: Chart) {
-    let scene = Scene::new(graph, motion, chart, GENERAL);
+    let scene = Scene::new(graph, motion, chart, GENERAL, &[]);
     let kinematics = &scene.kinematics;
     let rotation = std::array::from_fn(|i| triple(graph, &format!("E{}", i + 1), false));
     let observed = Observed::new(graph, graph.symbol("t", "t", false), rotation, triple(graph, "B", false));

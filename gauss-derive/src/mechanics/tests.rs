@@ -142,7 +142,7 @@ fn every_formula_satisfies_the_gauss_condition() {
     for (motion, chart) in scenes() {
         for shape in shapes() {
             let graph = Graph::new();
-            let scene = Scene::new(&graph, motion, chart, shape);
+            let scene = Scene::new(&graph, motion, chart, shape, &[]);
             let formulas = scene.formulas();
             let kinematics = &scene.kinematics;
             let condition = gauss_condition(kinematics, &scene.body);

@@ -46,6 +46,7 @@ fn place(statements: &mut Statements) {
         parent: None,
         position: of_pose(Property::Position),
         rotation: of_pose(Property::Rotation),
+        given: Vec::new(),
         span: pose.span(),
     });
     let coordinate = Coordinate { ident: pose.clone(), kind: CoordinateKind::Pose };

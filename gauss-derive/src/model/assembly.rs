@@ -8,6 +8,7 @@ use super::definitions;
 use super::dimensions;
 use super::fields::{Field, Reader};
 use super::forces;
+use super::given;
 use super::kinds;
 use super::motion;
 use super::naming::{self, same, word};
@@ -72,11 +73,13 @@ pub(super) fn check_expressions(
     let mut scope = scope(statements, &reader.fields, shapes, scalar, uncertain);
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions(statements) {
-        // Of constraints the kind is needed as well.
-        if !matches!(place, Place::Constraint(_)) {
+        // Of constraints and mass data the kind is needed as well.
+        if !matches!(place, Place::Constraint(_) | Place::Given(_)) {
             kinds::check(expression, place, &scope, context);
         }
     }
+    given::check(&mut statements.given, &scope, context);
+    statements.bodies.iter_mut().for_each(|body| given::check(&mut body.given, &scope, context));
     forces::check(statements, context);
     forces::check_coefficients(statements, &reader.fields, &scope, scalar, context);
     let well = constraints::check_kinds(statements, &scope, context);
@@ -150,6 +153,7 @@ pub(super) fn model(
         limit: statements.limit.and_then(|(_, limit)| limit),
         potential: statements.potential.and_then(|(_, potential)| potential),
         inputs: statements.inputs.map_or_else(Vec::new, |inputs| inputs.names),
+        given: statements.given,
         medium: statements.medium.and_then(|(_, velocity)| velocity),
         attractions: statements.attractions,
         forces: statements.forces,
@@ -182,6 +186,8 @@ fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
         all.extend(body.position.as_ref().map(|position| (Place::Position, position)));
         all.extend(body.rotation.as_ref().map(|rotation| (Place::Rotation, rotation)));
     }
+    let given = statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given));
+    all.extend(given.map(|given| (Place::Given(given.role), &given.value)));
     for particle in &statements.particles {
         all.push((Place::Mass, &particle.mass));
         all.push((Place::Particle { parent: particle.parent.is_some() }, &particle.position));
@@ -239,6 +245,8 @@ impl Statements {
         for body in &mut self.bodies {
             body.position.iter_mut().chain(&mut body.rotation).for_each(&mut *change);
         }
+        let of_bodies = self.bodies.iter_mut().flat_map(|body| &mut body.given);
+        self.given.iter_mut().chain(of_bodies).for_each(|given| change(&mut given.value));
         for particle in &mut self.particles {
             change(&mut particle.mass);
             change(&mut particle.position);
@@ -280,12 +288,16 @@ fn check_masses(
     uncertain: bool,
     context: &mut Context,
 ) {
-    let known = |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role);
+    let given = |role: Role| statements.given.iter().any(|given| given.role == role);
+    let known =
+        |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role) || given(role);
     // An accelerating medium pushes the displaced mass as gravity does.
     let pushed = statements.medium.is_some();
-    for field in &reader.fields {
-        validate::check_companion(field, |role| known(role) || (role == Role::Gravity && pushed), scalar, context);
+    let known = |role: Role| known(role) || (role == Role::Gravity && pushed);
+    for claim in reader.fields.iter().filter_map(|field| field.role.as_ref()) {
+        validate::check_companion(claim.role, claim.span, known, scalar, context);
     }
+    given::check_roles(&statements.given, &reader.fields, known, scalar, context);
     let bodies = statements.massive().count();
     if statements.has_unnamed_body() {
         // Of several unnamed bodies none is meant to have the roles: they must get names first.
@@ -313,6 +325,16 @@ fn check_masses(
             );
         }
         return;
+    }
+    for given in statements.given.iter().filter(|given| given.role != Role::Gravity) {
+        let word = given.role.word();
+        context.error(
+            given.span,
+            format!(
+                "`{word}` is that of a body without a name, and this system has none; write it in the clause of the body: \
+                 `body(name, {word} = …)`"
+            ),
+        );
     }
     for field in &reader.fields {
         let Some(claim) = &field.role else { continue };
@@ -402,7 +424,11 @@ fn meaning(field: &Field<'_>, shape: Shape, scalar: &str) -> Meaning {
 }
 
 /// The scalar of a system none of whose fields shows one.
-fn scalar_without_fields(input: &DeriveInput, fields: &[Field<'_>], context: &mut Context) -> Option<Scalar> {
+pub(super) fn scalar_without_fields(
+    input: &DeriveInput,
+    fields: &[Field<'_>],
+    context: &mut Context,
+) -> Option<Scalar> {
     let generic = input.generics.params.iter().any(|parameter| matches!(parameter, GenericParam::Type(_)));
     let hidden = fields.iter().find(|field| field.computed && matches!(field.reading.element, Element::Hidden));
     match hidden {

@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::fields::{Field, Reader};
+use super::given;
 use super::names;
 use super::naming::{same, word};
 use super::scope::UNNAMED;
@@ -55,10 +56,14 @@ fn check_names(statements: &Statements, scalar: &str, context: &mut Context) {
 /// Each named body has a field, and each field that is a body has a clause.
 fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
     let is_body = |field: &Field<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
-    let bodies = named(&statements.massive().collect::<Vec<_>>());
+    statements.massive().filter(|body| !body.given.is_empty()).for_each(|body| {
+        given::check_named(body, &reader.fields, context);
+    });
+    let bodies = named(&statements.massive().filter(|body| body.given.is_empty()).collect::<Vec<_>>());
     // That a frame cannot have the name of a field is noted with the names.
     let frames: Vec<&Ident> = statements.frames().collect();
-    let placed = |field: &Field<'_>| bodies.iter().chain(&frames).any(|name| same(name, field.ident));
+    let all = named(&statements.massive().collect::<Vec<_>>());
+    let placed = |field: &Field<'_>| all.iter().chain(&frames).any(|name| same(name, field.ident));
     let unclaimed: Vec<(String, ())> = reader
         .fields
         .iter()
@@ -97,7 +102,9 @@ fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, cont
                         meant.push(near.into());
                         format!("did you mean `{near}`?")
                     }
-                    None => format!("add `#[gauss(body)] {name}: RigidBody<{scalar}>`"),
+                    None => format!(
+                        "add `#[gauss(body)] {name}: RigidBody<{scalar}>`, or `mass = …` and `inertia = …` to the clause"
+                    ),
                 };
                 context.error(name.span(), format!("the body `{name}` has no field with its mass data; {remedy}"));
             }

@@ -14,6 +14,7 @@
 //! | `placements` | `body`, `frame`, `particle`, `point` |
 //! | `actions` | `force`, `torque`, `wrench`, `drag`, `drive`, `spring`, `stop`, `central_gravity`, `medium` |
 //! | `fields` | the clauses of the fields: their roles |
+//! | `given` | mass data in clauses: `mass = 2.0` |
 //! | `roles` | what each role is called and which shapes it takes |
 //! | `shapes` | the written type of a field → shape and scalar |
 //! | `validate` | what must hold between fields: one scalar, no role missing or doubled |
@@ -47,6 +48,7 @@ mod expression;
 mod fields;
 mod forces;
 mod functions;
+mod given;
 mod kinds;
 mod motion;
 mod moving;
@@ -68,6 +70,7 @@ mod units;
 mod validate;
 
 pub use expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+pub use given::Given;
 pub use system::{
     Attraction, BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, Extent,
     ForceAxes, ForceClause, ForceKind, InputKind, InputName, ParticleClause, PointClause, Speed, SpeedKind,
@@ -105,25 +108,26 @@ pub struct Model {
     pub motion: Motion,
     /// Every field of the struct, in order.
     pub parameters: Vec<Parameter>,
-    /// Index of the mass m.
-    pub mass: usize,
-    /// Index of the centre of mass G − O, body axes; without it O is the centre of mass.
-    pub center_of_mass: Option<usize>,
-    /// Index of the inertia tensor about O, body axes.
-    pub inertia: usize,
-    /// Index of the added mass, body axes, pole O, order (u, ω); without it there is no fluid impulse.
-    pub added_mass: Option<usize>,
-    /// Index of gravity; without it the body has no weight.
-    pub gravity: Option<usize>,
-    /// Index of the mass of the displaced fluid: buoyancy is this mass times gravity, upwards.
-    pub displaced_mass: Option<usize>,
-    /// Index of the centre of buoyancy, body axes from O; without it buoyancy acts at O.
-    pub center_of_buoyancy: Option<usize>,
-    /// What acts besides weight and buoyancy, if anything is written: the same body as a system whose only coordinate is
-    /// its pose, free whatever `motion` is, and whose only body has no name.
-    pub acting: Option<Box<SystemModel>>,
+    /// Where expressions are written, of what acts besides weight and buoyancy or of mass data: the same body as a system
+    /// whose only coordinate is its pose, free whatever `motion` is, and whose only body has no name.
+    pub system: Option<Box<SystemModel>>,
+    /// Something acts besides weight and buoyancy.
+    pub acted_upon: bool,
     /// What is wanted beside the equations.
     pub wanted: Wanted,
+}
+
+impl Model {
+    /// The field that plays a role.
+    pub fn field(&self, role: Role) -> Option<&Parameter> {
+        self.parameters.iter().find(|parameter| parameter.role == Some(role))
+    }
+
+    /// The shape of what plays a role, a field or a clause; without it the body has no such thing.
+    pub fn shape(&self, role: Role) -> Option<Shape> {
+        let given = || self.system.iter().flat_map(|system| &system.given).find(|given| given.role == role);
+        self.field(role).map(|field| field.shape).or_else(|| given().map(|given| given.shape))
+    }
 }
 
 /// What is wanted beside the equations, each by a clause that is its name alone.

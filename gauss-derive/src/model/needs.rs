@@ -70,6 +70,11 @@ impl Checker<'_> {
                 self.value(rotation);
             }
         }
+        for given in statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given)) {
+            if let Some(unit) = given.role.unit() {
+                self.require(&given.value, &Need::new(format!("`{}` is", given.role.word()), unit));
+            }
+        }
         for particle in &statements.particles {
             self.require(&particle.mass, &Need::new("the mass of a particle is", MASS));
             self.require(&particle.position, &Need::new("positions are", LENGTH));

@@ -2,13 +2,15 @@
 
 use super::attributes::{self, Clause, Place, Value};
 use super::context::Context;
+use super::given;
 use super::names::{self, Table};
 use super::scope::UNNAMED;
 use super::statements::{self, brackets, known, value};
 use super::{BodyClause, ParticleClause, PointClause};
 use proc_macro2::{Ident, TokenTree};
 
-const BODY: &Table<()> = &[("position", ()), ("rotation", ()), ("parent", ())];
+const BODY: &Table<()> =
+    &[("position", ()), ("rotation", ()), ("parent", ()), ("mass", ()), ("center_of_mass", ()), ("inertia", ())];
 const PARTICLE: &Table<()> = &[("mass", ()), ("position", ()), ("parent", ())];
 const POINT: &Table<()> = &[("body", ()), ("at", ())];
 
@@ -20,10 +22,17 @@ pub(super) fn read_body(clause: &Clause, massless: bool, context: &mut Context) 
         ("body", Place::Body, "position = […], rotation = …")
     };
     let group = brackets(clause, example, context)?;
-    let mut body =
-        BodyClause { name: None, massless, parent: None, position: None, rotation: None, span: clause.name.span() };
+    let mut body = BodyClause {
+        name: None,
+        massless,
+        parent: None,
+        position: None,
+        rotation: None,
+        given: Vec::new(),
+        span: clause.name.span(),
+    };
     let (arguments, complete) = statements::arguments(group, place, context);
-    let mut given: Vec<String> = Vec::new();
+    let mut names: Vec<String> = Vec::new();
     let mut certain = true;
     for (index, argument) in arguments.iter().enumerate() {
         let word = argument.word();
@@ -35,15 +44,19 @@ pub(super) fn read_body(clause: &Clause, massless: bool, context: &mut Context) 
             certain &= body.name.is_some();
             continue;
         }
-        if massless && word == "mass" {
+        let role = given::role(&word);
+        if massless && role.is_some() {
             context.error(argument.name.span(), "a frame has no mass; what has mass is a `body` or a `particle`");
             continue;
         }
-        if !known(argument, noun, BODY, &mut given, context) {
+        if !known(argument, noun, BODY, &mut names, context) {
             continue;
         }
         match word.as_str() {
             "position" => body.position = value(argument, "[x, y, 0]", context).or(body.position),
+            _ if role.is_some() => {
+                role.into_iter().for_each(|role| given::read(role, argument, &mut body.given, context))
+            }
             "rotation" => body.rotation = value(argument, "rotation_z(theta)", context).or(body.rotation),
             _ => body.parent = read_reference(argument, "another body or frame", context).or(body.parent),
         }

@@ -2,7 +2,7 @@
 
 use super::kinds::Kind;
 use super::scope::Meaning;
-use super::{ConstraintKind, CoordinateKind, FunctionName};
+use super::{ConstraintKind, CoordinateKind, FunctionName, Role, Shape};
 use proc_macro2::Ident;
 
 /// Where an expression stands.
@@ -19,6 +19,8 @@ pub(super) enum Place {
         parent: bool,
     },
     Mass,
+    /// Of a body, in a clause.
+    Given(Role),
     /// Of a point in its body.
     At,
     Potential,
@@ -75,6 +77,11 @@ impl Place {
             }
             Place::Medium | Place::Center => kind == Kind::Vector,
             Place::Rotation => kind == Kind::Rotation,
+            Place::Given(role) => match kind {
+                Kind::Scalar => role.takes(Shape::Scalar),
+                Kind::Vector => role.takes(Shape::Vector3),
+                _ => false,
+            },
             Place::Constraint(_) => matches!(kind, Kind::Scalar | Kind::Vector),
             Place::Definition => kind != Kind::Twist,
         }
@@ -98,6 +105,14 @@ impl Place {
             Place::At => ("the place of a point in its body is a vector", "write `[x, y, z]`"),
             Place::Rotation => ("expected a rotation", "write `rotation_z(theta)`, or a product of such turns"),
             Place::Mass => ("the mass of a particle is a scalar", "write one number or the name of a field"),
+            Place::Given(role) => {
+                let remedy = match (role.takes(Shape::Scalar), role.takes(Shape::Vector3)) {
+                    (true, true) => "write one number or `[a, b, c]`",
+                    (false, _) => "write `[x, y, z]`",
+                    _ => "write one number",
+                };
+                return format!("{}, found {}; {remedy}", role.reason(), found.noun());
+            }
             Place::Potential => ("a potential is a scalar", "write one number, such as `k * x * x / 2`"),
             Place::Constraint(_) => (
                 "a constraint is a scalar or a vector that is zero",
@@ -183,7 +198,7 @@ impl Place {
 
     /// Nothing that changes may stand here.
     fn is_constant(self) -> bool {
-        matches!(self, Place::Mass | Place::At | Place::ForceAt { .. } | Place::Constant { .. })
+        matches!(self, Place::Mass | Place::Given(_) | Place::At | Place::ForceAt { .. } | Place::Constant { .. })
     }
 
     /// What stands here, for messages.
@@ -193,6 +208,7 @@ impl Place {
             Place::Position | Place::Particle { .. } => "a position",
             Place::Rotation => "a rotation",
             Place::Mass => "a mass",
+            Place::Given(_) => "what a body is",
             Place::At => "a point of a body",
             Place::Potential => "a potential",
             Place::Constraint(ConstraintKind::Position) => "a constraint of positions",
@@ -242,6 +258,9 @@ impl Place {
             ),
             (Place::Mass, _) => {
                 format!("`{name}` varies, and the mass of a particle is constant; write numbers and fields only")
+            }
+            (Place::Given(role), _) => {
+                format!("`{name}` varies, and `{}` of a body is constant; write numbers and fields only", role.word())
             }
             (Place::Constant { word, noun }, _) => {
                 format!("`{name}` varies, and the {word} of {noun} is constant; write numbers and fields only")

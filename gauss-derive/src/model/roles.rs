@@ -29,7 +29,7 @@ pub(super) const SYSTEM_ROLES: &Table<Role> = &[
 
 impl Role {
     /// The word in `#[gauss(word)]`.
-    pub(super) fn word(self) -> &'static str {
+    pub fn word(self) -> &'static str {
         match self {
             Role::Mass => "mass",
             Role::CenterOfMass => "center_of_mass",

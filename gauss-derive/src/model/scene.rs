@@ -6,6 +6,7 @@
 use super::attributes::{self, Clause, Place, Value, Word};
 use super::context::Context;
 use super::fields::UNIT;
+use super::given;
 use super::names::{self, Table};
 use super::roles::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
@@ -103,6 +104,10 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
             statements.read(&clause, context);
             continue;
         }
+        if let Some(role) = given::role(&word).filter(|_| !given::belongs_to_field(&clause)) {
+            given::read(role, &clause, &mut statements.given, context);
+            continue;
+        }
         let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) else {
             refuse(&clause, &word, is_system, context);
             statements.miss(&clause);
@@ -162,7 +167,9 @@ fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) {
         "units are those of fields and inputs; write `#[gauss(unit = \"N\")]` on a field, or `input(thrust = \"N\")`"
             .into()
     } else if ROLES.iter().any(|(name, _)| *name == word) {
-        format!("`{word}` is the role of a field; write `#[gauss({word})]` on that field")
+        format!(
+            "`{word}` is the role of a field; write `#[gauss({word})]` on that field, or say here what it is: `{word} = …`"
+        )
     } else if CHARTS.iter().any(|(name, _)| *name == word) {
         let chart = match &clause.value {
             Value::Brackets(_) => clause.written(),

@@ -6,12 +6,13 @@ use super::arithmetic;
 use super::attributes::{self, Clause, Place, Value};
 use super::context::Context;
 use super::declarations::{self, Definition, Kinematics, Names};
+use super::given;
 use super::names::{self, Table};
 use super::naming::same;
 use super::placements;
 use super::{
     Attraction, BodyClause, ConstraintClause, ConstraintKind, Coordinate, Expression, ExpressionKind, ForceClause,
-    ForceKind, InputName, ParticleClause, PointClause, Speed,
+    ForceKind, Given, InputName, ParticleClause, PointClause, Speed,
 };
 use proc_macro2::{Group, Ident, TokenTree};
 use syn::LitInt;
@@ -40,6 +41,8 @@ pub(super) struct Statements {
     pub(super) definitions: Vec<Definition>,
     pub(super) attractions: Vec<Attraction>,
     pub(super) medium: Option<(Ident, Option<Expression>)>,
+    /// Mass data of the body without a name, and gravity.
+    pub(super) given: Vec<Given>,
     /// `damping = …` is written.
     damped: bool,
     /// Some clause could not be read: what seems to be missing may be what it says.
@@ -186,7 +189,15 @@ impl Statements {
                 self.independent = self.independent.take().or(Some(names));
             }
             Statement::Body => match placements::read_body(clause, false, context) {
-                Some(body) => self.bodies.push(body),
+                Some(mut body) => {
+                    // Of the only body there is one set of mass data, wherever they are written.
+                    if body.name.is_none() {
+                        for given in body.given.drain(..) {
+                            given::add(given, &mut self.given, context);
+                        }
+                    }
+                    self.bodies.push(body);
+                }
                 None => self.unread.push(statement),
             },
             Statement::Frame => match placements::read_body(clause, true, context) {

@@ -1,6 +1,6 @@
 //! A system as the user wrote it, checked: own coordinates and speeds, bodies, particles, constraints and forces.
 
-use super::{Expression, Role, Scalar, Shape, Wanted};
+use super::{Expression, Given, Role, Scalar, Shape, Wanted};
 use proc_macro2::Span;
 use syn::{Generics, Ident, Path, Visibility};
 
@@ -45,6 +45,8 @@ pub struct SystemModel {
     pub potential: Option<Expression>,
     /// Values that arrive at run time, in order.
     pub inputs: Vec<InputName>,
+    /// Mass data of the only body without a name, and gravity, where they are no fields.
+    pub given: Vec<Given>,
     /// The velocity of the medium: a vector of t, fields and numbers, observer axes; `None`: at rest.
     pub medium: Option<Expression>,
     /// Central gravity: each acts on every body and every particle.
@@ -109,8 +111,8 @@ pub enum SpeedKind {
 /// `body(name, parent = …, position = …, rotation = …)` or `frame(name, …)`.
 #[derive(Clone)]
 pub struct BodyClause {
-    /// Of a body the field with its mass data; `None` for the only body, whose mass data are the fields with roles.
-    /// Frames have names.
+    /// Of a body the field with its mass data, unless they are given here; `None` for the only body, whose mass data are the
+    /// fields with roles. Frames have names.
     pub name: Option<Ident>,
     /// It is a frame: axes with an origin and no mass.
     pub massless: bool,
@@ -120,6 +122,8 @@ pub struct BodyClause {
     pub position: Option<Expression>,
     /// How the axes e are turned; `None`: like the parent's, or like k.
     pub rotation: Option<Expression>,
+    /// Mass, centre of mass and inertia where the body has no field.
+    pub given: Vec<Given>,
     /// The word `body` or `frame`.
     pub span: Span,
 }

@@ -3,6 +3,7 @@
 mod accepted;
 mod acting;
 mod clauses;
+mod given;
 mod items;
 mod roles;
 mod systems;

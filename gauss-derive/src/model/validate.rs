@@ -4,11 +4,13 @@ use super::acting;
 use super::assembly;
 use super::context::Context;
 use super::fields::{Claim, Field, Reader};
+use super::given;
 use super::names;
 use super::roles::ROLES;
 use super::scene::Clauses;
 use super::shapes::{Element, Kind};
 use super::{Model, Parameter, Role, Scalar, Shape};
+use proc_macro2::Span;
 use quote::ToTokens;
 use syn::{DeriveInput, GenericParam};
 
@@ -24,8 +26,9 @@ pub(super) fn model(
     let scalar = common_scalar(&reader.fields);
     let name = scalar_name(scalar.as_ref(), input);
     let (shapes, owners) = shapes(&reader, scalar.as_ref(), &name, "body", context);
-    let index = |role: Role| owners.iter().find(|(owner, _)| *owner == role).map(|&(_, index)| index);
-    let known = |role: Role| index(role).is_some() || reader.meant.contains(&role);
+    let given = |role: Role| statements.given.iter().any(|given| given.role == role);
+    let known =
+        |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role) || given(role);
     for role in [Role::Mass, Role::Inertia] {
         if !known(role) {
             missing_role(input, role, &name, context);
@@ -33,9 +36,11 @@ pub(super) fn model(
     }
     // An accelerating medium pushes the displaced mass as gravity does.
     let pushed = statements.medium.is_some();
-    for field in &reader.fields {
-        check_companion(field, |role| known(role) || (role == Role::Gravity && pushed), &name, context);
+    let known = |role: Role| known(role) || (role == Role::Gravity && pushed);
+    for claim in reader.fields.iter().filter_map(|field| field.role.as_ref()) {
+        check_companion(claim.role, claim.span, known, &name, context);
     }
+    given::check_roles(&statements.given, &reader.fields, known, &name, context);
     if let Some((name, _)) = statements.limit.as_ref().filter(|_| !statements.acting) {
         context.error(
             name.span(),
@@ -44,14 +49,19 @@ pub(super) fn model(
             ),
         );
     }
-    if statements.acting {
+    let described = statements.acting || !statements.given.is_empty();
+    if described {
         acting::check(&mut statements, &reader, &shapes, &owners, &name, context);
     }
     let scalar = match scalar {
         Some(scalar) => scalar,
+        None if reader.fields.iter().all(|field| !field.computed) => {
+            assembly::scalar_without_fields(input, &reader.fields, context)?
+        }
         None => return hidden_scalar(input, &reader.fields, context),
     };
-    let acting = if statements.acting {
+    let acted_upon = statements.acting;
+    let system = if described {
         let fields = assembly::fields(&reader, &shapes);
         let (runtime, wanted) = (scene.runtime.clone(), scene.wanted.clone());
         Some(Box::new(assembly::model(input, runtime, wanted, scalar.clone(), fields, statements)?))
@@ -74,14 +84,8 @@ pub(super) fn model(
         chart: scene.chart,
         motion: scene.motion,
         parameters: parameters.collect(),
-        mass: index(Role::Mass)?,
-        center_of_mass: index(Role::CenterOfMass),
-        inertia: index(Role::Inertia)?,
-        added_mass: index(Role::AddedMass),
-        gravity: index(Role::Gravity),
-        displaced_mass: index(Role::DisplacedMass),
-        center_of_buoyancy: index(Role::CenterOfBuoyancy),
-        acting,
+        system,
+        acted_upon,
         wanted: scene.wanted,
     })
 }
@@ -287,19 +291,24 @@ fn plain_shape(field: &Field<'_>, common: Option<&Scalar>) -> Shape {
 }
 
 /// Roles that mean nothing without another.
-pub(super) fn check_companion(field: &Field<'_>, known: impl Fn(Role) -> bool, scalar: &str, context: &mut Context) {
-    let Some(claim) = &field.role else { return };
-    let (needed, why) = match claim.role {
+pub(super) fn check_companion(
+    role: Role,
+    span: Span,
+    known: impl Fn(Role) -> bool,
+    scalar: &str,
+    context: &mut Context,
+) {
+    let (needed, why) = match role {
         Role::DisplacedMass => (Role::Gravity, "buoyancy is the displaced mass times gravity"),
         Role::CenterOfBuoyancy => (Role::DisplacedMass, "without a displaced mass nothing acts there"),
         _ => return,
     };
     if !known(needed) {
         context.error(
-            claim.span,
+            span,
             format!(
                 "`{}` needs a field with the role `{}`; {why}: add `{}`",
-                claim.role.word(),
+                role.word(),
                 needed.word(),
                 needed.example(scalar)
             ),

@@ -18,14 +18,14 @@ use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::mechanics::{
-    Body, Constraint, ConstraintKind, Coordinate, Element, Matter, Observed, Placement, SystemScene, Tree, Turn,
-    poisson,
+    Assigned, Body, Constraint, ConstraintKind, Coordinate, Element, Matter, Observed, Placement, Quantity,
+    SystemScene, Tree, Turn, poisson,
 };
-use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Property, SystemModel};
+use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, Property, SystemModel};
 
 pub use forces::DragMatrix;
 use symbols::Declared;
-pub use symbols::{Part, Source};
+pub use symbols::{Part, Source, body_shape};
 use values::{Piece, Value};
 
 /// Translates a system; kept between two translations of one system with different speeds.
@@ -52,10 +52,12 @@ pub struct Translator<'a, 'g> {
 }
 
 impl<'a, 'g> Translator<'a, 'g> {
-    pub fn new(graph: &'g Graph, model: &'a SystemModel) -> Self {
+    /// # Errors
+    /// Only what the model should have refused: a bug of this crate.
+    pub fn new(graph: &'g Graph, model: &'a SystemModel) -> syn::Result<Self> {
         let declared = Declared::new(graph, model);
         let (names, links) = (HashMap::new(), HashMap::new());
-        Self {
+        let mut translator = Self {
             graph,
             model,
             declared,
@@ -68,7 +70,49 @@ impl<'a, 'g> Translator<'a, 'g> {
             observed: None,
             kinematics: Vec::new(),
             rates: Map::default(),
+        };
+        translator.assign_mass_data()?;
+        Ok(translator)
+    }
+
+    /// Puts what clauses say of bodies and of gravity in the place of their symbols.
+    fn assign_mass_data(&mut self) -> syn::Result<()> {
+        let model = self.model;
+        self.names.extend(self.declared.fields.iter().cloned());
+        let given = self.assigned(&model.given)?;
+        if let Some(gravity) = given.iter().find(|assigned| assigned.quantity == Quantity::Gravity) {
+            let zero = self.graph.zero();
+            self.declared.gravity = match gravity.values.as_slice() {
+                &[x, y, z] => Some([x, y, z]),
+                values => values.first().map(|&g| [zero, zero, -g]),
+            };
         }
+        for (k, clause) in model.bodies.iter().enumerate() {
+            let own = if clause.name.is_some() { self.assigned(&clause.given)? } else { given.clone() };
+            if let Some(body) = &mut self.declared.bodies[k] {
+                own.iter().for_each(|assigned| body.assign(assigned));
+                body.gravity = self.declared.gravity;
+            }
+        }
+        Ok(())
+    }
+
+    /// The values of mass data in clauses.
+    ///
+    /// # Errors
+    /// Only what the model should have refused: a bug of this crate.
+    pub fn assigned(&self, given: &[Given]) -> syn::Result<Vec<Assigned<'g>>> {
+        let nothing = self.no_links();
+        let value = |given: &Given| {
+            let values = match self.value(&given.value, &nothing)? {
+                Value::Scalar(value) => vec![value],
+                Value::Vector(values) => values.to_vec(),
+                _ => return Err(bug(given.value.span)),
+            };
+            let quantity = symbols::quantity_of(given.role).ok_or_else(|| bug(given.value.span))?;
+            Ok(Assigned { quantity, values })
+        };
+        given.iter().map(value).collect()
     }
 
     /// Where the symbols of parameters are read.

@@ -255,16 +255,14 @@ impl<'g> Declared<'g> {
             return None;
         }
         let mut body = match &clause.name {
+            Some(name) if !clause.given.is_empty() => {
+                let shape_of =
+                    |role: Role| clause.given.iter().find(|given| given.role == role).map(|given| given.shape);
+                Body::named(self.graph, body_shape(shape_of), 2, name_of(name))
+            }
             Some(name) => {
-                let shape = BodyShape {
-                    inertia: InertiaShape::Full,
-                    center_of_mass: true,
-                    added_mass: None,
-                    gravity: None,
-                    displaced_mass: false,
-                    center_of_buoyancy: false,
-                };
-                let body = Body::named(self.graph, shape, 2, name_of(name));
+                let has = |role: Role| [Role::CenterOfMass, Role::Inertia].contains(&role).then_some(Shape::RigidBody);
+                let body = Body::named(self.graph, body_shape(has), 2, name_of(name));
                 let field = model.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
                 self.sources.extend(body.parameters.iter().map(|p| Source {
                     symbol: p.symbol,
@@ -282,23 +280,9 @@ impl<'g> Declared<'g> {
     fn unnamed_body(&mut self, model: &SystemModel) -> Body<'g> {
         let fields = &model.fields;
         let field = |role: Role| fields.iter().position(|f| f.role == Some(role));
-        let shape_of = |role: Role| field(role).map(|k| fields[k].shape);
-        let shape = BodyShape {
-            inertia: match shape_of(Role::Inertia) {
-                Some(Shape::Scalar) => InertiaShape::Spherical,
-                Some(Shape::Vector3) => InertiaShape::Principal,
-                _ => InertiaShape::Full,
-            },
-            center_of_mass: field(Role::CenterOfMass).is_some(),
-            added_mass: shape_of(Role::AddedMass).map(|shape| match shape {
-                Shape::Vector6 => AddedMassShape::Diagonal,
-                _ => AddedMassShape::Full,
-            }),
-            gravity: None::<GravityShape>,
-            displaced_mass: field(Role::DisplacedMass).is_some(),
-            center_of_buoyancy: field(Role::CenterOfBuoyancy).is_some(),
-        };
-        let body = Body::new(self.graph, shape, 2);
+        let given = |role: Role| model.given.iter().find(|given| given.role == role).map(|given| given.shape);
+        let shape_of = |role: Role| field(role).map(|k| fields[k].shape).or_else(|| given(role));
+        let body = Body::new(self.graph, BodyShape { gravity: None, ..body_shape(shape_of) }, 2);
         for role in [
             Role::Mass,
             Role::CenterOfMass,
@@ -331,6 +315,28 @@ impl<'g> Declared<'g> {
     }
 }
 
+/// What a body has, from the shapes of what plays the roles.
+pub fn body_shape(shape_of: impl Fn(Role) -> Option<Shape>) -> BodyShape {
+    BodyShape {
+        inertia: match shape_of(Role::Inertia) {
+            Some(Shape::Scalar) => InertiaShape::Spherical,
+            Some(Shape::Vector3) => InertiaShape::Principal,
+            _ => InertiaShape::Full,
+        },
+        center_of_mass: shape_of(Role::CenterOfMass).is_some(),
+        added_mass: shape_of(Role::AddedMass).map(|shape| match shape {
+            Shape::Vector6 => AddedMassShape::Diagonal,
+            _ => AddedMassShape::Full,
+        }),
+        gravity: shape_of(Role::Gravity).map(|shape| match shape {
+            Shape::Scalar => GravityShape::Vertical,
+            _ => GravityShape::Vector,
+        }),
+        displaced_mass: shape_of(Role::DisplacedMass).is_some(),
+        center_of_buoyancy: shape_of(Role::CenterOfBuoyancy).is_some(),
+    }
+}
+
 fn name_of(ident: &Ident) -> Name {
     const GREEK: [&str; 22] = [
         "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",
@@ -357,7 +363,7 @@ fn velocity_name(name: &Name) -> Name {
     }
 }
 
-fn quantity_of(role: Role) -> Option<Quantity> {
+pub(super) fn quantity_of(role: Role) -> Option<Quantity> {
     Some(match role {
         Role::Mass => Quantity::Mass,
         Role::CenterOfMass => Quantity::CenterOfMass,

@@ -10,10 +10,9 @@ fn defaults() {
     assert_eq!((model.chart, model.motion), (Chart::LeftInvariant, Motion::Free));
     assert_eq!(model.scalar, Scalar::F64);
     assert_eq!(model.runtime.to_token_stream().to_string(), ":: gauss_runtime");
-    assert_eq!((model.mass, model.inertia), (0, 1));
-    let optional =
-        [model.center_of_mass, model.added_mass, model.gravity, model.displaced_mass, model.center_of_buoyancy];
-    assert_eq!(optional, [None; 5]);
+    assert_eq!([Role::Mass, Role::Inertia].map(|role| model.shape(role)), [Some(Shape::Scalar), Some(Shape::Vector3)]);
+    let optional = [Role::CenterOfMass, Role::AddedMass, Role::Gravity, Role::DisplacedMass, Role::CenterOfBuoyancy];
+    assert_eq!(optional.map(|role| model.shape(role)), [None; 5]);
 }
 
 #[test]
@@ -130,7 +129,8 @@ fn documentation_and_order() {
         "pub struct Body { plain: u8, \
          #[doc = \" Mass in kg,\"] #[doc = \"   dry. \"] #[doc(hidden)] #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }",
     );
-    assert_eq!((model.mass, model.inertia), (1, 2));
+    let name = |role: Role| model.field(role).map(|field| field.ident.to_string());
+    assert_eq!([Role::Mass, Role::Inertia].map(name), [Some("m".into()), Some("j".into())]);
     assert_eq!(model.ident, "Body");
     assert_eq!(model.parameters[1].documentation, "Mass in kg,\ndry.");
     assert_eq!(model.parameters[0].documentation, "");

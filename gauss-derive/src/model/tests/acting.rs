@@ -13,7 +13,7 @@ fn body(clauses: &str) -> String {
 }
 
 fn acting(clauses: &str) -> SystemModel {
-    *model(&body(clauses)).acting.expect("something acts")
+    *model(&body(clauses)).system.expect("something acts")
 }
 
 #[track_caller]
@@ -23,7 +23,7 @@ fn mistakes(clauses: &str, expected: &[Mistake<'_>]) {
 
 #[test]
 fn the_same_body_as_a_system() {
-    assert!(model(&body("chart = hybrid")).acting.is_none());
+    assert!(model(&body("chart = hybrid")).system.is_none());
     let model = acting(
         "chart = jet(euler_zyx), input(fin, gust: Wrench), define(u = body.relative_velocity), \
          point(tail, at = [-l, 0, 0]), medium(velocity = c), central_gravity(mu = k), potential = k * tail.z, limit = 5000, \
@@ -143,7 +143,7 @@ fn names() {
              struct Body {{ #[gauss(mass)] body: f64, #[gauss(inertia)] j: f64, c: Vector3<f64> }}"
         )
     };
-    assert!(model(&field("c")).acting.is_some());
+    assert!(model(&field("c")).system.is_some());
     check(
         &field("-body.velocity"),
         &[("body", "`body` is the only body in expressions and clauses, and a field; rename the field")],
@@ -186,7 +186,7 @@ fn potentials_and_the_medium() {
     );
     let fluid = "#[gauss(medium(velocity = [1, 0, 0]))] \
         struct Body { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64, #[gauss(added_mass)] a: Matrix6<f64> }";
-    assert!(model(fluid).acting.is_some());
+    assert!(model(fluid).system.is_some());
 }
 
 #[test]

@@ -188,7 +188,13 @@ fn struct_clauses() {
         "#[gauss(rodrigues)]",
         &[("rodrigues", "`rodrigues` is a rotation chart; write `chart = jet(rodrigues)`")],
     );
-    check_body("#[gauss(mass)]", &[("mass", "`mass` is the role of a field; write `#[gauss(mass)]` on that field")]);
+    check_body(
+        "#[gauss(mass)]",
+        &[(
+            "mass",
+            "`mass` is the role of a field; write `#[gauss(mass)]` on that field, or say here what it is: `mass = …`",
+        )],
+    );
     check_body(
         "#[gauss(coordinate(x))]",
         &[("coordinate", "unknown clause `coordinate`; did you mean `coordinates`?")],

@@ -35,7 +35,7 @@ fn units_are_kept_as_they_are_written() {
     ));
     let units: Vec<Option<&str>> = model.parameters.iter().map(|parameter| parameter.unit.as_deref()).collect();
     assert_eq!(units, [Some("kg"), None, None, Some("m"), Some("N/m"), Some("N s²/m²"), Some("m/s"), None, None]);
-    let acting = model.acting.expect("something acts");
+    let acting = model.system.expect("something acts");
     let of_fields: Vec<Option<&str>> = acting.fields.iter().map(|field| field.unit.as_deref()).collect();
     assert_eq!(of_fields, units);
     let of_inputs: Vec<Option<&str>> = acting.inputs.iter().map(|input| input.unit.as_deref()).collect();

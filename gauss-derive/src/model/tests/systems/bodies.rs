@@ -49,7 +49,10 @@ fn fields() {
                 "the body `arm` takes its mass data from the field `arm`, which has no role; \
                  write `#[gauss(body)] arm: RigidBody<f64>`",
             ),
-            ("tip", "the body `tip` has no field with its mass data; add `#[gauss(body)] tip: RigidBody<f64>`"),
+            (
+                "tip",
+                "the body `tip` has no field with its mass data; add `#[gauss(body)] tip: RigidBody<f64>`, or `mass = …` and `inertia = …` to the clause",
+            ),
         ],
     );
     check(
