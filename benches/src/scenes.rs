@@ -53,44 +53,36 @@ pub struct Immersed {
     buoyancy: Vector3<f64>,
 }
 
-/// S4. A heavy top with three different moments, in Euler angles; its centre of mass is on the third axis, so the weight is a potential.
+/// S4. A heavy top with three different moments, in Euler angles; its centre of mass is on the third axis.
 #[derive(Clone, Copy, GaussDynamics)]
-#[gauss(
-    chart = jet(euler_zxz),
-    motion = fixed_point,
-    define(axis = body.rotation * [0, 0, 1]),
-    potential = weight * distance * axis.z,
-)]
+#[gauss(chart = jet(euler_zxz), motion = fixed_point, center_of_mass = [0, 0, distance])]
 pub struct Top {
     #[gauss(mass)]
     mass: f64,
     #[gauss(inertia)]
     inertia: Vector3<f64>,
-    weight: f64,
     distance: f64,
+    #[gauss(gravity)]
+    g: f64,
 }
 
-/// The two double pendulums: the centres of mass are on the lines of the links, which a `RigidBody` could not say, so each link is two
-/// particles of half its mass, a radius of gyration to each side of its centre of mass.
+/// The two double pendulums: the centres of mass are on the lines of the links.
 macro_rules! pendulum {
-    ($(#[$documentation:meta])* $name:ident [$($clause:tt)+]) => {
+    ($(#[$documentation:meta])* $name:ident [$coordinates:meta, $lower:ident: $($place:tt)+]) => {
         $(#[$documentation])*
         #[derive(Clone, Copy, GaussDynamics)]
         #[gauss(
-            $($clause)+,
-            frame(upper, rotation = rotation_y(-a)),
-            particle(mass = half1, parent = upper, position = [0, 0, -near1]),
-            particle(mass = half1, parent = upper, position = [0, 0, -far1]),
-            particle(mass = half2, parent = lower, position = [0, 0, -near2]),
-            particle(mass = half2, parent = lower, position = [0, 0, -far2]),
+            $coordinates,
+            body(upper, rotation = rotation_y(-a), mass = m1, center_of_mass = [0, 0, -c1], inertia = i1),
+            body($lower, $($place)+, mass = m2, center_of_mass = [0, 0, -c2], inertia = i2),
         )]
         pub struct $name {
-            half1: f64,
-            near1: f64,
-            far1: f64,
-            half2: f64,
-            near2: f64,
-            far2: f64,
+            m1: f64,
+            c1: f64,
+            i1: f64,
+            m2: f64,
+            c2: f64,
+            i2: f64,
             length: f64,
             #[gauss(gravity)]
             g: f64,
@@ -98,12 +90,9 @@ macro_rules! pendulum {
 
         impl $name {
             fn new() -> Self {
-                let ends = |(mass, distance, moment): numbers::Link| {
-                    let radius = (moment / mass).sqrt();
-                    (mass / 2.0, distance - radius, distance + radius)
-                };
-                let ((half1, near1, far1), (half2, near2, far2)) = (ends(numbers::UPPER), ends(numbers::LOWER));
-                Self { half1, near1, far1, half2, near2, far2, length: numbers::LENGTH, g: G }
+                let about_hinge = |(mass, distance, moment): numbers::Link| (mass, distance, moment + mass * distance * distance);
+                let ((m1, c1, i1), (m2, c2, i2)) = (about_hinge(numbers::UPPER), about_hinge(numbers::LOWER));
+                Self { m1, c1, i1, m2, c2, i2, length: numbers::LENGTH, g: G }
             }
         }
     };
@@ -113,7 +102,7 @@ pendulum!(
     /// S5. A double pendulum in the plane, angles from the vertical.
     DoublePendulum [
         coordinates(a, b),
-        frame(lower, position = [length * sin(a), 0, -length * cos(a)], rotation = rotation_y(-b))
+        lower: position = [length * sin(a), 0, -length * cos(a)], rotation = rotation_y(-b)
     ]
 );
 
@@ -121,7 +110,7 @@ pendulum!(
     /// S5′. The same with the angle of the joint.
     JointedPendulum [
         coordinates(a, c),
-        frame(lower, parent = upper, position = [0, 0, -length], rotation = rotation_y(-c))
+        lower: parent = upper, position = [0, 0, -length], rotation = rotation_y(-c)
     ]
 );
 
@@ -130,15 +119,14 @@ pendulum!(
 #[gauss(
     coordinates(x, theta),
     particle(mass = cart, position = [x, 0, 0]),
-    body(position = [x + length * sin(theta), 0, length * cos(theta)], rotation = rotation_y(theta)),
+    body(pole, position = [x, 0, 0], rotation = rotation_y(theta), mass = m, center_of_mass = [0, 0, distance], inertia = moment),
 )]
 pub struct CartPole {
     cart: f64,
-    #[gauss(mass)]
-    pole: f64,
-    #[gauss(inertia)]
-    inertia: Vector3<f64>,
-    length: f64,
+    m: f64,
+    /// About the hinge.
+    moment: f64,
+    distance: f64,
     #[gauss(gravity)]
     g: f64,
 }
@@ -318,7 +306,7 @@ pub fn immersed() -> Result<ImmersedKernel, ParameterError> {
 /// Never, for the parameters of the scenes.
 pub fn top() -> Result<TopKernel, ParameterError> {
     let (mass, distance, inertia) = numbers::top();
-    Top { mass, inertia, weight: mass * G, distance }.kernel()
+    Top { mass, inertia, distance, g: G }.kernel()
 }
 
 /// S5.
@@ -342,9 +330,9 @@ pub fn jointed_pendulum() -> Result<JointedPendulumKernel, ParameterError> {
 /// # Errors
 /// Never, for the parameters of the scenes.
 pub fn cart_pole() -> Result<CartPoleKernel, ParameterError> {
-    let (pole, length, moment) = numbers::POLE;
-    // The moments about the other axes do not enter.
-    CartPole { cart: numbers::CART, pole, inertia: Vector3::repeat(moment), length, g: G }.kernel()
+    let (m, distance, moment) = numbers::POLE;
+    let moment = moment + m * distance * distance;
+    CartPole { cart: numbers::CART, m, moment, distance, g: G }.kernel()
 }
 
 /// S7, from the description.

@@ -111,7 +111,7 @@ impl<'g> Kernel<'g> {
             let lowered: Vec<_> =
                 arrangements.iter().map(|outputs| (Program::lower(&hoister.hoist(outputs)), outputs)).collect();
             let cost_of = |program: &Program<'g>| match cost {
-                Cost::Values => program.counts().cost(),
+                Cost::Values => program.cost(),
                 Cost::Series => program.series_cost(|symbol| hoister.is_hoisted(symbol)),
             };
             let (program, outputs) = lowered
@@ -211,7 +211,7 @@ impl<'g> Differentiated<'g> {
             let program = with_tangents(&program, (&self.defined, &definitions), &self.directions);
             (program, Derived { outputs, directions: &self.directions })
         });
-        lowered.min_by_key(|(program, _)| program.counts().cost()).expect("a function has at least one arrangement")
+        lowered.min_by_key(|(program, _)| program.cost()).expect("a function has at least one arrangement")
     }
 }
 

@@ -148,6 +148,36 @@ impl<'g> Program<'g> {
         counts
     }
 
+    /// A single figure to compare arrangements by, in units of one addition of which two start in a cycle: all instructions, and the
+    /// longest chain of them that wait for one another. Calls overlap: about four of them hide each other's chains.
+    pub fn cost(&self) -> u32 {
+        self.counts().cost() + self.latency() / 2
+    }
+
+    /// Cycles from the arguments to the last output, were there no limit to what runs at once (Fog, Instruction tables: four for
+    /// additions and products, fifteen for divisions and roots; forty for inlined sines and cosines).
+    fn latency(&self) -> u32 {
+        let mut ready: Vec<u32> = Vec::with_capacity(self.instructions.len());
+        let of = |operand: &Operand<'g>, ready: &[u32]| match *operand {
+            Operand::Symbol(_) | Operand::Number(_) => 0,
+            Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) => ready[k],
+        };
+        for instruction in &self.instructions {
+            let own = match instruction {
+                Operation::Negate(_) => 1,
+                Operation::Divide(..) | Operation::Call(Function::Sqrt, _) => 15,
+                Operation::SineCosine(_) => 40,
+                Operation::Call(Function::Abs | Function::Signum, _)
+                | Operation::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => 4,
+                Operation::Call(..) | Operation::Binary(..) => 60,
+                _ => 4,
+            };
+            let start = instruction.operands().map(|operand| of(&operand, &ready)).max().unwrap_or(0);
+            ready.push(start + own);
+        }
+        self.outputs.iter().map(|output| of(output, &ready)).max().unwrap_or(0)
+    }
+
     /// That of its roughest instruction.
     pub fn smoothness(&self) -> Smoothness {
         let of = |operation: &Operation<'g>| match operation {
