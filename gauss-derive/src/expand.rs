@@ -52,7 +52,7 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     let differentiated = linearization.as_ref().map(|l| &l.differentiated);
     let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
     let folded = foldable(&model.scalar, &literals);
-    let kernel = Kernel::lower(&graph, &functions, &rotation, differentiated, folded)
+    let kernel = Kernel::lower(&graph, &functions, &joined(&formulas), &rotation, differentiated, folded)
         .map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
@@ -106,7 +106,7 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     let differentiated = linearization.as_ref().map(|l| &l.differentiated);
     let literals = translator.literals();
     let folded = foldable(&model.scalar, &literals);
-    let kernel = Kernel::lower(&graph, &functions, &definitions, differentiated, folded)
+    let kernel = Kernel::lower(&graph, &functions, &joined(&formulas), &definitions, differentiated, folded)
         .map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
@@ -141,6 +141,12 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.
 fn foldable<'a, 'g>(scalar: &model::Scalar, literals: &'a [(Rational, Expr<'g>)]) -> Literals<'a, 'g> {
     (!matches!(scalar, model::Scalar::Parameter(_))).then_some(literals)
+}
+
+/// What `evaluate` computes together.
+fn joined(formulas: &[Formula<'_>]) -> Vec<usize> {
+    let of = |method: &Method| formulas.iter().position(|formula| formula.method == *method);
+    Method::EVALUATED.iter().filter_map(of).collect()
 }
 
 /// What a formula is lowered from.

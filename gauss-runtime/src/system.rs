@@ -72,6 +72,24 @@ pub trait GaussSystem {
         input: &Self::Input,
     ) -> Self::Speeds;
 
+    /// q̇, ż and both energies at once: what they have in common, such as sines, cosines and velocities of bodies, is computed once.
+    /// For callers that want all of it, such as output with accounts; integrators call what they need.
+    #[inline]
+    fn evaluate(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Evaluated<Self> {
+        Evaluated {
+            velocity: self.kinematics(t, q, z),
+            acceleration: self.acceleration(t, q, z, input),
+            kinetic_energy: self.kinetic_energy(t, q, z),
+            potential_energy: self.potential_energy(t, q),
+        }
+    }
+
     /// The momenta p = ∂T/∂z.
     fn momentum(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Speeds;
 
@@ -146,6 +164,46 @@ pub trait GaussSystem {
     #[inline]
     fn energy(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Scalar {
         self.kinetic_energy(t, q, z) + self.potential_energy(t, q)
+    }
+}
+
+/// What [`GaussSystem::evaluate`] gives.
+pub struct Evaluated<S: GaussSystem + ?Sized> {
+    /// q̇ as seen from the body: what [`GaussSystem::kinematics`] gives.
+    pub velocity: <S::Configuration as Configuration>::Tangent,
+    /// ż.
+    pub acceleration: S::Speeds,
+    /// T.
+    pub kinetic_energy: S::Scalar,
+    /// 0 where the scene has no potential.
+    pub potential_energy: S::Scalar,
+}
+
+impl<S: GaussSystem + ?Sized> Clone for Evaluated<S> {
+    #[inline]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: GaussSystem + ?Sized> Copy for Evaluated<S> {}
+
+impl<S: GaussSystem + ?Sized> fmt::Debug for Evaluated<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Evaluated")
+            .field("velocity", &self.velocity)
+            .field("acceleration", &self.acceleration)
+            .field("kinetic_energy", &self.kinetic_energy)
+            .field("potential_energy", &self.potential_energy)
+            .finish()
+    }
+}
+
+impl<S: GaussSystem + ?Sized> Evaluated<S> {
+    /// T + U.
+    #[inline]
+    pub fn energy(&self) -> S::Scalar {
+        self.kinetic_energy + self.potential_energy
     }
 }
 
@@ -304,6 +362,8 @@ pub struct Operations {
     pub kinetic_energy: OperationCount,
     /// Of [`GaussSystem::potential_energy`].
     pub potential_energy: OperationCount,
+    /// Of [`GaussSystem::evaluate`].
+    pub evaluate: OperationCount,
     /// Of [`GaussSystem::gauss_residual`].
     pub gauss_residual: OperationCount,
     /// Of [`GaussSystem::constraint_function`].
@@ -328,6 +388,7 @@ impl fmt::Display for Operations {
             ("potential_energy", self.potential_energy),
             ("gauss_residual", self.gauss_residual),
             ("constraint_function", self.constraint_function),
+            ("evaluate", self.evaluate),
         ];
         for (n, (name, count)) in rows.into_iter().enumerate() {
             if n > 0 {
@@ -361,7 +422,7 @@ mod tests {
     #[test]
     fn multipliers_and_powers_are_listed_where_there_are_any() {
         let free = Operations::default();
-        assert!(free.to_string().ends_with("constraint_function 0"), "{free}");
+        assert!(free.to_string().ends_with("evaluate            0"), "{free}");
         let constrained = Operations { multipliers: OperationCount::new(3, 4, 1, 0, 0), ..free };
         assert!(constrained.to_string().ends_with("\nmultipliers         3 add, 4 mul, 1 div"), "{constrained}");
         let forced = Operations { powers: OperationCount::new(2, 5, 0, 0, 0), ..constrained };

@@ -117,6 +117,7 @@ impl<T: Real> GaussSystem for FreeTop<T> {
         mass_matrix: crate::system::OperationCount::new(0, 0, 0, 0, 0),
         kinetic_energy: crate::system::OperationCount::new(2, 7, 0, 0, 0),
         potential_energy: crate::system::OperationCount::new(0, 0, 0, 0, 0),
+        evaluate: crate::system::OperationCount::new(8, 13, 3, 0, 0),
         gauss_residual: crate::system::OperationCount::new(9, 9, 0, 0, 0),
         constraint_function: crate::system::OperationCount::new(9, 12, 0, 0, 0),
         multipliers: crate::system::OperationCount::new(0, 0, 0, 0, 0),

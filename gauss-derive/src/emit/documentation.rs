@@ -120,6 +120,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
         out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), operations(program.counts())));
     }
+    out.push_str(&format!("| `evaluate` | {} |\n", operations(derived.kernel.joined.counts())));
     if let Some(program) = &derived.kernel.tangents {
         out.push_str(&format!("| `linearize` | {} |\n", operations(program.counts())));
     }

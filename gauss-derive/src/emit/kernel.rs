@@ -243,13 +243,47 @@ impl<'a, 'g> Derived<'a, 'g> {
                 let (volume, squares, real) = (&outputs[0], &outputs[1], self.scalar().real);
                 quote!(#volume / #real::sqrt(#squares))
             }
-            Method::Kinematics | Method::PositionCorrection => match self.subject {
-                Subject::System(subject) => subject.tangent(self, &outputs),
-                Subject::Body { .. } => quote!(#private::vector([#(#outputs),*])),
-            },
+            Method::Kinematics | Method::PositionCorrection => self.tangent(&outputs),
             _ => quote!(#private::vector([#(#outputs),*])),
         };
         quote!(#instructions #result)
+    }
+
+    /// A velocity of the configuration.
+    fn tangent(&self, components: &[TokenStream]) -> TokenStream {
+        let private = self.private();
+        match self.subject {
+            Subject::System(subject) => subject.tangent(self, components),
+            Subject::Body { .. } => quote!(#private::vector([#(#components),*])),
+        }
+    }
+
+    /// `evaluate`: q̇, ż and the energies at once.
+    fn evaluate(&'a self) -> TokenStream {
+        let (runtime, private) = (self.item().runtime, self.private());
+        let (instructions, outputs) = self.computed(&self.kernel.joined);
+        let (configuration, rest) = outputs.split_at(self.program(Method::Kinematics).outputs.len());
+        let (speeds, energies) = rest.split_at(self.speeds().len());
+        let velocity = self.tangent(configuration);
+        quote! {
+            #[inline]
+            fn evaluate(
+                &self,
+                t: Self::Scalar,
+                q: &Self::Configuration,
+                z: &Self::Speeds,
+                input: &Self::Input,
+            ) -> #runtime::system::Evaluated<Self> {
+                #instructions
+                let [__kinetic, __potential] = [#(#energies),*];
+                #runtime::system::Evaluated {
+                    velocity: #velocity,
+                    acceleration: #private::vector([#(#speeds),*]),
+                    kinetic_energy: __kinetic,
+                    potential_energy: __potential,
+                }
+            }
+        }
     }
 
     pub fn degrees_of_freedom(&self) -> usize {
@@ -325,7 +359,8 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             let count = count_tokens(runtime, Counts::default());
             quote!(powers: #count,)
         });
-        quote!(#runtime::system::Operations { kernel: #kernel, #none #powerless #(#rows),* })
+        let evaluate = count_tokens(runtime, derived.kernel.joined.counts());
+        quote!(#runtime::system::Operations { kernel: #kernel, evaluate: #evaluate, #none #powerless #(#rows),* })
     };
     let mut methods = vec![
         (Method::Acceleration, quote!(z: &Self::Speeds, input: &Self::Input), quote!(Self::Speeds)),
@@ -413,6 +448,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         let smoothness = quote!(#runtime::system::Smoothness);
         quote!(const SMOOTHNESS: #smoothness = #smoothness::#word;)
     });
+    let evaluate = derived.evaluate();
     let series = derived.series(&bounded, &used);
     let input = match derived.formal().inputs.len() {
         0 => quote!(()),
@@ -478,6 +514,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
                 const OPERATIONS: #runtime::system::Operations = #operations;
                 #smoothness
                 #(#methods)*
+                #evaluate
                 #projection
             }
 

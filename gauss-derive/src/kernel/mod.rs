@@ -44,6 +44,8 @@ pub struct Kernel<'g> {
     pub constants: Program<'g>,
     /// One program a function, in the order given; the symbols of constants among their inputs are listed below.
     pub functions: Vec<Program<'g>>,
+    /// The outputs of several functions, one after the other, what they have in common computed once.
+    pub joined: Program<'g>,
     /// The outputs of what is differentiated, then all their derivatives along the first direction, and so on.
     pub tangents: Option<Program<'g>>,
     /// The constants as symbols, in the order of the outputs of `constants`.
@@ -95,11 +97,12 @@ impl fmt::Display for Miscompiled {
 }
 
 impl<'g> Kernel<'g> {
-    /// Lowers functions, each of which has an arrangement. `definitions` are symbols that stand for expressions of the arguments. Every program is then run at a
+    /// Lowers functions, each of which has an arrangement; those that are `joined` also together. `definitions` are symbols that stand for expressions of the arguments. Every program is then run at a
     /// pseudo-random point and compared with its expressions.
     pub fn lower(
         graph: &'g Graph,
         functions: &[Candidates<'g>],
+        joined: &[usize],
         definitions: &Map<u32, Expr<'g>>,
         differentiated: Option<&Differentiated<'g>>,
         literals: Literals<'_, 'g>,
@@ -122,9 +125,12 @@ impl<'g> Kernel<'g> {
             programs.push(if *cost == Cost::Values { program.with_signs_led_back() } else { program });
             chosen.push(outputs);
         }
+        let of_joined: Vec<Expr<'g>> = joined.iter().flat_map(|&k| chosen[k]).copied().collect();
+        let joined = Program::lower(&hoister.hoist(&of_joined)).with_signs_led_back();
         let (tangents, derived) = differentiated.map(|wanted| wanted.lower(&mut hoister)).unzip();
         // Constants that only a dearer arrangement wanted are dropped.
-        let read: Vec<Expr<'g>> = programs.iter().chain(&tangents).flat_map(Program::symbols).collect();
+        let read: Vec<Expr<'g>> =
+            programs.iter().chain([&joined]).chain(&tangents).flat_map(Program::symbols).collect();
         let constants = hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(symbol));
         let literal_values: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
@@ -146,7 +152,8 @@ impl<'g> Kernel<'g> {
             }
         }
         let constants = Program::lower(&values);
-        let kernel = Self { constants, functions: programs, tangents, constant_symbols, known_constants };
+        let kernel = Self { constants, functions: programs, joined, tangents, constant_symbols, known_constants };
+        chosen.push(&of_joined);
         kernel.check(graph, &chosen, definitions, derived.as_ref(), &literal_values)?;
         Ok(kernel)
     }
@@ -190,12 +197,12 @@ impl<'g> Kernel<'g> {
         values.extend(self.constant_symbols.iter().zip(constants).map(|(s, v)| (s.key(), v)));
         values.extend(self.known_constants.iter().map(|(s, v)| (s.key(), *v)));
         let mut evaluation = Evaluation::new(point);
-        for (function, (program, outputs)) in self.functions.iter().zip(functions).enumerate() {
+        for (function, (program, outputs)) in self.functions.iter().chain([&self.joined]).zip(functions).enumerate() {
             let expected: Vec<f64> = outputs.iter().map(|e| evaluation.value(*e)).collect();
             compare(function, &program.run(&values), &expected)?;
         }
         if let (Some(program), Some(derived)) = (&self.tangents, derived) {
-            compare(self.functions.len(), &program.run(&values), &derived.values(&mut evaluation))?;
+            compare(self.functions.len() + 1, &program.run(&values), &derived.values(&mut evaluation))?;
         }
         Ok(())
     }

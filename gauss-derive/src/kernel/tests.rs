@@ -130,8 +130,8 @@ fn what_depends_on_parameters_alone_is_a_constant() {
     let [m, i1, i2] = ["m", "I1", "I2"].map(|n| graph.symbol(n, n, true));
     let [x, y] = ["x", "y"].map(|n| graph.symbol(n, n, false));
     let outputs = vec![(i1 - i2) * m.recip() * x + (i2 - i1) * m.recip() * y];
-    let kernel =
-        Kernel::lower(&graph, &[Candidates::of_values(vec![outputs])], &Map::default(), None, None).expect("a program");
+    let kernel = Kernel::lower(&graph, &[Candidates::of_values(vec![outputs])], &[], &Map::default(), None, None)
+        .expect("a program");
     // One constant serves both terms, up to its sign.
     assert_eq!(kernel.constant_symbols.len(), 1);
     assert_eq!(kernel.functions[0].counts(), Counts { additions: 1, multiplications: 1, ..Counts::default() });
@@ -143,7 +143,7 @@ fn the_cheapest_arrangement_is_taken() {
     let [a, b, c] = ["a", "b", "c"].map(|n| graph.symbol(n, n, false));
     let wide = vec![a * a.cos().powi(2) * b + a * a.sin().powi(2) * b + c];
     let narrow = vec![a * b + c];
-    let kernel = Kernel::lower(&graph, &[Candidates::of_values(vec![wide, narrow])], &Map::default(), None, None)
+    let kernel = Kernel::lower(&graph, &[Candidates::of_values(vec![wide, narrow])], &[], &Map::default(), None, None)
         .expect("a program");
     assert_eq!(kernel.functions[0].counts().transcendentals, 0);
 }
@@ -152,10 +152,11 @@ fn the_cheapest_arrangement_is_taken() {
 fn a_program_that_computes_something_else_is_refused() {
     let graph = Graph::new();
     let [a, b] = ["a", "b"].map(|n| graph.symbol(n, n, false));
-    let mut kernel = Kernel::lower(&graph, &[Candidates::of_values(vec![vec![a + b]])], &Map::default(), None, None)
-        .expect("a program");
+    let mut kernel =
+        Kernel::lower(&graph, &[Candidates::of_values(vec![vec![a + b]])], &[], &Map::default(), None, None)
+            .expect("a program");
     kernel.functions[0] = Program::lower(&[a - b]);
-    assert!(kernel.check(&graph, &[&vec![a + b]], &Map::default(), None, &Map::default()).is_err());
+    assert!(kernel.check(&graph, &[&vec![a + b], &vec![]], &Map::default(), None, &Map::default()).is_err());
 }
 
 /// Values and derivatives along each direction by the symbolic derivatives of the expressions.
@@ -230,7 +231,7 @@ fn what_is_defined_moves_by_its_own_rates() {
         directions: vec![vec![(r, -s), (s, r)], vec![(y, graph.one())]],
     };
     let kernel =
-        Kernel::lower(&graph, &[Candidates::of_values(vec![outputs.clone()])], &definitions, Some(&wanted), None)
+        Kernel::lower(&graph, &[Candidates::of_values(vec![outputs.clone()])], &[], &definitions, Some(&wanted), None)
             .expect("a program");
     let point = sample_point(&graph, 0, &definitions, &Map::default());
     let expected = symbolic(&outputs, &wanted.directions, &point);

@@ -49,6 +49,11 @@ pub enum Method {
     ComponentRates,
 }
 
+impl Method {
+    /// What callers want at once.
+    pub const EVALUATED: [Self; 4] = [Self::Kinematics, Self::Acceleration, Self::KineticEnergy, Self::PotentialEnergy];
+}
+
 /// The outputs of one method. Where the same result can be arranged in several ways, all are given, and the kernel
 /// takes the one that costs least.
 pub struct Formula<'g> {
