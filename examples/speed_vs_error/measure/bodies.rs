@@ -25,11 +25,11 @@ macro_rules! every_chart {
             every_chart!(@one Angles, [jet(euler_zyx)], [$($clauses)*], $fields);
         }
     };
-    (@one $name:ident, [$($chart:tt)*], [$($clauses:tt)*], { $([$($role:tt)*] $field:ident: $type:ty),* $(,)? }) => {
+    (@one $name:ident, [$($chart:tt)*], [$($clauses:tt)*], { $([$($role:ident)?] $field:ident: $type:ty),* $(,)? }) => {
         #[derive(Clone, Copy, GaussDynamics)]
         #[gauss(chart = $($chart)*, $($clauses)*)]
         pub struct $name {
-            $(#[gauss($($role)*)] pub $field: $type),*
+            $($(#[gauss($role)])? pub $field: $type),*
         }
     };
 }
@@ -43,6 +43,13 @@ every_chart! {
     /// With weight.
     heavy_top, [motion = fixed_point], {
         [mass] mass: f64, [center_of_mass] center: Vector3<f64>, [inertia] inertia: Vector3<f64>, [gravity] gravity: f64,
+    }
+}
+
+every_chart! {
+    /// With weight, the same whichever way it is turned about e₃.
+    symmetric_top, [motion = fixed_point, center_of_mass = [0, 0, height], inertia = [across, across, along]], {
+        [mass] mass: f64, [] across: f64, [] along: f64, [] height: f64, [gravity] gravity: f64,
     }
 }
 
@@ -135,6 +142,24 @@ pub fn heavy_top(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -
     let kernel = heavy_top::Left { mass, center, inertia, gravity }.kernel()?;
     splitting(entries, &setup("body velocities", kernel, scene, target)?)?;
     let equations = by_hand::Top::new(inertia, center * (mass * gravity));
+    baselines(entries, "ω and quaternion", equations, top_state(scene)?, target);
+    Ok(())
+}
+
+/// Adds a heavy top whose centre of mass is on the axis of its symmetry.
+///
+/// # Errors
+/// When the data are not those of one.
+pub fn symmetric_top(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -> Result<(), Box<dyn Error>> {
+    let (mass, inertia, center) = (scene.number("parameters/mass")?, principal(scene)?, center(scene)?);
+    if inertia.x != inertia.y || center.x != 0.0 || center.y != 0.0 {
+        return Err("the top is not symmetric about its third axis".into());
+    }
+    let (across, along, height, gravity) = (inertia.x, inertia.z, center.z, scene.number("parameters/gravity")?);
+    add_charts!(symmetric_top, { mass, across, along, height, gravity }, scene, target, entries);
+    let kernel = symmetric_top::Left { mass, across, along, height, gravity }.kernel()?;
+    splitting(entries, &setup("body velocities", kernel, scene, target)?)?;
+    let equations = by_hand::SymmetricTop(by_hand::Top::new(inertia, center * (mass * gravity)));
     baselines(entries, "ω and quaternion", equations, top_state(scene)?, target);
     Ok(())
 }

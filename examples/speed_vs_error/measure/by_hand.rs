@@ -116,6 +116,36 @@ impl ByHand<7> for Top {
     }
 }
 
+/// The same for a top with I₁ = I₂ and its centre of mass on e₃: ω₃ is constant.
+#[derive(Clone, Copy)]
+pub struct SymmetricTop(pub Top);
+
+impl ByHand<7> for SymmetricTop {
+    const VELOCITIES: usize = 3;
+
+    #[inline(always)]
+    fn rates(&self, &[a, b, c, x, y, z, w]: &[f64; 7]) -> [f64; 7] {
+        // γ₁ and γ₂ of the vertical in body axes, halved.
+        let (first, second) = (fused(x, z, -(y * w)), fused(y, z, x * w));
+        let [turn, weight] = [self.0.ratios[0] * c, 2.0 * self.0.moment[2] * self.0.reciprocals[0]];
+        let [x, y, z, w] = quaternion_rate([x, y, z, w], [a, b, c]);
+        [fused(turn, b, weight * second), fused(-turn, a, -(weight * first)), 0.0, x, y, z, w]
+    }
+
+    #[inline(always)]
+    fn normalise(&self, y: &mut [f64; 7]) {
+        self.0.normalise(y);
+    }
+
+    fn observe(&self, y: &[f64; 7]) -> Vec<Vec<f64>> {
+        self.0.observe(y)
+    }
+
+    fn energy(&self, y: &[f64; 7]) -> f64 {
+        self.0.energy(y)
+    }
+}
+
 /// The same without weight.
 #[derive(Clone, Copy)]
 pub struct FreeTop(pub Top);

@@ -68,12 +68,13 @@ struct DoublePendulum {
         psi = w3 - w2 / tan(theta),
     ),
     body(position = [x, y, r * sin(theta)], rotation = rotation_z(phi) * rotation_x(theta) * rotation_z(psi)),
+    inertia = [a, a, c],
 )]
 struct Disk {
     #[gauss(mass)]
     m: f64,
-    #[gauss(inertia)]
-    j: Vector3<f64>,
+    a: f64,
+    c: f64,
     r: f64,
     #[gauss(gravity)]
     g: f64,
@@ -92,12 +93,13 @@ struct Disk {
     ),
     kinematics(x = r * slide.x / height, y = r * slide.y / height, attitude = w),
     body(position = [x, y, r * height], rotation = attitude),
+    inertia = [a, a, c],
 )]
 struct DiskWithoutAngles {
     #[gauss(mass)]
     m: f64,
-    #[gauss(inertia)]
-    j: Vector3<f64>,
+    a: f64,
+    c: f64,
     r: f64,
     #[gauss(gravity)]
     g: f64,
@@ -111,12 +113,12 @@ struct DiskWithoutAngles {
     speeds(v, omega),
     kinematics(x = v * cos(theta), y = v * sin(theta), theta = omega),
     body(position = [x, y, 0], rotation = rotation_z(theta)),
+    center_of_mass = [lever, 0, 0],
 )]
 struct Sleigh {
     #[gauss(mass)]
     m: f64,
-    #[gauss(center_of_mass)]
-    a: Vector3<f64>,
+    lever: f64,
     #[gauss(inertia)]
     j: Vector3<f64>,
 }
@@ -218,7 +220,7 @@ pub fn rolling_disk(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>
     let about = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
     let setup = Setup {
         chart: "Euler angles",
-        kernel: Disk { m, j, r, g }.kernel()?,
+        kernel: Disk { m, a: j.x, c: j.z, r, g }.kernel()?,
         start: (SVector::from([b.x, b.y, 0.0, lean, 0.0]), omega),
         observe: Rc::new(move |q: &SVector<f64, 5>| {
             let rotation =
@@ -232,7 +234,7 @@ pub fn rolling_disk(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>
 
     let setup = Setup {
         chart: "rotation and contact",
-        kernel: DiskWithoutAngles { m, j, r, g }.kernel()?,
+        kernel: DiskWithoutAngles { m, a: j.x, c: j.z, r, g }.kernel()?,
         start: ((pose.rotation, SVector::from([b.x, b.y])), omega),
         observe: Rc::new(move |(rotation, place): &(UnitQuaternion<f64>, SVector<f64, 2>)| {
             let height = r * (rotation * Vector3::z()).xy().norm();
@@ -269,7 +271,7 @@ pub fn sleigh(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -> A
     let q = Vector3::new(0.0, 0.0, heading);
     let setup = Setup {
         chart: "own speeds",
-        kernel: Sleigh { m, a: lever, j }.kernel()?,
+        kernel: Sleigh { m, lever: lever.x, j }.kernel()?,
         start: (q, SVector::from([v, omega])),
         observe: Rc::new(observe),
         target: Rc::clone(target),
