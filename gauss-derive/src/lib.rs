@@ -46,6 +46,10 @@ mod translate;
 /// parameter of the struct (`struct Body<T> { … }`; the kernel is then generic over `T: Real`). Fields without a role are
 /// left alone.
 ///
+/// Instead of fields the same words can be clauses of the struct, all but `added_mass`: `mass = 2.0, inertia = [a, a, c],
+/// center_of_mass = [0, 0, l]`, expressions of numbers and fields without a role. Numbers that they determine are computed when
+/// the code is generated (unless the scalar is a type parameter), and zeros and equal moments leave it.
+///
 /// # Configurations and order of z
 ///
 /// | motion | configuration | left, hybrid, right z | jet coordinates |
@@ -66,7 +70,7 @@ mod translate;
 /// | `coordinates(x, theta, pose: Pose, attitude: Rotation)` | the configuration: scalars, elements of SE(3) and of SO(3) |
 /// | `speeds(v, u: Vector3)` and `kinematics(x = v, pose = twist(u, w), attitude = w)` | quasi-velocities z with q̇ = ψ(t, q, z), affine in z; a `Vector3` is three of them, `u.x` or `u[0]` and so on. A pose changes by its twist in body axes, pole O, a rotation by ω in body axes. Without speeds these rates are the z |
 /// | `body(position = […], rotation = …)` | the only body; its mass data from the roles above |
-/// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`; position and rotation relative to the parent, a body or a frame |
+/// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`, or from the clause: `mass = m, center_of_mass = [0, 0, l], inertia = [a, a, c]` (about O); position and rotation relative to the parent, a body or a frame |
 /// | `frame(name, parent = other, position = […], rotation = …)` | a body without mass |
 /// | `particle(mass = m, position = […], parent = other)` | a point with mass; the position in observer's axes from Ω, or in the axes of the parent from its O |
 /// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |
