@@ -3,6 +3,9 @@
 use proc_macro2::{TokenStream, TokenTree};
 
 use crate::expand::expand;
+use crate::model::Scalar;
+
+use super::program::ScalarTokens;
 
 pub fn generate(source: &str) -> TokenStream {
     let input = syn::parse_str(source).expect("a struct");
@@ -109,4 +112,32 @@ fn a_mistake_is_one_message_and_no_code() {
         syn::parse_str("#[gauss(chart = left_invarient)] struct Body { #[gauss(mass)] m: f64 }").expect("a struct");
     let messages: Vec<String> = expand(&input).expect_err("two mistakes").into_iter().map(|e| e.to_string()).collect();
     assert_eq!(messages.len(), 2, "{messages:?}");
+}
+
+/// Of literals alone: the numbers themselves, divided and multiplied out.
+#[test]
+fn acceleration_of_a_body_of_literals() {
+    let source = "#[gauss(mass = 2.5, center_of_mass = [0, 0, 0.125], inertia = [0.5, 0.5, 0.34375], gravity = 9.80665)] struct Body {}";
+    insta::assert_snapshot!(function(source, "acceleration"));
+}
+
+#[test]
+fn literals_read_back_as_what_they_are() {
+    let scalar = |scalar: &'static Scalar| ScalarTokens { scalar, real: TokenStream::new() };
+    // Steps of an odd number run through exponents and mantissas alike.
+    let bits = (0..10_000_u64).map(|k| k.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    for value in bits.map(f64::from_bits).filter(|value| value.is_finite()) {
+        let text = scalar(&Scalar::F64).literal(value).to_string().replace(['(', ')', ' '], "");
+        let number = text.trim_end_matches("f64").parse::<f64>().expect("a number");
+        assert_eq!(number.to_bits(), value.to_bits(), "{text}");
+        let narrow = value as f32;
+        if narrow.is_finite() {
+            let text = scalar(&Scalar::F32).literal(value).to_string().replace(['(', ')', ' '], "");
+            assert_eq!(
+                text.trim_end_matches("f32").parse::<f32>().expect("a number").to_bits(),
+                narrow.to_bits(),
+                "{text}"
+            );
+        }
+    }
 }
