@@ -124,6 +124,29 @@ pub trait GaussSystem {
         input: &Self::Input,
     ) -> Self::Speeds;
 
+    /// Inverse dynamics: the generalised force, in components dual to z, that must act beside everything that the scene models for the
+    /// motion to have the given ż.
+    ///
+    /// It is A (ż − ż₀), with ż₀ the [`acceleration`](Self::acceleration) without it, and costs what
+    /// [`gauss_residual`](Self::gauss_residual) costs, which it is: no factorisation. Its power on the motion is its product with z: of
+    /// a coordinate whose rate is a speed it is the force or the torque along that coordinate, of a twist (u, ω) a wrench about O in
+    /// body axes. What recursive Newton–Euler gives for the joints of an arm is this, with inputs of the joints at zero.
+    ///
+    /// Under constraints ż must satisfy them, or no force makes it. Forces of constraints are then those of the motion without the
+    /// force: of all generalised forces with the same motion, which differ by Jᵀμ, this is the one that leaves the multipliers as
+    /// they are.
+    #[inline]
+    fn inverse_dynamics(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        acceleration: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Speeds {
+        self.gauss_residual(t, q, z, acceleration, input)
+    }
+
     /// Gauss' constraint function C (3.1) at the given ż, up to a term that does not depend on ż: least at the true
     /// acceleration, among those that the constraints admit.
     fn constraint_function(
