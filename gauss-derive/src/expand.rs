@@ -5,16 +5,17 @@ use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
-use crate::kernel::{Candidates, Cost, Kernel, Literals};
+use crate::kernel::{Candidates, Cost, Derivatives, Kernel, Literals, Miscompiled};
 use crate::mechanics::{
-    Acting, ConfigurationKind, Elimination, Formula, Linearization, Method, Scene, System, check_against_definition,
-    check_system_against_definition, rotation_of_quaternion,
+    Acting, ConfigurationKind, Elimination, Formula, InertialParameters, Linearization, Method, Regressor, Scene,
+    System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
 };
 use crate::mistakes::{
-    bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_series, refuse_too_much, system_faults,
+    bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_regressor, refuse_series, refuse_too_much,
+    system_faults,
 };
-use crate::model::{self, Model, SystemModel};
-use crate::translate::{Translator, body_shape};
+use crate::model::{self, Model, SystemModel, Wanted};
+use crate::translate::{Parameter, Translator, body_shape, parameters_of_body, parameters_of_system};
 
 /// Expands one struct.
 ///
@@ -45,18 +46,37 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     check_against_definition(&scene, &formulas).map_err(|error| bug(&model.ident, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
     let linearization = model.wanted.linearize.then(|| Linearization::of_body(&scene, &formulas));
+    let plain = model.system.as_deref().zip(translator.as_ref());
+    let plain = plain.map(|(system, translator)| (system.fields.as_slice(), translator.sources()));
+    let parameters = parameters_of_body(model, &scene.body, plain);
+    let names = names_of(&parameters);
+    let regressor = model.wanted.regressor.as_ref().map(|_| {
+        let inertial = InertialParameters::of_body(&scene.body, &names);
+        let residuals = scene.inertial_residuals(&inertial.by_first_moment(&scene.body));
+        inertial.regressor(&residuals, &scene.load_forces(), scene.defined())
+    });
     if model.wanted.taylor.is_some() {
         formulas.push(scene.component_rates(quaternion, &formulas));
     }
-    let functions: Vec<_> = formulas.iter().map(candidates).collect();
-    let differentiated = linearization.as_ref().map(|l| &l.differentiated);
     let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
-    let folded = foldable(&model.scalar, &literals);
-    let kernel = Kernel::lower(&graph, &functions, &joined(&formulas), &rotation, differentiated, folded)
-        .map_err(|error| bug(&model.ident, &error))?;
+    formulas.extend(regressor.iter().flat_map(|regressor| regressor.formulas.clone()));
+    let units = match scene.kinematics.kind {
+        ConfigurationKind::PlanePose => vec![scene.kinematics.configuration[..2].to_vec()],
+        _ => quaternion.map(|q| q.to_vec()).into_iter().collect(),
+    };
+    let beside = Beside {
+        wanted: &model.wanted,
+        linearization,
+        regressor,
+        parameters,
+        units,
+        literals: foldable(&model.scalar, &literals),
+    };
+    let kernel = beside.lower(&graph, &formulas, &rotation).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
+    refuse_regressor(model.wanted.regressor.as_ref(), beside.regressor.as_ref(), &kernel)?;
     let has_inputs = translator.as_ref().is_some_and(|translator| !translator.inputs().is_empty());
     refuse_series(model.wanted.taylor.as_ref(), has_inputs, &formulas, &kernel)?;
     let plain = model.system.as_deref().zip(translator.as_ref()).map(|(system, translator)| Plain {
@@ -70,7 +90,9 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
         drags: &translator.as_ref().map(Translator::drags).unwrap_or_default(),
         formulas: &formulas,
         kernel: &kernel,
-        linearization: linearization.as_ref(),
+        linearization: beside.linearization.as_ref(),
+        parameters: &beside.parameters,
+        regressor: beside.regressor.as_ref(),
     }))
 }
 
@@ -99,19 +121,38 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     formulas.extend(elimination.iter().flat_map(Elimination::formulas));
     let (quaternions, definitions) = system_rotations(&graph, &system);
     let linearization = model.wanted.linearize.then(|| Linearization::of_system(&system, &formulas));
+    let parameters = parameters_of_system(&model.fields, translator.sources());
+    let names = names_of(&parameters);
+    let speeds = match (&elimination, &model.independent) {
+        (Some(elimination), Some(independent)) => {
+            (elimination.values.clone(), translator.indices_of_speeds(independent))
+        }
+        _ => (speeds, all),
+    };
+    let regressor = match model.wanted.regressor {
+        Some(_) => Some(regressor_of_system(&system, &mut translator, speeds, &names)?),
+        None => None,
+    };
     if model.wanted.taylor.is_some() {
         formulas.push(system.component_rates(&quaternions, &formulas));
     }
-    let functions: Vec<_> = formulas.iter().map(candidates).collect();
-    let differentiated = linearization.as_ref().map(|l| &l.differentiated);
     let literals = translator.literals();
-    let folded = foldable(&model.scalar, &literals);
-    let kernel = Kernel::lower(&graph, &functions, &joined(&formulas), &definitions, differentiated, folded)
-        .map_err(|error| bug(&model.ident, &error))?;
+    formulas.extend(regressor.iter().flat_map(|regressor| regressor.formulas.clone()));
+    let units = quaternions.iter().flatten().map(|q| q.to_vec()).collect();
+    let beside = Beside {
+        wanted: &model.wanted,
+        linearization,
+        regressor,
+        parameters,
+        units,
+        literals: foldable(&model.scalar, &literals),
+    };
+    let kernel = beside.lower(&graph, &formulas, &definitions).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
     refuse_too_much(model, &kernel)?;
+    refuse_regressor(model.wanted.regressor.as_ref(), beside.regressor.as_ref(), &kernel)?;
     refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), &formulas, &kernel)?;
     let constrained = elimination.as_ref().map_or(&system, |elimination| &elimination.whole);
     let assigned_to_bodies =
@@ -134,7 +175,9 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         drags: &drags,
         formulas: &formulas,
         kernel: &kernel,
-        linearization: linearization.as_ref(),
+        linearization: beside.linearization.as_ref(),
+        parameters: &beside.parameters,
+        regressor: beside.regressor.as_ref(),
     }))
 }
 
@@ -147,6 +190,56 @@ fn foldable<'a, 'g>(scalar: &model::Scalar, literals: &'a [(Rational, Expr<'g>)]
 fn joined(formulas: &[Formula<'_>]) -> Vec<usize> {
     let of = |method: &Method| formulas.iter().position(|formula| formula.method == *method);
     Method::EVALUATED.iter().filter_map(of).collect()
+}
+
+/// What is derived beside the methods.
+struct Beside<'a, 'g> {
+    wanted: &'a Wanted,
+    linearization: Option<Linearization<'g>>,
+    regressor: Option<Regressor<'g>>,
+    parameters: Vec<Parameter<'g>>,
+    /// Coordinates that are the components of one unit quaternion or of one unit vector.
+    units: Vec<Vec<Expr<'g>>>,
+    literals: Literals<'a, 'g>,
+}
+
+impl<'g> Beside<'_, 'g> {
+    fn lower(
+        &self,
+        graph: &'g Graph,
+        formulas: &[Formula<'g>],
+        definitions: &Map<u32, Expr<'g>>,
+    ) -> Result<Kernel<'g>, Miscompiled> {
+        let functions: Vec<_> = formulas.iter().map(candidates).collect();
+        let parameters: Vec<Expr<'g>> = self.parameters.iter().map(|parameter| parameter.symbol).collect();
+        let by_state = self.linearization.as_ref();
+        let by_parameters = by_state.filter(|_| self.wanted.by_parameters);
+        let wanted = Derivatives {
+            by_state: by_state.map(|l| &l.differentiated),
+            units: if by_parameters.is_some() { &self.units } else { &[] },
+            by_parameters: by_parameters.map(|linearization| linearization.by_parameters(formulas, &parameters)),
+            regressor: self.regressor.as_ref().map(|r| &r.differentiated),
+        };
+        Kernel::lower(graph, &functions, &joined(formulas), definitions, &wanted, self.literals)
+    }
+}
+
+/// From the system once more, of bodies by their first moments.
+fn regressor_of_system<'g>(
+    system: &System<'g>,
+    translator: &mut Translator<'_, 'g>,
+    (values, kept): (Vec<Expr<'g>>, Vec<usize>),
+    names: &Map<u32, String>,
+) -> syn::Result<Regressor<'g>> {
+    let inertial = InertialParameters::of_system(system, names);
+    let by_first_moments = translator.scene_of(|body| inertial.by_first_moment(body), &values, &kept)?;
+    let residuals = System::new(by_first_moments).inertial_residuals();
+    Ok(inertial.regressor(&residuals, &system.element_forces(), system.defined()))
+}
+
+/// What the numbers of fields are called, by their symbols.
+fn names_of(parameters: &[Parameter<'_>]) -> Map<u32, String> {
+    parameters.iter().map(|parameter| (parameter.symbol.key(), parameter.name.clone())).collect()
 }
 
 /// What a formula is lowered from.

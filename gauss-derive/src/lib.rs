@@ -26,7 +26,8 @@ mod translate;
 /// | | `jet(euler_zyx)` and the other eleven sequences, `jet(rodrigues)`, `jet(modified_rodrigues)`; `jet` in the plane: rates of coordinates (Lagrange) | |
 /// | `motion` | `free`, `fixed_point` (O stays at Ω), `planar` (in k₁k₂) | `free` |
 /// | `taylor` | alone: power series of the motion in time as well, for the integrator `Taylor`; of smooth systems without inputs | none |
-/// | `linearize` | alone, also of systems: the kernel implements `LinearizedSystem`, exact derivatives of the equations by state, time and input | not written: several times the code of the accelerations |
+/// | `linearize` | alone, also of systems: the kernel implements `LinearizedSystem`, exact derivatives of the equations by state, time and input; `linearize(parameters)`: by the parameters, too (`ParametricSystem`) | not written: several times the code of the accelerations |
+/// | `regressor` | alone, also of systems: the kernel implements `InertialRegressor`, the forces of inertia as a linear function of inertial parameters | not written |
 /// | `crate` | where the runtime is, when it has another name | `::gauss_runtime` |
 ///
 /// # The fields: `#[gauss(role)]`

@@ -5,7 +5,9 @@ use std::fmt::Display;
 use proc_macro2::{Ident, Span};
 
 use crate::kernel::Kernel;
-use crate::mechanics::{Coordinate, Elimination, Formula, Method, Obstacle, System, SystemFault, SystemScene};
+use crate::mechanics::{
+    Coordinate, Elimination, Formula, Method, Obstacle, Regressor, System, SystemFault, SystemScene,
+};
 use crate::model::SystemModel;
 use crate::translate::Translator;
 
@@ -83,7 +85,7 @@ pub fn refuse_too_much(model: &SystemModel, kernel: &Kernel<'_>) -> syn::Result<
     let operations = kernel
         .functions
         .iter()
-        .chain(&kernel.tangents)
+        .chain(kernel.derivatives().flatten())
         .chain([&kernel.constants])
         .map(|p| p.instructions.len())
         .sum::<usize>();
@@ -97,6 +99,24 @@ pub fn refuse_too_much(model: &SystemModel, kernel: &Kernel<'_>) -> syn::Result<
         format!(
             "the generated code has {operations} operations, more than {limit}; write `limit = {rounded}` to have it all \
              the same, or model less: fewer bodies, or coordinates relative to a parent"
+        ),
+    ))
+}
+
+/// Masses in which the forces of inertia are not linear, because something else depends on them.
+pub fn refuse_regressor(
+    clause: Option<&Ident>,
+    regressor: Option<&Regressor<'_>>,
+    kernel: &Kernel<'_>,
+) -> syn::Result<()> {
+    let (Some(clause), Some(regressor)) = (clause, regressor) else { return Ok(()) };
+    let names = regressor.not_linear(kernel);
+    let [first, ..] = names.as_slice() else { return Ok(()) };
+    Err(syn::Error::new(
+        clause.span(),
+        format!(
+            "the forces of inertia are not linear in `{first}`, because more than the mass of something depends on it; \
+             give a field of its own to each, or remove `regressor`"
         ),
     ))
 }

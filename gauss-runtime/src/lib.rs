@@ -59,6 +59,7 @@ pub mod constraint;
 mod dual;
 pub mod error;
 pub mod forces;
+pub mod identification;
 pub mod integrate;
 pub mod lie;
 pub mod linearize;

@@ -10,6 +10,7 @@ pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::{ConstrainedSystem, ProjectionError};
 pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
+pub use crate::identification::{InertialRegressor, ParametricSystem};
 pub use crate::integrate::{
     Adaptive, Classical4, Collocation, CommutatorFree4, Compensated, Composed, Composition, Crossing, DormandPrince5,
     DormandPrince8, EnergyMomentum, Fixed, FreeFlow, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm,

@@ -1,5 +1,5 @@
-//! `linearize` against dual numbers through the same kernel's accelerations and kinematics, in every kind of scene: two ways to
-//! each entry, equal up to the bounds that both carry on their own rounding.
+//! `linearize` and `by_parameters` against dual numbers through the same kernel's accelerations and kinematics, in every kind of
+//! scene: two ways to each entry, equal up to the bounds that both carry on their own rounding.
 
 mod common;
 
@@ -69,13 +69,57 @@ fn along(values: &[Bounded], k: usize) -> Vec<Dual<Bounded>> {
     duals
 }
 
-/// Compares at random states. `origin` is a configuration around which they are drawn.
-fn check<C, B, D>(origin: &C, bounded: &B, dual: &D)
+/// Values of parameters, in the order in which they are asked for, as numbers of a kind.
+type Numbers<'a, T> = dyn FnMut(f64) -> T + 'a;
+
+fn plain<T: Real>(value: f64) -> T {
+    T::from_f64(value)
+}
+
+/// The parameter of that number moves.
+fn moving(parameter: usize) -> impl FnMut(f64) -> Dual<Bounded> {
+    let mut count = 0;
+    move |value| {
+        count += 1;
+        Dual::new(Bounded::from_f64(value), Bounded::from_f64(if count == parameter + 1 { 1.0 } else { 0.0 }))
+    }
+}
+
+fn vector<T: Real, const N: usize>(n: &mut Numbers<'_, T>, values: [f64; N]) -> SVector<T, N> {
+    SVector::from(values.map(n))
+}
+
+/// Entries below the diagonal, column by column: each is one parameter.
+fn symmetric<T: Real, const N: usize>(n: &mut Numbers<'_, T>, values: &[f64]) -> SMatrix<T, N, N> {
+    let mut values = values.iter();
+    let mut matrix = SMatrix::<T, N, N>::from_element(T::zero());
+    for column in 0..N {
+        for row in column..N {
+            matrix[(row, column)] = n(*values.next().unwrap());
+            matrix[(column, row)] = matrix[(row, column)];
+        }
+    }
+    matrix
+}
+
+/// The kernel with numbers as they are, and the one with dual numbers of which one parameter moves.
+macro_rules! kernels {
+    ($name:ident) => {
+        (&$name::<Bounded>::sample(&mut plain).kernel().unwrap(), |parameter| {
+            $name::<Dual<Bounded>>::sample(&mut moving(parameter)).kernel().unwrap()
+        })
+    };
+}
+
+/// Compares at random states. `origin` is a configuration around which they are drawn; of a number beyond the parameters none moves.
+fn check<C, B, D>(origin: &C, (bounded, moved): (&B, impl Fn(usize) -> D))
 where
     C: Configuration<Scalar = f64> + Parts<f64>,
-    B: LinearizedSystem<Scalar = Bounded, Configuration: Parts<Bounded>>,
+    B: ParametricSystem<Scalar = Bounded, Configuration: Parts<Bounded>>,
     D: GaussSystem<Scalar = Dual<Bounded>, Configuration: Parts<Dual<Bounded>>, Input: VectorSpace<Dual<Bounded>>>,
 {
+    let parameters = B::PARAMETERS.len();
+    let (dual, of_parameters) = (moved(parameters), (0..parameters).map(moved).collect::<Vec<_>>());
     let mut random = Random(7);
     let (positions, dof) = (<B::Configuration as Configuration>::Tangent::DIM, B::DOF);
     let inputs = B::Input::DIM;
@@ -86,10 +130,15 @@ where
             |count: usize| -> Vec<Bounded> { (0..count).map(|_| Bounded::from_f64(random.next())).collect() };
         let (z, input, t) = (draw(dof), draw(inputs), draw(1)[0]);
         let linear = bounded.linearize(t, &q, &speeds(&z), &speeds(&input));
+        let by_parameters = bounded.by_parameters(t, &q, &speeds(&z), &speeds(&input));
+        let rates_of =
+            |dual: &D, t: Dual<Bounded>, q: &[Dual<Bounded>], z: &[Dual<Bounded>], input: &[Dual<Bounded>]| {
+                let (q, z) = (D::Configuration::assemble(q), speeds(z));
+                let velocity = list(&dual.kinematics(t, &q, &z));
+                [velocity, list(&dual.acceleration(t, &q, &z, &speeds(input)))].concat()
+            };
         let rates = |t: Dual<Bounded>, q: &[Dual<Bounded>], z: &[Dual<Bounded>], input: &[Dual<Bounded>]| {
-            let (q, z) = (D::Configuration::assemble(q), speeds(z));
-            let velocity = list(&dual.kinematics(t, &q, &z));
-            [velocity, list(&dual.acceleration(t, &q, &z, &speeds(input)))].concat()
+            rates_of(&dual, t, q, z, input)
         };
         let (still, parts) = (Dual::new(t, Bounded::zero()), q.parts());
         let column = |direction: usize| -> Vec<Dual<Bounded>> {
@@ -134,9 +183,21 @@ where
             let size = found.iter().fold(1.0_f64, |m, x| m.max(x.value.abs()));
             told += usize::from(found.iter().all(|x| x.bound <= 1e-9 * size));
         }
+        for (k, dual) in of_parameters.iter().enumerate() {
+            let computed = rates_of(dual, still, &constants(&parts), &constants(&z), &constants(&input));
+            let expected: Vec<Bounded> = computed.iter().map(|x| x.rate).collect();
+            let found: Vec<Bounded> = (0..expected.len()).map(|row| by_parameters[(row, k)]).collect();
+            equal(B::PARAMETERS[k], &found, &expected).unwrap();
+            for (row, value) in expected.iter().enumerate() {
+                let can_change = B::PARAMETER_PATTERN[row][k];
+                assert!(can_change || value.value.abs() <= value.bound, "({row}, {}) is {value:?}", B::PARAMETERS[k]);
+            }
+            let size = found.iter().fold(1.0_f64, |m, x| m.max(x.value.abs()));
+            told += usize::from(found.iter().all(|x| x.bound <= 1e-9 * size));
+        }
     }
     // Bounds are those of the worst case: most must be small, or agreement would say nothing.
-    let all = 12 * (positions + dof + inputs + 1);
+    let all = 12 * (positions + dof + inputs + 1 + parameters);
     assert!(10 * told >= 9 * all, "only {told} of {all} columns are known to 1e-9");
 }
 
@@ -145,7 +206,7 @@ macro_rules! loaded {
     ($test:ident: $name:ident, [$($chart:tt)+], $motion:ident, $origin:expr) => {
         #[derive(GaussDynamics)]
         #[gauss(
-            linearize,
+            linearize(parameters),
             chart = $($chart)+,
             motion = $motion,
             input(thrust, push: Vector3),
@@ -172,26 +233,23 @@ macro_rules! loaded {
         }
 
         impl<T: Real> $name<T> {
-            fn sample() -> Self {
-                let n = T::from_f64;
-                let inertia = [[1.5, 0.1, -0.2], [0.1, 2.0, 0.15], [-0.2, 0.15, 2.5]];
+            fn sample(n: &mut Numbers<'_, T>) -> Self {
                 Self {
                     m: n(2.0),
-                    center: Vector3::from([0.1, -0.2, 0.05].map(n)),
-                    inertia: Matrix3::from(inertia.map(|row| row.map(n))),
-                    added: Vector6::from([0.5, 1.0, 1.5, 0.2, 0.3, 0.4].map(n)),
+                    center: vector(n, [0.1, -0.2, 0.05]),
+                    inertia: symmetric(n, &[1.5, 0.1, -0.2, 2.0, 0.15, 2.5]),
+                    added: vector(n, [0.5, 1.0, 1.5, 0.2, 0.3, 0.4]),
                     g: n(9.81),
                     k: n(4.0),
                     c: n(0.7),
-                    d: Vector6::from([0.3, 0.6, 0.9, 0.1, 0.2, 0.4].map(n)),
+                    d: vector(n, [0.3, 0.6, 0.9, 0.1, 0.2, 0.4]),
                 }
             }
         }
 
         #[test]
         fn $test() {
-            let (bounded, dual) = ($name::<Bounded>::sample().kernel(), $name::<Dual<Bounded>>::sample().kernel());
-            check(&$origin, &bounded.unwrap(), &dual.unwrap());
+            check(&$origin, kernels!($name));
         }
     };
 }
@@ -209,19 +267,18 @@ loaded!(plane_right: PlaneRight, [right_invariant], planar, Isometry2::<f64>::id
 loaded!(plane_hybrid: PlaneHybrid, [hybrid], planar, Isometry2::<f64>::identity());
 loaded!(plane_jet: PlaneJet, [jet], planar, SVector::<f64, 3>::zeros());
 
-fn rigid<T: Real>(mass: f64, x: f64) -> RigidBody<T> {
-    let inertia = [[1.3, 0.1, -0.2], [0.1, 1.7, 0.05], [-0.2, 0.05, 2.1]];
+fn rigid<T: Real>(n: &mut Numbers<'_, T>, mass: f64, x: f64) -> RigidBody<T> {
     RigidBody {
-        mass: T::from_f64(mass),
-        center_of_mass: Vector3::from([x, 0.1, -0.05].map(T::from_f64)),
-        inertia: Matrix3::from(inertia.map(|row| row.map(T::from_f64))),
+        mass: n(mass),
+        center_of_mass: vector(n, [x, 0.1, -0.05]),
+        inertia: symmetric(n, &[1.3, 0.1, -0.2, 1.7, 0.05, 2.1]),
     }
 }
 
 /// A hull with a rotor that slides: elements of both groups after a scalar, inputs, and a force in a moving medium.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize,
+    linearize(parameters),
     coordinates(s, base: Pose, wheel: Rotation),
     body(hull, position = base.position, rotation = base.rotation),
     body(rotor, parent = hull, position = [0.2, 0, s], rotation = wheel),
@@ -244,23 +301,21 @@ struct Gyrostat<T> {
 }
 
 impl<T: Real> Gyrostat<T> {
-    fn sample() -> Self {
-        let n = T::from_f64;
-        Self { hull: rigid(2.0, 0.3), rotor: rigid(1.0, -0.1), g: n(9.81), k: n(3.0), l: n(0.5) }
+    fn sample(n: &mut Numbers<'_, T>) -> Self {
+        Self { hull: rigid(n, 2.0, 0.3), rotor: rigid(n, 1.0, -0.1), g: n(9.81), k: n(3.0), l: n(0.5) }
     }
 }
 
 #[test]
 fn groups_and_scalars() {
     let origin = (Isometry3::<f64>::identity(), (UnitQuaternion::<f64>::identity(), SVector::from([0.4])));
-    let (bounded, dual) = (Gyrostat::<Bounded>::sample().kernel(), Gyrostat::<Dual<Bounded>>::sample().kernel());
-    check(&origin, &bounded.unwrap(), &dual.unwrap());
+    check(&origin, kernels!(Gyrostat));
 }
 
 /// A body on a rod, one of whose points keeps its height rate: multipliers of both kinds.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize,
+    linearize(parameters),
     coordinates(pose: Pose, x),
     body(hull, position = pose.position, rotation = pose.rotation),
     particle(mass = m, position = [x, 0, 3]),
@@ -280,23 +335,21 @@ struct Hung<T> {
 }
 
 impl<T: Real> Hung<T> {
-    fn sample() -> Self {
-        let n = T::from_f64;
-        Self { hull: rigid(2.0, 0.3), h: Vector3::from([0.5, 0.1, 0.6].map(n)), m: n(0.7), g: n(9.81) }
+    fn sample(n: &mut Numbers<'_, T>) -> Self {
+        Self { hull: rigid(n, 2.0, 0.3), h: vector(n, [0.5, 0.1, 0.6]), m: n(0.7), g: n(9.81) }
     }
 }
 
 #[test]
 fn constraints_with_multipliers() {
     let origin = (Isometry3::<f64>::identity(), SVector::from([0.2]));
-    let (bounded, dual) = (Hung::<Bounded>::sample().kernel(), Hung::<Dual<Bounded>>::sample().kernel());
-    check(&origin, &bounded.unwrap(), &dual.unwrap());
+    check(&origin, kernels!(Hung));
 }
 
 /// A sleigh whose skate is solved for at compile time.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize,
+    linearize(parameters),
     coordinates(x, y, theta),
     speeds(s, r, side),
     kinematics(x = s * cos(theta) - side * sin(theta), y = s * sin(theta) + side * cos(theta), theta = r),
@@ -315,20 +368,21 @@ struct Sleigh<T> {
     inertia: T,
 }
 
+impl<T: Real> Sleigh<T> {
+    fn sample(n: &mut Numbers<'_, T>) -> Self {
+        Self { m: n(1.5), center: vector(n, [0.3, 0.1, 0.0]), inertia: n(0.8) }
+    }
+}
+
 #[test]
 fn constraints_solved_for() {
-    fn sample<T: Real>() -> Sleigh<T> {
-        let n = T::from_f64;
-        Sleigh { m: n(1.5), center: Vector3::from([0.3, 0.1, 0.0].map(n)), inertia: n(0.8) }
-    }
-    let (bounded, dual) = (sample::<Bounded>().kernel(), sample::<Dual<Bounded>>().kernel());
-    check(&SVector::<f64, 3>::zeros(), &bounded.unwrap(), &dual.unwrap());
+    check(&SVector::<f64, 3>::zeros(), kernels!(Sleigh));
 }
 
 /// Every function that expressions have, on a cart with a double pendulum.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize,
+    linearize(parameters),
     coordinates(x, a, b),
     particle(mass = 2, position = [x, 0, 0]),
     body(upper, position = [x, 0, 0], rotation = rotation_y(a)),
@@ -348,13 +402,128 @@ struct Cart<T> {
     l: T,
 }
 
+impl<T: Real> Cart<T> {
+    fn sample(n: &mut Numbers<'_, T>) -> Self {
+        Self { upper: rigid(n, 1.0, 0.2), lower: rigid(n, 0.5, -0.3), g: n(9.81), l: n(0.8) }
+    }
+}
+
 #[test]
 fn every_function() {
-    fn sample<T: Real>() -> Cart<T> {
-        Cart { upper: rigid(1.0, 0.2), lower: rigid(0.5, -0.3), g: T::from_f64(9.81), l: T::from_f64(0.8) }
+    check(&SVector::<f64, 3>::zeros(), kernels!(Cart));
+}
+
+/// A whole added mass, buoyancy, and a mass without an effect on the rest.
+#[derive(GaussDynamics)]
+#[gauss(linearize(parameters), chart = left_invariant)]
+struct Vehicle<T> {
+    #[gauss(mass)]
+    m: T,
+    #[gauss(center_of_mass)]
+    center: Vector3<T>,
+    #[gauss(inertia)]
+    inertia: Vector3<T>,
+    #[gauss(added_mass)]
+    added: Matrix6<T>,
+    #[gauss(gravity)]
+    g: Vector3<T>,
+    #[gauss(displaced_mass)]
+    displaced: T,
+    #[gauss(center_of_buoyancy)]
+    buoyancy: Vector3<T>,
+}
+
+impl<T: Real> Vehicle<T> {
+    fn sample(n: &mut Numbers<'_, T>) -> Self {
+        let added = [
+            [0.5, 0.01, -0.02, 0.03, 0.02, 0.01].as_slice(),
+            &[1.0, 0.05, -0.03, 0.02, 0.04],
+            &[1.5, 0.02, 0.01, -0.05],
+            &[0.2, 0.01, 0.02],
+            &[0.3, -0.01],
+            &[0.4],
+        ];
+        Self {
+            m: n(2.0),
+            center: vector(n, [0.1, -0.2, 0.05]),
+            inertia: vector(n, [1.5, 2.0, 2.5]),
+            added: symmetric(n, &added.concat()),
+            g: vector(n, [0.3, -0.2, -9.8]),
+            displaced: n(1.9),
+            buoyancy: vector(n, [0.0, 0.02, 0.1]),
+        }
     }
-    let (bounded, dual) = (sample::<Bounded>().kernel(), sample::<Dual<Bounded>>().kernel());
-    check(&SVector::<f64, 3>::zeros(), &bounded.unwrap(), &dual.unwrap());
+}
+
+#[test]
+fn a_body_in_a_fluid() {
+    check(&Isometry3::<f64>::identity(), kernels!(Vehicle));
+}
+
+#[test]
+fn parameters_have_the_names_of_their_fields() {
+    let names = VehicleKernel::<f64>::PARAMETERS;
+    let inertia = ["inertia[0]", "inertia[1]", "inertia[2]", "added[0][0]", "added[1][0]"];
+    assert_eq!(names[..4], ["m", "center[0]", "center[1]", "center[2]"]);
+    assert_eq!(names[4..9], inertia);
+    assert_eq!(
+        names[27..],
+        ["added[5][5]", "g[0]", "g[1]", "g[2]", "displaced", "buoyancy[0]", "buoyancy[1]", "buoyancy[2]"]
+    );
+    let names = CartKernel::<f64>::PARAMETERS;
+    assert_eq!(
+        names[..5],
+        [
+            "upper.mass",
+            "upper.center_of_mass[0]",
+            "upper.center_of_mass[1]",
+            "upper.center_of_mass[2]",
+            "upper.inertia[0][0]"
+        ]
+    );
+    assert_eq!(names[5], "upper.inertia[1][0]");
+    assert_eq!(names[20..], ["g", "l"]);
+    let names = FreeEulerKernel::<f64>::PARAMETERS;
+    assert_eq!(names[names.len() - 9..], ["g", "k", "c", "d[0]", "d[1]", "d[2]", "d[3]", "d[4]", "d[5]"]);
+}
+
+/// In the plane of a cart and its pendulums only one moment of inertia of each enters, and what is fixed to the cart's side does not.
+#[test]
+fn patterns_tell_what_matters() {
+    let column = |name: &str| CartKernel::<f64>::PARAMETERS.iter().position(|known| *known == name).unwrap();
+    let matters = |name: &str| CartKernel::<f64>::PARAMETER_PATTERN.iter().any(|row| row[column(name)]);
+    for name in ["upper.mass", "upper.center_of_mass[0]", "lower.inertia[1][1]", "g", "l"] {
+        assert!(matters(name), "{name}");
+    }
+    for name in ["upper.center_of_mass[1]", "upper.inertia[0][0]", "lower.inertia[2][1]"] {
+        assert!(!matters(name), "{name}");
+    }
+    // Velocities do not depend on parameters here.
+    assert!(CartKernel::<f64>::PARAMETER_PATTERN[..3].iter().all(|row| row.iter().all(|can_change| !can_change)));
+}
+
+/// Central differences: h² of third derivatives of the order of the size, and roundings over h.
+#[test]
+fn differences_between_neighbouring_bodies() {
+    let (q, z) = (SVector::from([0.3, 0.8, -0.5]), SVector::from([0.4, -1.2, 0.7]));
+    let input = SVector::from([0.6]);
+    let of = |parameter: usize, step: f64| {
+        let mut count = 0;
+        let mut numbers = |value: f64| {
+            count += 1;
+            if count == parameter + 1 { value + step } else { value }
+        };
+        Cart::<f64>::sample(&mut numbers).kernel().unwrap().acceleration(0.3, &q, &z, &input)
+    };
+    let exact = Cart::<f64>::sample(&mut plain).kernel().unwrap().by_parameters(0.3, &q, &z, &input);
+    let h = 1e-5;
+    for (k, name) in CartKernel::<f64>::PARAMETERS.iter().enumerate() {
+        let difference = (of(k, h) - of(k, -h)) / (2.0 * h);
+        let found = SVector::<f64, 3>::from_fn(|row, _| exact[(3 + row, k)]);
+        let size = found.amax().max(of(k, 0.0).amax());
+        let error = (difference - found).amax();
+        assert!(error <= 1e3 * size * h * h + 1e2 * size * f64::EPSILON / h, "{name}: {error:e}");
+    }
 }
 
 /// A body in a fluid that turns and is pulled.

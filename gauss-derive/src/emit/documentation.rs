@@ -121,8 +121,10 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), operations(program.counts())));
     }
     out.push_str(&format!("| `evaluate` | {} |\n", operations(derived.kernel.joined.counts())));
-    if let Some(program) = &derived.kernel.tangents {
-        out.push_str(&format!("| `linearize` | {} |\n", operations(program.counts())));
+    for (name, program) in ["linearize", "by_parameters", "regressor"].into_iter().zip(derived.kernel.derivatives()) {
+        if let Some(program) = program {
+            out.push_str(&format!("| `{name}` | {} |\n", operations(program.counts())));
+        }
     }
     out
 }
@@ -198,5 +200,7 @@ pub fn method_name(method: Method) -> &'static str {
         Method::Powers => "powers",
         Method::ElementForces => "element_forces",
         Method::SuppliedPower => "supplied_power",
+        Method::InertialParameters => "inertial_parameters",
+        Method::OtherForces => "other_forces",
     }
 }

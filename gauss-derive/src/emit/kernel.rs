@@ -5,13 +5,14 @@ use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
-use crate::mechanics::{Account, Assigned, Formula, Linearization, Method, Scene};
+use crate::mechanics::{Account, Assigned, Formula, Linearization, Method, Regressor, Scene};
 use crate::model::{Model, Scalar, SystemField};
-use crate::translate::{DragMatrix, Source};
+use crate::translate::{DragMatrix, Parameter, Source};
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
 use super::documentation::{latex, method_name, rustdoc, text};
+use super::identification::{inertial_regressor, parametric_system};
 use super::linearize::linearized_system;
 use super::parameters::kernel_body;
 use super::program::{ScalarTokens, statements};
@@ -27,6 +28,10 @@ pub struct Derived<'a, 'g> {
     pub kernel: &'a Kernel<'g>,
     /// What is differentiated by the state, where that is asked for.
     pub linearization: Option<&'a Linearization<'g>>,
+    /// The numbers of fields.
+    pub parameters: &'a [Parameter<'g>],
+    /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
+    pub regressor: Option<&'a Regressor<'g>>,
 }
 
 /// What is derived.
@@ -227,7 +232,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     /// The body of a method: arguments taken apart, instructions, result.
-    fn method_body(&self, method: Method) -> TokenStream {
+    pub fn method_body(&self, method: Method) -> TokenStream {
         let (private, speeds) = (self.private(), self.speeds());
         let (instructions, outputs) = self.computed(self.program(method));
         let result = match method {
@@ -482,7 +487,10 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             }
         }
     });
-    let linearized = linearized_system(derived, &quote!(impl #bounded), &quote!(#name #used));
+    let (head, used_name) = (quote!(impl #bounded), quote!(#name #used));
+    let linearized = linearized_system(derived, &head, &used_name);
+    let parametric = parametric_system(derived, &head, &used_name);
+    let regressor = inertial_regressor(derived, &head, &used_name);
     quote! {
         #[doc = #documentation]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
@@ -523,6 +531,8 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
             #forced
             #series
             #linearized
+            #parametric
+            #regressor
         };
     }
 }

@@ -1,10 +1,12 @@
 //! `LinearizedSystem` of the kernel: the derivatives of its equations by the state, time and the input.
 
+use std::ops::Range;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::algebra::Rational;
-use crate::kernel::Operand;
+use crate::kernel::{Operand, Program};
 
 use super::kernel::{Derived, Item, count_tokens};
 
@@ -14,29 +16,12 @@ pub fn linearized_system(derived: &Derived<'_, '_>, head: &TokenStream, name: &T
     let Item { runtime, .. } = derived.item();
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (states, inputs) = (linearization.increments + linearization.speeds, linearization.inputs);
-    let zero = Operand::Number(Rational::zero());
     let (instructions, outputs) = derived.computed(program);
     // Outputs are the rates, and then their derivatives, one column of the matrices after the other.
-    let column = |k: usize| states * (k + 1)..states * (k + 2);
-    let written = |k: usize| &outputs[column(k)];
-    let rows = |columns: std::ops::Range<usize>| -> Vec<TokenStream> {
-        let row = |i: usize| {
-            let entries = columns.clone().map(|k| &written(k)[i]);
-            quote!([#(#entries),*])
-        };
-        (0..states).map(row).collect()
-    };
-    let pattern = |columns: std::ops::Range<usize>| -> Vec<TokenStream> {
-        let row = |i: usize| {
-            let entries = columns.clone().map(|k| program.outputs[column(k)][i] != zero);
-            quote!(&[#(#entries),*])
-        };
-        (0..states).map(row).collect()
-    };
-    let (of_states, of_inputs) = (0..states, states + 1..states + 1 + inputs);
-    let (by_state, by_input) = (rows(of_states.clone()), rows(of_inputs.clone()));
-    let (state_pattern, input_pattern) = (pattern(of_states), pattern(of_inputs));
-    let (rate, by_time) = (&outputs[..states], written(states));
+    let (of_states, of_time, of_inputs) = (1..states + 1, states + 1, states + 2..states + 2 + inputs);
+    let (by_state, by_input) = (rows(&outputs, states, of_states.clone()), rows(&outputs, states, of_inputs.clone()));
+    let (state_pattern, input_pattern) = (pattern(program, states, of_states), pattern(program, states, of_inputs));
+    let (rate, by_time) = (&outputs[..states], &outputs[states * of_time..states * (of_time + 1)]);
     let count = count_tokens(runtime, program.counts());
     let boolean = quote!(&'static [&'static [::core::primitive::bool]]);
     Some(quote! {
@@ -64,4 +49,23 @@ pub fn linearized_system(derived: &Derived<'_, '_>, head: &TokenStream, name: &T
             }
         }
     })
+}
+
+/// The rows of a matrix whose columns are among the outputs, one column of the given height after the other.
+pub fn rows(outputs: &[TokenStream], height: usize, columns: Range<usize>) -> Vec<TokenStream> {
+    let row = |i: usize| {
+        let entries = columns.clone().map(|k| &outputs[height * k + i]);
+        quote!([#(#entries),*])
+    };
+    (0..height).map(row).collect()
+}
+
+/// Which entries of such a matrix are other than the number 0.
+pub fn pattern(program: &Program<'_>, height: usize, columns: Range<usize>) -> Vec<TokenStream> {
+    let zero = Operand::Number(Rational::zero());
+    let row = |i: usize| {
+        let entries = columns.clone().map(|k| program.outputs[height * k + i] != zero);
+        quote!(&[#(#entries),*])
+    };
+    (0..height).map(row).collect()
 }

@@ -8,12 +8,14 @@
 //! - `kernel`: the kernel struct and its implementations of the runtime's traits.
 //! - `series`: the recurrences of power series in time.
 //! - `linearize`: derivatives by the state.
+//! - `identification`: derivatives by parameters, and the regressor.
 //! - `documentation`: equations and costs as text, LaTeX and rustdoc.
 
 mod arguments;
 mod assigned;
 mod body;
 mod documentation;
+mod identification;
 mod kernel;
 mod linearize;
 mod parameters;

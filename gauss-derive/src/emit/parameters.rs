@@ -7,25 +7,13 @@ use syn::ext::IdentExt;
 use crate::algebra::{Map, Rational};
 use crate::kernel::Program;
 use crate::mechanics::{ParameterSymbol, Quantity};
-use crate::model::{Model, Motion, Parameter, Role, Shape};
+use crate::model::{Model, Motion, Parameter, Shape};
+use crate::translate::role_of;
 
 use super::assigned::assigned_local;
 use super::kernel::{BodySubject, Derived, Plain};
 use super::program::statements;
 use super::system_parameters::{element as source_element, plain_fields};
-
-/// The role that gives a quantity.
-fn role(quantity: Quantity) -> Role {
-    match quantity {
-        Quantity::Mass => Role::Mass,
-        Quantity::CenterOfMass => Role::CenterOfMass,
-        Quantity::Inertia => Role::Inertia,
-        Quantity::AddedMass => Role::AddedMass,
-        Quantity::Gravity => Role::Gravity,
-        Quantity::DisplacedMass => Role::DisplacedMass,
-        Quantity::CenterOfBuoyancy => Role::CenterOfBuoyancy,
-    }
-}
 
 const QUANTITIES: [Quantity; 7] = [
     Quantity::Mass,
@@ -45,7 +33,7 @@ fn local(quantity: Quantity) -> proc_macro2::Ident {
 
 /// Is the quantity a scalar, a vector, or a matrix?
 fn rank(derived: &BodySubject<'_, '_>, quantity: Quantity) -> usize {
-    match derived.model.shape(role(quantity)) {
+    match derived.model.shape(role_of(quantity)) {
         Some(Shape::Matrix3 | Shape::Matrix6) => 2,
         Some(Shape::Vector3 | Shape::Vector6) => 1,
         _ => 0,
@@ -63,7 +51,7 @@ fn element(derived: &BodySubject<'_, '_>, p: &ParameterSymbol<'_>) -> TokenStrea
 
 /// What speaks for a quantity: its field, or the word of its clause.
 fn said(model: &Model, quantity: Quantity) -> String {
-    let role = role(quantity);
+    let role = role_of(quantity);
     model.field(role).map_or_else(|| role.word().to_owned(), |field| field.ident.unraw().to_string())
 }
 
@@ -89,7 +77,7 @@ pub fn kernel_body(derived: &BodySubject<'_, '_>) -> TokenStream {
         if let Some(assigned) = assigned {
             read.extend(assigned_local(derived.derived, &name, assigned, &symbols));
         }
-        let Some(Parameter { ident, .. }) = model.field(role(quantity)) else { continue };
+        let Some(Parameter { ident, .. }) = model.field(role_of(quantity)) else { continue };
         read.extend(match rank(derived, quantity) {
             0 => quote!(let #name = self.#ident;),
             1 => quote!(let #name = #private::components(&self.#ident);),
@@ -130,7 +118,7 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
     let scalar = derived.derived.scalar();
     let ty = scalar.ty();
     let name_of = |quantity| said(model, quantity);
-    let has = |quantity| model.shape(role(quantity)).is_some();
+    let has = |quantity| model.shape(role_of(quantity)).is_some();
     let mut checks = TokenStream::new();
     let (mass, mass_name) = (local(Quantity::Mass), name_of(Quantity::Mass));
     checks.extend(quote!(__check.mass(#mass_name, #mass);));

@@ -6,11 +6,13 @@
 //! - `network`: sums and products of many terms; parts that occur more than once are split off.
 //! - `signs`: negations led to where they cost nothing.
 //! - `tangent`: derivatives of programs.
+//! - `derivatives`: derivatives of functions by what moves and by parameters.
 //! - `program`: single-assignment instructions, their counts, and an interpreter to check them with.
 //!
 //! Knows nothing of frames or bodies. Every program is checked against the expressions it was made from before it is
 //! handed out (see [`Kernel::lower`]).
 
+mod derivatives;
 mod factor;
 mod hoist;
 mod network;
@@ -22,21 +24,13 @@ mod tests;
 
 use std::fmt;
 
-use crate::algebra::{Evaluation, Expr, Graph, Map, Rational, Tangents};
+use crate::algebra::{Evaluation, Expr, Graph, Map, Rational};
 
+pub use derivatives::{ByParameters, Derivatives, Differentiated, Equation};
+use derivatives::{Constants, Expected, Kept};
 use hoist::Hoister;
 pub use program::{Counts, Operand, Operation, Program, Smoothness};
 pub use tangent::Direction;
-use tangent::with_tangents;
-
-/// Functions and the directions along which their derivatives are wanted.
-pub struct Differentiated<'g> {
-    /// The outputs, in equivalent arrangements.
-    pub arrangements: Vec<Vec<Expr<'g>>>,
-    /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of their own.
-    pub defined: Vec<Expr<'g>>,
-    pub directions: Vec<Direction<'g>>,
-}
 
 /// Programs of a set of functions that share their constants.
 pub struct Kernel<'g> {
@@ -48,6 +42,10 @@ pub struct Kernel<'g> {
     pub joined: Program<'g>,
     /// The outputs of what is differentiated, then all their derivatives along the first direction, and so on.
     pub tangents: Option<Program<'g>>,
+    /// The derivatives of the same outputs by the first parameter, and so on.
+    pub by_parameters: Option<Program<'g>>,
+    /// The coefficients of the first parameter in outputs that are affine in them, and so on.
+    pub regressor: Option<Program<'g>>,
     /// The constants as symbols, in the order of the outputs of `constants`.
     pub constant_symbols: Vec<Expr<'g>>,
     /// Constants that literal numbers alone determine, with their values.
@@ -104,7 +102,7 @@ impl<'g> Kernel<'g> {
         functions: &[Candidates<'g>],
         joined: &[usize],
         definitions: &Map<u32, Expr<'g>>,
-        differentiated: Option<&Differentiated<'g>>,
+        wanted: &Derivatives<'_, 'g>,
         literals: Literals<'_, 'g>,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
@@ -127,10 +125,13 @@ impl<'g> Kernel<'g> {
         }
         let of_joined: Vec<Expr<'g>> = joined.iter().flat_map(|&k| chosen[k]).copied().collect();
         let joined = Program::lower(&hoister.hoist(&of_joined)).with_signs_led_back();
-        let (tangents, derived) = differentiated.map(|wanted| wanted.lower(&mut hoister)).unzip();
+        let by_state = wanted.by_state.map(|wanted| wanted.lower(&mut hoister, Kept::ValuesToo));
+        let regressor = wanted.regressor.map(|wanted| wanted.lower(&mut hoister, Kept::DerivativesAlone));
+        let (tangents, expected_tangents) = by_state.unzip();
+        let (regressor, expected_regressor) = regressor.unzip();
         // Constants that only a dearer arrangement wanted are dropped.
-        let read: Vec<Expr<'g>> =
-            programs.iter().chain([&joined]).chain(&tangents).flat_map(Program::symbols).collect();
+        let all = programs.iter().chain([&joined]).chain(&tangents).chain(&regressor);
+        let read: Vec<Expr<'g>> = all.flat_map(Program::symbols).collect();
         let constants = hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(symbol));
         let literal_values: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
@@ -141,20 +142,32 @@ impl<'g> Kernel<'g> {
             // What has no value is left to `kernel()`, which refuses it.
             Some(value).filter(|value| made_of_literals && value.is_finite())
         };
-        let (mut constant_symbols, mut values, mut known_constants) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut symbols, mut values, mut known_constants) = (Vec::new(), Vec::new(), Vec::new());
         for (symbol, definition) in constants {
             match known(definition) {
                 Some(value) => known_constants.push((symbol, value)),
                 None => {
-                    constant_symbols.push(symbol);
+                    symbols.push(symbol);
                     values.push(definition);
                 }
             }
         }
-        let constants = Program::lower(&values);
-        let kernel = Self { constants, functions: programs, joined, tangents, constant_symbols, known_constants };
+        let mut constants = Constants { program: Program::lower(&values), symbols };
+        let by_parameters = wanted.by_parameters.map(|by| by.lower(graph, (&programs, &chosen), &mut constants));
+        let (by_parameters, expected_by_parameters) = by_parameters.unzip();
+        let kernel = Self {
+            constants: constants.program,
+            functions: programs,
+            joined,
+            tangents,
+            by_parameters,
+            regressor,
+            constant_symbols: constants.symbols,
+            known_constants,
+        };
         chosen.push(&of_joined);
-        kernel.check(graph, &chosen, definitions, derived.as_ref(), &literal_values)?;
+        let fixed = Fixed { definitions, units: wanted.units, literals: Some(&literal_values) };
+        kernel.check(graph, &chosen, &fixed, &[expected_tangents, expected_by_parameters, expected_regressor])?;
         Ok(kernel)
     }
 
@@ -166,12 +179,11 @@ impl<'g> Kernel<'g> {
         &self,
         graph: &'g Graph,
         functions: &[&Vec<Expr<'g>>],
-        definitions: &Map<u32, Expr<'g>>,
-        derived: Option<&Derived<'_, 'g>>,
-        literals: &Map<u32, f64>,
+        fixed: &Fixed<'_, 'g>,
+        derived: &[Option<Expected<'_, 'g>>],
     ) -> Result<(), Miscompiled> {
         let outputs = || functions.iter().flat_map(|outputs| outputs.iter());
-        let points = (0..16).map(|shift| sample_point(graph, shift, definitions, literals));
+        let points = (0..16).map(|shift| sample_point(graph, shift, fixed));
         let inside = |point: &Map<u32, f64>| {
             let mut evaluation = Evaluation::new(point);
             outputs().all(|e| evaluation.value(*e).is_finite())
@@ -186,11 +198,16 @@ impl<'g> Kernel<'g> {
         refused
     }
 
+    /// The programs of derivatives, in the order in which their values are expected.
+    pub fn derivatives(&self) -> impl Iterator<Item = Option<&Program<'g>>> {
+        [&self.tangents, &self.by_parameters, &self.regressor].into_iter().map(Option::as_ref)
+    }
+
     fn check_at(
         &self,
         point: &Map<u32, f64>,
         functions: &[&Vec<Expr<'g>>],
-        derived: Option<&Derived<'_, 'g>>,
+        derived: &[Option<Expected<'_, 'g>>],
     ) -> Result<(), Miscompiled> {
         let mut values = point.clone();
         let constants = self.constants.run(point);
@@ -201,43 +218,12 @@ impl<'g> Kernel<'g> {
             let expected: Vec<f64> = outputs.iter().map(|e| evaluation.value(*e)).collect();
             compare(function, &program.run(&values), &expected)?;
         }
-        if let (Some(program), Some(derived)) = (&self.tangents, derived) {
-            compare(self.functions.len() + 1, &program.run(&values), &derived.values(&mut evaluation))?;
+        for (program, expected) in self.derivatives().zip(derived) {
+            if let (Some(program), Some(expected)) = (program, expected) {
+                compare(self.functions.len() + 1, &program.run(&values), &expected.values(&mut evaluation))?;
+            }
         }
         Ok(())
-    }
-}
-
-impl<'g> Differentiated<'g> {
-    /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple where
-    /// those of its definition are not: R σ̂ beside what a quaternion makes of it.
-    fn lower<'a>(&'a self, hoister: &mut Hoister<'_, 'g>) -> (Program<'g>, Derived<'a, 'g>) {
-        let definitions = Program::lower(&hoister.hoist(&self.defined));
-        let lowered = self.arrangements.iter().map(|outputs| {
-            let program = Program::lower(&hoister.hoist_undefined(outputs));
-            let program = with_tangents(&program, (&self.defined, &definitions), &self.directions);
-            (program, Derived { outputs, directions: &self.directions })
-        });
-        lowered.min_by_key(|(program, _)| program.cost()).expect("a function has at least one arrangement")
-    }
-}
-
-/// The arrangement that was taken.
-struct Derived<'a, 'g> {
-    outputs: &'a [Expr<'g>],
-    directions: &'a [Direction<'g>],
-}
-
-impl Derived<'_, '_> {
-    /// What the program should compute, by dual numbers through the expressions.
-    fn values(&self, evaluation: &mut Evaluation<'_>) -> Vec<f64> {
-        let mut expected: Vec<f64> = self.outputs.iter().map(|e| evaluation.value(*e)).collect();
-        for direction in self.directions {
-            let rates = direction.iter().map(|(symbol, rate)| (symbol.key(), evaluation.value(*rate))).collect();
-            let mut tangents = Tangents::new(evaluation, &rates);
-            expected.extend(self.outputs.iter().map(|e| tangents.along(*e)));
-        }
-        expected
     }
 }
 
@@ -253,13 +239,25 @@ fn compare(function: usize, found: &[f64], expected: &[f64]) -> Result<(), Misco
     Ok(())
 }
 
-/// A value of order one for every symbol, different for each, but for literals, and the values of what is defined by them.
-fn sample_point<'g>(
-    graph: &'g Graph,
-    shift: u32,
-    definitions: &Map<u32, Expr<'g>>,
-    literals: &Map<u32, f64>,
-) -> Map<u32, f64> {
+/// What sample points cannot choose.
+struct Fixed<'a, 'g> {
+    /// Symbols that stand for expressions of others.
+    definitions: &'a Map<u32, Expr<'g>>,
+    /// Lists of symbols whose squares add up to 1.
+    units: &'a [Vec<Expr<'g>>],
+    /// Symbols that stand for numbers.
+    literals: Option<&'a Map<u32, f64>>,
+}
+
+#[cfg(test)]
+impl<'a, 'g> Fixed<'a, 'g> {
+    fn by(definitions: &'a Map<u32, Expr<'g>>) -> Self {
+        Self { definitions, units: &[], literals: None }
+    }
+}
+
+/// A value of order one for every symbol that is free, different for each.
+fn sample_point<'g>(graph: &'g Graph, shift: u32, fixed: &Fixed<'_, 'g>) -> Map<u32, f64> {
     let mut point: Map<u32, f64> = graph
         .symbol_keys()
         .into_iter()
@@ -270,9 +268,16 @@ fn sample_point<'g>(
             (key, 0.6 + fraction)
         })
         .collect();
-    point.extend(literals);
+    point.extend(fixed.literals.into_iter().flatten());
+    for unit in fixed.units {
+        let norm = unit.iter().map(|symbol| point[&symbol.key()].powi(2)).sum::<f64>().sqrt();
+        for symbol in unit {
+            point.entry(symbol.key()).and_modify(|value| *value /= norm);
+        }
+    }
     let mut evaluation = Evaluation::new(&point);
-    let defined: Vec<(u32, f64)> = definitions.iter().map(|(&symbol, e)| (symbol, evaluation.value(*e))).collect();
+    let defined: Vec<(u32, f64)> =
+        fixed.definitions.iter().map(|(&symbol, e)| (symbol, evaluation.value(*e))).collect();
     point.extend(defined);
     point
 }

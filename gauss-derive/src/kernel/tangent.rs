@@ -18,20 +18,93 @@ pub fn with_tangents<'g>(
     bound: (&[Expr<'g>], &Program<'g>),
     directions: &[Direction<'g>],
 ) -> Program<'g> {
+    let (writer, values, tangents) = differentiated(program, bound, directions);
+    writer.finish([values, tangents].concat())
+}
+
+/// The derivatives alone, and what they need.
+pub fn tangents_alone<'g>(
+    program: &Program<'g>,
+    bound: (&[Expr<'g>], &Program<'g>),
+    directions: &[Direction<'g>],
+) -> Program<'g> {
+    let (writer, _, tangents) = differentiated(program, bound, directions);
+    writer.finish(tangents)
+}
+
+/// Other outputs of the same instructions, and only the instructions that they need.
+pub fn with_outputs<'g>(program: &Program<'g>, outputs: Vec<Operand<'g>>) -> Program<'g> {
+    Writer { instructions: program.instructions.clone(), known: Map::default() }.finish(outputs)
+}
+
+/// Two programs as one: the outputs of the first, then those of the second.
+pub fn joined<'g>(first: &Program<'g>, second: &Program<'g>) -> Program<'g> {
+    let mut writer = Writer::default();
+    let none = Map::default();
+    let (_, mut outputs) = writer.copy(first, &none);
+    outputs.extend(writer.copy(second, &none).1);
+    writer.finish(outputs)
+}
+
+/// Functions of which one is given as the root of another: x with `residual(x) = 0`, solved by `root`.
+pub struct Implicit<'a, 'g> {
+    pub root: &'a Program<'g>,
+    pub residual: &'a Program<'g>,
+    /// x in the residual, in the order of the outputs of both.
+    pub unknowns: &'a [Expr<'g>],
+    /// Affine in `loads`, with the inverse of ∂residual/∂x as the coefficients.
+    pub solution: &'a Program<'g>,
+    pub loads: &'a [Expr<'g>],
+}
+
+/// The derivatives of the outputs of a program, and then of the root, direction by direction: `−(∂residual/∂x)⁻¹ ∂residual`. What
+/// the solution divides by is worked out once for all directions.
+pub fn implicit_tangents<'g>(
+    explicit: &Program<'g>,
+    implicit: &Implicit<'_, 'g>,
+    directions: &[Direction<'g>],
+) -> Program<'g> {
+    let mut writer = Writer::default();
+    let none = Map::default();
+    let (_, root) = writer.copy(implicit.root, &none);
+    let unknowns: Map<u32, Operand<'g>> = implicit.unknowns.iter().map(|symbol| symbol.key()).zip(root).collect();
+    let (explicit_places, _) = writer.copy(explicit, &none);
+    let (residual_places, _) = writer.copy(implicit.residual, &unknowns);
+    let (solution_places, _) = writer.copy(implicit.solution, &none);
+    let mut outputs = Vec::new();
+    for direction in directions {
+        let mut pass = Pass::new(&mut writer, explicit, &none, &explicit_places);
+        pass.set_out(direction);
+        outputs.extend(pass.outputs());
+        let mut pass = Pass::new(&mut writer, implicit.residual, &unknowns, &residual_places);
+        pass.set_out(direction);
+        let changes = pass.tangents();
+        let mut pass = Pass::new(&mut writer, implicit.solution, &none, &solution_places);
+        let loads = implicit.loads.iter().zip(changes);
+        pass.rates = loads.map(|(symbol, rate)| (symbol.key(), rate.map(Tangent::negated))).collect();
+        outputs.extend(pass.outputs());
+    }
+    writer.finish(outputs)
+}
+
+/// What computes the outputs and their derivatives, and where these are.
+fn differentiated<'g>(
+    program: &Program<'g>,
+    bound: (&[Expr<'g>], &Program<'g>),
+    directions: &[Direction<'g>],
+) -> (Writer<'g>, Vec<Operand<'g>>, Vec<Operand<'g>>) {
     let mut writer = Writer::default();
     let none = Map::default();
     let (_, values) = writer.copy(bound.1, &none);
     let symbols: Map<u32, Operand<'g>> = bound.0.iter().map(|symbol| symbol.key()).zip(values).collect();
-    let (places, mut outputs) = writer.copy(program, &symbols);
+    let (places, outputs) = writer.copy(program, &symbols);
+    let mut tangents = Vec::new();
     for direction in directions {
-        let mut pass = Pass { writer: &mut writer, program, symbols: &symbols, places: &places, rates: Map::default() };
-        for (symbol, rate) in direction {
-            let rate = pass.rate_of_symbol(*rate);
-            pass.rates.insert(symbol.key(), rate);
-        }
-        outputs.extend(pass.outputs());
+        let mut pass = Pass::new(&mut writer, program, &symbols, &places);
+        pass.set_out(direction);
+        tangents.extend(pass.outputs());
     }
-    writer.finish(outputs)
+    (writer, outputs, tangents)
 }
 
 /// A derivative that is not 0: ± a value.
@@ -205,7 +278,23 @@ struct Pass<'a, 'g> {
     rates: Map<u32, Rate<'g>>,
 }
 
-impl<'g> Pass<'_, 'g> {
+impl<'a, 'g> Pass<'a, 'g> {
+    fn new(
+        writer: &'a mut Writer<'g>,
+        program: &'a Program<'g>,
+        symbols: &'a Map<u32, Operand<'g>>,
+        places: &'a [usize],
+    ) -> Self {
+        Self { writer, program, symbols, places, rates: Map::default() }
+    }
+
+    fn set_out(&mut self, direction: &Direction<'g>) {
+        for (symbol, rate) in direction {
+            let rate = self.rate_of_symbol(*rate);
+            self.rates.insert(symbol.key(), rate);
+        }
+    }
+
     fn rate_of_symbol(&self, rate: Expr<'g>) -> Rate<'g> {
         if rate.is_zero() {
             return None;
@@ -218,6 +307,19 @@ impl<'g> Pass<'_, 'g> {
     }
 
     fn outputs(mut self) -> Vec<Operand<'g>> {
+        let rates = self.rates_of_outputs();
+        let written = |rate: Rate<'g>| match rate {
+            None => Operand::Number(Rational::zero()),
+            Some(tangent) => self.writer.written(tangent),
+        };
+        rates.into_iter().map(written).collect()
+    }
+
+    fn tangents(mut self) -> Vec<Rate<'g>> {
+        self.rates_of_outputs()
+    }
+
+    fn rates_of_outputs(&mut self) -> Vec<Rate<'g>> {
         // Of sines and cosines that of the angle.
         let mut tangents: Vec<Rate<'g>> = Vec::with_capacity(self.program.instructions.len());
         for k in 0..self.program.instructions.len() {
@@ -225,11 +327,7 @@ impl<'g> Pass<'_, 'g> {
             tangents.push(tangent);
         }
         let program = self.program;
-        let written = |operand: &Operand<'g>| match self.rate(*operand, &tangents) {
-            None => Operand::Number(Rational::zero()),
-            Some(tangent) => self.writer.written(tangent),
-        };
-        program.outputs.iter().map(written).collect()
+        program.outputs.iter().map(|operand| self.rate(*operand, &tangents)).collect()
     }
 
     /// An operand of the program, as it is read now.

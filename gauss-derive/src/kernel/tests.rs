@@ -3,7 +3,7 @@
 use super::factor::Factoring;
 use super::hoist::Hoister;
 use super::tangent::with_tangents;
-use super::{Candidates, Counts, Differentiated, Direction, Kernel, Program, sample_point};
+use super::{Candidates, Counts, Derivatives, Differentiated, Direction, Fixed, Kernel, Program, sample_point};
 use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
 
 /// A reproducible stream of small integers.
@@ -42,7 +42,7 @@ fn every_pass_keeps_the_values_of_random_expressions() {
         let leaves: Vec<Expr<'_>> = names.iter().enumerate().map(|(k, n)| graph.symbol(*n, *n, k < 2)).collect();
         let mut random = Random(seed);
         let outputs: Vec<Expr<'_>> = (0..3).map(|_| random_expr(&mut random, &leaves, 3)).collect();
-        let point = sample_point(&graph, 0, &Map::default(), &Map::default());
+        let point = sample_point(&graph, 0, &Fixed::by(&Map::default()));
         let values = |outputs: &[Expr<'_>], point: &Map<u32, f64>| -> Vec<f64> {
             let mut evaluation = Evaluation::new(point);
             outputs.iter().map(|e| evaluation.value(*e)).collect()
@@ -130,8 +130,15 @@ fn what_depends_on_parameters_alone_is_a_constant() {
     let [m, i1, i2] = ["m", "I1", "I2"].map(|n| graph.symbol(n, n, true));
     let [x, y] = ["x", "y"].map(|n| graph.symbol(n, n, false));
     let outputs = vec![(i1 - i2) * m.recip() * x + (i2 - i1) * m.recip() * y];
-    let kernel = Kernel::lower(&graph, &[Candidates::of_values(vec![outputs])], &[], &Map::default(), None, None)
-        .expect("a program");
+    let kernel = Kernel::lower(
+        &graph,
+        &[Candidates::of_values(vec![outputs])],
+        &[],
+        &Map::default(),
+        &Derivatives::default(),
+        None,
+    )
+    .expect("a program");
     // One constant serves both terms, up to its sign.
     assert_eq!(kernel.constant_symbols.len(), 1);
     assert_eq!(kernel.functions[0].counts(), Counts { additions: 1, multiplications: 1, ..Counts::default() });
@@ -143,8 +150,15 @@ fn the_cheapest_arrangement_is_taken() {
     let [a, b, c] = ["a", "b", "c"].map(|n| graph.symbol(n, n, false));
     let wide = vec![a * a.cos().powi(2) * b + a * a.sin().powi(2) * b + c];
     let narrow = vec![a * b + c];
-    let kernel = Kernel::lower(&graph, &[Candidates::of_values(vec![wide, narrow])], &[], &Map::default(), None, None)
-        .expect("a program");
+    let kernel = Kernel::lower(
+        &graph,
+        &[Candidates::of_values(vec![wide, narrow])],
+        &[],
+        &Map::default(),
+        &Derivatives::default(),
+        None,
+    )
+    .expect("a program");
     assert_eq!(kernel.functions[0].counts().transcendentals, 0);
 }
 
@@ -152,11 +166,17 @@ fn the_cheapest_arrangement_is_taken() {
 fn a_program_that_computes_something_else_is_refused() {
     let graph = Graph::new();
     let [a, b] = ["a", "b"].map(|n| graph.symbol(n, n, false));
-    let mut kernel =
-        Kernel::lower(&graph, &[Candidates::of_values(vec![vec![a + b]])], &[], &Map::default(), None, None)
-            .expect("a program");
+    let mut kernel = Kernel::lower(
+        &graph,
+        &[Candidates::of_values(vec![vec![a + b]])],
+        &[],
+        &Map::default(),
+        &Derivatives::default(),
+        None,
+    )
+    .expect("a program");
     kernel.functions[0] = Program::lower(&[a - b]);
-    assert!(kernel.check(&graph, &[&vec![a + b], &vec![]], &Map::default(), None, &Map::default()).is_err());
+    assert!(kernel.check(&graph, &[&vec![a + b], &vec![]], &Fixed::by(&Map::default()), &[]).is_err());
 }
 
 /// Values and derivatives along each direction by the symbolic derivatives of the expressions.
@@ -190,7 +210,7 @@ fn tangents_are_the_derivatives_of_the_expressions() {
         ];
         let none = Program::lower(&[]);
         let program = with_tangents(&Program::lower(&outputs), (&[], &none), &directions);
-        let point = sample_point(&graph, 0, &Map::default(), &Map::default());
+        let point = sample_point(&graph, 0, &Fixed::by(&Map::default()));
         let expected = symbolic(&outputs, &directions, &point);
         for (k, (x, y)) in expected.iter().zip(program.run(&point)).enumerate() {
             // Two levels of at most ten operations each, and their derivatives; exponentials are steep.
@@ -230,10 +250,11 @@ fn what_is_defined_moves_by_its_own_rates() {
         defined: vec![r, s],
         directions: vec![vec![(r, -s), (s, r)], vec![(y, graph.one())]],
     };
+    let by_state = Derivatives { by_state: Some(&wanted), ..Derivatives::default() };
     let kernel =
-        Kernel::lower(&graph, &[Candidates::of_values(vec![outputs.clone()])], &[], &definitions, Some(&wanted), None)
+        Kernel::lower(&graph, &[Candidates::of_values(vec![outputs.clone()])], &[], &definitions, &by_state, None)
             .expect("a program");
-    let point = sample_point(&graph, 0, &definitions, &Map::default());
+    let point = sample_point(&graph, 0, &Fixed::by(&definitions));
     let expected = symbolic(&outputs, &wanted.directions, &point);
     let found = kernel.tangents.expect("asked for").run(&point);
     for (a, b) in expected.iter().zip(found) {

@@ -5,7 +5,7 @@
 //! under a velocity V = σ. So the directions of the configuration are its rates with V a unit vector.
 
 use crate::algebra::{Expr, Graph};
-use crate::kernel::{Differentiated, Direction};
+use crate::kernel::{ByParameters, Differentiated, Direction, Equation};
 
 use super::chart::ConfigurationKind;
 use super::methods::{Formula, Method, Scene};
@@ -21,9 +21,36 @@ pub struct Linearization<'g> {
     pub increments: usize,
     pub speeds: usize,
     pub inputs: usize,
+    /// The components of an increment in the order of ψ.
+    order: Vec<usize>,
+    speed_rates: Vec<Expr<'g>>,
+    momenta: Vec<Expr<'g>>,
+    /// Accelerations are those that constraints admit.
+    constrained: bool,
 }
 
 impl<'g> Linearization<'g> {
+    /// The derivatives of the same functions by parameters. Without constraints accelerations solve ∂C/∂ż = 0, whose matrix A is
+    /// the one that takes z to the momenta.
+    pub fn by_parameters<'a>(&'a self, formulas: &[Formula<'g>], parameters: &'a [Expr<'g>]) -> ByParameters<'a, 'g> {
+        let number = |method: Method| {
+            let number = formulas.iter().position(|formula| formula.method == method);
+            number.expect("every kernel has the methods of a system")
+        };
+        ByParameters {
+            parameters,
+            velocity: number(Method::Kinematics),
+            order: &self.order,
+            acceleration: number(Method::Acceleration),
+            equation: (!self.constrained).then(|| Equation {
+                residual: number(Method::GaussResidual),
+                unknowns: &self.speed_rates,
+                solution: number(Method::Velocity),
+                loads: &self.momenta,
+            }),
+        }
+    }
+
     /// Of one body in a chart.
     pub fn of_body(scene: &Scene<'g>, formulas: &[Formula<'g>]) -> Self {
         let kinematics = &scene.kinematics;
@@ -44,23 +71,21 @@ impl<'g> Linearization<'g> {
                 ]
             }
         };
-        let defined = match kinematics.kind {
-            ConfigurationKind::Pose | ConfigurationKind::Rotation => symbols[..9].to_vec(),
-            _ => Vec::new(),
-        };
+        let defined = scene.defined();
         let (time, inputs) = match &scene.acting {
             Some(acting) => (vec![(acting.time, graph.one())], acting.inputs.as_slice()),
             None => (Vec::new(), [].as_slice()),
         };
         let order: Vec<usize> = (0..increments.len()).collect();
-        Self::new(graph, formulas, &order, increments, defined, &kinematics.speeds, time, inputs)
+        let speeds = [&kinematics.speeds, &kinematics.speed_rates, &scene.momenta].map(Vec::as_slice);
+        Self::new(graph, formulas, order, increments, defined, speeds, time, inputs)
     }
 
     /// Of a system.
     pub fn of_system(system: &System<'g>, formulas: &[Formula<'g>]) -> Self {
         let scene = &system.scene;
         let graph = scene.graph;
-        let mut defined = Vec::new();
+        let defined = system.defined();
         let (mut groups, mut scalars) = (Vec::new(), Vec::new());
         // Elements of groups come first in an increment, then all scalars; ψ is in the order of the coordinates.
         let (mut of_groups, mut of_scalars) = (Vec::new(), Vec::new());
@@ -68,7 +93,6 @@ impl<'g> Linearization<'g> {
         for coordinate in &scene.coordinates {
             let own = component..component + coordinate.size();
             component = own.end;
-            defined.extend(coordinate.rotation().into_iter().flatten().flatten().copied());
             match coordinate {
                 Coordinate::Scalar(q) => {
                     scalars.push(vec![(*q, graph.one())]);
@@ -87,17 +111,19 @@ impl<'g> Linearization<'g> {
         groups.extend(scalars);
         of_groups.extend(of_scalars);
         let time = vec![(scene.time, graph.one())];
-        Self::new(graph, formulas, &of_groups, groups, defined, &scene.speeds, time, &scene.inputs)
+        let speeds = [&scene.speeds, &scene.speed_rates, &scene.momenta].map(Vec::as_slice);
+        let whole = Self::new(graph, formulas, of_groups, groups, defined, speeds, time, &scene.inputs);
+        Self { constrained: !system.constraints.is_empty(), ..whole }
     }
 
     #[expect(clippy::too_many_arguments, reason = "all that a scene is, once from each kind of scene")]
     fn new(
         graph: &'g Graph,
         formulas: &[Formula<'g>],
-        order: &[usize],
+        order: Vec<usize>,
         increments: Vec<Direction<'g>>,
         defined: Vec<Expr<'g>>,
-        speeds: &[Expr<'g>],
+        [speeds, speed_rates, momenta]: [&[Expr<'g>]; 3],
         time: Direction<'g>,
         inputs: &[Expr<'g>],
     ) -> Self {
@@ -122,7 +148,29 @@ impl<'g> Linearization<'g> {
             increments: count,
             speeds: speeds.len(),
             inputs: inputs.len(),
+            order,
+            speed_rates: speed_rates.to_vec(),
+            momenta: momenta.to_vec(),
+            constrained: false,
         }
+    }
+}
+
+impl<'g> Scene<'g> {
+    /// Entries of R that stand for expressions of a quaternion.
+    pub fn defined(&self) -> Vec<Expr<'g>> {
+        match self.kinematics.kind {
+            ConfigurationKind::Pose | ConfigurationKind::Rotation => self.kinematics.configuration[..9].to_vec(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl<'g> System<'g> {
+    /// Entries of rotations that stand for expressions of quaternions.
+    pub fn defined(&self) -> Vec<Expr<'g>> {
+        let rotations = self.scene.coordinates.iter().filter_map(Coordinate::rotation);
+        rotations.flatten().flatten().copied().collect()
     }
 }
 

@@ -47,6 +47,9 @@ pub enum Method {
     VelocityCorrection,
     /// Rates of the components of the configuration, then ż; only where power series are wanted.
     ComponentRates,
+    /// π, and the generalised forces that are no part of Y π; only where the regressor is wanted.
+    InertialParameters,
+    OtherForces,
 }
 
 impl Method {
@@ -56,6 +59,7 @@ impl Method {
 
 /// The outputs of one method. Where the same result can be arranged in several ways, all are given, and the kernel
 /// takes the one that costs least.
+#[derive(Clone)]
 pub struct Formula<'g> {
     pub method: Method,
     pub arrangements: Vec<Vec<Expr<'g>>>,
@@ -92,6 +96,15 @@ pub struct Scene<'g> {
     /// z from the twist, and (Q, Γ) from p: the rows and their transpose, on the motion's axes.
     from_twist: Solver<'g>,
     from_momenta: Solver<'g>,
+}
+
+/// What the balance of a body is made of.
+#[derive(Clone, Copy)]
+struct Terms<'a, 'g> {
+    matrix: &'a KineticMatrix<'g>,
+    weight: Option<&'a Weight<'g>>,
+    load: &'a Wrench<'g>,
+    formal: &'a Formal<'g>,
 }
 
 /// The chain z → (u, ω) → (Q, Γ_O) → p, each link in terms of the names of the one before; body axes.
@@ -221,6 +234,30 @@ impl<'g> Scene<'g> {
         }
         formulas.sort_by_key(|f| f.method);
         formulas
+    }
+
+    /// ∂C/∂ż of another body in place of this one, without what acts beside weight and buoyancy, arranged in two ways.
+    pub fn inertial_residuals(&self, body: &Body<'g>) -> Vec<Vec<Expr<'g>>> {
+        let kinematics = &self.kinematics;
+        let load = Wrench::zero(kinematics.frame.graph);
+        let (linear, angular): (Vec<usize>, Vec<usize>) = kinematics.active.iter().partition(|&&k| k < 3);
+        let weight = Weight::new(body);
+        let terms = Terms {
+            matrix: &KineticMatrix::new(kinematics.frame.graph, body, &linear, &angular),
+            weight: weight.as_ref(),
+            load: &load,
+            formal: &Formal::new(kinematics, &load),
+        };
+        let residual = |arrangement| {
+            let Terms { matrix, weight, load, formal } = terms;
+            self.residual_of(&terms, &solve_balance(kinematics, matrix, weight, load, formal, arrangement))
+        };
+        [Arrangement::Structured, Arrangement::Collected].map(residual).into()
+    }
+
+    /// `R·a_α + M_O·o_α` of what acts beside weight and buoyancy.
+    pub fn load_forces(&self) -> Vec<Expr<'g>> {
+        self.project_wrench(&self.load)
     }
 
     /// Whether Q has parts of u and of ω that turn together: then their sum is turned once.
@@ -525,9 +562,17 @@ impl<'g> Scene<'g> {
 
     /// ∂C/∂ż: `(dQ/dt − R)·a_α + (dΓ_O/dt + v_O × Q − M_O)·o_α` at a given ż.
     fn residual(&self, balance: &Balance<'g>) -> Vec<Expr<'g>> {
+        self.residual_of(&self.terms(), balance)
+    }
+
+    fn terms(&self) -> Terms<'_, 'g> {
+        Terms { matrix: &self.matrix, weight: self.weight.as_ref(), load: &self.load, formal: &self.formal }
+    }
+
+    fn residual_of(&self, terms: &Terms<'_, 'g>, balance: &Balance<'g>) -> Vec<Expr<'g>> {
         let kinematics = &self.kinematics;
         let frame = &kinematics.frame;
-        let real = self.formal.realisation(kinematics, self.weight.as_ref(), &self.load);
+        let real = terms.formal.realisation(kinematics, terms.weight, terms.load);
         let bias = |a: Triple<'g>| a.map(|e| e.substitute(&real));
         let along = kinematics.rates_with_accelerations();
         let omega = &kinematics.angular_velocity;
@@ -535,11 +580,11 @@ impl<'g> Scene<'g> {
         let angular_rate = frame.resolve(omega, self.angular_in).map(|e| e.derivative(&along).group());
         let alpha = self.in_body(&self.vector(self.angular_in, angular_rate));
         let drift = cross(&self.in_body(omega), &self.in_body(&kinematics.velocity));
-        let coupling = self.matrix.block(0, 3, &alpha);
-        let (linear, u_rate) = match self.matrix.isotropic {
+        let coupling = terms.matrix.block(0, 3, &alpha);
+        let (linear, u_rate) = match terms.matrix.isotropic {
             Some(mu) => {
-                let weight = self.weight.as_ref().map_or(frame.zero(), |w| w.resultant(frame));
-                let weight = weight.plus(&frame.space_vector(self.load.force.space));
+                let weight = terms.weight.map_or(frame.zero(), |w| w.resultant(frame));
+                let weight = weight.plus(&frame.space_vector(terms.load.force.space));
                 let in_body = add(&coupling, &bias(balance.linear_bias));
                 (a.times(mu).plus(&frame.body_vector(in_body)).minus(&weight), self.in_body(&a))
             }
@@ -548,11 +593,11 @@ impl<'g> Scene<'g> {
                     Axes::Body => frame.resolve(&kinematics.velocity, Axes::Body).map(|e| e.derivative(&along)),
                     Axes::Space => subtract(&self.in_body(&a), &drift).map(Expr::group),
                 };
-                let inertia = add(&self.matrix.block(0, 0, &u_rate), &coupling);
+                let inertia = add(&terms.matrix.block(0, 0, &u_rate), &coupling);
                 (frame.body_vector(add(&inertia, &bias(balance.linear_bias))), u_rate)
             }
         };
-        let angular = add(&self.matrix.angular_momentum(&u_rate, &alpha), &bias(balance.angular_bias));
+        let angular = add(&terms.matrix.angular_momentum(&u_rate, &alpha), &bias(balance.angular_bias));
         let linear = linear.map(Expr::group);
         self.project(self.resolve(&linear, &frame.body_vector(angular.map(Expr::group))))
     }

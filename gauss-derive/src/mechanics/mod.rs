@@ -19,6 +19,7 @@
 //! - `system`, `system_check`, `system_equations`: the equations of bodies and particles in coordinates of their own.
 //! - `methods`: every method of a kernel as expressions.
 //! - `linearize`: what the equations are differentiated along.
+//! - `regressor`: forces of inertia as a linear function of inertial parameters.
 //! - `equations`: the equations for people.
 
 mod accounts;
@@ -43,6 +44,7 @@ mod names;
 mod proof;
 #[cfg(test)]
 mod random_systems;
+mod regressor;
 mod regroup;
 mod rotation;
 mod short;
@@ -73,6 +75,7 @@ pub use linearize::Linearization;
 pub use link::{Matter, Placement, identity};
 pub use methods::{Formula, Method, Scene};
 pub use names::Name;
+pub use regressor::{InertialParameters, Regressor};
 pub use rotation::{about_axis, poisson, rotation_of_quaternion};
 pub use system::{Coordinate, System, SystemScene};
 pub use system_check::{SystemFault, check_system_against_definition};

@@ -17,7 +17,7 @@ mod scene;
 mod witness;
 
 use crate::algebra::{Graph, Map};
-use crate::kernel::{Candidates, Kernel, Program};
+use crate::kernel::{Candidates, Derivatives, Kernel, Program};
 
 use super::elimination::Elimination;
 use super::methods::{Formula, Method};
@@ -47,7 +47,7 @@ impl<'g> Compiled<'g> {
         let each = formulas.iter().flat_map(|f| f.arrangements.iter().map(|outputs| (f.method, outputs.clone())));
         let (methods, outputs): (Vec<_>, Vec<_>) =
             each.map(|(method, outputs)| (method, Candidates::of_values(vec![outputs]))).unzip();
-        let kernel = Kernel::lower(graph, &outputs, &[], &symbols.definitions, None, None);
+        let kernel = Kernel::lower(graph, &outputs, &[], &symbols.definitions, &Derivatives::default(), None);
         let kernel = kernel.unwrap_or_else(|error| panic!("{what}: {error}"));
         assert!(!graph.overflowed(), "{what}: a coefficient left the range of 64-bit fractions");
         let values = kernel.constants.run(&symbols.parameters);

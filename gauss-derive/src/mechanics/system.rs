@@ -216,6 +216,18 @@ impl<'g> System<'g> {
         sums(&sums(&self.scene.tree.weights(), &loads), &self.other_forces())
     }
 
+    /// `∫∂v_P/∂z·dF` of the elements alone.
+    pub fn element_forces(&self) -> Vec<Expr<'g>> {
+        sums(&self.scene.tree.loads(&self.forces), &self.other_forces())
+    }
+
+    /// ∂C/∂ż of the unconstrained C without the elements of what acts: inertia, weight and buoyancy.
+    pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
+        let tree = &self.scene.tree;
+        let residuals = tree.inertias(self.is_long()).iter().map(|&inertia| tree.residual(&self.along, inertia, &[]));
+        residuals.flat_map(|residual| self.with_tidied(residual)).collect()
+    }
+
     /// Of the potential, and of what acts elsewhere than on links.
     fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;

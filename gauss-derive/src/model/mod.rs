@@ -8,7 +8,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `attributes` | `#[gauss(…)]` → clauses `name`, `name = value`, `name(…)` |
-//! | `scene` | the clauses of the struct: `chart`, `motion`, `crate`, `taylor`, `linearize` |
+//! | `scene` | the clauses of the struct: `chart`, `motion`, `crate`, `taylor`, `linearize`, `regressor` |
 //! | `statements` | those of a system, each with one of the next three; `constraint`, `potential`, `damping`, `limit` |
 //! | `declarations` | `coordinates`, `speeds`, `independent`, `input`, `kinematics`, `define` |
 //! | `placements` | `body`, `frame`, `particle`, `point` |
@@ -130,13 +130,17 @@ impl Model {
     }
 }
 
-/// What is wanted beside the equations, each by a clause that is its name alone.
+/// What is wanted beside the equations.
 #[derive(Clone, Default)]
 pub struct Wanted {
     /// `taylor`, where it is written: power series of the motion.
     pub taylor: Option<Ident>,
     /// `linearize`: the derivatives of the equations by the state.
     pub linearize: bool,
+    /// `linearize(parameters)`: by the parameters, too.
+    pub by_parameters: bool,
+    /// `regressor`, where it is written: the coefficients of the inertial parameters.
+    pub regressor: Option<Ident>,
 }
 
 /// The number type that kernels compute with.

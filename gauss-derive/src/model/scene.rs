@@ -1,7 +1,8 @@
 //! The clauses of the struct: which equations are wanted. Those of systems are read by `statements`.
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
-//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `linearize` alone.
+//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `regressor` alone;
+//! `linearize` alone or as `linearize(parameters)`.
 
 use super::attributes::{self, Clause, Place, Value, Word};
 use super::context::Context;
@@ -38,6 +39,7 @@ pub(super) const CLAUSES: &Table<Topic> = &[
     ("crate", Topic::Runtime),
     ("taylor", Topic::Taylor),
     ("linearize", Topic::Linearize),
+    ("regressor", Topic::Regressor),
 ];
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -47,6 +49,7 @@ pub(super) enum Topic {
     Runtime,
     Taylor,
     Linearize,
+    Regressor,
 }
 
 /// `None` stands for `jet`, which needs to know the motion.
@@ -137,6 +140,10 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
             }
             Topic::Linearize => {
                 wanted.linearize = true;
+                wanted.by_parameters |= names_parameters(&clause, context);
+            }
+            Topic::Regressor => {
+                wanted.regressor.get_or_insert(clause.name.clone());
                 check_alone(&clause, context);
             }
         }
@@ -189,7 +196,7 @@ fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
     } else if is_system {
         format!(
-            "unknown clause `{word}`; expected {}, `crate`, `taylor` or `linearize`",
+            "unknown clause `{word}`; expected {}, `crate`, `taylor`, `linearize` or `regressor`",
             names::list(STATEMENTS).replace(" or ", ", ")
         )
     } else {
@@ -331,6 +338,40 @@ fn check_alone(clause: &Clause, context: &mut Context) {
         Value::Brackets(group) => group.span_open(),
     };
     context.error(span, format!("`{name}` takes no value; write `{name}` alone, or leave it out"));
+}
+
+/// Whether it is `linearize(parameters)`.
+fn names_parameters(clause: &Clause, context: &mut Context) -> bool {
+    const REMEDY: &str = "write `linearize` alone for the derivatives by state, time and input, or \
+                          `linearize(parameters)` to have those by the parameters as well";
+    let (span, message) = match &clause.value {
+        Value::Absent | Value::Malformed => return false,
+        Value::Equals(tokens) => (
+            tokens.first().map_or(clause.name.span(), attributes::start),
+            format!("`linearize` takes no value after `=`; {REMEDY}"),
+        ),
+        Value::Brackets(group) => {
+            let tokens = attributes::flat(group.stream());
+            let is_parameters =
+                |token: &TokenTree| matches!(token, TokenTree::Ident(word) if word.unraw() == "parameters");
+            let wrong = match tokens.split_first() {
+                None => {
+                    context.error(group.span_open(), format!("the brackets of `linearize` are empty; {REMEDY}"));
+                    return false;
+                }
+                Some((first, _)) if !is_parameters(first) => first,
+                Some((_, [])) => return true,
+                Some((_, [TokenTree::Punct(comma)])) if comma.as_char() == ',' => return true,
+                Some((_, [extra, ..])) => extra,
+            };
+            (
+                attributes::start(wrong),
+                format!("`linearize` takes `parameters` in its brackets, found {}; {REMEDY}", attributes::found(wrong)),
+            )
+        }
+    };
+    context.error(span, message);
+    false
 }
 
 fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {

@@ -3,9 +3,11 @@
 //! - `symbols`: what every field, coordinate and speed is called, and where the value of each symbol is read.
 //! - `values`: expressions.
 //! - `forces`: what acts.
+//! - `parameters`: what the numbers of fields are called.
 //! - here: the scene, part by part, in the order in which one part can name another.
 
 mod forces;
+mod parameters;
 mod symbols;
 mod values;
 
@@ -24,8 +26,9 @@ use crate::mechanics::{
 use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, Property, SystemModel};
 
 pub use forces::DragMatrix;
+pub use parameters::{Parameter, parameters_of_body, parameters_of_system};
 use symbols::Declared;
-pub use symbols::{Part, Source, body_shape};
+pub use symbols::{Part, Source, body_shape, role_of};
 use values::{Piece, Value};
 
 /// Translates a system; kept between two translations of one system with different speeds.
@@ -202,6 +205,23 @@ impl<'a, 'g> Translator<'a, 'g> {
             inputs: self.declared.inputs.clone(),
             elements,
         })
+    }
+
+    /// The same scene of other bodies, each in place of one.
+    ///
+    /// # Errors
+    /// As [`scene`](Self::scene).
+    pub fn scene_of(
+        &mut self,
+        other: impl Fn(&Body<'g>) -> Body<'g>,
+        values: &[Expr<'g>],
+        kept: &[usize],
+    ) -> syn::Result<SystemScene<'g>> {
+        let others = self.declared.bodies.iter().map(|body| body.as_ref().map(&other)).collect();
+        let bodies = std::mem::replace(&mut self.declared.bodies, others);
+        let scene = self.scene(values, kept);
+        self.declared.bodies = bodies;
+        scene
     }
 
     /// What acts on the body of a chart, the pose being the only coordinate: the symbols of its motion, and the elements in

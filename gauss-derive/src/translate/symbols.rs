@@ -363,6 +363,19 @@ fn velocity_name(name: &Name) -> Name {
     }
 }
 
+/// The role that gives a quantity.
+pub fn role_of(quantity: Quantity) -> Role {
+    match quantity {
+        Quantity::Mass => Role::Mass,
+        Quantity::CenterOfMass => Role::CenterOfMass,
+        Quantity::Inertia => Role::Inertia,
+        Quantity::AddedMass => Role::AddedMass,
+        Quantity::Gravity => Role::Gravity,
+        Quantity::DisplacedMass => Role::DisplacedMass,
+        Quantity::CenterOfBuoyancy => Role::CenterOfBuoyancy,
+    }
+}
+
 pub(super) fn quantity_of(role: Role) -> Option<Quantity> {
     Some(match role {
         Role::Mass => Quantity::Mass,

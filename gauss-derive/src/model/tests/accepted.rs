@@ -51,7 +51,10 @@ fn clauses_merge() {
 #[test]
 fn derivatives_only_where_they_are_asked_for() {
     assert!(!model(&body("#[gauss(chart = hybrid)]")).wanted.linearize);
-    assert!(model(&body("#[gauss(chart = hybrid, linearize)]")).wanted.linearize);
+    let state = model(&body("#[gauss(chart = hybrid, linearize)]")).wanted;
+    assert!(state.linearize && !state.by_parameters && state.regressor.is_none());
+    let all = model(&body("#[gauss(linearize(parameters), regressor)]")).wanted;
+    assert!(all.linearize && all.by_parameters && all.regressor.is_some());
     assert!(model(&body("#[gauss(linearize, drag(linear = [1, 1, 1, 1, 1, 1]))]")).wanted.linearize);
 }
 

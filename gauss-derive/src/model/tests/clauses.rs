@@ -44,20 +44,30 @@ fn chart_values() {
 }
 
 #[test]
-fn linearize_stands_alone() {
-    check_body(
-        "#[gauss(linearize = true)]",
-        &[("true", "`linearize` takes no value; write `linearize` alone, or leave it out")],
-    );
-    check_body(
-        "#[gauss(linearize(z))]",
-        &[("(", "`linearize` takes no value; write `linearize` alone, or leave it out")],
-    );
+fn linearize_stands_alone_or_names_parameters() {
+    let remedy = "write `linearize` alone for the derivatives by state, time and input, or `linearize(parameters)` to have \
+                  those by the parameters as well";
+    let refused = |attribute: &str, at: &str, message: &str| {
+        check_body(attribute, &[(at, &format!("{message}; {remedy}"))]);
+    };
+    refused("#[gauss(linearize = true)]", "true", "`linearize` takes no value after `=`");
+    refused("#[gauss(linearize(z))]", "z", "`linearize` takes `parameters` in its brackets, found `z`");
+    refused("#[gauss(linearize())]", "(", "the brackets of `linearize` are empty");
+    refused("#[gauss(linearize(parameters, z))]", ",", "`linearize` takes `parameters` in its brackets, found `,`");
+    refused("#[gauss(linearize(3))]", "3", "`linearize` takes `parameters` in its brackets, found the literal `3`");
     check_body("#[gauss(linearise)]", &[("linearise", "unknown clause `linearise`; did you mean `linearize`?")]);
     check_body(
         "#[gauss(linearize, chart = hybrid, linearize)]",
         &[("linearize", "`linearize` is given twice; it was given first as `linearize`: keep one of the two")],
     );
+}
+
+#[test]
+fn regressor_stands_alone() {
+    let message = "`regressor` takes no value; write `regressor` alone, or leave it out";
+    check_body("#[gauss(regressor = true)]", &[("true", message)]);
+    check_body("#[gauss(regressor(m))]", &[("(", message)]);
+    check_body("#[gauss(regresor)]", &[("regresor", "unknown clause `regresor`; did you mean `regressor`?")]);
 }
 
 #[test]
@@ -177,7 +187,7 @@ fn struct_clauses() {
         "#[gauss(foo = 1)]",
         &[(
             "foo",
-            "unknown clause `foo`; expected `chart`, `motion`, `crate`, `taylor` or `linearize`, or what acts, such as `force(…)`",
+            "unknown clause `foo`; expected `chart`, `motion`, `crate`, `taylor`, `linearize` or `regressor`, or what acts, such as `force(…)`",
         )],
     );
     check_body("#[gauss(hybrid)]", &[("hybrid", "`hybrid` is a chart; write `chart = hybrid`")]);

@@ -184,7 +184,7 @@ fn clauses_of_one_body() {
             "unknown clause `foo`; expected `coordinates`, `speeds`, `kinematics`, `body`, `frame`, \
              `particle`, `point`, `constraint`, `independent`, `potential`, `input`, `force`, `torque`, \
              `wrench`, `drive`, `spring`, `stop`, `drag`, `damping`, `medium`, `central_gravity`, `define`, `limit`, \
-             `crate`, `taylor` or `linearize`",
+             `crate`, `taylor`, `linearize` or `regressor`",
         )],
     );
     // A misspelt clause is not missing as well.
