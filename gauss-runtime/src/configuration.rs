@@ -14,144 +14,12 @@ use core::fmt::Debug;
 
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
-use crate::lie::carried::two_sum;
 use crate::lie::{carried, se2, se3, so3};
 use crate::real::Real;
 use crate::triple::{norm, quaternion, rotate, rotate_back, triple, unit_quaternion};
 
-/// A finite-dimensional linear space over `T`: quasi-velocities, momenta, forces, increments of a configuration.
-pub trait VectorSpace<T: Real>: Copy + Debug {
-    /// The number of components.
-    const DIM: usize;
-
-    /// The null vector.
-    fn zero() -> Self;
-
-    /// `self + a·x`.
-    fn add_scaled(&self, a: T, x: &Self) -> Self;
-
-    /// `a·self`.
-    fn scale(&self, a: T) -> Self;
-
-    /// Component `i`.
-    ///
-    /// # Panics
-    /// When `i ≥ DIM`.
-    fn component(&self, i: usize) -> T;
-
-    /// Replaces component `i`.
-    ///
-    /// # Panics
-    /// When `i ≥ DIM`.
-    fn set_component(&mut self, i: usize, value: T);
-
-    /// The largest magnitude among all components and lanes; NaN when there is a NaN.
-    fn max_norm(&self) -> f64 {
-        let mut largest = 0.0;
-        for i in 0..Self::DIM {
-            for lane in 0..T::LANES {
-                let magnitude = self.component(i).lane(lane).abs();
-                // Written so that a NaN wins and stays.
-                if magnitude > largest || magnitude.is_nan() {
-                    largest = magnitude;
-                }
-                if largest.is_nan() {
-                    return largest;
-                }
-            }
-        }
-        largest
-    }
-
-    /// Whether every component is finite.
-    #[inline]
-    fn is_finite(&self) -> bool {
-        (0..Self::DIM).all(|i| self.component(i).is_finite())
-    }
-}
-
-impl<T: Real, const N: usize> VectorSpace<T> for SVector<T, N> {
-    const DIM: usize = N;
-
-    #[inline(always)]
-    fn zero() -> Self {
-        Self::from([T::zero(); N])
-    }
-
-    #[inline(always)]
-    fn add_scaled(&self, a: T, x: &Self) -> Self {
-        Self::from(core::array::from_fn(|i| a.fma(x.data.0[0][i], self.data.0[0][i])))
-    }
-
-    #[inline(always)]
-    fn scale(&self, a: T) -> Self {
-        Self::from(self.data.0[0].map(|component| a * component))
-    }
-
-    #[inline(always)]
-    fn component(&self, i: usize) -> T {
-        self.data.0[0][i]
-    }
-
-    #[inline(always)]
-    fn set_component(&mut self, i: usize, value: T) {
-        self.data.0[0][i] = value;
-    }
-}
-
-/// `(x + carried) + increment` to nearest, and exactly what is missing there.
-#[inline(always)]
-pub(crate) fn add_carrying<T: Real, V: VectorSpace<T>>(x: &V, increment: &V, carried: &V) -> (V, V) {
-    let (mut sum, mut rest) = (*x, *carried);
-    for i in 0..V::DIM {
-        let (high, low) = two_sum(x.component(i), increment.component(i) + carried.component(i));
-        sum.set_component(i, high);
-        rest.set_component(i, low);
-    }
-    (sum, rest)
-}
-
-/// A pair of vectors: the increments of a pair of configurations, first's components before second's.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Product<A, B> {
-    /// Part of the first factor.
-    pub first: A,
-    /// Part of the second factor.
-    pub second: B,
-}
-
-impl<T: Real, A: VectorSpace<T>, B: VectorSpace<T>> VectorSpace<T> for Product<A, B> {
-    const DIM: usize = A::DIM + B::DIM;
-
-    #[inline(always)]
-    fn zero() -> Self {
-        Self { first: A::zero(), second: B::zero() }
-    }
-
-    #[inline(always)]
-    fn add_scaled(&self, a: T, x: &Self) -> Self {
-        Self { first: self.first.add_scaled(a, &x.first), second: self.second.add_scaled(a, &x.second) }
-    }
-
-    #[inline(always)]
-    fn scale(&self, a: T) -> Self {
-        Self { first: self.first.scale(a), second: self.second.scale(a) }
-    }
-
-    #[inline(always)]
-    fn component(&self, i: usize) -> T {
-        if i < A::DIM { self.first.component(i) } else { self.second.component(i - A::DIM) }
-    }
-
-    #[inline(always)]
-    fn set_component(&mut self, i: usize, value: T) {
-        if i < A::DIM {
-            self.first.set_component(i, value);
-        } else {
-            self.second.set_component(i - A::DIM, value);
-        }
-    }
-}
+pub(crate) use crate::vector_space::add_carrying;
+pub use crate::vector_space::{Product, VectorSpace};
 
 /// A point of a configuration space that is a Lie group: what a geometric integrator needs to move it.
 ///
@@ -190,6 +58,34 @@ pub trait Configuration: Copy + Debug {
     ///
     /// The sign of the ½ is that of increments on the right; with increments on the left it would be −½.
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent;
+
+    /// The Lie bracket `[v, w] = ad_v w`, of increments on the right. Where it is not written it is twice the odd part of
+    /// [`dexp_inv`](Self::dexp_inv) in v: all its further terms are even.
+    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        let back = Self::dexp_inv(&v.scale(-Self::Scalar::one()), w);
+        Self::dexp_inv(v, w).add_scaled(-Self::Scalar::one(), &back)
+    }
+
+    /// The left-trivialised differential of exp at `v`, a linear map of increments: the inverse of [`dexp_inv`](Self::dexp_inv),
+    /// without its poles. What depends on `v` alone is worked out once.
+    ///
+    /// If σ moves with the rate w then `q₀ ∘ exp(σ)` moves with the body velocity `dexp(σ)(w)`:
+    ///
+    /// `dexp(v)(w) = Σ_k (−1)ᵏ/(k+1)! ad_vᵏ w = w − ½ [v, w] + ¹⁄₆ [v, [v, w]] − …`
+    ///
+    /// Where it is not written the series is summed, to rounding for increments that turn by up to π.
+    fn dexp(v: &Self::Tangent) -> impl Fn(&Self::Tangent) -> Self::Tangent {
+        // πᵏ/(k+1)! is below 1e-18 (1e-34) of the sum from these on.
+        let terms = if Self::Scalar::EPSILON > 1e-17 { 30 } else { 46 };
+        move |w| {
+            let (mut term, mut sum) = (*w, *w);
+            for k in 1..=terms {
+                term = Self::bracket(v, &term).scale(Self::Scalar::ratio(-1, k + 1));
+                sum = sum.add_scaled(Self::Scalar::one(), &term);
+            }
+            sum
+        }
+    }
 
     /// The components.
     fn components(&self) -> Self::Components;
@@ -253,6 +149,16 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
     #[inline(always)]
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
         so3::dexp_inv(v, w)
+    }
+
+    #[inline(always)]
+    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        so3::bracket(v, w)
+    }
+
+    #[inline(always)]
+    fn dexp(v: &Self::Tangent) -> impl Fn(&Self::Tangent) -> Self::Tangent {
+        so3::dexp(v)
     }
 
     /// x, y, z, w: i, j, k first.
@@ -320,6 +226,16 @@ impl<T: Real> Configuration for Isometry3<T> {
     #[inline(always)]
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
         se3::dexp_inv(v, w)
+    }
+
+    #[inline(always)]
+    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        se3::bracket(v, w)
+    }
+
+    #[inline(always)]
+    fn dexp(v: &Self::Tangent) -> impl Fn(&Self::Tangent) -> Self::Tangent {
+        se3::dexp(v)
     }
 
     /// x, y, z, w of the quaternion, then b in the observer's axes.
@@ -392,6 +308,16 @@ impl<T: Real> Configuration for Isometry2<T> {
     #[inline(always)]
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
         se2::dexp_inv(v, w)
+    }
+
+    #[inline(always)]
+    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        se2::bracket(v, w)
+    }
+
+    #[inline(always)]
+    fn dexp(v: &Self::Tangent) -> impl Fn(&Self::Tangent) -> Self::Tangent {
+        se2::dexp(v)
     }
 
     /// Cosine and sine of the angle, then b in the observer's axes.
@@ -470,6 +396,16 @@ impl<T: Real, const N: usize> Configuration for SVector<T, N> {
     }
 
     #[inline(always)]
+    fn bracket(_: &Self, _: &Self) -> Self {
+        Self::zero()
+    }
+
+    #[inline(always)]
+    fn dexp(_: &Self) -> impl Fn(&Self) -> Self {
+        |w| *w
+    }
+
+    #[inline(always)]
     fn components(&self) -> Self {
         *self
     }
@@ -526,6 +462,17 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
     #[inline(always)]
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
         Product { first: A::dexp_inv(&v.first, &w.first), second: B::dexp_inv(&v.second, &w.second) }
+    }
+
+    #[inline(always)]
+    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
+        Product { first: A::bracket(&v.first, &w.first), second: B::bracket(&v.second, &w.second) }
+    }
+
+    #[inline(always)]
+    fn dexp(v: &Self::Tangent) -> impl Fn(&Self::Tangent) -> Self::Tangent {
+        let (first, second) = (A::dexp(&v.first), B::dexp(&v.second));
+        move |w| Product { first: first(&w.first), second: second(&w.second) }
     }
 
     #[inline(always)]

@@ -72,6 +72,7 @@ pub mod system;
 
 mod trigonometry;
 mod triple;
+mod vector_space;
 
 #[doc(hidden)]
 #[path = "private/mod.rs"]

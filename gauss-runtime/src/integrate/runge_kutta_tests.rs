@@ -271,3 +271,17 @@ fn a_configuration_of_your_own_runs_by_every_explicit_method() {
     type Pair = Product<SVector<f64, 9>, SVector<f64, 9>>;
     assert_eq!(<Pair as VectorSpace<f64>>::DIM, 18);
 }
+
+/// The bracket and the differential that a configuration has without writing them.
+#[test]
+fn a_configuration_of_your_own_has_a_bracket_and_the_differential_of_exp() {
+    for size in [0.0, 1e-9, 0.3, 1.0, 2.0, 3.1] {
+        let (axis, w): (SVector<f64, 3>, SVector<f64, 3>) = (increment(4.0), increment(6.0));
+        let v = axis.normalize() * size;
+        // 30 terms, of a sum of magnitudes of up to e^π |w|.
+        let allowed = 30.0 * 23.0 * f64::EPSILON * w.norm();
+        assert!((Rotation::dexp(&v)(&w) - so3::dexp(&v)(&w)).amax() <= allowed, "{size}");
+        // The coefficient of ad² is some size²/12 of w, and cancels.
+        assert!((Rotation::bracket(&v, &w) - so3::bracket(&v, &w)).amax() <= 8.0 * f64::EPSILON * w.norm(), "{size}");
+    }
+}

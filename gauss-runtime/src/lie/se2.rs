@@ -88,6 +88,24 @@ pub fn dexp_inv<T: Real>(v: &SVector<T, 3>, w: &SVector<T, 3>) -> SVector<T, 3> 
     SVector::from([sum(0), sum(1), w.data.0[0][2]])
 }
 
+/// The map `w ↦ w − a [v, w] + b [v, [v, w]]`, a and b those of SO(3) at the angle of v: exact, since `ad³ = −ω² ad`. See
+/// [`Configuration::dexp`].
+///
+/// [`Configuration::dexp`]: crate::configuration::Configuration::dexp
+#[inline]
+pub fn dexp<T: Real>(v: &SVector<T, 3>) -> impl Fn(&SVector<T, 3>) -> SVector<T, 3> + use<T> {
+    let v = *v;
+    let omega = v.data.0[0][2];
+    let s = omega * omega;
+    let (a, b) = (coefficients::versine(s), coefficients::cubic(s));
+    move |w| {
+        let once = bracket(&v, w);
+        let twice = bracket(&v, &once);
+        let sum = |i: usize| b.fma(twice.data.0[0][i], (-a).fma(once.data.0[0][i], w.data.0[0][i]));
+        SVector::from([sum(0), sum(1), w.data.0[0][2]])
+    }
+}
+
 /// `q ∘ exp(σ)`.
 #[inline]
 pub fn retract<T: Real>(pose: &Isometry2<T>, sigma: &SVector<T, 3>) -> Isometry2<T> {

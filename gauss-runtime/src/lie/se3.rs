@@ -101,6 +101,34 @@ pub fn dexp_inv<T: Real>(sigma: &SVector<T, 6>, w: &SVector<T, 6>) -> SVector<T,
     join(linear, angular)
 }
 
+/// See [`Configuration::dexp`]. With σ = (v, ω), w = (w_u, w_ω), a(θ²) and b(θ²) the coefficients of SO(3), a′ and b′ their
+/// derivatives:
+///
+/// - angular: `w_ω − a ω×w_ω + b ω×(ω×w_ω)`
+/// - linear: `w_u − a(ω×w_u + v×w_ω) + b[ω×(ω×w_u + v×w_ω) + v×(ω×w_ω)] + 2(ω·v)[b′ ω×(ω×w_ω) − a′ ω×w_ω]`
+///
+/// [`Configuration::dexp`]: crate::configuration::Configuration::dexp
+#[inline]
+pub fn dexp<T: Real>(sigma: &SVector<T, 6>) -> impl Fn(&SVector<T, 6>) -> SVector<T, 6> + use<T> {
+    let (v, omega) = split(sigma);
+    let s = dot(omega, omega);
+    let (a, b) = (coefficients::versine(s), coefficients::cubic(s));
+    let turn = dot(omega, v);
+    let twofold = turn + turn;
+    let slopes = (coefficients::versine_derivative(s) * twofold, coefficients::cubic_derivative(s) * twofold);
+    move |w| {
+        let (w_u, w_o) = split(w);
+        let once = cross(omega, w_o);
+        let twice = cross(omega, once);
+        let once_linear = add(cross(omega, w_u), cross(v, w_o));
+        let twice_linear = add(cross(omega, once_linear), cross(v, once));
+
+        let angular = axpy(b, twice, axpy(-a, once, w_o));
+        let linear = axpy(b, twice_linear, axpy(-a, once_linear, w_u));
+        join(axpy(slopes.1, twice, axpy(-slopes.0, once, linear)), angular)
+    }
+}
+
 /// `q ∘ exp(σ)`: `(R exp(ω), b + R V u)`.
 #[inline]
 pub fn retract<T: Real>(pose: &Isometry3<T>, sigma: &SVector<T, 6>) -> Isometry3<T> {

@@ -66,6 +66,21 @@ pub fn dexp_inv<T: Real>(v: &SVector<T, 3>, w: &SVector<T, 3>) -> SVector<T, 3> 
     SVector::from(axpy(c, cross(v, once), axpy(T::ratio(1, 2), once, w)))
 }
 
+/// The map `w ↦ w − a v×w + b v×(v×w)`, `a = (1 − cos θ)/θ²`, `b = (θ − sin θ)/θ³`, θ = |v|: see [`Configuration::dexp`].
+///
+/// [`Configuration::dexp`]: crate::configuration::Configuration::dexp
+#[inline]
+pub fn dexp<T: Real>(v: &SVector<T, 3>) -> impl Fn(&SVector<T, 3>) -> SVector<T, 3> + use<T> {
+    let v = triple(v);
+    let s = dot(v, v);
+    let (a, b) = (coefficients::versine(s), coefficients::cubic(s));
+    move |w| {
+        let w = triple(w);
+        let once = cross(v, w);
+        SVector::from(axpy(b, cross(v, once), axpy(-a, once, w)))
+    }
+}
+
 /// `q ∘ exp(σ)`.
 #[inline]
 pub fn retract<T: Real>(rotation: &UnitQuaternion<T>, sigma: &SVector<T, 3>) -> UnitQuaternion<T> {

@@ -4,7 +4,9 @@ use core::f64::consts::PI;
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 use std::vec::Vec;
 
-use super::coefficients::{cubic, dexp_inv, dexp_inv_derivative, sinc, sinc_cos, versine};
+use super::coefficients::{
+    cubic, cubic_derivative, dexp_inv, dexp_inv_derivative, sinc, sinc_cos, versine, versine_derivative,
+};
 use super::{se2, se3, so3};
 use crate::configuration::{Configuration, Product, VectorSpace};
 use crate::real::Real;
@@ -47,6 +49,36 @@ const REFERENCE: [[f64; 6]; 30] = [
     [6.283_185_3, -1.142_666_612_057_935_6e-09, 6.528_434_931_559_802_5e-19, 0.025_330_295_997_416_694, 22_167_704.674_416_788, 245_703_564_423_808.22],
 ];
 
+/// θ, then the derivatives of versine and cubic by θ², from the same closed forms.
+#[allow(clippy::approx_constant)]
+#[rustfmt::skip]
+const SLOPES: [[f64; 3]; 24] = [
+    [0.0001, -0.041_666_666_638_888_89, -0.008_333_333_329_365_079],
+    [0.01, -0.041_666_388_889_632_935, -0.008_333_293_650_876_322],
+    [0.1, -0.041_638_896_328_262_89, -0.008_329_365_905_984_456],
+    [0.3, -0.041_417_268_542_351_12, -0.008_297_685_938_905_468],
+    [0.499, -0.040_979_593_451_304_724, -0.008_235_034_447_241_168],
+    [0.5, -0.040_976_855_337_224_54, -0.008_234_642_121_237_716],
+    [0.51, -0.040_949_180_949_794_78, -0.008_230_676_580_402_817],
+    [0.8, -0.039_919_077_863_831_726, -0.008_082_725_187_933_428],
+    [1.0, -0.038_962_201_727_912_03, -0.007_944_675_722_225_1],
+    [1.5, -0.035_781_048_568_741_98, -0.007_481_207_749_095_708],
+    [2.0, -0.031_678_088_107_591_29, -0.006_872_094_475_447_970_5],
+    [2.499, -0.026_968_003_409_156_036, -0.006_154_351_839_167_986],
+    [2.5, -0.026_958_167_946_674_896, -0.006_152_829_587_562_476],
+    [2.501, -0.026_948_331_350_914_533, -0.006_151_307_055_285_932],
+    [2.9, -0.022_961_830_415_200_127, -0.005_524_978_960_038_369],
+    [3.1, -0.020_949_010_618_076_677, -0.005_200_886_059_899_159_5],
+    [PI, -0.020_531_964_509_368_672, -0.005_132_991_127_342_168],
+    [3.39, -0.018_066_694_647_564_99, -0.004_725_849_640_394_459_5],
+    [3.4, -0.017_968_670_050_234_93, -0.004_709_441_526_627_249],
+    [3.99, -0.012_459_615_449_473_263, -0.003_754_006_185_204_413_3],
+    [4.01, -0.012_284_743_890_635_991, -0.003_722_411_601_086_842_3],
+    [5.0, -0.004_981_837_601_911_392, -0.002_287_213_400_208_887_5],
+    [6.0, -0.000_677_527_938_230_255_9, -0.001_195_940_600_212_125_4],
+    [6.28, -6.433_715_968_174_547e-6, -0.000_964_877_489_169_330_1],
+];
+
 fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
     let error = (found - expected).abs();
     assert!(error <= tolerance, "{what}: {found:e} instead of {expected:e}, off by {error:e}");
@@ -67,6 +99,11 @@ fn coefficients_at_every_angle() {
         near(sine, a, 4e-16, "sinc");
         near(cosine, theta.cos(), 7e-16, "cosine");
     }
+    for [theta, a, b] in SLOPES {
+        near(versine_derivative(theta * theta), a, 8e-16 * a.abs().max(0.01), "versine_derivative");
+        near(cubic_derivative(theta * theta), b, 1.5e-15 * b.abs(), "cubic_derivative");
+    }
+    assert_eq!((versine_derivative(0.0), cubic_derivative(0.0)), (-1.0 / 24.0, -1.0 / 120.0));
 }
 
 #[test]
@@ -79,6 +116,8 @@ fn packs_take_both_branches_lane_by_lane() {
             near(cubic(s).lane(lane), cubic(s1), 1e-16, "cubic");
             near(dexp_inv(s).lane(lane), dexp_inv(s1), 5e-16, "dexp_inv");
             near(dexp_inv_derivative(s).lane(lane), dexp_inv_derivative(s1), 1e-15, "derivative");
+            near(versine_derivative(s).lane(lane), versine_derivative(s1), 1e-16, "derivative of versine");
+            near(cubic_derivative(s).lane(lane), cubic_derivative(s1), 1e-16, "derivative of cubic");
         }
     }
 }
@@ -90,7 +129,6 @@ trait Group: Configuration<Scalar = f64> {
     fn exp(v: &Self::Tangent) -> Self;
     fn log(&self) -> Self::Tangent;
     fn compose(&self, other: &Self) -> Self;
-    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent;
     fn adjoint(&self, w: &Self::Tangent) -> Self::Tangent;
     /// The angular part of a tangent has these indices.
     const ANGULAR: core::ops::Range<usize>;
@@ -110,9 +148,6 @@ impl Group for UnitQuaternion<f64> {
     }
     fn compose(&self, other: &Self) -> Self {
         self * other
-    }
-    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
-        so3::bracket(v, w)
     }
     fn adjoint(&self, w: &Self::Tangent) -> Self::Tangent {
         so3::adjoint(self, w)
@@ -134,9 +169,6 @@ impl Group for Isometry3<f64> {
     fn compose(&self, other: &Self) -> Self {
         self * other
     }
-    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
-        se3::bracket(v, w)
-    }
     fn adjoint(&self, w: &Self::Tangent) -> Self::Tangent {
         se3::adjoint(self, w)
     }
@@ -156,9 +188,6 @@ impl Group for Isometry2<f64> {
     }
     fn compose(&self, other: &Self) -> Self {
         self * other
-    }
-    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
-        se2::bracket(v, w)
     }
     fn adjoint(&self, w: &Self::Tangent) -> Self::Tangent {
         se2::adjoint(self, w)
@@ -180,9 +209,6 @@ impl Group for (UnitQuaternion<f64>, SVector<f64, 2>) {
     fn compose(&self, other: &Self) -> Self {
         (self.0 * other.0, self.1 + other.1)
     }
-    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
-        Product { first: so3::bracket(&v.first, &w.first), second: SVector::zeros() }
-    }
     fn adjoint(&self, w: &Self::Tangent) -> Self::Tangent {
         Product { first: so3::adjoint(&self.0, &w.first), second: w.second }
     }
@@ -203,12 +229,6 @@ impl Group for (Isometry3<f64>, (UnitQuaternion<f64>, SVector<f64, 2>)) {
     }
     fn compose(&self, other: &Self) -> Self {
         (Group::compose(&self.0, &other.0), Group::compose(&self.1, &other.1))
-    }
-    fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
-        Product {
-            first: <Isometry3<f64> as Group>::bracket(&v.first, &w.first),
-            second: <(UnitQuaternion<f64>, SVector<f64, 2>) as Group>::bracket(&v.second, &w.second),
-        }
     }
     fn adjoint(&self, w: &Self::Tangent) -> Self::Tangent {
         Product { first: Group::adjoint(&self.0, &w.first), second: Group::adjoint(&self.1, &w.second) }
@@ -324,7 +344,32 @@ fn inverse_differential_by_finite_differences<G: Group>() {
     }
 }
 
+/// dexp = Σ (−1)ᵏ/(k+1)! ad_vᵏ at every angle, what dexp⁻¹ undoes, and 1 − dexp·ad = exp(−ad) = Ad of exp(−v).
+fn differential<G: Group>() {
+    for (seed, size) in [0.0, 1e-300, 1e-12, 1e-5, 0.1, 0.49, 0.51, 1.0, 2.0, 2.49, 2.51, 3.1].into_iter().enumerate() {
+        let (v, w) = (tangent::<G>(seed, size), tangent::<G>(seed + 4, 1.0));
+        // What ad and its powers make of w is at most e^π (1 + |v|): translations count as often as they are long.
+        let allowed = 23.0 * f64::EPSILON * (1.0 + v.max_norm());
+        let dexp = G::dexp(&v);
+        let found = dexp(&w);
+        let (mut term, mut sum) = (w, w);
+        for k in 1..60 {
+            term = G::bracket(&v, &term).scale(-1.0 / f64::from(k + 1));
+            sum = sum.add_scaled(1.0, &term);
+        }
+        let error = distance::<G>(&found, &sum);
+        assert!(error <= allowed, "{}: dexp at {size:e}: {error:e}", G::NAME);
+        let error = distance::<G>(&G::dexp_inv(&v, &found), &w);
+        assert!(error <= allowed, "{}: dexp_inv dexp at {size:e}: {error:e}", G::NAME);
+        let bracket = G::bracket(&v, &w);
+        let carried = w.add_scaled(-1.0, &dexp(&bracket));
+        let error = distance::<G>(&carried, &G::exp(&v.scale(-1.0)).adjoint(&w));
+        assert!(error <= allowed, "{}: exp(−ad) at {size:e}: {error:e}", G::NAME);
+    }
+}
+
 fn suite<G: Group>() {
+    differential::<G>();
     laws::<G>();
     inverse_differential_by_adjoint_powers::<G>();
     inverse_differential_by_finite_differences::<G>();
