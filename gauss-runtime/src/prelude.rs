@@ -12,10 +12,10 @@ pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 pub use crate::integrate::{
-    Adaptive, Classical4, Collocation, CommutatorFree4, Compensated, Composed, Composition, Crossing, DormandPrince5,
-    DormandPrince8, EnergyMomentum, Fixed, FreeFlow, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm,
-    MoserVeselov, Rosenbrock, RungeKutta, Sample, Scheme, Simulation, Splitting, SplittingError, Tableau, Taylor,
-    Variational, VelocityForm, Verner9,
+    Adaptive, Classical4, Collocation, CommutatorFree4, Compensated, Composed, Composition, Crossing,
+    DiscreteLinearization, DormandPrince5, DormandPrince8, EnergyMomentum, Fixed, FreeFlow, InputSource,
+    IntegrationError, IntegrationErrorKind, MomentumForm, MoserVeselov, Rosenbrock, RungeKutta, Sample, Scheme,
+    Simulation, Splitting, SplittingError, Tableau, Taylor, Variational, VelocityForm, Verner9,
 };
 #[cfg(feature = "alloc")]
 pub use crate::integrate::{Dense, Trajectory};

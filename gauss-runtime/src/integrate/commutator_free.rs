@@ -3,7 +3,7 @@
 use super::error::{IntegrationErrorKind, Part};
 use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
 use super::one_step::{OneStep, Properties, Step};
-use super::rkmk::{check_chart, check_increment};
+use super::rkmk::{check_chart, check_turn};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -36,32 +36,60 @@ impl<S: GaussSystem> OneStep<S> for CommutatorFree4 {
         rates: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
+        let end = Path::new(state, rates, h, |_, stage| problem.rates(stage))?.end;
+        check_chart(problem, state, &end)?;
+        // No stage has weight 0: what is not finite reaches the end.
+        if !(end.q.is_finite() && end.y.is_finite()) {
+            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        }
+        let error = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+        Ok(Step { state: end, error, rates: None })
+    }
+}
+
+/// The times of the stages after the start, over the step.
+pub(super) const STAGE_TIMES: [(i64, i64); 4] = [(0, 1), (1, 2), (1, 2), (1, 1)];
+
+/// The exponentials that a step consists of, and where it ends.
+pub(super) struct Path<S: GaussSystem> {
+    /// From the start to the second stage, to the third, from the second to the fourth; from the start to the end, in two.
+    pub(super) increments: [TangentOf<S>; 5],
+    pub(super) end: State<S>,
+}
+
+impl<S: GaussSystem> Path<S> {
+    /// `rates(n, stage)` are those at the stages 1, 2 and 3, the first one being 0.
+    #[inline(always)]
+    pub(super) fn new(
+        state: &State<S>,
+        first: &Rates<S>,
+        h: S::Scalar,
+        mut rates: impl FnMut(usize, &State<S>) -> Rates<S>,
+    ) -> Result<Self, IntegrationErrorKind> {
         let one = S::Scalar::one();
-        let (half, third) = (h * S::Scalar::ratio(1, 2), h * S::Scalar::ratio(1, 3));
-        let (quarter, sixth, twelfth) =
-            (h * S::Scalar::ratio(1, 4), h * S::Scalar::ratio(1, 6), h * S::Scalar::ratio(1, 12));
-        let turned = |q: &S::Configuration, increment: &TangentOf<S>| {
-            check_increment::<S>(&Rates { configuration: *increment, variables: S::Speeds::zero() })
-                .map(|()| q.retract(increment))
-        };
+        let (half, third, sixth) = (h * S::Scalar::ratio(1, 2), h * S::Scalar::ratio(1, 3), h * S::Scalar::ratio(1, 6));
+        let turned =
+            |q: &S::Configuration, increment: &TangentOf<S>| check_turn::<S>(increment).map(|()| q.retract(increment));
         let middle = state.t + half;
 
-        let first = rates;
-        let early = turned(&state.q, &first.configuration.scale(half))?;
-        let second = problem.rates(&State { t: middle, q: early, y: state.y.add_scaled(half, &first.variables) });
-        let third_q = turned(&state.q, &second.configuration.scale(half))?;
-        let third_stage =
-            problem.rates(&State { t: middle, q: third_q, y: state.y.add_scaled(half, &second.variables) });
+        let to_second = first.configuration.scale(half);
+        let early = turned(&state.q, &to_second)?;
+        let second = rates(1, &State { t: middle, q: early, y: state.y.add_scaled(half, &first.variables) });
+        let to_third = second.configuration.scale(half);
+        let third_q = turned(&state.q, &to_third)?;
+        let third_stage = rates(2, &State { t: middle, q: third_q, y: state.y.add_scaled(half, &second.variables) });
         let rest = third_stage.configuration.scale(h).add_scaled(-half, &first.configuration);
-        let fourth = problem.rates(&State {
-            t: state.t + h,
-            q: turned(&early, &rest)?,
-            y: state.y.add_scaled(h, &third_stage.variables),
-        });
+        let fourth = rates(
+            3,
+            &State { t: state.t + h, q: turned(&early, &rest)?, y: state.y.add_scaled(h, &third_stage.variables) },
+        );
 
-        let inner = second.configuration.scale(sixth).add_scaled(sixth, &third_stage.configuration);
-        let before = inner.add_scaled(quarter, &first.configuration).add_scaled(-twelfth, &fourth.configuration);
-        let after = inner.add_scaled(-twelfth, &first.configuration).add_scaled(quarter, &fourth.configuration);
+        let combined = |[a, b, c, d]: [S::Scalar; 4]| {
+            let middle = second.configuration.scale(h * b).add_scaled(h * c, &third_stage.configuration);
+            middle.add_scaled(h * a, &first.configuration).add_scaled(h * d, &fourth.configuration)
+        };
+        let [before, after] = halves();
+        let (before, after) = (combined(before), combined(after));
         let change = first
             .variables
             .scale(sixth)
@@ -73,14 +101,15 @@ impl<S: GaussSystem> OneStep<S> for CommutatorFree4 {
             q: turned(&turned(&state.q, &before)?, &after)?.renormalise(),
             y: state.y.add_scaled(one, &change),
         };
-        check_chart(problem, state, &end)?;
-        // No stage has weight 0: what is not finite reaches the end.
-        if !(end.q.is_finite() && end.y.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
-        }
-        let error = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
-        Ok(Step { state: end, error, rates: None })
+        Ok(Self { increments: [to_second, to_third, rest, before, after], end })
     }
+}
+
+/// Weights of the velocities in the two exponentials that end a step; together those of the classical method.
+#[inline(always)]
+pub(super) fn halves<T: Real>() -> [[T; 4]; 2] {
+    let (quarter, sixth, negative) = (T::ratio(1, 4), T::ratio(1, 6), T::ratio(-1, 12));
+    [[quarter, sixth, sixth, negative], [negative, sixth, sixth, quarter]]
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@
 //! | [`collocation`] | Gauss' implicit methods of orders 2, 4, 6, symmetric |
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`commutator_free`] | a commutator-free method of order 4 |
+//! | [`discrete`] | exact derivatives of a step: transition matrices for filters and regulators |
 //! | [`composition`] | symmetric methods composed to higher orders |
 //! | [`control`] | fixed steps, adaptive steps |
 //! | [`compensated`] | fixed steps that carry what is rounded off, for long runs |
@@ -36,6 +37,7 @@ pub mod composition;
 pub mod control;
 #[cfg(feature = "alloc")]
 pub mod dense;
+pub mod discrete;
 pub mod energy_momentum;
 pub mod error;
 pub mod event;
@@ -66,6 +68,7 @@ pub use control::{Adaptive, Control, Emit, Fixed};
 pub(crate) use control::{number_of_steps, prepare};
 #[cfg(feature = "alloc")]
 pub use dense::Dense;
+pub use discrete::DiscreteLinearization;
 pub use energy_momentum::EnergyMomentum;
 pub use error::{IntegrationError, IntegrationErrorKind, Part};
 pub use event::Crossing;
