@@ -1,0 +1,108 @@
+//! A small satellite that turns, its star tracker, and what it is disturbed by.
+
+use std::f64::consts::{PI, TAU};
+
+use gauss_runtime::prelude::*;
+
+/// A rigid satellite about its centre of mass O: the torque of its wheels, known, and one that nobody knows, both in body axes.
+#[derive(GaussDynamics)]
+#[gauss(linearize, motion = fixed_point, input(torque: Vector3 = "N m"), torque(wheels, value = torque))]
+pub struct Spacecraft {
+    /// kg; without effect, because O is held.
+    #[gauss(mass)]
+    pub mass: f64,
+    /// About O, body axes, kg m².
+    #[gauss(inertia)]
+    pub inertia: Matrix3<f64>,
+}
+
+/// Attitude R, body to observer, and angular velocity ω, body axes, rad/s.
+pub type State = (UnitQuaternion<f64>, Vector3<f64>);
+
+/// Seconds of a step: torques are held for that long.
+pub const STEP: f64 = 1.0;
+/// Steps from one look at the stars to the next.
+pub const STEPS: usize = 10;
+/// How often the stars are looked at.
+pub const LOOKS: usize = 60;
+
+/// A second of arc, rad.
+pub const ARCSECOND: f64 = PI / 648_000.0;
+
+/// Standard deviations of the star tracker about the body axes, rad: e₃ is where it looks, and about that it sees least.
+pub const TRACKER: [f64; 3] = [10.0 * ARCSECOND, 10.0 * ARCSECOND, 60.0 * ARCSECOND];
+
+/// The unknown torque is white noise: the square root of its spectral density, about each axis, N m √s.
+pub const DISTURBANCE: f64 = 1e-5;
+
+/// What is known at first: standard deviations of the attitude, rad, and of the angular velocity, rad/s. With three times as much
+/// of the latter the body would turn 3° away from the prediction until the second look, and what is of second order in that would
+/// show: no extended Kalman filter knows of it.
+pub const FIRST: (f64, f64) = (2.0 * PI / 180.0, 0.1 * PI / 180.0);
+
+/// The satellite, of 30 kg.
+pub fn spacecraft() -> Spacecraft {
+    Spacecraft { mass: 30.0, inertia: Matrix3::new(0.90, 0.02, -0.03, 0.02, 1.10, 0.04, -0.03, 0.04, 0.60) }
+}
+
+/// About where it starts: it turns by some three degrees a second.
+pub fn nominal() -> State {
+    (UnitQuaternion::from_euler_angles(0.3, -0.5, 1.0), Vector3::new(0.030, -0.025, 0.035))
+}
+
+/// The torque of the wheels in a step, body axes, N m.
+pub fn wheels(step: usize) -> Vector3<f64> {
+    let phase = TAU * step as f64 * STEP / 240.0;
+    Vector3::new(phase.sin(), (2.0 * phase).cos(), -phase.cos()) * 2e-4
+}
+
+/// Random numbers: splitmix64, and normal ones by Box and Muller.
+pub struct Random(pub u64);
+
+impl Random {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
+        radius * (TAU * self.uniform()).cos()
+    }
+
+    /// Independent components of these standard deviations.
+    pub fn vector(&mut self, deviations: [f64; 3]) -> Vector3<f64> {
+        Vector3::from(deviations.map(|deviation| deviation * self.normal()))
+    }
+}
+
+/// What happened: the states after each step, the first one at 0, and what the tracker saw.
+pub struct Truth {
+    pub states: Vec<State>,
+    /// An attitude after each [`STEPS`] steps.
+    pub looks: Vec<UnitQuaternion<f64>>,
+}
+
+/// A motion from an unknown start under an unknown torque, made with steps ten times finer than those of the filters.
+///
+/// # Errors
+/// When the run does not reach the end.
+pub fn happens(kernel: &SpacecraftKernel, random: &mut Random) -> Result<Truth, IntegrationError> {
+    let (q, z) = nominal();
+    let mut state = (q.retract(&random.vector([FIRST.0; 3])), z + random.vector([FIRST.1; 3]));
+    let mut truth = Truth { states: vec![state], looks: vec![] };
+    for step in 0..LOOKS * STEPS {
+        let torque = wheels(step) + random.vector([DISTURBANCE / STEP.sqrt(); 3]);
+        let run = Simulation::new(kernel).input(|_, _: &_, _: &_| torque).fixed_step(STEP / 10.0);
+        let end = run.run_to_end(state.0, state.1, 0.0..STEP)?;
+        state = (end.q, end.z);
+        truth.states.push(state);
+        if (step + 1) % STEPS == 0 {
+            truth.looks.push(state.0.retract(&random.vector(TRACKER)));
+        }
+    }
+    Ok(truth)
+}

@@ -1,0 +1,91 @@
+//! The picture: errors within what the filter takes them for, and filters with other transition matrices.
+
+use std::error::Error;
+
+use gauss_examples::figure::{COLOURS, INK};
+use gauss_examples::plots::{Line, Plot, sheet};
+use plotters::style::RGBColor;
+
+use crate::filter::{Moment, Transition};
+use crate::model::{ARCSECOND, STEP, STEPS};
+use crate::study::{Followed, interval};
+
+/// Other motions, behind the one that is drawn.
+const FAINT: RGBColor = RGBColor(178, 205, 227);
+/// How many of them.
+const OTHERS: usize = 15;
+
+/// Draws four panels.
+///
+/// # Errors
+/// When they cannot be laid out.
+pub fn draw(followed: &[Followed]) -> Result<String, Box<dyn Error>> {
+    let look = STEP * STEPS as f64;
+    let span = 2.0 * look..32.0 * look;
+    let within = |title, unit, component: usize, height: f64| {
+        let runs = &followed[0].runs;
+        // Times from the second look on, when the rate is known.
+        let curve = |run: &[Moment], value: &dyn Fn(&Moment) -> f64| -> Vec<(f64, f64)> {
+            let kept = run.iter().filter(|m| m.t > span.start && m.t <= span.end || m.t == span.start && m.updated);
+            kept.map(|m| (m.t, (value(m) / ARCSECOND).clamp(-height, height))).collect()
+        };
+        let error = |m: &Moment| m.error[component];
+        let mut lines: Vec<Line> =
+            runs[1..=OTHERS].iter().map(|run| Line::new("", FAINT, curve(run, &error)).wide(2)).collect();
+        lines.push(Line::new("one motion, others behind it", COLOURS[0], curve(&runs[0], &error)).wide(4));
+        let bound = |sign: f64| curve(&runs[0], &|m: &Moment| sign * 3.0 * m.deviations[component]);
+        lines.push(Line::new("±3σ of the filter", COLOURS[1], bound(1.0)).wide(3));
+        lines.push(Line::new("", COLOURS[1], bound(-1.0)).wide(3));
+        Plot { title, x: ("time, s", span.clone()), y: (unit, -height..height), equal: false, lines, marks: vec![] }
+    };
+    let attitude = within("Error of the attitude about e₁", "arcseconds", 0, 240.0);
+    let rate = within("Error of the rate about e₁", "arcseconds per second", 3, 36.0);
+
+    let short = |transition| match transition {
+        Transition::Exact => "of the step, exact",
+        Transition::FirstOrder => "1 + hF, 1 s",
+        Transition::FirstOrderPerLook => "1 + TF, 10 s",
+    };
+    let colours = [COLOURS[0], COLOURS[2], COLOURS[1]];
+    let (low, high) = interval(followed[0].runs.len());
+    let end = followed[0].runs[0].last().map_or(0.0, |m| m.t);
+    // What is larger is cut off, and written.
+    let (bottom, top) = (3.5, 9.0);
+    let mut lines = vec![
+        Line::new("", INK, [(look, low), (end, low)]).dashed().wide(3),
+        Line::new("", INK, [(look, high), (end, high)]).dashed().wide(3),
+    ];
+    for (all, colour) in followed.iter().zip(colours).rev() {
+        let points = all.after_looks().into_iter().map(|look| (look.t, look.normalised.min(top)));
+        lines.push(Line::new(short(all.transition), colour, points));
+    }
+    let worst = followed[followed.len() - 1].after_looks();
+    let above = format!("{:.0} at 20 s, {:.0} at 30 s", worst[1].normalised, worst[2].normalised);
+    let normalised = Plot {
+        title: "eᵀP⁻¹e, mean of all motions: 95 % should lie between the dashes",
+        x: ("time, s", look..end),
+        y: ("normalised error squared", bottom..top + 0.4),
+        equal: false,
+        lines,
+        marks: vec![(worst[2].t, top, above)],
+    };
+    let beginning = 2.0 * look..12.0 * look;
+    let mut lines = vec![];
+    for (all, colour) in followed.iter().zip(colours).rev() {
+        let seen = all.after_looks().into_iter().filter(|look| look.t >= beginning.start && look.t <= beginning.end);
+        lines.push(Line::new(short(all.transition), colour, seen.map(|look| (look.t, look.rate.0 / ARCSECOND))));
+    }
+    let learnt = Plot {
+        title: "Error of the rate, root mean square, by transition matrix",
+        x: ("time, s", beginning.clone()),
+        y: ("arcseconds per second", 0.0..150.0),
+        equal: false,
+        lines,
+        marks: vec![],
+    };
+    sheet(
+        "A tumbling satellite, its star tracker every ten seconds, and no gyroscope",
+        (1800, 1300),
+        &[vec![attitude, rate], vec![normalised, learnt]],
+    )
+}
