@@ -6,7 +6,7 @@ use gauss_runtime::prelude::*;
 
 use crate::measure::Way;
 use crate::states::{of_a_body, of_angles, of_the_top};
-use crate::{Generated, by_hand, entries, matrices, scenes};
+use crate::{Generated, by_hand, entries, matrices, peers, scenes};
 
 /// A scene and the ways to compute it: generated, by hand, with matrices, as far as there are such.
 pub struct Case {
@@ -14,12 +14,14 @@ pub struct Case {
     pub name: &'static str,
     /// In a few words.
     pub what: &'static str,
-    /// Accelerations: generated, by hand, with matrices.
+    /// Accelerations: generated first, then those that there are of by hand, with matrices, and peers.
     pub ways: Vec<Way>,
     /// Operations of the generated kernel.
     pub operations: OperationCount,
-    /// The largest difference from the generated accelerations, relative to their length, over all states: by hand, then with matrices.
+    /// The largest difference of each further way from the generated accelerations, relative to their length, over all states.
     pub differences: Vec<f64>,
+    /// Ways of peers, each by every compiler, with their differences: the faster ones are moved to `ways`.
+    pub peers: Vec<(Way, f64)>,
 }
 
 /// A function that is timed, and what it computes with.
@@ -39,9 +41,10 @@ fn difference<A, B, S, const N: usize>(
 }
 
 macro_rules! case {
-    ($name:literal, $what:literal, $kernel:expr, $states:expr, $generated:ident
+    ($peers:expr, $scene:literal, $name:literal, $what:literal, $kernel:expr, $states:expr, $generated:ident
         $(, $by_hand:expr, $hand_entry:ident, $matrices:expr, $matrix_entry:ident)?) => {{
         let (kernel, states) = (Generated($kernel), $states);
+        let expected: Vec<_> = states.iter().map(|state| entries::$generated(&kernel, state)).collect();
         let ways = vec![
             Way::new("generated", kernel, states.clone(), entries::$generated),
             $(
@@ -60,6 +63,7 @@ macro_rules! case {
                     difference((entries::$generated, &kernel), (entries::$matrix_entry, &$matrices), &states),
                 )?
             ],
+            peers: $peers.ways($scene, &states, &expected),
         }
     }};
 }
@@ -71,10 +75,13 @@ fn operations<S: GaussSystem>(_: &Generated<S>) -> OperationCount {
 /// All scenes.
 ///
 /// # Errors
-/// Never, unless a scene lost a parameter.
+/// When a scene lost a parameter, or a peer is there and cannot be loaded.
 pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
+    let peers = peers::Peers::load()?;
     Ok(vec![
         case!(
+            peers,
+            "s1",
             "S1",
             "free body, principal axes",
             scenes::free_body()?,
@@ -86,6 +93,8 @@ pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
             s1_matrices
         ),
         case!(
+            peers,
+            "s2",
             "S2",
             "heavy body, O off its centre of mass",
             scenes::heavy_body()?,
@@ -97,6 +106,8 @@ pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
             s2_matrices
         ),
         case!(
+            peers,
+            "s3",
             "S3",
             "body in fluid, full kinetic matrix",
             scenes::immersed()?,
@@ -108,6 +119,8 @@ pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
             s3_matrices
         ),
         case!(
+            peers,
+            "s4",
             "S4",
             "heavy top, Euler angles",
             scenes::top()?,
@@ -119,6 +132,8 @@ pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
             s4_matrices
         ),
         case!(
+            peers,
+            "s5",
             "S5",
             "double pendulum, angles from the vertical",
             scenes::double_pendulum()?,
@@ -130,6 +145,8 @@ pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
             s5_matrices
         ),
         case!(
+            peers,
+            "s5_jointed",
             "S5′",
             "the same, angle of the joint",
             scenes::jointed_pendulum()?,
@@ -141,6 +158,8 @@ pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
             s5_jointed_matrices
         ),
         case!(
+            peers,
+            "s6",
             "S6",
             "cart and pole",
             scenes::cart_pole()?,
@@ -151,6 +170,6 @@ pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
             matrices::CartPole,
             s6_matrices
         ),
-        case!("S7", "arm of seven joints", scenes::arm()?, of_angles::<7>(), s7_generated),
+        case!(peers, "s7", "S7", "arm of seven joints", scenes::arm()?, of_angles::<7>(), s7_generated),
     ])
 }

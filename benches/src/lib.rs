@@ -6,6 +6,7 @@
 //! - `states`: 64 states of each scene.
 //! - `measure`: times that alternate, so that ratios mean something on a busy machine.
 //! - `entries`: one function for each evaluation that is timed, whose instructions are counted.
+//! - `peers`: what other generators and simulators make of the scenes (feature `peers`).
 //! - `report`: the table.
 
 pub mod by_hand;
@@ -13,6 +14,7 @@ pub mod cases;
 pub mod entries;
 pub mod matrices;
 pub mod measure;
+pub mod peers;
 pub mod report;
 pub mod scenes;
 pub mod states;

@@ -9,7 +9,7 @@ use std::time::Instant;
 /// One way to compute something at every state of a list.
 pub struct Way {
     /// What it is called in the table.
-    pub name: &'static str,
+    pub name: String,
     /// Computes it `passes` times at all states.
     run: Box<dyn Fn(usize)>,
     states: usize,
@@ -18,21 +18,31 @@ pub struct Way {
 impl Way {
     /// Calls `function`, which must not be inlined, at every state.
     pub fn new<D: 'static, S: 'static, R: 'static>(
-        name: &'static str,
+        name: &str,
         what: D,
         states: Vec<S>,
         function: fn(&D, &S) -> R,
+    ) -> Self {
+        Self::calling(name, states, function, move |function, state| function(black_box(&what), state))
+    }
+
+    /// Lets `call` call `function`, of whatever kind, at every state.
+    pub fn calling<F: Copy + 'static, S: 'static, R: 'static>(
+        name: &str,
+        states: Vec<S>,
+        function: F,
+        call: impl Fn(F, &S) -> R + 'static,
     ) -> Self {
         let length = states.len();
         let run = move |passes| {
             let function = black_box(function);
             for _ in 0..passes {
                 for state in &states {
-                    black_box(function(black_box(&what), state));
+                    black_box(call(function, state));
                 }
             }
         };
-        Self { name, run: Box::new(run), states: length }
+        Self { name: name.to_owned(), run: Box::new(run), states: length }
     }
 
     /// ns per evaluation.

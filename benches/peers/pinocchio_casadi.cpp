@@ -1,0 +1,47 @@
+// Pinocchio's articulated-body algorithm over CasADi's symbols: `pinocchio_casadi FILE` saves the functions for CasADi's code generator.
+#include <casadi/casadi.hpp>
+#include <pinocchio/autodiff/casadi.hpp>
+
+#include <pinocchio/algorithm/aba.hpp>
+
+#include "pinocchio_models.hpp"
+
+using Symbol = casadi::SX;
+using Symbols = Eigen::Matrix<Symbol, Eigen::Dynamic, 1>;
+
+enum class State { Body, Joints, Backward, Absolute };
+
+static casadi::Function function(const std::string &name, void (*build)(pinocchio::Model &), State kind) {
+  pinocchio::Model numbers;
+  build(numbers);
+  const pinocchio::ModelTpl<Symbol> model = numbers.cast<Symbol>();
+  pinocchio::DataTpl<Symbol> data(model);
+  const bool body = kind == State::Body;
+  const Symbol state = Symbol::sym("x", body ? 13 : numbers.nq + numbers.nv);
+  auto at = [&](int i) { return Symbol(state(i)); };
+  Symbols q(numbers.nq), v(numbers.nv), tau = Symbols::Zero(numbers.nv);
+  for (int i = 0; i < numbers.nq; i++) q[i] = body ? at(i < 3 ? 4 + i : i - 3) : at(i);
+  for (int i = 0; i < numbers.nv; i++) v[i] = at((body ? 7 : numbers.nq) + i);
+  if (kind == State::Absolute) q[1] -= q[0], v[1] -= v[0];
+  if (kind == State::Backward || kind == State::Absolute) q = -q, v = -v;
+  pinocchio::aba(model, data, q, v, tau);
+  Symbols result = data.ddq;
+  if (kind == State::Backward || kind == State::Absolute) result = -result;
+  if (kind == State::Absolute) result[1] += result[0];
+  const std::vector<Symbol> parts(result.data(), result.data() + result.size());
+  const std::vector<Symbol> inputs{state}, outputs{Symbol::vertcat(parts)};
+  return casadi::Function("scene_" + name, inputs, outputs, {{"cse", true}});
+}
+
+int main(int, char **arguments) {
+  const casadi::Function all[] = {
+      function("s1", scenes::build_s1, State::Body),
+      function("s2", scenes::build_s2, State::Body),
+      function("s4", scenes::build_s4, State::Joints),
+      function("s5", scenes::build_s5_jointed, State::Absolute),
+      function("s5_jointed", scenes::build_s5_jointed, State::Backward),
+      function("s6", scenes::build_s6, State::Joints),
+      function("s7", scenes::build_s7, State::Joints),
+  };
+  for (const auto &one : all) one.save(std::string(arguments[1]) + "/" + one.name() + ".casadi");
+}
