@@ -1,7 +1,7 @@
 //! How long the derive takes, as its users meet it: `cargo run --profile unoptimised --example expansion_time`.
 //!
-//! Cargo compiles macros without optimisation unless told otherwise, so the figures are taken on an unoptimised build of
-//! the very sources of `gauss-derive`.
+//! First every size of structure beside what is aimed at, then one body in every chart. Cargo compiles macros without optimisation unless told
+//! otherwise, so the figures are taken on an unoptimised build of the very sources of `gauss-derive`.
 
 // Only the pipeline is used here, not everything that the macro's modules offer.
 #![allow(dead_code, unused_imports)]
@@ -20,14 +20,64 @@ mod mechanics;
 mod mistakes;
 #[path = "../../gauss-derive/src/model/mod.rs"]
 mod model;
+mod structures;
 #[path = "../../gauss-derive/src/translate/mod.rs"]
 mod translate;
 
 use std::time::{Duration, Instant};
 
+/// Runs of each, fewer where they would take longer than this.
 const RUNS: usize = 15;
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// Median, fastest and slowest expansion in milliseconds.
+fn expansion(source: &str) -> [f64; 3] {
+    let input: syn::DeriveInput = syn::parse_str(source).expect("the sources are structs");
+    let begun = Instant::now();
+    let mut times = Vec::new();
+    while times.len() < RUNS && (times.len() < 3 || begun.elapsed() < PATIENCE) {
+        let start = Instant::now();
+        std::hint::black_box(expand::expand(&input).expect("the sources are systems"));
+        times.push(start.elapsed().as_secs_f64() * 1e3);
+    }
+    times.sort_unstable_by(f64::total_cmp);
+    [times[times.len() / 2], times[0], times[times.len() - 1]]
+}
 
 fn main() {
+    let build = if cfg!(debug_assertions) { "unoptimised" } else { "optimised" };
+    println!(
+        "expansion of one derive, {build} build, median of {RUNS} runs or fewer (fastest–slowest) in milliseconds\n"
+    );
+    sizes();
+    charts();
+}
+
+/// Structures by size, and what is aimed at for two of them.
+fn sizes() {
+    println!("{:<52}{:>10}{:>18}   aim", "structure", "median", "spread");
+    let report = |name: &str, source: &str, aim: &str| {
+        let [median, fastest, slowest] = expansion(source);
+        println!("{name:<52}{median:>10.1}{:>18}   {aim}", format!("{fastest:.1}–{slowest:.1}"));
+    };
+    for (clauses, with) in [("", ""), (", linearize", " with linearize"), (", taylor", " with taylor")] {
+        let (small, large) = if clauses.is_empty() { ("30", "1000") } else { ("", "") };
+        report(&format!("free body{with}"), &structures::free_body(clauses), small);
+        report(&format!("torpedo{with}"), &structures::torpedo(clauses), "");
+        report(&format!("heavy top, Euler angles{with}"), &structures::top(clauses), "");
+        report(&format!("arm of seven joints{with}"), &structures::arm(clauses), large);
+    }
+    for n in [2, 4, 8, 16] {
+        report(&format!("chain of {n} links in the plane"), &structures::planar(n, true), "");
+    }
+    for n in [2, 4, 8] {
+        report(&format!("chain of {n} links in space, two angles each"), &structures::spatial(n), "");
+    }
+    println!();
+}
+
+/// One body in every chart.
+fn charts() {
     let bodies = [
         ("principal axes at G", "", "#[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64>"),
         (
@@ -54,29 +104,12 @@ fn main() {
         ),
     ];
     let charts = ["left_invariant", "right_invariant", "hybrid", "jet(euler_zyx)", "jet(modified_rodrigues)"];
-    let build = if cfg!(debug_assertions) { "unoptimised" } else { "optimised" };
-    println!("expansion of one derive, {build} build, median of {RUNS} runs (fastest–slowest) in milliseconds\n");
     println!("{:<37}{:<26}{:>8}   spread", "body", "chart", "median");
     for (body, clauses, fields) in bodies {
         for chart in charts {
             let source = format!("#[gauss(chart = {chart}{clauses})] struct Body {{ {fields} }}");
-            let input: syn::DeriveInput = syn::parse_str(&source).expect("the sources above are structs");
-            let mut times: Vec<Duration> = (0..RUNS)
-                .map(|_| {
-                    let start = Instant::now();
-                    let tokens = expand::expand(&input).expect("the sources above are bodies");
-                    std::hint::black_box(tokens);
-                    start.elapsed()
-                })
-                .collect();
-            times.sort();
-            let ms = |t: Duration| t.as_secs_f64() * 1e3;
-            println!(
-                "{body:<37}{chart:<26}{:>8.1}   {:.1}–{:.1}",
-                ms(times[RUNS / 2]),
-                ms(times[0]),
-                ms(times[RUNS - 1])
-            );
+            let [median, fastest, slowest] = expansion(&source);
+            println!("{body:<37}{chart:<26}{median:>8.1}   {fastest:.1}–{slowest:.1}");
         }
     }
 }

@@ -1,0 +1,101 @@
+//! Sources of systems of every size, as the derive reads them: a struct and its attribute.
+
+// Each program needs some of them.
+#![allow(dead_code)]
+
+/// One body in principal axes at its centre of mass; with further clauses, each after a comma.
+pub fn free_body(clauses: &str) -> String {
+    format!(
+        "#[gauss(chart = left_invariant{clauses})] struct FreeBody {{ #[gauss(mass)] mass: f64, \
+         #[gauss(inertia)] inertia: Vector3<f64> }}"
+    )
+}
+
+/// A vehicle in water: added mass, weight and buoyancy at different points, linear drag, a fin whose lift goes with the square of the speed.
+pub fn torpedo(clauses: &str) -> String {
+    format!(
+        "#[gauss(chart = left_invariant, define(v = body.relative_velocity), drag(linear = drag), \
+         force(fin, at = tail, value = [0, lift * v.x * v.y, lift * v.x * v.z]){clauses})] \
+         struct Torpedo {{ #[gauss(mass)] mass: f64, #[gauss(center_of_mass)] center: Vector3<f64>, \
+         #[gauss(inertia)] inertia: Vector3<f64>, #[gauss(added_mass)] added: Matrix6<f64>, \
+         #[gauss(gravity)] gravity: Vector3<f64>, #[gauss(displaced_mass)] displaced: f64, drag: Matrix6<f64>, \
+         tail: Vector3<f64>, lift: f64 }}"
+    )
+}
+
+/// A heavy top in Euler angles.
+pub fn top(clauses: &str) -> String {
+    format!(
+        "#[gauss(chart = jet(euler_zxz), motion = fixed_point{clauses})] struct Top {{ #[gauss(mass)] mass: f64, \
+         #[gauss(center_of_mass)] center: Vector3<f64>, #[gauss(inertia)] inertia: Vector3<f64>, \
+         #[gauss(gravity)] g: f64 }}"
+    )
+}
+
+fn fields(n: usize) -> String {
+    let bodies: String = (0..n).map(|k| format!("#[gauss(body)] b{k}: RigidBody<f64>, l{k}: f64, ")).collect();
+    format!("struct Chain {{ {bodies} #[gauss(gravity)] g: f64 }}")
+}
+
+fn names(prefix: &str, n: usize) -> String {
+    (0..n).map(|k| format!("{prefix}{k}")).collect::<Vec<_>>().join(", ")
+}
+
+/// Bars one on the other, turning about the second axis.
+pub fn planar(n: usize, relative: bool) -> String {
+    let mut clauses = format!("coordinates({}), body(b0, rotation = rotation_y(q0))", names("q", n));
+    for k in 1..n {
+        let before = k - 1;
+        let angle = if relative { format!("q{k}") } else { format!("q{k} - q{before}") };
+        clauses +=
+            &format!(", body(b{k}, parent = b{before}, position = [0, 0, l{before}], rotation = rotation_y({angle}))");
+    }
+    format!("#[gauss({clauses}, limit = 1000000)] {}", fields(n))
+}
+
+/// Particles on rods, every position as a sum from Ω.
+pub fn particles(n: usize) -> String {
+    let sum = |k: usize, f: &str| (0..=k).map(|j| format!("l{j} * {f}(q{j})")).collect::<Vec<_>>().join(" + ");
+    let clauses: String = (0..n)
+        .map(|k| format!(", particle(mass = m{k}, position = [{}, 0, -({})])", sum(k, "sin"), sum(k, "cos")))
+        .collect();
+    let fields: String = (0..n).map(|k| format!("m{k}: f64, l{k}: f64, ")).collect();
+    format!(
+        "#[gauss(coordinates({}){clauses}, limit = 1000000)] struct Chain {{ {fields} #[gauss(gravity)] g: f64 }}",
+        names("q", n)
+    )
+}
+
+/// Bars one on the other in universal joints.
+pub fn spatial(n: usize) -> String {
+    let angles = (0..n).map(|k| format!("x{k}, y{k}")).collect::<Vec<_>>().join(", ");
+    let mut clauses = format!("coordinates({angles}), body(b0, rotation = rotation_x(x0) * rotation_y(y0))");
+    for k in 1..n {
+        let before = k - 1;
+        clauses += &format!(
+            ", body(b{k}, parent = b{before}, position = [0, 0, l{before}], rotation = rotation_x(x{k}) * rotation_y(y{k}))"
+        );
+    }
+    format!("#[gauss({clauses}, limit = 1000000)] {}", fields(n))
+}
+
+/// Joint origins and fixed turns of the Franka Emika Panda (public URDF description, example-robot-data 6.0); with further clauses, each after a
+/// comma.
+pub fn arm(clauses: &str) -> String {
+    const JOINTS: [([&str; 3], &str); 7] = [
+        (["0", "0", "0.333"], ""),
+        (["0", "0", "0"], "rotation_x(-1.5707963267948966) * "),
+        (["0", "-0.316", "0"], "rotation_x(1.5707963267948966) * "),
+        (["0.0825", "0", "0"], "rotation_x(1.5707963267948966) * "),
+        (["-0.0825", "0.384", "0"], "rotation_x(-1.5707963267948966) * "),
+        (["0", "0", "0"], "rotation_x(1.5707963267948966) * "),
+        (["0.088", "0", "0"], "rotation_x(1.5707963267948966) * "),
+    ];
+    let mut links = format!("coordinates({})", names("q", 7));
+    for (k, ([x, y, z], turn)) in JOINTS.iter().enumerate() {
+        let parent = if k > 0 { format!("parent = b{}, ", k - 1) } else { String::new() };
+        links += &format!(", body(b{k}, {parent}position = [{x}, {y}, {z}], rotation = {turn}rotation_z(q{k}))");
+    }
+    let bodies: String = (0..7).map(|k| format!("#[gauss(body)] b{k}: RigidBody<f64>, ")).collect();
+    format!("#[gauss({links}{clauses})] struct Arm {{ {bodies} #[gauss(gravity)] g: f64 }}")
+}
