@@ -1,0 +1,177 @@
+//! What a derive adds to `cargo build`: `cargo run --release -p gauss-benches --example compile_time [-- ROUNDS]`.
+//!
+//! Programs are written to `target/compile_time`, each with one structure, and built with Cargo's own profiles `dev` and `release`. A program without
+//! the derive has the same struct and calls nothing of it; with the derive it makes a kernel and calls `acceleration`, with `linearize` that too, with
+//! `taylor` it runs a trajectory by power series instead, which compiles that integrator as well. Dependencies are compiled before anything is timed,
+//! and nothing is kept from build to build but them. Quoted is the median over the rounds, in which all programs of a structure take turns, of the
+//! difference to the program without the derive in the same round, with the range of the middle half.
+
+#[path = "../../tests/examples/structures/mod.rs"]
+mod structures;
+
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+/// A structure: its name, its source with further clauses, a value of it, a configuration and the number of speeds.
+struct Structure {
+    name: &'static str,
+    source: fn(&str) -> String,
+    value: &'static str,
+    configuration: &'static str,
+    speeds: usize,
+}
+
+const STRUCTURES: [Structure; 4] = [
+    Structure {
+        name: "free_body",
+        source: structures::free_body,
+        value: "FreeBody { mass: 2.0, inertia: Vector3::new(1.0, 2.0, 2.5) }",
+        configuration: "Isometry3::<f64>::identity()",
+        speeds: 6,
+    },
+    Structure {
+        name: "torpedo",
+        source: structures::torpedo,
+        value: "Torpedo { mass: 30.0, center: Vector3::new(0.0, 0.0, 0.02), inertia: Vector3::new(0.2, 3.5, 3.5), \
+                added: Matrix6::identity(), gravity: Vector3::new(0.0, 0.0, 9.81), displaced: 31.0, drag: Matrix6::identity(), \
+                tail: Vector3::new(-0.6, 0.0, 0.0), lift: -9.0 }",
+        configuration: "Isometry3::<f64>::identity()",
+        speeds: 6,
+    },
+    Structure {
+        name: "top",
+        source: structures::top,
+        value: "Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.5), inertia: Vector3::new(1.0, 1.2, 0.3), g: 9.81 }",
+        configuration: "Vector3::new(0.1, 0.5, 0.2)",
+        speeds: 3,
+    },
+    Structure {
+        name: "arm",
+        source: structures::arm,
+        value: "{ let b = RigidBody { mass: 1.0, center_of_mass: Vector3::zeros(), inertia: Matrix3::identity() }; \
+                Arm { b0: b, b1: b, b2: b, b3: b, b4: b, b5: b, b6: b, g: 9.81 } }",
+        configuration: "SVector::<f64, 7>::repeat(0.3)",
+        speeds: 7,
+    },
+];
+
+const USES: [(&str, &str); 4] = [
+    ("without", ""),
+    ("plain", "black_box(kernel.acceleration(0.0, &q, &z, &()));"),
+    ("linearize", "black_box(kernel.acceleration(0.0, &q, &z, &())); black_box(kernel.linearize(0.0, &q, &z, &()));"),
+    ("taylor", "black_box(Simulation::new(&kernel).taylor(1e-9, 1e-9).run_to_end(q, z, 0.0..1.0)).ok();"),
+];
+
+const PROFILES: [&str; 2] = ["dev", "release"];
+
+fn program(structure: &Structure, usage: &str, calls: &str) -> String {
+    let clauses = match usage {
+        "linearize" => ", linearize",
+        "taylor" => ", taylor",
+        _ => "",
+    };
+    let source = (structure.source)(clauses);
+    let Structure { value, configuration, speeds, .. } = structure;
+    let head = "#![allow(dead_code, unused_imports)]\nuse std::hint::black_box;\nuse gauss_runtime::prelude::*;\n";
+    let state = format!("let (q, z) = black_box(({configuration}, SVector::<f64, {speeds}>::repeat(0.1)));");
+    if usage == "without" {
+        // From `#[gauss(` to its end there is one bracket that closes at the start of the struct.
+        let plain = source.split_once(" struct ").map_or("", |(_, rest)| rest);
+        let fields = without_attributes(plain);
+        return format!("{head}struct {fields}\nfn main() {{ black_box({value}); {state} black_box((q, z)); }}\n");
+    }
+    format!(
+        "{head}#[derive(GaussDynamics)]\n{source}\nfn main() {{ let kernel = {value}.kernel().expect(\"a system\"); {state} {calls} }}\n"
+    )
+}
+
+/// The fields of a struct without the attributes of roles, which only the derive knows.
+fn without_attributes(text: &str) -> String {
+    let mut parts = text.split("#[gauss(");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| text + part.split_once(")] ").map_or("", |(_, rest)| rest))
+}
+
+fn write(folder: &Path) -> Result<(), Box<dyn Error>> {
+    fs::create_dir_all(folder.join("src/bin"))?;
+    let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../gauss-runtime").canonicalize()?;
+    let manifest = format!(
+        "[package]\nname = \"compile-time\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n[workspace]\n\n\
+         [dependencies]\ngauss-runtime = {{ path = {runtime:?} }}\n"
+    );
+    fs::write(folder.join("Cargo.toml"), manifest)?;
+    // The same versions as here, where they are known.
+    let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.lock");
+    if lock.exists() {
+        fs::copy(lock, folder.join("Cargo.lock"))?;
+    }
+    for structure in &STRUCTURES {
+        for (usage, calls) in USES {
+            let file = folder.join(format!("src/bin/{}_{usage}.rs", structure.name));
+            fs::write(file, program(structure, usage, calls))?;
+        }
+    }
+    Ok(())
+}
+
+/// Seconds of `cargo build` of one program.
+fn build(folder: &Path, program: &str, profile: &str) -> Result<f64, Box<dyn Error>> {
+    let file: PathBuf = folder.join(format!("src/bin/{program}.rs"));
+    // A later time of change is all that makes Cargo build it again.
+    fs::write(&file, fs::read_to_string(&file)?)?;
+    let begun = Instant::now();
+    let status = Command::new(env!("CARGO"))
+        .args(["build", "--quiet", "--bin", program, "--profile", profile, "--target-dir", "target"])
+        .current_dir(folder)
+        .env("CARGO_INCREMENTAL", "0")
+        .env_remove("RUSTFLAGS")
+        .env_remove("CARGO_ENCODED_RUSTFLAGS")
+        .env_remove("CARGO_TARGET_DIR")
+        .status()?;
+    let seconds = begun.elapsed().as_secs_f64();
+    if status.success() { Ok(seconds) } else { Err(format!("{program} does not compile").into()) }
+}
+
+fn quarters(mut values: Vec<f64>) -> [f64; 3] {
+    values.sort_unstable_by(f64::total_cmp);
+    [0.25, 0.5, 0.75].map(|part| values[((values.len() - 1) as f64 * part).round() as usize])
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let rounds: usize = std::env::args().nth(1).map_or(Ok(5), |rounds| rounds.parse())?;
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/compile_time");
+    write(&folder)?;
+    for profile in PROFILES {
+        for structure in &STRUCTURES {
+            for (usage, _) in USES {
+                build(&folder, &format!("{}_{usage}", structure.name), profile)?;
+            }
+        }
+    }
+    println!(
+        "seconds of `cargo build` without the derive, and what it adds: median of {rounds} rounds (middle half)\n"
+    );
+    println!("| structure | profile | without | plain | linearize | taylor |\n|---|---|---|---|---|---|");
+    for structure in &STRUCTURES {
+        for profile in PROFILES {
+            let mut seconds: [Vec<f64>; USES.len()] = Default::default();
+            for _ in 0..rounds {
+                for (k, (usage, _)) in USES.into_iter().enumerate() {
+                    seconds[k].push(build(&folder, &format!("{}_{usage}", structure.name), profile)?);
+                }
+            }
+            let [_, without, _] = quarters(seconds[0].clone());
+            let added = (1..USES.len()).map(|k| {
+                let differences = seconds[k].iter().zip(&seconds[0]).map(|(with, without)| with - without).collect();
+                let [lower, median, upper] = quarters(differences);
+                format!("{median:+.2} ({lower:.2} – {upper:.2})")
+            });
+            let added: Vec<String> = added.collect();
+            println!("| {} | {profile} | {without:.2} | {} |", structure.name.replace('_', " "), added.join(" | "));
+        }
+    }
+    Ok(())
+}
