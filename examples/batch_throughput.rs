@@ -3,6 +3,12 @@
 //! `cargo run --release --example batch_throughput`; with `RUSTFLAGS="-C target-cpu=native"` in the instructions of the machine, and with
 //! `-C target-feature=-prefer-256-bit` besides in vectors of 512 bits also where the compiler chooses. Ratios mean something within one
 //! run: what is compared is measured in turn.
+//!
+//! Then what is reached of the machine's limits, measured in the same minute on one thread: the rate of floating-point operations of a loop of
+//! nothing but independent multiply-adds (two operations each), and bytes read and written by a copy of arrays that no cache holds. Operations of a
+//! kernel are what `OPERATIONS` counts, a fused multiply-add as two; bytes are those of a state's configuration, speeds and result, each moved once.
+//! There the fastest round counts.
+//! `--states N` sets how many states are beyond all caches.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -178,7 +184,111 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
+/// Floating-point operations a second in registers, on vectors of eight and of four, whichever is faster.
+fn peak() -> f64 {
+    /// Chains of multiply-adds that do not wait for one another: enough for two units of latency four, few enough for sixteen registers.
+    const CHAINS: usize = 12;
+    const LENGTH: usize = 2000;
+    macro_rules! rate {
+        ($pack:ty, $lanes:literal) => {{
+            let (factor, term) = black_box((<$pack>::splat(0.999_999), <$pack>::splat(1e-6)));
+            let nanoseconds = fastest(31, || {
+                let mut sums: [$pack; CHAINS] = std::array::from_fn(|k| <$pack>::splat(k as f64));
+                for _ in 0..LENGTH {
+                    for sum in &mut sums {
+                        *sum = sum.mul_add(factor, term);
+                    }
+                }
+                black_box(sums);
+            });
+            (2 * $lanes * CHAINS * LENGTH) as f64 / nanoseconds * 1e9
+        }};
+    }
+    f64::max(rate!(wide::f64x8, 8), rate!(wide::f64x4, 4))
+}
+
+/// Bytes read and written a second by a copy of arrays of this many bytes together: into memory at hand, and into new memory, whose pages the
+/// system hands out meanwhile.
+fn bandwidth(bytes: usize) -> [f64; 2] {
+    let from = vec![1.0_f64; bytes / 16];
+    let mut to = vec![0.0_f64; bytes / 16];
+    let rate = |nanoseconds: f64| (from.len() * 16) as f64 / nanoseconds * 1e9;
+    let at_hand = rate(fastest(9, || black_box(&mut to).copy_from_slice(black_box(&from))));
+    [at_hand, rate(fastest(9, || drop(black_box(black_box(&from).to_vec()))))]
+}
+
+/// Nanoseconds of the fastest of some rounds: limits are compared with what is reached when nothing else runs.
+fn fastest(rounds: usize, mut work: impl FnMut()) -> f64 {
+    (0..rounds).map(|_| time(&mut work)).fold(f64::INFINITY, f64::min)
+}
+
+/// Bytes that an acceleration reads and writes: seven numbers of the pose, six speeds, six rates.
+const BYTES_OF_AN_ACCELERATION: usize = (7 + 6 + 6) * 8;
+/// A step reads and writes pose and speeds.
+const BYTES_OF_A_STEP: usize = 2 * (7 + 6) * 8;
+
+/// One line: what a batch reaches of the limits, among states that a cache holds and among `many`.
+fn limits<S>(name: &str, kernel: &S, many: usize, [peak, bandwidth]: [f64; 2])
+where
+    S: BatchSystem<Input = ()>,
+    S::Configuration: Packed<Single = Isometry3<f64>>,
+    S::Speeds: Packed<Single = SVector<f64, 6>>,
+{
+    let operations = f64::from(S::OPERATIONS.acceleration.total());
+    let batch = Batch::new(kernel);
+    let accelerations = |count: usize, rounds: usize| {
+        let states = States::<S>::from_fn(count, state);
+        fastest(rounds, || drop(black_box(batch.accelerations(0.0, black_box(&states))))) / count as f64
+    };
+    let (near, far) = (accelerations(STATES, 31), accelerations(many, 9));
+    let mut states = States::<S>::from_fn(many, state);
+    let mut step = || batch.advance(&RungeKutta(Classical4), STEP, 0.0..STEP, &mut states).expect("short steps");
+    let step = fastest(9, &mut step) / many as f64;
+    let of_peak = |nanoseconds: f64| 100.0 * operations / nanoseconds * 1e9 / peak;
+    let of_bandwidth = |bytes: usize, nanoseconds: f64| 100.0 * bytes as f64 / nanoseconds * 1e9 / bandwidth;
+    println!(
+        "{name:32} | {near:6.2} ns, {:3.0} % of operations | {far:6.2} ns, {:3.0} % of operations, {:3.0} % of bytes | \
+         {step:6.1} ns, {:3.0} % of bytes",
+        of_peak(near),
+        of_peak(far),
+        of_bandwidth(BYTES_OF_AN_ACCELERATION, far),
+        of_bandwidth(BYTES_OF_A_STEP, step),
+    );
+}
+
 fn main() {
+    let mut arguments = std::env::args().skip_while(|argument| argument != "--states").skip(1);
+    // 640 megabytes of states and results.
+    let many = arguments.next().map_or(1 << 22, |number| number.parse().expect("a number of states"));
+    throughput();
+    let [at_hand, new] = bandwidth(many * BYTES_OF_AN_ACCELERATION);
+    let measured = [peak(), at_hand];
+    println!(
+        "\nlimits of one thread: {:.1} thousand million operations a second in registers; a copy reads and writes {:.1} GB/s, \
+         into new memory {:.1}",
+        measured[0] * 1e-9,
+        at_hand * 1e-9,
+        new * 1e-9
+    );
+    println!(
+        "accelerations of {STATES} states | accelerations of {many} states, into new memory | one step of order 4 of {many} states, in place"
+    );
+    macro_rules! scene {
+        ($name:literal, $kernel:ident) => {
+            limits(concat!($name, " batch of f64"), &$kernel::<f64>(), many, measured);
+            limits(concat!($name, " Lanes<f64, 4>"), &$kernel::<Lanes<f64, 4>>(), many, measured);
+            limits(concat!($name, " Lanes<f64, 8>"), &$kernel::<Lanes<f64, 8>>(), many, measured);
+            limits(concat!($name, " wide::f64x4"), &$kernel::<wide::f64x4>(), many, measured);
+            limits(concat!($name, " wide::f64x8"), &$kernel::<wide::f64x8>(), many, measured);
+        };
+    }
+    scene!("S1", free);
+    scene!("S2", heavy);
+    scene!("S3", immersed);
+}
+
+/// The table of ratios to single states.
+fn throughput() {
     let method = RungeKutta(Classical4);
     println!("ns per state, and how many times faster than one after another; one thread, medians of 31 rounds");
     macro_rules! scene {
