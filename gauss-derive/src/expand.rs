@@ -58,21 +58,15 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     if model.wanted.taylor.is_some() {
         formulas.push(scene.component_rates(quaternion, &formulas));
     }
-    let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
     formulas.extend(regressor.iter().flat_map(|regressor| regressor.formulas.clone()));
     let units = match scene.kinematics.kind {
         ConfigurationKind::PlanePose => vec![scene.kinematics.configuration[..2].to_vec()],
         _ => quaternion.map(|q| q.to_vec()).into_iter().collect(),
     };
-    let beside = Beside {
-        wanted: &model.wanted,
-        linearization,
-        regressor,
-        parameters,
-        units,
-        literals: foldable(&model.scalar, &literals),
-    };
-    let kernel = beside.lower(&graph, &formulas, &rotation).map_err(|error| bug(&model.ident, &error))?;
+    let beside = Beside { wanted: &model.wanted, linearization, regressor, parameters, units };
+    let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
+    let folded = foldable(&model.scalar, &literals);
+    let kernel = beside.lower(&graph, &formulas, &rotation, folded).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
@@ -136,18 +130,12 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     if model.wanted.taylor.is_some() {
         formulas.push(system.component_rates(&quaternions, &formulas));
     }
-    let literals = translator.literals();
     formulas.extend(regressor.iter().flat_map(|regressor| regressor.formulas.clone()));
     let units = quaternions.iter().flatten().map(|q| q.to_vec()).collect();
-    let beside = Beside {
-        wanted: &model.wanted,
-        linearization,
-        regressor,
-        parameters,
-        units,
-        literals: foldable(&model.scalar, &literals),
-    };
-    let kernel = beside.lower(&graph, &formulas, &definitions).map_err(|error| bug(&model.ident, &error))?;
+    let beside = Beside { wanted: &model.wanted, linearization, regressor, parameters, units };
+    let literals = translator.literals();
+    let folded = foldable(&model.scalar, &literals);
+    let kernel = beside.lower(&graph, &formulas, &definitions, folded).map_err(|error| bug(&model.ident, &error))?;
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
@@ -200,7 +188,6 @@ struct Beside<'a, 'g> {
     parameters: Vec<Parameter<'g>>,
     /// Coordinates that are the components of one unit quaternion or of one unit vector.
     units: Vec<Vec<Expr<'g>>>,
-    literals: Literals<'a, 'g>,
 }
 
 impl<'g> Beside<'_, 'g> {
@@ -209,6 +196,7 @@ impl<'g> Beside<'_, 'g> {
         graph: &'g Graph,
         formulas: &[Formula<'g>],
         definitions: &Map<u32, Expr<'g>>,
+        literals: Literals<'_, 'g>,
     ) -> Result<Kernel<'g>, Miscompiled> {
         let functions: Vec<_> = formulas.iter().map(candidates).collect();
         let parameters: Vec<Expr<'g>> = self.parameters.iter().map(|parameter| parameter.symbol).collect();
@@ -220,7 +208,7 @@ impl<'g> Beside<'_, 'g> {
             by_parameters: by_parameters.map(|linearization| linearization.by_parameters(formulas, &parameters)),
             regressor: self.regressor.as_ref().map(|r| &r.differentiated),
         };
-        Kernel::lower(graph, &functions, &joined(formulas), definitions, &wanted, self.literals)
+        Kernel::lower(graph, &functions, &joined(formulas), definitions, &wanted, literals)
     }
 }
 

@@ -184,8 +184,7 @@ pub fn error_matrix<S: LinearizedSystem>(
 
 type Velocity<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
-/// Entries of ½ [σ, V] as a matrix on the state, column by column: `dexp_inv(σ, V) = V + ½ [σ, V] + …`, where all further terms are
-/// even in σ, so half the difference of two opposite ones is that term alone.
+/// Entries of ½ [σ, V] as a matrix on the state, column by column.
 pub(crate) fn brackets<S: LinearizedSystem>(linear: &S::Linearization) -> impl FnMut(usize, usize) -> S::Scalar {
     let components = Velocity::<S>::DIM;
     let mut velocity = Velocity::<S>::zero();
@@ -195,9 +194,7 @@ pub(crate) fn brackets<S: LinearizedSystem>(linear: &S::Linearization) -> impl F
     let of_axis = move |k: usize| {
         let mut axis = Velocity::<S>::zero();
         axis.set_component(k, S::Scalar::one());
-        let ahead = S::Configuration::dexp_inv(&axis, &velocity);
-        let back = S::Configuration::dexp_inv(&axis.scale(-S::Scalar::one()), &velocity);
-        ahead.add_scaled(-S::Scalar::one(), &back).scale(S::Scalar::ratio(1, 2))
+        S::Configuration::bracket(&axis, &velocity).scale(S::Scalar::ratio(1, 2))
     };
     // Entries are asked for in any order; the last column is kept.
     let mut known = (usize::MAX, Velocity::<S>::zero());
@@ -240,10 +237,7 @@ impl<T: Real, const D: usize> Lu<T, D> {
             rows[k][k] = reciprocal;
             let pivot = rows[k];
             for row in &mut rows[k + 1..] {
-                // What is structurally zero stays so, and costs nothing.
-                if row[k] == T::zero() {
-                    continue;
-                }
+                // Zeros are not skipped: dual numbers compare by their value, and what is zero may have a derivative.
                 let factor = row[k] * reciprocal;
                 row[k] = factor;
                 for j in k + 1..D {

@@ -1,5 +1,6 @@
 //! Dual numbers of `num-dual` in kernels and integrators: derivatives of whole simulations by parameters, against differences.
 
+use gauss_runtime::linearize::{Factored, Lu};
 use gauss_runtime::prelude::*;
 use num_dual::{Dual2_64, Dual64, DualSVec64, HyperDual64};
 
@@ -144,4 +145,14 @@ fn duals_go_into_lanes() {
             assert_eq!((together[i][lane].re, together[i][lane].eps), (alone[i].re, alone[i].eps));
         }
     }
+}
+
+/// An entry that is zero may have a derivative: dual numbers compare by their values alone.
+#[test]
+fn systems_of_dual_equations_keep_derivatives_of_zeros() {
+    let number = |value: f64, rate: f64| Dual64::new(value, rate);
+    // 2a + b = 2, ε a + b = 0: a = 1 + ε/2, b = −ε.
+    let factors = Lu::new([[number(2.0, 0.0), number(1.0, 0.0)], [number(0.0, 1.0), number(1.0, 0.0)]]);
+    let solution = factors.solve(&SVector::from([number(2.0, 0.0), number(0.0, 0.0)]));
+    assert_eq!([solution[0].re, solution[0].eps, solution[1].re, solution[1].eps], [1.0, 0.5, 0.0, -1.0]);
 }

@@ -353,6 +353,37 @@ of_system!(residuals chains: Cart CartKernel, coordinates::<3>, {
     k: |_| number(0.4),
 });
 
+/// Mass data in clauses: numbers, fields that bodies share, and what is made of them.
+#[derive(GaussDynamics)]
+#[gauss(
+    regressor,
+    coordinates(a, b),
+    body(upper, rotation = rotation_y(a), mass = m, center_of_mass = [0, 0, -c], inertia = [2 * m * c, 2 * m * c, k]),
+    body(lower, parent = upper, position = [0, 0, -1], rotation = rotation_y(b), mass = n, center_of_mass = [c, 0, 0.1], inertia = k),
+    body(plate, parent = lower, position = [0, 0, -1], mass = 0.5, center_of_mass = [c, 0, 0.2], inertia = [0.2, 0.2, 0.3]),
+)]
+struct Shared<T> {
+    m: T,
+    n: T,
+    c: T,
+    k: T,
+    #[gauss(gravity)]
+    g: T,
+}
+
+of_system!(residuals mass_data_in_clauses: Shared SharedKernel, coordinates::<2>, {
+    m: |s| number(2.0 * s),
+    n: |s| number(1.5 * s),
+    c: |_| number(0.1),
+    k: |s| number(0.5 * s),
+    g: |_| number(9.81),
+});
+
+#[test]
+fn shared_mass_data_are_parameters_once() {
+    assert_eq!(SharedKernel::<f64>::INERTIAL_PARAMETERS, ["m", "k", "n", "n * c", "c"]);
+}
+
 /// Multipliers of both kinds.
 #[derive(GaussDynamics)]
 #[gauss(

@@ -125,7 +125,7 @@ impl<'g> ByParameters<'_, 'g> {
             };
             implicit_tangents(&velocity, &implicit, &rates.directions)
         }));
-        let cost = |program: &Program<'g>| program.cost() + rates.constants_for(program).program.counts().cost();
+        let cost = |program: &Program<'g>| program.cost() + rates.constants_for(program).program.cost();
         let program = candidates.into_iter().min_by_key(cost).expect("one way at least");
         *constants = rates.constants_for(&program);
         let of_velocity = self.order.iter().map(|&k| outputs[self.velocity][k]);

@@ -130,8 +130,9 @@ impl<'g> Kernel<'g> {
         let (tangents, expected_tangents) = by_state.unzip();
         let (regressor, expected_regressor) = regressor.unzip();
         // Constants that only a dearer arrangement wanted are dropped.
-        let all = programs.iter().chain([&joined]).chain(&tangents).chain(&regressor);
-        let read: Vec<Expr<'g>> = all.flat_map(Program::symbols).collect();
+        let differentiated = tangents.iter().chain(&regressor);
+        let read: Vec<Expr<'g>> =
+            programs.iter().chain([&joined]).chain(differentiated).flat_map(Program::symbols).collect();
         let constants = hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(symbol));
         let literal_values: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
@@ -166,8 +167,8 @@ impl<'g> Kernel<'g> {
             known_constants,
         };
         chosen.push(&of_joined);
-        let fixed = Fixed { definitions, units: wanted.units, literals: Some(&literal_values) };
-        kernel.check(graph, &chosen, &fixed, &[expected_tangents, expected_by_parameters, expected_regressor])?;
+        let sample = Sample { definitions, units: wanted.units, literals: &literal_values };
+        kernel.check(graph, &chosen, &sample, &[expected_tangents, expected_by_parameters, expected_regressor])?;
         Ok(kernel)
     }
 
@@ -179,11 +180,11 @@ impl<'g> Kernel<'g> {
         &self,
         graph: &'g Graph,
         functions: &[&Vec<Expr<'g>>],
-        fixed: &Fixed<'_, 'g>,
+        sample: &Sample<'_, 'g>,
         derived: &[Option<Expected<'_, 'g>>],
     ) -> Result<(), Miscompiled> {
         let outputs = || functions.iter().flat_map(|outputs| outputs.iter());
-        let points = (0..16).map(|shift| sample_point(graph, shift, fixed));
+        let points = (0..16).map(|shift| sample.point(graph, shift));
         let inside = |point: &Map<u32, f64>| {
             let mut evaluation = Evaluation::new(point);
             outputs().all(|e| evaluation.value(*e).is_finite())
@@ -239,45 +240,40 @@ fn compare(function: usize, found: &[f64], expected: &[f64]) -> Result<(), Misco
     Ok(())
 }
 
-/// What sample points cannot choose.
-struct Fixed<'a, 'g> {
-    /// Symbols that stand for expressions of others.
+/// What the points of checks must have.
+struct Sample<'a, 'g> {
+    /// Symbols that stand for expressions of the arguments.
     definitions: &'a Map<u32, Expr<'g>>,
-    /// Lists of symbols whose squares add up to 1.
+    /// Symbols that are scaled to have the norm 1, list by list.
     units: &'a [Vec<Expr<'g>>],
-    /// Symbols that stand for numbers.
-    literals: Option<&'a Map<u32, f64>>,
+    /// Symbols that stand for literals.
+    literals: &'a Map<u32, f64>,
 }
 
-#[cfg(test)]
-impl<'a, 'g> Fixed<'a, 'g> {
-    fn by(definitions: &'a Map<u32, Expr<'g>>) -> Self {
-        Self { definitions, units: &[], literals: None }
-    }
-}
-
-/// A value of order one for every symbol that is free, different for each.
-fn sample_point<'g>(graph: &'g Graph, shift: u32, fixed: &Fixed<'_, 'g>) -> Map<u32, f64> {
-    let mut point: Map<u32, f64> = graph
-        .symbol_keys()
-        .into_iter()
-        .enumerate()
-        .map(|(k, key)| {
-            // Multiples of the golden ratio are spread evenly and never equal.
-            let fraction = (((k + 1) as f64 + f64::from(shift) * 0.37) * 0.618_033_988_749_894_9).fract();
-            (key, 0.6 + fraction)
-        })
-        .collect();
-    point.extend(fixed.literals.into_iter().flatten());
-    for unit in fixed.units {
-        let norm = unit.iter().map(|symbol| point[&symbol.key()].powi(2)).sum::<f64>().sqrt();
-        for symbol in unit {
-            point.entry(symbol.key()).and_modify(|value| *value /= norm);
+impl<'g> Sample<'_, 'g> {
+    /// A value of order one for every symbol, different for each, but for literals, and the values of what is defined by them.
+    fn point(&self, graph: &'g Graph, shift: u32) -> Map<u32, f64> {
+        let mut point: Map<u32, f64> = graph
+            .symbol_keys()
+            .into_iter()
+            .enumerate()
+            .map(|(k, key)| {
+                // Multiples of the golden ratio are spread evenly and never equal.
+                let fraction = (((k + 1) as f64 + f64::from(shift) * 0.37) * 0.618_033_988_749_894_9).fract();
+                (key, 0.6 + fraction)
+            })
+            .collect();
+        point.extend(self.literals);
+        for unit in self.units {
+            let norm = unit.iter().map(|symbol| point[&symbol.key()].powi(2)).sum::<f64>().sqrt();
+            for symbol in unit {
+                point.entry(symbol.key()).and_modify(|value| *value /= norm);
+            }
         }
+        let mut evaluation = Evaluation::new(&point);
+        let defined: Vec<(u32, f64)> =
+            self.definitions.iter().map(|(&symbol, e)| (symbol, evaluation.value(*e))).collect();
+        point.extend(defined);
+        point
     }
-    let mut evaluation = Evaluation::new(&point);
-    let defined: Vec<(u32, f64)> =
-        fixed.definitions.iter().map(|(&symbol, e)| (symbol, evaluation.value(*e))).collect();
-    point.extend(defined);
-    point
 }

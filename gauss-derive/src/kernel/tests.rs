@@ -3,7 +3,7 @@
 use super::factor::Factoring;
 use super::hoist::Hoister;
 use super::tangent::with_tangents;
-use super::{Candidates, Counts, Derivatives, Differentiated, Direction, Fixed, Kernel, Program, sample_point};
+use super::{Candidates, Counts, Derivatives, Differentiated, Direction, Kernel, Program, Sample};
 use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
 
 /// A reproducible stream of small integers.
@@ -33,6 +33,10 @@ fn random_expr<'g>(random: &mut Random, leaves: &[Expr<'g>], depth: u32) -> Expr
     }
 }
 
+fn point_of<'g>(graph: &'g Graph, definitions: &Map<u32, Expr<'g>>) -> Map<u32, f64> {
+    Sample { definitions, units: &[], literals: &Map::default() }.point(graph, 0)
+}
+
 #[test]
 fn every_pass_keeps_the_values_of_random_expressions() {
     for seed in 0..300 {
@@ -42,7 +46,7 @@ fn every_pass_keeps_the_values_of_random_expressions() {
         let leaves: Vec<Expr<'_>> = names.iter().enumerate().map(|(k, n)| graph.symbol(*n, *n, k < 2)).collect();
         let mut random = Random(seed);
         let outputs: Vec<Expr<'_>> = (0..3).map(|_| random_expr(&mut random, &leaves, 3)).collect();
-        let point = sample_point(&graph, 0, &Fixed::by(&Map::default()));
+        let point = point_of(&graph, &Map::default());
         let values = |outputs: &[Expr<'_>], point: &Map<u32, f64>| -> Vec<f64> {
             let mut evaluation = Evaluation::new(point);
             outputs.iter().map(|e| evaluation.value(*e)).collect()
@@ -176,7 +180,16 @@ fn a_program_that_computes_something_else_is_refused() {
     )
     .expect("a program");
     kernel.functions[0] = Program::lower(&[a - b]);
-    assert!(kernel.check(&graph, &[&vec![a + b], &vec![]], &Fixed::by(&Map::default()), &[]).is_err());
+    assert!(
+        kernel
+            .check(
+                &graph,
+                &[&vec![a + b], &vec![]],
+                &Sample { definitions: &Map::default(), units: &[], literals: &Map::default() },
+                &[]
+            )
+            .is_err()
+    );
 }
 
 /// Values and derivatives along each direction by the symbolic derivatives of the expressions.
@@ -210,7 +223,7 @@ fn tangents_are_the_derivatives_of_the_expressions() {
         ];
         let none = Program::lower(&[]);
         let program = with_tangents(&Program::lower(&outputs), (&[], &none), &directions);
-        let point = sample_point(&graph, 0, &Fixed::by(&Map::default()));
+        let point = point_of(&graph, &Map::default());
         let expected = symbolic(&outputs, &directions, &point);
         for (k, (x, y)) in expected.iter().zip(program.run(&point)).enumerate() {
             // Two levels of at most ten operations each, and their derivatives; exponentials are steep.
@@ -254,7 +267,7 @@ fn what_is_defined_moves_by_its_own_rates() {
     let kernel =
         Kernel::lower(&graph, &[Candidates::of_values(vec![outputs.clone()])], &[], &definitions, &by_state, None)
             .expect("a program");
-    let point = sample_point(&graph, 0, &Fixed::by(&definitions));
+    let point = point_of(&graph, &definitions);
     let expected = symbolic(&outputs, &wanted.directions, &point);
     let found = kernel.tangents.expect("asked for").run(&point);
     for (a, b) in expected.iter().zip(found) {

@@ -36,8 +36,8 @@ pub struct InertialParameters<'a, 'g> {
     list: Vec<InertialParameter<'g>>,
     /// Masses, inertias and added masses.
     replacement: Map<u32, Expr<'g>>,
-    /// c = s/m.
-    centers: Map<u32, Expr<'g>>,
+    /// c = s/m, by the mass and c: bodies may share the one or the other.
+    centers: Map<(u32, u32), Expr<'g>>,
 }
 
 impl<'a, 'g> InertialParameters<'a, 'g> {
@@ -84,15 +84,14 @@ impl<'a, 'g> InertialParameters<'a, 'g> {
     fn take_body(&mut self, body: &Body<'g>) {
         self.take(body.mass);
         for c in body.center_of_mass {
-            let Some(mass) = self.names.get(&body.mass.key()) else {
+            let key = (body.mass.key(), c.key());
+            let Some(name) = self.names.get(&c.key()).filter(|_| !self.centers.contains_key(&key)) else { continue };
+            let center = match self.names.get(&body.mass.key()) {
+                Some(mass) => self.push(format!("{mass} * {name}"), body.mass * c) * body.mass.recip(),
                 // With a mass that is no parameter forces are linear in c.
-                self.take(c);
-                continue;
+                None => self.push(name.clone(), c),
             };
-            if let Some(name) = self.names.get(&c.key()) {
-                let moment = self.push(format!("{mass} * {name}"), body.mass * c);
-                self.centers.insert(c.key(), moment * body.mass.recip());
-            }
+            self.centers.insert(key, center);
         }
         (0..3).for_each(|i| (i..3).for_each(|j| self.take(body.inertia[i][j])));
         for (i, row) in body.added_mass.iter().flatten().enumerate() {
@@ -102,7 +101,8 @@ impl<'a, 'g> InertialParameters<'a, 'g> {
 
     /// The body by its first moment: from the start, because common factors are pulled out of sums as soon as these are formed.
     pub fn by_first_moment(&self, body: &Body<'g>) -> Body<'g> {
-        Body { center_of_mass: body.center_of_mass.map(|c| c.substitute(&self.centers)), ..body.clone() }
+        let center = |c: Expr<'g>| self.centers.get(&(body.mass.key(), c.key())).copied().unwrap_or(c);
+        Body { center_of_mass: body.center_of_mass.map(center), ..body.clone() }
     }
 
     /// `residuals` are arrangements of the forces of inertia, weight and buoyancy of bodies by their first moments, `forces` those of
