@@ -34,7 +34,7 @@ mod without_prelude {
 
     everything_on! {
         #[derive(::gauss_runtime::GaussDynamics)]
-        #[gauss(chart = hybrid)]
+        #[gauss(chart = hybrid, linearize(parameters), regressor)]
         pub(super) struct Body<T> {
             #[gauss(mass)]
             pub(super) mass: T,
@@ -106,7 +106,7 @@ mod shadowed {
 
     everything_on! {
         #[derive(GaussDynamics)]
-        #[gauss(chart = jet(euler_zyx))]
+        #[gauss(chart = jet(euler_zyx), linearize(parameters), regressor)]
         pub(super) struct Body {
             #[gauss(mass)]
             pub(super) mass: real::f64,
@@ -135,6 +135,8 @@ fn anything_may_have_any_name() {
     #[gauss(
         chart = left_invariant,
         motion = planar,
+        linearize(parameters),
+        regressor,
         input(z, r#loop: Vector3, powers),
         define(q = z * powers, p0 = 2 * q),
         force(r#match, at = self_, value = p0 * r#fn + r#loop),
@@ -166,6 +168,10 @@ fn anything_may_have_any_name() {
     assert_eq!(kernel.acceleration(0.0, &pose, &still, &input), SVector::from([2.0, 0.0, 0.0]));
     let names: Vec<&str> = <OddKernel as ForcedSystem>::ELEMENTS.iter().map(|element| element.name).collect();
     assert_eq!(names, ["match", "input", "q0"]);
+    let parameters = <OddKernel as ParametricSystem>::PARAMETERS;
+    assert_eq!(parameters[..3], ["k0", "kernel", "self_[0]"]);
+    assert_eq!(parameters[5..10], ["fn[0]", "fn[1]", "fn[2]", "c0", "type[0]"]);
+    assert_eq!(<OddKernel as InertialRegressor>::INERTIAL_PARAMETERS, ["k0", "kernel"]);
     assert_eq!(odd(-1.0).warnings().as_slice()[0].field, "type");
 }
 
