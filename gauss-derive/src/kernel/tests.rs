@@ -3,7 +3,9 @@
 use super::factor::Factoring;
 use super::hoist::Hoister;
 use super::tangent::with_tangents;
-use super::{Candidates, Counts, Derivatives, Differentiated, Direction, Kernel, Program, Sample};
+use super::{
+    ByParameters, Candidates, Counts, Derivatives, Differentiated, Direction, Equation, Kernel, Program, Sample,
+};
 use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
 
 /// A reproducible stream of small integers.
@@ -272,5 +274,39 @@ fn what_is_defined_moves_by_its_own_rates() {
     let found = kernel.tangents.expect("asked for").run(&point);
     for (a, b) in expected.iter().zip(found) {
         assert!((a - b).abs() <= 1e-13 * (1.0 + a.abs()), "{a} {b}");
+    }
+}
+
+/// Accelerations by parameters, as they are computed and as the root of their equation: (m + n) a = f − k l x, v = n x.
+#[test]
+fn parameters_move_constants() {
+    let graph = Graph::new();
+    let [m, n, k, l] = ["m", "n", "k", "l"].map(|n| graph.symbol(n, n, true));
+    let [x, f, a, p] = ["x", "f", "a", "p"].map(|n| graph.symbol(n, n, false));
+    let force = f - k * l * x;
+    let acceleration = force * (m + n).recip();
+    let functions = [vec![n * x], vec![acceleration], vec![(m + n) * a - force], vec![p * (m + n).recip()]];
+    let candidates = functions.clone().map(|outputs| Candidates::of_values(vec![outputs]));
+    let parameters = [m, n, k, l];
+    let equation = Equation { residual: 2, unknowns: &[a], solution: 3, loads: &[p] };
+    let directions: Vec<Direction<'_>> = parameters.iter().map(|&e| vec![(e, graph.one())]).collect();
+    let point = point_of(&graph, &Map::default());
+    let expected = symbolic(&[n * x, acceleration], &directions, &point);
+    for equation in [None, Some(equation)] {
+        let by_parameters =
+            ByParameters { parameters: &parameters, velocity: 0, order: &[0], acceleration: 1, equation };
+        let wanted = Derivatives { by_parameters: Some(by_parameters), ..Derivatives::default() };
+        let kernel = Kernel::lower(&graph, &candidates, &[], &Map::default(), &wanted, None).expect("a program");
+        let mut values = point.clone();
+        let constants = kernel.constants.run(&point);
+        values.extend(kernel.constant_symbols.iter().zip(constants).map(|(symbol, value)| (symbol.key(), value)));
+        let program = kernel.by_parameters.expect("asked for");
+        for (x, y) in expected[2..].iter().zip(program.run(&values)) {
+            assert!((x - y).abs() <= 1e-13 * (1.0 + x.abs()), "{x} {y}");
+        }
+        // The velocity depends on n alone, and as x does.
+        let number = |value: i64| super::Operand::Number(value.into());
+        let of_velocity: Vec<_> = program.outputs.iter().step_by(2).copied().collect();
+        assert_eq!(of_velocity, [number(0), super::Operand::Symbol(x), number(0), number(0)]);
     }
 }
