@@ -3,7 +3,7 @@
 use crate::algebra::Expr;
 
 use super::forces::{Action, Force};
-use super::methods::{Formula, Method};
+use super::formula::{Formula, Method};
 use super::system::{System, sums};
 
 /// One element in the accounts.

@@ -6,8 +6,9 @@ use std::fmt;
 use crate::algebra::{Evaluation, Expr, Map, Rational};
 
 use super::chart::ConfigurationKind;
+use super::formula::{Formula, Method};
 use super::gauss::stationarity;
-use super::methods::{Formula, Method, Scene};
+use super::methods::Scene;
 use super::rotation::rotation_of_quaternion;
 
 /// A formula does not satisfy the Gauss condition: an error of this crate, never of its user.

@@ -4,7 +4,8 @@
 use crate::algebra::Expr;
 
 use super::chart::ConfigurationKind;
-use super::methods::{Formula, Method, Scene};
+use super::formula::{Formula, Method};
+use super::methods::Scene;
 use super::rotation::quaternion_rate;
 use super::system::{Coordinate, System};
 use super::vector::{Axes, is_zero};

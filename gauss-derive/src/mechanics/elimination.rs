@@ -6,7 +6,7 @@ use crate::algebra::{Expr, Map, Solver};
 
 use super::constraint::ConstraintKind;
 use super::equations::tidy;
-use super::methods::{Formula, Method};
+use super::formula::{Formula, Method};
 use super::system::System;
 
 /// Terms that a dependent speed may have on the way to its normal form, where sin² + cos² is 1.

@@ -8,7 +8,8 @@ use crate::algebra::{Expr, Graph};
 use crate::kernel::{ByParameters, Differentiated, Direction, Equation};
 
 use super::chart::ConfigurationKind;
-use super::methods::{Formula, Method, Scene};
+use super::formula::{Formula, Method};
+use super::methods::Scene;
 use super::rotation::poisson;
 use super::system::{Coordinate, System};
 use super::vector::Triple;

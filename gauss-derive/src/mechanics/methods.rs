@@ -7,6 +7,7 @@ use crate::algebra::{Expr, Graph, Map, Solver};
 use super::accounts::Account;
 use super::body::{Assigned, Body, BodyShape};
 use super::chart::{ConfigurationKind, Kinematics};
+use super::formula::{Formula, Method};
 use super::momentum::{
     ARRANGEMENTS, Arrangement, Balance, Formal, KineticMatrix, LinearAcceleration, Weight, solve_balance,
     twist_of_momentum,
@@ -15,55 +16,6 @@ use super::names::Name;
 use super::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
 use super::wrench::{Acting, Wrench};
 use crate::model::{Chart, Motion};
-
-/// The methods that a kernel has, in the order in which they are generated and counted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Method {
-    Kinematics,
-    Acceleration,
-    Momentum,
-    Velocity,
-    MomentumRate,
-    MassMatrix,
-    KineticEnergy,
-    PotentialEnergy,
-    GaussResidual,
-    ConstraintFunction,
-    /// λ; only with constraints.
-    Multipliers,
-    /// One for each element of what acts, as are the columns of the generalised forces; dE/dt. Only where there are elements.
-    Powers,
-    ElementForces,
-    SuppliedPower,
-    BodyTwist,
-    Speeds,
-    BodyMomentum,
-    /// det ∂ω/∂q̇ and the product of the squared lengths of its columns; only in charts with a singularity.
-    Regularity,
-    /// φ of positions, and on the level of velocities; what cancels them to first order. Only with constraints.
-    PositionResidual,
-    VelocityResidual,
-    PositionCorrection,
-    VelocityCorrection,
-    /// Rates of the components of the configuration, then ż; only where power series are wanted.
-    ComponentRates,
-    /// π, and the generalised forces that are no part of Y π; only where the regressor is wanted.
-    InertialParameters,
-    OtherForces,
-}
-
-impl Method {
-    /// What callers want at once.
-    pub const EVALUATED: [Self; 4] = [Self::Kinematics, Self::Acceleration, Self::KineticEnergy, Self::PotentialEnergy];
-}
-
-/// The outputs of one method. Where the same result can be arranged in several ways, all are given, and the kernel
-/// takes the one that costs least.
-#[derive(Clone)]
-pub struct Formula<'g> {
-    pub method: Method,
-    pub arrangements: Vec<Vec<Expr<'g>>>,
-}
 
 /// Terms that a volume of partial angular velocities may have on the way to its normal form.
 const VOLUME_LIMIT: usize = 2000;

@@ -20,7 +20,7 @@ use crate::algebra::{Graph, Map};
 use crate::kernel::{Candidates, Derivatives, Kernel, Program};
 
 use super::elimination::Elimination;
-use super::methods::{Formula, Method};
+use super::formula::{Formula, Method};
 use super::system::System;
 use super::system_check::check_system_against_definition;
 use super::tests::Random;

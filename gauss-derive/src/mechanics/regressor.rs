@@ -8,8 +8,8 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::kernel::{Differentiated, Kernel};
 
 use super::body::Body;
+use super::formula::{Formula, Method};
 use super::link::Matter;
-use super::methods::{Formula, Method};
 use super::system::System;
 
 /// What is affine in the inertial parameters, and what they are.

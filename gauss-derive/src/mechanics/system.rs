@@ -8,7 +8,7 @@ use super::articulated::Articulated;
 use super::constraint::{Constraint, Constraints};
 use super::equations::tidy;
 use super::forces::{Element, Force, forces_of, potential_of};
-use super::methods::{Formula, Method};
+use super::formula::{Formula, Method};
 use super::names::Name;
 use super::tree::{Inertia, Tree};
 use super::vector::Triple;

@@ -5,8 +5,9 @@ use crate::model::{Chart, Motion, RotationChart};
 
 use super::body::{AddedMassShape, BodyShape, GravityShape, InertiaShape, Quantity};
 use super::chart::ConfigurationKind;
+use super::formula::Method;
 use super::gauss::gauss_condition;
-use super::methods::{Method, Scene};
+use super::methods::Scene;
 use super::rotation::rotation_of_quaternion;
 
 pub fn rotation_charts() -> Vec<RotationChart> {

@@ -6,7 +6,7 @@ use crate::algebra::{Expr, Graph, Map};
 use super::accounts::{Account, GRAVITY, account_formulas};
 use super::chart::Kinematics;
 use super::forces::{Action, Element, Force};
-use super::methods::Formula;
+use super::formula::Formula;
 use super::names::Name;
 use super::rotation::poisson;
 use super::vector::{Axes, Frame, Triple, Vector, add, cross, dot};

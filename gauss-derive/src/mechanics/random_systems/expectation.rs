@@ -1,6 +1,6 @@
 //! What the methods of a kernel should compute at a state, from the witness.
 
-use crate::mechanics::methods::Method;
+use crate::mechanics::formula::Method;
 
 use super::dense::{Matrix, Saddle, apply, inverse, largest, norm, transposed};
 use super::plan::Plan;
