@@ -77,36 +77,22 @@ pub(super) fn check(list: &mut [Given], scope: &Scope, context: &mut Context) {
     }
 }
 
-/// What literal numbers alone show to be wrong: the rest is checked when a kernel is made.
+/// What literal numbers alone show to be wrong. The rest is checked when a kernel is made, because it depends on the motion: of a body
+/// in the plane one moment of inertia matters.
 fn broken_rule(given: &Given) -> Option<(Span, String)> {
     let parts: Vec<&Expression> = match &given.value.kind {
         ExpressionKind::Vector(parts) => parts.iter().map(|part| &**part).collect(),
         _ => vec![&given.value],
     };
     let word = given.role.word();
-    let least = match given.role {
-        Role::Mass | Role::Inertia => "positive",
-        Role::DisplacedMass => "zero or more",
+    let (least, positive) = match given.role {
+        Role::Mass => ("positive", true),
+        Role::Inertia | Role::DisplacedMass => ("zero or more", false),
         _ => return None,
     };
-    for part in &parts {
-        let Some(number) = part.literal() else { continue };
-        if number < 0.0 || (number == 0.0 && given.role != Role::DisplacedMass) {
-            return Some((part.span, format!("`{word}` must be {least}, found {number}")));
-        }
-    }
-    let moments: Option<Vec<f64>> = parts.iter().map(|part| part.literal()).collect();
-    let [a, b, c] = moments.filter(|_| given.role == Role::Inertia)?.try_into().ok()?;
-    // Rounded values of a flat body may miss by a rounding.
-    let slack = 1.0 + 4.0 * f64::EPSILON;
-    let short = [(a, b, c), (b, c, a), (c, a, b)].into_iter().find(|(x, y, z)| *x > (y + z) * slack)?;
-    Some((
-        given.value.span,
-        format!(
-            "no body has these principal moments: {} is more than {} + {}, and each is at most the sum of the two others",
-            short.0, short.1, short.2
-        ),
-    ))
+    let wrong = |part: &&Expression| part.literal().is_some_and(|number| number < 0.0 || (positive && number == 0.0));
+    let part = parts.into_iter().find(wrong)?;
+    Some((part.span, format!("`{word}` must be {least}, found {}", part.literal()?)))
 }
 
 /// A clause `word` without `=`, where it is the role of a field.
