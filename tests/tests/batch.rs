@@ -141,6 +141,11 @@ fn agrees_with_single_runs<P, S, M, N>(
     let accelerations = Batch::new(packed).accelerations(0.5, &initial);
     let in_threads = Batch::new(packed).accelerations_on_all_threads(0.5, &initial);
     assert_eq!(accelerations.len(), count);
+    // In the place of those of fewer states.
+    let mut replaced = Batch::new(packed).accelerations(0.5, &States::from_fn(1, &start));
+    Batch::new(packed).accelerations_into(0.5, &initial, &mut replaced);
+    assert_eq!(replaced.len(), count);
+    assert!((0..count).all(|i| replaced.get(i) == accelerations.get(i)));
     for i in 0..count {
         let (q, z) = start(i);
         assert!(accelerations.get(i) == single.acceleration(number(0.5), &q, &z, &()), "acceleration {i}");

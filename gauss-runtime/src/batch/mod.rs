@@ -163,14 +163,31 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
         K: Kernels<S>,
         I: InputSource<S>,
     {
+        let mut accelerations = states.speeds.with_blocks(Vec::with_capacity(states.speeds.blocks().len()));
+        self.accelerations_into(t, states, &mut accelerations);
+        accelerations
+    }
+
+    /// [`accelerations`](Self::accelerations) in the place of others, which need not be as many: without new memory where it is asked for
+    /// again and again. Of more states than the caches hold new memory costs more than the accelerations.
+    ///
+    /// # Panics
+    /// When there are fewer kernels than blocks.
+    pub fn accelerations_into<S>(&self, t: f64, states: &States<S>, accelerations: &mut Packs<S::Speeds>)
+    where
+        S: BatchSystem,
+        K: Kernels<S>,
+        I: InputSource<S>,
+    {
         let t = S::Scalar::from_f64(t);
-        let (configurations, speeds) = (states.configurations.blocks(), states.speeds.blocks());
-        let mut blocks = Vec::with_capacity(speeds.len());
-        blocks.extend(configurations.iter().zip(speeds).enumerate().map(|(block, (q, z))| {
-            let kernel = self.kernels.of_block(block);
-            kernel.acceleration(t, q, z, &self.input.input(t, q, z))
-        }));
-        states.speeds.with_blocks(blocks)
+        let blocks = states.configurations.blocks().iter().zip(states.speeds.blocks()).enumerate();
+        accelerations.refill(
+            states.len(),
+            blocks.map(|(block, (q, z))| {
+                let kernel = self.kernels.of_block(block);
+                kernel.acceleration(t, q, z, &self.input.input(t, q, z))
+            }),
+        );
     }
 
     /// Carries all states over the interval, which may run backwards, by steps of length |step|; the last one ends in time.

@@ -83,6 +83,13 @@ impl<V: Packed> Packs<V> {
         &self.blocks
     }
 
+    /// Other values, in the same memory where there is enough of it.
+    pub(super) fn refill(&mut self, count: usize, blocks: impl Iterator<Item = V>) {
+        self.blocks.clear();
+        self.blocks.extend(blocks);
+        self.count = count;
+    }
+
     /// As many blocks of other values, from those of `self`.
     pub(super) fn with_blocks<W>(&self, blocks: Vec<W>) -> Packs<W> {
         Packs { blocks, count: self.count }
