@@ -1,5 +1,7 @@
 //! Mass data in clauses: the same motion as with fields, less code.
 
+use std::f64::consts::FRAC_PI_2;
+
 use gauss_runtime::error::Rule;
 use gauss_runtime::prelude::*;
 use gauss_runtime::system::OperationCount;
@@ -67,6 +69,37 @@ mod top {
         pub i: Vector3<f64>,
         #[gauss(gravity)]
         pub g: f64,
+    }
+}
+
+mod pitch {
+    use super::*;
+
+    #[derive(GaussDynamics)]
+    #[gauss(chart = jet(euler_zyx), motion = fixed_point, inertia = a)]
+    pub struct Ball {
+        #[gauss(mass)]
+        pub m: f64,
+        pub a: f64,
+    }
+
+    /// Symmetric about e₁.
+    #[derive(GaussDynamics)]
+    #[gauss(chart = jet(euler_zyx), motion = fixed_point, inertia = [c, a, a])]
+    pub struct Dart {
+        #[gauss(mass)]
+        pub m: f64,
+        pub a: f64,
+        pub c: f64,
+    }
+
+    #[derive(GaussDynamics)]
+    #[gauss(chart = jet(euler_zyx), motion = fixed_point)]
+    pub struct General {
+        #[gauss(mass)]
+        pub m: f64,
+        #[gauss(inertia)]
+        pub i: Vector3<f64>,
     }
 }
 
@@ -165,6 +198,28 @@ proptest! {
         agree(&symmetric.gauss_residual(0.0, &q, &z, &z, &()), &general.gauss_residual(0.0, &q, &z, &z, &()), 100.0);
         let entries = |matrix: SMatrix<f64, 3, 3>| SVector::<f64, 9>::from_column_slice(matrix.as_slice());
         agree(&entries(symmetric.mass_matrix(0.0, &q)), &entries(general.mass_matrix(0.0, &q)), 10.0);
+    }
+
+    /// Where the singular point is a zero of a cosine.
+    #[test]
+    fn symmetric_bodies_in_yaw_pitch_and_roll(
+        q in prop::array::uniform3(-3.0..3.0),
+        z in prop::array::uniform3(-2.0..2.0),
+        closeness in -6.0..0.0,
+        (a, c) in (0.5..1.0, 0.2..1.0),
+    ) {
+        let general = |along: f64, across: f64| {
+            let body = pitch::General { m: 1.5, i: Vector3::new(along, across, across) };
+            body.kernel().expect("a body")
+        };
+        let q = SVector::from([q[0], FRAC_PI_2 - 10.0_f64.powf(closeness), q[2]]);
+        let z = SVector::from(z);
+        let near = 1.0 / q[1].cos().abs();
+        let check = |found: SVector<f64, 3>, other: SVector<f64, 3>| agree(&found, &other, 100.0 * near);
+        let ball = pitch::Ball { m: 1.5, a }.kernel().expect("a ball");
+        check(ball.acceleration(0.0, &q, &z, &()), general(a, a).acceleration(0.0, &q, &z, &()));
+        let dart = pitch::Dart { m: 1.5, a, c }.kernel().expect("a body");
+        check(dart.acceleration(0.0, &q, &z, &()), general(c, a).acceleration(0.0, &q, &z, &()));
     }
 
     #[test]

@@ -7,11 +7,12 @@ use syn::ext::IdentExt;
 use crate::algebra::Map;
 use crate::kernel::Program;
 use crate::mechanics::{Assigned, Quantity};
+use crate::model::Shape;
 
 use super::kernel::Derived;
 use super::program::statements;
 use super::system::SystemSubject;
-use super::system_parameters::in_plane;
+use super::system_parameters::{in_plane, inertia_rows};
 
 /// `let name = …;`: the value, or the array of components.
 pub fn assigned_local(
@@ -49,12 +50,9 @@ pub fn assigned_bodies(
             None => quote!(let #c = [#zero; 3];),
         });
         read.extend(assigned_local(derived, &moments, inertia, symbols));
-        let moment = |i: usize| if inertia.values.len() == 1 { quote!(#moments) } else { quote!(#moments[#i]) };
-        let rows = (0..3).map(|i| {
-            let row = (0..3).map(|j| if i == j { moment(i) } else { zero.clone() });
-            quote!([#(#row),*])
-        });
-        read.extend(quote!(let #tensor = [#(#rows),*];));
+        let shape = if inertia.values.len() == 1 { Shape::Scalar } else { Shape::Vector3 };
+        let rows = inertia_rows(&ty, derived, shape, &moments);
+        read.extend(quote!(let #tensor = #rows;));
         let said = |part: &str| format!("{}.{part}", name.unraw());
         let [said_mass, said_center, said_inertia] = ["mass", "center_of_mass", "inertia"].map(said);
         let of_inertia = match subject.only_axis(Some(name)) {

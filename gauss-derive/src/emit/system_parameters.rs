@@ -261,7 +261,7 @@ fn evaluate(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, e: Expr<
 }
 
 /// I_O as a matrix, as it is written.
-fn inertia_rows(ty: &TokenStream, derived: &Derived<'_, '_>, shape: Shape, name: &Ident) -> TokenStream {
+pub fn inertia_rows(ty: &TokenStream, derived: &Derived<'_, '_>, shape: Shape, name: &Ident) -> TokenStream {
     let real = derived.scalar().real;
     let zero = quote!(<#ty as #real>::zero());
     let rows = (0..3usize).map(|i| {

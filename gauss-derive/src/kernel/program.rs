@@ -149,7 +149,8 @@ impl<'g> Program<'g> {
     }
 
     /// A single figure to compare arrangements by, in units of one addition of which two start in a cycle: all instructions, and the
-    /// longest chain of them that wait for one another. Calls overlap: about four of them hide each other's chains.
+    /// longest chain of them that wait for one another. Of the chain a quarter counts: a call alone would wait for all of it, calls
+    /// that overlap for none.
     pub fn cost(&self) -> u32 {
         self.counts().cost() + self.latency() / 2
     }

@@ -165,13 +165,13 @@ impl<'g> Scene<'g> {
                 arrangements: balances
                     .iter()
                     .map(|b| self.acceleration(b))
-                    .chain(short.as_ref().map(|s| s.acceleration.clone()))
+                    .chain(short.as_ref().and_then(|s| s.acceleration.clone()))
                     .collect(),
             },
             single(Method::MomentumRate, self.momentum_rate(pair, &velocity)),
             with_short(Method::MassMatrix, self.mass_matrix(&momentum), short.as_ref().map(|s| &s.matrix)),
             with_short(Method::Momentum, momentum, short.as_ref().map(|s| &s.momentum)),
-            with_short(Method::Velocity, velocity, short.as_ref().map(|s| &s.velocity)),
+            with_short(Method::Velocity, velocity, short.as_ref().and_then(|s| s.velocity.as_ref())),
             with_short(Method::KineticEnergy, vec![self.kinetic_energy()], short.as_ref().map(|s| &s.kinetic_energy)),
             single(Method::PotentialEnergy, vec![self.potential_energy()]),
             Formula { method: Method::GaussResidual, arrangements: residuals },
