@@ -4,15 +4,6 @@
 
 #![warn(missing_docs)]
 
-mod algebra;
-mod emit;
-mod expand;
-mod kernel;
-mod mechanics;
-mod mistakes;
-mod model;
-mod translate;
-
 /// Derives the equations of motion of a rigid body from the Gauss condition, and generates `Name::kernel()` and the
 /// `NameKernel` that implements `GaussSystem` and `RigidBodySystem`.
 ///
@@ -138,5 +129,5 @@ mod translate;
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let input = syn::parse_macro_input!(input as syn::DeriveInput);
-    expand::expand(&input).unwrap_or_else(|error| error.into_compile_error()).into()
+    gauss_codegen::expand(&input).unwrap_or_else(|error| error.into_compile_error()).into()
 }

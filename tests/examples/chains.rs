@@ -1,29 +1,10 @@
 //! What chains of bodies cost, and how long the derive takes over them:
 //! `cargo run --profile unoptimised --example chains`.
 //!
-//! Cargo compiles macros without optimisation unless told otherwise, so the times are taken on an unoptimised build of the
-//! very sources of `gauss-derive`. Operations are those of one evaluation of `acceleration`.
+//! Cargo compiles macros without optimisation unless told otherwise, so the times are taken on an unoptimised build of
+//! `gauss-codegen`. Operations are those of one evaluation of `acceleration`.
 
-// Only the pipeline is used here, not everything that the macro's modules offer.
-#![allow(dead_code, unused_imports)]
-
-#[path = "../../gauss-derive/src/algebra/mod.rs"]
-mod algebra;
-#[path = "../../gauss-derive/src/emit/mod.rs"]
-mod emit;
-#[path = "../../gauss-derive/src/expand.rs"]
-mod expand;
-#[path = "../../gauss-derive/src/kernel/mod.rs"]
-mod kernel;
-#[path = "../../gauss-derive/src/mechanics/mod.rs"]
-mod mechanics;
-#[path = "../../gauss-derive/src/mistakes.rs"]
-mod mistakes;
-#[path = "../../gauss-derive/src/model/mod.rs"]
-mod model;
 mod structures;
-#[path = "../../gauss-derive/src/translate/mod.rs"]
-mod translate;
 
 use std::time::Instant;
 
@@ -57,7 +38,7 @@ fn sizes(largest: usize) -> impl Iterator<Item = usize> {
 fn report(name: &str, source: &str) {
     let input: syn::DeriveInput = syn::parse_str(source).expect("the sources below are structs");
     let start = Instant::now();
-    let tokens = expand::expand(&input).expect("the sources below are systems");
+    let tokens = gauss_codegen::expand(&input).expect("the sources below are systems");
     let seconds = start.elapsed().as_secs_f64();
     let text = tokens.to_string();
     // The rustdoc of the kernel has a row for each method.

@@ -1,28 +1,9 @@
 //! How long the derive takes, as its users meet it: `cargo run --profile unoptimised --example expansion_time`.
 //!
 //! First every size of structure beside what is aimed at, then one body in every chart. Cargo compiles macros without optimisation unless told
-//! otherwise, so the figures are taken on an unoptimised build of the very sources of `gauss-derive`.
+//! otherwise, so the figures are taken on an unoptimised build of `gauss-codegen`.
 
-// Only the pipeline is used here, not everything that the macro's modules offer.
-#![allow(dead_code, unused_imports)]
-
-#[path = "../../gauss-derive/src/algebra/mod.rs"]
-mod algebra;
-#[path = "../../gauss-derive/src/emit/mod.rs"]
-mod emit;
-#[path = "../../gauss-derive/src/expand.rs"]
-mod expand;
-#[path = "../../gauss-derive/src/kernel/mod.rs"]
-mod kernel;
-#[path = "../../gauss-derive/src/mechanics/mod.rs"]
-mod mechanics;
-#[path = "../../gauss-derive/src/mistakes.rs"]
-mod mistakes;
-#[path = "../../gauss-derive/src/model/mod.rs"]
-mod model;
 mod structures;
-#[path = "../../gauss-derive/src/translate/mod.rs"]
-mod translate;
 
 use std::time::{Duration, Instant};
 
@@ -37,7 +18,7 @@ fn expansion(source: &str) -> [f64; 3] {
     let mut times = Vec::new();
     while times.len() < RUNS && (times.len() < 3 || begun.elapsed() < PATIENCE) {
         let start = Instant::now();
-        std::hint::black_box(expand::expand(&input).expect("the sources are systems"));
+        std::hint::black_box(gauss_codegen::expand(&input).expect("the sources are systems"));
         times.push(start.elapsed().as_secs_f64() * 1e3);
     }
     times.sort_unstable_by(f64::total_cmp);

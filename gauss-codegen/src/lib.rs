@@ -1,0 +1,14 @@
+//! The library behind `#[derive(GaussDynamics)]`: tokens of a struct in, Rust code of its kernel out.
+#![doc = include_str!("../README.md")]
+#![warn(missing_docs)]
+
+mod algebra;
+mod emit;
+mod expand;
+mod kernel;
+mod mechanics;
+mod mistakes;
+mod model;
+mod translate;
+
+pub use expand::expand;
