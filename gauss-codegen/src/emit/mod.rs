@@ -10,7 +10,8 @@
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
-//! `gauss_system` with `description`, `rigid_body`, `constrained`, `forced`, `taylor`, `linearized`, `parametric`, `regressor`.
+//! `gauss_system` with `description`, `rigid_body`, `constrained`, `forced`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
+//! where there are mistakes.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -22,6 +23,7 @@ mod constrained;
 mod derived;
 mod description;
 mod documentation;
+mod fallback;
 mod forced;
 mod gauss_system;
 mod kernel;
@@ -42,6 +44,7 @@ mod taylor;
 mod tests;
 
 pub use derived::{Derived, Plain, Subject};
+pub use fallback::fallback;
 pub use system::SystemSubject;
 
 /// The whole output of the derive.
