@@ -7,11 +7,27 @@ use crate::kernel::Counts;
 use crate::mechanics::{Method, Section};
 use crate::model::{InputKind, Role};
 
-use super::kernel::{Derived, Subject};
+use super::derived::{Derived, Subject};
 use super::system::SystemSubject;
 
-/// The equations as plain text.
-pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
+/// The equations as plain text and as one LaTeX environment.
+pub struct Equations {
+    pub text: String,
+    pub latex: String,
+}
+
+impl Equations {
+    /// Printed once for all that is said of them: a second time the terms of a sum can come in another order.
+    pub fn of(derived: &Derived<'_, '_>) -> Self {
+        let sections = match derived.subject {
+            Subject::Body { scene, .. } => scene.equations(),
+            Subject::System(SystemSubject { system, .. }) => system.equations(),
+        };
+        Equations { text: text(derived, &sections), latex: latex(&sections) }
+    }
+}
+
+fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     let mut out = format!(
         "{}: {}
 ",
@@ -36,8 +52,7 @@ pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     out
 }
 
-/// The equations as one LaTeX environment.
-pub fn latex(sections: &[Section<'_>]) -> String {
+fn latex(sections: &[Section<'_>]) -> String {
     let mut out = String::from("\\begin{align*}\n");
     for section in sections {
         out.push_str(&format!("&\\text{{{}}} \\\\\n", section.title.latex));
