@@ -382,6 +382,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 let group = |coordinate: &Coordinate<'g>| match coordinate {
                     Coordinate::Pose(..) => vec![4, 3],
                     Coordinate::Rotation(_) => vec![4],
+                    Coordinate::Plane { .. } => vec![2, 2],
                     Coordinate::Scalar(_) => vec![],
                 };
                 let scalars = coordinates.iter().filter(|c| matches!(c, Coordinate::Scalar(_))).map(|_| 1);
