@@ -11,4 +11,5 @@ mod mistakes;
 mod model;
 mod translate;
 
+pub use emit::fallback;
 pub use expand::expand;
