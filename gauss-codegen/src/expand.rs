@@ -5,7 +5,7 @@ use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
-use crate::kernel::{Candidates, Cost, Derivatives, Kernel, Literals, Miscompiled};
+use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals, Miscompiled};
 use crate::mechanics::{
     Acting, ConfigurationKind, Elimination, Formula, InertialParameters, Linearization, Method, Regressor, Scene,
     System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
@@ -232,8 +232,8 @@ fn names_of(parameters: &[Parameter<'_>]) -> Map<u32, String> {
 
 /// What a formula is lowered from.
 fn candidates<'g>(formula: &Formula<'g>) -> Candidates<'g> {
-    let cost = if formula.method == Method::ComponentRates { Cost::Series } else { Cost::Values };
-    Candidates { arrangements: formula.arrangements.clone(), cost }
+    let aim = if formula.method == Method::ComponentRates { Aim::Series } else { Aim::Values };
+    Candidates { arrangements: formula.arrangements.clone(), aim }
 }
 
 /// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them.
