@@ -22,13 +22,18 @@ use crate::translate::{Parameter, Translator, body_shape, parameters_of_body, pa
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
+    derive(input, |derived| Ok(emit(derived)))
+}
+
+/// Derives one struct, and hands everything that is known of it to whoever writes it down.
+pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
     match model::parse_scene(input)? {
-        model::Scene::Body(model) => expand_body(&model),
-        model::Scene::System(model) => expand_system(&model),
+        model::Scene::Body(model) => derive_body(&model, write),
+        model::Scene::System(model) => derive_system(&model, write),
     }
 }
 
-fn expand_body(model: &Model) -> syn::Result<TokenStream> {
+fn derive_body<R>(model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
     let graph = Graph::new();
     let shape = body_shape(|role| model.shape(role));
     let mut translator = model.system.as_deref().map(|system| Translator::new(&graph, system)).transpose()?;
@@ -79,7 +84,7 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
         literals: &literals,
         assigned: &assigned,
     });
-    Ok(emit(&Derived {
+    write(&Derived {
         subject: Subject::Body { model, scene: &scene, quaternion, plain },
         drags: &translator.as_ref().map(Translator::drags).unwrap_or_default(),
         formulas: &formulas,
@@ -87,10 +92,10 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
         linearization: beside.linearization.as_ref(),
         parameters: &beside.parameters,
         regressor: beside.regressor.as_ref(),
-    }))
+    })
 }
 
-fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
+fn derive_system<R>(model: &SystemModel, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
     let graph = Graph::new();
     let mut translator = Translator::new(&graph, model)?;
     let all: Vec<usize> = (0..translator.speeds().len()).collect();
@@ -158,7 +163,7 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         quaternions: &quaternions,
     };
     let drags = translator.drags();
-    Ok(emit(&Derived {
+    write(&Derived {
         subject: Subject::System(subject),
         drags: &drags,
         formulas: &formulas,
@@ -166,7 +171,7 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         linearization: beside.linearization.as_ref(),
         parameters: &beside.parameters,
         regressor: beside.regressor.as_ref(),
-    }))
+    })
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.

@@ -3,6 +3,7 @@
 #![warn(missing_docs)]
 
 mod algebra;
+mod derivation;
 mod emit;
 mod expand;
 mod kernel;
@@ -10,6 +11,9 @@ mod mechanics;
 mod mistakes;
 mod model;
 pub mod program;
+pub mod targets;
 mod translate;
 
+pub use algebra::Notation;
+pub use derivation::Derivation;
 pub use expand::expand;

@@ -9,8 +9,16 @@ use crate::model::{InputKind, Role};
 use super::kernel::{Derived, Subject};
 use super::system::SystemSubject;
 
-/// The equations as plain text.
-pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
+/// The equations as plain text, and as one LaTeX environment.
+pub fn equations(derived: &Derived<'_, '_>) -> (String, String) {
+    let sections = match derived.subject {
+        Subject::Body { scene, .. } => scene.equations(),
+        Subject::System(SystemSubject { system, .. }) => system.equations(),
+    };
+    (text(derived, &sections), latex(&sections))
+}
+
+fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     let mut out = format!(
         "{}: {}
 ",
@@ -35,8 +43,7 @@ pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     out
 }
 
-/// The equations as one LaTeX environment.
-pub fn latex(sections: &[Section<'_>]) -> String {
+fn latex(sections: &[Section<'_>]) -> String {
     let mut out = String::from("\\begin{align*}\n");
     for section in sections {
         out.push_str(&format!("&\\text{{{}}} \\\\\n", section.title.latex));

@@ -11,7 +11,7 @@ use crate::translate::{DragMatrix, Parameter, Source};
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
-use super::documentation::{latex, method_name, rustdoc, text};
+use super::documentation::{equations, method_name, rustdoc};
 use super::identification::{inertial_regressor, parametric_system};
 use super::linearize::linearized_system;
 use super::parameters::kernel_body;
@@ -81,12 +81,13 @@ pub struct Item<'a> {
 }
 
 /// Symbols of the arguments of the methods.
-struct Formal<'a, 'g> {
-    speeds: &'a [Expr<'g>],
-    speed_rates: &'a [Expr<'g>],
-    momenta: &'a [Expr<'g>],
-    residuals: &'a [Expr<'g>],
-    inputs: &'a [Expr<'g>],
+pub struct Formal<'a, 'g> {
+    pub speeds: &'a [Expr<'g>],
+    pub speed_rates: &'a [Expr<'g>],
+    pub momenta: &'a [Expr<'g>],
+    pub twist: &'a [Expr<'g>],
+    pub residuals: &'a [Expr<'g>],
+    pub inputs: &'a [Expr<'g>],
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
@@ -118,12 +119,13 @@ impl<'a, 'g> Derived<'a, 'g> {
         }
     }
 
-    fn formal(&self) -> Formal<'a, 'g> {
+    pub fn formal(&self) -> Formal<'a, 'g> {
         match self.subject {
             Subject::Body { scene, .. } => Formal {
                 speeds: &scene.kinematics.speeds,
                 speed_rates: &scene.kinematics.speed_rates,
                 momenta: &scene.momenta,
+                twist: &scene.twist,
                 residuals: &[],
                 inputs: scene.acting.as_ref().map_or(&[], |acting| &acting.inputs),
             },
@@ -131,6 +133,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 speeds: &system.scene.speeds,
                 speed_rates: &system.scene.speed_rates,
                 momenta: &system.scene.momenta,
+                twist: &[],
                 residuals: &constraints.residuals,
                 inputs: &system.scene.inputs,
             },
@@ -189,6 +192,14 @@ impl<'a, 'g> Derived<'a, 'g> {
         names
     }
 
+    /// Literal numbers that symbols stand for.
+    pub fn literals(&self) -> &'a [(Rational, Expr<'g>)] {
+        match self.subject {
+            Subject::Body { plain, .. } => plain.map_or(&[], |plain| plain.literals),
+            Subject::System(subject) => subject.literals,
+        }
+    }
+
     /// The symbol of the time, where something can depend on it.
     pub fn time(&self) -> Option<Expr<'g>> {
         match self.subject {
@@ -213,7 +224,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// Arguments taken apart and the instructions of a program; its outputs.
     pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
-        let Formal { speeds, speed_rates, momenta, residuals, inputs } = self.formal();
+        let Formal { speeds, speed_rates, momenta, twist, residuals, inputs } = self.formal();
         let mut names = self.constant_names();
         names.extend(self.time().map(|time| (time.key(), quote!(t))));
         let mut arguments = self.configuration_arguments();
@@ -221,8 +232,8 @@ impl<'a, 'g> Derived<'a, 'g> {
         arguments.push(vector(quote!(z), speeds));
         arguments.push(vector(quote!(p), momenta));
         arguments.push(vector(quote!(acceleration), speed_rates));
-        if let Some(body) = self.body() {
-            arguments.push(vector(quote!(twist), &body.scene.twist));
+        if !twist.is_empty() {
+            arguments.push(vector(quote!(twist), twist));
         }
         arguments.push(vector(quote!(residual), residuals));
         arguments.push(vector(quote!(input), inputs));
@@ -318,11 +329,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         quote!(#(#predicates,)*)
     });
     let bound = generic.then(|| quote!(#ty: #real,));
-    let sections = match derived.subject {
-        Subject::Body { scene, .. } => scene.equations(),
-        Subject::System(SystemSubject { system, .. }) => system.equations(),
-    };
-    let (text, latex) = (text(derived, &sections), latex(&sections));
+    let (text, latex) = equations(derived);
     let documentation = rustdoc(derived, &text);
     let (kernel_body, chart, configuration) = match derived.subject {
         Subject::Body { model, scene, quaternion, plain } => {

@@ -30,5 +30,6 @@ mod system_tests;
 #[cfg(test)]
 mod tests;
 
+pub use documentation::{equations, method_name};
 pub use kernel::{Derived, Plain, Subject, emit};
 pub use system::SystemSubject;

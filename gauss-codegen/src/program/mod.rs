@@ -9,6 +9,18 @@
 //!   loops, branches or memory. Sine and cosine of one angle are one instruction with two results;
 //! - [`results`](Program::results): what the outputs of the code are together, numbers, vectors or matrices by rows.
 //!
+//! ```
+//! let top = "#[gauss(motion = fixed_point)] struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }";
+//! let derivation = gauss_codegen::Derivation::of_source(top, "Top")?;
+//! let acceleration = derivation.program("acceleration").expect("every kernel has it");
+//! println!("{acceleration}");
+//! let constants = derivation.constants().run::<f64>(&[&[1.0, 0.5, 0.4, 0.3]])?;
+//! let (t, q, z) = ([0.0], [0.0, 0.0, 0.0, 1.0], [1.0, 2.0, 3.0]);
+//! let rate = acceleration.run(&[&constants, &t, &q, &z, &[]])?;
+//! assert!((rate[0] - (0.4 - 0.3) / 0.5 * 2.0 * 3.0).abs() < 1e-15);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # How to write a pass
 //! A pass is a function from [`Code`] to `Code`: it maps instructions with [`Instruction::map`], renumbers what it moved with
 //! [`Operand::moved`], and leaves what became idle to [`Code::without_idle`]. Code is generic over what its inputs are called, so
@@ -19,7 +31,7 @@
 //!
 //! # How to write a target
 //! A target is a function from programs to text. It says how an argument is declared, how each of the ten instructions and five
-//! operands is written, and how results are handed back.
+//! operands is written, and how results are handed back; [`targets::c`](crate::targets::c) is the shortest example.
 
 mod code;
 mod cost;
