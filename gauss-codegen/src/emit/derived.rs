@@ -91,6 +91,7 @@ pub struct Formal<'a, 'g> {
     pub speeds: &'a [Expr<'g>],
     pub speed_rates: &'a [Expr<'g>],
     pub momenta: &'a [Expr<'g>],
+    pub twist: &'a [Expr<'g>],
     pub residuals: &'a [Expr<'g>],
     pub inputs: &'a [Expr<'g>],
 }
@@ -122,6 +123,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 speeds: &scene.kinematics.speeds,
                 speed_rates: &scene.kinematics.speed_rates,
                 momenta: &scene.momenta,
+                twist: &scene.twist,
                 residuals: &[],
                 inputs: scene.acting.as_ref().map_or(&[], |acting| &acting.inputs),
             },
@@ -129,6 +131,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 speeds: &system.scene.speeds,
                 speed_rates: &system.scene.speed_rates,
                 momenta: &system.scene.momenta,
+                twist: &[],
                 residuals: &constraints.residuals,
                 inputs: &system.scene.inputs,
             },
@@ -187,6 +190,14 @@ impl<'a, 'g> Derived<'a, 'g> {
         names
     }
 
+    /// Literal numbers that symbols stand for.
+    pub fn literals(&self) -> &'a [(Rational, Expr<'g>)] {
+        match self.subject {
+            Subject::Body { plain, .. } => plain.map_or(&[], |plain| plain.literals),
+            Subject::System(subject) => subject.literals,
+        }
+    }
+
     /// The symbol of the time, where something can depend on it.
     pub fn time(&self) -> Option<Expr<'g>> {
         match self.subject {
@@ -211,7 +222,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// Arguments taken apart and the instructions of a program; its outputs.
     pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
-        let Formal { speeds, speed_rates, momenta, residuals, inputs } = self.formal();
+        let Formal { speeds, speed_rates, momenta, twist, residuals, inputs } = self.formal();
         let mut names = self.constant_names();
         names.extend(self.time().map(|time| (time.key(), quote!(t))));
         let mut arguments = self.configuration_arguments();
@@ -219,8 +230,8 @@ impl<'a, 'g> Derived<'a, 'g> {
         arguments.push(vector(quote!(z), speeds));
         arguments.push(vector(quote!(p), momenta));
         arguments.push(vector(quote!(acceleration), speed_rates));
-        if let Some(body) = self.body() {
-            arguments.push(vector(quote!(twist), &body.scene.twist));
+        if !twist.is_empty() {
+            arguments.push(vector(quote!(twist), twist));
         }
         arguments.push(vector(quote!(residual), residuals));
         arguments.push(vector(quote!(input), inputs));

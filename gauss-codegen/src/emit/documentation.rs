@@ -3,7 +3,6 @@
 use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
-use crate::kernel::Counts;
 use crate::mechanics::{Method, Section};
 use crate::model::{InputKind, Role};
 
@@ -125,12 +124,12 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     out.push_str(&acting(derived));
     out.push_str("\n# Cost\n\n| method | operations |\n|---|---|\n");
     for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
-        out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), operations(program.counts())));
+        out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), program.counts()));
     }
-    out.push_str(&format!("| `evaluate` | {} |\n", operations(derived.kernel.joined.counts())));
+    out.push_str(&format!("| `evaluate` | {} |\n", derived.kernel.joined.counts()));
     for (name, program) in ["linearize", "by_parameters", "regressor"].into_iter().zip(derived.kernel.derivatives()) {
         if let Some(program) = program {
-            out.push_str(&format!("| `{name}` | {} |\n", operations(program.counts())));
+            out.push_str(&format!("| `{name}` | {} |\n", program.counts()));
         }
     }
     out
@@ -163,18 +162,6 @@ fn acting(derived: &Derived<'_, '_>) -> String {
         out.push_str(&format!("| {} | {kind} |\n", account.name));
     }
     out
-}
-
-fn operations(counts: Counts) -> String {
-    let parts = [
-        (counts.additions, "add"),
-        (counts.multiplications, "mul"),
-        (counts.divisions, "div"),
-        (counts.roots, "sqrt"),
-        (counts.transcendentals, "transcendental"),
-    ];
-    let parts: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(n, name)| format!("{n} {name}")).collect();
-    if parts.is_empty() { "none".to_owned() } else { parts.join(", ") }
 }
 
 /// Name of the generated method.

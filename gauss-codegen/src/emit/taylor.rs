@@ -89,7 +89,7 @@ impl<'a, 'g> Order<'a, 'g> {
         let moves = |k: usize| self.moving[k];
         match o {
             Operand::Number(_) => None,
-            Operand::Symbol(symbol) => self.coefficients.get(&symbol.key()).cloned(),
+            Operand::Input(symbol) => self.coefficients.get(&symbol.key()).cloned(),
             Operand::Value(k) if moves(*k) => Some(named("w", *k)),
             Operand::Sine(k) if moves(*k) => Some(named("ws", *k)),
             Operand::Cosine(k) if moves(*k) => Some(named("wc", *k)),
