@@ -1,6 +1,6 @@
 //! What is counted: one body in every chart and motion, loads one by one, and the systems of the tables.
 
-#[path = "../../../tests/examples/structures/mod.rs"]
+#[path = "../../examples/structures/mod.rs"]
 mod structures;
 
 use crate::sources;

@@ -1,22 +1,27 @@
-//! How long the derive takes, as its users meet it: `cargo run --profile unoptimised --example expansion_time`.
+//! How long the derive takes, as its users meet it: `cargo run --profile unoptimised --example expansion_time [-- RUNS]`.
 //!
-//! First every size of structure beside what is aimed at, then one body in every chart. Cargo compiles macros without optimisation unless told
-//! otherwise, so the figures are taken on an unoptimised build of `gauss-codegen`.
+//! First every size of structure beside what is aimed at, then one body in every chart. Cargo compiles macros without
+//! optimisation unless told otherwise, so the figures are taken on an unoptimised build of `gauss-codegen`.
 
 mod structures;
 
 use std::time::{Duration, Instant};
 
-/// Runs of each, fewer where they would take longer than this.
+/// Runs of each unless another number is given, fewer where they would take longer than this.
 const RUNS: usize = 15;
 const PATIENCE: Duration = Duration::from_secs(3);
 
+fn runs() -> usize {
+    std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(RUNS)
+}
+
 /// Median, fastest and slowest expansion in milliseconds.
 fn expansion(source: &str) -> [f64; 3] {
+    let runs = runs();
     let input: syn::DeriveInput = syn::parse_str(source).expect("the sources are structs");
     let begun = Instant::now();
     let mut times = Vec::new();
-    while times.len() < RUNS && (times.len() < 3 || begun.elapsed() < PATIENCE) {
+    while times.len() < runs && (times.len() < 3 || begun.elapsed() < PATIENCE) {
         let start = Instant::now();
         std::hint::black_box(gauss_codegen::expand(&input).expect("the sources are systems"));
         times.push(start.elapsed().as_secs_f64() * 1e3);
@@ -28,7 +33,8 @@ fn expansion(source: &str) -> [f64; 3] {
 fn main() {
     let build = if cfg!(debug_assertions) { "unoptimised" } else { "optimised" };
     println!(
-        "expansion of one derive, {build} build, median of {RUNS} runs or fewer (fastest–slowest) in milliseconds\n"
+        "expansion of one derive, {build} build, median of {} runs or fewer (fastest–slowest) in milliseconds\n",
+        runs()
     );
     sizes();
     charts();
