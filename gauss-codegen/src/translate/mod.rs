@@ -6,9 +6,11 @@
 //! - `parameters`: what the numbers of fields are called.
 //! - here: the scene, part by part, in the order in which one part can name another.
 
+mod drag;
 mod forces;
 mod parameters;
 mod symbols;
+mod value;
 mod values;
 
 use std::cell::RefCell;
@@ -26,11 +28,11 @@ use crate::mechanics::{
 };
 use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, InChart, Model, Property};
 
-pub use forces::DragMatrix;
+pub use drag::DragMatrix;
 pub use parameters::{Parameter, parameters_of_body, parameters_of_system};
 use symbols::Declared;
 pub use symbols::{Part, Source, body_shape, role_of};
-use values::{Piece, Value};
+use value::{Piece, Value};
 
 /// Translates a system; kept between two translations of one system with different speeds.
 pub struct Translator<'a, 'g> {
