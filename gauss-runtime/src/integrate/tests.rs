@@ -9,7 +9,7 @@ use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::lie::so3;
 use crate::monitor::monitor;
-use crate::system::{Equations, GaussSystem, Operations};
+use crate::system::GaussSystem;
 use crate::testing::{FreeTop, Pack};
 
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration*, fig. VII.5.3 without forces: I = (0.5, 0.85, 1),
@@ -168,8 +168,6 @@ impl GaussSystem for Pendulum {
     type Input = ();
     const DOF: usize = 1;
     const CHART: Chart = Chart::Own;
-    const EQUATIONS: Equations = Equations { text: "", latex: "" };
-    const OPERATIONS: Operations = FreeTop::<f64>::OPERATIONS;
 
     fn kinematics(&self, _: f64, _: &SVector<f64, 1>, z: &SVector<f64, 1>) -> SVector<f64, 1> {
         *z

@@ -19,6 +19,7 @@ use super::method::{EitherForm, Family, Method};
 use super::simulation::Simulation;
 use super::step_length::power;
 use crate::configuration::{Configuration, VectorSpace};
+use crate::description::Described;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -41,7 +42,7 @@ pub struct Candidate<T> {
 }
 
 impl<T> Candidate<T> {
-    fn of<S: GaussSystem<Scalar = T>>(measured: Measured<Method<T>>, form: EitherForm) -> Self {
+    fn of<S: GaussSystem<Scalar = T> + Described>(measured: Measured<Method<T>>, form: EitherForm) -> Self {
         let Measured { control: method, error, evaluations, steps, seconds } = measured;
         Self { method, form, error, evaluations, steps, seconds, operations: evaluations * operations::<S>(form) }
     }
@@ -384,7 +385,7 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
 }
 
 /// Operations of the kernel in an evaluation.
-fn operations<S: GaussSystem>(form: EitherForm) -> u64 {
+fn operations<S: Described>(form: EitherForm) -> u64 {
     let counts = S::OPERATIONS;
     let dynamics = match form {
         EitherForm::Velocity => counts.acceleration.total(),
@@ -450,6 +451,7 @@ let end = scene.tuned(&tuned.best).run_to_end(tilted, spinning, 0.0..10.0)?;
         absolute: f64,
     ) -> Result<Tuned<S::Scalar>, TuneError>
     where
+        S: Described,
         I: InputSource<S>,
     {
         let bench = self.bench((q0, z0), interval, relative, absolute)?;
