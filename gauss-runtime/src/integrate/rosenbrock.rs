@@ -10,12 +10,12 @@
 //! Coefficients: E. Hairer & G. Wanner, *Solving Ordinary Differential Equations II*, IV.7 and IV.10, code RODAS; a test
 //! verifies the order conditions.
 
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{EstimatingStep, OneStep, Properties, Step};
-use super::rkmk::{check_chart, check_increment};
-use super::step_length::power;
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::step_length::power;
+use crate::integrate::lie_group::rkmk::{check_chart, check_increment};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step};
 use crate::linearize::{Factored, LinearModel, LinearizedSystem, brackets};
 use crate::real::Real;
 use crate::system::GaussSystem;

@@ -5,13 +5,13 @@
 //! system. Order and step are those of Jorba & Zou (Experimental Mathematics 14, 2005): the last two terms of the series are to
 //! be as small as the tolerance. No step is rejected.
 
-use super::control::{Control, Emit, check_tolerances, prepare};
-use super::error::{IntegrationError, IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State};
-use super::projection::{accept, on_constraints};
-use super::rkmk::check_chart;
-use super::simulation::Simulation;
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::control::{Control, Emit, check_tolerances, prepare};
+use crate::integrate::drive::projection::{accept, on_constraints};
+use crate::integrate::drive::simulation::Simulation;
+use crate::integrate::lie_group::rkmk::check_chart;
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
 use crate::real::Real;
 use crate::series::{MAX_ORDER, PowerSeries, TaylorSystem, state_of};
 

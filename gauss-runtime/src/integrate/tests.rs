@@ -46,7 +46,7 @@ fn quiet(_: f64, _: &UnitQuaternion<f64>, _: &SVector<f64, 3>) -> [f64; 3] {
 }
 
 /// The least-squares slope of log error against log step.
-pub(super) fn slope(points: &[(f64, f64)]) -> f64 {
+pub(in crate::integrate) fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let logs: Vec<_> = points.iter().map(|(h, e)| (h.ln(), e.ln())).collect();
     let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, Translation3, UnitQuaternio
 
 use super::inertia::{FreeMotion, PrincipalAxes};
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::error::IntegrationErrorKind;
+use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::lie::se3::{join, split};
 use crate::real::Real;
 use crate::triple::{axpy, compose, cross, quaternion, rotate, rotate_back, triple, unit_quaternion};

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SVector, UnitQuaternion, Vector3};
 
-use crate::integrate::error::IntegrationErrorKind;
+use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::lie::so3;
 use crate::real::Real;
 use crate::triple::{compose, quaternion, rotate, rotate_back, triple, unit_quaternion};

@@ -10,9 +10,9 @@ use super::inertia::{FreeMotion, PrincipalAxes};
 use super::moser_veselov::MoserVeselov;
 use super::scheme::Scheme;
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::error::{IntegrationErrorKind, Part};
-use crate::integrate::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use crate::integrate::one_step::{OneStep, Properties, Step};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 

@@ -28,7 +28,7 @@ const LEAST_REMEMBERED: f64 = -9.210_340_371_976_182;
 
 /// The factors by which an adaptive method changes the length of its steps.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct StepLength {
+pub(in crate::integrate) struct StepLength {
     /// k: the power of the step that the error estimate goes with where all is smooth.
     estimate_order: f64,
     smoothness: Smoothness,
@@ -40,17 +40,17 @@ pub(super) struct StepLength {
 }
 
 impl StepLength {
-    pub(super) fn new(estimate_order: f64, smoothness: Smoothness) -> Self {
+    pub(in crate::integrate) fn new(estimate_order: f64, smoothness: Smoothness) -> Self {
         Self { estimate_order, smoothness, previous: Some(LEAST_REMEMBERED), rejected: false, across: 0 }
     }
 
     /// The largest error, in tolerances, with which a step is accepted.
-    pub(super) fn limit(&self) -> f64 {
+    pub(in crate::integrate) fn limit(&self) -> f64 {
         if self.across > 0 { NEAR_ROUGHNESS } else { 1.0 }
     }
 
     /// A step of this error (in tolerances, above the limit) is tried again: the factor for its length.
-    pub(super) fn reject(&mut self, error: f64) -> f64 {
+    pub(in crate::integrate) fn reject(&mut self, error: f64) -> f64 {
         let excess = error / self.limit();
         self.fail();
         let order = match self.smoothness {
@@ -62,7 +62,7 @@ impl StepLength {
     }
 
     /// A step could not be made at all and is tried again.
-    pub(super) fn fail(&mut self) {
+    pub(in crate::integrate) fn fail(&mut self) {
         self.rejected = true;
         if self.smoothness != Smoothness::Smooth {
             self.previous = None;
@@ -71,7 +71,7 @@ impl StepLength {
     }
 
     /// A step of this error (in tolerances, within the limit) is accepted: the factor from its length to that of the next.
-    pub(super) fn accept(&mut self, error: f64) -> f64 {
+    pub(in crate::integrate) fn accept(&mut self, error: f64) -> f64 {
         let logarithm = Real::ln(error.max(1e-10));
         let k = self.estimate_order;
         let factor = 0.9
@@ -94,7 +94,7 @@ impl StepLength {
 }
 
 /// `base^exponent` for base > 0.
-pub(super) fn power(base: f64, exponent: f64) -> f64 {
+pub(in crate::integrate) fn power(base: f64, exponent: f64) -> f64 {
     Real::exp(Real::ln(base) * exponent)
 }
 

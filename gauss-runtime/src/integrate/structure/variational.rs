@@ -1,12 +1,12 @@
 //! A variational method on the group, for bodies in the left-invariant chart.
 
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State};
-use super::iteration::{Progress, relative_change, worst};
-use super::one_step::{OneStep, Properties, Step};
-use super::rkmk::{check_chart, check_increment};
 use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::lie_group::rkmk::{check_chart, check_increment};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
+use crate::integrate::step::iteration::{Progress, relative_change, worst};
+use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -19,7 +19,7 @@ use crate::system::GaussSystem;
 ///
 /// Where forces have a potential it is symplectic and keeps the momenta of the scene's symmetries to rounding: P and L in space
 /// without forces, the angular momentum about the vertical of a top. Energy oscillates and does not drift. Forces of any
-/// other kind are taken as they are, and the method stays symmetric and of order 2; [`Composed`](super::Composed) raises that.
+/// other kind are taken as they are, and the method stays symmetric and of order 2; [`Composed`](crate::integrate::Composed) raises that.
 ///
 /// ξ, and p₁ where forces depend on velocity, are found by fixed-point iteration down to rounding. Beyond a turn of about 2 rad in a
 /// step, less for slender bodies, that ends with [`IntegrationErrorKind::NotConverged`]. Other charts, where momenta are not

@@ -2,16 +2,18 @@
 
 use core::ops::{ControlFlow, Range};
 
-use super::control::{Adaptive, Control, Fixed};
-#[cfg(feature = "alloc")]
-use super::dense::Dense;
-use super::error::{IntegrationError, IntegrationErrorKind};
-use super::event::{Crossing, Events, NoEvents, Watch, Watched};
-use super::form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
-use super::trajectory::Sample;
-#[cfg(feature = "alloc")]
-use super::trajectory::Trajectory;
 use crate::configuration::Configuration;
+use crate::integrate::drive::control::{Adaptive, Control, Fixed};
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::dense::Dense;
+use crate::integrate::drive::event::{Crossing, Events, NoEvents, Watch, Watched};
+use crate::integrate::drive::trajectory::Sample;
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::trajectory::Trajectory;
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::form::{
+    Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm,
+};
 use crate::system::GaussSystem;
 
 /// Nothing is chosen yet; [`Simulation::fixed_step`] or [`Simulation::adaptive`] comes next.
@@ -88,12 +90,12 @@ assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
 #[derive(Debug)]
 #[must_use = "a simulation does nothing before `run`"]
 pub struct Simulation<'k, S, F = VelocityForm, I = NoInput, C = Undecided, O = Unobserved, E = NoEvents> {
-    pub(super) problem: Problem<'k, S, F, I>,
+    pub(in crate::integrate) problem: Problem<'k, S, F, I>,
     control: C,
     observer: O,
     events: E,
     every: u64,
-    pub(super) limit: u64,
+    pub(in crate::integrate) limit: u64,
 }
 
 // Written by hand: the system is only borrowed, and need not be `Copy`.
@@ -147,13 +149,13 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E> {
         Simulation { problem: Problem { system, form, input }, control, observer, events, every, limit }
     }
 
-    /// Steps of one length, by [`RungeKutta`](super::RungeKutta) of order 8 (Dormand and Prince); the last step is shortened to end
+    /// Steps of one length, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince); the last step is shortened to end
     /// in time.
     pub fn fixed_step(self, step: S::Scalar) -> Simulation<'k, S, F, I, Fixed<S::Scalar>, O, E> {
         self.control(Fixed::new(step))
     }
 
-    /// Steps as long as the tolerances allow, by [`RungeKutta`](super::RungeKutta) of order 8 (Dormand and Prince): see
+    /// Steps as long as the tolerances allow, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince): see
     /// [`Adaptive::new`].
     pub fn adaptive(self, relative: f64, absolute: f64) -> Simulation<'k, S, F, I, Adaptive, O, E> {
         self.control(Adaptive::new(relative, absolute))
@@ -178,7 +180,7 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E> {
 
     /// Finds the states in which a function of time and state, of its first lane where numbers are packs, passes through
     /// zero. They are numbered in the order of these calls and of [`until`](Self::until), from 0, and are found in
-    /// [`Trajectory::events`], and by an [`Observer`]. How, and what is not seen: [`event`](super::event).
+    /// [`Trajectory::events`], and by an [`Observer`]. How, and what is not seen: [`event`](crate::integrate::drive::event).
     ///
     #[cfg_attr(
         feature = "derive",
@@ -368,7 +370,10 @@ where
 }
 
 /// Both velocities and momenta of a state.
-pub(super) fn sample_of<S: GaussSystem, F: Form<S>, I>(problem: &Problem<'_, S, F, I>, state: &State<S>) -> Sample<S> {
+pub(in crate::integrate) fn sample_of<S: GaussSystem, F: Form<S>, I>(
+    problem: &Problem<'_, S, F, I>,
+    state: &State<S>,
+) -> Sample<S> {
     let State { t, q, y } = *state;
     let z = problem.form.speeds(problem.system, t, &q, &y);
     Sample { t, q, z, p: problem.form.momentum(problem.system, t, &q, &y) }

@@ -12,14 +12,14 @@ use core::cell::Cell;
 use core::fmt;
 use core::ops::{ControlFlow, Range};
 
-use super::control::Control;
-use super::error::{IntegrationError, IntegrationErrorKind};
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::method::{EitherForm, Family, Method};
-use super::simulation::Simulation;
-use super::step_length::power;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::description::Described;
+use crate::integrate::drive::control::Control;
+use crate::integrate::drive::simulation::Simulation;
+use crate::integrate::drive::step_length::power;
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::tune::method::{EitherForm, Family, Method};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -569,5 +569,5 @@ let end = scene.control(found.control).run_to_end(tilted, spinning, 0.0..10.0)?;
 }
 
 #[cfg(test)]
-#[path = "tune_tests.rs"]
+#[path = "measure_tests.rs"]
 mod tests;

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::super::*;
+use crate::integrate::*;
 use crate::constraint::{ConstrainedSystem, ConstraintLevel, ProjectionFailure};
 use crate::monitor::monitor;
 use crate::system::GaussSystem;

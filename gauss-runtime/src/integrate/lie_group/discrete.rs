@@ -4,11 +4,11 @@ use core::fmt;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::commutator_free::{CommutatorFree4, Path, STAGE_TIMES, halves};
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{NoInput, Problem, Rates, State, TangentOf, VelocityForm};
-use super::rkmk::check_chart;
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::lie_group::commutator_free::{CommutatorFree4, Path, STAGE_TIMES, halves};
+use crate::integrate::lie_group::rkmk::check_chart;
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{NoInput, Problem, Rates, State, TangentOf, VelocityForm};
 use crate::linearize::{Linearization, LinearizedSystem};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -93,14 +93,14 @@ impl<S: GaussSystem, const D: usize, const U: usize> DiscreteLinearization<S, D,
 
 impl CommutatorFree4 {
     /// One step of length h from (q, z) with the input held, and the exact derivatives of that step itself: of what
-    /// [`Fixed`](super::control::Fixed) runs of this method make, which agree with those of the motion up to the order of the method.
+    /// [`Fixed`](crate::integrate::drive::control::Fixed) runs of this method make, which agree with those of the motion up to the order of the method.
     ///
     /// Each exponential of the step passes on what its start moves by (by the adjoint) and what its velocity changes by (by the
     /// differential of exp), so nothing but the derivatives of the equations at the four stages is needed. It costs four calls of
     /// [`linearize`](LinearizedSystem::linearize) and products of matrices of that size; nothing is allocated.
     ///
     /// Of a scene with constraints these are the step and the derivatives *before* the state is brought back onto them, as in
-    /// [`OneStep::step`](super::one_step::OneStep::step): increments that violate the constraints are carried along as the equations
+    /// [`OneStep::step`](crate::integrate::step::one_step::OneStep::step): increments that violate the constraints are carried along as the equations
     /// have it. Make states consistent by [`project`](GaussSystem::project), and use increments that the constraints admit.
     ///
     /// # Errors

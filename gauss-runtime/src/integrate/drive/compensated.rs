@@ -7,13 +7,13 @@
 //! That it grows like √n asks that no step makes the same error again. Explicit methods sum their stages relative to the first
 //! one, so that weights that do not add up to 1 by a rounding do no harm ([`IncrementStep`]).
 
-use super::control::{Control, Emit, one_step, steps_of_one_length};
-use super::error::{IntegrationError, IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::IncrementStep;
-use super::rkmk::{Rkmk, check_chart};
-use super::tableau::Tableau;
 use crate::configuration::{Configuration, VectorSpace, add_carrying};
+use crate::integrate::drive::control::{Control, Emit, one_step, steps_of_one_length};
+use crate::integrate::lie_group::rkmk::{Rkmk, check_chart};
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::runge_kutta::tableau::Tableau;
+use crate::integrate::step::one_step::IncrementStep;
 use crate::real::Real;
 use crate::system::GaussSystem;
 

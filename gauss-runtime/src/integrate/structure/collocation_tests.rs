@@ -6,7 +6,7 @@ use nalgebra::{SVector, UnitQuaternion};
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::*;
+use crate::integrate::*;
 use crate::system::GaussSystem;
 use crate::testing::constrained::{GRAVITY, pendulum, pendulum_by_angle};
 use crate::testing::order::{

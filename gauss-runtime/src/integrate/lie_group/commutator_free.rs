@@ -1,10 +1,10 @@
 //! A commutator-free method: several exponentials instead of dexp⁻¹.
 
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{OneStep, Properties, Step};
-use super::rkmk::{check_chart, check_turn};
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::lie_group::rkmk::{check_chart, check_turn};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -16,7 +16,7 @@ use crate::system::GaussSystem;
 /// `q∘exp(h(3V₁ + 2V₂ + 2V₃ − V₄)/12)∘exp(h(−V₁ + 2V₂ + 2V₃ + 3V₄)/12)`.
 /// The variables y take the classical method of order 4, which is what remains on a linear space.
 ///
-/// Explicit, and keeps nothing; errors are those of [`Rkmk`](super::Rkmk) of order 4, nearly.
+/// Explicit, and keeps nothing; errors are those of [`Rkmk`](crate::integrate::Rkmk) of order 4, nearly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CommutatorFree4;
 
@@ -48,19 +48,19 @@ impl<S: GaussSystem> OneStep<S> for CommutatorFree4 {
 }
 
 /// The times of the stages after the start, over the step.
-pub(super) const STAGE_TIMES: [(i64, i64); 4] = [(0, 1), (1, 2), (1, 2), (1, 1)];
+pub(in crate::integrate) const STAGE_TIMES: [(i64, i64); 4] = [(0, 1), (1, 2), (1, 2), (1, 1)];
 
 /// The exponentials that a step consists of, and where it ends.
-pub(super) struct Path<S: GaussSystem> {
+pub(in crate::integrate) struct Path<S: GaussSystem> {
     /// From the start to the second stage, to the third, from the second to the fourth; from the start to the end, in two.
-    pub(super) increments: [TangentOf<S>; 5],
-    pub(super) end: State<S>,
+    pub(in crate::integrate) increments: [TangentOf<S>; 5],
+    pub(in crate::integrate) end: State<S>,
 }
 
 impl<S: GaussSystem> Path<S> {
     /// `rates(n, stage)` are those at the stages 1, 2 and 3, the first one being 0.
     #[inline(always)]
-    pub(super) fn new(
+    pub(in crate::integrate) fn new(
         state: &State<S>,
         first: &Rates<S>,
         h: S::Scalar,
@@ -107,7 +107,7 @@ impl<S: GaussSystem> Path<S> {
 
 /// Weights of the velocities in the two exponentials that end a step; together those of the classical method.
 #[inline(always)]
-pub(super) fn halves<T: Real>() -> [[T; 4]; 2] {
+pub(in crate::integrate) fn halves<T: Real>() -> [[T; 4]; 2] {
     let (quarter, sixth, negative) = (T::ratio(1, 4), T::ratio(1, 6), T::ratio(-1, 12));
     [[quarter, sixth, sixth, negative], [negative, sixth, sixth, quarter]]
 }

@@ -21,7 +21,7 @@ pub struct Tableau<const S: usize> {
     /// The order of the embedded result; 0 when there is none.
     pub embedded_order: u32,
     /// Weights of a second, coarser estimate, by which the first is divided to make it go with a higher power of the step: see
-    /// [`Adaptive`](super::Adaptive). All zero when there is none.
+    /// [`Adaptive`](crate::integrate::Adaptive). All zero when there is none.
     pub coarse_error: [Rational; S],
     /// The order of the result behind the coarser estimate; 0 when there is none.
     pub coarse_order: u32,
@@ -34,7 +34,7 @@ pub struct Tableau<const S: usize> {
 /// One of your own:
 ///
 /// ```
-/// use gauss_runtime::integrate::tableau::{Coefficients, Tableau};
+/// use gauss_runtime::integrate::{Coefficients, Tableau};
 ///
 /// /// Heun's method of order 3.
 /// #[derive(Clone, Copy, Debug, Default)]
@@ -115,7 +115,7 @@ tableaux! {
 
 /// The power of the step that the error estimate of a tableau goes with: that of the embedded method's local error, or where there
 /// are two estimates, e of order p and ê of order r, that of `e²/ê`, 2p − r.
-pub(super) fn estimate_order<const S: usize>(tableau: &Tableau<S>) -> f64 {
+pub(in crate::integrate) fn estimate_order<const S: usize>(tableau: &Tableau<S>) -> f64 {
     let fine = tableau.embedded_order + 1;
     f64::from(match tableau.coarse_order {
         0 => fine,
@@ -126,7 +126,7 @@ pub(super) fn estimate_order<const S: usize>(tableau: &Tableau<S>) -> f64 {
 const O: Rational = (0, 1);
 
 /// `digits · 10^−places`: a coefficient that is published as a decimal.
-pub(super) const fn decimal(digits: i64, places: u32) -> Rational {
+pub(in crate::integrate) const fn decimal(digits: i64, places: u32) -> Rational {
     (digits, 10_i64.pow(places))
 }
 
@@ -183,7 +183,7 @@ impl Tableau<12> {
     /// Dormand and Prince, order 8: the twelve stages of DOP853, coefficients from Hairer, Nørsett & Wanner, *Solving
     /// Ordinary Differential Equations I*, 2nd ed. 1993, II.5 and its appendix, to 18 decimals. Four of the times contain √6.
     ///
-    /// The embedded results are of orders 5 and 3. [`Adaptive`](super::Adaptive) makes one estimate of them that goes like h⁸, as
+    /// The embedded results are of orders 5 and 3. [`Adaptive`](crate::integrate::Adaptive) makes one estimate of them that goes like h⁸, as
     /// DOP853 does; the one of order 5 by itself is cautious: below a tolerance δ the result is good to about δ^(3/2).
     pub const DORMAND_PRINCE_8: Self = Self {
         a: [

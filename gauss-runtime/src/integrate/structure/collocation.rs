@@ -13,12 +13,12 @@
 //! weights are exact fractions: no error is the same in every step, and so none grows in proportion to time (Hairer, McLachlan &
 //! Razakarivony, *Achieving Brouwer's law with implicit Runge–Kutta methods*, BIT 48, 2008).
 
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::iteration::{Progress, relative_change, worst};
-use super::one_step::{IncrementStep, OneStep, Properties, Step};
-use super::rkmk::{check_chart, check_increment};
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::lie_group::rkmk::{check_chart, check_increment};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::step::iteration::{Progress, relative_change, worst};
+use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 

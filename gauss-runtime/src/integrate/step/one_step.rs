@@ -1,7 +1,7 @@
 //! What a method of one step is: the seam at which methods are added.
 
-use super::error::IntegrationErrorKind;
-use super::form::{Form, InputSource, Problem, Rates, State};
+use crate::integrate::problem::error::IntegrationErrorKind;
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
 use crate::system::GaussSystem;
 
 /// What a method keeps, and how accurate it is: stated, and tested.
@@ -39,7 +39,7 @@ pub struct Step<S: GaussSystem> {
     pub rates: Option<Rates<S>>,
 }
 
-/// A method that makes one step of a given length: with [`Fixed`](super::control::Fixed) an integrator.
+/// A method that makes one step of a given length: with [`Fixed`](crate::integrate::drive::control::Fixed) an integrator.
 ///
 /// A method of your own needs [`step`](Self::step) alone.
 pub trait OneStep<S: GaussSystem> {
@@ -47,7 +47,7 @@ pub trait OneStep<S: GaussSystem> {
     fn properties(&self) -> Properties;
 
     /// One step of length `h` from `state`, where the derivatives are `rates`. The end is not brought back onto
-    /// constraints: [`Control`](super::control::Control) does that.
+    /// constraints: [`Control`](crate::integrate::drive::control::Control) does that.
     ///
     /// # Errors
     /// When the step cannot be made; the state given is untouched.
@@ -60,7 +60,7 @@ pub trait OneStep<S: GaussSystem> {
     ) -> Result<Step<S>, IntegrationErrorKind>;
 }
 
-/// A method that estimates the error of its steps: with [`Adaptive`](super::control::Adaptive) an integrator whose steps are as long as
+/// A method that estimates the error of its steps: with [`Adaptive`](crate::integrate::drive::control::Adaptive) an integrator whose steps are as long as
 /// a tolerance allows.
 pub trait EstimatingStep<S: GaussSystem>: OneStep<S> {
     /// The power of the step that the estimate goes with where the motion is smooth.
@@ -85,7 +85,7 @@ pub trait EstimatingStep<S: GaussSystem>: OneStep<S> {
 }
 
 /// A method whose step is one increment, `q₁ = q₀ ∘ exp(σ)` and `y₁ = y₀ + Δy`: it can be run with what is rounded off carried from
-/// step to step ([`Compensated`](super::compensated::Compensated)).
+/// step to step ([`Compensated`](crate::integrate::drive::compensated::Compensated)).
 pub trait IncrementStep<S: GaussSystem>: OneStep<S> {
     /// (σ, Δy) of the step that [`OneStep::step`] makes, up to rounding that is relative to the increment. What it is added to, and
     /// the result, are not checked.

@@ -5,11 +5,11 @@ use core::fmt;
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 
-use super::form::copy_and_debug;
-#[cfg(feature = "alloc")]
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
 #[cfg(feature = "alloc")]
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::problem::form::copy_and_debug;
+#[cfg(feature = "alloc")]
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
 #[cfg(feature = "alloc")]
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -40,7 +40,7 @@ struct Knot<S: GaussSystem> {
 #[cfg(feature = "alloc")]
 copy_and_debug!(Knot { sample, velocity, acceleration, momentum_rate });
 
-/// A state in which a function passed through zero: see [`Simulation::event`](super::Simulation::event).
+/// A state in which a function passed through zero: see [`Simulation::event`](crate::integrate::Simulation::event).
 #[cfg(feature = "alloc")]
 pub struct EventSample<S: GaussSystem> {
     /// Which event, counted from 0 in the order in which they were asked for.
@@ -77,7 +77,7 @@ impl<S: GaussSystem> fmt::Debug for Trajectory<S> {
 #[allow(clippy::len_without_is_empty)] // Never empty.
 impl<S: GaussSystem> Trajectory<S> {
     /// A trajectory of one sample, its derivatives not known.
-    pub(super) fn starting_with(sample: Sample<S>) -> Self {
+    pub(in crate::integrate) fn starting_with(sample: Sample<S>) -> Self {
         let none = S::Speeds::zero();
         let velocity = TangentOf::<S>::zero();
         let knots = Vec::from([Knot { sample, velocity, acceleration: none, momentum_rate: none }]);
@@ -85,7 +85,7 @@ impl<S: GaussSystem> Trajectory<S> {
     }
 
     /// Appends a sample; `first` replaces the one that the trajectory started with.
-    pub(super) fn record<F: Form<S>, I: InputSource<S>>(
+    pub(in crate::integrate) fn record<F: Form<S>, I: InputSource<S>>(
         &mut self,
         first: bool,
         problem: &Problem<'_, S, F, I>,
@@ -101,7 +101,7 @@ impl<S: GaussSystem> Trajectory<S> {
         self.knots.push(Knot { sample: *sample, velocity: rates.configuration, acceleration, momentum_rate });
     }
 
-    pub(super) fn record_event(&mut self, number: usize, sample: Sample<S>) {
+    pub(in crate::integrate) fn record_event(&mut self, number: usize, sample: Sample<S>) {
         self.events.push(EventSample { number, sample });
     }
 
@@ -165,7 +165,7 @@ impl<S: GaussSystem> Trajectory<S> {
     }
 
     /// The number of the first sample that is not before `t`, if the trajectory covers it.
-    pub(super) fn knot_from(&self, t: S::Scalar) -> Option<usize> {
+    pub(in crate::integrate) fn knot_from(&self, t: S::Scalar) -> Option<usize> {
         let time = t.lane(0);
         let of = |knot: &Knot<S>| knot.sample.t.lane(0);
         let (first, last) = (self.first().t.lane(0), self.last().t.lane(0));

@@ -5,8 +5,8 @@ use core::fmt;
 #[cfg(feature = "alloc")]
 use alloc::{boxed::Box, format};
 
-use super::form::{Form, Problem, State};
 use crate::constraint::{ConstraintLevel, ProjectionError};
+use crate::integrate::problem::form::{Form, Problem, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 

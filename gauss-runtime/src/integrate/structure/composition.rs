@@ -1,10 +1,10 @@
 //! Composition: a symmetric method made more accurate by steps of several lengths, some of them backwards.
 
-use super::error::IntegrationErrorKind;
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{OneStep, Properties, Step};
-use super::tableau::{Rational, decimal};
 use crate::configuration::VectorSpace;
+use crate::integrate::problem::error::IntegrationErrorKind;
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::runge_kutta::tableau::{Rational, decimal};
+use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 

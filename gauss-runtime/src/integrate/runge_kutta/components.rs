@@ -7,7 +7,7 @@
 //! error at most, and bringing it back (a quaternion to norm 1) changes it by no more: the order is that of the tableau
 //! (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4, "standard projection method").
 //!
-//! Beside Runge–Kutta–Munthe-Kaas methods ([`rkmk`](super::rkmk)) of the same tableau a stage needs neither exp nor dexp⁻¹. What is
+//! Beside Runge–Kutta–Munthe-Kaas methods ([`rkmk`](crate::integrate::lie_group::rkmk)) of the same tableau a stage needs neither exp nor dexp⁻¹. What is
 //! lost: a rotation of constant angular velocity is not exact, and stages lie off the group by their own error. What the
 //! equations keep everywhere is kept to the last bit, as momenta with ṗ ≡ 0 are; what they keep only because rotation matrices are
 //! orthogonal, as the total momentum of several bodies in the observer's axes, is kept within the tolerance.
@@ -15,12 +15,12 @@
 //! The coefficients are constants of the type, and stages are written out one after the other: null weights leave no trace in
 //! the code, and derivatives stay in registers where there are enough of them.
 
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{EstimatingStep, OneStep, Properties, Step};
-use super::rkmk::{check_chart, check_turn};
-use super::tableau::{Coefficients, Rational, estimate_order};
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::lie_group::rkmk::{check_chart, check_turn};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::runge_kutta::tableau::{Coefficients, Rational, estimate_order};
+use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -219,5 +219,5 @@ impl<Sys: GaussSystem, C: Coefficients<S>, const S: usize> EstimatingStep<Sys> f
 }
 
 #[cfg(test)]
-#[path = "runge_kutta_tests.rs"]
+#[path = "components_tests.rs"]
 mod tests;

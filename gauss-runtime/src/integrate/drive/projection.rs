@@ -4,10 +4,10 @@
 //! that. So projecting after every accepted step keeps the order of the method and nothing accumulates (Hairer, Lubich &
 //! Wanner, *Geometric Numerical Integration*, IV.4). Error estimates are those of the step before it is projected.
 
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::constraint::ConstraintLevel;
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -29,7 +29,7 @@ pub(crate) fn accept<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
 }
 
 /// The state of a constrained system brought onto its constraints.
-pub(super) fn on_constraints<S: GaussSystem, F: Form<S>, I>(
+pub(in crate::integrate) fn on_constraints<S: GaussSystem, F: Form<S>, I>(
     problem: &Problem<'_, S, F, I>,
     state: &State<S>,
 ) -> Result<State<S>, IntegrationErrorKind> {
@@ -45,7 +45,7 @@ pub(super) fn on_constraints<S: GaussSystem, F: Form<S>, I>(
 /// constraints in half of the digits was meant to satisfy them, and with less than half it is another state, which nobody
 /// asked to run from. Beside it 64 ε are allowed for numbers of order 1 that cancel where the state itself is zero.
 #[inline(always)]
-pub(super) fn consistent_start<S: GaussSystem, F: Form<S>, I>(
+pub(in crate::integrate) fn consistent_start<S: GaussSystem, F: Form<S>, I>(
     problem: &Problem<'_, S, F, I>,
     start: &State<S>,
 ) -> Result<State<S>, IntegrationErrorKind> {

@@ -16,13 +16,13 @@
 
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State};
-use super::iteration::{Progress, relative_change, worst};
-use super::one_step::{IncrementStep, OneStep, Properties, Step};
-use super::rkmk::{check_chart, check_increment};
 use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::lie_group::rkmk::{check_chart, check_increment};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
+use crate::integrate::step::iteration::{Progress, relative_change, worst};
+use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step};
 use crate::lie::se3::{join, split};
 use crate::lie::{coefficients, se2, se3, so3};
 use crate::real::Real;
@@ -127,9 +127,9 @@ impl<T: Real> CoadjointAction for Isometry2<T> {
 /// - [`with_points`](Self::with_points): Gauss' rule, whose error in energy is of order h^(2N): from four to six points on it
 ///   is below rounding for steps that turn the body by half a radian.
 ///
-/// Symmetric; [`Composed`](super::Composed) raises the order, and keeps what is kept. Not symplectic. Forces of any other kind are
+/// Symmetric; [`Composed`](crate::integrate::Composed) raises the order, and keeps what is kept. Not symplectic. Forces of any other kind are
 /// taken at the mean velocity of the step: their work over the step is that of their mean. Run it in the momentum form, or by
-/// [`Compensated`](super::Compensated), where every digit of a long run counts.
+/// [`Compensated`](crate::integrate::Compensated), where every digit of a long run counts.
 ///
 /// z₁ is found by fixed-point iteration down to rounding; beyond a turn of about 2 rad in a step, less for slender bodies, that ends with
 /// [`IntegrationErrorKind::NotConverged`]. Other charts, where momenta are not those of the group, are refused when the

@@ -11,8 +11,8 @@ use crate::system::GaussSystem;
 /// The increments of a system's configuration.
 pub type TangentOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
-/// Where the values of the input come from during a run: a closure ([`Simulation::input`](super::Simulation::input)), or a type
-/// of your own ([`Simulation::input_from`](super::Simulation::input_from)). It is asked at every stage of every step, also of
+/// Where the values of the input come from during a run: a closure ([`Simulation::input`](crate::integrate::Simulation::input)), or a type
+/// of your own ([`Simulation::input_from`](crate::integrate::Simulation::input_from)). It is asked at every stage of every step, also of
 /// steps that are rejected: the answer should depend on the arguments only, and smoothly.
 ///
 #[cfg_attr(
@@ -137,7 +137,7 @@ macro_rules! copy_and_debug {
         }
     };
 }
-pub(super) use copy_and_debug;
+pub(in crate::integrate) use copy_and_debug;
 
 copy_and_debug!(Rates { configuration, variables });
 copy_and_debug!(State { t, q, y });

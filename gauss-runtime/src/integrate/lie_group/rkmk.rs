@@ -4,11 +4,11 @@
 //! its order (Munthe-Kaas 1999). Each step starts again at σ = 0, far from the singularity of dexp⁻¹ at 2π. On ℝⁿ exp is
 //! addition and dexp⁻¹ the identity: the method is the Runge–Kutta method itself, operation by operation.
 
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
-use super::tableau::{Rational, Tableau, estimate_order};
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::runge_kutta::tableau::{Rational, Tableau, estimate_order};
+use crate::integrate::step::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -186,7 +186,7 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Rkmk<Sys::Scalar, 
 /// Refuses steps that touch a singularity of the coordinates or pass over one: they would go on with numbers that mean
 /// nothing. At a regularity of √ε velocities have lost half of their digits.
 #[inline(always)]
-pub(super) fn check_chart<S: GaussSystem, F, I>(
+pub(in crate::integrate) fn check_chart<S: GaussSystem, F, I>(
     problem: &Problem<'_, S, F, I>,
     start: &State<S>,
     end: &State<S>,
@@ -228,13 +228,13 @@ fn add_quotient<T: Real, V: VectorSpace<T>>(sum: &mut V, factor: T, divisor: T, 
 
 /// Refuses rotations beyond half a turn. A NaN passes here and is caught at the end of the step.
 #[inline(always)]
-pub(super) fn check_increment<S: GaussSystem>(increment: &Rates<S>) -> Result<(), IntegrationErrorKind> {
+pub(in crate::integrate) fn check_increment<S: GaussSystem>(increment: &Rates<S>) -> Result<(), IntegrationErrorKind> {
     check_turn::<S>(&increment.configuration)
 }
 
 /// [`check_increment`] of the increment of a configuration.
 #[inline(always)]
-pub(super) fn check_turn<S: GaussSystem>(increment: &TangentOf<S>) -> Result<(), IntegrationErrorKind> {
+pub(in crate::integrate) fn check_turn<S: GaussSystem>(increment: &TangentOf<S>) -> Result<(), IntegrationErrorKind> {
     let angle = S::Configuration::increment_angle(increment);
     if angle > core::f64::consts::PI && angle.is_finite() {
         Err(IntegrationErrorKind::IncrementTooLarge { angle })

@@ -1,15 +1,15 @@
-//! Methods and forms that are chosen at run time, as [`Simulation::tune`](super::Simulation::tune) does.
+//! Methods and forms that are chosen at run time, as [`Simulation::tune`](crate::integrate::Simulation::tune) does.
 
 use core::fmt;
 
-use super::collocation::Collocation;
-use super::commutator_free::CommutatorFree4;
-use super::composition::{Composed, Composition};
-use super::control::{Adaptive, Control, Emit, Fixed};
-use super::error::{IntegrationError, IntegrationErrorKind};
-use super::form::{Form, InputSource, MomentumForm, Problem, Rates, State, VelocityForm};
-use super::runge_kutta::RungeKutta;
-use super::tableau::{Classical4, DormandPrince5, DormandPrince8, Verner9};
+use crate::integrate::drive::control::{Adaptive, Control, Emit, Fixed};
+use crate::integrate::lie_group::commutator_free::CommutatorFree4;
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::form::{Form, InputSource, MomentumForm, Problem, Rates, State, VelocityForm};
+use crate::integrate::runge_kutta::components::RungeKutta;
+use crate::integrate::runge_kutta::tableau::{Classical4, DormandPrince5, DormandPrince8, Verner9};
+use crate::integrate::structure::collocation::Collocation;
+use crate::integrate::structure::composition::{Composed, Composition};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -65,9 +65,9 @@ pub enum Method<T> {
     },
 }
 
-/// What [`Simulation::tune`](super::Simulation::tune) varies in a method.
+/// What [`Simulation::tune`](crate::integrate::Simulation::tune) varies in a method.
 #[cfg(feature = "alloc")]
-pub(super) enum Family<T> {
+pub(in crate::integrate) enum Family<T> {
     /// The length of its steps, with whose power `order` the error goes.
     Steps { order: u32, of: fn(T) -> Method<T> },
     /// Its relative and absolute tolerance, which the error is proportional to.
@@ -76,9 +76,9 @@ pub(super) enum Family<T> {
 
 #[cfg(feature = "alloc")]
 impl<T> Method<T> {
-    /// All that [`Simulation::tune`](super::Simulation::tune) tries, the likely ones first: what they take bounds the search among the
+    /// All that [`Simulation::tune`](crate::integrate::Simulation::tune) tries, the likely ones first: what they take bounds the search among the
     /// rest.
-    pub(super) const FAMILIES: [Family<T>; 8] = [
+    pub(in crate::integrate) const FAMILIES: [Family<T>; 8] = [
         Family::Tolerances { of: |relative, absolute| Self::DormandPrince8 { relative, absolute } },
         Family::Tolerances { of: |relative, absolute| Self::Verner9 { relative, absolute } },
         Family::Tolerances { of: |relative, absolute| Self::DormandPrince5 { relative, absolute } },

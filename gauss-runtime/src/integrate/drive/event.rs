@@ -7,14 +7,14 @@
 //!
 //! **What is not seen.** A function that has the same sign at both ends of a step has no event there: two zeros within one
 //! step, and a zero that is touched without being crossed, pass unnoticed (unless a step happens to end on it). Bound the steps
-//! where that matters ([`Simulation::largest_step`](super::Simulation::largest_step)), or watch the derivative instead: a
+//! where that matters ([`Simulation::largest_step`](crate::integrate::Simulation::largest_step)), or watch the derivative instead: a
 //! function grazes zero where its derivative passes through it.
 
 use core::ops::ControlFlow;
 
-use super::control::Control;
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State};
+use crate::integrate::drive::control::Control;
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -88,7 +88,7 @@ pub struct Watched<E, G> {
 }
 
 impl<E, G> Watched<E, G> {
-    pub(super) fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
+    pub(in crate::integrate) fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
         Self { others, function, mark: Mark { crossing, terminal, value: 0.0, part: None } }
     }
 }
@@ -108,10 +108,10 @@ where
 }
 
 /// Looks for events at the start of a run and within its steps.
-pub(super) struct Watch<'a, 'k, S: GaussSystem, F, I, C, E> {
-    pub(super) control: &'a C,
-    pub(super) problem: &'a Problem<'k, S, F, I>,
-    pub(super) events: E,
+pub(in crate::integrate) struct Watch<'a, 'k, S: GaussSystem, F, I, C, E> {
+    pub(in crate::integrate) control: &'a C,
+    pub(in crate::integrate) problem: &'a Problem<'k, S, F, I>,
+    pub(in crate::integrate) events: E,
 }
 
 impl<S, F, I, C, E> Watch<'_, '_, S, F, I, C, E>
@@ -123,7 +123,7 @@ where
     E: Events<S>,
 {
     /// Takes the values at the start.
-    pub(super) fn begin(&mut self, start: &State<S>) -> Result<(), IntegrationErrorKind> {
+    pub(in crate::integrate) fn begin(&mut self, start: &State<S>) -> Result<(), IntegrationErrorKind> {
         let problem = self.problem;
         let mut outcome = Ok(());
         self.events.each(&mut |function, mark| match value(problem, function, start) {
@@ -135,7 +135,7 @@ where
 
     /// Reports the events of a step, with their numbers, in the order in which they happen. Breaks with the state at which
     /// the run is to end.
-    pub(super) fn step(
+    pub(in crate::integrate) fn step(
         &mut self,
         before: &State<S>,
         rates: &Rates<S>,

@@ -2,15 +2,15 @@
 
 use core::ops::ControlFlow;
 
-use super::error::{IntegrationError, IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{EstimatingStep, OneStep};
-use super::projection::{accept, consistent_start, on_constraints};
-use super::rkmk::Rkmk;
-use super::runge_kutta::RungeKutta;
-use super::step_length::{StepLength, power};
-use super::tableau::{DormandPrince8, Tableau};
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::projection::{accept, consistent_start, on_constraints};
+use crate::integrate::drive::step_length::{StepLength, power};
+use crate::integrate::lie_group::rkmk::Rkmk;
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
+use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::runge_kutta::components::RungeKutta;
+use crate::integrate::runge_kutta::tableau::{DormandPrince8, Tableau};
+use crate::integrate::step::one_step::{EstimatingStep, OneStep};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -54,7 +54,7 @@ pub trait Control<S: GaussSystem> {
 }
 
 /// One step by a method, brought onto the constraints where there are any.
-pub(super) fn one_step<S: GaussSystem, M: OneStep<S>, F: Form<S>, I: InputSource<S>>(
+pub(in crate::integrate) fn one_step<S: GaussSystem, M: OneStep<S>, F: Form<S>, I: InputSource<S>>(
     method: &M,
     problem: &Problem<'_, S, F, I>,
     state: &State<S>,
@@ -103,8 +103,8 @@ pub struct Adaptive<M = RungeKutta<DormandPrince8, 12>> {
     method: M,
     relative: f64,
     absolute: f64,
-    pub(super) first_step: Option<f64>,
-    pub(super) largest_step: f64,
+    pub(in crate::integrate) first_step: Option<f64>,
+    pub(in crate::integrate) largest_step: f64,
 }
 
 impl Adaptive {
@@ -137,7 +137,7 @@ impl<M> Adaptive<M> {
 }
 
 /// Refuses tolerances that are negative, not finite, or both zero.
-pub(super) fn check_tolerances(relative: f64, absolute: f64) -> Result<(), IntegrationErrorKind> {
+pub(in crate::integrate) fn check_tolerances(relative: f64, absolute: f64) -> Result<(), IntegrationErrorKind> {
     let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
     if usable(relative) && usable(absolute) && relative + absolute > 0.0 {
         Ok(())
@@ -168,7 +168,7 @@ pub(crate) fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
 }
 
 /// The end of a step, and the derivatives there where they came with it.
-pub(super) type Advanced<S> = (State<S>, Option<Rates<S>>);
+pub(in crate::integrate) type Advanced<S> = (State<S>, Option<Rates<S>>);
 
 /// How many steps of a length fill a span of time. A remainder of a few roundings of the count is that of the length and of the
 /// ends, not a step.
@@ -181,7 +181,7 @@ pub(crate) fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
 
 /// Steps of length |length|, the last one ending where it should, each made by `advance`.
 #[inline]
-pub(super) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
+pub(in crate::integrate) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
     length: S::Scalar,
     problem: &Problem<'_, S, F, I>,
     start: State<S>,

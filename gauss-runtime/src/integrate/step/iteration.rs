@@ -1,6 +1,6 @@
 //! When an iteration of an implicit step has come to its end.
 
-use super::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
 use crate::real::Real;
 
 /// Sweeps after which an iteration is given up: 53 gain a binary digit each, and where a sweep gains less a shorter step is
@@ -15,7 +15,7 @@ const IDLE_SWEEPS: u32 = 4;
 const FAR: f64 = 0.1;
 
 /// Follows how much the sweeps of an iteration change, relative to the size of the state.
-pub(super) struct Progress {
+pub(in crate::integrate) struct Progress {
     sweeps: u32,
     least: f64,
     last: f64,
@@ -23,7 +23,7 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub(super) fn new() -> Self {
+    pub(in crate::integrate) fn new() -> Self {
         Self { sweeps: 0, least: f64::INFINITY, last: 0.0, idle: 0 }
     }
 
@@ -33,7 +33,7 @@ impl Progress {
     /// much, [`IntegrationErrorKind::NotConverged`].
     ///
     /// To rounding, and until that gets no better: an iteration that stops earlier leaves an error of one sign.
-    pub(super) fn finished<T: Real>(&mut self, residual: f64) -> Result<bool, IntegrationErrorKind> {
+    pub(in crate::integrate) fn finished<T: Real>(&mut self, residual: f64) -> Result<bool, IntegrationErrorKind> {
         self.sweeps += 1;
         if !residual.is_finite() {
             // What the iteration itself has driven out of range is no fault of the equations: it ran away.
@@ -60,13 +60,13 @@ impl Progress {
 }
 
 /// The larger one; NaN where one of them is.
-pub(super) fn worst(a: f64, b: f64) -> f64 {
+pub(in crate::integrate) fn worst(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
 
 /// The largest change between two numbers over their lanes, relative to a size. Nothing changes by what is nothing beside it,
 /// also where the size is 0.
-pub(super) fn relative_change<T: Real>(old: T, new: T, size: f64) -> f64 {
+pub(in crate::integrate) fn relative_change<T: Real>(old: T, new: T, size: f64) -> f64 {
     (0..T::LANES).fold(0.0, |result, lane| {
         let difference = (new.lane(lane) - old.lane(lane)).abs();
         worst(result, if difference == 0.0 { 0.0 } else { difference / size })

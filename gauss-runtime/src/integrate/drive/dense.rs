@@ -2,15 +2,15 @@
 
 use core::ops::Deref;
 
-use super::control::Control;
-use super::error::{IntegrationError, IntegrationErrorKind};
-use super::form::{Form, InputSource, Problem, State};
-use super::simulation::sample_of;
-use super::trajectory::{Sample, Trajectory};
+use crate::integrate::drive::control::Control;
+use crate::integrate::drive::simulation::sample_of;
+use crate::integrate::drive::trajectory::{Sample, Trajectory};
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::form::{Form, InputSource, Problem, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// A trajectory together with what made it: see [`Simulation::run_dense`](super::Simulation::run_dense). All that a [`Trajectory`]
+/// A trajectory together with what made it: see [`Simulation::run_dense`](crate::integrate::Simulation::run_dense). All that a [`Trajectory`]
 /// does it does too; what differs is how [`at`](Self::at) finds a state between samples.
 #[derive(Debug)]
 pub struct Dense<'k, S: GaussSystem, F, I, C> {
@@ -36,7 +36,12 @@ where
     I: InputSource<S>,
     C: Control<S>,
 {
-    pub(super) fn new(trajectory: Trajectory<S>, problem: Problem<'k, S, F, I>, control: C, every_step: bool) -> Self {
+    pub(in crate::integrate) fn new(
+        trajectory: Trajectory<S>,
+        problem: Problem<'k, S, F, I>,
+        control: C,
+        every_step: bool,
+    ) -> Self {
         Self { trajectory, problem, control, every_step }
     }
 

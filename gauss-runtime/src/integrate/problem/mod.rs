@@ -1,0 +1,4 @@
+//! What is integrated: a system in one of two forms, under an input; states, their derivatives, and what can go wrong.
+
+pub mod error;
+pub mod form;
