@@ -35,14 +35,16 @@ pub use drive::event::Crossing;
 #[cfg(feature = "alloc")]
 pub(crate) use drive::projection::accept;
 pub use drive::simulation::{Observer, Simulation};
-pub use drive::trajectory::Sample;
 #[cfg(feature = "alloc")]
 pub use drive::trajectory::{EventSample, Trajectory};
 pub use lie_group::commutator_free::CommutatorFree4;
 pub use lie_group::discrete::DiscreteLinearization;
 pub use lie_group::rkmk::Rkmk;
+pub use problem::equations::{Problem, SystemProblem};
 pub use problem::error::{IntegrationError, IntegrationErrorKind, Part};
-pub use problem::form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
+pub use problem::form::{Form, MomentumForm, VelocityForm};
+pub use problem::input::{Feedback, InputSource, NoInput};
+pub use problem::state::{Rates, Sample, State};
 pub use rosenbrock::Rosenbrock;
 pub use runge_kutta::components::RungeKutta;
 pub use runge_kutta::tableau::{Classical4, Coefficients, DormandPrince5, DormandPrince8, Tableau, Verner9};

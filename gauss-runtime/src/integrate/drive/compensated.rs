@@ -9,10 +9,12 @@
 
 use crate::configuration::{Configuration, VectorSpace, add_carrying};
 use crate::integrate::drive::control::{Control, Emit, one_step, steps_of_one_length};
-use crate::integrate::lie_group::rkmk::{Rkmk, check_chart};
+use crate::integrate::lie_group::rkmk::Rkmk;
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::Tableau;
+use crate::integrate::step::checks::check_chart;
 use crate::integrate::step::one_step::IncrementStep;
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -43,9 +45,9 @@ impl<T: Real, M> Compensated<T, M> {
 }
 
 impl<S: GaussSystem, M: IncrementStep<S>> Control<S> for Compensated<S::Scalar, M> {
-    fn drive<F: Form<S>, I: InputSource<S>>(
+    fn drive<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
@@ -58,7 +60,7 @@ impl<S: GaussSystem, M: IncrementStep<S>> Control<S> for Compensated<S::Scalar, 
             let (y, rest) = add_carrying(&state.y, &increment.variables, &carried.variables);
             carried.variables = rest;
             let end = State { t: state.t + h, q, y };
-            check_chart(problem, state, &end)?;
+            check_chart(problem.system(), state, &end)?;
             if !(end.q.is_finite() && end.y.is_finite()) {
                 return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
             }
@@ -66,9 +68,9 @@ impl<S: GaussSystem, M: IncrementStep<S>> Control<S> for Compensated<S::Scalar, 
         })
     }
 
-    fn within<F: Form<S>, I: InputSource<S>>(
+    fn within<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,

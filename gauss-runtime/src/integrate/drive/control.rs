@@ -6,8 +6,9 @@ use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::projection::{accept, consistent_start, on_constraints};
 use crate::integrate::drive::step_length::{StepLength, power};
 use crate::integrate::lie_group::rkmk::Rkmk;
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::components::RungeKutta;
 use crate::integrate::runge_kutta::tableau::{DormandPrince8, Tableau};
 use crate::integrate::step::one_step::{EstimatingStep, OneStep};
@@ -25,9 +26,9 @@ pub trait Control<S: GaussSystem> {
     ///
     /// # Errors
     /// An [`IntegrationError`] with the time of the last state emitted.
-    fn drive<F: Form<S>, I: InputSource<S>>(
+    fn drive<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
@@ -40,9 +41,9 @@ pub trait Control<S: GaussSystem> {
     ///
     /// # Errors
     /// When the step cannot be made.
-    fn within<F: Form<S>, I: InputSource<S>>(
+    fn within<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,
@@ -54,9 +55,9 @@ pub trait Control<S: GaussSystem> {
 }
 
 /// One step by a method, brought onto the constraints where there are any.
-pub(in crate::integrate) fn one_step<S: GaussSystem, M: OneStep<S>, F: Form<S>, I: InputSource<S>>(
+pub(in crate::integrate) fn one_step<S: GaussSystem, M: OneStep<S>, P: Problem<System = S>>(
     method: &M,
-    problem: &Problem<'_, S, F, I>,
+    problem: &P,
     state: &State<S>,
     rates: &Rates<S>,
     h: S::Scalar,
@@ -148,8 +149,8 @@ pub(in crate::integrate) fn check_tolerances(relative: f64, absolute: f64) -> Re
 
 /// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the first
 /// step.
-pub(crate) fn prepare<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
-    problem: &Problem<'_, S, F, I>,
+pub(crate) fn prepare<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
     start: &State<S>,
     end: S::Scalar,
 ) -> Result<(f64, State<S>, Rates<S>), IntegrationErrorKind> {
@@ -181,9 +182,9 @@ pub(crate) fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
 
 /// Steps of length |length|, the last one ending where it should, each made by `advance`.
 #[inline]
-pub(in crate::integrate) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
+pub(in crate::integrate) fn steps_of_one_length<S: GaussSystem, P: Problem<System = S>>(
     length: S::Scalar,
-    problem: &Problem<'_, S, F, I>,
+    problem: &P,
     start: State<S>,
     end: S::Scalar,
     limit: u64,
@@ -224,9 +225,9 @@ pub(in crate::integrate) fn steps_of_one_length<S: GaussSystem, F: Form<S>, I: I
 }
 
 impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
-    fn drive<F: Form<S>, I: InputSource<S>>(
+    fn drive<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
@@ -237,9 +238,9 @@ impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
         })
     }
 
-    fn within<F: Form<S>, I: InputSource<S>>(
+    fn within<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,
@@ -249,9 +250,9 @@ impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
 }
 
 impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
-    fn drive<F: Form<S>, I: InputSource<S>>(
+    fn drive<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
@@ -323,9 +324,9 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }))
     }
 
-    fn within<F: Form<S>, I: InputSource<S>>(
+    fn within<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,
@@ -383,17 +384,10 @@ impl<M> Adaptive<M> {
 
     /// A first step from the sizes of the state, of its derivative and of the change of the derivative over an Euler step
     /// (Hairer, Nørsett & Wanner, II.4).
-    fn first_length<S, F, I>(
-        &self,
-        problem: &Problem<'_, S, F, I>,
-        start: &State<S>,
-        rates: &Rates<S>,
-        direction: f64,
-    ) -> f64
+    fn first_length<S, P>(&self, problem: &P, start: &State<S>, rates: &Rates<S>, direction: f64) -> f64
     where
         S: GaussSystem,
-        F: Form<S>,
-        I: InputSource<S>,
+        P: Problem<System = S>,
         M: EstimatingStep<S>,
     {
         let size = {
@@ -462,6 +456,7 @@ mod tests {
 
     use super::*;
     use crate::integrate::{Classical4, DormandPrince5, Feedback, Simulation, VelocityForm, Verner9};
+    use crate::integrate::{InputSource, SystemProblem};
     use crate::testing::FreeTop;
     use crate::testing::order::{TOP, TORQUE, distance, fitted_order, march, start_by_velocity};
 
@@ -483,7 +478,7 @@ mod tests {
     fn estimates_go_with_the_power_that_the_control_takes() {
         fn measured(method: impl EstimatingStep<FreeTop<f64>>) -> (f64, f64) {
             let control = Adaptive::by(method, 0.0, 1.0);
-            let problem = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+            let problem = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
             let points = [0.05, 0.065, 0.08, 0.1].map(|h| {
                 let mut start: State<FreeTop<f64>> = start_by_velocity();
                 let mut sum = 0.0;
@@ -520,7 +515,7 @@ mod tests {
                 count.set(count.get() + 1);
                 InputSource::<FreeTop<f64>>::input(&TORQUE, t, q, z)
             });
-            let problem = Problem { system: &TOP, form: VelocityForm, input };
+            let problem = SystemProblem { system: &TOP, form: VelocityForm, input };
             let nobody = &mut |_: &State<_>, _: &Rates<_>| ControlFlow::Continue(());
             let run = Fixed::by(method, 0.1).drive(&problem, start_by_velocity(), 2.0, u64::from(STEPS), nobody);
             run.expect("runs");
@@ -541,7 +536,7 @@ mod tests {
             let run = Simulation::new(&TOP).input_from(TORQUE).control(control).run(start.q, start.y, 0.0..10.0);
             let run = run.expect("runs");
             let end = run.last();
-            let problem = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+            let problem = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
             let exact = march(&Rkmk::new(&Tableau::VERNER_9), &problem, &start, 10.0, 1000);
             let steps = run.len() - 1;
             (distance(&State { t: end.t, q: end.q, y: end.z }, &exact), steps, steps * stages)

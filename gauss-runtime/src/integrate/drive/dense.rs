@@ -3,45 +3,39 @@
 use core::ops::Deref;
 
 use crate::integrate::drive::control::Control;
-use crate::integrate::drive::simulation::sample_of;
-use crate::integrate::drive::trajectory::{Sample, Trajectory};
+use crate::integrate::drive::trajectory::Trajectory;
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
-use crate::integrate::problem::form::{Form, InputSource, Problem, State};
+use crate::integrate::problem::state::{Sample, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// A trajectory together with what made it: see [`Simulation::run_dense`](crate::integrate::Simulation::run_dense). All that a [`Trajectory`]
 /// does it does too; what differs is how [`at`](Self::at) finds a state between samples.
 #[derive(Debug)]
-pub struct Dense<'k, S: GaussSystem, F, I, C> {
-    trajectory: Trajectory<S>,
-    problem: Problem<'k, S, F, I>,
+pub struct Dense<P: Problem, C> {
+    trajectory: Trajectory<P::System>,
+    problem: P,
     control: C,
     /// Whether neighbouring samples are one step apart.
     every_step: bool,
 }
 
-impl<S: GaussSystem, F, I, C> Deref for Dense<'_, S, F, I, C> {
-    type Target = Trajectory<S>;
+impl<P: Problem, C> Deref for Dense<P, C> {
+    type Target = Trajectory<P::System>;
 
-    fn deref(&self) -> &Trajectory<S> {
+    fn deref(&self) -> &Trajectory<P::System> {
         &self.trajectory
     }
 }
 
-impl<'k, S, F, I, C> Dense<'k, S, F, I, C>
+impl<S, P, C> Dense<P, C>
 where
     S: GaussSystem,
-    F: Form<S>,
-    I: InputSource<S>,
+    P: Problem<System = S>,
     C: Control<S>,
 {
-    pub(in crate::integrate) fn new(
-        trajectory: Trajectory<S>,
-        problem: Problem<'k, S, F, I>,
-        control: C,
-        every_step: bool,
-    ) -> Self {
+    pub(in crate::integrate) fn new(trajectory: Trajectory<S>, problem: P, control: C, every_step: bool) -> Self {
         Self { trajectory, problem, control, every_step }
     }
 
@@ -55,10 +49,7 @@ where
     /// [`IntegrationErrorKind::OutsideRun`] when the run does not cover `t`, else what the step says.
     pub fn at(&self, t: S::Scalar) -> Result<Sample<S>, IntegrationError> {
         let problem = &self.problem;
-        let state_of = |sample: &Sample<S>| {
-            let y = problem.form.variables(problem.system, sample.t, &sample.q, &sample.z);
-            State { t: sample.t, q: sample.q, y }
-        };
+        let state_of = |sample: &Sample<S>| problem.state(sample.t, sample.q, &sample.z);
         let Some(after) = self.trajectory.knot_from(t) else {
             let kind = IntegrationErrorKind::OutsideRun { time: t.lane(0) };
             return Err(IntegrationError::at(problem, &state_of(self.trajectory.last()), kind));
@@ -71,11 +62,11 @@ where
         let state = state_of(from);
         if !self.every_step {
             let nobody = &mut |_: &State<S>, _: &_| core::ops::ControlFlow::Continue(());
-            return self.control.drive(problem, state, t, u64::MAX, nobody).map(|end| sample_of(problem, &end));
+            return self.control.drive(problem, state, t, u64::MAX, nobody).map(|end| problem.sample(&end));
         }
         let reached = self.control.within(problem, &state, &problem.rates(&state), t - state.t);
         match reached {
-            Ok(end) => Ok(sample_of(problem, &State { t, ..end })),
+            Ok(end) => Ok(problem.sample(&State { t, ..end })),
             Err(kind) => Err(IntegrationError::at(problem, &state, kind)),
         }
     }

@@ -13,8 +13,9 @@
 use core::ops::ControlFlow;
 
 use crate::integrate::drive::control::Control;
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
+use crate::integrate::problem::state::{Rates, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -108,17 +109,16 @@ where
 }
 
 /// Looks for events at the start of a run and within its steps.
-pub(in crate::integrate) struct Watch<'a, 'k, S: GaussSystem, F, I, C, E> {
+pub(in crate::integrate) struct Watch<'a, P, C, E> {
     pub(in crate::integrate) control: &'a C,
-    pub(in crate::integrate) problem: &'a Problem<'k, S, F, I>,
+    pub(in crate::integrate) problem: &'a P,
     pub(in crate::integrate) events: E,
 }
 
-impl<S, F, I, C, E> Watch<'_, '_, S, F, I, C, E>
+impl<S, P, C, E> Watch<'_, P, C, E>
 where
     S: GaussSystem,
-    F: Form<S>,
-    I: InputSource<S>,
+    P: Problem<System = S>,
     C: Control<S>,
     E: Events<S>,
 {
@@ -204,12 +204,12 @@ where
 }
 
 /// The first lane of an event's function.
-fn value<S: GaussSystem, F: Form<S>, I>(
-    problem: &Problem<'_, S, F, I>,
+fn value<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
     function: Function<'_, S>,
     state: &State<S>,
 ) -> Result<f64, IntegrationErrorKind> {
-    let z = problem.form.speeds(problem.system, state.t, &state.q, &state.y);
+    let z = problem.speeds(state.t, &state.q, &state.y);
     let value = function(state.t, &state.q, &z).lane(0);
     if value.is_finite() { Ok(value) } else { Err(IntegrationErrorKind::NonFinite { part: Part::Event }) }
 }

@@ -8,4 +8,5 @@ pub mod event;
 pub(in crate::integrate) mod projection;
 pub mod simulation;
 pub(in crate::integrate) mod step_length;
+#[cfg(feature = "alloc")]
 pub mod trajectory;

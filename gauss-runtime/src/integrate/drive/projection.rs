@@ -6,16 +6,17 @@
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::constraint::ConstraintLevel;
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
+use crate::integrate::problem::state::{Rates, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// Brings the end of an accepted step onto the constraints, where there are any, and gives the derivatives there. Those that
 /// came with the step belong to its end before it was projected, and serve without constraints only.
 #[inline(always)]
-pub(crate) fn accept<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
-    problem: &Problem<'_, S, F, I>,
+pub(crate) fn accept<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
     state: &mut State<S>,
     known: Option<Rates<S>>,
 ) -> Result<Rates<S>, IntegrationErrorKind> {
@@ -29,14 +30,14 @@ pub(crate) fn accept<S: GaussSystem, F: Form<S>, I: InputSource<S>>(
 }
 
 /// The state of a constrained system brought onto its constraints.
-pub(in crate::integrate) fn on_constraints<S: GaussSystem, F: Form<S>, I>(
-    problem: &Problem<'_, S, F, I>,
+pub(in crate::integrate) fn on_constraints<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
     state: &State<S>,
 ) -> Result<State<S>, IntegrationErrorKind> {
-    let (system, State { t, q, y }) = (problem.system, *state);
-    let z = problem.form.speeds(system, t, &q, &y);
+    let (system, State { t, q, y }) = (problem.system(), *state);
+    let z = problem.speeds(t, &q, &y);
     let (q, z) = system.project(t, &q, &z).map_err(|error| IntegrationErrorKind::Projection { error })?;
-    Ok(State { t, q, y: problem.form.variables(system, t, &q, &z) })
+    Ok(State { t, q, y: problem.variables(t, &q, &z) })
 }
 
 /// The initial state, rid of the rounding of what was typed; an error when it is not on the constraints otherwise.
@@ -45,15 +46,15 @@ pub(in crate::integrate) fn on_constraints<S: GaussSystem, F: Form<S>, I>(
 /// constraints in half of the digits was meant to satisfy them, and with less than half it is another state, which nobody
 /// asked to run from. Beside it 64 ε are allowed for numbers of order 1 that cancel where the state itself is zero.
 #[inline(always)]
-pub(in crate::integrate) fn consistent_start<S: GaussSystem, F: Form<S>, I>(
-    problem: &Problem<'_, S, F, I>,
+pub(in crate::integrate) fn consistent_start<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
     start: &State<S>,
 ) -> Result<State<S>, IntegrationErrorKind> {
     if !S::CONSTRAINED {
         return Ok(*start);
     }
     let projected = on_constraints(problem, start)?;
-    let speeds = |state: &State<S>| problem.form.speeds(problem.system, state.t, &state.q, &state.y);
+    let speeds = |state: &State<S>| problem.speeds(state.t, &state.q, &state.y);
     let (given, nearest) = (speeds(start), speeds(&projected));
     let increment = start.q.difference(&projected.q);
     let components = <<S::Configuration as Configuration>::Tangent as VectorSpace<S::Scalar>>::DIM;

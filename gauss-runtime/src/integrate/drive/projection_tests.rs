@@ -5,8 +5,8 @@ use nalgebra::SVector;
 use std::string::ToString;
 use std::vec::Vec;
 
-use crate::integrate::*;
 use crate::constraint::{ConstrainedSystem, ConstraintLevel, ProjectionFailure};
+use crate::integrate::*;
 use crate::monitor::monitor;
 use crate::system::GaussSystem;
 use crate::testing::constrained::{GRAVITY, Hand, circle, line, on_both, pendulum, pendulum_by_angle, skate};
@@ -43,7 +43,7 @@ fn nothing_drifts_in_a_hundred_thousand_steps() {
 
     // Without projection the same method leaves the circle: there was something to keep.
     let method = Rkmk::new(&Tableau::RK4);
-    let problem = Problem { system: &system, form: VelocityForm, input: NoInput };
+    let problem = SystemProblem { system: &system, form: VelocityForm, input: NoInput };
     let mut state = State { t: 0.0, q, y: z };
     for _ in 0..10_000 {
         let rates = problem.rates(&state);
@@ -145,7 +145,7 @@ fn a_skate_on_an_incline_runs_along_a_cycloid() {
 fn derivatives_belong_to_the_projected_state() {
     // Those that come with a step of Dormand & Prince are taken before the projection.
     let system = pendulum::<f64>(2.0);
-    let problem = Problem { system: &system, form: VelocityForm, input: NoInput };
+    let problem = SystemProblem { system: &system, form: VelocityForm, input: NoInput };
     let (q, y) = swing();
     let mut seen = 0;
     let mut check = |state: &State<_>, rates: &Rates<_>| {

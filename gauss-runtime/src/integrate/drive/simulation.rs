@@ -7,13 +7,14 @@ use crate::integrate::drive::control::{Adaptive, Control, Fixed};
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::dense::Dense;
 use crate::integrate::drive::event::{Crossing, Events, NoEvents, Watch, Watched};
-use crate::integrate::drive::trajectory::Sample;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::trajectory::Trajectory;
+use crate::integrate::problem::equations::{Problem, SystemProblem};
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
-use crate::integrate::problem::form::{
-    Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm,
-};
+use crate::integrate::problem::form::{Form, MomentumForm};
+use crate::integrate::problem::input::{Feedback, InputSource};
+use crate::integrate::problem::state::{Rates, Sample, State};
+use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// Nothing is chosen yet; [`Simulation::fixed_step`] or [`Simulation::adaptive`] comes next.
@@ -87,10 +88,10 @@ assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
 /// Constraints that coordinates and speeds do not solve by themselves hold up to rounding in every sample, because each step
 /// ends with a projection ([`GaussSystem::project`]). Initial values must satisfy them as well, up to the rounding
 /// of what was typed.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 #[must_use = "a simulation does nothing before `run`"]
-pub struct Simulation<'k, S, F = VelocityForm, I = NoInput, C = Undecided, O = Unobserved, E = NoEvents> {
-    pub(in crate::integrate) problem: Problem<'k, S, F, I>,
+pub struct Simulation<P, C = Undecided, O = Unobserved, E = NoEvents> {
+    pub(in crate::integrate) problem: P,
     control: C,
     observer: O,
     events: E,
@@ -98,45 +99,34 @@ pub struct Simulation<'k, S, F = VelocityForm, I = NoInput, C = Undecided, O = U
     pub(in crate::integrate) limit: u64,
 }
 
-// Written by hand: the system is only borrowed, and need not be `Copy`.
-impl<S, F: Copy, I: Copy, C: Copy, O: Copy, E: Copy> Copy for Simulation<'_, S, F, I, C, O, E> {}
-
-impl<S, F: Clone, I: Clone, C: Clone, O: Clone, E: Clone> Clone for Simulation<'_, S, F, I, C, O, E> {
-    fn clone(&self) -> Self {
-        Self {
-            problem: self.problem.clone(),
-            control: self.control.clone(),
-            observer: self.observer.clone(),
-            events: self.events.clone(),
-            every: self.every,
-            limit: self.limit,
-        }
+impl<'k, S: GaussSystem> Simulation<SystemProblem<'k, S>> {
+    /// A run of a kernel, in velocity form and without inputs unless said otherwise.
+    pub fn new(system: &'k S) -> Self {
+        Self::of(SystemProblem::new(system))
     }
 }
 
-impl<'k, S: GaussSystem> Simulation<'k, S> {
-    /// A run of a kernel, in velocity form and without inputs unless said otherwise.
-    pub fn new(system: &'k S) -> Self {
-        let problem = Problem { system, form: VelocityForm, input: NoInput };
+impl<P> Simulation<P> {
+    /// A run of any [`Problem`](crate::integrate::Problem).
+    pub fn of(problem: P) -> Self {
         Self { problem, control: Undecided, observer: Unobserved, events: NoEvents, every: 1, limit: u64::MAX }
     }
 }
 
-impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E> {
+impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
     /// Which variables are integrated: [`VelocityForm`] or [`MomentumForm`].
-    pub fn form<G: Form<S>>(self, form: G) -> Simulation<'k, S, G, I, C, O, E> {
-        let Self { problem: Problem { system, input, .. }, control, observer, events, every, limit } = self;
-        Simulation { problem: Problem { system, form, input }, control, observer, events, every, limit }
+    pub fn form<G: Form<S>>(self, form: G) -> Simulation<SystemProblem<'k, S, G, I>, C, O, E> {
+        self.with_problem(|problem| problem.form(form))
     }
 
     /// Integrates momenta instead of quasi-velocities.
-    pub fn momentum_form(self) -> Simulation<'k, S, MomentumForm, I, C, O, E> {
+    pub fn momentum_form(self) -> Simulation<SystemProblem<'k, S, MomentumForm, I>, C, O, E> {
         self.form(MomentumForm)
     }
 
     /// The input as a function of time and state. It is called at every stage of every step: it should depend on its
     /// arguments only, and smoothly.
-    pub fn input<G>(self, input: G) -> Simulation<'k, S, F, Feedback<G>, C, O, E>
+    pub fn input<G>(self, input: G) -> Simulation<SystemProblem<'k, S, F, Feedback<G>>, C, O, E>
     where
         G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input,
     {
@@ -144,38 +134,16 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E> {
     }
 
     /// The input from a type that implements [`InputSource`]: a controller with parameters of its own, or a table.
-    pub fn input_from<J: InputSource<S>>(self, input: J) -> Simulation<'k, S, F, J, C, O, E> {
-        let Self { problem: Problem { system, form, .. }, control, observer, events, every, limit } = self;
-        Simulation { problem: Problem { system, form, input }, control, observer, events, every, limit }
-    }
-
-    /// Steps of one length, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince); the last step is shortened to end
-    /// in time.
-    pub fn fixed_step(self, step: S::Scalar) -> Simulation<'k, S, F, I, Fixed<S::Scalar>, O, E> {
-        self.control(Fixed::new(step))
-    }
-
-    /// Steps as long as the tolerances allow, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince): see
-    /// [`Adaptive::new`].
-    pub fn adaptive(self, relative: f64, absolute: f64) -> Simulation<'k, S, F, I, Adaptive, O, E> {
-        self.control(Adaptive::new(relative, absolute))
-    }
-
-    /// Any method with its choice of steps.
-    pub fn control<D: Control<S>>(self, control: D) -> Simulation<'k, S, F, I, D, O, E> {
-        let Self { problem, observer, events, every, limit, .. } = self;
-        Simulation { problem, control, observer, events, every, limit }
+    pub fn input_from<J: InputSource<S>>(self, input: J) -> Simulation<SystemProblem<'k, S, F, J>, C, O, E> {
+        self.with_problem(|problem| problem.input_from(input))
     }
 
     /// Calls a function with every sample as it comes.
-    pub fn observe<G: FnMut(&Sample<S>)>(self, observer: G) -> Simulation<'k, S, F, I, C, Callback<G>, E> {
+    pub fn observe<G: FnMut(&Sample<S>)>(
+        self,
+        observer: G,
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, Callback<G>, E> {
         self.observe_by(Callback(observer))
-    }
-
-    /// Shows every sample, and every event, to a type that implements [`Observer`].
-    pub fn observe_by<P: Observer<S>>(self, observer: P) -> Simulation<'k, S, F, I, C, P, E> {
-        let Self { problem, control, events, every, limit, .. } = self;
-        Simulation { problem, control, observer, events, every, limit }
     }
 
     /// Finds the states in which a function of time and state, of its first lane where numbers are packs, passes through
@@ -226,7 +194,11 @@ assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
 ```
 "##
     )]
-    pub fn event<G>(self, crossing: Crossing, function: G) -> Simulation<'k, S, F, I, C, O, Watched<E, G>>
+    pub fn event<G>(
+        self,
+        crossing: Crossing,
+        function: G,
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G>>
     where
         G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
     {
@@ -237,16 +209,40 @@ assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
     ///
     /// The state is at zero or beyond it, by rounding. To go on from there with another velocity, as after an impact, ask for
     /// the one direction in which the function is to pass.
-    pub fn until<G>(self, crossing: Crossing, function: G) -> Simulation<'k, S, F, I, C, O, Watched<E, G>>
+    pub fn until<G>(
+        self,
+        crossing: Crossing,
+        function: G,
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G>>
     where
         G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
     {
         self.watch(crossing, true, function)
     }
+}
 
-    fn watch<G>(self, crossing: Crossing, terminal: bool, function: G) -> Simulation<'k, S, F, I, C, O, Watched<E, G>> {
-        let Self { problem, control, observer, events, every, limit } = self;
-        let events = Watched::after(events, crossing, terminal, function);
+impl<P, C, O, E> Simulation<P, C, O, E> {
+    /// Steps of one length, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince); the last step is shortened to end
+    /// in time.
+    pub fn fixed_step<T: Real>(self, step: T) -> Simulation<P, Fixed<T>, O, E> {
+        self.control(Fixed::new(step))
+    }
+
+    /// Steps as long as the tolerances allow, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince): see
+    /// [`Adaptive::new`].
+    pub fn adaptive(self, relative: f64, absolute: f64) -> Simulation<P, Adaptive, O, E> {
+        self.control(Adaptive::new(relative, absolute))
+    }
+
+    /// Any method with its choice of steps: a [`Control`].
+    pub fn control<D>(self, control: D) -> Simulation<P, D, O, E> {
+        let Self { problem, observer, events, every, limit, .. } = self;
+        Simulation { problem, control, observer, events, every, limit }
+    }
+
+    /// Shows every sample, and every event, to a type that implements [`Observer`].
+    pub fn observe_by<Q>(self, observer: Q) -> Simulation<P, C, Q, E> {
+        let Self { problem, control, events, every, limit, .. } = self;
         Simulation { problem, control, observer, events, every, limit }
     }
 
@@ -261,9 +257,20 @@ assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
         self.limit = limit;
         self
     }
+
+    fn with_problem<Q>(self, change: impl FnOnce(P) -> Q) -> Simulation<Q, C, O, E> {
+        let Self { problem, control, observer, events, every, limit } = self;
+        Simulation { problem: change(problem), control, observer, events, every, limit }
+    }
+
+    fn watch<G>(self, crossing: Crossing, terminal: bool, function: G) -> Simulation<P, C, O, Watched<E, G>> {
+        let Self { problem, control, observer, events, every, limit } = self;
+        let events = Watched::after(events, crossing, terminal, function);
+        Simulation { problem, control, observer, events, every, limit }
+    }
 }
 
-impl<S: GaussSystem, F, I, O, E, M> Simulation<'_, S, F, I, Adaptive<M>, O, E> {
+impl<P, O, E, M> Simulation<P, Adaptive<M>, O, E> {
     /// The length of the first step, instead of an estimate.
     pub fn first_step(mut self, length: f64) -> Self {
         self.control.first_step = Some(length);
@@ -277,11 +284,10 @@ impl<S: GaussSystem, F, I, O, E, M> Simulation<'_, S, F, I, Adaptive<M>, O, E> {
     }
 }
 
-impl<'k, S, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E>
+impl<S, P, C, O, E> Simulation<P, C, O, E>
 where
     S: GaussSystem,
-    F: Form<S>,
-    I: InputSource<S>,
+    P: Problem<System = S>,
     C: Control<S>,
     O: Observer<S>,
     E: Events<S>,
@@ -328,7 +334,7 @@ where
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
-    ) -> Result<Dense<'k, S, F, I, C>, IntegrationError> {
+    ) -> Result<Dense<P, C>, IntegrationError> {
         let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, observer, events, every, limit } = self;
         let run = Run { control: &control, problem: &problem, every, limit };
@@ -356,27 +362,16 @@ where
             start,
             interval.end,
             &mut |seen| match seen {
-                Seen::Sample(state, _) => observer.see(&sample_of(problem, state)),
-                Seen::Event(number, state) => observer.event(number, &sample_of(problem, state)),
+                Seen::Sample(state, _) => observer.see(&problem.sample(state)),
+                Seen::Event(number, state) => observer.event(number, &problem.sample(state)),
             },
         )?;
-        Ok(sample_of(problem, &end))
+        Ok(problem.sample(&end))
     }
 
     fn start(&self, q0: S::Configuration, z0: &S::Speeds, t: S::Scalar) -> State<S> {
-        let q = q0.renormalise();
-        State { t, q, y: self.problem.form.variables(self.problem.system, t, &q, z0) }
+        self.problem.state(t, q0.renormalise(), z0)
     }
-}
-
-/// Both velocities and momenta of a state.
-pub(in crate::integrate) fn sample_of<S: GaussSystem, F: Form<S>, I>(
-    problem: &Problem<'_, S, F, I>,
-    state: &State<S>,
-) -> Sample<S> {
-    let State { t, q, y } = *state;
-    let z = problem.form.speeds(problem.system, t, &q, &y);
-    Sample { t, q, z, p: problem.form.momentum(problem.system, t, &q, &y) }
 }
 
 /// What a run passes on.
@@ -388,14 +383,14 @@ enum Seen<'a, S: GaussSystem> {
 }
 
 /// What stays the same during a run.
-struct Run<'a, 'k, S, F, I, C> {
+struct Run<'a, P, C> {
     control: &'a C,
-    problem: &'a Problem<'k, S, F, I>,
+    problem: &'a P,
     every: u64,
     limit: u64,
 }
 
-impl<S: GaussSystem, F: Form<S>, I: InputSource<S>, C: Control<S>> Run<'_, '_, S, F, I, C> {
+impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
     /// Keeps every sample and event.
     #[cfg(feature = "alloc")]
     fn keep<O: Observer<S>, E: Events<S>>(
@@ -406,17 +401,17 @@ impl<S: GaussSystem, F: Form<S>, I: InputSource<S>, C: Control<S>> Run<'_, '_, S
         end: S::Scalar,
     ) -> (Trajectory<S>, Option<IntegrationError>) {
         let problem = self.problem;
-        let mut trajectory = Trajectory::starting_with(sample_of(problem, &start));
+        let mut trajectory = Trajectory::starting_with(problem.sample(&start));
         let mut first = true;
         let outcome = self.drive(events, start, end, &mut |seen| match seen {
             Seen::Sample(state, rates) => {
-                let sample = sample_of(problem, state);
+                let sample = problem.sample(state);
                 trajectory.record(first, problem, &sample, state, rates);
                 observer.see(&sample);
                 first = false;
             }
             Seen::Event(number, state) => {
-                let sample = sample_of(problem, state);
+                let sample = problem.sample(state);
                 trajectory.record_event(number, sample);
                 observer.event(number, &sample);
             }

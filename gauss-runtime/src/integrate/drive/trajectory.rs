@@ -2,34 +2,15 @@
 
 use core::fmt;
 
-#[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 
-#[cfg(feature = "alloc")]
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::problem::form::copy_and_debug;
-#[cfg(feature = "alloc")]
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-#[cfg(feature = "alloc")]
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::state::{Rates, Sample, State, TangentOf, copy_and_debug};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// A state of the system: quasi-velocities and momenta both, whichever form was integrated.
-pub struct Sample<S: GaussSystem> {
-    /// Time.
-    pub t: S::Scalar,
-    /// Configuration.
-    pub q: S::Configuration,
-    /// Quasi-velocities.
-    pub z: S::Speeds,
-    /// Momenta p = ∂T/∂z.
-    pub p: S::Speeds,
-}
-
-copy_and_debug!(Sample { t, q, z, p });
-
 /// A sample with the derivatives that interpolation needs.
-#[cfg(feature = "alloc")]
 struct Knot<S: GaussSystem> {
     sample: Sample<S>,
     velocity: TangentOf<S>,
@@ -37,11 +18,9 @@ struct Knot<S: GaussSystem> {
     momentum_rate: S::Speeds,
 }
 
-#[cfg(feature = "alloc")]
 copy_and_debug!(Knot { sample, velocity, acceleration, momentum_rate });
 
 /// A state in which a function passed through zero: see [`Simulation::event`](crate::integrate::Simulation::event).
-#[cfg(feature = "alloc")]
 pub struct EventSample<S: GaussSystem> {
     /// Which event, counted from 0 in the order in which they were asked for.
     pub number: usize,
@@ -49,31 +28,26 @@ pub struct EventSample<S: GaussSystem> {
     pub sample: Sample<S>,
 }
 
-#[cfg(feature = "alloc")]
 copy_and_debug!(EventSample { number, sample });
 
 /// Samples in the order of integration, at least one; a continuous curve through them by [`at`](Self::at).
-#[cfg(feature = "alloc")]
 pub struct Trajectory<S: GaussSystem> {
     knots: Vec<Knot<S>>,
     events: Vec<EventSample<S>>,
 }
 
-#[cfg(feature = "alloc")]
 impl<S: GaussSystem> Clone for Trajectory<S> {
     fn clone(&self) -> Self {
         Self { knots: self.knots.clone(), events: self.events.clone() }
     }
 }
 
-#[cfg(feature = "alloc")]
 impl<S: GaussSystem> fmt::Debug for Trajectory<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.iter()).finish()
     }
 }
 
-#[cfg(feature = "alloc")]
 #[allow(clippy::len_without_is_empty)] // Never empty.
 impl<S: GaussSystem> Trajectory<S> {
     /// A trajectory of one sample, its derivatives not known.
@@ -85,16 +59,15 @@ impl<S: GaussSystem> Trajectory<S> {
     }
 
     /// Appends a sample; `first` replaces the one that the trajectory started with.
-    pub(in crate::integrate) fn record<F: Form<S>, I: InputSource<S>>(
+    pub(in crate::integrate) fn record<P: Problem<System = S>>(
         &mut self,
         first: bool,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         sample: &Sample<S>,
         state: &State<S>,
         rates: &Rates<S>,
     ) {
-        let (acceleration, momentum_rate) =
-            problem.form.both_rates(problem.system, &problem.input, state, &rates.variables);
+        let (acceleration, momentum_rate) = problem.both_rates(state, &rates.variables);
         if first {
             self.knots.clear();
         }
@@ -178,7 +151,6 @@ impl<S: GaussSystem> Trajectory<S> {
     }
 }
 
-#[cfg(feature = "alloc")]
 impl<'a, S: GaussSystem> IntoIterator for &'a Trajectory<S> {
     type Item = &'a Sample<S>;
     type IntoIter = alloc::boxed::Box<dyn Iterator<Item = &'a Sample<S>> + 'a>;
@@ -189,7 +161,6 @@ impl<'a, S: GaussSystem> IntoIterator for &'a Trajectory<S> {
 }
 
 /// The cubic between two knots.
-#[cfg(feature = "alloc")]
 fn hermite<S: GaussSystem>(left: &Knot<S>, right: &Knot<S>, t: S::Scalar) -> Sample<S> {
     let (one, two) = (S::Scalar::one(), S::Scalar::from_f64(2.0));
     let h = right.sample.t - left.sample.t;

@@ -1,9 +1,10 @@
 //! A commutator-free method: several exponentials instead of dexp⁻¹.
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::lie_group::rkmk::{check_chart, check_turn};
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::step::checks::{check_chart, check_turn};
 use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -29,15 +30,15 @@ impl<S: GaussSystem> OneStep<S> for CommutatorFree4 {
     /// coordinates ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined
     /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
-    fn step<F: Form<S>, I: InputSource<S>>(
+    fn step<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
         let end = Path::new(state, rates, h, |_, stage| problem.rates(stage))?.end;
-        check_chart(problem, state, &end)?;
+        check_chart(problem.system(), state, &end)?;
         // No stage has weight 0: what is not finite reaches the end.
         if !(end.q.is_finite() && end.y.is_finite()) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
@@ -117,6 +118,7 @@ mod tests {
     use nalgebra::SVector;
 
     use super::*;
+    use crate::integrate::SystemProblem;
     use crate::integrate::{Fixed, MomentumForm, NoInput, Rkmk, Simulation, Tableau, VelocityForm};
     use crate::testing::constrained::{pendulum, pendulum_by_angle};
     use crate::testing::order::{TOP, TORQUE, distance, march, measured_order, start_by_momentum, start_by_velocity};
@@ -124,8 +126,8 @@ mod tests {
 
     #[test]
     fn order_4_in_both_forms() {
-        let velocities = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
-        let momenta = Problem { system: &TOP, form: MomentumForm, input: TORQUE };
+        let velocities = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
+        let momenta = SystemProblem { system: &TOP, form: MomentumForm, input: TORQUE };
         let counts = [20, 40, 80, 160, 320];
         for order in [
             measured_order(&CommutatorFree4, &velocities, &start_by_velocity(), 4.0, &counts),
@@ -140,7 +142,7 @@ mod tests {
     #[test]
     fn on_a_line_it_is_the_classical_method() {
         let system = pendulum_by_angle();
-        let problem = Problem { system: &system, form: VelocityForm, input: NoInput };
+        let problem = SystemProblem { system: &system, form: VelocityForm, input: NoInput };
         let start = State { t: 0.0, q: SVector::from([1.0]), y: SVector::from([0.3]) };
         let found = march(&CommutatorFree4, &problem, &start, 4.0, 64);
         let classical = march(&Rkmk::new(&Tableau::RK4), &problem, &start, 4.0, 64);
@@ -161,14 +163,14 @@ mod tests {
     #[test]
     fn too_long_steps_and_broken_inputs_are_refused() {
         let start = State { y: SVector::from([0.0, 0.0, 40.0]), ..start_by_velocity() };
-        let problem = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+        let problem = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
         let error = CommutatorFree4.step(&problem, &start, &problem.rates(&start), 0.2).err();
         assert!(
             matches!(error, Some(IntegrationErrorKind::IncrementTooLarge { angle }) if (angle - 4.0).abs() < 1e-12)
         );
         let broken =
             crate::integrate::Feedback(|t: f64, _: &_, _: &_| [if t > 0.05 { f64::NAN } else { 0.0 }, 0.0, 0.0]);
-        let problem = Problem { system: &TOP, form: VelocityForm, input: broken };
+        let problem = SystemProblem { system: &TOP, form: VelocityForm, input: broken };
         let start = start_by_velocity();
         let error = CommutatorFree4.step(&problem, &start, &problem.rates(&start), 0.1).err();
         assert_eq!(error, Some(IntegrationErrorKind::NonFinite { part: Part::Step }));
@@ -177,7 +179,7 @@ mod tests {
     #[test]
     fn runs_in_single_precision_and_in_packs() {
         let exact = {
-            let problem = Problem { system: &TOP, form: MomentumForm, input: crate::testing::order::NONE };
+            let problem = SystemProblem { system: &TOP, form: MomentumForm, input: crate::testing::order::NONE };
             march(&CommutatorFree4, &problem, &start_by_momentum(), 2.0, 40)
         };
         let single = FreeTop { inertia: [0.5_f32, 0.85, 1.0] };

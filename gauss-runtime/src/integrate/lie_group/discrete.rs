@@ -6,9 +6,9 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::lie_group::commutator_free::{CommutatorFree4, Path, STAGE_TIMES, halves};
-use crate::integrate::lie_group::rkmk::check_chart;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{NoInput, Problem, Rates, State, TangentOf, VelocityForm};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::step::checks::check_chart;
 use crate::linearize::{Linearization, LinearizedSystem};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -162,7 +162,7 @@ assert!((step.then(&next).by_state[(0, 0)] - 0.04_f64.cos()).abs() < 1e-9);
             stages[n] = system.linearize(stage.t, &stage.q, &stage.y, input);
             split::<S, D>(&stages[n].rate)
         })?;
-        check_chart(&Problem { system, form: VelocityForm, input: NoInput }, &start, &end)?;
+        check_chart(system, &start, &end)?;
         let mut factors = [Exponential::unset(); 5];
         for (factor, v) in factors.iter_mut().zip(&increments) {
             factor.set::<S::Configuration>(v);

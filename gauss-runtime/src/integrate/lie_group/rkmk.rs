@@ -5,9 +5,11 @@
 //! addition and dexp⁻¹ the identity: the method is the Runge–Kutta method itself, operation by operation.
 
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::{Rational, Tableau, estimate_order};
+use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -59,9 +61,9 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
 
     /// The derivatives at the stages in the algebra, and those of the last stage as they are.
     #[inline(always)]
-    fn stages<Sys: GaussSystem<Scalar = T>, F: Form<Sys>, I: InputSource<Sys>>(
+    fn stages<Sys: GaussSystem<Scalar = T>, P: Problem<System = Sys>>(
         &self,
-        problem: &Problem<'_, Sys, F, I>,
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: T,
@@ -88,9 +90,9 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
     }
 
     #[inline(always)]
-    fn advance<Sys: GaussSystem<Scalar = T>, F: Form<Sys>, I: InputSource<Sys>>(
+    fn advance<Sys: GaussSystem<Scalar = T>, P: Problem<System = Sys>>(
         &self,
-        problem: &Problem<'_, Sys, F, I>,
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: T,
@@ -104,7 +106,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
             q: state.q.retract(&sigma.configuration).renormalise(),
             y: state.y.add_scaled(one, &sigma.variables),
         };
-        check_chart(problem, state, &end)?;
+        check_chart(problem.system(), state, &end)?;
         let error: Rates<Sys> = if self.has_error {
             combination(h, &self.error, &stages)
         } else {
@@ -129,9 +131,9 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Rkmk<Sys::Scalar, S> {
     /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
     /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
-    fn step<F: Form<Sys>, I: InputSource<Sys>>(
+    fn step<P: Problem<System = Sys>>(
         &self,
-        problem: &Problem<'_, Sys, F, I>,
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: Sys::Scalar,
@@ -146,9 +148,9 @@ impl<Sys: GaussSystem, const S: usize> EstimatingStep<Sys> for Rkmk<Sys::Scalar,
     }
 
     #[inline]
-    fn step_and_estimates<F: Form<Sys>, I: InputSource<Sys>>(
+    fn step_and_estimates<P: Problem<System = Sys>>(
         &self,
-        problem: &Problem<'_, Sys, F, I>,
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: Sys::Scalar,
@@ -159,9 +161,9 @@ impl<Sys: GaussSystem, const S: usize> EstimatingStep<Sys> for Rkmk<Sys::Scalar,
 
 impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Rkmk<Sys::Scalar, S> {
     #[inline]
-    fn increment<F: Form<Sys>, I: InputSource<Sys>>(
+    fn increment<P: Problem<System = Sys>>(
         &self,
-        problem: &Problem<'_, Sys, F, I>,
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: Sys::Scalar,
@@ -181,26 +183,6 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Rkmk<Sys::Scalar, 
         check_increment::<Sys>(&sum)?;
         Ok(sum)
     }
-}
-
-/// Refuses steps that touch a singularity of the coordinates or pass over one: they would go on with numbers that mean
-/// nothing. At a regularity of √ε velocities have lost half of their digits.
-#[inline(always)]
-pub(in crate::integrate) fn check_chart<S: GaussSystem, F, I>(
-    problem: &Problem<'_, S, F, I>,
-    start: &State<S>,
-    end: &State<S>,
-) -> Result<(), IntegrationErrorKind> {
-    let before = problem.system.regularity(start.t, &start.q);
-    let after = problem.system.regularity(end.t, &end.q);
-    for lane in 0..S::Scalar::LANES {
-        let (before, after) = (before.lane(lane), after.lane(lane));
-        // A NaN passes here and is caught at the end of the step.
-        if before.abs().min(after.abs()) <= Real::sqrt(S::Scalar::EPSILON) || (before < 0.0) != (after < 0.0) {
-            return Err(IntegrationErrorKind::SingularChart { regularity: after });
-        }
-    }
-    Ok(())
 }
 
 /// `h Σ wᵢ·stageᵢ`; null weights are passed over.
@@ -223,22 +205,5 @@ fn add_quotient<T: Real, V: VectorSpace<T>>(sum: &mut V, factor: T, divisor: T, 
     for i in 0..V::DIM {
         let part = factor * (x.component(i) - origin.component(i)) / divisor;
         sum.set_component(i, sum.component(i) + part);
-    }
-}
-
-/// Refuses rotations beyond half a turn. A NaN passes here and is caught at the end of the step.
-#[inline(always)]
-pub(in crate::integrate) fn check_increment<S: GaussSystem>(increment: &Rates<S>) -> Result<(), IntegrationErrorKind> {
-    check_turn::<S>(&increment.configuration)
-}
-
-/// [`check_increment`] of the increment of a configuration.
-#[inline(always)]
-pub(in crate::integrate) fn check_turn<S: GaussSystem>(increment: &TangentOf<S>) -> Result<(), IntegrationErrorKind> {
-    let angle = S::Configuration::increment_angle(increment);
-    if angle > core::f64::consts::PI && angle.is_finite() {
-        Err(IntegrationErrorKind::IncrementTooLarge { angle })
-    } else {
-        Ok(())
     }
 }

@@ -6,7 +6,8 @@ use core::fmt;
 use alloc::{boxed::Box, format};
 
 use crate::constraint::{ConstraintLevel, ProjectionError};
-use crate::integrate::problem::form::{Form, Problem, State};
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::state::State;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -25,8 +26,8 @@ pub struct IntegrationError {
 impl IntegrationError {
     /// The error of a run that was at `state` last.
     #[must_use]
-    pub fn at<S: GaussSystem, F: Form<S>, I>(
-        problem: &Problem<'_, S, F, I>,
+    pub fn at<S: GaussSystem, P: Problem<System = S>>(
+        problem: &P,
         state: &State<S>,
         kind: IntegrationErrorKind,
     ) -> Self {
@@ -37,7 +38,7 @@ impl IntegrationError {
             kind,
             #[cfg(feature = "alloc")]
             state: {
-                let z = problem.form.speeds(problem.system, state.t, &state.q, &state.y);
+                let z = problem.speeds(state.t, &state.q, &state.y);
                 format!("q = {:?}, z = {z:?}", state.q).into_boxed_str()
             },
         }

@@ -16,10 +16,11 @@
 //! the code, and derivatives stay in registers where there are enough of them.
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::lie_group::rkmk::{check_chart, check_turn};
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::{Coefficients, Rational, estimate_order};
+use crate::integrate::step::checks::{check_chart, check_turn};
 use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -112,8 +113,8 @@ impl<C: Coefficients<S>, const S: usize> RungeKutta<C, S> {
     };
 
     #[inline(always)]
-    fn advance<Sys: GaussSystem, F: Form<Sys>, I: InputSource<Sys>>(
-        problem: &Problem<'_, Sys, F, I>,
+    fn advance<Sys: GaussSystem, P: Problem<System = Sys>>(
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: Sys::Scalar,
@@ -159,7 +160,7 @@ impl<C: Coefficients<S>, const S: usize> RungeKutta<C, S> {
         let point = start.add_scaled(h, &sum);
         let q = Sys::Configuration::from_components(&point.components).renormalise();
         let end = State { t: state.t + h, q, y: point.variables };
-        check_chart(problem, state, &end)?;
+        check_chart(problem.system(), state, &end)?;
         let tangent = |sum: &Point<ComponentsOf<Sys>, Sys::Speeds>| Rates::<Sys> {
             configuration: q.tangent(&sum.components).scale(h),
             variables: sum.variables.scale(h),
@@ -185,9 +186,9 @@ impl<Sys: GaussSystem, C: Coefficients<S>, const S: usize> OneStep<Sys> for Rung
     /// velocities at the start and at the last stage of the result), singularities of the coordinates
     /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
-    fn step<F: Form<Sys>, I: InputSource<Sys>>(
+    fn step<P: Problem<System = Sys>>(
         &self,
-        problem: &Problem<'_, Sys, F, I>,
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: Sys::Scalar,
@@ -203,9 +204,9 @@ impl<Sys: GaussSystem, C: Coefficients<S>, const S: usize> EstimatingStep<Sys> f
 
     // Into the loop of steps, so that states stay in registers between them.
     #[inline(always)]
-    fn step_and_estimates<F: Form<Sys>, I: InputSource<Sys>>(
+    fn step_and_estimates<P: Problem<System = Sys>>(
         &self,
-        problem: &Problem<'_, Sys, F, I>,
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: Sys::Scalar,

@@ -5,6 +5,7 @@ use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, UnitQuaternion};
 
 use super::*;
 use crate::configuration::Product;
+use crate::integrate::SystemProblem;
 use crate::integrate::{
     Classical4, DormandPrince5, DormandPrince8, Fixed, MomentumForm, NoInput, Rkmk, Simulation, Tableau, VelocityForm,
     Verner9,
@@ -20,8 +21,8 @@ const FEW: [u32; 4] = [8, 11, 16, 22];
 const MANY: [u32; 4] = [40, 80, 160, 320];
 
 fn order_on_rotations<C: Coefficients<S>, const S: usize>(method: RungeKutta<C, S>, counts: &[u32]) {
-    let velocities = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
-    let momenta = Problem { system: &TOP, form: MomentumForm, input: TORQUE };
+    let velocities = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
+    let momenta = SystemProblem { system: &TOP, form: MomentumForm, input: TORQUE };
     let stated = f64::from(C::TABLEAU.order);
     assert_eq!(OneStep::<FreeTop<f64>>::properties(&method), Properties::of_order(C::TABLEAU.order));
     for (form, found) in [
@@ -45,7 +46,7 @@ fn orders_on_rotations_in_both_forms() {
 /// Velocities that push and drag change, so that they do not commute with themselves at another time.
 fn order_on<Q: Configuration<Scalar = f64>>(group: &str, q: Q) {
     let system: Coasting<Q> = Coasting { push: increment(3.0), drag: 0.3 };
-    let problem = Problem { system: &system, form: VelocityForm, input: NoInput };
+    let problem = SystemProblem { system: &system, form: VelocityForm, input: NoInput };
     let start = State { t: 0.0, q, y: increment(2.0) };
     for (stated, found) in [
         (4.0, measured_order(&RungeKutta(Classical4), &problem, &start, 4.0, &MANY)),
@@ -109,7 +110,7 @@ fn rates_of_components_are_their_derivatives_and_tangents_undo_them() {
 /// Also where a step leaves the group by far.
 #[test]
 fn quaternions_stay_of_norm_1_to_rounding() {
-    let problem = Problem { system: &TOP, form: VelocityForm, input: NONE };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: NONE };
     for h in [0.05, 0.5, 1.5] {
         let mut state: State<FreeTop<f64>> = start_by_velocity();
         for _ in 0..300 {
@@ -124,7 +125,7 @@ fn quaternions_stay_of_norm_1_to_rounding() {
 #[test]
 fn it_agrees_with_methods_in_the_algebra() {
     let start = start_by_velocity();
-    let problem = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
     let found = march(&RungeKutta(DormandPrince8), &problem, &start, 10.0, 500);
     let other = march(&Rkmk::new(&Tableau::VERNER_9), &problem, &start, 10.0, 400);
     // A walk of some ten roundings a step, carried on hardly larger.
@@ -141,7 +142,7 @@ fn what_does_not_change_stays_to_the_last_bit() {
 
 #[test]
 fn the_last_stage_is_the_first_of_the_next_step() {
-    let problem = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
     let start = start_by_velocity();
     let step = RungeKutta(DormandPrince5).step(&problem, &start, &problem.rates(&start), 0.3).expect("steps");
     let (given, computed) = (step.rates.expect("comes with the step"), problem.rates(&step.state));
@@ -153,11 +154,11 @@ fn the_last_stage_is_the_first_of_the_next_step() {
 #[test]
 fn too_long_steps_and_broken_inputs_are_refused() {
     let fast = State { y: SVector::from([0.0, 0.0, 40.0]), ..start_by_velocity() };
-    let problem = Problem { system: &TOP, form: VelocityForm, input: NONE };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: NONE };
     let error = RungeKutta(DormandPrince8).step(&problem, &fast, &problem.rates(&fast), 0.1).err();
     assert!(matches!(error, Some(IntegrationErrorKind::IncrementTooLarge { angle }) if (angle - 4.0).abs() < 1e-12));
     let later = |t: f64, _: &UnitQuaternion<f64>, _: &SVector<f64, 3>| [if t > 0.09 { f64::NAN } else { 0.0 }; 3];
-    let problem = Problem { system: &TOP, form: VelocityForm, input: crate::integrate::Feedback(later) };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: crate::integrate::Feedback(later) };
     let start = start_by_velocity();
     for kind in [
         RungeKutta(DormandPrince8).step(&problem, &start, &problem.rates(&start), 0.1).map(|step| step.state.t),

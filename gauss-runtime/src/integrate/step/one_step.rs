@@ -1,7 +1,8 @@
 //! What a method of one step is: the seam at which methods are added.
 
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
+use crate::integrate::problem::state::{Rates, State};
 use crate::system::GaussSystem;
 
 /// What a method keeps, and how accurate it is: stated, and tested.
@@ -51,9 +52,9 @@ pub trait OneStep<S: GaussSystem> {
     ///
     /// # Errors
     /// When the step cannot be made; the state given is untouched.
-    fn step<F: Form<S>, I: InputSource<S>>(
+    fn step<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,
@@ -73,9 +74,9 @@ pub trait EstimatingStep<S: GaussSystem>: OneStep<S> {
     /// # Errors
     /// When the step cannot be made; the state given is untouched.
     #[inline]
-    fn step_and_estimates<F: Form<S>, I: InputSource<S>>(
+    fn step_and_estimates<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,
@@ -92,9 +93,9 @@ pub trait IncrementStep<S: GaussSystem>: OneStep<S> {
     ///
     /// # Errors
     /// When the step cannot be made.
-    fn increment<F: Form<S>, I: InputSource<S>>(
+    fn increment<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,

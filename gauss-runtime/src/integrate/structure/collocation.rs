@@ -14,9 +14,10 @@
 //! Razakarivony, *Achieving Brouwer's law with implicit Runge–Kutta methods*, BIT 48, 2008).
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::lie_group::rkmk::{check_chart, check_increment};
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::iteration::{Progress, relative_change, worst};
 use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step};
 use crate::real::Real;
@@ -144,9 +145,9 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Collocation<Sys::Scalar,
     /// ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
     /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
-    fn step<F: Form<Sys>, I: InputSource<Sys>>(
+    fn step<P: Problem<System = Sys>>(
         &self,
-        problem: &Problem<'_, Sys, F, I>,
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: Sys::Scalar,
@@ -158,7 +159,7 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Collocation<Sys::Scalar,
             q: state.q.retract(&sum.configuration).renormalise(),
             y: state.y.add_scaled(one, &sum.variables),
         };
-        check_chart(problem, state, &end)?;
+        check_chart(problem.system(), state, &end)?;
         if !(end.q.is_finite() && end.y.is_finite()) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
@@ -168,9 +169,9 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Collocation<Sys::Scalar,
 
 impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::Scalar, S> {
     #[inline]
-    fn increment<F: Form<Sys>, I: InputSource<Sys>>(
+    fn increment<P: Problem<System = Sys>>(
         &self,
-        problem: &Problem<'_, Sys, F, I>,
+        problem: &P,
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: Sys::Scalar,

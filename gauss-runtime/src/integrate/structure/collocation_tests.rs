@@ -23,8 +23,8 @@ fn methods() -> (Collocation<f64, 1>, Collocation<f64, 2>, Collocation<f64, 3>) 
 
 #[test]
 fn orders_in_both_forms() {
-    let velocities = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
-    let momenta = Problem { system: &TOP, form: MomentumForm, input: TORQUE };
+    let velocities = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
+    let momenta = SystemProblem { system: &TOP, form: MomentumForm, input: TORQUE };
     let (two, four, six) = methods();
     let counts = [10, 20, 40, 80, 160];
     let (v, p) = (start_by_velocity(), start_by_momentum());
@@ -49,7 +49,7 @@ fn orders_in_both_forms() {
 
 /// A step and a step back, each some ten roundings a stage, and what the iteration leaves.
 fn there_and_back(method: &impl OneStep<Top>, h: f64) -> f64 {
-    let problem = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
     let start = State { t: 0.3, ..start_by_velocity() };
     let there = march(method, &problem, &start, h, 1);
     let back = march(method, &problem, &there, -h, 1);
@@ -72,7 +72,7 @@ fn a_step_back_undoes_a_step() {
 /// makes from the start to the end of the run; both relative to its first value.
 fn drift(
     method: &impl OneStep<Top>,
-    problem: &Problem<'_, Top, MomentumForm, impl InputSource<Top>>,
+    problem: &SystemProblem<'_, Top, MomentumForm, impl InputSource<Top>>,
     h: f64,
     steps: u32,
     quantity: impl Fn(&State<Top>) -> f64,
@@ -98,7 +98,7 @@ fn kinetic(state: &State<Top>) -> f64 {
 
 #[test]
 fn quadratic_integrals_of_the_free_body_are_kept_to_rounding() {
-    let free = Problem { system: &TOP, form: MomentumForm, input: NONE };
+    let free = SystemProblem { system: &TOP, form: MomentumForm, input: NONE };
     let (two, four, six) = methods();
     let (steps, h) = (10_000, 0.2);
     // Each step rounds the three components of π, which are at most |π|: by less than 2ε|π|² in |π|², and as much of T
@@ -122,7 +122,7 @@ fn quadratic_integrals_of_the_free_body_are_kept_to_rounding() {
 #[test]
 fn energy_of_a_heavy_top_stays_within_a_bound() {
     const LAGRANGE: Top = FreeTop { inertia: [0.5, 0.5, 1.0] };
-    let heavy = Problem { system: &LAGRANGE, form: MomentumForm, input: WEIGHT };
+    let heavy = SystemProblem { system: &LAGRANGE, form: MomentumForm, input: WEIGHT };
     let energy = |state: &State<Top>| {
         let z = LAGRANGE.velocity(0.0, &state.q, &state.y);
         LAGRANGE.kinetic_energy(0.0, &state.q, &z) + 0.6 * (state.q.inverse() * SVector::from([0.0, 0.0, 1.0]))[2]
@@ -148,7 +148,7 @@ fn the_iteration_takes_few_evaluations() {
         evaluations.set(evaluations.get() + 1);
         (TORQUE.0)(t, q, z)
     });
-    let problem = Problem { system: &TOP, form: VelocityForm, input: counted };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: counted };
     let start = start_by_velocity();
     let (two, four, six) = methods();
     // Derivatives of the equations are about 1, those of dexp⁻¹ ½: each sweep gains a digit, and one more sees that none is left.
@@ -208,8 +208,8 @@ fn rounding_of_the_equations_is_not_taken_for_divergence() {
     let noisy = Feedback(|t: f64, q: &UnitQuaternion<f64>, z: &SVector<f64, 3>| {
         (TORQUE.0)(t, q, z).map(|component| component + 1e-11 * (z[0] * 1e15).fract())
     });
-    let problem = Problem { system: &TOP, form: VelocityForm, input: noisy };
-    let clean = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: noisy };
+    let clean = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
     let (start, method) = (start_by_velocity(), Collocation::order_4());
     let found = distance(&march(&method, &problem, &start, 1.0, 10), &march(&method, &clean, &start, 1.0, 10));
     // In a unit of time, by inertias of ½ and more, carried on about as large.
@@ -218,7 +218,7 @@ fn rounding_of_the_equations_is_not_taken_for_divergence() {
 
 #[test]
 fn a_state_at_rest_stays() {
-    let problem = Problem { system: &TOP, form: VelocityForm, input: NONE };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: NONE };
     let start = State { y: SVector::zeros(), ..start_by_velocity() };
     assert_eq!(distance(&march(&Collocation::order_6(), &problem, &start, 1.0, 4), &start), 0.0);
 }
@@ -251,7 +251,7 @@ fn constraints_hold_and_the_order_stays() {
 #[test]
 fn runs_in_single_precision_and_in_packs() {
     let start = start_by_velocity();
-    let problem = Problem { system: &TOP, form: VelocityForm, input: NONE };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: NONE };
     let exact = march(&Collocation::order_6(), &problem, &start, 2.0, 20);
     let single = FreeTop { inertia: [0.5_f32, 0.85, 1.0] };
     let end = Simulation::new(&single)

@@ -1,8 +1,9 @@
 //! Composition: a symmetric method made more accurate by steps of several lengths, some of them backwards.
 
 use crate::configuration::VectorSpace;
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::{Rational, decimal};
 use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
@@ -104,9 +105,9 @@ impl<S: GaussSystem, M: OneStep<S>, const N: usize> OneStep<S> for Composed<M, S
 
     /// Refuses what the method refuses, in any of its steps.
     #[inline]
-    fn step<F: Form<S>, I: InputSource<S>>(
+    fn step<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,
@@ -127,6 +128,7 @@ impl<S: GaussSystem, M: OneStep<S>, const N: usize> OneStep<S> for Composed<M, S
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::integrate::SystemProblem;
     use crate::integrate::{Collocation, CommutatorFree4, Fixed, MomentumForm, Simulation, VelocityForm};
     use crate::testing::order::{
         NONE, TOP, TORQUE, distance, march, measured_order, start_by_momentum, start_by_velocity,
@@ -165,7 +167,7 @@ mod tests {
     ) -> (u32, f64) {
         let composed = Composed::new(composition, method);
         let properties = composed.properties();
-        let velocities = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+        let velocities = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
         (properties.order, measured_order(&composed, &velocities, &start_by_velocity(), 2.0, counts))
     }
 
@@ -197,14 +199,14 @@ mod tests {
     #[test]
     fn symmetry_and_integrals_are_inherited() {
         let method = Composed::new(&Composition::KAHAN_LI_6, Collocation::midpoint());
-        let problem = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
+        let problem = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
         let start = start_by_velocity();
         let there = march(&method, &problem, &start, 0.4, 1);
         // As for one step of the midpoint rule, nine times there and nine back.
         assert!(distance(&march(&method, &problem, &there, -0.4, 1), &start) < 9.0 * 60.0 * f64::EPSILON);
         assert_eq!(there.t, 0.4);
 
-        let free = Problem { system: &TOP, form: MomentumForm, input: NONE };
+        let free = SystemProblem { system: &TOP, form: MomentumForm, input: NONE };
         let end = march(&method, &free, &start_by_momentum(), 200.0, 1000);
         // A walk of 9000 steps of 2ε.
         let walk = 2.0 * f64::EPSILON * 9000_f64.sqrt();

@@ -18,9 +18,10 @@ use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
 use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::lie_group::rkmk::{check_chart, check_increment};
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
+use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::iteration::{Progress, relative_change, worst};
 use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step};
 use crate::lie::se3::{join, split};
@@ -249,18 +250,18 @@ where
     S::Configuration: CoadjointAction<Tangent = S::Speeds>,
 {
     #[inline]
-    fn increment<F: Form<S>, I: InputSource<S>>(
+    fn increment<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Rates<S>, IntegrationErrorKind> {
         const { assert!(matches!(S::CHART, Chart::LeftInvariant), "`EnergyMomentum` needs the left-invariant chart") };
-        let Problem { system, form, .. } = problem;
+        let system = problem.system();
         let (one, half) = (S::Scalar::one(), S::Scalar::ratio(1, 2));
         let State { t, q, y } = state;
-        let (p, z) = (form.momentum(system, *t, q, y), form.speeds(system, *t, q, y));
+        let (p, z) = (problem.momentum(*t, q, y), problem.speeds(*t, q, y));
 
         // A is constant in this chart: it takes changes of z to changes of p.
         let mut faster = S::Speeds::zero();
@@ -284,7 +285,7 @@ where
                 break (z.add_scaled(half, &faster).scale(h), change);
             }
         };
-        let increment = Rates { configuration: sigma, variables: form.of_momentum(system, *t, q, &change) };
+        let increment = Rates { configuration: sigma, variables: problem.of_momentum(*t, q, &change) };
         check_increment::<S>(&increment)?;
         Ok(increment)
     }
@@ -302,9 +303,9 @@ where
     /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than π
     /// ([`IntegrationErrorKind::IncrementTooLarge`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
-    fn step<F: Form<S>, I: InputSource<S>>(
+    fn step<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,
@@ -315,7 +316,7 @@ where
             q: state.q.retract(&increment.configuration).renormalise(),
             y: state.y.add_scaled(S::Scalar::one(), &increment.variables),
         };
-        check_chart(problem, state, &end)?;
+        check_chart(problem.system(), state, &end)?;
         if !(end.q.is_finite() && end.y.is_finite()) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
@@ -326,8 +327,8 @@ where
 
 /// What acts on a body with the velocity z, in body axes: ṗ without what the turning of the axes contributes.
 #[inline(always)]
-fn force<S: GaussSystem, F, I: InputSource<S>>(
-    problem: &Problem<'_, S, F, I>,
+fn force<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
     t: S::Scalar,
     q: &S::Configuration,
     z: &S::Speeds,
@@ -335,9 +336,9 @@ fn force<S: GaussSystem, F, I: InputSource<S>>(
 where
     S::Configuration: CoadjointAction<Tangent = S::Speeds>,
 {
-    let p = problem.system.momentum(t, q, z);
-    let input = problem.input.input(t, q, z);
-    let rate = problem.system.momentum_rate(t, q, &p, &input);
+    let p = problem.system().momentum(t, q, z);
+    let input = problem.input(t, q, z);
+    let rate = problem.system().momentum_rate(t, q, &p, &input);
     rate.add_scaled(-S::Scalar::one(), &S::Configuration::coadjoint_rate(&p, z))
 }
 

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::*;
+use crate::integrate::SystemProblem;
 use crate::integrate::{Compensated, Composed, Composition, Feedback, Fixed, MomentumForm, Simulation, VelocityForm};
 use crate::testing::FreeTop;
 use crate::testing::order::{
@@ -15,8 +16,8 @@ fn method() -> EnergyMomentum<f64> {
 
 #[test]
 fn orders_alone_and_composed() {
-    let velocities = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
-    let momenta = Problem { system: &TOP, form: MomentumForm, input: TORQUE };
+    let velocities = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
+    let momenta = SystemProblem { system: &TOP, form: MomentumForm, input: TORQUE };
     let (v, p) = (start_by_velocity(), start_by_momentum());
     let composed = Composed::new(&Composition::KAHAN_LI_6, method());
     let five = EnergyMomentum::<f64, 5>::with_points();
@@ -32,7 +33,7 @@ fn orders_alone_and_composed() {
 
 #[test]
 fn a_step_back_undoes_a_step() {
-    let problem = Problem { system: &TOP, form: MomentumForm, input: TORQUE };
+    let problem = SystemProblem { system: &TOP, form: MomentumForm, input: TORQUE };
     let start = State { t: 0.3, ..start_by_momentum() };
     for h in [0.05, 0.2, 0.4] {
         let there = march(&method(), &problem, &start, h, 1);
@@ -99,7 +100,7 @@ fn stays<const K: usize>(
     roundings: f64,
 ) {
     let (steps, every) = (100_000_u32, 1000);
-    let problem = Problem { system: &TOP, form: MomentumForm, input };
+    let problem = SystemProblem { system: &TOP, form: MomentumForm, input };
     let mut state = start_by_momentum();
     let first = kept(&state);
     let mut deviations = [const { std::vec::Vec::new() }; K];
@@ -162,7 +163,7 @@ fn other_potentials_are_kept_with_more_points() {
     stays(&EnergyMomentum::<f64, 6>::with_points(), CURVED, curved, 0.05, 4.0);
     // With two points momentum is kept as well, energy to order h⁴ and without drift.
     stays(&method(), CURVED, |state| [curved(state)[1]], 0.05, 4.0);
-    let problem = Problem { system: &TOP, form: MomentumForm, input: CURVED };
+    let problem = SystemProblem { system: &TOP, form: MomentumForm, input: CURVED };
     let largest = |h: f64| {
         let (mut state, mut halves) = (start_by_momentum(), [0.0_f64; 2]);
         let steps = (400.0 / h) as u32;
@@ -182,7 +183,7 @@ fn other_potentials_are_kept_with_more_points() {
 #[test]
 fn increments_add_up_to_the_step() {
     for (form_start, h) in [(start_by_momentum(), 0.1), (State { t: 1.0, ..start_by_momentum() }, -0.3)] {
-        let problem = Problem { system: &TOP, form: MomentumForm, input: TORQUE };
+        let problem = SystemProblem { system: &TOP, form: MomentumForm, input: TORQUE };
         let rates = problem.rates(&form_start);
         let step = method().step(&problem, &form_start, &rates, h).expect("steps").state;
         let Rates { configuration, variables } = method().increment(&problem, &form_start, &rates, h).expect("steps");

@@ -2,9 +2,10 @@
 
 use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::lie_group::rkmk::{check_chart, check_increment};
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State};
+use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::iteration::{Progress, relative_change, worst};
 use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
@@ -38,22 +39,22 @@ where
     /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than π
     /// ([`IntegrationErrorKind::IncrementTooLarge`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
-    fn step<F: Form<S>, I: InputSource<S>>(
+    fn step<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
         const { assert!(matches!(S::CHART, Chart::LeftInvariant), "`Variational` needs the left-invariant chart") };
-        let Problem { system, form, .. } = problem;
+        let system = problem.system();
         let (one, half) = (S::Scalar::one(), h * S::Scalar::ratio(1, 2));
         let State { t, q, y } = state;
 
-        let start = form.momentum(system, *t, q, y);
+        let start = problem.momentum(*t, q, y);
         let pushed = start.add_scaled(half, &force(problem, *t, q, &start));
         // M is constant in this chart: neither time nor configuration matters to it.
-        let mut xi = form.speeds(system, *t, q, y);
+        let mut xi = problem.speeds(*t, q, y);
         let mut momentum = system.momentum(*t, q, &xi);
         let size = pushed.max_norm();
         let mut progress = Progress::new();
@@ -81,8 +82,8 @@ where
             }
         }
         let z = system.velocity(t, &q, &end);
-        let reached = State { t, q, y: form.variables(system, t, &q, &z) };
-        check_chart(problem, state, &reached)?;
+        let reached = State { t, q, y: problem.variables(t, &q, &z) };
+        check_chart(problem.system(), state, &reached)?;
         if !(reached.q.is_finite() && reached.y.is_finite()) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
@@ -93,8 +94,8 @@ where
 
 /// What acts, in body axes: `ṗ − ad*_z p`, that is ṗ without what the turning of the axes contributes.
 #[inline(always)]
-fn force<S: GaussSystem, F, I: InputSource<S>>(
-    problem: &Problem<'_, S, F, I>,
+fn force<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
     t: S::Scalar,
     q: &S::Configuration,
     p: &S::Speeds,
@@ -102,9 +103,9 @@ fn force<S: GaussSystem, F, I: InputSource<S>>(
 where
     S::Configuration: Configuration<Tangent = S::Speeds>,
 {
-    let z = problem.system.velocity(t, q, p);
-    let input = problem.input.input(t, q, &z);
-    let rate = problem.system.momentum_rate(t, q, p, &input);
+    let z = problem.system().velocity(t, q, p);
+    let input = problem.input(t, q, &z);
+    let rate = problem.system().momentum_rate(t, q, p, &input);
     // [z, w] is the odd part of dexp_inv, twice.
     let (forward, backward) = (transposed::<S>(&z, p), transposed::<S>(&z.scale(-S::Scalar::one()), p));
     rate.add_scaled(-S::Scalar::one(), &forward).add_scaled(S::Scalar::one(), &backward)
@@ -136,6 +137,7 @@ mod tests {
     use nalgebra::SVector;
 
     use super::*;
+    use crate::integrate::SystemProblem;
     use crate::integrate::{Composed, Composition, Feedback, Fixed, MomentumForm, Simulation, VelocityForm};
     use crate::testing::FreeTop;
     use crate::testing::order::{
@@ -144,8 +146,8 @@ mod tests {
 
     #[test]
     fn orders_alone_and_composed() {
-        let velocities = Problem { system: &TOP, form: VelocityForm, input: TORQUE };
-        let momenta = Problem { system: &TOP, form: MomentumForm, input: TORQUE };
+        let velocities = SystemProblem { system: &TOP, form: VelocityForm, input: TORQUE };
+        let momenta = SystemProblem { system: &TOP, form: MomentumForm, input: TORQUE };
         let (v, p) = (start_by_velocity(), start_by_momentum());
         let composed = Composed::new(&Composition::KAHAN_LI_6, Variational);
         for (expected, found) in [
@@ -159,7 +161,7 @@ mod tests {
 
     #[test]
     fn a_step_back_undoes_a_step() {
-        let problem = Problem { system: &TOP, form: MomentumForm, input: TORQUE };
+        let problem = SystemProblem { system: &TOP, form: MomentumForm, input: TORQUE };
         let start = State { t: 0.3, ..start_by_momentum() };
         for h in [0.05, 0.2, 0.4] {
             let there = march(&Variational, &problem, &start, h, 1);
@@ -176,7 +178,7 @@ mod tests {
         let walk = 4.0 * f64::EPSILON * f64::from(steps).sqrt();
         let start = start_by_momentum();
         let in_space = |state: &State<FreeTop<f64>>| state.q * state.y;
-        let free = Problem { system: &TOP, form: MomentumForm, input: NONE };
+        let free = SystemProblem { system: &TOP, form: MomentumForm, input: NONE };
         let end = march(&Variational, &free, &start, h * f64::from(steps), steps);
         // The attitude is rounded as well.
         assert!(
@@ -185,7 +187,7 @@ mod tests {
             (in_space(&end) - in_space(&start)).amax()
         );
 
-        let heavy = Problem { system: &TOP, form: MomentumForm, input: WEIGHT };
+        let heavy = SystemProblem { system: &TOP, form: MomentumForm, input: WEIGHT };
         let energy = |state: &State<FreeTop<f64>>| {
             let z = TOP.velocity(0.0, &state.q, &state.y);
             TOP.kinetic_energy(0.0, &state.q, &z) + 0.6 * (state.q.inverse() * SVector::from([0.0, 0.0, 1.0]))[2]

@@ -17,8 +17,11 @@ use crate::description::Described;
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::simulation::Simulation;
 use crate::integrate::drive::step_length::power;
+use crate::integrate::problem::equations::SystemProblem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
-use crate::integrate::problem::form::{Form, InputSource, Problem, Rates, State, TangentOf};
+use crate::integrate::problem::form::Form;
+use crate::integrate::problem::input::InputSource;
+use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::tune::method::{EitherForm, Family, Method};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -198,7 +201,7 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
 
     fn run<C: Control<S>, F: Form<S>>(&self, method: &C, form: F) -> Result<Seen<S>, IntegrationError> {
         let count = Cell::new(0);
-        let problem = Problem { system: self.system, form, input: Counted { source: self.input, count: &count } };
+        let problem = SystemProblem { system: self.system, form, input: Counted { source: self.input, count: &count } };
         let mut seen = Seen { states: Vec::with_capacity(CHECKPOINTS), evaluations: 0, steps: 0 };
         let time = |n: usize| {
             let part = S::Scalar::ratio(n as i64, CHECKPOINTS as i64);
@@ -363,7 +366,7 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
                 self.0.input(t, q, z)
             }
         }
-        let problem = Problem { system: self.system, form, input: Uncounted(self.input) };
+        let problem = SystemProblem { system: self.system, form, input: Uncounted(self.input) };
         let nobody = &mut |_: &State<S>, _: &Rates<S>| ControlFlow::Continue(());
         let (mut shortest, mut total) = (f64::INFINITY, 0.0);
         for _ in 0..5 {
@@ -394,7 +397,7 @@ fn operations<S: Described>(form: EitherForm) -> u64 {
     u64::from(counts.kinematics.total() + dynamics).max(1)
 }
 
-impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E> {
+impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
     /// Measures methods on this scene, with its input, from this state and over this interval, and says which one is the cheapest that
     /// keeps the error of the whole run within `absolute + relative·size`, component by component, where sizes are the largest
     /// over the run: 1 for a rotation, |b| for a translation, |q| and |z| for a plain coordinate and a quasi-velocity.
@@ -563,7 +566,10 @@ let end = scene.control(found.control).run_to_end(tilted, spinning, 0.0..10.0)?;
     }
 
     /// Runs by a candidate of [`tune`](Self::tune).
-    pub fn tuned(self, candidate: &Candidate<S::Scalar>) -> Simulation<'k, S, EitherForm, I, Method<S::Scalar>, O, E> {
+    pub fn tuned(
+        self,
+        candidate: &Candidate<S::Scalar>,
+    ) -> Simulation<SystemProblem<'k, S, EitherForm, I>, Method<S::Scalar>, O, E> {
         self.form(candidate.form).control(candidate.method)
     }
 }

@@ -4,8 +4,11 @@ use core::fmt;
 
 use crate::integrate::drive::control::{Adaptive, Control, Emit, Fixed};
 use crate::integrate::lie_group::commutator_free::CommutatorFree4;
+use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
-use crate::integrate::problem::form::{Form, InputSource, MomentumForm, Problem, Rates, State, VelocityForm};
+use crate::integrate::problem::form::{Form, MomentumForm, VelocityForm};
+use crate::integrate::problem::input::InputSource;
+use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::runge_kutta::components::RungeKutta;
 use crate::integrate::runge_kutta::tableau::{Classical4, DormandPrince5, DormandPrince8, Verner9};
 use crate::integrate::structure::collocation::Collocation;
@@ -131,9 +134,9 @@ macro_rules! dispatch {
 }
 
 impl<S: GaussSystem> Control<S> for Method<S::Scalar> {
-    fn drive<F: Form<S>, I: InputSource<S>>(
+    fn drive<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
@@ -142,9 +145,9 @@ impl<S: GaussSystem> Control<S> for Method<S::Scalar> {
         dispatch!(self, control => control.drive(problem, start, end, limit, emit))
     }
 
-    fn within<F: Form<S>, I: InputSource<S>>(
+    fn within<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,
