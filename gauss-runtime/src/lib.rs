@@ -84,6 +84,7 @@ pub mod __private_0_1_0;
 use __private_0_1_0 as private;
 
 #[cfg(feature = "derive")]
+#[doc = include_str!("language.md")]
 pub use gauss_derive::GaussDynamics;
 
 #[cfg(test)]

@@ -244,6 +244,7 @@ impl<S: GaussSystem + ?Sized> Evaluated<S> {
 /// a kink they are of order h², across a jump of order h, whatever the method, and so is the error of what is interpolated
 /// within that step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Smoothness {
     /// As many derivatives as a method asks for, away from singularities of the coordinates.
     #[default]

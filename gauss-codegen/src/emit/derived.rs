@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, Assigned, Formula, Linearization, Method, Regressor, Scene};
-use crate::model::{Model, Scalar, SystemField};
+use crate::model::{Field, InChart, Model, Scalar};
 use crate::translate::{DragMatrix, Parameter, Source};
 use syn::{Generics, Path, Visibility};
 
@@ -46,6 +46,7 @@ pub enum Subject<'a, 'g> {
     /// One body in a chart.
     Body {
         model: &'a Model,
+        in_chart: InChart,
         scene: &'a Scene<'g>,
         /// Components x, y, z, w of the unit quaternion behind R, where there is one.
         quaternion: Option<[Expr<'g>; 4]>,
@@ -61,6 +62,7 @@ pub enum Subject<'a, 'g> {
 pub struct BodySubject<'a, 'g> {
     pub derived: &'a Derived<'a, 'g>,
     pub model: &'a Model,
+    pub in_chart: InChart,
     pub scene: &'a Scene<'g>,
     pub quaternion: Option<[Expr<'g>; 4]>,
     pub plain: Option<Plain<'a, 'g>>,
@@ -69,7 +71,7 @@ pub struct BodySubject<'a, 'g> {
 /// Parameters without a role, and where the symbols of expressions are read.
 #[derive(Clone, Copy)]
 pub struct Plain<'a, 'g> {
-    pub fields: &'a [SystemField],
+    pub fields: &'a [Field],
     pub sources: &'a [Source<'g>],
     /// Literal numbers that symbols stand for.
     pub literals: &'a [(Rational, Expr<'g>)],
@@ -99,34 +101,27 @@ pub struct Formal<'a, 'g> {
     pub speeds: &'a [Expr<'g>],
     pub speed_rates: &'a [Expr<'g>],
     pub momenta: &'a [Expr<'g>],
+    pub twist: &'a [Expr<'g>],
     pub residuals: &'a [Expr<'g>],
     pub inputs: &'a [Expr<'g>],
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
-    pub fn item(&self) -> Item<'a> {
+    pub fn model(&self) -> &'a Model {
         match self.subject {
-            Subject::Body { model: m, .. } => Item {
-                ident: &m.ident,
-                visibility: &m.visibility,
-                generics: &m.generics,
-                scalar: &m.scalar,
-                runtime: &m.runtime,
-            },
-            Subject::System(SystemSubject { model: m, .. }) => Item {
-                ident: &m.ident,
-                visibility: &m.visibility,
-                generics: &m.generics,
-                scalar: &m.scalar,
-                runtime: &m.runtime,
-            },
+            Subject::Body { model, .. } | Subject::System(SystemSubject { model, .. }) => model,
         }
+    }
+
+    pub fn item(&self) -> Item<'a> {
+        let Model { ident, visibility, generics, scalar, runtime, .. } = self.model();
+        Item { ident, visibility, generics, scalar, runtime }
     }
 
     pub fn body(&'a self) -> Option<BodySubject<'a, 'g>> {
         match self.subject {
-            Subject::Body { model, scene, quaternion, plain } => {
-                Some(BodySubject { derived: self, model, scene, quaternion, plain })
+            Subject::Body { model, in_chart, scene, quaternion, plain } => {
+                Some(BodySubject { derived: self, model, in_chart, scene, quaternion, plain })
             }
             Subject::System(_) => None,
         }
@@ -138,6 +133,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 speeds: &scene.kinematics.speeds,
                 speed_rates: &scene.kinematics.speed_rates,
                 momenta: &scene.momenta,
+                twist: &scene.twist,
                 residuals: &[],
                 inputs: scene.acting.as_ref().map_or(&[], |acting| &acting.inputs),
             },
@@ -145,6 +141,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 speeds: &system.scene.speeds,
                 speed_rates: &system.scene.speed_rates,
                 momenta: &system.scene.momenta,
+                twist: &[],
                 residuals: &constraints.residuals,
                 inputs: &system.scene.inputs,
             },
@@ -204,6 +201,14 @@ impl<'a, 'g> Derived<'a, 'g> {
         names
     }
 
+    /// Literal numbers that symbols stand for.
+    pub fn literals(&self) -> &'a [(Rational, Expr<'g>)] {
+        match self.subject {
+            Subject::Body { plain, .. } => plain.map_or(&[], |plain| plain.literals),
+            Subject::System(subject) => subject.literals,
+        }
+    }
+
     /// The symbol of the time, where something can depend on it.
     pub fn time(&self) -> Option<Expr<'g>> {
         match self.subject {
@@ -228,7 +233,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// Arguments taken apart and the instructions of a program; its outputs.
     pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
-        let Formal { speeds, speed_rates, momenta, residuals, inputs } = self.formal();
+        let Formal { speeds, speed_rates, momenta, twist, residuals, inputs } = self.formal();
         let mut names = self.constant_names();
         names.extend(self.time().map(|time| (time.key(), quote!(t))));
         let mut arguments = self.configuration_arguments();
@@ -236,8 +241,8 @@ impl<'a, 'g> Derived<'a, 'g> {
         arguments.push(vector(quote!(z), speeds));
         arguments.push(vector(quote!(p), momenta));
         arguments.push(vector(quote!(acceleration), speed_rates));
-        if let Some(body) = self.body() {
-            arguments.push(vector(quote!(twist), &body.scene.twist));
+        if !twist.is_empty() {
+            arguments.push(vector(quote!(twist), twist));
         }
         arguments.push(vector(quote!(residual), residuals));
         arguments.push(vector(quote!(input), inputs));

@@ -44,6 +44,7 @@ mod taylor;
 mod tests;
 
 pub use derived::{Derived, Plain, Subject};
+pub use documentation::{Equations, method_name};
 pub use fallback::fallback;
 pub use system::SystemSubject;
 

@@ -89,7 +89,7 @@ impl<'a, 'g> Order<'a, 'g> {
         let moves = |k: usize| self.moving[k];
         match o {
             Operand::Number(_) => None,
-            Operand::Symbol(symbol) => self.coefficients.get(&symbol.key()).cloned(),
+            Operand::Input(symbol) => self.coefficients.get(&symbol.key()).cloned(),
             Operand::Value(k) if moves(*k) => Some(named("w", *k)),
             Operand::Sine(k) if moves(*k) => Some(named("ws", *k)),
             Operand::Cosine(k) if moves(*k) => Some(named("wc", *k)),
@@ -402,6 +402,7 @@ fn component_groups(derived: &Derived<'_, '_>) -> Vec<usize> {
             let group = |coordinate: &Coordinate<'_>| match coordinate {
                 Coordinate::Pose(..) => vec![4, 3],
                 Coordinate::Rotation(_) => vec![4],
+                Coordinate::Plane { .. } => vec![2, 2],
                 Coordinate::Scalar(_) => vec![],
             };
             let scalars = coordinates.iter().filter(|c| matches!(c, Coordinate::Scalar(_))).map(|_| 1);

@@ -266,14 +266,10 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         }
 
         let direction = if span < 0.0 { -1.0 } else { 1.0 };
-        let longest = self.largest_step.min(span.abs());
-        let first = self.first_step.unwrap_or_else(|| self.first_length(problem, &start, &rates, direction));
-        if !(first.is_finite() && first > 0.0 && longest > 0.0) {
-            return Err(stopped(&start, IntegrationErrorKind::InvalidStep { step: first.min(longest) }));
-        }
-
+        let lengths = self.first_and_longest(problem, &start, &rates, span);
+        let (first, longest) = lengths.map_err(|kind| stopped(&start, kind))?;
         let mut state = start;
-        let mut length = first.min(longest);
+        let mut length = first;
         let mut lengths = StepLength::new(self.method.estimate_order(), S::SMOOTHNESS);
         for _ in 0..limit {
             let left = (end - state.t).lane(0).abs();
@@ -283,12 +279,7 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
             if state.t + signed == state.t {
                 return Err(stopped(&state, IntegrationErrorKind::StepTooSmall { step: length }));
             }
-            // When a step fails a shorter one may do: half, until the time does not change any more.
-            let half = |kind| {
-                let half = 0.5 * length.min(left);
-                let unchanged = state.t + S::Scalar::from_f64(direction * half) == state.t;
-                if unchanged { Err(stopped(&state, kind)) } else { Ok(half) }
-            };
+            let half = |kind| halved(&state, direction, length.min(left)).ok_or_else(|| stopped(&state, kind));
             let (step, coarse) = match self.method.step_and_estimates(problem, &state, &rates, signed) {
                 Ok(step) => step,
                 Err(kind) => {
@@ -335,7 +326,35 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
     }
 }
 
+/// When a step fails a shorter one may do: half of its length, as long as that still changes the time.
+fn halved<S: GaussSystem>(state: &State<S>, direction: f64, length: f64) -> Option<f64> {
+    let half = 0.5 * length;
+    (state.t + S::Scalar::from_f64(direction * half) != state.t).then_some(half)
+}
+
 impl<M> Adaptive<M> {
+    /// The lengths of the first step and of the longest.
+    fn first_and_longest<S, P>(
+        &self,
+        problem: &P,
+        start: &State<S>,
+        rates: &Rates<S>,
+        span: f64,
+    ) -> Result<(f64, f64), IntegrationErrorKind>
+    where
+        S: GaussSystem,
+        P: Problem<System = S>,
+        M: EstimatingStep<S>,
+    {
+        let longest = self.largest_step.min(span.abs());
+        let first = self.first_step.unwrap_or_else(|| self.first_length(problem, start, rates, span.signum()));
+        if first.is_finite() && first > 0.0 && longest > 0.0 {
+            Ok((first.min(longest), longest))
+        } else {
+            Err(IntegrationErrorKind::InvalidStep { step: first.min(longest) })
+        }
+    }
+
     /// The error of a step in tolerances: the root mean square over the components, of the worst lane. NaN when an error is.
     #[inline(always)]
     fn scaled_error<S: GaussSystem>(

@@ -167,39 +167,42 @@ where
         });
         outcome?;
 
-        let mut last = f64::INFINITY;
-        let mut stop = None;
-        loop {
-            let mut first: Option<(usize, f64, bool)> = None;
-            let mut number = 0;
-            self.events.each(&mut |_, mark| {
-                if let Some(part) = mark.part
-                    && first.is_none_or(|(_, earliest, _)| part < earliest)
-                {
-                    first = Some((number, part, mark.terminal));
-                }
-                number += 1;
-            });
-            let Some((number, part, terminal)) = first else { break };
+        let (mut last, mut stop) = (f64::INFINITY, None);
+        while let Some((number, part, terminal)) = self.take_earliest() {
             // Others at the very end of the run are told of, later ones are not.
             if part > last {
                 break;
             }
-            let mut n = 0;
-            self.events.each(&mut |_, mark| {
-                if n == number {
-                    mark.part = None;
-                }
-                n += 1;
-            });
             let state = reach(part)?;
             report(number, &state);
             if terminal {
-                last = part;
-                stop = Some(state);
+                (last, stop) = (part, Some(state));
             }
         }
         Ok(stop.map_or(ControlFlow::Continue(()), ControlFlow::Break))
+    }
+
+    /// The number of the event that was found earliest in the step, where that is, and whether it ends the run; it is then no
+    /// longer to be reported.
+    fn take_earliest(&mut self) -> Option<(usize, f64, bool)> {
+        let mut first: Option<(usize, f64, bool)> = None;
+        let mut number = 0;
+        self.events.each(&mut |_, mark| {
+            if let Some(part) = mark.part
+                && first.is_none_or(|(_, earliest, _)| part < earliest)
+            {
+                first = Some((number, part, mark.terminal));
+            }
+            number += 1;
+        });
+        let mut n = 0;
+        self.events.each(&mut |_, mark| {
+            if first.is_some_and(|(number, ..)| number == n) {
+                mark.part = None;
+            }
+            n += 1;
+        });
+        first
     }
 }
 

@@ -21,6 +21,7 @@ struct Knot<S: GaussSystem> {
 copy_and_debug!(Knot { sample, velocity, acceleration, momentum_rate });
 
 /// A state in which a function passed through zero: see [`Simulation::event`](crate::integrate::Simulation::event).
+#[non_exhaustive]
 pub struct EventSample<S: GaussSystem> {
     /// Which event, counted from 0 in the order in which they were asked for.
     pub number: usize,

@@ -33,6 +33,7 @@ use crate::system::GaussSystem;
 ///
 /// A random input that is held over each step enters as `by_input · C · by_inputᵀ`, C its covariance: for white noise of spectral
 /// density S that is S/h.
+#[non_exhaustive]
 pub struct DiscreteLinearization<S: GaussSystem, const D: usize, const U: usize> {
     /// The time at the end, t + h.
     pub t: S::Scalar,

@@ -14,6 +14,7 @@ use crate::system::GaussSystem;
 /// An integration that cannot go on: when, in which state, and why. What was reached is kept: see
 /// [`Simulation::attempt`](crate::integrate::Simulation::attempt), whose last sample is that state.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct IntegrationError {
     /// The last time that was reached with a good state.
     pub time: f64,
@@ -130,6 +131,7 @@ pub enum IntegrationErrorKind {
 
 /// Where a number that is not finite was seen first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Part {
     /// The initial configuration or velocity, or the momentum made of them.
     InitialState,

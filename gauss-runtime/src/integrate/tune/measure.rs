@@ -28,6 +28,7 @@ use crate::system::GaussSystem;
 
 /// A method on the user's scene, with what was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Candidate<T> {
     /// The method, with its step or tolerances.
     pub method: Method<T>,
@@ -57,6 +58,7 @@ impl<T> Candidate<T> {
 
 /// A method of your own on the user's scene, with what was measured: see [`Simulation::tune_steps`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Measured<C> {
     /// The method, with its setting.
     pub control: C,
@@ -72,6 +74,7 @@ pub struct Measured<C> {
 
 /// What [`Simulation::tune`] found.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Tuned<T> {
     /// The cheapest that meets the wanted error.
     pub best: Candidate<T>,

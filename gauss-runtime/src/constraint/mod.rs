@@ -7,7 +7,9 @@
 //! moves it by no more than about the step's own error and leaves exact solutions where they are: the order of the method stays
 //! (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4; Ascher, Chin, Petzold & Reich 1995).
 
-use core::fmt;
+mod error;
+
+pub use error::{ConstraintLevel, ProjectionError, ProjectionFailure};
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
@@ -56,67 +58,6 @@ pub trait ConstrainedSystem: GaussSystem {
         residual: &Self::Multipliers,
     ) -> Self::Speeds;
 }
-
-/// Which of a system's constraints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ConstraintLevel {
-    /// φ(t, q) = 0.
-    Position,
-    /// φ(t, q, z) = 0, and dφ/dt = 0 of position constraints.
-    Velocity,
-}
-
-impl fmt::Display for ConstraintLevel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Position => "position",
-            Self::Velocity => "velocity",
-        })
-    }
-}
-
-/// Why a state cannot be brought back onto the constraints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum ProjectionFailure {
-    /// A residual or a correction is infinite or undefined: the state was, or constraints depend on one another there.
-    NonFinite,
-    /// Corrections do not settle: the state is too far from the constraints, or they contradict each other.
-    NotConverged,
-}
-
-/// A state that could not be brought onto the constraints: see [`GaussSystem::project`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProjectionError {
-    /// Positions come first, velocities after them.
-    pub level: ConstraintLevel,
-    /// What happened.
-    pub failure: ProjectionFailure,
-    /// The largest component of the residual where the search was given up, in the unit of that constraint; NaN where it is
-    /// undefined.
-    pub residual: f64,
-}
-
-impl fmt::Display for ProjectionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { level, failure, residual } = self;
-        write!(f, "no state that satisfies the constraints was found: ")?;
-        match failure {
-            ProjectionFailure::NonFinite => write!(
-                f,
-                "the correction of the {level} is infinite or undefined (residual {residual:e}); the state is, or \
-                 constraints depend on one another there"
-            ),
-            ProjectionFailure::NotConverged => write!(
-                f,
-                "corrections of the {level} do not settle (residual {residual:e}); the state is too far from the \
-                 constraints, or they contradict each other"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for ProjectionError {}
 
 /// Corrections that are tried on each level. Overshooting by a factor 10⁷ on a quadratic constraint is undone by 24 halvings,
 /// and five or six steps of quadratic convergence go from one digit to all of them.
@@ -192,5 +133,4 @@ fn settle<T: Real, X, R: VectorSpace<T>, C: VectorSpace<T>>(
 }
 
 #[cfg(test)]
-#[path = "constraint_tests.rs"]
 mod tests;
