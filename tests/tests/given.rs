@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use gauss_runtime::description::OperationCount;
 use gauss_runtime::error::Rule;
 use gauss_runtime::prelude::*;
-use gauss_runtime::system::OperationCount;
 use proptest::prelude::*;
 
 /// Rounding of some tens of operations on numbers of order ten, of which sums may cancel.

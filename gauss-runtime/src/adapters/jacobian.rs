@@ -2,32 +2,33 @@
 
 use super::flat::FlatSystem;
 use super::ways::{Differences, Given};
-use crate::integrate::{Form, InputSource};
+use crate::integrate::Problem;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
+type Scalar<P> = <<P as Problem>::System as GaussSystem>::Scalar;
+
 /// A way to find `∂f/∂x · v` of a [`FlatSystem`].
-pub trait JacobianProduct<S: GaussSystem, F, I>: Sized {
+pub trait JacobianProduct<P: Problem>: Sized {
     /// Writes `∂f/∂x · v` at (t, x) into `product`. All slices are [`FlatSystem::DIM`] long.
     fn product(
         &self,
-        system: &FlatSystem<'_, S, F, I, Self>,
-        t: S::Scalar,
-        x: &[S::Scalar],
-        v: &[S::Scalar],
-        product: &mut [S::Scalar],
+        system: &FlatSystem<P, Self>,
+        t: Scalar<P>,
+        x: &[Scalar<P>],
+        v: &[Scalar<P>],
+        product: &mut [Scalar<P>],
     );
 }
 
-impl<S, F, I> JacobianProduct<S, F, I> for Differences
+impl<S, P> JacobianProduct<P> for Differences
 where
     S: GaussSystem,
-    F: Form<S>,
-    I: InputSource<S>,
+    P: Problem<System = S>,
 {
     fn product(
         &self,
-        system: &FlatSystem<'_, S, F, I, Self>,
+        system: &FlatSystem<P, Self>,
         t: S::Scalar,
         x: &[S::Scalar],
         v: &[S::Scalar],
@@ -47,14 +48,15 @@ where
     }
 }
 
-impl<S, F, I, G> JacobianProduct<S, F, I> for Given<G>
+impl<S, P, G> JacobianProduct<P> for Given<G>
 where
     S: GaussSystem,
+    P: Problem<System = S>,
     G: Fn(S::Scalar, &[S::Scalar], &[S::Scalar], &mut [S::Scalar]),
 {
     fn product(
         &self,
-        _: &FlatSystem<'_, S, F, I, Self>,
+        _: &FlatSystem<P, Self>,
         t: S::Scalar,
         x: &[S::Scalar],
         v: &[S::Scalar],

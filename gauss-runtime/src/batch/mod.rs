@@ -77,7 +77,7 @@ pub use error::{BatchError, StateError};
 pub use packs::{Packs, SingleConfiguration, SingleSpeeds, States};
 pub use system::BatchSystem;
 
-use crate::integrate::{Feedback, Form, InputSource, MomentumForm, NoInput, OneStep, Problem, VelocityForm};
+use crate::integrate::{Feedback, Form, InputSource, MomentumForm, NoInput, OneStep, SystemProblem, VelocityForm};
 use crate::real::Real;
 use crate::simd::Packed;
 use crate::system::GaussSystem;
@@ -234,7 +234,8 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
     {
         let lanes = S::Scalar::WIDTH;
         let first = block * lanes;
-        let problem = Problem { system: self.kernels.of_block(block), form: self.form, input: Borrowed(&self.input) };
+        let problem =
+            SystemProblem { system: self.kernels.of_block(block), form: self.form, input: Borrowed(&self.input) };
         let mut failures = advance::advance(&problem, method, interval, lanes.min(count - first), state);
         failures.sort_unstable_by_key(|failure| failure.state);
         failures.iter_mut().for_each(|failure| failure.state += first);
