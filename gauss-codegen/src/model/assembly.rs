@@ -17,7 +17,7 @@ use super::scope::{Meaning, Scope, UNNAMED};
 use super::shapes::Kind;
 use super::statements::{Statement, Statements};
 use super::validate;
-use super::{BodyClause, Expression, Field, ForceKind, InChart, Model, Role, Scalar, Shape, Wanted};
+use super::{BodyClause, Expression, Field, ForceKind, Given, InChart, Model, Role, Scalar, Shape, Wanted};
 use proc_macro2::{Ident, Span};
 use syn::{DeriveInput, Path};
 
@@ -91,12 +91,13 @@ fn check_expressions(
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions(statements) {
         // Of constraints and mass data the kind is needed as well.
-        if !matches!(place, Place::Constraint(_) | Place::Given(_)) {
+        let later = matches!(place, Place::Constraint(_) | Place::Given(_)) || place == given::ENTRY;
+        if !later {
             kinds::check(expression, place, &scope, context);
         }
     }
-    given::check(&mut statements.given, &scope, context);
-    statements.bodies.iter_mut().for_each(|body| given::check(&mut body.given, &scope, context));
+    let all = std::iter::once(&mut statements.given).chain(statements.bodies.iter_mut().map(|body| &mut body.given));
+    all.for_each(|given| given::check(given, &reader.fields, &scope, context));
     forces::check(statements, context);
     forces::check_coefficients(statements, &reader.fields, &scope, scalar, context);
     let well = constraints::check_kinds(statements, &scope, context);
@@ -114,7 +115,9 @@ fn check_expressions(
 /// Everything that is written does something. Asked only where all else is well.
 fn check_effect(statements: &Statements, unused: &[Ident], owners: &[(Role, usize)], context: &mut Context) {
     forces::check_effect(statements, context);
-    let fluid = owners.iter().any(|(role, _)| matches!(role, Role::AddedMass | Role::DisplacedMass));
+    let given = statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given));
+    let mut roles = owners.iter().map(|(role, _)| *role).chain(given.map(|given| given.role));
+    let fluid = roles.any(|role| matches!(role, Role::AddedMass | Role::DisplacedMass));
     forces::check_medium(statements, fluid, context);
     for name in unused {
         context.error(name.span(), format!("`{name}` is defined and never used; remove it"));
@@ -192,7 +195,7 @@ fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
         all.extend(body.rotation.as_ref().map(|rotation| (Place::Rotation, rotation)));
     }
     let given = statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given));
-    all.extend(given.map(|given| (Place::Given(given.role), &given.value)));
+    all.extend(given.flat_map(Given::expressions));
     for particle in &statements.particles {
         all.push((Place::Mass, &particle.mass));
         all.push((Place::Particle { parent: particle.parent.is_some() }, &particle.position));
@@ -229,7 +232,9 @@ fn mark_named(statements: &Statements, reader: &mut Reader<'_>) {
     for field in &mut reader.fields {
         field.computed |= match field.reading.kind {
             Kind::Known(Shape::Scalar | Shape::Vector3) => statements.name(&word(field.ident)),
-            Kind::Known(Shape::Vector6 | Shape::Matrix6) => coefficients.iter().any(|name| same(name, field.ident)),
+            Kind::Known(Shape::Vector6 | Shape::Matrix6) => {
+                coefficients.iter().any(|(name, _)| same(name, field.ident))
+            }
             _ => false,
         };
     }
@@ -251,7 +256,7 @@ impl Statements {
             body.position.iter_mut().chain(&mut body.rotation).for_each(&mut *change);
         }
         let of_bodies = self.bodies.iter_mut().flat_map(|body| &mut body.given);
-        self.given.iter_mut().chain(of_bodies).for_each(|given| change(&mut given.value));
+        self.given.iter_mut().chain(of_bodies).for_each(|given| given.each_expression(change));
         for particle in &mut self.particles {
             change(&mut particle.mass);
             change(&mut particle.position);
@@ -322,6 +327,7 @@ fn check_masses(
         validate::check_companion(claim.role, claim.span, known, scalar, context);
     }
     given::check_roles(&statements.given, &reader.fields, known, scalar, context);
+    statements.massive().for_each(|body| given::check_fluid(body, known(Role::Gravity), scalar, context));
     if statements.has_unnamed_body() {
         return;
     }

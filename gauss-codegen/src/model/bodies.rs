@@ -56,10 +56,10 @@ fn check_names(statements: &Statements, scalar: &str, context: &mut Context) {
 /// Each named body has a field, and each field that is a body has a clause.
 fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
     let is_body = |field: &ReadField<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
-    statements.massive().filter(|body| !body.given.is_empty()).for_each(|body| {
+    statements.massive().filter(|body| body.has_matter()).for_each(|body| {
         given::check_named(body, &reader.fields, context);
     });
-    let bodies = named(&statements.massive().filter(|body| body.given.is_empty()).collect::<Vec<_>>());
+    let bodies = named(&statements.massive().filter(|body| !body.has_matter()).collect::<Vec<_>>());
     // That a frame cannot have the name of a field is noted with the names.
     let frames: Vec<&Ident> = statements.frames().collect();
     let all = named(&statements.massive().collect::<Vec<_>>());

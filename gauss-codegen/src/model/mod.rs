@@ -69,7 +69,7 @@ mod units;
 mod validate;
 
 pub use expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
-pub use given::Given;
+pub use given::{Given, GivenValue};
 pub use system::{
     Attraction, BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, Extent, Field,
     ForceAxes, ForceClause, ForceKind, InChart, InputKind, InputName, Model, ParticleClause, PointClause, Speed,

@@ -1,7 +1,7 @@
 //! A scene as the user wrote it, checked: coordinates and speeds, or the chart of a body; bodies, particles, constraints and
 //! what acts.
 
-use super::{Chart, Expression, Given, Motion, Role, Scalar, Shape, Wanted};
+use super::{Chart, Expression, Given, GivenValue, Motion, Role, Scalar, Shape, Wanted};
 use proc_macro2::Span;
 use syn::{Generics, Ident, Path, Visibility};
 
@@ -100,6 +100,13 @@ impl Model {
         self.is_acted_upon() || !self.given.is_empty() || !self.points.is_empty()
     }
 
+    /// Whether the field is the added mass that some clause names.
+    pub fn is_added_mass(&self, field: &Ident) -> bool {
+        let all = self.given.iter().chain(self.bodies.iter().flat_map(|body| &body.given));
+        let named = |given: &Given| matches!(&given.value, GivenValue::Coefficients(Coefficients::Field(name)) if name == field);
+        all.into_iter().any(named)
+    }
+
     /// Whether the model itself says where the body is: in a chart.
     pub fn is_in_chart(&self, body: &BodyClause) -> bool {
         self.in_chart.is_some() && body.name.is_none()
@@ -173,10 +180,17 @@ pub struct BodyClause {
     pub position: Option<Expression>,
     /// How the axes e are turned; `None`: like the parent's, or like k, or as the chart says.
     pub rotation: Option<Expression>,
-    /// Mass, centre of mass and inertia where the body has no field.
+    /// Mass, centre of mass and inertia where the body has no field; what the fluid about it does, in any case.
     pub given: Vec<Given>,
     /// The word `body` or `frame`.
     pub span: Span,
+}
+
+impl BodyClause {
+    /// Its mass data are said in the clause.
+    pub fn has_matter(&self) -> bool {
+        self.given.iter().any(Given::is_of_matter)
+    }
 }
 
 /// `particle(mass = …, position = …, parent = …)`.
@@ -378,7 +392,7 @@ pub enum Extent {
     Along(Expression),
 }
 
-/// Coefficients of a drag, in body axes, pole O, order (u, ω).
+/// Coefficients of a drag, or an added mass, in body axes, pole O, order (u, ω).
 #[derive(Clone)]
 pub enum Coefficients {
     /// `[a, b, c, d, e, f]`: one for each component, scalars as in values of forces.
