@@ -1,12 +1,13 @@
 //! Clauses of what acts: forces, torques, wrenches, drags, springs, stops, drives, central gravity and the medium.
 
-use super::attributes::{Clause, Place, Value};
+use super::arguments::{self, brackets, equals, known, value};
+use super::arithmetic;
+use super::attributes::{Clause, Content, Owner};
+use super::clauses::{Attraction, Coefficients, Extent, ForceAxes, ForceClause, ForceKind};
 use super::context::Context;
-use super::names::{self, Table};
+use super::expression::Expression;
+use super::names::{self, Table, UNNAMED};
 use super::placements::{may_be_name, read_reference};
-use super::scope::UNNAMED;
-use super::statements::{self, brackets, equals, known, value};
-use super::{Attraction, Coefficients, Expression, Extent, ForceAxes, ForceClause, ForceKind, arithmetic};
 use proc_macro2::{Ident, Span};
 
 const FORCE: &Table<()> = &[("at", ()), ("value", ()), ("body", ()), ("axes", ())];
@@ -46,13 +47,13 @@ impl Element {
     fn read(
         clause: &Clause,
         noun: &'static str,
-        place: Place,
+        place: Owner,
         table: &Table<()>,
         example: &str,
         context: &mut Context,
     ) -> Option<Element> {
         let group = brackets(clause, example, context)?;
-        let (written, complete) = statements::arguments(group, place, context);
+        let (written, complete) = arguments::arguments(group, place, context);
         let mut element = Element {
             noun,
             span: clause.name.span(),
@@ -64,8 +65,8 @@ impl Element {
         let mut given = Vec::new();
         for (index, argument) in written.into_iter().enumerate() {
             if index == 0 && may_be_name(&argument, table) {
-                if matches!(argument.value, Value::Absent) {
-                    element.name = statements::name(&argument.name, noun, context);
+                if matches!(argument.value, Content::Absent) {
+                    element.name = arguments::name(&argument.name, noun, context);
                 }
             } else if noun == "torque" && argument.word() == "at" {
                 context.error(
@@ -189,7 +190,7 @@ fn optional<T>(given: Option<&Clause>, read: Option<T>) -> Option<Option<T>> {
 
 /// `force(…)`; `None` if something is missing or wrong, which is noted. In a chart it always acts on the one body.
 pub(super) fn read_force(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
-    let element = Element::read(clause, "force", Place::Force, FORCE, "at = …, value = [fx, fy, fz]", context)?;
+    let element = Element::read(clause, "force", Owner::Force, FORCE, "at = …, value = [fx, fy, fz]", context)?;
     let at = element.expression("at", "[l, 0, 0]", context);
     let body = element.body(in_chart, context);
     let value = element.expression("value", "[fx, fy, fz]", context);
@@ -222,7 +223,7 @@ pub(super) fn read_force(clause: &Clause, in_chart: bool, context: &mut Context)
 
 /// `torque(…)`; `None` if something is missing or wrong, which is noted. In a chart it always acts on the one body.
 pub(super) fn read_torque(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
-    let element = Element::read(clause, "torque", Place::Torque, TORQUE, "body = …, value = [mx, my, mz]", context)?;
+    let element = Element::read(clause, "torque", Owner::Torque, TORQUE, "body = …, value = [mx, my, mz]", context)?;
     let body = element.body(in_chart, context);
     let value = element.expression("value", "[mx, my, mz]", context);
     let axes = element.axes(context);
@@ -237,7 +238,7 @@ pub(super) fn read_torque(clause: &Clause, in_chart: bool, context: &mut Context
 /// `wrench(…)`; `None` if something is missing or wrong, which is noted. In a chart it always acts on the one body.
 pub(super) fn read_wrench(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
     let example = "body = …, force = [fx, fy, fz], torque = [mx, my, mz]";
-    let element = Element::read(clause, "wrench", Place::Wrench, WRENCH, example, context)?;
+    let element = Element::read(clause, "wrench", Owner::Wrench, WRENCH, example, context)?;
     let body = element.body(in_chart, context);
     let at = element.expression("at", "[l, 0, 0]", context);
     let force = element.expression("force", "[fx, fy, fz]", context);
@@ -267,7 +268,7 @@ pub(super) fn read_wrench(clause: &Clause, in_chart: bool, context: &mut Context
 
 /// `drag(…)`; `None` if something is missing or wrong, which is noted. In a chart it always acts on the one body.
 pub(super) fn read_drag(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
-    let element = Element::read(clause, "drag", Place::Drag, DRAG, "body = …, linear = …, quadratic = …", context)?;
+    let element = Element::read(clause, "drag", Owner::Drag, DRAG, "body = …, linear = …, quadratic = …", context)?;
     let body = element.body(in_chart, context);
     let linear = element.coefficients("linear", context);
     let quadratic = element.coefficients("quadratic", context);
@@ -282,7 +283,7 @@ pub(super) fn read_drag(clause: &Clause, in_chart: bool, context: &mut Context) 
 
 /// `spring(…)`; `None` if something is missing or wrong, which is noted.
 pub(super) fn read_spring(clause: &Clause, context: &mut Context) -> Option<ForceClause> {
-    let element = Element::read(clause, "spring", Place::Spring, SPRING, "from = …, to = …, stiffness = k", context)?;
+    let element = Element::read(clause, "spring", Owner::Spring, SPRING, "from = …, to = …, stiffness = k", context)?;
     let extent = element.extent(context);
     let stiffness = element.expression("stiffness", "k", context);
     let length = element.expression("length", "l", context);
@@ -296,7 +297,7 @@ pub(super) fn read_spring(clause: &Clause, context: &mut Context) -> Option<Forc
 /// `stop(…)`; `None` if something is missing or wrong, which is noted.
 pub(super) fn read_stop(clause: &Clause, context: &mut Context) -> Option<ForceClause> {
     let example = "along = …, least = a, most = b, stiffness = k, width = e";
-    let element = Element::read(clause, "stop", Place::Stop, STOP, example, context)?;
+    let element = Element::read(clause, "stop", Owner::Stop, STOP, example, context)?;
     let extent = element.extent(context);
     let least = element.expression("least", "a", context);
     let most = element.expression("most", "b", context);
@@ -316,7 +317,7 @@ pub(super) fn read_stop(clause: &Clause, context: &mut Context) -> Option<ForceC
 
 /// `central_gravity(…)`; `None` if something is missing or wrong, which is noted.
 pub(super) fn read_attraction(clause: &Clause, context: &mut Context) -> Option<Attraction> {
-    let element = Element::read(clause, "attraction", Place::CentralGravity, ATTRACTION, "mu = gm", context)?;
+    let element = Element::read(clause, "attraction", Owner::CentralGravity, ATTRACTION, "mu = gm", context)?;
     let mu = element.expression("mu", "gm", context);
     let center = element.expression("center", "[x, y, z]", context);
     element.require("mu", "its gravitational parameter", "gm", context);
@@ -327,7 +328,7 @@ pub(super) fn read_attraction(clause: &Clause, context: &mut Context) -> Option<
 /// The velocity of `medium(velocity = …)`; `None` if it is missing or wrong, which is noted.
 pub(super) fn read_medium(clause: &Clause, context: &mut Context) -> Option<Expression> {
     let group = brackets(clause, "velocity = [cx, cy, cz]", context)?;
-    let (arguments, complete) = statements::arguments(group, Place::Medium, context);
+    let (arguments, complete) = arguments::arguments(group, Owner::Medium, context);
     let (mut velocity, mut given, mut misspelt) = (None, Vec::new(), false);
     for argument in &arguments {
         if known(argument, "medium", MEDIUM, &mut given, context) {
@@ -345,13 +346,13 @@ pub(super) fn read_medium(clause: &Clause, context: &mut Context) -> Option<Expr
 /// `drive(…)`; `None` if nothing is driven or something is wrong, which is noted.
 pub(super) fn read_drive(clause: &Clause, context: &mut Context) -> Option<ForceClause> {
     let group = brackets(clause, "theta = …", context)?;
-    let (arguments, complete) = statements::arguments(group, Place::Drive, context);
+    let (arguments, complete) = arguments::arguments(group, Owner::Drive, context);
     let (mut name, mut rates) = (None, Vec::new());
     let mut certain = complete;
     for (index, argument) in arguments.iter().enumerate() {
         match argument.value {
-            Value::Absent if index == 0 => name = statements::name(&argument.name, "drive", context),
-            Value::Malformed => certain = false,
+            Content::Absent if index == 0 => name = arguments::name(&argument.name, "drive", context),
+            Content::Malformed => certain = false,
             _ => match value(argument, "k * theta", context) {
                 Some(value) => rates.push((argument.name.clone(), value)),
                 None => certain = false,

@@ -3,9 +3,13 @@
 //! syn reads the Rust; what is left once the forms outside the language are refused is small. All of them are noted,
 //! not only the first.
 
+use super::attributes;
+use super::clauses::Coefficients;
 use super::context::Context;
+use super::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName};
 use super::functions::{FUNCTIONS, Function, PROPERTIES};
-use super::{BinaryOperator, Coefficients, Expression, ExpressionKind, FunctionName, attributes, names, number};
+use super::names;
+use super::number;
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::ext::IdentExt;

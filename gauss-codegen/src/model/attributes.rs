@@ -11,7 +11,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, LitStr, MacroDelimiter, Meta};
 
 /// Where an attribute stands, for the wording of messages.
 #[derive(Clone, Copy)]
-pub(super) enum Place {
+pub(super) enum Owner {
     Struct,
     Field,
     /// In the brackets of `kinematics(…)`.
@@ -48,46 +48,46 @@ pub(super) enum Place {
     CentralGravity,
 }
 
-impl Place {
+impl Owner {
     fn example(self) -> &'static str {
         match self {
-            Place::Struct => "a clause such as `chart = hybrid`",
-            Place::Field => "a role such as `mass`",
-            Place::Kinematics => "an equation such as `x = v`",
-            Place::Body | Place::Frame | Place::Particle => "an argument such as `position = [x, y, 0]`",
-            Place::Point => "an argument such as `at = [l, 0, 0]`",
-            Place::Constraint => "`position = …` or `velocity = …`",
-            Place::Force | Place::Torque => "an argument such as `value = [0, 0, f]`",
-            Place::Drive => "a generalised force such as `theta = -k * theta`",
-            Place::Spring | Place::Stop => "an argument such as `stiffness = k`",
-            Place::Drag => "an argument such as `linear = d`",
-            Place::Wrench => "an argument such as `force = [0, 0, f]`",
-            Place::Define => "a definition such as `u = body.relative_velocity`",
-            Place::Medium => "an argument such as `velocity = [c, 0, 0]`",
-            Place::CentralGravity => "an argument such as `mu = gm`",
+            Owner::Struct => "a clause such as `chart = hybrid`",
+            Owner::Field => "a role such as `mass`",
+            Owner::Kinematics => "an equation such as `x = v`",
+            Owner::Body | Owner::Frame | Owner::Particle => "an argument such as `position = [x, y, 0]`",
+            Owner::Point => "an argument such as `at = [l, 0, 0]`",
+            Owner::Constraint => "`position = …` or `velocity = …`",
+            Owner::Force | Owner::Torque => "an argument such as `value = [0, 0, f]`",
+            Owner::Drive => "a generalised force such as `theta = -k * theta`",
+            Owner::Spring | Owner::Stop => "an argument such as `stiffness = k`",
+            Owner::Drag => "an argument such as `linear = d`",
+            Owner::Wrench => "an argument such as `force = [0, 0, f]`",
+            Owner::Define => "a definition such as `u = body.relative_velocity`",
+            Owner::Medium => "an argument such as `velocity = [c, 0, 0]`",
+            Owner::CentralGravity => "an argument such as `mu = gm`",
         }
     }
 
     /// Whose words these are.
     pub(super) fn owner(self) -> &'static str {
         match self {
-            Place::Struct | Place::Field => "gauss",
-            Place::Kinematics => "kinematics",
-            Place::Body => "body",
-            Place::Frame => "frame",
-            Place::Particle => "particle",
-            Place::Point => "point",
-            Place::Constraint => "constraint",
-            Place::Force => "force",
-            Place::Torque => "torque",
-            Place::Drive => "drive",
-            Place::Spring => "spring",
-            Place::Stop => "stop",
-            Place::Drag => "drag",
-            Place::Wrench => "wrench",
-            Place::Define => "define",
-            Place::Medium => "medium",
-            Place::CentralGravity => "central_gravity",
+            Owner::Struct | Owner::Field => "gauss",
+            Owner::Kinematics => "kinematics",
+            Owner::Body => "body",
+            Owner::Frame => "frame",
+            Owner::Particle => "particle",
+            Owner::Point => "point",
+            Owner::Constraint => "constraint",
+            Owner::Force => "force",
+            Owner::Torque => "torque",
+            Owner::Drive => "drive",
+            Owner::Spring => "spring",
+            Owner::Stop => "stop",
+            Owner::Drag => "drag",
+            Owner::Wrench => "wrench",
+            Owner::Define => "define",
+            Owner::Medium => "medium",
+            Owner::CentralGravity => "central_gravity",
         }
     }
 }
@@ -95,11 +95,11 @@ impl Place {
 /// One clause.
 pub(super) struct Clause {
     pub(super) name: Ident,
-    pub(super) value: Value,
+    pub(super) value: Content,
 }
 
 /// What follows the name of a clause.
-pub(super) enum Value {
+pub(super) enum Content {
     /// Nothing.
     Absent,
     /// `= tokens`; there is at least one token.
@@ -125,9 +125,9 @@ impl Clause {
     /// The clause as it was written, for messages that name it.
     pub(super) fn written(&self) -> String {
         match &self.value {
-            Value::Equals(tokens) => format!("{} = {}", self.name, written(tokens)),
-            Value::Brackets(group) => format!("{}{}", self.name, written(&[TokenTree::Group(group.clone())])),
-            Value::Absent | Value::Malformed => self.name.to_string(),
+            Content::Equals(tokens) => format!("{} = {}", self.name, written(tokens)),
+            Content::Brackets(group) => format!("{}{}", self.name, written(&[TokenTree::Group(group.clone())])),
+            Content::Absent | Content::Malformed => self.name.to_string(),
         }
     }
 
@@ -135,16 +135,16 @@ impl Clause {
     pub(super) fn bare_word<T: Copy>(&self, table: &Table<T>, context: &mut Context) -> Option<Word> {
         let name = &self.name;
         let tokens = match &self.value {
-            Value::Malformed => return None,
-            Value::Equals(tokens) => flat(tokens.iter().cloned().collect()),
-            Value::Absent => {
+            Content::Malformed => return None,
+            Content::Equals(tokens) => flat(tokens.iter().cloned().collect()),
+            Content::Absent => {
                 context.error(
                     name.span(),
                     format!("`{name}` needs a value; write `{name} = …` with {}", names::list(table)),
                 );
                 return None;
             }
-            Value::Brackets(group) => {
+            Content::Brackets(group) => {
                 let inner = written(&flat(group.stream()));
                 let remedy = if inner.is_empty() {
                     format!("write `{name} = …` with {}", names::list(table))
@@ -187,7 +187,7 @@ impl Clause {
     /// The clause without its last `dropped` tokens.
     fn written_until(&self, dropped: usize) -> String {
         match &self.value {
-            Value::Equals(tokens) => {
+            Content::Equals(tokens) => {
                 format!("{} = {}", self.name, written(&tokens[..tokens.len().saturating_sub(dropped)]))
             }
             _ => self.name.to_string(),
@@ -230,7 +230,7 @@ pub(super) fn not_a_word<T: Copy>(
 }
 
 /// All clauses of the `gauss` attributes among `attributes`, in order.
-pub(super) fn clauses(attributes: &[Attribute], place: Place, context: &mut Context) -> Vec<Clause> {
+pub(super) fn clauses(attributes: &[Attribute], place: Owner, context: &mut Context) -> Vec<Clause> {
     let mut clauses = Vec::new();
     for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("gauss")) {
         match &attribute.meta {
@@ -265,7 +265,7 @@ pub(super) fn clauses(attributes: &[Attribute], place: Place, context: &mut Cont
 }
 
 /// Cuts tokens at their commas and reads each piece as a clause.
-pub(super) fn split(tokens: TokenStream, place: Place, clauses: &mut Vec<Clause>, context: &mut Context) {
+pub(super) fn split(tokens: TokenStream, place: Owner, clauses: &mut Vec<Clause>, context: &mut Context) {
     for piece in pieces(tokens, place.example(), context) {
         clauses.extend(clause(piece, place, context));
     }
@@ -303,13 +303,13 @@ fn cut(tokens: TokenStream, pieces: &mut Vec<Vec<TokenTree>>, example: &str, con
 }
 
 /// Reads the tokens between two commas.
-fn clause(piece: Vec<TokenTree>, place: Place, context: &mut Context) -> Option<Clause> {
+fn clause(piece: Vec<TokenTree>, place: Owner, context: &mut Context) -> Option<Clause> {
     let mut tokens = piece.into_iter();
     let name = match tokens.next()? {
         TokenTree::Ident(name) => name,
         TokenTree::Literal(literal) => {
             let remedy = match (syn::parse_str::<LitStr>(&literal.to_string()), place) {
-                (Ok(text), Place::Struct | Place::Field) => {
+                (Ok(text), Owner::Struct | Owner::Field) => {
                     format!("write `#[gauss({})]` without quotes", text.value())
                 }
                 _ => format!("write {}", place.example()),
@@ -324,29 +324,29 @@ fn clause(piece: Vec<TokenTree>, place: Place, context: &mut Context) -> Option<
         }
     };
     let value = match tokens.next() {
-        None => Value::Absent,
+        None => Content::Absent,
         Some(TokenTree::Punct(equals)) if equals.as_char() == '=' => {
             let rest: Vec<TokenTree> = tokens.collect();
             if rest.is_empty() {
                 context.error(equals.span(), format!("nothing follows `{name} =`; write a value or remove the clause"));
-                Value::Malformed
+                Content::Malformed
             } else {
-                Value::Equals(rest)
+                Content::Equals(rest)
             }
         }
         Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => match tokens.next() {
-            None => Value::Brackets(group),
+            None => Content::Brackets(group),
             Some(extra) => {
                 context.error(
                     start(&extra),
                     format!("expected `,` after `{name}(…)`, found {}; separate clauses by commas", found(&extra)),
                 );
-                Value::Malformed
+                Content::Malformed
             }
         },
         Some(other) => {
             context.error(start(&other), format!("expected `=` or `,` after `{name}`, found {}", found(&other)));
-            Value::Malformed
+            Content::Malformed
         }
     };
     Some(Clause { name, value })

@@ -1,13 +1,12 @@
 //! What must hold between the bodies and frames of a scene: their names, their fields and their parents.
 
+use super::clauses::{BodyClause, ForceKind};
 use super::context::Context;
 use super::fields::{ReadField, Reader};
-use super::given;
-use super::names;
-use super::naming::{same, word};
-use super::scope::UNNAMED;
+use super::masses;
+use super::names::{self, UNNAMED, same, word};
+use super::roles::Role;
 use super::statements::{Statement, Statements};
-use super::{BodyClause, ForceKind, Role};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
@@ -57,7 +56,7 @@ fn check_names(statements: &Statements, scalar: &str, context: &mut Context) {
 fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
     let is_body = |field: &ReadField<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
     statements.massive().filter(|body| body.has_matter()).for_each(|body| {
-        given::check_named(body, &reader.fields, context);
+        masses::check_named(body, &reader.fields, context);
     });
     let bodies = named(&statements.massive().filter(|body| !body.has_matter()).collect::<Vec<_>>());
     // That a frame cannot have the name of a field is noted with the names.

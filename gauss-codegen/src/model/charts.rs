@@ -1,6 +1,50 @@
-//! What the speeds of charts are called where clauses name them.
+//! Charts of one body, and what their speeds are called where clauses name them.
 
-use super::{Chart, InChart, Motion, RotationChart};
+/// The choice of quasi-velocities, row by row as in equations (2.2)–(2.6).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Chart {
+    /// u and ω in body axes, pole O.
+    LeftInvariant,
+    /// The velocity of the body point at Ω, and ω, in observer axes, pole Ω.
+    RightInvariant,
+    /// ḃ in observer axes, ω in body axes, pole O.
+    Hybrid,
+    /// Time derivatives of coordinates.
+    Jet(RotationChart),
+}
+
+/// Coordinates of the rotation in a jet chart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RotationChart {
+    /// R = R_a(α₀) R_b(α₁) R_c(α₂), axes counted from 0, no two neighbours equal.
+    Euler([u8; 3]),
+    /// tan(θ/2) n.
+    Rodrigues,
+    /// tan(θ/4) n.
+    ModifiedRodrigues,
+    /// θ, the one angle of planar motion.
+    Angle,
+}
+
+/// What the body is free to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Six degrees of freedom.
+    Free,
+    /// O stays at Ω: rotation only.
+    FixedPoint,
+    /// O stays in the plane k₁k₂ and the body turns about k₃.
+    Planar,
+}
+
+/// A chart of one body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InChart {
+    /// The quasi-velocities that the equations are written in.
+    pub chart: Chart,
+    /// What the body is free to do.
+    pub motion: Motion,
+}
 
 impl InChart {
     /// One word for each speed; those of a vector share theirs.

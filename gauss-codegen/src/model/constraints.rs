@@ -1,14 +1,14 @@
 //! What must hold of constraints, and of the speeds that stay independent under them.
 
+use super::clauses::{ConstraintClause, ConstraintKind};
 use super::context::Context;
-use super::kinds::{self, Kind};
+use super::kind::Kind;
+use super::kinds;
 use super::moving::Moving;
-use super::names;
-use super::naming::{same, word};
+use super::names::{self, same, word};
 use super::places::Place;
 use super::scope::Scope;
 use super::statements::{Statement, Statements};
-use super::{ConstraintClause, ConstraintKind};
 
 /// Checks names and kinds in the constraints, and says which are vectors; and which are without mistakes.
 pub(super) fn check_kinds(statements: &mut Statements, scope: &Scope, context: &mut Context) -> Vec<bool> {

@@ -1,12 +1,12 @@
 //! Clauses that declare names: coordinates, speeds and inputs with their kinds, speeds that stay independent, kinematics, and
 //! definitions.
 
-use super::attributes::{self, Clause, Place};
+use super::arguments::{self, brackets, value};
+use super::attributes::{self, Clause, Owner};
+use super::clauses::{Coordinate, CoordinateKind, InputKind, InputName, Speed, SpeedKind};
 use super::context::Context;
-use super::fields;
+use super::expression::Expression;
 use super::names::{self, Table};
-use super::statements::{self, brackets, value};
-use super::{Coordinate, CoordinateKind, Expression, InputKind, InputName, Speed, SpeedKind};
 use proc_macro2::{Ident, Span, TokenTree};
 
 /// What a clause declares, in brackets.
@@ -117,13 +117,15 @@ fn read_names<N, K: Copy>(
             }
             None => continue,
         };
-        let Some(ident) = statements::name(ident, noun, context) else {
+        let Some(ident) = arguments::name(ident, noun, context) else {
             names.complete = false;
             continue;
         };
         let equals = |token: &TokenTree| matches!(token, TokenTree::Punct(equals) if equals.as_char() == '=');
         let (rest, unit) = match rest.iter().position(equals).filter(|_| language.units) {
-            Some(index) => (&rest[..index], fields::read_unit(&ident, &rest[index + 1..], rest[index].span(), context)),
+            Some(index) => {
+                (&rest[..index], arguments::read_unit(&ident, &rest[index + 1..], rest[index].span(), context))
+            }
             None => (rest, None),
         };
         match rest {
@@ -205,7 +207,7 @@ fn read_kind<K: Copy>(
 pub(super) fn read_kinematics(clause: &Clause, context: &mut Context) -> Kinematics {
     let mut kinematics = Kinematics { clause: clause.name.clone(), rates: Vec::new(), complete: false };
     let Some(group) = brackets(clause, "x = v, …", context) else { return kinematics };
-    let (equations, complete) = statements::arguments(group, Place::Kinematics, context);
+    let (equations, complete) = arguments::arguments(group, Owner::Kinematics, context);
     kinematics.complete = complete;
     for equation in &equations {
         kinematics.rates.push((equation.name.clone(), value(equation, "v", context)));
@@ -216,9 +218,9 @@ pub(super) fn read_kinematics(clause: &Clause, context: &mut Context) -> Kinemat
 /// `define(u = body.relative_velocity, …)`.
 pub(super) fn read_definitions(clause: &Clause, context: &mut Context) -> Vec<Definition> {
     let Some(group) = brackets(clause, "name = …", context) else { return Vec::new() };
-    let (equations, _) = statements::arguments(group, Place::Define, context);
+    let (equations, _) = arguments::arguments(group, Owner::Define, context);
     let read = |equation: &Clause, context: &mut Context| {
-        let name = statements::name(&equation.name, "definition", context)?;
+        let name = arguments::name(&equation.name, "definition", context)?;
         Some(Definition { name, expression: value(equation, "…", context) })
     };
     equations.iter().filter_map(|equation| read(equation, context)).collect()

@@ -3,12 +3,12 @@
 
 use super::context::Context;
 use super::declarations::Definition;
+use super::expression::{Expression, ExpressionKind};
 use super::kinds;
-use super::naming::word;
+use super::names::word;
 use super::places::Place;
 use super::scope::Scope;
 use super::statements::Statements;
-use super::{Expression, ExpressionKind};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 

@@ -5,13 +5,10 @@
 //! literal agrees with everything too, in a sum or alone; as a factor it has no dimension, unless it is zero.
 
 use super::context::Context;
-use super::fields::ReadField;
-use super::naming::{same, word};
-use super::needs::{ANGLE, ANGULAR_VELOCITY, FORCE, LENGTH, Need, TORQUE, VELOCITY};
-use super::scope::TIME;
-use super::statements::Statements;
-use super::units::{self, Dimension};
-use super::{BinaryOperator, CoordinateKind, Expression, ExpressionKind, FunctionName, Property, Role};
+use super::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+use super::names::{same, word};
+use super::need::{ANGLE, ANGULAR_VELOCITY, FORCE, LENGTH, Need, TORQUE, VELOCITY};
+use super::units::Dimension;
 use proc_macro2::{Ident, Span};
 
 /// What is known of the dimension of a number.
@@ -27,7 +24,7 @@ pub(super) enum Found {
 
 /// What is known of a value: of a vector component by component, of a scalar three times the same.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Value {
+pub(super) enum Dimensions {
     Rotation,
     Parts([Found; 3]),
 }
@@ -62,80 +59,38 @@ impl Found {
     }
 }
 
-impl Value {
-    const UNKNOWN: Value = Value::all(Found::Unknown);
+impl Dimensions {
+    pub(super) const UNKNOWN: Dimensions = Dimensions::all(Found::Unknown);
 
-    const fn all(found: Found) -> Value {
-        Value::Parts([found; 3])
+    const fn all(found: Found) -> Dimensions {
+        Dimensions::Parts([found; 3])
     }
 
-    fn of(dimension: Dimension) -> Value {
-        Value::all(Found::Known(dimension))
+    pub(super) fn of(dimension: Dimension) -> Dimensions {
+        Dimensions::all(Found::Known(dimension))
     }
 
     pub(super) fn parts(self) -> [Found; 3] {
         match self {
-            Value::Rotation => [Found::Known(Dimension::NONE); 3],
-            Value::Parts(parts) => parts,
+            Dimensions::Rotation => [Found::Known(Dimension::NONE); 3],
+            Dimensions::Parts(parts) => parts,
         }
     }
 
-    fn change(self, change: impl Fn(Found) -> Found) -> Value {
-        Value::Parts(self.parts().map(change))
-    }
-}
-
-/// Notes where dimensions disagree with one another or with what is needed. Names and kinds are right.
-pub(super) fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Context) {
-    let inputs = || statements.inputs.iter().flat_map(|names| &names.names);
-    let units: Vec<(&Ident, &str)> = fields
-        .iter()
-        .filter_map(|field| Some((field.ident, field.unit.as_deref()?)))
-        .chain(inputs().filter_map(|input| Some((&input.ident, input.unit.as_deref()?))))
-        .collect();
-    if units.is_empty() {
-        return;
-    }
-    let mut checker = Checker { units, names: Vec::new(), context };
-    checker.names.push((TIME.into(), Value::of(Dimension::TIME)));
-    for field in fields {
-        let implied = field.role.as_ref().and_then(|claim| Role::unit(claim.role)).map(|(_, dimension)| dimension);
-        let written = field.unit.as_ref().and_then(|unit| units::read(unit).ok());
-        checker.add(field.ident, implied.or(written).map_or(Value::UNKNOWN, Value::of));
-    }
-    for input in inputs() {
-        let written = input.unit.as_ref().and_then(|unit| units::read(unit).ok());
-        checker.add(&input.ident, written.map_or(Value::UNKNOWN, Value::of));
-    }
-    for coordinate in statements.coordinates.iter().flat_map(|names| &names.names) {
-        let rotation = coordinate.kind == CoordinateKind::Rotation;
-        checker.add(&coordinate.ident, if rotation { Value::Rotation } else { Value::UNKNOWN });
-    }
-    for point in &statements.points {
-        checker.add(&point.name, Value::of(LENGTH.1));
-    }
-    for definition in &statements.definitions {
-        let value = definition.expression.as_ref().map_or(Value::UNKNOWN, |expression| checker.value(expression));
-        checker.add(&definition.name, value);
-    }
-    checker.places(statements);
-    for clause in &statements.forces {
-        checker.force(&clause.kind);
-    }
-    for constraint in &statements.constraints {
-        checker.value(&constraint.expression);
+    fn change(self, change: impl Fn(Found) -> Found) -> Dimensions {
+        Dimensions::Parts(self.parts().map(change))
     }
 }
 
 pub(super) struct Checker<'a> {
     /// Units as they are written, of names.
-    units: Vec<(&'a Ident, &'a str)>,
-    names: Vec<(String, Value)>,
+    pub(super) units: Vec<(&'a Ident, &'a str)>,
+    pub(super) names: Vec<(String, Dimensions)>,
     pub(super) context: &'a mut Context,
 }
 
 impl Checker<'_> {
-    fn add(&mut self, name: &Ident, value: Value) {
+    pub(super) fn add(&mut self, name: &Ident, value: Dimensions) {
         self.names.push((word(name), value));
     }
 
@@ -160,7 +115,7 @@ impl Checker<'_> {
 
     /// The one dimension of several values, component by component; that they have several is noted once, with `what` they
     /// are and why they have one.
-    fn agree(&mut self, span: Span, values: &[(&Expression, Value)], what: &str, why: &str) -> Value {
+    fn agree(&mut self, span: Span, values: &[(&Expression, Dimensions)], what: &str, why: &str) -> Dimensions {
         let mut common = [Found::Zero; 3];
         for (index, common) in common.iter_mut().enumerate() {
             let mut first: Option<(&Expression, Dimension)> = None;
@@ -170,7 +125,7 @@ impl Checker<'_> {
                     (Found::Known(found), Some((earlier, expected))) if found != expected => {
                         let message = self.disagreement([(earlier, expected), (expression, found)], what, why);
                         self.context.error(span, message);
-                        return Value::UNKNOWN;
+                        return Dimensions::UNKNOWN;
                     }
                     (Found::Unknown, _) => *common = Found::Unknown,
                     (Found::Number, _) if *common == Found::Zero => *common = Found::Number,
@@ -181,7 +136,7 @@ impl Checker<'_> {
                 *common = Found::Known(dimension);
             }
         }
-        Value::Parts(common)
+        Dimensions::Parts(common)
     }
 
     fn disagreement(&self, terms: [(&Expression, Dimension); 2], what: &str, why: &str) -> String {
@@ -203,22 +158,22 @@ impl Checker<'_> {
     }
 
     /// The dimensions of an expression; what is wrong within it is noted, and not told again of what is around it.
-    pub(super) fn value(&mut self, expression: &Expression) -> Value {
+    pub(super) fn value(&mut self, expression: &Expression) -> Dimensions {
         let earlier = self.context.count();
         let value = self.inferred(expression);
-        if self.context.count() > earlier && value != Value::Rotation { Value::UNKNOWN } else { value }
+        if self.context.count() > earlier && value != Dimensions::Rotation { Dimensions::UNKNOWN } else { value }
     }
 
-    fn inferred(&mut self, expression: &Expression) -> Value {
+    fn inferred(&mut self, expression: &Expression) -> Dimensions {
         let span = expression.span;
         match &expression.kind {
-            ExpressionKind::Number { .. } if expression.is_zero() => Value::all(Found::Zero),
-            ExpressionKind::Number { .. } => Value::all(Found::Number),
+            ExpressionKind::Number { .. } if expression.is_zero() => Dimensions::all(Found::Zero),
+            ExpressionKind::Number { .. } => Dimensions::all(Found::Number),
             ExpressionKind::Name(name) => self.name(name),
             ExpressionKind::Property(_, property) => property_value(*property),
             ExpressionKind::Component(inner, index) => {
                 let parts = self.value(inner).parts();
-                Value::all(parts.get(*index).copied().unwrap_or(Found::Unknown))
+                Dimensions::all(parts.get(*index).copied().unwrap_or(Found::Unknown))
             }
             ExpressionKind::Negate(inner) => self.value(inner),
             ExpressionKind::Binary(operator, left, right) => {
@@ -229,8 +184,8 @@ impl Checker<'_> {
                     (BinaryOperator::Subtract, ..) => {
                         self.agree(span, &terms, "the difference of", "the two sides of `-` have one unit")
                     }
-                    (BinaryOperator::Multiply, Value::Rotation, Value::Rotation) => Value::Rotation,
-                    (BinaryOperator::Multiply, Value::Rotation, turned) => self.turned(span, turned),
+                    (BinaryOperator::Multiply, Dimensions::Rotation, Dimensions::Rotation) => Dimensions::Rotation,
+                    (BinaryOperator::Multiply, Dimensions::Rotation, turned) => self.turned(span, turned),
                     (BinaryOperator::Multiply, ..) => product(a, b),
                     (BinaryOperator::Divide, ..) => product(a, b.change(|part| part.change(|d| d.to_the(-1)))),
                 }
@@ -242,23 +197,23 @@ impl Checker<'_> {
             ExpressionKind::Call(function, arguments) => self.call(*function, arguments, span),
             ExpressionKind::Vector(components) => {
                 let [x, y, z] = components;
-                Value::Parts([x, y, z].map(|component| self.value(component).parts()[0]))
+                Dimensions::Parts([x, y, z].map(|component| self.value(component).parts()[0]))
             }
         }
     }
 
     /// A name with two meanings, which is noted elsewhere, has no dimension.
-    fn name(&self, name: &Ident) -> Value {
+    fn name(&self, name: &Ident) -> Dimensions {
         let word = word(name);
         let mut found = self.names.iter().filter(|(known, _)| *known == word).map(|(_, value)| *value);
         match (found.next(), found.next()) {
             (Some(value), None) => value,
-            _ => Value::UNKNOWN,
+            _ => Dimensions::UNKNOWN,
         }
     }
 
     /// A vector whose components a rotation mixes.
-    fn turned(&mut self, span: Span, value: Value) -> Value {
+    fn turned(&mut self, span: Span, value: Dimensions) -> Dimensions {
         let mut known = None;
         for part in value.parts() {
             match (part, known) {
@@ -270,22 +225,22 @@ impl Checker<'_> {
                              {found}; give them one unit"
                         ),
                     );
-                    return Value::UNKNOWN;
+                    return Dimensions::UNKNOWN;
                 }
                 (Found::Known(found), _) => known = Some(found),
                 _ => {}
             }
         }
         let [x, y, z] = value.parts();
-        known.map_or(if x == y && y == z { value } else { Value::UNKNOWN }, Value::of)
+        known.map_or(if x == y && y == z { value } else { Dimensions::UNKNOWN }, Dimensions::of)
     }
 
-    fn call(&mut self, function: FunctionName, arguments: &[Expression], span: Span) -> Value {
-        let values: Vec<Value> = arguments.iter().map(|argument| self.value(argument)).collect();
-        let all: Vec<(&Expression, Value)> = arguments.iter().zip(values.iter().copied()).collect();
+    fn call(&mut self, function: FunctionName, arguments: &[Expression], span: Span) -> Dimensions {
+        let values: Vec<Dimensions> = arguments.iter().map(|argument| self.value(argument)).collect();
+        let all: Vec<(&Expression, Dimensions)> = arguments.iter().zip(values.iter().copied()).collect();
         let word = function.word();
-        let first = values.first().copied().unwrap_or(Value::UNKNOWN);
-        let second = values.get(1).copied().unwrap_or(Value::UNKNOWN);
+        let first = values.first().copied().unwrap_or(Dimensions::UNKNOWN);
+        let second = values.get(1).copied().unwrap_or(Dimensions::UNKNOWN);
         let angle = Need::new(format!("`{word}` takes angles"), ANGLE);
         match function {
             FunctionName::Sin | FunctionName::Cos | FunctionName::Tan => {
@@ -294,7 +249,7 @@ impl Checker<'_> {
             }
             FunctionName::RotationX | FunctionName::RotationY | FunctionName::RotationZ => {
                 all.iter().for_each(|(argument, value)| self.compare(argument, *value, &angle));
-                Value::Rotation
+                Dimensions::Rotation
             }
             FunctionName::Exp | FunctionName::Ln => {
                 let need = Need::new(format!("the argument of `{word}` is"), ("1", Dimension::NONE));
@@ -305,7 +260,7 @@ impl Checker<'_> {
             FunctionName::Signum => first.change(Found::without_dimension),
             FunctionName::Abs | FunctionName::Inverse => first,
             FunctionName::Rate => first.change(|part| part.change(|dimension| dimension.over(Dimension::TIME))),
-            FunctionName::Twist => Value::UNKNOWN,
+            FunctionName::Twist => Dimensions::UNKNOWN,
             FunctionName::Min | FunctionName::Max | FunctionName::Clamp | FunctionName::Hypot => {
                 self.agree(span, &all, &format!("`{word}` of"), "what it takes has one unit")
             }
@@ -314,7 +269,7 @@ impl Checker<'_> {
                 .change(Found::without_dimension),
             FunctionName::Dot => {
                 let terms = product(first, second).parts();
-                self.sum_of_products(span, word, &terms).map_or(Value::UNKNOWN, Value::all)
+                self.sum_of_products(span, word, &terms).map_or(Dimensions::UNKNOWN, Dimensions::all)
             }
             FunctionName::Cross => {
                 let (a, b) = (first.parts(), second.parts());
@@ -322,10 +277,10 @@ impl Checker<'_> {
                 for (index, part) in parts.iter_mut().enumerate() {
                     let (i, j) = ((index + 1) % 3, (index + 2) % 3);
                     let terms = [a[i].times(b[j]), a[j].times(b[i])];
-                    let Some(sum) = self.sum_of_products(span, word, &terms) else { return Value::UNKNOWN };
+                    let Some(sum) = self.sum_of_products(span, word, &terms) else { return Dimensions::UNKNOWN };
                     *part = sum;
                 }
-                Value::Parts(parts)
+                Dimensions::Parts(parts)
             }
         }
     }
@@ -350,17 +305,52 @@ impl Checker<'_> {
         );
         None
     }
+
+    pub(super) fn compare(&mut self, expression: &Expression, value: Dimensions, need: &Need) {
+        let parts = value.parts();
+        let wrong = |part: &Found| matches!(part, Found::Known(dimension) if *dimension != need.dimension);
+        let Some(index) = parts.iter().position(wrong) else { return };
+        let Found::Known(found) = parts[index] else { return };
+        let mut subject = subject(expression, "this");
+        if parts[0] != parts[1] || parts[0] != parts[2] {
+            subject = match subject.strip_suffix('`') {
+                Some(name) => format!("{name}.{}`", ["x", "y", "z"][index]),
+                None => format!("the {} component of {subject}", ["first", "second", "third"][index]),
+            };
+        }
+        let unit = self.unit(expression, found);
+        let Need { what, unit: needed, dimension } = need;
+        let mut remedy = match dimension.over(found) {
+            Some(coefficient) => format!("multiply it by a coefficient in {coefficient}"),
+            None => "correct one of the two".into(),
+        };
+        match self.written(expression) {
+            // That radians are hidden in a coefficient is worth being said.
+            Some(written) if written.contains("rad") && !needed.contains(['/', '(']) => {
+                let below = if written == "rad" { written.into() } else { format!("({written})") };
+                remedy = format!("{remedy} ({needed}/{below})");
+            }
+            Some(_) => remedy.push_str(", or correct its unit"),
+            None => {}
+        }
+        if has_literal_factor(expression) {
+            remedy.push_str(", such as a field with this unit: numbers have none");
+        }
+        let needed = if needed == "1" { "dimensionless".into() } else { format!("in {needed}") };
+        let message = format!("{subject} is {unit}, and {what} {needed}; {remedy}");
+        self.context.error(expression.span, message);
+    }
 }
 
-fn product(a: Value, b: Value) -> Value {
+fn product(a: Dimensions, b: Dimensions) -> Dimensions {
     let ([a, b, c], [d, e, f]) = (a.parts(), b.parts());
-    Value::Parts([a.times(d), b.times(e), c.times(f)])
+    Dimensions::Parts([a.times(d), b.times(e), c.times(f)])
 }
 
-fn property_value(property: Property) -> Value {
-    Value::of(match property {
+fn property_value(property: Property) -> Dimensions {
+    Dimensions::of(match property {
         Property::Position => LENGTH.1,
-        Property::Rotation => return Value::Rotation,
+        Property::Rotation => return Dimensions::Rotation,
         Property::Velocity | Property::BodyVelocity | Property::RelativeVelocity => VELOCITY.1,
         Property::AngularVelocity | Property::BodyAngularVelocity => ANGULAR_VELOCITY.1,
         Property::Force => FORCE.1,
@@ -392,5 +382,16 @@ pub(super) fn subject(expression: &Expression, article: &str) -> String {
         ExpressionKind::Power(..) => format!("{article} power"),
         ExpressionKind::Call(function, _) => format!("`{}(…)`", function.word()),
         ExpressionKind::Vector(_) => format!("{article} vector"),
+    }
+}
+
+/// A number is multiplied with something: it may be meant to have a unit.
+fn has_literal_factor(expression: &Expression) -> bool {
+    match &expression.kind {
+        ExpressionKind::Binary(BinaryOperator::Multiply | BinaryOperator::Divide, left, right) => {
+            [left, right].into_iter().any(|side| side.literal().is_some() || has_literal_factor(side))
+        }
+        ExpressionKind::Negate(inner) => has_literal_factor(inner),
+        _ => false,
     }
 }

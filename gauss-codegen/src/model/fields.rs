@@ -1,19 +1,17 @@
 //! The clauses of the fields: the role that each one plays, the word that says its shape, and its unit.
 
-use super::attributes::{self, Clause, Place, Value};
+use super::arguments::{self, UNIT};
+use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
+use super::head::CLAUSES;
 use super::names;
-use super::roles::{ROLES, SYSTEM_ROLES};
-use super::scene::CLAUSES;
-use super::shapes::{self, Kind, Reading};
+use super::role_words::{ROLES, SYSTEM_ROLES};
+use super::roles::{Role, Shape};
+use super::shapes::{self, Reading, TypeKind};
 use super::statements::{self, STATEMENTS};
 use super::units;
-use super::{Role, Shape};
-use proc_macro2::{Ident, Span, TokenTree};
-use syn::{Attribute, Data, DeriveInput, Expr, ExprLit, FieldsNamed, Generics, Lit, LitStr, Meta, Type};
-
-/// The clause that says a unit.
-pub(super) const UNIT: &str = "unit";
+use proc_macro2::{Ident, Span};
+use syn::{Attribute, Data, DeriveInput, Expr, ExprLit, FieldsNamed, Generics, Lit, Meta, Type};
 
 /// One field as written.
 pub(super) struct ReadField<'a> {
@@ -62,18 +60,18 @@ pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool
         let Some(ident) = &field.ident else { continue };
         let mut role: Option<Claim> = None;
         let mut unit: Option<(String, Span)> = None;
-        for clause in attributes::clauses(&field.attrs, Place::Field, context) {
+        for clause in attributes::clauses(&field.attrs, Owner::Field, context) {
             if clause.word() == UNIT {
                 if unit.is_some() {
                     let message = format!("the unit of the field `{ident}` is given twice; keep one of the two");
                     context.error(clause.name.span(), message);
                 }
                 let tokens = match &clause.value {
-                    Value::Malformed => continue,
-                    Value::Equals(tokens) => tokens.clone(),
-                    Value::Absent | Value::Brackets(_) => Vec::new(),
+                    Content::Malformed => continue,
+                    Content::Equals(tokens) => tokens.clone(),
+                    Content::Absent | Content::Brackets(_) => Vec::new(),
                 };
-                unit = unit.or(read_unit(&clause.name, &tokens, clause.name.span(), context));
+                unit = unit.or(arguments::read_unit(&clause.name, &tokens, clause.name.span(), context));
                 continue;
             }
             let Some(claim) = reader.claim(&clause, context) else {
@@ -125,7 +123,7 @@ pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool
 pub(super) fn any_body(input: &DeriveInput) -> bool {
     let Data::Struct(data) = &input.data else { return false };
     let is_body = |clause: &Clause| clause.word() == Role::Body.word();
-    let read = |field: &syn::Field| attributes::clauses(&field.attrs, Place::Field, &mut Context::default());
+    let read = |field: &syn::Field| attributes::clauses(&field.attrs, Owner::Field, &mut Context::default());
     data.fields.iter().any(|field| read(field).iter().any(is_body))
 }
 
@@ -148,7 +146,7 @@ impl Reader<'_> {
         let span = clause.name.span();
         if CLAUSES.iter().any(|(name, _)| *name == word) || STATEMENTS.iter().any(|(name, _)| *name == word) {
             let written = match clause.value {
-                Value::Absent => statements::form(word).unwrap_or_else(|| clause.written()),
+                Content::Absent => statements::form(word).unwrap_or_else(|| clause.written()),
                 _ => clause.written(),
             };
             context.error(
@@ -182,35 +180,6 @@ impl Reader<'_> {
     }
 }
 
-/// The unit in quotes that follows `=`, which is at `span` if nothing does: its text and where it is written; `owner` has it.
-pub(super) fn read_unit(
-    owner: &Ident,
-    tokens: &[TokenTree],
-    span: Span,
-    context: &mut Context,
-) -> Option<(String, Span)> {
-    let tokens = attributes::flat(tokens.iter().cloned().collect());
-    let text = match tokens.as_slice() {
-        [TokenTree::Literal(literal)] => syn::parse_str::<LitStr>(&literal.to_string()).ok(),
-        _ => None,
-    };
-    let span = tokens.first().map_or(span, attributes::start);
-    let Some(text) = text.map(|text| text.value()) else {
-        let written = attributes::written(&tokens);
-        let plain = |c: char| c.is_alphanumeric() || " */^()-".contains(c);
-        let example = if written.is_empty() || !written.chars().all(plain) { "N s/m" } else { written.as_str() };
-        context.error(span, format!("a unit stands in quotes after `=`; write `{owner} = \"{example}\"`"));
-        return None;
-    };
-    match units::read(&text) {
-        Ok(_) => Some((text, span)),
-        Err(message) => {
-            context.error(span, message);
-            None
-        }
-    }
-}
-
 /// What is wrong with the unit of a field.
 fn wrong_unit(field: &Ident, role: Option<&Claim>, reading: &Reading, unit: &str) -> Option<String> {
     let role = role.map(|claim| claim.role);
@@ -222,10 +191,10 @@ fn wrong_unit(field: &Ident, role: Option<&Claim>, reading: &Reading, unit: &str
     }
     let parts = match (role, reading.kind) {
         (Some(Role::AddedMass), _) => "the blocks of an added mass are in kg, kg m and kg m^2",
-        (_, Kind::Known(Shape::Vector6 | Shape::Matrix6)) => {
+        (_, TypeKind::Known(Shape::Vector6 | Shape::Matrix6)) => {
             "what has six components belongs to forces and torques, which have different units"
         }
-        (Some(Role::Body), _) | (_, Kind::Known(Shape::RigidBody)) => {
+        (Some(Role::Body), _) | (_, TypeKind::Known(Shape::RigidBody)) => {
             "a rigid body has a mass in kg, a centre of mass in m and an inertia in kg m^2"
         }
         _ => return None,
@@ -238,19 +207,19 @@ fn read_form(role: Role, clause: &Clause, context: &mut Context) -> (Option<Form
     let name = &clause.name;
     let forms = role.forms();
     match &clause.value {
-        Value::Absent => return (None, false),
-        Value::Malformed => return (None, true),
-        Value::Equals(tokens) if forms.is_empty() => {
+        Content::Absent => return (None, false),
+        Content::Malformed => return (None, true),
+        Content::Equals(tokens) if forms.is_empty() => {
             if let Some(first) = tokens.first() {
                 context.error(attributes::start(first), format!("`{name}` takes no value; write `#[gauss({name})]`"));
             }
             return (None, true);
         }
-        Value::Brackets(group) if forms.is_empty() => {
+        Content::Brackets(group) if forms.is_empty() => {
             context.error(group.span_open(), format!("`{name}` takes nothing in brackets; write `#[gauss({name})]`"));
             return (None, true);
         }
-        Value::Equals(_) | Value::Brackets(_) => {}
+        Content::Equals(_) | Content::Brackets(_) => {}
     }
     let Some(word) = clause.bare_word(forms, context) else {
         return (None, true);

@@ -1,8 +1,8 @@
 //! The functions that expressions may call, what they take and what they give; and what they may ask of bodies.
 
-use super::kinds::Kind;
+use super::expression::{FunctionName, Property};
+use super::kind::Kind;
 use super::names::Table;
-use super::{FunctionName, Property};
 
 /// A function as it is called: integer powers are kept apart, since their exponent is no expression.
 #[derive(Clone, Copy, PartialEq, Eq)]

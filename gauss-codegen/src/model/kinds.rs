@@ -1,32 +1,13 @@
 //! What kind of value an expression has, and whether it is the kind that its place needs.
 
+use super::clauses::{CoordinateKind, InputKind, SpeedKind};
 use super::context::Context;
+use super::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+use super::kind::Kind;
 use super::places::Place;
 use super::scope::{Meaning, Scope};
-use super::{BinaryOperator, CoordinateKind, Expression, ExpressionKind, FunctionName, InputKind, Property, SpeedKind};
 use proc_macro2::{Ident, Span};
 use std::cmp::Ordering;
-
-/// The kind of a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    Scalar,
-    Vector,
-    Rotation,
-    /// Linear and angular velocity.
-    Twist,
-}
-
-impl Kind {
-    pub(super) fn noun(self) -> &'static str {
-        match self {
-            Kind::Scalar => "a scalar",
-            Kind::Vector => "a vector",
-            Kind::Rotation => "a rotation",
-            Kind::Twist => "a twist",
-        }
-    }
-}
 
 /// Checks names and kinds of an expression that stands at `place`; its kind, unless something is wrong, which is noted.
 pub(super) fn check(expression: &Expression, place: Place, scope: &Scope, context: &mut Context) -> Option<Kind> {

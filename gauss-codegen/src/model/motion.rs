@@ -1,11 +1,12 @@
 //! What must hold between coordinates, speeds and kinematics.
 
+use super::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind};
 use super::context::Context;
-use super::names;
-use super::naming::{is_reserved, same};
+use super::expression::Expression;
+use super::names::{self, same};
+use super::naming::is_reserved;
 use super::places::Place;
 use super::statements::Statements;
-use super::{Coordinate, CoordinateKind, Expression, Speed, SpeedKind};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 

@@ -1,9 +1,8 @@
 //! What changes when coordinates or speeds do.
 
-use super::naming::word;
-use super::scope::UNNAMED;
+use super::expression::{Expression, ExpressionKind, FunctionName};
+use super::names::{UNNAMED, word};
 use super::statements::Statements;
-use super::{Expression, ExpressionKind, FunctionName};
 use proc_macro2::Ident;
 
 /// What moves, by name.

@@ -68,6 +68,22 @@ pub(super) fn list<T>(table: &[(&str, T)]) -> String {
     text
 }
 
+/// The name of time.
+pub(super) const TIME: &str = "t";
+
+/// What a body without a name of its own is called in expressions and clauses.
+pub(super) const UNNAMED: &str = "body";
+
+/// The name without `r#`.
+pub(super) fn word(name: &Ident) -> String {
+    name.unraw().to_string()
+}
+
+/// The same name, raw or not.
+pub(super) fn same(a: &Ident, b: &Ident) -> bool {
+    a.unraw() == b.unraw()
+}
+
 #[cfg(test)]
 mod tests {
     use super::{damerau_levenshtein, list, nearest};

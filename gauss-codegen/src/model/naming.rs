@@ -1,11 +1,10 @@
 //! One name, one meaning.
 
-use super::Role;
 use super::context::Context;
 use super::fields::ReadField;
 use super::functions::FUNCTIONS;
-use super::names;
-use super::scope::{TIME, UNNAMED};
+use super::names::{self, TIME, UNNAMED, same};
+use super::roles::Role;
 use super::statements::Statements;
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
@@ -108,14 +107,4 @@ fn is_element(noun: &str) -> bool {
 /// Whether expressions use the word already.
 pub(super) fn is_reserved(word: &str) -> bool {
     word == TIME || FUNCTIONS.iter().any(|(function, _)| *function == word)
-}
-
-/// The name without `r#`.
-pub(super) fn word(name: &Ident) -> String {
-    name.unraw().to_string()
-}
-
-/// The same name, raw or not.
-pub(super) fn same(a: &Ident, b: &Ident) -> bool {
-    a.unraw() == b.unraw()
 }

@@ -1,45 +1,60 @@
 //! What is needed in which unit: forces in N, torques in N m, positions in m, and so on.
 
-use super::dimensions::{Checker, Found, Value, subject};
-use super::naming::same;
-use super::statements::Statements;
-use super::units::Dimension;
-use super::{
-    BinaryOperator, Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceKind, FunctionName,
+use super::clauses::{Coefficients, CoordinateKind, Extent, ForceKind};
+use super::context::Context;
+use super::dimensions::{Checker, Dimensions, Found};
+use super::expression::{Expression, ExpressionKind, FunctionName};
+use super::fields::ReadField;
+use super::names::{TIME, same};
+use super::need::{
+    ADDED_MASS, ANGULAR_VELOCITY, COEFFICIENTS, ENERGY, FORCE, GRAVITATION, LENGTH, MASS, Need, POWER, TORQUE, VELOCITY,
 };
+use super::roles::Role;
+use super::statements::Statements;
+use super::units::{self, Dimension};
+use proc_macro2::Ident;
 
-/// What a value must be in.
-pub(super) struct Need {
-    /// `the components of a force are`.
-    what: String,
-    /// `N`.
-    unit: String,
-    dimension: Dimension,
-}
-
-impl Need {
-    pub(super) fn new(what: impl Into<String>, (unit, dimension): (&str, Dimension)) -> Need {
-        Need { what: what.into(), unit: unit.into(), dimension }
+/// Notes where dimensions disagree with one another or with what is needed. Names and kinds are right.
+pub(super) fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Context) {
+    let inputs = || statements.inputs.iter().flat_map(|names| &names.names);
+    let units: Vec<(&Ident, &str)> = fields
+        .iter()
+        .filter_map(|field| Some((field.ident, field.unit.as_deref()?)))
+        .chain(inputs().filter_map(|input| Some((&input.ident, input.unit.as_deref()?))))
+        .collect();
+    if units.is_empty() {
+        return;
+    }
+    let mut checker = Checker { units, names: Vec::new(), context };
+    checker.names.push((TIME.into(), Dimensions::of(Dimension::TIME)));
+    for field in fields {
+        let implied = field.role.as_ref().and_then(|claim| Role::unit(claim.role)).map(|(_, dimension)| dimension);
+        let written = field.unit.as_ref().and_then(|unit| units::read(unit).ok());
+        checker.add(field.ident, implied.or(written).map_or(Dimensions::UNKNOWN, Dimensions::of));
+    }
+    for input in inputs() {
+        let written = input.unit.as_ref().and_then(|unit| units::read(unit).ok());
+        checker.add(&input.ident, written.map_or(Dimensions::UNKNOWN, Dimensions::of));
+    }
+    for coordinate in statements.coordinates.iter().flat_map(|names| &names.names) {
+        let rotation = coordinate.kind == CoordinateKind::Rotation;
+        checker.add(&coordinate.ident, if rotation { Dimensions::Rotation } else { Dimensions::UNKNOWN });
+    }
+    for point in &statements.points {
+        checker.add(&point.name, Dimensions::of(LENGTH.1));
+    }
+    for definition in &statements.definitions {
+        let value = definition.expression.as_ref().map_or(Dimensions::UNKNOWN, |expression| checker.value(expression));
+        checker.add(&definition.name, value);
+    }
+    checker.places(statements);
+    for clause in &statements.forces {
+        checker.force(&clause.kind);
+    }
+    for constraint in &statements.constraints {
+        checker.value(&constraint.expression);
     }
 }
-
-pub(super) const LENGTH: (&str, Dimension) = ("m", Dimension::new(0, 1, 0));
-pub(super) const VELOCITY: (&str, Dimension) = ("m/s", Dimension::new(0, 1, -1));
-pub(super) const ANGULAR_VELOCITY: (&str, Dimension) = ("rad/s", Dimension::new(0, 0, -1));
-pub(super) const ANGLE: (&str, Dimension) = ("rad (dimensionless)", Dimension::NONE);
-const MASS: (&str, Dimension) = ("kg", Dimension::new(1, 0, 0));
-pub(super) const FORCE: (&str, Dimension) = ("N", Dimension::new(1, 1, -2));
-pub(super) const TORQUE: (&str, Dimension) = ("N m", Dimension::new(1, 2, -2));
-const ENERGY: (&str, Dimension) = ("J", Dimension::new(1, 2, -2));
-const POWER: (&str, Dimension) = ("W", Dimension::new(1, 2, -3));
-const GRAVITATION: (&str, Dimension) = ("m^3/s^2", Dimension::new(0, 3, -2));
-/// The diagonal of an added mass.
-const ADDED_MASS: [(&str, Dimension); 2] = [MASS, ("kg m^2", Dimension::new(1, 2, 0))];
-/// Of drag: linear and quadratic, each of a force and of a torque.
-const COEFFICIENTS: [[(&str, Dimension); 2]; 2] = [
-    [("N s/m", Dimension::new(1, 0, -1)), ("N m s", Dimension::new(1, 2, -1))],
-    [("N s^2/m^2", Dimension::new(1, -1, 0)), ("N m s^2", Dimension::new(1, 2, 0))],
-];
 
 impl Checker<'_> {
     /// What moves and what has mass.
@@ -218,51 +233,5 @@ impl Checker<'_> {
                 self.compare(expression, value, need);
             }
         }
-    }
-
-    pub(super) fn compare(&mut self, expression: &Expression, value: Value, need: &Need) {
-        let parts = value.parts();
-        let wrong = |part: &Found| matches!(part, Found::Known(dimension) if *dimension != need.dimension);
-        let Some(index) = parts.iter().position(wrong) else { return };
-        let Found::Known(found) = parts[index] else { return };
-        let mut subject = subject(expression, "this");
-        if parts[0] != parts[1] || parts[0] != parts[2] {
-            subject = match subject.strip_suffix('`') {
-                Some(name) => format!("{name}.{}`", ["x", "y", "z"][index]),
-                None => format!("the {} component of {subject}", ["first", "second", "third"][index]),
-            };
-        }
-        let unit = self.unit(expression, found);
-        let Need { what, unit: needed, dimension } = need;
-        let mut remedy = match dimension.over(found) {
-            Some(coefficient) => format!("multiply it by a coefficient in {coefficient}"),
-            None => "correct one of the two".into(),
-        };
-        match self.written(expression) {
-            // That radians are hidden in a coefficient is worth being said.
-            Some(written) if written.contains("rad") && !needed.contains(['/', '(']) => {
-                let below = if written == "rad" { written.into() } else { format!("({written})") };
-                remedy = format!("{remedy} ({needed}/{below})");
-            }
-            Some(_) => remedy.push_str(", or correct its unit"),
-            None => {}
-        }
-        if has_literal_factor(expression) {
-            remedy.push_str(", such as a field with this unit: numbers have none");
-        }
-        let needed = if needed == "1" { "dimensionless".into() } else { format!("in {needed}") };
-        let message = format!("{subject} is {unit}, and {what} {needed}; {remedy}");
-        self.context.error(expression.span, message);
-    }
-}
-
-/// A number is multiplied with something: it may be meant to have a unit.
-fn has_literal_factor(expression: &Expression) -> bool {
-    match &expression.kind {
-        ExpressionKind::Binary(BinaryOperator::Multiply | BinaryOperator::Divide, left, right) => {
-            [left, right].into_iter().any(|side| side.literal().is_some() || has_literal_factor(side))
-        }
-        ExpressionKind::Negate(inner) => has_literal_factor(inner),
-        _ => false,
     }
 }

@@ -1,12 +1,11 @@
 //! Clauses that place things: bodies, frames, particles, and points of bodies.
 
-use super::attributes::{self, Clause, Place, Value};
+use super::arguments::{self, brackets, known, value};
+use super::attributes::{self, Clause, Content, Owner};
+use super::clauses::{BodyClause, ParticleClause, PointClause};
 use super::context::Context;
 use super::given;
-use super::names::{self, Table};
-use super::scope::UNNAMED;
-use super::statements::{self, brackets, known, value};
-use super::{BodyClause, ParticleClause, PointClause};
+use super::names::{self, Table, UNNAMED};
 use proc_macro2::{Ident, TokenTree};
 
 const BODY: &Table<()> = &[
@@ -26,9 +25,9 @@ const POINT: &Table<()> = &[("body", ()), ("at", ())];
 /// `body(name, …)`, or `frame(name, …)` if it is `massless`; `None` if not even its name is certain.
 pub(super) fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Option<BodyClause> {
     let (noun, place, example) = if massless {
-        ("frame", Place::Frame, "name, position = […], rotation = …")
+        ("frame", Owner::Frame, "name, position = […], rotation = …")
     } else {
-        ("body", Place::Body, "position = […], rotation = …")
+        ("body", Owner::Body, "position = […], rotation = …")
     };
     let group = brackets(clause, example, context)?;
     let mut body = BodyClause {
@@ -40,14 +39,14 @@ pub(super) fn read_body(clause: &Clause, massless: bool, context: &mut Context) 
         given: Vec::new(),
         span: clause.name.span(),
     };
-    let (arguments, complete) = statements::arguments(group, place, context);
+    let (arguments, complete) = arguments::arguments(group, place, context);
     let mut names: Vec<String> = Vec::new();
     let mut certain = true;
     for (index, argument) in arguments.iter().enumerate() {
         let word = argument.word();
         if index == 0 && may_be_name(argument, BODY) {
             body.name = match argument.value {
-                Value::Absent => statements::name(&argument.name, noun, context),
+                Content::Absent => arguments::name(&argument.name, noun, context),
                 _ => None,
             };
             certain &= body.name.is_some();
@@ -81,7 +80,7 @@ pub(super) fn read_body(clause: &Clause, massless: bool, context: &mut Context) 
 
 /// A word alone at the beginning is the name; so may be one after which something is wrong.
 pub(super) fn may_be_name(argument: &Clause, table: &Table<()>) -> bool {
-    matches!(argument.value, Value::Absent | Value::Malformed)
+    matches!(argument.value, Content::Absent | Content::Malformed)
         && !table.iter().any(|(name, ())| argument.word() == *name)
 }
 
@@ -90,7 +89,7 @@ pub(super) fn read_particle(clause: &Clause, context: &mut Context) -> Option<Pa
     let group = brackets(clause, "mass = m, position = [x, y, z]", context)?;
     let (mut mass, mut position, mut parent) = (None, None, None);
     let mut given: Vec<String> = Vec::new();
-    let (arguments, _) = statements::arguments(group, Place::Particle, context);
+    let (arguments, _) = arguments::arguments(group, Owner::Particle, context);
     let mut misspelt = Vec::new();
     for argument in &arguments {
         let word = argument.word();
@@ -115,7 +114,7 @@ pub(super) fn read_particle(clause: &Clause, context: &mut Context) -> Option<Pa
 /// `None` if something is missing or wrong, which is noted. In a chart it is a point of the only body.
 pub(super) fn read_point(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<PointClause> {
     let group = brackets(clause, "name, body = …, at = [x, y, z]", context)?;
-    let (arguments, complete) = statements::arguments(group, Place::Point, context);
+    let (arguments, complete) = arguments::arguments(group, Owner::Point, context);
     let (mut name, mut body, mut at) = (None, None, None);
     let mut given: Vec<String> = Vec::new();
     let mut misspelt = Vec::new();
@@ -124,8 +123,8 @@ pub(super) fn read_point(clause: &Clause, in_chart: bool, context: &mut Context)
         let word = argument.word();
         if index == 0 && may_be_name(argument, POINT) {
             named = true;
-            if matches!(argument.value, Value::Absent) {
-                name = statements::name(&argument.name, "point", context);
+            if matches!(argument.value, Content::Absent) {
+                name = arguments::name(&argument.name, "point", context);
             }
             continue;
         }
@@ -159,9 +158,9 @@ pub(super) fn read_point(clause: &Clause, in_chart: bool, context: &mut Context)
 pub(super) fn read_reference(argument: &Clause, what: &str, context: &mut Context) -> Option<Ident> {
     let name = &argument.name;
     let tokens = match &argument.value {
-        Value::Malformed => return None,
-        Value::Equals(tokens) => attributes::flat(tokens.iter().cloned().collect()),
-        Value::Absent | Value::Brackets(_) => {
+        Content::Malformed => return None,
+        Content::Equals(tokens) => attributes::flat(tokens.iter().cloned().collect()),
+        Content::Absent | Content::Brackets(_) => {
             let remedy = if name == "parent" { ", or leave it out" } else { "" };
             context.error(name.span(), format!("`{name}` needs the name of {what}; write `{name} = other`{remedy}"));
             return None;

@@ -1,8 +1,10 @@
 //! Where expressions stand: which kind of value is needed there, and which names may stand there.
 
-use super::kinds::Kind;
+use super::clauses::{ConstraintKind, CoordinateKind};
+use super::expression::FunctionName;
+use super::kind::Kind;
+use super::roles::{Role, Shape};
 use super::scope::Meaning;
-use super::{ConstraintKind, CoordinateKind, FunctionName, Role, Shape};
 use proc_macro2::Ident;
 
 /// Where an expression stands.

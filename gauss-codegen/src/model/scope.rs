@@ -1,18 +1,13 @@
 //! What the names in expressions mean.
 
+use super::clauses::{CoordinateKind, InputKind, SpeedKind};
+use super::expression::Expression;
 use super::functions::FUNCTIONS;
-use super::names;
-use super::{CoordinateKind, Expression, InputKind, SpeedKind};
+use super::names::{self, TIME};
 use proc_macro2::Ident;
 use std::cell::RefCell;
 use std::cmp::Ordering;
 use syn::ext::IdentExt;
-
-/// The name of time.
-pub(super) const TIME: &str = "t";
-
-/// What a body without a name of its own is called in expressions and clauses.
-pub(super) const UNNAMED: &str = "body";
 
 /// What a name stands for.
 #[derive(Clone, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 //! A derive sees tokens, not types, so the last segment of the path decides: `nalgebra::Vector3<f64>` is a vector of
 //! three whatever `nalgebra` is. A name that says nothing is taken for an alias, and the role must say the shape.
 
-use super::{Scalar, Shape};
+use super::model::Scalar;
+use super::roles::Shape;
 use proc_macro2::Span;
 use quote::ToTokens;
 use syn::ext::IdentExt;
@@ -14,15 +15,15 @@ use syn::{
 
 /// What a written type shows.
 pub(super) struct Reading {
-    pub(super) kind: Kind,
-    pub(super) element: Element,
+    pub(super) kind: TypeKind,
+    pub(super) element: ScalarType,
     /// The type in a message: `` `Matrix6` `` or `a tuple`.
     pub(super) name: String,
 }
 
 /// What a written type is.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum TypeKind {
     /// One of the shapes that roles take.
     Known(Shape),
     /// A name that could stand for any of them.
@@ -32,7 +33,7 @@ pub(super) enum Kind {
 }
 
 /// The scalar that a written type shows.
-pub(super) enum Element {
+pub(super) enum ScalarType {
     /// A scalar and where it is written.
     Shown(Scalar, Span),
     /// None: it is behind an alias.
@@ -99,12 +100,12 @@ const FOREIGN: &[&str] = &[
 
 /// Reads a type.
 pub(super) fn read(ty: &Type, generics: &Generics) -> Reading {
-    let foreign = |name: &str| Reading { kind: Kind::Foreign, element: Element::Hidden, name: name.into() };
+    let foreign = |name: &str| Reading { kind: TypeKind::Foreign, element: ScalarType::Hidden, name: name.into() };
     match bare(ty) {
         Type::Path(path) if path.qself.is_none() => read_path(&path.path, generics),
         // `<A as B>::C` and `shape!()` are known to later passes of the compiler only.
-        Type::Path(_) => Reading { kind: Kind::Alias, ..foreign("an associated type") },
-        Type::Macro(_) => Reading { kind: Kind::Alias, ..foreign("a macro") },
+        Type::Path(_) => Reading { kind: TypeKind::Alias, ..foreign("an associated type") },
+        Type::Macro(_) => Reading { kind: TypeKind::Alias, ..foreign("a macro") },
         Type::Array(_) | Type::Slice(_) => foreign("an array"),
         Type::Tuple(_) => foreign("a tuple"),
         Type::Reference(_) => foreign("a reference"),
@@ -116,53 +117,53 @@ pub(super) fn read(ty: &Type, generics: &Generics) -> Reading {
 
 fn read_path(path: &Path, generics: &Generics) -> Reading {
     let Some(last) = path.segments.last() else {
-        return Reading { kind: Kind::Alias, element: Element::Hidden, name: "an empty path".into() };
+        return Reading { kind: TypeKind::Alias, element: ScalarType::Hidden, name: "an empty path".into() };
     };
     let reading = |kind, element| Reading { kind, element, name: format!("`{}`", last.ident) };
     if let Some(scalar) = scalar(path, generics) {
-        return reading(Kind::Known(Shape::Scalar), Element::Shown(scalar, last.ident.span()));
+        return reading(TypeKind::Known(Shape::Scalar), ScalarType::Shown(scalar, last.ident.span()));
     }
     let kind = match last.ident.unraw().to_string().as_str() {
-        "Vector3" => Kind::Known(Shape::Vector3),
-        "Matrix3" => Kind::Known(Shape::Matrix3),
-        "Vector6" => Kind::Known(Shape::Vector6),
-        "Matrix6" => Kind::Known(Shape::Matrix6),
-        "RigidBody" => Kind::Known(Shape::RigidBody),
+        "Vector3" => TypeKind::Known(Shape::Vector3),
+        "Matrix3" => TypeKind::Known(Shape::Matrix3),
+        "Vector6" => TypeKind::Known(Shape::Vector6),
+        "Matrix6" => TypeKind::Known(Shape::Matrix6),
+        "RigidBody" => TypeKind::Known(Shape::RigidBody),
         "SVector" => sized(&dimensions(last), 1),
         "SMatrix" => sized(&dimensions(last), 2),
-        name if FOREIGN.contains(&name) => Kind::Foreign,
+        name if FOREIGN.contains(&name) => TypeKind::Foreign,
         _ => {
             // `Moments<f32>` hides the shape but shows the scalar; what else its arguments are is its own business.
             let shown = types(last).find_map(|ty| match element(ty, generics) {
-                Element::Wrong(..) | Element::Hidden => None,
+                ScalarType::Wrong(..) | ScalarType::Hidden => None,
                 shown => Some(shown),
             });
-            return reading(Kind::Alias, shown.unwrap_or(Element::Hidden));
+            return reading(TypeKind::Alias, shown.unwrap_or(ScalarType::Hidden));
         }
     };
     match kind {
-        Kind::Known(_) | Kind::Alias => {
-            reading(kind, types(last).next().map_or(Element::Hidden, |ty| element(ty, generics)))
+        TypeKind::Known(_) | TypeKind::Alias => {
+            reading(kind, types(last).next().map_or(ScalarType::Hidden, |ty| element(ty, generics)))
         }
-        Kind::Foreign => reading(kind, Element::Hidden),
+        TypeKind::Foreign => reading(kind, ScalarType::Hidden),
     }
 }
 
 /// Shape of `SVector<S, N>` or `SMatrix<S, R, C>`; a dimension that is not a number could be anything.
-fn sized(dimensions: &[Option<usize>], expected: usize) -> Kind {
+fn sized(dimensions: &[Option<usize>], expected: usize) -> TypeKind {
     if dimensions.len() != expected {
-        return Kind::Alias;
+        return TypeKind::Alias;
     }
     let mut numbers = dimensions.iter().copied();
     let (Some(Some(rows)), Some(columns)) = (numbers.next(), numbers.next().unwrap_or(Some(1))) else {
-        return Kind::Alias;
+        return TypeKind::Alias;
     };
     match (rows, columns) {
-        (3, 1) => Kind::Known(Shape::Vector3),
-        (3, 3) => Kind::Known(Shape::Matrix3),
-        (6, 1) => Kind::Known(Shape::Vector6),
-        (6, 6) => Kind::Known(Shape::Matrix6),
-        _ => Kind::Foreign,
+        (3, 1) => TypeKind::Known(Shape::Vector3),
+        (3, 3) => TypeKind::Known(Shape::Matrix3),
+        (6, 1) => TypeKind::Known(Shape::Vector6),
+        (6, 6) => TypeKind::Known(Shape::Matrix6),
+        _ => TypeKind::Foreign,
     }
 }
 
@@ -190,14 +191,14 @@ fn number(argument: &GenericArgument) -> Option<usize> {
 }
 
 /// The scalar that `ty` is, when it stands where a scalar belongs.
-fn element(ty: &Type, generics: &Generics) -> Element {
+fn element(ty: &Type, generics: &Generics) -> ScalarType {
     let ty = bare(ty);
     let reading = read(ty, generics);
     let span = ty.to_token_stream().into_iter().next().map_or_else(Span::call_site, |token| token.span());
     match (reading.kind, reading.element) {
-        (Kind::Known(Shape::Scalar), shown) => shown,
-        (Kind::Alias, _) => Element::Hidden,
-        (Kind::Known(_) | Kind::Foreign, _) => Element::Wrong(reading.name, span),
+        (TypeKind::Known(Shape::Scalar), shown) => shown,
+        (TypeKind::Alias, _) => ScalarType::Hidden,
+        (TypeKind::Known(_) | TypeKind::Foreign, _) => ScalarType::Wrong(reading.name, span),
     }
 }
 

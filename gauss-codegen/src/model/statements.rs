@@ -2,18 +2,18 @@
 //! potential, the dissipation function, and the limit on the size of the code.
 
 use super::actions;
-use super::arithmetic;
-use super::attributes::{self, Clause, Place, Value};
+use super::arguments::{self, brackets, equals, value};
+use super::attributes::{self, Clause, Owner};
+use super::clauses::{
+    Attraction, BodyClause, ConstraintClause, ConstraintKind, Coordinate, ForceClause, ForceKind, Given, InputName,
+    ParticleClause, PointClause, Speed,
+};
 use super::context::Context;
 use super::declarations::{self, Definition, Kinematics, Names};
+use super::expression::{Expression, ExpressionKind};
 use super::given;
-use super::names::{self, Table};
-use super::naming::same;
+use super::names::{self, Table, same};
 use super::placements;
-use super::{
-    Attraction, BodyClause, ConstraintClause, ConstraintKind, Coordinate, Expression, ExpressionKind, ForceClause,
-    ForceKind, Given, InputName, ParticleClause, PointClause, Speed,
-};
 use proc_macro2::{Group, Ident, TokenTree};
 use syn::LitInt;
 
@@ -306,95 +306,6 @@ impl Statements {
     }
 }
 
-/// The brackets of a clause that needs them.
-pub(super) fn brackets<'a>(clause: &'a Clause, example: &str, context: &mut Context) -> Option<&'a Group> {
-    let name = &clause.name;
-    match &clause.value {
-        Value::Malformed => None,
-        Value::Brackets(group) if !group.stream().is_empty() => Some(group),
-        Value::Brackets(group) => {
-            context
-                .error(group.span_open(), format!("`{name}()` says nothing; write `{name}({example})` or remove it"));
-            None
-        }
-        Value::Absent => {
-            context.error(name.span(), format!("`{name}` says nothing; write `{name}({example})`"));
-            None
-        }
-        Value::Equals(tokens) => {
-            let span = tokens.first().map_or(name.span(), attributes::start);
-            context.error(span, format!("`{name}` takes brackets, not `=`; write `{name}({example})`"));
-            None
-        }
-    }
-}
-
-/// A name that expressions can use: no keyword.
-pub(super) fn name(ident: &Ident, noun: &str, context: &mut Context) -> Option<Ident> {
-    // The tokens of macros have keywords and `_` as identifiers; syn's have not.
-    match syn::parse2::<Ident>(TokenTree::Ident(ident.clone()).into()) {
-        Ok(ident) => Some(ident),
-        Err(_) => {
-            context.error(ident.span(), format!("`{ident}` is a keyword and cannot name {}", names::a(noun)));
-            None
-        }
-    }
-}
-
-/// The arguments in the brackets of a clause, and whether all of them could be read.
-pub(super) fn arguments(group: &Group, place: Place, context: &mut Context) -> (Vec<Clause>, bool) {
-    let mut arguments = Vec::new();
-    attributes::split(group.stream(), place, &mut arguments, context);
-    let written = attributes::pieces(group.stream(), "", &mut Context::default()).len();
-    let complete = written == arguments.len();
-    (arguments, complete)
-}
-
-/// The expression that an argument is said to be.
-pub(super) fn value(argument: &Clause, example: &str, context: &mut Context) -> Option<Expression> {
-    arithmetic::read(&argument.word(), equals(argument, example, context)?, context)
-}
-
-/// What follows `=`.
-pub(super) fn equals<'a>(argument: &'a Clause, example: &str, context: &mut Context) -> Option<&'a [TokenTree]> {
-    let name = &argument.name;
-    match &argument.value {
-        Value::Malformed => None,
-        Value::Equals(tokens) => Some(tokens),
-        Value::Absent => {
-            context.error(name.span(), format!("`{name}` needs a value; write `{name} = {example}`"));
-            None
-        }
-        Value::Brackets(group) => {
-            context.error(
-                group.span_open(),
-                format!("the value of `{name}` follows `=`, without brackets; write `{name} = {example}`"),
-            );
-            None
-        }
-    }
-}
-
-/// Whether an argument is in the table, and that it is new; if not, that is noted.
-pub(super) fn known<T: Copy>(
-    argument: &Clause,
-    owner: &str,
-    table: &Table<T>,
-    given: &mut Vec<String>,
-    context: &mut Context,
-) -> bool {
-    // The message reads "unknown argument of `body`: `positon`; …".
-    if names::resolve(&format!("argument of `{owner}`:"), &argument.name, table, context).is_err() {
-        return false;
-    }
-    let word = argument.word();
-    if given.contains(&word) {
-        context.error(argument.name.span(), format!("`{word}` is given twice; keep one of the two"));
-    }
-    given.push(word);
-    true
-}
-
 /// `None` if something is missing or wrong, which is noted. Whether the expression is a vector is not known yet.
 fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintClause> {
     let group = brackets(clause, "velocity = …", context)?;
@@ -409,7 +320,7 @@ fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintC
         );
         return None;
     }
-    let (arguments, _) = arguments(group, Place::Constraint, context);
+    let (arguments, _) = arguments::arguments(group, Owner::Constraint, context);
     let mut read = None;
     for (index, argument) in arguments.iter().enumerate() {
         let name = &argument.name;

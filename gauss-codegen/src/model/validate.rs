@@ -2,10 +2,11 @@
 
 use super::context::Context;
 use super::fields::{Claim, ReadField, Reader};
+use super::model::Scalar;
 use super::names;
-use super::roles::ROLES;
-use super::shapes::{Element, Kind};
-use super::{Role, Scalar, Shape};
+use super::role_words::ROLES;
+use super::roles::{Role, Shape};
+use super::shapes::{ScalarType, TypeKind};
 use proc_macro2::Span;
 use quote::ToTokens;
 use syn::{DeriveInput, GenericParam};
@@ -67,8 +68,8 @@ pub(super) fn common_scalar(fields: &[ReadField<'_>]) -> Option<Scalar> {
 /// The computed fields that show their scalar.
 fn shown<'a>(fields: &'a [ReadField<'_>]) -> impl Iterator<Item = (&'a ReadField<'a>, &'a Scalar)> {
     fields.iter().filter(|field| field.computed).filter_map(|field| match &field.reading.element {
-        Element::Shown(scalar, _) => Some((field, scalar)),
-        Element::Hidden | Element::Wrong(..) => None,
+        ScalarType::Shown(scalar, _) => Some((field, scalar)),
+        ScalarType::Hidden | ScalarType::Wrong(..) => None,
     })
 }
 
@@ -115,14 +116,14 @@ fn check_scalar(
     context: &mut Context,
 ) {
     match (&field.reading.element, common) {
-        (Element::Wrong(found, span), _) => context.error(
+        (ScalarType::Wrong(found, span), _) => context.error(
             *span,
             format!(
                 "the scalar of `{}` is {found}; expected `f64`, `f32` or a type parameter of the struct",
                 field.ident
             ),
         ),
-        (Element::Shown(scalar, span), Some(common)) if scalar != common => {
+        (ScalarType::Shown(scalar, span), Some(common)) if scalar != common => {
             let other =
                 shown(fields).find(|(_, scalar)| *scalar == common).map_or(field.ident, |(other, _)| other.ident);
             context.error(
@@ -143,7 +144,7 @@ fn role_shape(field: &ReadField<'_>, claim: &Claim, scalar: &str, context: &mut 
     let role = claim.role;
     let found = &field.reading.name;
     match (field.reading.kind, &claim.form) {
-        (Kind::Known(shape), Some(form)) if shape != form.shape => {
+        (TypeKind::Known(shape), Some(form)) if shape != form.shape => {
             // The word is right for some type and the type may be right for another word: both remedies are named.
             let remedy = match role.forms().iter().find(|(_, other)| *other == shape) {
                 Some((word, _)) => {
@@ -162,8 +163,8 @@ fn role_shape(field: &ReadField<'_>, claim: &Claim, scalar: &str, context: &mut 
             );
             form.shape
         }
-        (Kind::Known(shape), _) if role.takes(shape) => shape,
-        (Kind::Known(_) | Kind::Foreign, _) => {
+        (TypeKind::Known(shape), _) if role.takes(shape) => shape,
+        (TypeKind::Known(_) | TypeKind::Foreign, _) => {
             context.error_at(
                 field.ty,
                 format!(
@@ -176,8 +177,8 @@ fn role_shape(field: &ReadField<'_>, claim: &Claim, scalar: &str, context: &mut 
             );
             Shape::Other
         }
-        (Kind::Alias, Some(form)) => form.shape,
-        (Kind::Alias, None) => match role.only_shape() {
+        (TypeKind::Alias, Some(form)) => form.shape,
+        (TypeKind::Alias, None) => match role.only_shape() {
             Some(shape) => shape,
             None => {
                 if !claim.malformed {
@@ -210,8 +211,8 @@ fn article(found: &str) -> String {
 /// The shape of a plain parameter: expressions can use it only if its scalar is that of the model.
 fn plain_shape(field: &ReadField<'_>, common: Option<&Scalar>) -> Shape {
     match (field.reading.kind, &field.reading.element) {
-        (Kind::Known(shape), Element::Shown(scalar, _)) if Some(scalar) == common => shape,
-        (Kind::Known(shape), Element::Hidden) => shape,
+        (TypeKind::Known(shape), ScalarType::Shown(scalar, _)) if Some(scalar) == common => shape,
+        (TypeKind::Known(shape), ScalarType::Hidden) => shape,
         _ => Shape::Other,
     }
 }
@@ -251,7 +252,7 @@ pub(super) fn scalar_without_fields(
 ) -> Option<Scalar> {
     let generic = input.generics.params.iter().any(|parameter| matches!(parameter, GenericParam::Type(_)));
     let of_role = |role: Role| move |field: &&ReadField<'_>| field.role.as_ref().is_some_and(|c| c.role == role);
-    let hidden = |field: &&ReadField<'_>| field.computed && matches!(field.reading.element, Element::Hidden);
+    let hidden = |field: &&ReadField<'_>| field.computed && matches!(field.reading.element, ScalarType::Hidden);
     let by_role = ROLES.iter().find_map(|&(_, role)| fields.iter().filter(of_role(role)).find(hidden));
     let hidden = by_role.or_else(|| fields.iter().find(hidden));
     if hidden.is_none() && !generic && fields.iter().all(|field| !field.computed) {

@@ -4,14 +4,15 @@
 //! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `regressor` alone;
 //! `linearize` alone or as `linearize(parameters)`.
 
-use super::attributes::{self, Clause, Place, Value, Word};
+use super::arguments::UNIT;
+use super::attributes::{self, Clause, Content, Owner, Word};
+use super::charts::{Chart, InChart, Motion, RotationChart};
 use super::context::Context;
-use super::fields::UNIT;
 use super::given;
+use super::model::Wanted;
 use super::names::{self, Table};
-use super::roles::ROLES;
+use super::role_words::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
-use super::{Chart, InChart, Motion, RotationChart, Wanted};
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::Parser;
@@ -91,7 +92,7 @@ enum Written {
 /// Reads the attributes of the struct. `chart` or `motion` says that a body without a name moves in a chart; so does it if no
 /// clause and no field, as with `has_body`, says what moves.
 pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> Clauses {
-    let clauses = attributes::clauses(attributes, Place::Struct, context);
+    let clauses = attributes::clauses(attributes, Owner::Struct, context);
     let meant = |clause: &Clause| statements::meant(&clause.word());
     let own = clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
     let of_chart = clauses.iter().find(|clause| ["chart", "motion"].contains(&clause.word().as_str()));
@@ -173,8 +174,8 @@ fn refuse(clause: &Clause, word: &str, own: bool, context: &mut Context) {
         )
     } else if CHARTS.iter().any(|(name, _)| *name == word) {
         let chart = match &clause.value {
-            Value::Brackets(_) => clause.written(),
-            Value::Equals(tokens) if word == "jet" => {
+            Content::Brackets(_) => clause.written(),
+            Content::Equals(tokens) if word == "jet" => {
                 format!("jet({})", attributes::written(tokens))
             }
             _ => word.into(),
@@ -327,9 +328,9 @@ fn read_motion(clause: &Clause, context: &mut Context) -> Option<Motion> {
 fn check_alone(clause: &Clause, context: &mut Context) {
     let name = &clause.name;
     let span = match &clause.value {
-        Value::Absent | Value::Malformed => return,
-        Value::Equals(tokens) => tokens.first().map_or(name.span(), attributes::start),
-        Value::Brackets(group) => group.span_open(),
+        Content::Absent | Content::Malformed => return,
+        Content::Equals(tokens) => tokens.first().map_or(name.span(), attributes::start),
+        Content::Brackets(group) => group.span_open(),
     };
     context.error(span, format!("`{name}` takes no value; write `{name}` alone, or leave it out"));
 }
@@ -339,12 +340,12 @@ fn names_parameters(clause: &Clause, context: &mut Context) -> bool {
     const REMEDY: &str = "write `linearize` alone for the derivatives by state, time and input, or \
                           `linearize(parameters)` to have those by the parameters as well";
     let (span, message) = match &clause.value {
-        Value::Absent | Value::Malformed => return false,
-        Value::Equals(tokens) => (
+        Content::Absent | Content::Malformed => return false,
+        Content::Equals(tokens) => (
             tokens.first().map_or(clause.name.span(), attributes::start),
             format!("`linearize` takes no value after `=`; {REMEDY}"),
         ),
-        Value::Brackets(group) => {
+        Content::Brackets(group) => {
             let tokens = attributes::flat(group.stream());
             let is_parameters =
                 |token: &TokenTree| matches!(token, TokenTree::Ident(word) if word.unraw() == "parameters");
@@ -370,9 +371,9 @@ fn names_parameters(clause: &Clause, context: &mut Context) -> bool {
 
 fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {
     let tokens = match &clause.value {
-        Value::Equals(tokens) => attributes::flat(tokens.iter().cloned().collect()),
-        Value::Malformed => return None,
-        Value::Absent | Value::Brackets(_) => {
+        Content::Equals(tokens) => attributes::flat(tokens.iter().cloned().collect()),
+        Content::Malformed => return None,
+        Content::Absent | Content::Brackets(_) => {
             context.error(clause.name.span(), "`crate` needs the path to the runtime; write `crate = ::gauss_runtime`");
             return None;
         }
