@@ -1,50 +1,36 @@
 //! The clauses and fields of a scene put together: every name known, every kind right, nothing missing.
 
-use super::bodies;
-use super::charts::InChart;
-use super::clauses::BodyClause;
-use super::coefficients;
-use super::constraints;
-use super::context::Context;
-use super::declared;
-use super::definitions;
-use super::expression::Expression;
-use super::expressions::{self, ENTRY};
-use super::fields::{ReadField, Reader};
-use super::forces;
-use super::head::Clauses;
-use super::kinds;
-use super::masses;
-use super::model::{Field, Model, Scalar, Wanted};
-use super::motion;
-use super::names::{same, word};
-use super::naming;
-use super::needs;
-use super::places::Place;
-use super::roles::{Role, Shape};
-use super::shapes::TypeKind;
-use super::statements::Statements;
-use super::validate;
+use crate::model::checks::{bodies, coefficients, constraints, field_shapes, forces, masses, motion};
+use crate::model::language::context::Context;
+use crate::model::language::fields::{ReadField, Reader};
+use crate::model::language::shapes::TypeKind;
+use crate::model::language::statements::Statements;
+use crate::model::language::struct_clauses::Clauses;
+use crate::model::language::words::{same, word};
+use crate::model::names::expressions::{self, ENTRY};
+use crate::model::names::places::Place;
+use crate::model::names::{declared, definitions, kinds, naming};
+use crate::model::scene::charts::InChart;
+use crate::model::scene::clauses::BodyClause;
+use crate::model::scene::expression::Expression;
+use crate::model::scene::model::{Field, Model, Scalar, Wanted};
+use crate::model::scene::roles::{Role, Shape};
+use crate::model::units::needs;
 use proc_macro2::{Ident, Span};
 use syn::{DeriveInput, Path};
 
 /// The checked scene; `None` when something is wrong, which is then noted.
-pub(super) fn model(
-    input: &DeriveInput,
-    clauses: Clauses,
-    mut reader: Reader<'_>,
-    context: &mut Context,
-) -> Option<Model> {
+pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, context: &mut Context) -> Option<Model> {
     let Clauses { in_chart, runtime, wanted, mut statements, .. } = clauses;
     let is_empty = statements.is_empty();
     if in_chart.is_some() {
         statements.bodies.insert(0, body_in_chart());
     }
     mark_named(&statements, &mut reader);
-    let scalar = validate::common_scalar(&reader.fields);
-    let scalar_name = validate::scalar_name(scalar.as_ref(), input);
+    let scalar = field_shapes::common_scalar(&reader.fields);
+    let scalar_name = field_shapes::scalar_name(scalar.as_ref(), input);
     let whole = if in_chart.is_some() { "body" } else { "system" };
-    let (shapes, owners) = validate::shapes(&reader, scalar.as_ref(), &scalar_name, whole, context);
+    let (shapes, owners) = field_shapes::shapes(&reader, scalar.as_ref(), &scalar_name, whole, context);
     let uncertain = statements.missed;
 
     // A body in a chart about which nothing else is said has no names that anything could confuse.
@@ -65,7 +51,7 @@ pub(super) fn model(
     }
     let scalar = match scalar {
         Some(scalar) => scalar,
-        None => validate::scalar_without_fields(input, &reader.fields, context)?,
+        None => field_shapes::scalar_without_fields(input, &reader.fields, context)?,
     };
     let fields = fields(&reader, &shapes);
     assembled(input, (runtime, wanted, scalar, in_chart), fields, statements)

@@ -1,10 +1,9 @@
 //! The whole way: the attributes and the fields of a struct in, its model out.
 
-use super::assembly;
-use super::context::Context;
-use super::fields;
-use super::head;
-use super::model::Model;
+use crate::model::assembly;
+use crate::model::language::context::Context;
+use crate::model::language::{fields, struct_clauses};
+use crate::model::scene::model::Model;
 use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics};
 
 /// Reads and checks a struct.
@@ -13,7 +12,7 @@ use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics}
 /// All mistakes of the struct combined, each at the token that is wrong.
 pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     let mut context = Context::default();
-    let clauses = head::read(&input.attrs, fields::any_body(input), &mut context);
+    let clauses = struct_clauses::read(&input.attrs, fields::any_body(input), &mut context);
     check_generics(&input.generics, &mut context);
     let model = named_fields(input, &mut context).and_then(|named| {
         let reader = fields::read(named, &input.generics, clauses.own, &mut context);
