@@ -5,7 +5,7 @@ use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
-use crate::kernel::{Candidates, Cost, Derivatives, Kernel, Literals, Miscompiled};
+use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals, Miscompiled};
 use crate::mechanics::{
     Acting, ConfigurationKind, Coordinate, Elimination, Formula, InertialParameters, Linearization, Method, Regressor,
     Scene, System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
@@ -22,14 +22,23 @@ use crate::translate::{Parameter, Translator, body_shape, parameters_of_body, pa
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
+    derive(input, |derived| Ok(emit(derived)))
+}
+
+/// Derives one struct, and hands everything that is known of it to whoever writes it down.
+pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
     let model = model::parse(input)?;
     match model.one_body() {
-        Some(in_chart) => expand_body(&model, in_chart),
-        None => expand_system(&model),
+        Some(in_chart) => derive_body(&model, in_chart, write),
+        None => derive_system(&model, write),
     }
 }
 
-fn expand_body(model: &Model, in_chart: InChart) -> syn::Result<TokenStream> {
+fn derive_body<R>(
+    model: &Model,
+    in_chart: InChart,
+    write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>,
+) -> syn::Result<R> {
     let graph = Graph::new();
     let shape = body_shape(|role| model.shape(role));
     let mut translator = model.has_expressions().then(|| Translator::new(&graph, model, true)).transpose()?;
@@ -77,7 +86,7 @@ fn expand_body(model: &Model, in_chart: InChart) -> syn::Result<TokenStream> {
         literals: &literals,
         assigned: &assigned,
     });
-    Ok(emit(&Derived {
+    write(&Derived {
         subject: Subject::Body { model, in_chart, scene: &scene, quaternion, plain },
         drags: &translator.as_ref().map(Translator::drags).unwrap_or_default(),
         formulas: &formulas,
@@ -85,10 +94,10 @@ fn expand_body(model: &Model, in_chart: InChart) -> syn::Result<TokenStream> {
         linearization: beside.linearization.as_ref(),
         parameters: &beside.parameters,
         regressor: beside.regressor.as_ref(),
-    }))
+    })
 }
 
-fn expand_system(model: &Model) -> syn::Result<TokenStream> {
+fn derive_system<R>(model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
     let graph = Graph::new();
     let mut translator = Translator::new(&graph, model, false)?;
     let all: Vec<usize> = (0..translator.speeds().len()).collect();
@@ -160,7 +169,7 @@ fn expand_system(model: &Model) -> syn::Result<TokenStream> {
         quaternions: &quaternions,
     };
     let drags = translator.drags();
-    Ok(emit(&Derived {
+    write(&Derived {
         subject: Subject::System(subject),
         drags: &drags,
         formulas: &formulas,
@@ -168,7 +177,7 @@ fn expand_system(model: &Model) -> syn::Result<TokenStream> {
         linearization: beside.linearization.as_ref(),
         parameters: &beside.parameters,
         regressor: beside.regressor.as_ref(),
-    }))
+    })
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.
@@ -234,8 +243,8 @@ fn names_of(parameters: &[Parameter<'_>]) -> Map<u32, String> {
 
 /// What a formula is lowered from.
 fn candidates<'g>(formula: &Formula<'g>) -> Candidates<'g> {
-    let cost = if formula.method == Method::ComponentRates { Cost::Series } else { Cost::Values };
-    Candidates { arrangements: formula.arrangements.clone(), cost }
+    let aim = if formula.method == Method::ComponentRates { Aim::Series } else { Aim::Values };
+    Candidates { arrangements: formula.arrangements.clone(), aim }
 }
 
 /// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them.

@@ -79,6 +79,7 @@ mod vector_space;
 pub mod __private;
 
 #[cfg(feature = "derive")]
+#[doc = include_str!("language.md")]
 pub use gauss_derive::GaussDynamics;
 
 #[cfg(test)]
