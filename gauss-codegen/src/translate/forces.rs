@@ -221,7 +221,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// Six by six.
-    fn coefficients(&self, coefficients: &Coefficients, tree: &Tree<'g>) -> syn::Result<Vec<Vec<Expr<'g>>>> {
+    pub(super) fn coefficients(&self, coefficients: &Coefficients, tree: &Tree<'g>) -> syn::Result<Vec<Vec<Expr<'g>>>> {
         match coefficients {
             Coefficients::Diagonal(entries) => {
                 let entries = entries.iter().map(|e| self.scalar(e, tree)).collect::<syn::Result<Vec<_>>>()?;

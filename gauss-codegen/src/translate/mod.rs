@@ -26,7 +26,9 @@ use crate::mechanics::{
     Assigned, Body, Constraint, ConstraintKind, Coordinate, Element, Kinematics, Matter, Observed, Placement, Quantity,
     SystemScene, Tree, Turn, poisson,
 };
-use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, InChart, Model, Property};
+use crate::model::{
+    self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, GivenValue, InChart, Model, Property, Shape,
+};
 
 pub use drag::DragMatrix;
 pub use parameters::{Parameter, parameters_of_body, parameters_of_system};
@@ -115,12 +117,23 @@ impl<'a, 'g> Translator<'a, 'g> {
     pub fn assigned(&self, given: &[Given]) -> syn::Result<Vec<Assigned<'g>>> {
         let nothing = self.no_links();
         let value = |given: &Given| {
-            let values = match self.value(&given.value, &nothing)? {
-                Value::Scalar(value) => vec![value],
-                Value::Vector(values) => values.to_vec(),
-                _ => return Err(bug(given.value.span)),
+            let values = match &given.value {
+                GivenValue::Expression(e) => match self.value(e, &nothing)? {
+                    Value::Scalar(value) => vec![value],
+                    Value::Vector(values) => values.to_vec(),
+                    _ => return Err(bug(given.span)),
+                },
+                GivenValue::Coefficients(coefficients) => {
+                    let matrix = self.coefficients(coefficients, &nothing)?;
+                    // Of a matrix the entries on and below the diagonal, column by column, as a body has them.
+                    let below = |i: usize| (i..6).map(move |j| (j, i));
+                    match given.shape {
+                        Shape::Matrix6 => (0..6).flat_map(below).map(|(i, j)| matrix[i][j]).collect(),
+                        _ => (0..6).map(|i| matrix[i][i]).collect(),
+                    }
+                }
             };
-            let quantity = symbols::quantity_of(given.role).ok_or_else(|| bug(given.value.span))?;
+            let quantity = symbols::quantity_of(given.role).ok_or_else(|| bug(given.span))?;
             Ok(Assigned { quantity, values })
         };
         given.iter().map(value).collect()

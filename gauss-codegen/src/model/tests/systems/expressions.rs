@@ -2,7 +2,7 @@
 
 use super::super::check;
 use super::{check_potential, particle};
-use crate::model::arithmetic::ALLOWED;
+use crate::model::language::arithmetic::ALLOWED;
 
 #[test]
 fn forms() {
