@@ -6,16 +6,25 @@ use crate::algebra::Notation;
 use crate::mechanics::{Method, Section};
 use crate::model::{InputKind, Role};
 
-use super::kernel::{Derived, Subject};
+use super::derived::{Derived, Subject};
 use super::system::SystemSubject;
 
-/// The equations as plain text, and as one LaTeX environment.
-pub fn equations(derived: &Derived<'_, '_>) -> (String, String) {
-    let sections = match derived.subject {
-        Subject::Body { scene, .. } => scene.equations(),
-        Subject::System(SystemSubject { system, .. }) => system.equations(),
-    };
-    (text(derived, &sections), latex(&sections))
+/// The equations as plain text and as one LaTeX environment.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    pub text: String,
+    pub latex: String,
+}
+
+impl Equations {
+    /// Printed once for all that is said of them: a second time the terms of a sum can come in another order.
+    pub fn of(derived: &Derived<'_, '_>) -> Self {
+        let sections = match derived.subject {
+            Subject::Body { scene, .. } => scene.equations(),
+            Subject::System(SystemSubject { system, .. }) => system.equations(),
+        };
+        Equations { text: text(derived, &sections), latex: latex(&sections) }
+    }
 }
 
 fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {

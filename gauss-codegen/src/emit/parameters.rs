@@ -11,7 +11,7 @@ use crate::model::{Model, Motion, Parameter, Shape};
 use crate::translate::role_of;
 
 use super::assigned::assigned_local;
-use super::kernel::{BodySubject, Derived, Plain};
+use super::derived::{BodySubject, Derived, Plain};
 use super::program::statements;
 use super::system_parameters::{element as source_element, plain_fields};
 
