@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, Assigned, Formula, Linearization, Method, Regressor, Scene};
-use crate::model::{Model, Scalar, SystemField};
+use crate::model::{Field, InChart, Model, Scalar};
 use crate::translate::{DragMatrix, Parameter, Source};
 use syn::{Generics, Path, Visibility};
 
@@ -36,6 +36,7 @@ pub enum Subject<'a, 'g> {
     /// One body in a chart.
     Body {
         model: &'a Model,
+        in_chart: InChart,
         scene: &'a Scene<'g>,
         /// Components x, y, z, w of the unit quaternion behind R, where there is one.
         quaternion: Option<[Expr<'g>; 4]>,
@@ -51,6 +52,7 @@ pub enum Subject<'a, 'g> {
 pub struct BodySubject<'a, 'g> {
     pub derived: &'a Derived<'a, 'g>,
     pub model: &'a Model,
+    pub in_chart: InChart,
     pub scene: &'a Scene<'g>,
     pub quaternion: Option<[Expr<'g>; 4]>,
     pub plain: Option<Plain<'a, 'g>>,
@@ -59,7 +61,7 @@ pub struct BodySubject<'a, 'g> {
 /// Parameters without a role, and where the symbols of expressions are read.
 #[derive(Clone, Copy)]
 pub struct Plain<'a, 'g> {
-    pub fields: &'a [SystemField],
+    pub fields: &'a [Field],
     pub sources: &'a [Source<'g>],
     /// Literal numbers that symbols stand for.
     pub literals: &'a [(Rational, Expr<'g>)],
@@ -95,29 +97,21 @@ pub struct Formal<'a, 'g> {
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
-    pub fn item(&self) -> Item<'a> {
+    pub fn model(&self) -> &'a Model {
         match self.subject {
-            Subject::Body { model: m, .. } => Item {
-                ident: &m.ident,
-                visibility: &m.visibility,
-                generics: &m.generics,
-                scalar: &m.scalar,
-                runtime: &m.runtime,
-            },
-            Subject::System(SystemSubject { model: m, .. }) => Item {
-                ident: &m.ident,
-                visibility: &m.visibility,
-                generics: &m.generics,
-                scalar: &m.scalar,
-                runtime: &m.runtime,
-            },
+            Subject::Body { model, .. } | Subject::System(SystemSubject { model, .. }) => model,
         }
+    }
+
+    pub fn item(&self) -> Item<'a> {
+        let Model { ident, visibility, generics, scalar, runtime, .. } = self.model();
+        Item { ident, visibility, generics, scalar, runtime }
     }
 
     pub fn body(&'a self) -> Option<BodySubject<'a, 'g>> {
         match self.subject {
-            Subject::Body { model, scene, quaternion, plain } => {
-                Some(BodySubject { derived: self, model, scene, quaternion, plain })
+            Subject::Body { model, in_chart, scene, quaternion, plain } => {
+                Some(BodySubject { derived: self, model, in_chart, scene, quaternion, plain })
             }
             Subject::System(_) => None,
         }

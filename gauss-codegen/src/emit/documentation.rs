@@ -66,16 +66,8 @@ fn latex(sections: &[Section<'_>]) -> String {
 
 /// What the letters of the equations stand for: (letter, field, what its author says of it).
 fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
-    let fields: Vec<_> = match derived.subject {
-        Subject::Body { model, .. } => {
-            model.parameters.iter().map(|p| (p.role, &p.ident, &p.documentation, &p.unit)).collect()
-        }
-        Subject::System(SystemSubject { model, .. }) => {
-            model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit)).collect()
-        }
-    };
+    let fields = derived.model().fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
     fields
-        .into_iter()
         .filter_map(|(role, ident, documentation, unit)| role.map(|role| (role, ident, documentation, unit)))
         .filter(|(role, ..)| *role != Role::Body)
         .map(|(role, ident, documentation, unit)| {
@@ -146,13 +138,9 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
 
 /// The components of the input in order, and the elements in the order of their powers.
 fn acting(derived: &Derived<'_, '_>) -> String {
-    let model = match derived.subject {
-        Subject::Body { model, .. } => model.system.as_deref(),
-        Subject::System(SystemSubject { model, .. }) => Some(model),
-    };
     let mut out = String::new();
     let mut next = 0;
-    for input in model.iter().flat_map(|model| &model.inputs) {
+    for input in &derived.model().inputs {
         if next == 0 {
             out.push_str("\n# Input\n\n| components | input | unit |\n|---|---|---|\n");
         }

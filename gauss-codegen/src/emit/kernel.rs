@@ -37,8 +37,8 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
          # Errors\nEvery parameter that no body can have, with its field, value and the rule it breaks."
     );
     let (body, plain) = match derived.subject {
-        Subject::Body { model, scene, quaternion, plain } => {
-            (kernel_body(&BodySubject { derived, model, scene, quaternion, plain }), plain)
+        Subject::Body { model, in_chart, scene, quaternion, plain } => {
+            (kernel_body(&BodySubject { derived, model, in_chart, scene, quaternion, plain }), plain)
         }
         Subject::System(subject) => {
             let SystemSubject { model, sources, literals, assigned, .. } = subject;

@@ -402,6 +402,7 @@ fn component_groups(derived: &Derived<'_, '_>) -> Vec<usize> {
             let group = |coordinate: &Coordinate<'_>| match coordinate {
                 Coordinate::Pose(..) => vec![4, 3],
                 Coordinate::Rotation(_) => vec![4],
+                Coordinate::Plane { .. } => vec![2, 2],
                 Coordinate::Scalar(_) => vec![],
             };
             let scalars = coordinates.iter().filter(|c| matches!(c, Coordinate::Scalar(_))).map(|_| 1);
