@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
-use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
+use crate::emit::{Derived, Equations, Plain, Subject, SystemSubject, emit};
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals, Miscompiled};
 use crate::mechanics::{
     Acting, ConfigurationKind, Coordinate, Elimination, Formula, InertialParameters, Linearization, Method, Regressor,
@@ -22,7 +22,7 @@ use crate::translate::{Parameter, Translator, body_shape, parameters_of_body, pa
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
-    derive(input, |derived| Ok(emit(derived)))
+    derive(input, |derived| Ok(emit(derived, &Equations::of(derived))))
 }
 
 /// Derives one struct, and hands everything that is known of it to whoever writes it down.
