@@ -67,8 +67,8 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
     let folded = foldable(&model.scalar, &literals);
     let kernel = beside.lower(&graph, &formulas, &rotation, folded).map_err(|error| bug(&model.ident, &error))?;
-    if graph.overflowed() {
-        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
+    if graph.is_undefined() {
+        return Err(bug(&model.ident, &"the equations divide by zero"));
     }
     refuse_regressor(model.wanted.regressor.as_ref(), beside.regressor.as_ref(), &kernel)?;
     let has_inputs = translator.as_ref().is_some_and(|translator| !translator.inputs().is_empty());
@@ -136,8 +136,8 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     let literals = translator.literals();
     let folded = foldable(&model.scalar, &literals);
     let kernel = beside.lower(&graph, &formulas, &definitions, folded).map_err(|error| bug(&model.ident, &error))?;
-    if graph.overflowed() {
-        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
+    if graph.is_undefined() {
+        return Err(bug(&model.ident, &"the equations divide by zero"));
     }
     refuse_too_much(model, &kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), beside.regressor.as_ref(), &kernel)?;

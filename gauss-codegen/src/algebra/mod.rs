@@ -13,6 +13,7 @@ mod evaluate;
 mod graph;
 #[cfg(test)]
 pub mod ideal;
+mod large;
 mod linear;
 mod map;
 mod polynomial;

@@ -97,12 +97,11 @@ impl Printer {
             };
             if exponent > 0 { above.push(power) } else { below.push(power) }
         }
-        if coefficient.numer() != 1 || above.is_empty() {
-            above.insert(0, coefficient.numer().to_string());
+        let (numerator, denominator) = self.fraction(coefficient);
+        if numerator != "1" || above.is_empty() {
+            above.insert(0, numerator);
         }
-        if coefficient.denom() != 1 {
-            below.insert(0, coefficient.denom().to_string());
-        }
+        below.splice(0..0, denominator);
         let times = if self.latex() { " \\, " } else { "*" };
         let text = match (below.is_empty(), self.latex()) {
             (true, _) => above.join(times),
@@ -160,13 +159,23 @@ impl Printer {
     }
 
     fn number(&self, value: &Rational) -> String {
-        if value.is_integer() {
-            value.numer().to_string()
-        } else if self.latex() {
-            format!("\\frac{{{}}}{{{}}}", value.numer(), value.denom())
-        } else {
-            format!("{}/{}", value.numer(), value.denom())
+        match self.fraction(*value) {
+            (numerator, None) => numerator,
+            (numerator, Some(denominator)) if self.latex() => format!("\\frac{{{numerator}}}{{{denominator}}}"),
+            (numerator, Some(denominator)) => format!("{numerator}/{denominator}"),
         }
+    }
+
+    /// Numerator and denominator, if that is not one; fractions that nobody would read as numbers in double precision.
+    fn fraction(&self, value: Rational) -> (String, Option<String>) {
+        let Some((numerator, denominator)) = value.parts() else {
+            let decimal = format!("{:e}", value.to_f64());
+            return match decimal.split_once('e') {
+                Some((digits, exponent)) if self.latex() => (format!("{digits} \\cdot 10^{{{exponent}}}"), None),
+                _ => (decimal, None),
+            };
+        };
+        (numerator.to_string(), (denominator != 1).then(|| denominator.to_string()))
     }
 }
 

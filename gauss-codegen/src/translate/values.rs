@@ -134,9 +134,9 @@ impl<'g> Translator<'_, 'g> {
         })
     }
 
-    /// A literal; one of many digits is a constant of its own, so that products of several stay within 64-bit fractions.
+    /// A literal; one of many digits is a constant of its own: nothing cancels against it, and products of several would have ever more digits.
     fn number(&self, value: Rational) -> Expr<'g> {
-        if value.numer().abs().max(value.denom()) <= EXACT {
+        if value.parts().is_some_and(|(numerator, denominator)| numerator.abs().max(denominator) <= EXACT) {
             return self.graph.number(value);
         }
         let mut literals = self.literals.borrow_mut();
