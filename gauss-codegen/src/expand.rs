@@ -42,6 +42,7 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
         let acting = Acting::new(&observed, &scene.kinematics, &parameters, &elements, inputs);
         scene = scene.acted_upon(acting);
     }
+    translator.as_ref().map_or(Ok(()), Translator::refuse_mistakes)?;
     let mut formulas = scene.formulas();
     check_against_definition(&scene, &formulas).map_err(|error| bug(&model.ident, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
@@ -96,6 +97,7 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
     let all: Vec<usize> = (0..translator.speeds().len()).collect();
     let speeds = translator.speeds().to_vec();
     let scene = translator.scene(&speeds, &all)?;
+    translator.refuse_mistakes()?;
     refuse_curved_kinematics(model, &scene)?;
     let whole = System::new(scene);
     refuse_idle_speeds(model, &translator, &whole)?;

@@ -16,6 +16,19 @@ pub fn print(e: Expr<'_>, notation: Notation) -> String {
     Printer { notation }.sum(e)
 }
 
+/// To double precision, with a power of ten where many zeros would stand otherwise.
+pub fn decimal(value: Rational, notation: Notation) -> String {
+    let value = value.to_f64();
+    if (1e-5..1e16).contains(&value.abs()) {
+        return value.to_string();
+    }
+    let scientific = format!("{value:e}");
+    match scientific.split_once('e') {
+        Some((digits, exponent)) if notation == Notation::Latex => format!("{digits} \\cdot 10^{{{exponent}}}"),
+        _ => scientific,
+    }
+}
+
 struct Printer {
     notation: Notation,
 }
@@ -168,13 +181,7 @@ impl Printer {
 
     /// Numerator and denominator, if that is not one; fractions that nobody would read as numbers in double precision.
     fn fraction(&self, value: Rational) -> (String, Option<String>) {
-        let Some((numerator, denominator)) = value.parts() else {
-            let decimal = format!("{:e}", value.to_f64());
-            return match decimal.split_once('e') {
-                Some((digits, exponent)) if self.latex() => (format!("{digits} \\cdot 10^{{{exponent}}}"), None),
-                _ => (decimal, None),
-            };
-        };
+        let Some((numerator, denominator)) = value.parts() else { return (decimal(value, self.notation), None) };
         (numerator.to_string(), (denominator != 1).then(|| denominator.to_string()))
     }
 }

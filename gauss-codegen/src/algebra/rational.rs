@@ -166,7 +166,8 @@ impl Rational {
         }
     }
 
-    fn exact(self) -> Option<BigRational> {
+    /// As a fraction of integers of any length.
+    pub fn exact(self) -> Option<BigRational> {
         match self.denominator {
             0 => None,
             LARGE => Some(large::kept(self.numerator).clone()),

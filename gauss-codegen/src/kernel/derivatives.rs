@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::algebra::{Evaluation, Expr, Graph, Map, Tangents};
+use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Tangents};
 
 use super::hoist::Hoister;
 use super::program::{Operand, Operation, Program};
@@ -201,7 +201,7 @@ impl<'g> ConstantRates<'g> {
 
 impl Expected<'_, '_> {
     /// By dual numbers through the expressions.
-    pub fn values(&self, evaluation: &mut Evaluation<'_>) -> Vec<f64> {
+    pub fn values<N: Number>(&self, evaluation: &mut Evaluation<'_, N>) -> Vec<N> {
         let mut expected = Vec::new();
         if self.kept == Kept::ValuesToo {
             expected.extend(self.outputs.iter().map(|e| evaluation.value(*e)));

@@ -24,7 +24,7 @@ mod tests;
 
 use std::fmt;
 
-use crate::algebra::{Evaluation, Expr, Graph, Map, Rational};
+use crate::algebra::{Evaluation, Expr, Function, Graph, Map, Number, Precise, Rational};
 
 pub use derivatives::{ByParameters, Derivatives, Differentiated, Equation};
 use derivatives::{Constants, Expected, Kept};
@@ -144,9 +144,13 @@ impl<'g> Kernel<'g> {
             Some(value).filter(|value| made_of_literals && value.is_finite())
         };
         let (mut symbols, mut values, mut known_constants) = (Vec::new(), Vec::new(), Vec::new());
+        let mut folded = Vec::new();
         for (symbol, definition) in constants {
             match known(definition) {
-                Some(value) => known_constants.push((symbol, value)),
+                Some(value) => {
+                    known_constants.push((symbol, value));
+                    folded.push((symbol, definition));
+                }
                 None => {
                     symbols.push(symbol);
                     values.push(definition);
@@ -167,16 +171,21 @@ impl<'g> Kernel<'g> {
             known_constants,
         };
         chosen.push(&of_joined);
-        let sample = Sample { definitions, units: wanted.units, literals: &literal_values };
-        kernel.check(graph, &chosen, &sample, &[expected_tangents, expected_by_parameters, expected_regressor])?;
+        let sample =
+            Sample { definitions, units: wanted.units, literals: literals.unwrap_or_default(), folded: &folded };
+        let derived = [expected_tangents, expected_by_parameters, expected_regressor];
+        kernel
+            .check::<f64>(graph, &chosen, &sample, &derived)
+            .or_else(|_| kernel.check::<Precise>(graph, &chosen, &sample, &derived))?;
         Ok(kernel)
     }
 
     /// Runs every program at a pseudo-random point against the expressions that it was lowered from. Roots and logarithms
     /// have domains: it is the first of a few points at which everything has a value. Functions that have none at any of
-    /// them cannot be checked. A wrong term is wrong nearly everywhere, roundings grow large near singular points alone:
-    /// programs are refused when they disagree at three points.
-    fn check(
+    /// them cannot be checked. A wrong term is wrong nearly everywhere, also in numbers of many digits; where terms cancel, two right forms
+    /// differ by roundings of what cancelled, and by as many digits less in such numbers. So programs are refused when they disagree at
+    /// three points and do so in numbers of many digits.
+    fn check<N: Number>(
         &self,
         graph: &'g Graph,
         functions: &[&Vec<Expr<'g>>],
@@ -185,13 +194,13 @@ impl<'g> Kernel<'g> {
     ) -> Result<(), Miscompiled> {
         let outputs = || functions.iter().flat_map(|outputs| outputs.iter());
         let points = (0..16).map(|shift| sample.point(graph, shift));
-        let inside = |point: &Map<u32, f64>| {
+        let inside = |point: &Map<u32, N>| {
             let mut evaluation = Evaluation::new(point);
             outputs().all(|e| evaluation.value(*e).is_finite())
         };
         let mut refused = Ok(());
         for point in points.filter(inside).take(3) {
-            refused = self.check_at(&point, functions, derived);
+            refused = self.check_at(&point, functions, sample, derived);
             if refused.is_ok() {
                 break;
             }
@@ -204,19 +213,20 @@ impl<'g> Kernel<'g> {
         [&self.tangents, &self.by_parameters, &self.regressor].into_iter().map(Option::as_ref)
     }
 
-    fn check_at(
+    fn check_at<N: Number>(
         &self,
-        point: &Map<u32, f64>,
+        point: &Map<u32, N>,
         functions: &[&Vec<Expr<'g>>],
+        sample: &Sample<'_, 'g>,
         derived: &[Option<Expected<'_, 'g>>],
     ) -> Result<(), Miscompiled> {
         let mut values = point.clone();
         let constants = self.constants.run(point);
         values.extend(self.constant_symbols.iter().zip(constants).map(|(s, v)| (s.key(), v)));
-        values.extend(self.known_constants.iter().map(|(s, v)| (s.key(), *v)));
         let mut evaluation = Evaluation::new(point);
+        values.extend(sample.folded.iter().map(|(s, definition)| (s.key(), evaluation.value(*definition))));
         for (function, (program, outputs)) in self.functions.iter().chain([&self.joined]).zip(functions).enumerate() {
-            let expected: Vec<f64> = outputs.iter().map(|e| evaluation.value(*e)).collect();
+            let expected: Vec<N> = outputs.iter().map(|e| evaluation.value(*e)).collect();
             compare(function, &program.run(&values), &expected)?;
         }
         for (program, expected) in self.derivatives().zip(derived) {
@@ -229,10 +239,11 @@ impl<'g> Kernel<'g> {
 }
 
 /// Refuses what is not computed as expected.
-fn compare(function: usize, found: &[f64], expected: &[f64]) -> Result<(), Miscompiled> {
-    for (output, (&found, &expected)) in found.iter().zip(expected).enumerate() {
+fn compare<N: Number>(function: usize, found: &[N], expected: &[N]) -> Result<(), Miscompiled> {
+    for (output, (&found, &wanted)) in found.iter().zip(expected).enumerate() {
+        let (apart, found, expected) = ((found - wanted).to_f64(), found.to_f64(), wanted.to_f64());
         // Inputs are of order one; hundreds of roundings stay far below, a wrong term far above this.
-        let close = (found - expected).abs() <= 1e-6 * (1.0 + expected.abs());
+        let close = apart.abs() <= 1e-6 * (1.0 + expected.abs());
         if !close {
             return Err(Miscompiled { function, output, expected, found });
         }
@@ -247,31 +258,34 @@ struct Sample<'a, 'g> {
     /// Symbols that are scaled to have the norm 1, list by list.
     units: &'a [Vec<Expr<'g>>],
     /// Symbols that stand for literals.
-    literals: &'a Map<u32, f64>,
+    literals: &'a [(Rational, Expr<'g>)],
+    /// Constants that literals alone determine.
+    folded: &'a [(Expr<'g>, Expr<'g>)],
 }
 
 impl<'g> Sample<'_, 'g> {
     /// A value of order one for every symbol, different for each, but for literals, and the values of what is defined by them.
-    fn point(&self, graph: &'g Graph, shift: u32) -> Map<u32, f64> {
-        let mut point: Map<u32, f64> = graph
+    fn point<N: Number>(&self, graph: &'g Graph, shift: u32) -> Map<u32, N> {
+        let mut point: Map<u32, N> = graph
             .symbol_keys()
             .into_iter()
             .enumerate()
             .map(|(k, key)| {
                 // Multiples of the golden ratio are spread evenly and never equal.
                 let fraction = (((k + 1) as f64 + f64::from(shift) * 0.37) * 0.618_033_988_749_894_9).fract();
-                (key, 0.6 + fraction)
+                (key, N::from_f64(0.6 + fraction))
             })
             .collect();
-        point.extend(self.literals);
+        point.extend(self.literals.iter().map(|(value, symbol)| (symbol.key(), N::fraction(*value))));
         for unit in self.units {
-            let norm = unit.iter().map(|symbol| point[&symbol.key()].powi(2)).sum::<f64>().sqrt();
+            let square = |symbol: &Expr<'g>| point[&symbol.key()].powi(2);
+            let norm = unit.iter().fold(N::from_f64(0.0), |sum, symbol| sum + square(symbol)).call(Function::Sqrt);
             for symbol in unit {
-                point.entry(symbol.key()).and_modify(|value| *value /= norm);
+                point.entry(symbol.key()).and_modify(|value| *value = *value / norm);
             }
         }
         let mut evaluation = Evaluation::new(&point);
-        let defined: Vec<(u32, f64)> =
+        let defined: Vec<(u32, N)> =
             self.definitions.iter().map(|(&symbol, e)| (symbol, evaluation.value(*e))).collect();
         point.extend(defined);
         point

@@ -1,6 +1,6 @@
 //! Straight-line programs: single assignment, no loops, no branches.
 
-use crate::algebra::{BinaryFunction, Expr, Function, Map, Rational};
+use crate::algebra::{BinaryFunction, Expr, Function, Map, Number, Rational};
 
 use super::factor::Factoring;
 use super::network::{Network, Node, Place};
@@ -289,28 +289,29 @@ impl<'g> Program<'g> {
         symbols
     }
 
-    /// Interprets the program in double precision.
-    pub fn run(&self, symbols: &Map<u32, f64>) -> Vec<f64> {
-        let mut values: Vec<(f64, f64)> = Vec::with_capacity(self.instructions.len());
-        let get = |operand: &Operand<'g>, values: &[(f64, f64)]| match operand {
-            Operand::Symbol(e) => symbols.get(&e.key()).copied().unwrap_or(f64::NAN),
-            Operand::Number(value) => value.to_f64(),
+    /// Interprets the program.
+    pub fn run<N: Number>(&self, symbols: &Map<u32, N>) -> Vec<N> {
+        let mut values: Vec<(N, N)> = Vec::with_capacity(self.instructions.len());
+        let zero = N::from_f64(0.0);
+        let get = |operand: &Operand<'g>, values: &[(N, N)]| match operand {
+            Operand::Symbol(e) => symbols.get(&e.key()).copied().unwrap_or(N::from_f64(f64::NAN)),
+            Operand::Number(value) => N::fraction(*value),
             Operand::Value(k) | Operand::Sine(k) => values[*k].0,
             Operand::Cosine(k) => values[*k].1,
         };
         for instruction in &self.instructions {
             let at = |operand: &Operand<'g>| get(operand, &values);
             let value = match instruction {
-                Operation::Add(a, b) => (at(a) + at(b), 0.0),
-                Operation::Subtract(a, b) => (at(a) - at(b), 0.0),
-                Operation::Multiply(a, b) => (at(a) * at(b), 0.0),
-                Operation::MultiplyAdd(a, b, c) => (at(a) * at(b) + at(c), 0.0),
-                Operation::MultiplySubtract(a, b, c) => (at(c) - at(a) * at(b), 0.0),
-                Operation::Divide(a, b) => (at(a) / at(b), 0.0),
-                Operation::Negate(a) => (-at(a), 0.0),
-                Operation::SineCosine(a) => at(a).sin_cos(),
-                Operation::Call(function, a) => (function.value(at(a)), 0.0),
-                Operation::Binary(function, a, b) => (function.value(at(a), at(b)), 0.0),
+                Operation::Add(a, b) => (at(a) + at(b), zero),
+                Operation::Subtract(a, b) => (at(a) - at(b), zero),
+                Operation::Multiply(a, b) => (at(a) * at(b), zero),
+                Operation::MultiplyAdd(a, b, c) => (at(a) * at(b) + at(c), zero),
+                Operation::MultiplySubtract(a, b, c) => (at(c) - at(a) * at(b), zero),
+                Operation::Divide(a, b) => (at(a) / at(b), zero),
+                Operation::Negate(a) => (-at(a), zero),
+                Operation::SineCosine(a) => at(a).sine_cosine(),
+                Operation::Call(function, a) => (at(a).call(*function), zero),
+                Operation::Binary(function, a, b) => (at(a).call_with(*function, at(b)), zero),
             };
             values.push(value);
         }

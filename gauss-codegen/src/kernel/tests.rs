@@ -6,7 +6,7 @@ use super::tangent::with_tangents;
 use super::{
     ByParameters, Candidates, Counts, Derivatives, Differentiated, Direction, Equation, Kernel, Program, Sample,
 };
-use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
+use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map, Precise};
 
 /// A reproducible stream of small integers.
 struct Random(u64);
@@ -36,7 +36,7 @@ fn random_expr<'g>(random: &mut Random, leaves: &[Expr<'g>], depth: u32) -> Expr
 }
 
 fn point_of<'g>(graph: &'g Graph, definitions: &Map<u32, Expr<'g>>) -> Map<u32, f64> {
-    Sample { definitions, units: &[], literals: &Map::default() }.point(graph, 0)
+    Sample { definitions, units: &[], literals: &[], folded: &[] }.point(graph, 0)
 }
 
 #[test]
@@ -182,16 +182,10 @@ fn a_program_that_computes_something_else_is_refused() {
     )
     .expect("a program");
     kernel.functions[0] = Program::lower(&[a - b]);
-    assert!(
-        kernel
-            .check(
-                &graph,
-                &[&vec![a + b], &vec![]],
-                &Sample { definitions: &Map::default(), units: &[], literals: &Map::default() },
-                &[]
-            )
-            .is_err()
-    );
+    let sample = Sample { definitions: &Map::default(), units: &[], literals: &[], folded: &[] };
+    let functions = [&vec![a + b], &vec![]];
+    assert!(kernel.check::<f64>(&graph, &functions, &sample, &[]).is_err());
+    assert!(kernel.check::<Precise>(&graph, &functions, &sample, &[]).is_err());
 }
 
 /// Values and derivatives along each direction by the symbolic derivatives of the expressions.
