@@ -6,24 +6,73 @@ use super::graph::{BinaryFunction, Expr, Function, NodeView};
 use super::map::Map;
 use super::rational::Rational;
 
-/// What expressions are evaluated in.
-pub trait Number:
-    Copy
-    + PartialOrd
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
+/// What expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual numbers, intervals or numbers of more digits.
+pub trait Scalar:
+    Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
+    /// A number that no fraction of integers is, as literals of a scene determine it in double precision.
+    fn number(value: f64) -> Self;
+
+    /// A fraction, exactly where the type can hold it.
+    fn fraction(value: Rational) -> Self;
+
+    /// Sine and cosine of an angle in radians.
+    fn sine_cosine(self) -> (Self, Self);
+
+    /// A function of one argument; NaN, or what stands for it, outside its domain.
+    fn call(self, function: Function) -> Self;
+
+    /// A function of two arguments, of which this is the first.
+    fn call_with(self, function: BinaryFunction, other: Self) -> Self;
+}
+
+macro_rules! primitive {
+    ($scalar:ident) => {
+        impl Scalar for $scalar {
+            fn number(value: f64) -> Self {
+                value as $scalar
+            }
+
+            fn fraction(value: Rational) -> Self {
+                value.to_f64() as $scalar
+            }
+
+            fn sine_cosine(self) -> (Self, Self) {
+                self.sin_cos()
+            }
+
+            fn call(self, function: Function) -> Self {
+                match function {
+                    Function::Sin => self.sin(),
+                    Function::Cos => self.cos(),
+                    Function::Exp => self.exp(),
+                    Function::Ln => self.ln(),
+                    Function::Sqrt => self.sqrt(),
+                    Function::Abs => self.abs(),
+                    // Unlike that of the primitive type, zero at zero.
+                    Function::Signum if self == 0.0 => 0.0,
+                    Function::Signum => self.signum(),
+                }
+            }
+
+            fn call_with(self, function: BinaryFunction, other: Self) -> Self {
+                match function {
+                    BinaryFunction::Atan2 => self.atan2(other),
+                    BinaryFunction::Min => self.min(other),
+                    BinaryFunction::Max => self.max(other),
+                }
+            }
+        }
+    };
+}
+
+primitive!(f64);
+primitive!(f32);
+
+/// What checks are made in.
+pub trait Number: Scalar + Copy + PartialOrd {
     /// What is left of an unknown when numbers of order one are eliminated from it, and should be zero: some thousand roundings.
     const NEGLIGIBLE: f64;
-
-    /// As it is.
-    fn from_f64(value: f64) -> Self;
-
-    /// The nearest one.
-    fn fraction(value: Rational) -> Self;
 
     /// The nearest one.
     fn to_f64(self) -> f64;
@@ -33,27 +82,10 @@ pub trait Number:
 
     /// An integer power.
     fn powi(self, exponent: i32) -> Self;
-
-    /// Sine and cosine of an angle in radians.
-    fn sine_cosine(self) -> (Self, Self);
-
-    /// A function; not finite outside its domain.
-    fn call(self, function: Function) -> Self;
-
-    /// A function of two arguments, of which this is the first.
-    fn call_with(self, function: BinaryFunction, other: Self) -> Self;
 }
 
 impl Number for f64 {
     const NEGLIGIBLE: f64 = 1e-12;
-
-    fn from_f64(value: f64) -> Self {
-        value
-    }
-
-    fn fraction(value: Rational) -> Self {
-        value.to_f64()
-    }
 
     fn to_f64(self) -> f64 {
         self
@@ -66,58 +98,20 @@ impl Number for f64 {
     fn powi(self, exponent: i32) -> Self {
         f64::powi(self, exponent)
     }
-
-    fn sine_cosine(self) -> (Self, Self) {
-        self.sin_cos()
-    }
-
-    fn call(self, function: Function) -> Self {
-        function.value(self)
-    }
-
-    fn call_with(self, function: BinaryFunction, other: Self) -> Self {
-        function.value(self, other)
-    }
 }
 
 impl Function {
     /// Its derivative.
     fn slope<N: Number>(self, x: N) -> N {
-        let one = N::from_f64(1.0);
+        let one = N::number(1.0);
         match self {
             Function::Sin => x.call(Function::Cos),
             Function::Cos => -x.call(Function::Sin),
             Function::Exp => x.call(Function::Exp),
             Function::Ln => one / x,
-            Function::Sqrt => N::from_f64(0.5) / x.call(Function::Sqrt),
+            Function::Sqrt => N::number(0.5) / x.call(Function::Sqrt),
             Function::Abs => x.call(Function::Signum),
-            Function::Signum => N::from_f64(0.0),
-        }
-    }
-
-    /// In double precision; NaN outside the domain.
-    pub fn value(self, x: f64) -> f64 {
-        match self {
-            Function::Sin => x.sin(),
-            Function::Cos => x.cos(),
-            Function::Exp => x.exp(),
-            Function::Ln => x.ln(),
-            Function::Sqrt => x.sqrt(),
-            Function::Abs => x.abs(),
-            // Unlike that of `f64`, zero at zero.
-            Function::Signum if x == 0.0 => 0.0,
-            Function::Signum => x.signum(),
-        }
-    }
-}
-
-impl BinaryFunction {
-    /// In double precision.
-    pub fn value(self, a: f64, b: f64) -> f64 {
-        match self {
-            BinaryFunction::Atan2 => a.atan2(b),
-            BinaryFunction::Min => a.min(b),
-            BinaryFunction::Max => a.max(b),
+            Function::Signum => N::number(0.0),
         }
     }
 }
@@ -141,12 +135,12 @@ impl<'a, N: Number> Evaluation<'a, N> {
         }
         let value = match e.view() {
             NodeView::Number(value) => N::fraction(value),
-            NodeView::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(N::from_f64(f64::NAN)),
+            NodeView::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(N::number(f64::NAN)),
             NodeView::Sum(terms) => {
-                terms.into_iter().fold(N::from_f64(0.0), |sum, (c, e)| sum + N::fraction(c) * self.value(e))
+                terms.into_iter().fold(N::number(0.0), |sum, (c, e)| sum + N::fraction(c) * self.value(e))
             }
             NodeView::Product(factors) => {
-                factors.into_iter().fold(N::from_f64(1.0), |product, (e, n)| product * self.value(e).powi(n))
+                factors.into_iter().fold(N::number(1.0), |product, (e, n)| product * self.value(e).powi(n))
             }
             NodeView::Call(function, e) => self.value(e).call(function),
             NodeView::Binary(function, a, b) => self.value(a).call_with(function, self.value(b)),
@@ -177,18 +171,18 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
         if let Some(&known) = self.known.get(&e.key()) {
             return known;
         }
-        let zero = N::from_f64(0.0);
+        let zero = N::number(0.0);
         let rate = match e.view() {
             NodeView::Number(_) => zero,
             NodeView::Symbol(_) => self.direction.get(&e.key()).copied().unwrap_or(zero),
             NodeView::Sum(terms) => terms.into_iter().fold(zero, |sum, (c, e)| sum + N::fraction(c) * self.along(e)),
             NodeView::Product(factors) => {
                 // (Π fᵢ^nᵢ)˙ by the product rule on (value, rate) pairs.
-                let (mut value, mut rate) = (N::from_f64(1.0), zero);
+                let (mut value, mut rate) = (N::number(1.0), zero);
                 for (e, n) in factors {
                     let (x, slope) = (self.values.value(e), self.along(e));
                     let power = x.powi(n);
-                    rate = rate * power + value * N::from_f64(n.into()) * x.powi(n - 1) * slope;
+                    rate = rate * power + value * N::number(n.into()) * x.powi(n - 1) * slope;
                     value = value * power;
                 }
                 rate

@@ -23,7 +23,7 @@ mod rational;
 #[cfg(test)]
 mod tests;
 
-pub use evaluate::{Evaluation, Number, Tangents};
+pub use evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView};
 pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
 pub use map::Map;

@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_bigint::{BigInt, BigUint, Sign};
 
-use super::evaluate::Number;
+use super::evaluate::{Number, Scalar};
 use super::graph::{BinaryFunction, Function};
 use super::rational::Rational;
 
@@ -115,7 +115,7 @@ impl Precise {
         }
         let mantissa = self.times_two_to(-self.magnitude()).to_f64();
         let guess = mantissa.ln() + self.magnitude() as f64 * std::f64::consts::LN_2;
-        (0..3).fold(Self::from_f64(guess), |y, _| {
+        (0..3).fold(Self::number(guess), |y, _| {
             let power = y.exp();
             y + ((self - power) / (self + power)).times_two_to(1)
         })
@@ -144,18 +144,15 @@ impl Precise {
         }
         let scale = -self.magnitude().max(x.magnitude());
         let guess = self.times_two_to(scale).to_f64().atan2(x.times_two_to(scale).to_f64());
-        (0..4).fold(Self::from_f64(guess), |angle, _| {
+        (0..4).fold(Self::number(guess), |angle, _| {
             let (sin, cos) = angle.sine_cosine();
             angle + (self * cos - x * sin) / (x * cos + self * sin)
         })
     }
 }
 
-impl Number for Precise {
-    /// A third of the digits may cancel before.
-    const NEGLIGIBLE: f64 = 1e-50;
-
-    fn from_f64(value: f64) -> Self {
+impl Scalar for Precise {
+    fn number(value: f64) -> Self {
         if !value.is_finite() {
             return Self::UNDEFINED;
         }
@@ -169,32 +166,6 @@ impl Number for Precise {
         value.exact().map_or(Self::UNDEFINED, |value| {
             Self::rounded(value.numer().clone(), 0) / Self::rounded(value.denom().clone(), 0)
         })
-    }
-
-    fn to_f64(self) -> f64 {
-        if !self.defined {
-            return f64::NAN;
-        }
-        // 53 of the digits, and powers of two in steps that do not leave the range too early.
-        let top = self.mantissa[3] as f64 * if self.negative { -1.0 } else { 1.0 };
-        let exponent = (self.exponent + 192).clamp(-2200, 2200) as i32;
-        top * 2.0_f64.powi(exponent / 2) * 2.0_f64.powi(exponent - exponent / 2)
-    }
-
-    fn is_finite(self) -> bool {
-        self.defined
-    }
-
-    fn powi(self, exponent: i32) -> Self {
-        let (mut power, mut square, mut remaining) = (Self::integer(1), self, exponent.unsigned_abs());
-        while remaining > 0 {
-            if remaining & 1 == 1 {
-                power = power * square;
-            }
-            square = square * square;
-            remaining >>= 1;
-        }
-        if exponent < 0 { Self::integer(1) / power } else { power }
     }
 
     fn sine_cosine(self) -> (Self, Self) {
@@ -223,6 +194,37 @@ impl Number for Precise {
             (BinaryFunction::Min, Some(Ordering::Greater)) | (BinaryFunction::Max, Some(Ordering::Less)) => other,
             _ => self,
         }
+    }
+}
+
+impl Number for Precise {
+    /// A third of the digits may cancel before.
+    const NEGLIGIBLE: f64 = 1e-50;
+
+    fn to_f64(self) -> f64 {
+        if !self.defined {
+            return f64::NAN;
+        }
+        // 53 of the digits, and powers of two in steps that do not leave the range too early.
+        let top = self.mantissa[3] as f64 * if self.negative { -1.0 } else { 1.0 };
+        let exponent = (self.exponent + 192).clamp(-2200, 2200) as i32;
+        top * 2.0_f64.powi(exponent / 2) * 2.0_f64.powi(exponent - exponent / 2)
+    }
+
+    fn is_finite(self) -> bool {
+        self.defined
+    }
+
+    fn powi(self, exponent: i32) -> Self {
+        let (mut power, mut square, mut remaining) = (Self::integer(1), self, exponent.unsigned_abs());
+        while remaining > 0 {
+            if remaining & 1 == 1 {
+                power = power * square;
+            }
+            square = square * square;
+            remaining >>= 1;
+        }
+        if exponent < 0 { Self::integer(1) / power } else { power }
     }
 }
 
@@ -301,7 +303,7 @@ impl PartialOrd for Precise {
 
 #[cfg(test)]
 mod tests {
-    use super::super::evaluate::Number;
+    use super::super::evaluate::{Number, Scalar};
     use super::super::{BinaryFunction, Function, Rational};
     use super::Precise;
 
@@ -316,18 +318,18 @@ mod tests {
     #[test]
     fn doubles_stay_what_they_are() {
         for x in POINTS.into_iter().flat_map(|x| [x, -x, x.recip()]).chain([0.0, f64::MAX, f64::MIN_POSITIVE, 5e-324]) {
-            assert_eq!(Precise::from_f64(x).to_f64(), x);
+            assert_eq!(Precise::number(x).to_f64(), x);
         }
-        assert!(!Precise::from_f64(f64::INFINITY).is_finite() && !Precise::from_f64(f64::NAN).is_finite());
+        assert!(!Precise::number(f64::INFINITY).is_finite() && !Precise::number(f64::NAN).is_finite());
     }
 
     #[test]
     fn arithmetic() {
         let third = Precise::fraction(Rational::new(1, 3));
-        agree("3/3", third * Precise::from_f64(3.0), Precise::from_f64(1.0));
-        agree("power", third.powi(-5), Precise::from_f64(243.0));
+        agree("3/3", third * Precise::number(3.0), Precise::number(1.0));
+        agree("power", third.powi(-5), Precise::number(243.0));
         // (10¹⁰ + ⅓) − 10¹⁰.
-        let far = Precise::from_f64(1e10);
+        let far = Precise::number(1e10);
         agree("difference", far + third - far, third);
         assert!(third > Precise::ZERO && -third < Precise::ZERO && third < far);
         assert!(!(third / Precise::ZERO).is_finite());
@@ -336,21 +338,21 @@ mod tests {
     #[test]
     fn functions_and_their_inverses() {
         for x in POINTS {
-            let p = Precise::from_f64(x);
+            let p = Precise::number(x);
             let (sin, cos) = p.sine_cosine();
-            agree("sin² + cos²", sin * sin + cos * cos, Precise::from_f64(1.0));
+            agree("sin² + cos²", sin * sin + cos * cos, Precise::number(1.0));
             assert!((sin.to_f64() - x.sin()).abs() < 1e-15 && (cos.to_f64() - x.cos()).abs() < 1e-15, "{x}");
-            agree("sqrt", p.call(Function::Sqrt).powi(2) / p, Precise::from_f64(1.0));
-            agree("ln", p.call(Function::Ln).call(Function::Exp) / p, Precise::from_f64(1.0));
+            agree("sqrt", p.call(Function::Sqrt).powi(2) / p, Precise::number(1.0));
+            agree("ln", p.call(Function::Ln).call(Function::Exp) / p, Precise::number(1.0));
             let (y, x) = (sin * p, cos * p);
             let angle = y.call_with(BinaryFunction::Atan2, x);
             let (s, c) = angle.sine_cosine();
             agree("atan2", s * p, y);
             agree("atan2", c * p, x);
         }
-        assert!(!Precise::from_f64(-1.0).call(Function::Sqrt).is_finite());
+        assert!(!Precise::number(-1.0).call(Function::Sqrt).is_finite());
         assert!(!Precise::ZERO.call(Function::Ln).is_finite());
-        let of_pi = Precise::ZERO.call_with(BinaryFunction::Atan2, Precise::from_f64(-1.0));
+        let of_pi = Precise::ZERO.call_with(BinaryFunction::Atan2, Precise::number(-1.0));
         assert_eq!(of_pi.to_f64(), std::f64::consts::PI);
     }
 }

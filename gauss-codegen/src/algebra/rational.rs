@@ -18,6 +18,11 @@ use super::large;
 /// Nearly all coefficients are small integers, so those take a short way past the greatest common divisors of
 /// `num_rational`, whose equality and hash are also needlessly general for reduced fractions.
 #[derive(Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "(String, String)", into = "(String, String)")
+)]
 pub struct Rational {
     /// Of a large fraction: its index.
     numerator: i64,
@@ -40,14 +45,17 @@ impl Rational {
         }
     }
 
+    /// n/1.
     pub const fn from_integer(value: i64) -> Self {
         Self { numerator: value, denominator: 1 }
     }
 
+    /// 0.
     pub const fn zero() -> Self {
         Self::from_integer(0)
     }
 
+    /// 1.
     pub const fn one() -> Self {
         Self::from_integer(1)
     }
@@ -67,14 +75,17 @@ impl Rational {
         self.denominator == 0
     }
 
+    /// Whether it is 0.
     pub const fn is_zero(self) -> bool {
         self.numerator == 0 && self.denominator == 1
     }
 
+    /// Whether it is 1.
     pub const fn is_one(self) -> bool {
         self.numerator == 1 && self.denominator == 1
     }
 
+    /// Whether it is less than 0.
     pub fn is_negative(self) -> bool {
         if self.denominator == LARGE { large::kept(self.numerator).is_negative() } else { self.numerator < 0 }
     }
@@ -84,10 +95,12 @@ impl Rational {
         self.denominator > 0 && self.denominator & (self.denominator - 1) == 0 && self.numerator.abs() < 1 << 24
     }
 
+    /// Without its sign.
     pub fn abs(self) -> Self {
         if self.is_negative() { -self } else { self }
     }
 
+    /// 1/x; without a value of 0.
     pub fn recip(self) -> Self {
         match (self.numerator, self.denominator) {
             (_, LARGE) => Self::one() / self,
@@ -97,7 +110,7 @@ impl Rational {
         }
     }
 
-    /// By repeated squaring.
+    /// Its power.
     pub fn pow(self, exponent: i32) -> Self {
         let mut square = if exponent < 0 { self.recip() } else { self };
         let (mut power, mut remaining) = (Self::one(), exponent.unsigned_abs());
@@ -113,6 +126,7 @@ impl Rational {
         power
     }
 
+    /// The sum.
     pub fn plus(self, other: Self) -> Self {
         if self.denominator == 1
             && other.denominator == 1
@@ -182,6 +196,25 @@ impl Rational {
             return self.numerator as f64 / self.denominator as f64;
         }
         self.exact().and_then(|value| value.to_f64()).unwrap_or(f64::NAN)
+    }
+}
+
+/// Numerator and denominator in decimal digits; what is no fraction of these has no value.
+impl From<(String, String)> for Rational {
+    fn from((numerator, denominator): (String, String)) -> Self {
+        match (numerator.parse::<BigInt>(), denominator.parse::<BigInt>()) {
+            (Ok(numerator), Ok(denominator)) if !denominator.is_zero() => {
+                BigRational::new(numerator, denominator).into()
+            }
+            _ => Self::UNDEFINED,
+        }
+    }
+}
+
+impl From<Rational> for (String, String) {
+    fn from(value: Rational) -> Self {
+        let digits = |value: BigRational| (value.numer().to_string(), value.denom().to_string());
+        value.exact().map_or_else(|| ("0".into(), "0".into()), digits)
     }
 }
 

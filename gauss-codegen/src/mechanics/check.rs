@@ -53,7 +53,7 @@ fn check_in<'g, N: Number>(scene: &Scene<'g>, formulas: &[Formula<'g>]) -> Resul
         for arrangement in &formula.arrangements {
             let rates = values(&state, arrangement);
             state.extend(scene.kinematics.speed_rates.iter().zip(&rates).map(|(symbol, rate)| (symbol.key(), *rate)));
-            agree(formula.method, &values(&state, &condition), &vec![N::from_f64(0.0); rates.len()])?;
+            agree(formula.method, &values(&state, &condition), &vec![N::number(0.0); rates.len()])?;
         }
     }
     Ok(())
@@ -80,12 +80,12 @@ fn sample_state<N: Number>(scene: &Scene<'_>) -> Map<u32, N> {
     let mut index = 0;
     let mut next = || {
         index += 1;
-        N::from_f64(0.5 + (f64::from(index) * 0.618_033_988_749_894_9).fract())
+        N::number(0.5 + (f64::from(index) * 0.618_033_988_749_894_9).fract())
     };
     let mut state: Map<u32, N> = Map::default();
     for parameter in &scene.body.parameters {
         let diagonal = parameter.row == parameter.column;
-        let value = if diagonal { N::from_f64(4.0) + next() } else { N::from_f64(0.3) * next() };
+        let value = if diagonal { N::number(4.0) + next() } else { N::number(0.3) * next() };
         state.insert(parameter.symbol.key(), value);
     }
     let mut configuration = kinematics.configuration.iter();

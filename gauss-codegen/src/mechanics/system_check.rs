@@ -64,7 +64,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
 
     /// Derivatives of the expressions with respect to every speed: one row a speed.
     fn partials(&self, outputs: &[Expr<'g>]) -> Vec<Vec<N>> {
-        let one = N::from_f64(1.0);
+        let one = N::number(1.0);
         self.system.scene.speeds.iter().map(|z| self.along(&Map::from_iter([(z.key(), one)]), outputs)).collect()
     }
 
@@ -85,8 +85,8 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
         let accelerations = self.along(&flow, &fields);
         let partials = self.partials(&fields);
         let mut evaluation = Evaluation::new(&self.state);
-        let mut rows = vec![N::from_f64(0.0); scene.speeds.len()];
-        let zeros = [N::from_f64(0.0); 3];
+        let mut rows = vec![N::number(0.0); scene.speeds.len()];
+        let zeros = [N::number(0.0); 3];
         let gravity = scene.tree.gravity.map_or(zeros, |g| g.map(|e| evaluation.value(e)));
         for (k, link) in scene.tree.links.iter().enumerate() {
             let moments = Distribution::of(link, &mut evaluation);
@@ -117,7 +117,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
     /// `Σ F·∂v/∂z^α` over what acts, with velocities differentiated from positions. `partials` are those of the links.
     fn forces(&self, partials: &[Vec<N>]) -> Vec<N> {
         let scene = &self.system.scene;
-        let mut rows = vec![N::from_f64(0.0); scene.speeds.len()];
+        let mut rows = vec![N::number(0.0); scene.speeds.len()];
         let dot = |a: &[N], b: &[N]| sum(a.iter().zip(b).map(|(a, b)| *a * *b));
         for force in &self.system.forces {
             match force {
@@ -152,7 +152,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
                             (0..3).map(|i| w[0][i] + sum((0..3).map(|j| at[j] * w[j + 1][i]))).collect();
                         // o_α = ½ Σ e_j × ∂ė_j/∂z^α.
                         let turned = sum((0..3).map(|j| dot(&torque, &cross(&axis(j), &w[j + 1]))));
-                        *row = *row + dot(&force, &moved) + N::from_f64(0.5) * turned;
+                        *row = *row + dot(&force, &moved) + N::number(0.5) * turned;
                     }
                 }
             }
@@ -163,7 +163,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
     /// `dQ/dt·a_α + (dΓ/dt + v_O × Q)·o_α` of the fluid's impulse, body axes: zero without fluid.
     fn fluid(&self, flow: &Map<u32, N>) -> Vec<N> {
         let scene = &self.system.scene;
-        let mut rows = vec![N::from_f64(0.0); scene.speeds.len()];
+        let mut rows = vec![N::number(0.0); scene.speeds.len()];
         for (k, link) in scene.tree.links.iter().enumerate() {
             let Some(added) = link.body().and_then(|body| body.added_mass.as_ref()) else { continue };
             // (u, ω): components of v_O and of RᵀṘ.
@@ -188,7 +188,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
 }
 
 fn sum<N: Number>(terms: impl Iterator<Item = N>) -> N {
-    terms.fold(N::from_f64(0.0), |sum, term| sum + term)
+    terms.fold(N::number(0.0), |sum, term| sum + term)
 }
 
 fn field<N: Number>(components: &[N], link: usize) -> Field<N> {
@@ -210,7 +210,7 @@ struct Distribution<N> {
 
 impl<N: Number> Distribution<N> {
     fn of(link: &Link<'_>, evaluation: &mut Evaluation<'_, N>) -> Self {
-        let zero = N::from_f64(0.0);
+        let zero = N::number(0.0);
         let nothing = Self { mass: zero, first: [zero; 3], second: [[zero; 3]; 3], buoyancy: None };
         match &link.matter {
             Matter::Nothing => nothing,
@@ -250,7 +250,7 @@ fn check_in<'g, N: Number>(system: &System<'g>, formulas: &[Formula<'g>]) -> Res
     let matrix: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
     let arrangements =
         |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
-    let arbitrary: Vec<N> = (0..n).map(|k| N::from_f64(0.7 - 0.3 * (k % 4) as f64)).collect();
+    let arbitrary: Vec<N> = (0..n).map(|k| N::number(0.7 - 0.3 * (k % 4) as f64)).collect();
     // Roots and logarithms have domains: the first of a few states where everything has a value. Where there is none, the
     // programs are still checked against their expressions.
     let inside = |witness: &Witness<'_, 'g, N>| {
@@ -306,12 +306,12 @@ fn compare<'g, N: Number>(
     for arrangement in arrangements(Method::Acceleration) {
         let rates = witness.values(arrangement);
         let found = with_forces(&witness, witness.stationarity(&rates));
-        let relative: Vec<N> = found.iter().map(|x| *x / N::from_f64(scale)).collect();
-        agree(Method::Acceleration, &relative, &vec![N::from_f64(0.0); relative.len()])?;
+        let relative: Vec<N> = found.iter().map(|x| *x / N::number(scale)).collect();
+        agree(Method::Acceleration, &relative, &vec![N::number(0.0); relative.len()])?;
         // J ż = γ: what the constraints say of velocities goes on to hold.
         let flow = witness.flow(&rates);
         let drift = witness.along(&flow, &system.constraints.on_velocities);
-        agree(Method::Acceleration, &drift, &vec![N::from_f64(0.0); drift.len()])?;
+        agree(Method::Acceleration, &drift, &vec![N::number(0.0); drift.len()])?;
     }
     Ok(())
 }
@@ -332,7 +332,7 @@ fn dependent_constraints<'a, 'g, N: Number + 'a>(
     let (Some(witness), other) = (usable.next(), usable.next()) else { return Vec::new() };
     // What constraints say of velocities, of a system at rest.
     let mut at_rest = Witness::new(system, witness.state.clone());
-    let zero = N::from_f64(0.0);
+    let zero = N::number(0.0);
     at_rest.state.extend(system.scene.speeds.iter().map(|z| (z.key(), zero)));
     let moving = at_rest.values(&constraints.on_velocities);
     let elsewhere = other.map(|other| (dependent_rows(&other), other.values(&positions)));
@@ -365,7 +365,7 @@ fn dependent_rows<N: Number>(witness: &Witness<'_, '_, N>) -> Vec<(usize, Vec<N>
     let columns = witness.partials(&constraints.on_velocities);
     let count = constraints.count();
     let mut rows: Vec<Vec<N>> = (0..count).map(|k| columns.iter().map(|c| c[k]).collect()).collect();
-    let unit = |k: usize| (0..count).map(|j| N::from_f64(f64::from(u8::from(j == k)))).collect::<Vec<N>>();
+    let unit = |k: usize| (0..count).map(|j| N::number(f64::from(u8::from(j == k)))).collect::<Vec<N>>();
     let mut combinations: Vec<Vec<N>> = (0..count).map(unit).collect();
     let sizes: Vec<f64> = rows.iter().map(|row| largest(row.iter().copied())).collect();
     let mut dependent = Vec::new();
@@ -427,15 +427,21 @@ fn sample_state<N: Number>(system: &System<'_>, shift: u32) -> Map<u32, N> {
     for (k, key) in scene.graph.symbol_keys().into_iter().enumerate() {
         // Multiples of the golden ratio are spread evenly and never equal.
         let fraction = ((k as f64 + 0.37 * f64::from(shift)) * 0.618_033_988_749_894_9).fract();
-        state.insert(key, N::from_f64(0.5 + fraction));
+        state.insert(key, N::number(0.5 + fraction));
     }
     for parameter in scene.tree.links.iter().filter_map(Link::body).flat_map(|body| &body.parameters) {
-        let value = &mut *state.entry(parameter.symbol.key()).or_insert(N::from_f64(1.0));
+        let value = &mut *state.entry(parameter.symbol.key()).or_insert(N::number(1.0));
         let diagonal = parameter.row == parameter.column;
-        *value = if diagonal { N::from_f64(4.0) + *value } else { N::from_f64(0.3) * *value };
+        *value = if diagonal { N::number(4.0) + *value } else { N::number(0.3) * *value };
     }
     let none = Map::default();
     let mut evaluation = Evaluation::new(&none);
+    for coordinate in &scene.coordinates {
+        if let Coordinate::Plane { turn: [cosine, sine], .. } = coordinate {
+            let fifths = |n| N::fraction(Rational::new(n, 5));
+            state.extend([(cosine.key(), fifths(3)), (sine.key(), fifths(4))]);
+        }
+    }
     for (k, rotation) in scene.coordinates.iter().filter_map(Coordinate::rotation).enumerate() {
         // (1, 5, −3, 1)/6 is a unit quaternion, and so are its permutations.
         let mut integers = [1, 5, -3, 1];

@@ -2,7 +2,7 @@
 
 use proc_macro2::Span;
 
-use crate::algebra::{Evaluation, Expr, Function, Map, Number, Precise};
+use crate::algebra::{Evaluation, Expr, Function, Map, Number, Precise, Scalar};
 use crate::mistakes::Mistakes;
 use crate::model::Expression;
 
@@ -89,7 +89,7 @@ impl<'g> Translator<'_, 'g> {
 
     fn vanishes(&self, value: Expr<'g>) -> bool {
         let multiplied_out = || value.expand(LIMIT).is_some_and(|sum| sum.len() == 0);
-        let of_literals = || self.known(value).is_some_and(|value| value == Precise::from_f64(0.0));
+        let of_literals = || self.known(value).is_some_and(|value| value == Precise::number(0.0));
         value.is_zero() || (!self.is_clear_of_zero(value) && (of_literals() || multiplied_out()))
     }
 
