@@ -44,11 +44,10 @@ mod verify;
 
 use std::fmt;
 
-pub use crate::algebra::{BinaryFunction, Function, Rational};
+pub use crate::algebra::{BinaryFunction, Function, Rational, Scalar};
 pub use code::Code;
 pub use cost::{Cost, Counts, Smoothness};
 pub use instruction::{Instruction, Operand};
-pub use interpret::Scalar;
 pub use verify::Malformed;
 
 /// A function with names for its arguments and results. Its fields can be read; it is made by [`Program::new`], which verifies it.
