@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): what a kernel offers |
+//! | [`bounded`] | a scalar that knows how many of its digits are right |
 //! | [`condition`](mod@condition) | how well a mass matrix can be inverted |
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): what acts, element by element; powers and the balance of energy |
@@ -51,6 +52,7 @@ extern crate std;
 pub mod adapters;
 #[cfg(feature = "alloc")]
 pub mod batch;
+pub mod bounded;
 pub mod chart;
 pub mod condition;
 pub mod configuration;

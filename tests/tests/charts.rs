@@ -6,7 +6,7 @@ mod common;
 
 use common::agreement::{equal, explore, largest};
 use common::body::{Body, Parts, Scene, flow, list, rates};
-use common::bounded::Bounded;
+use common::Bounded;
 use common::dual::Dual;
 use common::parameters::Parameters;
 use common::states::{Motion, State};

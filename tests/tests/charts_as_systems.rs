@@ -6,7 +6,7 @@ mod common;
 
 use common::agreement::{equal, explore, largest};
 use common::body::{Body, Scene, list, speeds};
-use common::bounded::Bounded;
+use common::Bounded;
 use common::parameters::Parameters;
 use common::states::Motion;
 use gauss_runtime::prelude::*;

@@ -5,7 +5,7 @@ mod common;
 
 use common::agreement::{Tally, equal, explore, largest};
 use common::body::{Body, Parts, Scene, list};
-use common::bounded::Bounded;
+use common::Bounded;
 use common::parameters::Parameters;
 use common::states::{Motion, State};
 use gauss_runtime::chart::MotionRule;

@@ -5,7 +5,7 @@ mod common;
 
 use common::agreement::equal;
 use common::body::{list, speeds};
-use common::bounded::Bounded;
+use common::Bounded;
 use common::dual::Dual;
 use gauss_runtime::integrate::{Feedback, OneStep, Part, Problem, State};
 use gauss_runtime::linearize::error_matrix;

@@ -8,7 +8,7 @@ use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssi
 
 use common::agreement::{equal, explore, largest};
 use common::body::{Body, Parts, Scene, duals, flow, list, rates, speeds};
-use common::bounded::Bounded;
+use common::Bounded;
 use common::dual::Dual;
 use common::parameters::{Parameters, parameters};
 use common::states::{Motion, State, state};
