@@ -4,9 +4,9 @@
 #[macro_use]
 mod common;
 
+use common::Bounded;
 use common::agreement::{Tally, equal, explore, largest, zero};
 use common::body::{Body, Scene, apply, cross, flow, list, rates, rotation_matrix};
-use common::Bounded;
 use common::dual::Dual;
 use common::parameters::Parameters;
 use common::states::{Motion, State};

@@ -8,9 +8,9 @@
 #[macro_use]
 mod common;
 
+use common::Bounded;
 use common::agreement::{Tally, equal, explore, largest, zero};
 use common::body::{Body, Scene, duals, flow, list, rates, speeds};
-use common::Bounded;
 use common::dual::Dual;
 use common::parameters::Parameters;
 use common::states::{Motion, State};

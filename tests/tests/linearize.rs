@@ -3,9 +3,9 @@
 
 mod common;
 
+use common::Bounded;
 use common::agreement::equal;
 use common::body::{Parts, list, speeds};
-use common::Bounded;
 use common::dual::Dual;
 use gauss_runtime::linearize::{LinearModel, error_matrix};
 use gauss_runtime::prelude::*;

@@ -4,9 +4,9 @@
 
 mod common;
 
+use common::Bounded;
 use common::agreement::equal;
 use common::body::{Parts, list, speeds};
-use common::Bounded;
 use gauss_runtime::prelude::*;
 
 /// A reproducible stream of numbers in [−1, 1].

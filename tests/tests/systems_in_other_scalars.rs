@@ -4,9 +4,9 @@
 #[macro_use]
 mod common;
 
+use common::Bounded;
 use common::agreement::{equal, zero};
 use common::body::{Parts, constant, duals, list, rates, speeds};
-use common::Bounded;
 use common::dual::Dual;
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;

@@ -3,8 +3,8 @@
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;
 
-use super::body::{Body, Parts};
 use super::Bounded;
+use super::body::{Body, Parts};
 
 /// Which twists and poses a motion has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
