@@ -5,16 +5,16 @@ use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
-use crate::kernel::{Candidates, Cost, Derivatives, Kernel, Literals, Miscompiled};
+use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals, Miscompiled};
 use crate::mechanics::{
-    Acting, ConfigurationKind, Elimination, Formula, InertialParameters, Linearization, Method, Regressor, Scene,
-    System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
+    Acting, ConfigurationKind, Coordinate, Elimination, Formula, InertialParameters, Linearization, Method, Regressor,
+    Scene, System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
 };
 use crate::mistakes::{
     bug, eliminate, refuse_curved_kinematics, refuse_idle_speeds, refuse_regressor, refuse_series, refuse_too_much,
     system_faults,
 };
-use crate::model::{self, Model, SystemModel, Wanted};
+use crate::model::{self, InChart, Model, Wanted};
 use crate::translate::{Parameter, Translator, body_shape, parameters_of_body, parameters_of_system};
 
 /// Expands one struct.
@@ -22,20 +22,29 @@ use crate::translate::{Parameter, Translator, body_shape, parameters_of_body, pa
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
-    match model::parse_scene(input)? {
-        model::Scene::Body(model) => expand_body(&model),
-        model::Scene::System(model) => expand_system(&model),
+    derive(input, |derived| Ok(emit(derived)))
+}
+
+/// Derives one struct, and hands everything that is known of it to whoever writes it down.
+pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
+    let model = model::parse(input)?;
+    match model.one_body() {
+        Some(in_chart) => derive_body(&model, in_chart, write),
+        None => derive_system(&model, write),
     }
 }
 
-fn expand_body(model: &Model) -> syn::Result<TokenStream> {
+fn derive_body<R>(
+    model: &Model,
+    in_chart: InChart,
+    write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>,
+) -> syn::Result<R> {
     let graph = Graph::new();
     let shape = body_shape(|role| model.shape(role));
-    let mut translator = model.system.as_deref().map(|system| Translator::new(&graph, system)).transpose()?;
-    let given = model.system.as_deref().map_or(&[][..], |system| &system.given);
-    let assigned = translator.as_ref().map_or(Ok(Vec::new()), |translator| translator.assigned(given))?;
-    let mut scene = Scene::new(&graph, model.motion, model.chart, shape, &assigned);
-    if let Some(translator) = translator.as_mut().filter(|_| model.acted_upon) {
+    let mut translator = model.has_expressions().then(|| Translator::new(&graph, model, true)).transpose()?;
+    let assigned = translator.as_ref().map_or(Ok(Vec::new()), |translator| translator.assigned(&model.given))?;
+    let mut scene = Scene::new(&graph, in_chart.motion, in_chart.chart, shape, &assigned);
+    if let Some(translator) = translator.as_mut().filter(|_| model.is_acted_upon()) {
         let (observed, elements) = translator.on_one_body()?;
         let parameters = translator.parameters_of(&scene.body);
         let inputs = translator.inputs().to_vec();
@@ -46,9 +55,7 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     check_against_definition(&scene, &formulas).map_err(|error| bug(&model.ident, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
     let linearization = model.wanted.linearize.then(|| Linearization::of_body(&scene, &formulas));
-    let plain = model.system.as_deref().zip(translator.as_ref());
-    let plain = plain.map(|(system, translator)| (system.fields.as_slice(), translator.sources()));
-    let parameters = parameters_of_body(model, &scene.body, plain);
+    let parameters = parameters_of_body(model, &scene.body, translator.as_ref().map_or(&[], Translator::sources));
     let names = names_of(&parameters);
     let regressor = model.wanted.regressor.as_ref().map(|_| {
         let inertial = InertialParameters::of_body(&scene.body, &names);
@@ -70,29 +77,29 @@ fn expand_body(model: &Model) -> syn::Result<TokenStream> {
     if graph.overflowed() {
         return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
     }
+    refuse_too_much(model, &kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), beside.regressor.as_ref(), &kernel)?;
-    let has_inputs = translator.as_ref().is_some_and(|translator| !translator.inputs().is_empty());
-    refuse_series(model.wanted.taylor.as_ref(), has_inputs, &formulas, &kernel)?;
-    let plain = model.system.as_deref().zip(translator.as_ref()).map(|(system, translator)| Plain {
-        fields: &system.fields,
+    refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), &formulas, &kernel)?;
+    let plain = translator.as_ref().map(|translator| Plain {
+        fields: &model.fields,
         sources: translator.sources(),
         literals: &literals,
         assigned: &assigned,
     });
-    Ok(emit(&Derived {
-        subject: Subject::Body { model, scene: &scene, quaternion, plain },
+    write(&Derived {
+        subject: Subject::Body { model, in_chart, scene: &scene, quaternion, plain },
         drags: &translator.as_ref().map(Translator::drags).unwrap_or_default(),
         formulas: &formulas,
         kernel: &kernel,
         linearization: beside.linearization.as_ref(),
         parameters: &beside.parameters,
         regressor: beside.regressor.as_ref(),
-    }))
+    })
 }
 
-fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
+fn derive_system<R>(model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
     let graph = Graph::new();
-    let mut translator = Translator::new(&graph, model)?;
+    let mut translator = Translator::new(&graph, model, false)?;
     let all: Vec<usize> = (0..translator.speeds().len()).collect();
     let speeds = translator.speeds().to_vec();
     let scene = translator.scene(&speeds, &all)?;
@@ -131,7 +138,11 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         formulas.push(system.component_rates(&quaternions, &formulas));
     }
     formulas.extend(regressor.iter().flat_map(|regressor| regressor.formulas.clone()));
-    let units = quaternions.iter().flatten().map(|q| q.to_vec()).collect();
+    let planes = system.scene.coordinates.iter().filter_map(|coordinate| match coordinate {
+        Coordinate::Plane { turn, .. } => Some(turn.to_vec()),
+        _ => None,
+    });
+    let units = quaternions.iter().flatten().map(|q| q.to_vec()).chain(planes).collect();
     let beside = Beside { wanted: &model.wanted, linearization, regressor, parameters, units };
     let literals = translator.literals();
     let folded = foldable(&model.scalar, &literals);
@@ -158,7 +169,7 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         quaternions: &quaternions,
     };
     let drags = translator.drags();
-    Ok(emit(&Derived {
+    write(&Derived {
         subject: Subject::System(subject),
         drags: &drags,
         formulas: &formulas,
@@ -166,7 +177,7 @@ fn expand_system(model: &SystemModel) -> syn::Result<TokenStream> {
         linearization: beside.linearization.as_ref(),
         parameters: &beside.parameters,
         regressor: beside.regressor.as_ref(),
-    }))
+    })
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.
@@ -232,8 +243,8 @@ fn names_of(parameters: &[Parameter<'_>]) -> Map<u32, String> {
 
 /// What a formula is lowered from.
 fn candidates<'g>(formula: &Formula<'g>) -> Candidates<'g> {
-    let cost = if formula.method == Method::ComponentRates { Cost::Series } else { Cost::Values };
-    Candidates { arrangements: formula.arrangements.clone(), cost }
+    let aim = if formula.method == Method::ComponentRates { Aim::Series } else { Aim::Values };
+    Candidates { arrangements: formula.arrangements.clone(), aim }
 }
 
 /// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them.

@@ -1,7 +1,6 @@
 //! The expression graph: every distinct expression exists once, so equality is equality of indices and sharing is free.
 
 use std::cell::{Cell, RefCell};
-use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::iter::Sum;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -12,12 +11,19 @@ use super::rational::Rational;
 
 /// A function of one argument that the language knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Function {
+    /// Sine of an angle in radians.
     Sin,
+    /// Cosine of an angle in radians.
     Cos,
+    /// Exponential.
     Exp,
+    /// Natural logarithm.
     Ln,
+    /// Square root.
     Sqrt,
+    /// Absolute value.
     Abs,
     /// −1, 0 or 1.
     Signum,
@@ -25,11 +31,40 @@ pub enum Function {
 
 /// A function of two arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum BinaryFunction {
     /// Angle of the point (x, y), given as y and x.
     Atan2,
+    /// The smaller one.
     Min,
+    /// The larger one.
     Max,
+}
+
+impl Function {
+    /// What users write.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Function::Sin => "sin",
+            Function::Cos => "cos",
+            Function::Exp => "exp",
+            Function::Ln => "ln",
+            Function::Sqrt => "sqrt",
+            Function::Abs => "abs",
+            Function::Signum => "signum",
+        }
+    }
+}
+
+impl BinaryFunction {
+    /// What users write.
+    pub const fn name(self) -> &'static str {
+        match self {
+            BinaryFunction::Atan2 => "atan2",
+            BinaryFunction::Min => "min",
+            BinaryFunction::Max => "max",
+        }
+    }
 }
 
 /// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
@@ -511,12 +546,6 @@ impl Eq for Expr<'_> {}
 impl Hash for Expr<'_> {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.id.hash(state);
-    }
-}
-
-impl fmt::Debug for Expr<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&super::print(*self, super::Notation::Text))
     }
 }
 

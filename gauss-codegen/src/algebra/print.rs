@@ -1,5 +1,7 @@
 //! Expressions for people: plain text and LaTeX.
 
+use std::fmt;
+
 use super::graph::{BinaryFunction, Expr, Function, NodeView};
 use super::map::Map;
 use super::rational::Rational;
@@ -7,8 +9,16 @@ use super::rational::Rational;
 /// How to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notation {
+    /// Plain text.
     Text,
+    /// LaTeX, in math mode.
     Latex,
+}
+
+impl fmt::Debug for Expr<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&print(*self, Notation::Text))
+    }
 }
 
 /// An expression on one line. Groups are written out.
@@ -120,16 +130,10 @@ impl Printer {
             }
             NodeView::Call(function, argument) => {
                 let name = match function {
-                    Function::Sin => "sin",
-                    Function::Cos => "cos",
-                    Function::Exp => "exp",
-                    Function::Ln => "ln",
                     Function::Sqrt if self.latex() => return format!("\\sqrt{{{}}}", self.sum(argument)),
-                    Function::Sqrt => "sqrt",
                     Function::Abs if self.latex() => return format!("\\left|{}\\right|", self.sum(argument)),
-                    Function::Abs => "abs",
                     Function::Signum if self.latex() => "operatorname{sgn}",
-                    Function::Signum => "signum",
+                    function => function.name(),
                 };
                 match (self.latex(), matches!(argument.view(), NodeView::Symbol(_))) {
                     (true, true) => format!("\\{name} {}", self.sum(argument)),
@@ -140,11 +144,9 @@ impl Printer {
             NodeView::Binary(function, a, b) => {
                 let name = match (function, self.latex()) {
                     (BinaryFunction::Atan2, true) => "\\operatorname{atan2}",
-                    (BinaryFunction::Atan2, false) => "atan2",
                     (BinaryFunction::Min, true) => "\\min",
-                    (BinaryFunction::Min, false) => "min",
                     (BinaryFunction::Max, true) => "\\max",
-                    (BinaryFunction::Max, false) => "max",
+                    (function, false) => function.name(),
                 };
                 let (open, close) = if self.latex() { ("\\left(", "\\right)") } else { ("(", ")") };
                 format!("{name}{open}{}, {}{close}", self.sum(a), self.sum(b))

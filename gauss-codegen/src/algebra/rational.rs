@@ -12,6 +12,11 @@ use num_traits::{CheckedAdd, CheckedDiv, CheckedMul};
 /// Nearly all coefficients are small integers, so those take a short way past the greatest common divisors of
 /// `num_rational`, whose equality and hash are also needlessly general for reduced fractions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "(i64, i64)", into = "(i64, i64)")
+)]
 pub struct Rational {
     numerator: i64,
     denominator: i64,
@@ -20,6 +25,7 @@ pub struct Rational {
 impl Rational {
     const OVERFLOW: Self = Self { numerator: 0, denominator: 0 };
 
+    /// The reduced fraction; `0/0` where the denominator is 0.
     pub fn new(numerator: i64, denominator: i64) -> Self {
         if denominator == 0 {
             return Self::OVERFLOW;
@@ -27,42 +33,52 @@ impl Rational {
         Self::from(Ratio::new(numerator, denominator))
     }
 
+    /// n/1.
     pub const fn from_integer(value: i64) -> Self {
         Self { numerator: value, denominator: 1 }
     }
 
+    /// 0.
     pub const fn zero() -> Self {
         Self::from_integer(0)
     }
 
+    /// 1.
     pub const fn one() -> Self {
         Self::from_integer(1)
     }
 
+    /// The numerator, which has the sign.
     pub const fn numer(self) -> i64 {
         self.numerator
     }
 
+    /// The denominator: positive, or 0 out of range.
     pub const fn denom(self) -> i64 {
         self.denominator
     }
 
+    /// Whether it left the range.
     pub const fn is_overflow(self) -> bool {
         self.denominator == 0
     }
 
+    /// Whether it is 0.
     pub const fn is_zero(self) -> bool {
         self.numerator == 0 && self.denominator == 1
     }
 
+    /// Whether it is 1.
     pub const fn is_one(self) -> bool {
         self.numerator == 1 && self.denominator == 1
     }
 
+    /// Whether its denominator is 1.
     pub const fn is_integer(self) -> bool {
         self.denominator == 1
     }
 
+    /// Whether it is less than 0.
     pub const fn is_negative(self) -> bool {
         self.numerator < 0
     }
@@ -72,10 +88,12 @@ impl Rational {
         self.denominator > 0 && self.denominator & (self.denominator - 1) == 0 && self.numerator.abs() < 1 << 24
     }
 
+    /// Without its sign.
     pub const fn abs(self) -> Self {
         Self { numerator: self.numerator.abs(), denominator: self.denominator }
     }
 
+    /// 1/x; `0/0` of 0.
     pub fn recip(self) -> Self {
         match self.numerator {
             0 => Self::OVERFLOW,
@@ -84,11 +102,13 @@ impl Rational {
         }
     }
 
+    /// Its power.
     pub fn pow(self, exponent: i32) -> Self {
         let base = if exponent < 0 { self.recip() } else { self };
         (0..exponent.unsigned_abs()).fold(Self::one(), |power, _| power * base)
     }
 
+    /// The sum.
     pub fn plus(self, other: Self) -> Self {
         if self.denominator == 1 && other.denominator == 1 {
             return Self::integer_or_overflow(self.numerator.checked_add(other.numerator));
@@ -108,6 +128,7 @@ impl Rational {
         operation(&raw(self), &raw(other)).map_or(Self::OVERFLOW, Self::from)
     }
 
+    /// The nearest number in double precision, for numerators and denominators below 2⁵³.
     pub fn to_f64(self) -> f64 {
         self.numerator as f64 / self.denominator as f64
     }
@@ -120,6 +141,22 @@ impl From<Ratio<i64>> for Rational {
             i64::MIN => Self::OVERFLOW,
             numerator => Self { numerator, denominator: *reduced.denom() },
         }
+    }
+}
+
+/// Numerator and denominator.
+impl From<(i64, i64)> for Rational {
+    fn from((numerator, denominator): (i64, i64)) -> Self {
+        match (numerator, denominator) {
+            (i64::MIN, _) | (_, i64::MIN) => Self::OVERFLOW,
+            _ => Self::new(numerator, denominator),
+        }
+    }
+}
+
+impl From<Rational> for (i64, i64) {
+    fn from(value: Rational) -> Self {
+        (value.numerator, value.denominator)
     }
 }
 

@@ -7,11 +7,11 @@ use crate::mechanics::ConfigurationKind;
 use crate::model::{Chart, Motion, RotationChart};
 
 use super::arguments::Argument;
-use super::kernel::BodySubject;
+use super::derived::BodySubject;
 
 impl<'g> BodySubject<'_, 'g> {
     pub fn chart_name(&self) -> String {
-        match self.model.chart {
+        match self.in_chart.chart {
             Chart::LeftInvariant => "left_invariant".to_owned(),
             Chart::RightInvariant => "right_invariant".to_owned(),
             Chart::Hybrid => "hybrid".to_owned(),
@@ -26,7 +26,7 @@ impl<'g> BodySubject<'_, 'g> {
     }
 
     pub fn motion_name(&self) -> &'static str {
-        match self.model.motion {
+        match self.in_chart.motion {
             Motion::Free => "free",
             Motion::FixedPoint => "fixed_point",
             Motion::Planar => "planar",
@@ -58,7 +58,7 @@ impl<'g> BodySubject<'_, 'g> {
     fn rotation_chart_tokens(&self) -> TokenStream {
         let runtime = &self.model.runtime;
         let chart = quote!(#runtime::chart::RotationChart);
-        match self.model.chart {
+        match self.in_chart.chart {
             Chart::Jet(RotationChart::Euler([a, b, c])) => {
                 quote!(#chart::Euler(#runtime::chart::EulerSequence { axes: [#a, #b, #c] }))
             }
@@ -71,7 +71,7 @@ impl<'g> BodySubject<'_, 'g> {
     pub fn chart_tokens(&self) -> TokenStream {
         let runtime = &self.model.runtime;
         let chart = quote!(#runtime::chart::Chart);
-        match self.model.chart {
+        match self.in_chart.chart {
             Chart::LeftInvariant => quote!(#chart::LeftInvariant),
             Chart::RightInvariant => quote!(#chart::RightInvariant),
             Chart::Hybrid => quote!(#chart::Hybrid),
@@ -96,7 +96,7 @@ impl<'g> BodySubject<'_, 'g> {
     pub fn pose_bodies(&self) -> (TokenStream, TokenStream) {
         let private = self.derived.private();
         let chart = self.rotation_chart_tokens();
-        match (self.scene.kinematics.kind, self.model.motion) {
+        match (self.scene.kinematics.kind, self.in_chart.motion) {
             (ConfigurationKind::Pose, _) => (quote!(*q), quote!(#private::free_pose(pose))),
             (ConfigurationKind::Rotation, _) => {
                 (quote!(#private::pose_of_rotation(q)), quote!(#private::rotation_of_pose(pose)))

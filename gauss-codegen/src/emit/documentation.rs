@@ -3,15 +3,30 @@
 use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
-use crate::kernel::Counts;
 use crate::mechanics::{Method, Section};
 use crate::model::{InputKind, Role};
 
-use super::kernel::{Derived, Subject};
+use super::derived::{Derived, Subject};
 use super::system::SystemSubject;
 
-/// The equations as plain text.
-pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
+/// The equations as plain text and as one LaTeX environment.
+pub struct Equations {
+    pub text: String,
+    pub latex: String,
+}
+
+impl Equations {
+    /// Printed once for all that is said of them: a second time the terms of a sum can come in another order.
+    pub fn of(derived: &Derived<'_, '_>) -> Self {
+        let sections = match derived.subject {
+            Subject::Body { scene, .. } => scene.equations(),
+            Subject::System(SystemSubject { system, .. }) => system.equations(),
+        };
+        Equations { text: text(derived, &sections), latex: latex(&sections) }
+    }
+}
+
+fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     let mut out = format!(
         "{}: {}
 ",
@@ -36,8 +51,7 @@ pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     out
 }
 
-/// The equations as one LaTeX environment.
-pub fn latex(sections: &[Section<'_>]) -> String {
+fn latex(sections: &[Section<'_>]) -> String {
     let mut out = String::from("\\begin{align*}\n");
     for section in sections {
         out.push_str(&format!("&\\text{{{}}} \\\\\n", section.title.latex));
@@ -51,16 +65,8 @@ pub fn latex(sections: &[Section<'_>]) -> String {
 
 /// What the letters of the equations stand for: (letter, field, what its author says of it).
 fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
-    let fields: Vec<_> = match derived.subject {
-        Subject::Body { model, .. } => {
-            model.parameters.iter().map(|p| (p.role, &p.ident, &p.documentation, &p.unit)).collect()
-        }
-        Subject::System(SystemSubject { model, .. }) => {
-            model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit)).collect()
-        }
-    };
+    let fields = derived.model().fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
     fields
-        .into_iter()
         .filter_map(|(role, ident, documentation, unit)| role.map(|role| (role, ident, documentation, unit)))
         .filter(|(role, ..)| *role != Role::Body)
         .map(|(role, ident, documentation, unit)| {
@@ -118,12 +124,12 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     out.push_str(&acting(derived));
     out.push_str("\n# Cost\n\n| method | operations |\n|---|---|\n");
     for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
-        out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), operations(program.counts())));
+        out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), program.counts()));
     }
-    out.push_str(&format!("| `evaluate` | {} |\n", operations(derived.kernel.joined.counts())));
+    out.push_str(&format!("| `evaluate` | {} |\n", derived.kernel.joined.counts()));
     for (name, program) in ["linearize", "by_parameters", "regressor"].into_iter().zip(derived.kernel.derivatives()) {
         if let Some(program) = program {
-            out.push_str(&format!("| `{name}` | {} |\n", operations(program.counts())));
+            out.push_str(&format!("| `{name}` | {} |\n", program.counts()));
         }
     }
     out
@@ -131,13 +137,9 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
 
 /// The components of the input in order, and the elements in the order of their powers.
 fn acting(derived: &Derived<'_, '_>) -> String {
-    let model = match derived.subject {
-        Subject::Body { model, .. } => model.system.as_deref(),
-        Subject::System(SystemSubject { model, .. }) => Some(model),
-    };
     let mut out = String::new();
     let mut next = 0;
-    for input in model.iter().flat_map(|model| &model.inputs) {
+    for input in &derived.model().inputs {
         if next == 0 {
             out.push_str("\n# Input\n\n| components | input | unit |\n|---|---|---|\n");
         }
@@ -160,18 +162,6 @@ fn acting(derived: &Derived<'_, '_>) -> String {
         out.push_str(&format!("| {} | {kind} |\n", account.name));
     }
     out
-}
-
-fn operations(counts: Counts) -> String {
-    let parts = [
-        (counts.additions, "add"),
-        (counts.multiplications, "mul"),
-        (counts.divisions, "div"),
-        (counts.roots, "sqrt"),
-        (counts.transcendentals, "transcendental"),
-    ];
-    let parts: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(n, name)| format!("{n} {name}")).collect();
-    if parts.is_empty() { "none".to_owned() } else { parts.join(", ") }
 }
 
 /// Name of the generated method.

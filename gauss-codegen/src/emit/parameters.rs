@@ -7,11 +7,11 @@ use syn::ext::IdentExt;
 use crate::algebra::{Map, Rational};
 use crate::kernel::Program;
 use crate::mechanics::{ParameterSymbol, Quantity};
-use crate::model::{Model, Motion, Parameter, Shape};
+use crate::model::{Field, Model, Motion, Shape};
 use crate::translate::role_of;
 
 use super::assigned::assigned_local;
-use super::kernel::{BodySubject, Derived, Plain};
+use super::derived::{BodySubject, Derived, Plain};
 use super::program::statements;
 use super::system_parameters::{element as source_element, plain_fields};
 
@@ -77,7 +77,7 @@ pub fn kernel_body(derived: &BodySubject<'_, '_>) -> TokenStream {
         if let Some(assigned) = assigned {
             read.extend(assigned_local(derived.derived, &name, assigned, &symbols));
         }
-        let Some(Parameter { ident, .. }) = model.field(role_of(quantity)) else { continue };
+        let Some(Field { ident, .. }) = model.field(role_of(quantity)) else { continue };
         read.extend(match rank(derived, quantity) {
             0 => quote!(let #name = self.#ident;),
             1 => quote!(let #name = #private::components(&self.#ident);),
@@ -137,7 +137,7 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
     }
     // In the plane only the moment about k₃ enters.
     let inertia_name = name_of(Quantity::Inertia);
-    let planar = model.motion == Motion::Planar;
+    let planar = derived.in_chart.motion == Motion::Planar;
     let rows = (0..3).map(|i| {
         let row = (0..3).map(|j| {
             if planar && i == j {
@@ -155,7 +155,7 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
         let all = (0..3).flat_map(|i| (i..3).map(move |j| (i, j))).map(|(i, j)| entry_as_written(derived, i, j));
         checks.extend(quote!(__check.finite(#inertia_name, &[#(#all),*]);));
     }
-    if model.motion == Motion::Free && has(Quantity::CenterOfMass) {
+    if derived.in_chart.motion == Motion::Free && has(Quantity::CenterOfMass) {
         let center = local(Quantity::CenterOfMass);
         checks.extend(quote!(__check.central_inertia(#inertia_name, #mass, #center, &__inertia);));
     }
@@ -166,7 +166,7 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
             _ => quote!(__check.symmetric(#field, &#value);),
         });
     }
-    let translates = model.motion != Motion::FixedPoint;
+    let translates = derived.in_chart.motion != Motion::FixedPoint;
     if has(Quantity::AddedMass) || (translates && has(Quantity::CenterOfMass)) {
         let field = if has(Quantity::AddedMass) { name_of(Quantity::AddedMass) } else { inertia_name };
         let active = &derived.scene.kinematics.active;

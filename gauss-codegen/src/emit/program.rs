@@ -64,7 +64,7 @@ fn cosine(k: usize) -> Ident {
 /// How an operand is written. `symbols` says how each symbol is.
 pub fn operand(operand: &Operand<'_>, symbols: &Map<u32, TokenStream>, scalar: &ScalarTokens<'_>) -> TokenStream {
     match operand {
-        Operand::Symbol(e) => symbols.get(&e.key()).cloned().unwrap_or_else(|| {
+        Operand::Input(e) => symbols.get(&e.key()).cloned().unwrap_or_else(|| {
             // A program reads only symbols that its caller declared; anything else is a bug in this crate.
             let message = format!("bug in gauss-derive: the symbol `{e:?}` has no source");
             quote!(::core::compile_error!(#message))

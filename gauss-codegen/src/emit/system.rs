@@ -1,4 +1,4 @@
-//! What is particular to a system in coordinates of its own: its configuration as a product, its constraints.
+//! What is particular to a system: its configuration as a product, its constraints.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -6,16 +6,16 @@ use syn::Ident;
 
 use crate::algebra::{Expr, Rational};
 use crate::mechanics::{Assigned, Constraints, Coordinate, Method, System};
-use crate::model::SystemModel;
+use crate::model::Model;
 use crate::translate::Source;
 
 use super::arguments::Argument;
-use super::kernel::Derived;
+use super::derived::Derived;
 
-/// A system, where what is written needs to know that it is one.
+/// A system of several coordinates or links, where what is written needs to know that it is one.
 #[derive(Clone, Copy)]
 pub struct SystemSubject<'a, 'g> {
-    pub model: &'a SystemModel,
+    pub model: &'a Model,
     pub system: &'a System<'g>,
     /// The constraints, and whether a run can drift away from them.
     pub constraints: &'a Constraints<'g>,
@@ -68,6 +68,7 @@ impl<'g> SystemSubject<'_, 'g> {
             }
             Factor::Group { coordinate } => match self.coordinates()[coordinate] {
                 Coordinate::Pose(..) => quote!(#runtime::prelude::Isometry3<#ty>),
+                Coordinate::Plane { .. } => quote!(#runtime::prelude::Isometry2<#ty>),
                 _ => quote!(#runtime::prelude::UnitQuaternion<#ty>),
             },
         });
@@ -97,6 +98,11 @@ impl<'g> SystemSubject<'_, 'g> {
                         Coordinate::Pose(_, position) => {
                             let array = quote!(#private::isometry3(#place));
                             arguments.push(Argument { array: quote!(#array.0), symbols: quaternion });
+                            arguments.push(Argument { array: quote!(#array.1), symbols: position.to_vec() });
+                        }
+                        Coordinate::Plane { turn, position } => {
+                            let array = quote!(#private::isometry2(#place));
+                            arguments.push(Argument { array: quote!(#array.0), symbols: turn.to_vec() });
                             arguments.push(Argument { array: quote!(#array.1), symbols: position.to_vec() });
                         }
                         _ => arguments

@@ -7,11 +7,11 @@ use syn::ext::IdentExt;
 use crate::algebra::{Expr, Map};
 use crate::kernel::Program;
 use crate::mechanics::{Matter, Quantity};
-use crate::model::{ExpressionKind, Role, Shape, SystemField, SystemModel};
+use crate::model::{ExpressionKind, Field, Model, Motion, Role, Shape};
 use crate::translate::{DragMatrix, Part, Source};
 
 use super::assigned::{assigned_bodies, assigned_local};
-use super::kernel::{Derived, Plain};
+use super::derived::{Derived, Plain};
 use super::parameters::constants;
 use super::program::statements;
 use super::system::SystemSubject;
@@ -138,7 +138,7 @@ fn local_of_clause(role: Role) -> Ident {
 /// What must hold of mass data and gravity, from fields or clauses.
 fn role_check(
     derived: &Derived<'_, '_>,
-    model: &SystemModel,
+    model: &Model,
     role: Role,
     shape: Shape,
     said: &str,
@@ -149,11 +149,16 @@ fn role_check(
         (Role::DisplacedMass, _) => quote!(__check.non_negative(#said, #name);),
         (Role::Inertia, shape) => {
             let rows = inertia_rows(&derived.scalar().ty(), derived, shape, name);
-            let about_center = central_inertia(model, said);
+            let checks = match model.in_chart.map(|own| own.motion) {
+                Some(Motion::Planar) => moment_in_plane(derived, model, said),
+                _ => {
+                    let about_center = central_inertia(model, said);
+                    quote!(__check.inertia(#said, &__inertia); #about_center)
+                }
+            };
             quote!({
                 let __inertia = #rows;
-                __check.inertia(#said, &__inertia);
-                #about_center
+                #checks
             })
         }
         (Role::AddedMass, Shape::Matrix6) => quote!(__check.symmetric(#said, &#name);),
@@ -162,7 +167,7 @@ fn role_check(
 }
 
 /// The local of a field.
-fn read_field(derived: &Derived<'_, '_>, k: usize, field: &SystemField) -> TokenStream {
+fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream {
     let (private, ident, name) = (derived.private(), &field.ident, local(k, ""));
     match field.shape {
         Shape::Scalar => quote!(let #name = self.#ident;),
@@ -171,7 +176,7 @@ fn read_field(derived: &Derived<'_, '_>, k: usize, field: &SystemField) -> Token
     }
 }
 
-fn finite(k: usize, field: &SystemField) -> TokenStream {
+fn finite(k: usize, field: &Field) -> TokenStream {
     finite_value(field.shape, &field.ident.unraw().to_string(), &local(k, ""))
 }
 
@@ -184,11 +189,7 @@ fn finite_value(shape: Shape, said: &str, name: &Ident) -> TokenStream {
 }
 
 /// Plain parameters of one body in a chart: their locals, and what is checked of them.
-pub fn plain_fields(
-    derived: &Derived<'_, '_>,
-    fields: &[SystemField],
-    sources: &[Source<'_>],
-) -> (TokenStream, TokenStream) {
+pub fn plain_fields(derived: &Derived<'_, '_>, fields: &[Field], sources: &[Source<'_>]) -> (TokenStream, TokenStream) {
     let plain = fields.iter().enumerate().filter(|(k, f)| f.role.is_none() && sources.iter().any(|s| s.field == *k));
     plain.map(|(k, field)| (read_field(derived, k, field), finite(k, field))).unzip()
 }
@@ -276,15 +277,31 @@ pub fn inertia_rows(ty: &TokenStream, derived: &Derived<'_, '_>, shape: Shape, n
     quote!([#(#rows),*])
 }
 
+/// The local of what plays a role of the body without a name.
+fn local_of(model: &Model, role: Role) -> Option<Ident> {
+    let field = model.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
+    field.or_else(|| model.given.iter().any(|given| given.role == role).then(|| local_of_clause(role)))
+}
+
+/// Of a body in the plane k₁k₂ the moment about k₃ and the centre of mass in the plane.
+fn moment_in_plane(derived: &Derived<'_, '_>, model: &Model, said: &str) -> TokenStream {
+    let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
+    let Some(mass) = local_of(model, Role::Mass) else { return TokenStream::new() };
+    let center = local_of(model, Role::CenterOfMass)
+        .map_or_else(|| quote!([<#ty as #real>::zero(); 3]), |center| quote!(#center));
+    let [center_of_mass, inertia] = ["__center", "__inertia"].map(|name| format_ident!("{name}"));
+    let checks = in_plane(derived, 2, said, [&mass, &center_of_mass, &inertia]);
+    quote!(let #center_of_mass = #center; #checks)
+}
+
 /// What is left about the centre of mass must be an inertia too, unless O is held at Ω: only m·c and I_O enter then, and m
 /// by itself says nothing.
-fn central_inertia(model: &SystemModel, said: &str) -> TokenStream {
-    let of = |role: Role| {
-        let field = model.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
-        field.or_else(|| model.given.iter().any(|given| given.role == role).then(|| local_of_clause(role)))
+fn central_inertia(model: &Model, said: &str) -> TokenStream {
+    let moves = match model.in_chart {
+        Some(own) => own.motion == Motion::Free,
+        None => model.bodies.iter().any(|body| body.position.is_some()),
     };
-    let moves = model.bodies.iter().any(|body| body.position.is_some());
-    match (of(Role::Mass), of(Role::CenterOfMass)) {
+    match (local_of(model, Role::Mass), local_of(model, Role::CenterOfMass)) {
         (Some(mass), Some(center)) if moves => {
             quote!(__check.central_inertia(#said, #mass, #center, &__inertia);)
         }

@@ -6,7 +6,7 @@
 
 use crate::algebra::{BinaryFunction, Expr, Function, Map, Rational};
 
-use super::program::{Operand, Operation, Program};
+use super::write::{Operand, Operation, Program};
 
 /// The rates of the symbols that move, each a number, a symbol, or the negative of one. Others stand still.
 pub type Direction<'g> = Vec<(Expr<'g>, Expr<'g>)>;
@@ -157,31 +157,7 @@ impl<'g> Writer<'g> {
 
     /// As a program, without what no output needs.
     fn finish(self, outputs: Vec<Operand<'g>>) -> Program<'g> {
-        let mut needed = vec![false; self.instructions.len()];
-        let mark = |operand: Operand<'g>, needed: &mut Vec<bool>| {
-            if let Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) = operand {
-                needed[k] = true;
-            }
-        };
-        outputs.iter().for_each(|&operand| mark(operand, &mut needed));
-        for (k, instruction) in self.instructions.iter().enumerate().rev() {
-            if needed[k] {
-                instruction.operands().for_each(|operand| mark(operand, &mut needed));
-            }
-        }
-        // Places of what stays; those of the others are never looked up.
-        let mut places = Vec::with_capacity(needed.len());
-        let mut count = 0;
-        for &stays in &needed {
-            places.push(count);
-            count += usize::from(stays);
-        }
-        let none = Map::default();
-        let kept = self.instructions.iter().zip(&needed).filter(|(_, needed)| **needed);
-        Program {
-            instructions: kept.map(|(i, _)| i.map(|operand| moved(operand, &places, &none))).collect(),
-            outputs: outputs.into_iter().map(|operand| moved(operand, &places, &none)).collect(),
-        }
+        Program { instructions: self.instructions, outputs }.without_idle().verified()
     }
 
     fn written(&mut self, tangent: Tangent<'g>) -> Operand<'g> {
@@ -260,11 +236,8 @@ impl<'g> Writer<'g> {
 /// An operand where its instruction is now.
 fn moved<'g>(operand: Operand<'g>, places: &[usize], symbols: &Map<u32, Operand<'g>>) -> Operand<'g> {
     match operand {
-        Operand::Symbol(e) => symbols.get(&e.key()).copied().unwrap_or(operand),
-        Operand::Number(_) => operand,
-        Operand::Value(k) => Operand::Value(places[k]),
-        Operand::Sine(k) => Operand::Sine(places[k]),
-        Operand::Cosine(k) => Operand::Cosine(places[k]),
+        Operand::Input(e) => symbols.get(&e.key()).copied().unwrap_or(operand),
+        _ => operand.moved(|k| places[k]),
     }
 }
 
@@ -300,8 +273,7 @@ impl<'a, 'g> Pass<'a, 'g> {
             return None;
         }
         let (c, rest) = rate.split_coefficient();
-        let value =
-            if rest.as_number().is_some() { Operand::Number(c.abs()) } else { self.here(Operand::Symbol(rest)) };
+        let value = if rest.as_number().is_some() { Operand::Number(c.abs()) } else { self.here(Operand::Input(rest)) };
         let tangent = Tangent { negative: false, value };
         Some(if c.is_negative() { tangent.negated() } else { tangent })
     }
@@ -338,7 +310,7 @@ impl<'a, 'g> Pass<'a, 'g> {
     fn rate(&mut self, operand: Operand<'g>, tangents: &[Rate<'g>]) -> Rate<'g> {
         match operand {
             Operand::Number(_) => None,
-            Operand::Symbol(e) => self.rates.get(&e.key()).copied().flatten(),
+            Operand::Input(e) => self.rates.get(&e.key()).copied().flatten(),
             Operand::Value(k) => tangents[k],
             Operand::Sine(k) => self.writer.times(tangents[k], Operand::Cosine(self.places[k])),
             Operand::Cosine(k) => self.writer.times(tangents[k], Operand::Sine(self.places[k])).map(Tangent::negated),

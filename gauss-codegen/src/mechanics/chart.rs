@@ -21,6 +21,7 @@ pub enum ConfigurationKind {
 }
 
 /// The kinematics of one chart.
+#[derive(Clone)]
 pub struct Kinematics<'g> {
     pub chart: Chart,
     pub kind: ConfigurationKind,
@@ -32,6 +33,10 @@ pub struct Kinematics<'g> {
     /// The quasi-velocities z and, formally, their rates ż.
     pub speeds: Vec<Expr<'g>>,
     pub speed_rates: Vec<Expr<'g>>,
+    /// Names of the speeds.
+    pub speed_names: Vec<Name>,
+    /// Names of the coordinates, where the configuration is coordinates.
+    pub coordinate_names: Vec<Name>,
     /// Names of the momenta ∂T/∂z.
     pub momentum_names: Vec<Name>,
     /// ψ: the rate of every symbol of the configuration.
@@ -208,6 +213,8 @@ impl<'g> Builder<'g> {
             configuration,
             speeds,
             speed_rates,
+            speed_names,
+            coordinate_names: Vec::new(),
             momentum_names,
             rates,
             velocity,
@@ -256,6 +263,8 @@ impl<'g> Builder<'g> {
             configuration: coordinates,
             speeds,
             speed_rates,
+            speed_names,
+            coordinate_names: names,
             momentum_names,
             rates,
             velocity,

@@ -44,6 +44,9 @@ impl<'g> System<'g> {
                     groups.extend(quaternion_rate(*quaternion, &[own[3], own[4], own[5]], Axes::Body));
                     groups.extend(position.iter().map(|symbol| scene.rates[&symbol.key()]));
                 }
+                (Coordinate::Plane { turn, position }, _) => {
+                    groups.extend(turn.iter().chain(position).map(|symbol| scene.rates[&symbol.key()]));
+                }
                 (Coordinate::Rotation(_), Some(quaternion)) => {
                     groups.extend(quaternion_rate(*quaternion, &[own[0], own[1], own[2]], Axes::Body));
                 }

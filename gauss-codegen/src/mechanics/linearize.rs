@@ -62,15 +62,7 @@ impl<'g> Linearization<'g> {
             ConfigurationKind::Coordinates => symbols.iter().map(|&q| vec![(q, graph.one())]).collect(),
             ConfigurationKind::Pose => along_pose(graph, rotation, &kinematics.position),
             ConfigurationKind::Rotation => along_rotation(graph, rotation),
-            ConfigurationKind::PlanePose => {
-                // (cos θ, sin θ) and b₁ b₂ under (u₁, u₂, ω).
-                let (cosine, sine, b1, b2) = (symbols[0], symbols[1], symbols[2], symbols[3]);
-                vec![
-                    vec![(b1, cosine), (b2, sine)],
-                    vec![(b1, -sine), (b2, cosine)],
-                    vec![(cosine, -sine), (sine, cosine)],
-                ]
-            }
+            ConfigurationKind::PlanePose => along_plane([symbols[0], symbols[1]], [symbols[2], symbols[3]]),
         };
         let defined = scene.defined();
         let (time, inputs) = match &scene.acting {
@@ -105,6 +97,10 @@ impl<'g> Linearization<'g> {
                 }
                 Coordinate::Pose(rotation, position) => {
                     groups.extend(along_pose(graph, rotation, position));
+                    of_groups.extend(own);
+                }
+                Coordinate::Plane { turn, position } => {
+                    groups.extend(along_plane(*turn, *position));
                     of_groups.extend(own);
                 }
             }
@@ -179,6 +175,11 @@ impl<'g> System<'g> {
 fn along_pose<'g>(graph: &'g Graph, rotation: &[Triple<'g>; 3], position: &Triple<'g>) -> Vec<Direction<'g>> {
     let translations = (0..3).map(|k| (0..3).map(|i| (position[i], rotation[i][k])).collect());
     translations.chain(along_rotation(graph, rotation)).collect()
+}
+
+/// (cos θ, sin θ) and b₁ b₂ under (u₁, u₂, ω).
+fn along_plane<'g>([cosine, sine]: [Expr<'g>; 2], [b1, b2]: [Expr<'g>; 2]) -> Vec<Direction<'g>> {
+    vec![vec![(b1, cosine), (b2, sine)], vec![(b1, -sine), (b2, cosine)], vec![(cosine, -sine), (sine, cosine)]]
 }
 
 /// R under a unit vector ω in body axes.

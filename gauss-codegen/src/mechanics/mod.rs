@@ -4,6 +4,7 @@
 //! - `vector`, `rotation`: components in the body's and the observer's axes, rotation matrices.
 //! - `body`: the parameters as symbols, integrals over the body by moments.
 //! - `chart`: ψ of each chart (3.2).
+//! - `chart_scene`: the body of a chart as a link of a system.
 //! - `gauss`: the Gauss condition (3.4) from v_P, word for word; the reference for all that follows.
 //! - `check`: every scene against that condition, before code is written.
 //! - `momentum`: the same through (Q, Γ), solved in body axes.
@@ -26,6 +27,7 @@ mod accounts;
 mod articulated;
 mod body;
 mod chart;
+mod chart_scene;
 mod check;
 mod component_rates;
 mod constraint;
@@ -65,7 +67,7 @@ mod wrench;
 
 pub use accounts::Account;
 pub use body::{AddedMassShape, Assigned, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
-pub use chart::ConfigurationKind;
+pub use chart::{ConfigurationKind, Kinematics};
 pub use check::check_against_definition;
 pub use constraint::{Constraint, ConstraintKind, Constraints};
 pub use elimination::{Elimination, Obstacle};

@@ -27,6 +27,11 @@ pub enum Coordinate<'g> {
     Rotation([Triple<'g>; 3]),
     /// (R, b).
     Pose([Triple<'g>; 3], Triple<'g>),
+    /// SE(2), in the plane k₁k₂: cos θ and sin θ, b₁ and b₂. Its rate is (u₁, u₂, ω).
+    Plane {
+        turn: [Expr<'g>; 2],
+        position: [Expr<'g>; 2],
+    },
 }
 
 impl<'g> Coordinate<'g> {
@@ -34,7 +39,7 @@ impl<'g> Coordinate<'g> {
     pub fn size(&self) -> usize {
         match self {
             Coordinate::Scalar(_) => 1,
-            Coordinate::Rotation(_) => 3,
+            Coordinate::Rotation(_) | Coordinate::Plane { .. } => 3,
             Coordinate::Pose(..) => 6,
         }
     }
@@ -49,10 +54,10 @@ impl<'g> Coordinate<'g> {
         ends.take_while(|end| *end <= component).count()
     }
 
-    /// R, where there is one.
+    /// R, where it is stored as a quaternion.
     pub fn rotation(&self) -> Option<&[Triple<'g>; 3]> {
         match self {
-            Coordinate::Scalar(_) => None,
+            Coordinate::Scalar(_) | Coordinate::Plane { .. } => None,
             Coordinate::Rotation(rotation) | Coordinate::Pose(rotation, _) => Some(rotation),
         }
     }

@@ -408,6 +408,11 @@ fn sample_state(system: &System<'_>, shift: u32) -> Map<u32, f64> {
     }
     let none = Map::default();
     let mut evaluation = Evaluation::new(&none);
+    for coordinate in &scene.coordinates {
+        if let Coordinate::Plane { turn: [cosine, sine], .. } = coordinate {
+            state.extend([(cosine.key(), 0.6), (sine.key(), 0.8)]);
+        }
+    }
     for (k, rotation) in scene.coordinates.iter().filter_map(Coordinate::rotation).enumerate() {
         // (1, 5, −3, 1)/6 is a unit quaternion, and so are its permutations.
         let mut integers = [1, 5, -3, 1];

@@ -65,6 +65,7 @@ impl<'g> System<'g> {
             let names: Vec<Name> = match coordinate {
                 Coordinate::Scalar(_) => vec![name.time_derivative()],
                 Coordinate::Rotation(_) => (0..3).map(|i| omega.index(i)).collect(),
+                Coordinate::Plane { .. } => vec![u.index(0), u.index(1), omega],
                 Coordinate::Pose(..) => (0..3).map(|i| u.index(i)).chain((0..3).map(|i| omega.index(i))).collect(),
             };
             for (name, rate) in names.into_iter().zip(&mut rates) {

@@ -7,6 +7,7 @@ pub type Triple<'g> = [Expr<'g>; 3];
 
 /// The body frame e seen from the observer frame k: `R_ij = k_i · e_j`, and the angular velocity, so that vectors can be
 /// turned and differentiated (Poisson: ė_k = ω × e_k, k̇_k = 0).
+#[derive(Clone)]
 pub struct Frame<'g> {
     pub graph: &'g Graph,
     pub rotation: [Triple<'g>; 3],

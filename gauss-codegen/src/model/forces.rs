@@ -1,7 +1,7 @@
 //! What must hold of forces and inputs.
 
 use super::context::Context;
-use super::fields::Field;
+use super::fields::ReadField;
 use super::moving::Moving;
 use super::names;
 use super::naming::{same, word};
@@ -144,7 +144,7 @@ pub(super) fn coefficient_fields(statements: &Statements) -> Vec<&Ident> {
 /// Coefficients that are fields are six or a matrix.
 pub(super) fn check_coefficients(
     statements: &Statements,
-    fields: &[Field<'_>],
+    fields: &[ReadField<'_>],
     scope: &Scope,
     scalar: &str,
     context: &mut Context,
@@ -172,8 +172,9 @@ pub(super) fn check_coefficients(
                 }
                 Err(None) => continue,
                 Err(Some(_)) => {
-                    let six =
-                        |field: &&Field<'_>| matches!(field.reading.kind, Kind::Known(Shape::Vector6 | Shape::Matrix6));
+                    let six = |field: &&ReadField<'_>| {
+                        matches!(field.reading.kind, Kind::Known(Shape::Vector6 | Shape::Matrix6))
+                    };
                     let names: Vec<String> = fields.iter().filter(six).map(|field| word(field.ident)).collect();
                     let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
                     let remedy = match names::nearest(&word(name), &table) {

@@ -4,7 +4,7 @@
 use super::arithmetic;
 use super::attributes::{self, Clause};
 use super::context::Context;
-use super::fields::Field;
+use super::fields::ReadField;
 use super::kinds::{self, Kind};
 use super::naming::same;
 use super::places::Place;
@@ -103,7 +103,7 @@ pub(super) fn belongs_to_field(clause: &Clause) -> bool {
 /// What a field says is not said by a clause too; `known` are the roles that something plays.
 pub(super) fn check_roles(
     list: &[Given],
-    fields: &[Field<'_>],
+    fields: &[ReadField<'_>],
     known: impl Fn(Role) -> bool,
     scalar: &str,
     context: &mut Context,
@@ -122,7 +122,7 @@ pub(super) fn check_roles(
 }
 
 /// A named body has its mass data from a field or from its clause, from there all of them.
-pub(super) fn check_named(body: &BodyClause, fields: &[Field<'_>], context: &mut Context) {
+pub(super) fn check_named(body: &BodyClause, fields: &[ReadField<'_>], context: &mut Context) {
     let Some(name) = &body.name else { return };
     if let Some(field) = fields.iter().find(|field| same(field.ident, name)) {
         context.error(

@@ -292,7 +292,7 @@ impl<'g> Translator<'_, 'g> {
     /// ψ of a scalar coordinate.
     fn rate_of_coordinate(&self, name: &Ident) -> syn::Result<Expr<'g>> {
         let index = self.model.coordinates.iter().position(|q| q.ident == *name).ok_or_else(|| bug(name.span()))?;
-        Ok(self.declared.rate_of(index, &self.kinematics)[0])
+        Ok(self.declared.rate_of(self.declared.before + index, &self.kinematics)[0])
     }
 }
 

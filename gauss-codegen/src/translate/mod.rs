@@ -15,15 +15,16 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use proc_macro2::Span;
+use quote::format_ident;
 use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::mechanics::{
-    Assigned, Body, Constraint, ConstraintKind, Coordinate, Element, Matter, Observed, Placement, Quantity,
+    Assigned, Body, Constraint, ConstraintKind, Coordinate, Element, Kinematics, Matter, Observed, Placement, Quantity,
     SystemScene, Tree, Turn, poisson,
 };
-use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, Property, SystemModel};
+use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, InChart, Model, Property};
 
 pub use forces::DragMatrix;
 pub use parameters::{Parameter, parameters_of_body, parameters_of_system};
@@ -34,7 +35,7 @@ use values::{Piece, Value};
 /// Translates a system; kept between two translations of one system with different speeds.
 pub struct Translator<'a, 'g> {
     graph: &'g Graph,
-    model: &'a SystemModel,
+    model: &'a Model,
     declared: Declared<'g>,
     names: HashMap<String, Value<'g>>,
     /// Indices of bodies and frames among the links, by name.
@@ -47,6 +48,8 @@ pub struct Translator<'a, 'g> {
     drags: RefCell<Vec<DragMatrix<'g>>>,
     /// ḃ of each coordinate that is a pose, where the kinematics give it rather than u.
     pose_rates: Vec<Option<[Expr<'g>; 3]>>,
+    /// The chart's motion, with the speeds as they are now.
+    chart: Option<Kinematics<'g>>,
     /// The motion of the only body, where it is known by symbols of its own.
     observed: Option<Observed<'g>>,
     /// ψ, and the rates of t and of the symbols of q.
@@ -55,10 +58,12 @@ pub struct Translator<'a, 'g> {
 }
 
 impl<'a, 'g> Translator<'a, 'g> {
+    /// `alone`: of one body in a chart only what acts is to be translated, in terms of its motion.
+    ///
     /// # Errors
     /// Only what the model should have refused: a bug of this crate.
-    pub fn new(graph: &'g Graph, model: &'a SystemModel) -> syn::Result<Self> {
-        let declared = Declared::new(graph, model);
+    pub fn new(graph: &'g Graph, model: &'a Model, alone: bool) -> syn::Result<Self> {
+        let declared = Declared::new(graph, model, alone);
         let (names, links) = (HashMap::new(), HashMap::new());
         let mut translator = Self {
             graph,
@@ -70,6 +75,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             literals: RefCell::default(),
             drags: RefCell::default(),
             pose_rates: vec![None; model.coordinates.len()],
+            chart: None,
             observed: None,
             kinematics: Vec::new(),
             rates: Map::default(),
@@ -87,7 +93,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             let zero = self.graph.zero();
             self.declared.gravity = match gravity.values.as_slice() {
                 &[x, y, z] => Some([x, y, z]),
-                values => values.first().map(|&g| [zero, zero, -g]),
+                values => values.first().map(|&g| symbols::free_fall(model, zero, g)),
             };
         }
         for (k, clause) in model.bodies.iter().enumerate() {
@@ -149,15 +155,19 @@ impl<'a, 'g> Translator<'a, 'g> {
         (0..idents.len()).filter(|&k| names.contains(&idents[k])).collect()
     }
 
-    /// The coordinate whose rate a speed is, where none are declared.
-    pub fn coordinate_of_speed(&self, speed: usize) -> usize {
-        Coordinate::of_component(&self.declared.coordinates, speed)
+    /// The declared coordinate whose rate a speed is, where no speeds are declared.
+    pub fn coordinate_of_speed(&self, speed: usize) -> Option<&'a model::Coordinate> {
+        let coordinate = Coordinate::of_component(&self.declared.coordinates, speed);
+        self.model.coordinates.get(coordinate.checked_sub(self.declared.before)?)
     }
 
-    /// Names of the speeds as the user wrote them: three for a vector.
+    /// Names of the speeds as the user writes them: three for a vector.
     pub fn speed_idents(&self) -> Vec<Ident> {
-        let speeds = self.model.speeds.iter().flatten();
-        speeds.flat_map(|z| std::iter::repeat_n(z.ident.clone(), symbols::size_of_speed(z.kind))).collect()
+        let of_chart = self.model.in_chart.map(InChart::speed_words).unwrap_or_default();
+        let of_chart = of_chart.into_iter().map(|word| format_ident!("{word}"));
+        let own = self.model.speeds.iter().flatten();
+        let own = own.flat_map(|z| std::iter::repeat_n(z.ident.clone(), symbols::size_of_speed(z.kind)));
+        of_chart.chain(own).collect()
     }
 
     /// The scene with the given values of the declared speeds, of which those of `kept` are its speeds.
@@ -167,6 +177,8 @@ impl<'a, 'g> Translator<'a, 'g> {
     pub fn scene(&mut self, values: &[Expr<'g>], kept: &[usize]) -> syn::Result<SystemScene<'g>> {
         let (graph, model) = (self.graph, self.model);
         let time = self.declared.time;
+        let of_chart = self.declared.chart.as_ref();
+        self.chart = of_chart.map(|chart| chart.with_speeds(&values[..chart.speeds.len()]));
         self.name_everything(values);
         self.kinematics = self.kinematics(values)?;
         self.rates = self.rates();
@@ -269,7 +281,9 @@ impl<'a, 'g> Translator<'a, 'g> {
         self.links.clear();
         self.names.insert("t".to_owned(), Value::Scalar(self.declared.time));
         self.names.extend(self.declared.fields.iter().cloned());
-        for (written, coordinate) in self.model.coordinates.iter().zip(&self.declared.coordinates) {
+        for (written, coordinate) in
+            self.model.coordinates.iter().zip(&self.declared.coordinates[self.declared.before..])
+        {
             if let Coordinate::Scalar(symbol) = coordinate {
                 self.names.insert(written.ident.unraw().to_string(), Value::Scalar(*symbol));
             }
@@ -281,11 +295,16 @@ impl<'a, 'g> Translator<'a, 'g> {
             let value = self.input(input.kind, &mut inputs);
             self.names.insert(input.ident.unraw().to_string(), value);
         }
-        let mut values = values.iter().copied();
+        let mut values = values[self.speeds_of_chart()..].iter().copied();
         for speed in self.model.speeds.iter().flatten() {
             let value = self.components(speed.kind, &mut values);
             self.names.insert(speed.ident.unraw().to_string(), value);
         }
+    }
+
+    /// How many of the speeds are the chart's.
+    fn speeds_of_chart(&self) -> usize {
+        self.declared.chart.as_ref().map_or(0, |chart| chart.speeds.len())
     }
 
     /// The value of one name, or of three under one.
@@ -308,7 +327,7 @@ impl<'a, 'g> Translator<'a, 'g> {
 
     /// Rotations, with their angular velocities from the kinematics.
     fn name_rotations(&mut self, kinematics: &[Expr<'g>]) {
-        for (k, written) in self.model.coordinates.iter().enumerate() {
+        for (k, written) in (self.declared.before..).zip(&self.model.coordinates) {
             let rate = self.declared.rate_of(k, kinematics);
             let word = written.ident.unraw().to_string();
             let value = match (&self.declared.coordinates[k], rate) {
@@ -326,10 +345,11 @@ impl<'a, 'g> Translator<'a, 'g> {
 
     /// ψ, in the order of the coordinates.
     fn kinematics(&mut self, values: &[Expr<'g>]) -> syn::Result<Vec<Expr<'g>>> {
+        let mut rates = self.chart.as_ref().map(Kinematics::coordinate_rates).unwrap_or_default();
         if self.model.speeds.is_none() {
-            return Ok(values.to_vec());
+            rates.extend(&values[self.speeds_of_chart()..]);
+            return Ok(rates);
         }
-        let mut rates = Vec::new();
         let nothing = self.no_links();
         for (k, (_, e)) in self.model.kinematics.iter().enumerate() {
             self.pose_rates[k] = self.observed_velocity(k, e, &nothing)?;
@@ -367,23 +387,26 @@ impl<'a, 'g> Translator<'a, 'g> {
     /// Rates of t and of the symbols of q: Ṙ = R [ω]× (Poisson), ḃ = R u.
     fn rates(&self) -> Map<u32, Expr<'g>> {
         let mut rates: Map<u32, Expr<'g>> = Map::from_iter([(self.declared.time.key(), self.graph.one())]);
-        for (k, coordinate) in self.declared.coordinates.iter().enumerate() {
+        rates.extend(self.chart.iter().flat_map(|chart| &chart.rates).map(|(&key, &rate)| (key, rate)));
+        let own = || self.declared.coordinates.iter().enumerate().skip(self.declared.before);
+        for (k, coordinate) in own() {
             let rate = self.declared.rate_of(k, &self.kinematics);
             if let (Some(matrix), &[.., w1, w2, w3]) = (coordinate.rotation(), rate) {
                 rates.extend(poisson(matrix, &[w1, w2, w3]));
             }
         }
-        for (k, coordinate) in self.declared.coordinates.iter().enumerate() {
+        for (k, coordinate) in own() {
             let rate = self.declared.rate_of(k, &self.kinematics);
             match coordinate {
                 Coordinate::Scalar(q) => {
                     rates.insert(q.key(), rate[0]);
                 }
-                Coordinate::Rotation(_) => {}
+                // Of planes the chart's own rates are known.
+                Coordinate::Rotation(_) | Coordinate::Plane { .. } => {}
                 Coordinate::Pose(matrix, position) => {
                     for (i, (row, b)) in matrix.iter().zip(position).enumerate() {
                         let turned = || (0..3).map(|k| row[k] * rate[k]).sum();
-                        rates.insert(b.key(), self.pose_rates[k].map_or_else(turned, |v| v[i]));
+                        rates.insert(b.key(), self.pose_rates[k - self.declared.before].map_or_else(turned, |v| v[i]));
                     }
                 }
             }
@@ -416,6 +439,9 @@ impl<'a, 'g> Translator<'a, 'g> {
             Some(body) => Matter::Body(Box::new(Body::clone(body))),
             None => Matter::Nothing,
         };
+        if let Some(chart) = self.chart.as_ref().filter(|_| self.model.is_in_chart(clause)) {
+            return Ok(chart.placement(matter));
+        }
         let turns = match &clause.rotation {
             Some(e) => match self.value(e, &nothing)? {
                 Value::Rotation(turns) => turns.iter().map(|piece| piece.turn(self.graph, &self.rates)).collect(),
@@ -443,7 +469,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         if self.pose_rates[k].is_some() {
             return None;
         }
-        match self.declared.rate_of(k, &self.kinematics) {
+        match self.declared.rate_of(self.declared.before + k, &self.kinematics) {
             &[u1, u2, u3, ..] => Some([u1, u2, u3]),
             _ => None,
         }

@@ -1,13 +1,15 @@
 //! Symbols of everything that is declared, and where the value of each is read.
 
 use proc_macro2::Ident;
+use quote::format_ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Map};
 use crate::mechanics::{
-    AddedMassShape, Body, BodyShape, Coordinate, GravityShape, InertiaShape, Name, ParameterSymbol, Quantity,
+    AddedMassShape, Body, BodyShape, Coordinate, GravityShape, InertiaShape, Kinematics, Name, ParameterSymbol,
+    Quantity,
 };
-use crate::model::{self, BodyClause, CoordinateKind, InputKind, Role, Shape, SpeedKind, SystemField, SystemModel};
+use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
 
 use super::values::Value;
 
@@ -30,11 +32,15 @@ pub struct Source<'g> {
     pub part: Part,
 }
 
-/// What a system declares, in symbols.
+/// What a scene declares, in symbols.
 pub struct Declared<'g> {
     graph: &'g Graph,
     pub time: Expr<'g>,
+    /// That of the chart, whose coordinates and speeds come before the declared ones.
+    pub chart: Option<Kinematics<'g>>,
     pub coordinates: Vec<Coordinate<'g>>,
+    /// How many of them are the chart's.
+    pub before: usize,
     pub coordinate_names: Vec<Name>,
     pub speeds: Vec<Expr<'g>>,
     /// What the momenta are momenta of: the coordinate, where its rate is the speed.
@@ -104,7 +110,7 @@ fn input_names(input: &model::InputName) -> Vec<Name> {
     }
 }
 
-fn speed_names(model: &SystemModel) -> Vec<Name> {
+fn speed_names(model: &Model) -> Vec<Name> {
     match &model.speeds {
         Some(speeds) => named(&speeds.iter().map(|z| (&z.ident, z.kind)).collect::<Vec<_>>()),
         None => model
@@ -124,7 +130,7 @@ fn speed_names(model: &SystemModel) -> Vec<Name> {
 }
 
 /// θ of the speed dθ/dt; else the name of the speed.
-fn momentum_names(model: &SystemModel, coordinates: &[Coordinate<'_>], speed_names: &[Name]) -> Vec<Name> {
+fn momentum_names(model: &Model, coordinates: &[Coordinate<'_>], speed_names: &[Name]) -> Vec<Name> {
     let renamed = |(k, speed): (usize, &Name)| match &model.speeds {
         Some(_) => speed.clone(),
         None => match &model.coordinates[Coordinate::of_component(coordinates, k)] {
@@ -136,23 +142,47 @@ fn momentum_names(model: &SystemModel, coordinates: &[Coordinate<'_>], speed_nam
 }
 
 impl<'g> Declared<'g> {
-    pub fn new(graph: &'g Graph, model: &SystemModel) -> Self {
+    /// `alone`: the chart is left to who asks, and what is declared is for what acts on its only body.
+    pub fn new(graph: &'g Graph, model: &Model, alone: bool) -> Self {
         let time = graph.symbol("t", "t", false);
-        let coordinates: Vec<Coordinate<'g>> = model.coordinates.iter().map(|q| coordinate(graph, q)).collect();
-        let speed_names = speed_names(model);
-        let momentum_names = momentum_names(model, &coordinates, &speed_names);
-        let symbols = |name: &dyn Fn(&Name) -> Name| -> Vec<Expr<'g>> {
-            speed_names.iter().map(|z| symbol(graph, &name(z), false)).collect()
+        let chart = model.in_chart.filter(|_| !alone).map(|own| Kinematics::new(graph, own.motion, own.chart));
+        let declared: Vec<Coordinate<'g>> = model.coordinates.iter().map(|q| coordinate(graph, q)).collect();
+        let own_speeds = speed_names(model);
+        let own_momenta = momentum_names(model, &declared, &own_speeds);
+        let of_chart = match (&chart, model.in_chart) {
+            (Some(chart), _) => chart.coordinates(),
+            (None, Some(_)) => {
+                let pose = model::Coordinate { ident: format_ident!("body"), kind: CoordinateKind::Pose };
+                vec![(coordinate(graph, &pose), name_of(&pose.ident))]
+            }
+            (None, None) => Vec::new(),
+        };
+        let before = of_chart.len();
+        let (mut coordinates, mut coordinate_names): (Vec<_>, Vec<_>) = of_chart.into_iter().unzip();
+        coordinates.extend(declared);
+        coordinate_names.extend(model.coordinates.iter().map(|q| name_of(&q.ident)));
+        let named = |own: Vec<Name>, of: &dyn Fn(&Kinematics<'g>) -> Vec<Name>| -> Vec<Name> {
+            chart.iter().flat_map(of).chain(own).collect()
+        };
+        let momentum_names = named(own_momenta, &|chart| match chart.coordinate_names.as_slice() {
+            [] => chart.speed_names.clone(),
+            coordinates => coordinates.to_vec(),
+        });
+        let symbols = |of: &dyn Fn(&Kinematics<'g>) -> Vec<Expr<'g>>, name: &dyn Fn(&Name) -> Name| -> Vec<Expr<'g>> {
+            let own = own_speeds.iter().map(|z| symbol(graph, &name(z), false));
+            chart.iter().flat_map(of).chain(own).collect()
         };
         let mut declared = Self {
             graph,
             time,
             coordinates,
-            coordinate_names: model.coordinates.iter().map(|q| name_of(&q.ident)).collect(),
-            speeds: symbols(&Name::clone),
-            speed_rates: symbols(&Name::rate),
+            before,
+            coordinate_names,
+            speeds: symbols(&|chart| chart.speeds.clone(), &Name::clone),
+            speed_rates: symbols(&|chart| chart.speed_rates.clone(), &Name::rate),
             momenta: momentum_names.iter().map(|z| symbol(graph, &Name::new("p", "p").of(z), false)).collect(),
             momentum_names,
+            chart,
             inputs: model.inputs.iter().flat_map(input_names).map(|name| symbol(graph, &name, false)).collect(),
             gravity: None,
             matrices: Vec::new(),
@@ -170,15 +200,15 @@ impl<'g> Declared<'g> {
         self.coordinates.iter().map(Coordinate::size).sum()
     }
 
-    /// Of all components of ψ those of one coordinate.
+    /// Of all components of ψ those of one coordinate, the chart's among them.
     pub fn rate_of<'a>(&self, coordinate: usize, kinematics: &'a [Expr<'g>]) -> &'a [Expr<'g>] {
         let first: usize = self.coordinates[..coordinate].iter().map(Coordinate::size).sum();
         &kinematics[first..first + self.coordinates[coordinate].size()]
     }
 
     /// Symbols for gravity and for every field without a role that expressions can name; the acceleration of free fall.
-    fn plain_fields(&mut self, model: &SystemModel) {
-        for (field, SystemField { ident, role, shape, .. }) in model.fields.iter().enumerate() {
+    fn plain_fields(&mut self, model: &Model) {
+        for (field, Field { ident, role, shape, .. }) in model.fields.iter().enumerate() {
             if !matches!(role, None | Some(Role::Gravity)) {
                 continue;
             }
@@ -205,7 +235,7 @@ impl<'g> Declared<'g> {
                 let zero = self.graph.zero();
                 self.gravity = Some(match &value {
                     Value::Vector(vector) => *vector,
-                    Value::Scalar(g) => [zero, zero, -*g],
+                    Value::Scalar(g) => free_fall(model, zero, *g),
                     _ => [zero; 3],
                 });
             }
@@ -234,7 +264,7 @@ impl<'g> Declared<'g> {
     }
 
     /// Symbols of fields with roles, with those that the same entries have in the given body.
-    pub fn parameters_of(&self, model: &SystemModel, body: &Body<'g>) -> Map<u32, Expr<'g>> {
+    pub fn parameters_of(&self, model: &Model, body: &Body<'g>) -> Map<u32, Expr<'g>> {
         let pair = |source: &Source<'g>| {
             let quantity = quantity_of(model.fields[source.field].role?)?;
             let (row, column) = match source.part {
@@ -250,7 +280,7 @@ impl<'g> Declared<'g> {
     }
 
     /// The mass data of a body, under the names of the fields that have them.
-    fn body(&mut self, model: &SystemModel, clause: &BodyClause) -> Option<Body<'g>> {
+    fn body(&mut self, model: &Model, clause: &BodyClause) -> Option<Body<'g>> {
         if clause.massless {
             return None;
         }
@@ -277,7 +307,7 @@ impl<'g> Declared<'g> {
         Some(body)
     }
 
-    fn unnamed_body(&mut self, model: &SystemModel) -> Body<'g> {
+    fn unnamed_body(&mut self, model: &Model) -> Body<'g> {
         let fields = &model.fields;
         let field = |role: Role| fields.iter().position(|f| f.role == Some(role));
         let given = |role: Role| model.given.iter().find(|given| given.role == role).map(|given| given.shape);
@@ -312,6 +342,14 @@ impl<'g> Declared<'g> {
             self.fields.push((fields[field].ident.unraw().to_string(), value));
         }
         body
+    }
+}
+
+/// Down: along −k₃, in a plane along −k₂.
+pub fn free_fall<'g>(model: &Model, zero: Expr<'g>, g: Expr<'g>) -> [Expr<'g>; 3] {
+    match model.in_chart.map(|own| own.motion) {
+        Some(Motion::Planar) => [zero, -g, zero],
+        _ => [zero, zero, -g],
     }
 }
 

@@ -8,13 +8,12 @@ use quote::quote;
 use crate::algebra::Rational;
 use crate::kernel::{Operand, Program};
 
-use super::kernel::{Derived, Item, count_tokens};
+use super::derived::Derived;
 
-/// The implementation, where it is asked for. `head` is `impl<…>`, `name` the kernel with its generics.
-pub fn linearized_system(derived: &Derived<'_, '_>, head: &TokenStream, name: &TokenStream) -> Option<TokenStream> {
+/// The implementation, where it is asked for.
+pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (linearization, program) = derived.linearization.zip(derived.kernel.tangents.as_ref())?;
-    let Item { runtime, .. } = derived.item();
-    let (private, ty) = (derived.private(), derived.scalar().ty());
+    let (runtime, private, ty) = (derived.item().runtime, derived.private(), derived.scalar().ty());
     let (states, inputs) = (linearization.increments + linearization.speeds, linearization.inputs);
     let (instructions, outputs) = derived.computed(program);
     // Outputs are the rates, and then their derivatives, one column of the matrices after the other.
@@ -22,12 +21,9 @@ pub fn linearized_system(derived: &Derived<'_, '_>, head: &TokenStream, name: &T
     let (by_state, by_input) = (rows(&outputs, states, of_states.clone()), rows(&outputs, states, of_inputs.clone()));
     let (state_pattern, input_pattern) = (pattern(program, states, of_states), pattern(program, states, of_inputs));
     let (rate, by_time) = (&outputs[..states], &outputs[states * of_time..states * (of_time + 1)]);
-    let count = count_tokens(runtime, program.counts());
+    let count = derived.count(program.counts());
     let boolean = quote!(&'static [&'static [::core::primitive::bool]]);
-    Some(quote! {
-        #[automatically_derived]
-        #[allow(unused_variables, clippy::all, clippy::pedantic)]
-        #head #runtime::linearize::LinearizedSystem for #name {
+    let items = quote! {
             type Linearization = #runtime::linearize::Linearization<#ty, #states, #inputs>;
             const STATE_PATTERN: #boolean = &[#(#state_pattern),*];
             const INPUT_PATTERN: #boolean = &[#(#input_pattern),*];
@@ -47,8 +43,8 @@ pub fn linearized_system(derived: &Derived<'_, '_>, head: &TokenStream, name: &T
                     by_input: #private::matrix([#(#by_input),*]),
                 }
             }
-        }
-    })
+    };
+    Some(derived.implementation(quote!(linearize::LinearizedSystem), items))
 }
 
 /// The rows of a matrix whose columns are among the outputs, one column of the given height after the other.

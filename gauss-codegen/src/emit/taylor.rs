@@ -1,4 +1,4 @@
-//! Power series in time: the recurrences of their coefficients, written out.
+//! `TaylorSystem`: power series in time: the recurrences of their coefficients, written out.
 //!
 //! With `x = Σ xₖ τᵏ` for everything that the program of the rates computes, coefficient by coefficient:
 //!
@@ -22,7 +22,7 @@ use crate::algebra::{BinaryFunction, Function, Map};
 use crate::kernel::{Operand, Operation, Program};
 use crate::mechanics::{ConfigurationKind, Coordinate, Method};
 
-use super::kernel::{Derived, Subject};
+use super::derived::{Derived, Subject};
 use super::program::{Kept, ScalarTokens, in_blocks, operand, statements_kept};
 
 /// The number of lanes is a multiple of this: the runtime sums them in packs.
@@ -48,7 +48,37 @@ fn indexed(prefix: &str, k: usize) -> Ident {
     format_ident!("__{}{}", prefix, k, span = Span::mixed_site())
 }
 
-impl<'g> Order<'_, 'g> {
+impl<'a, 'g> Order<'a, 'g> {
+    fn new(program: &'a Program<'g>, variables: &'a Variables, scalar: &'a ScalarTokens<'a>) -> Self {
+        let Variables { first, coefficients, .. } = variables;
+        Order {
+            program,
+            names: first,
+            coefficients,
+            scalar,
+            moving: program.moving(|symbol| !coefficients.contains_key(&symbol.key())),
+            inlined: program.added_once(),
+            lanes: Vec::new(),
+            once: TokenStream::new(),
+        }
+    }
+
+    /// The statements of all that moves.
+    fn line(&mut self) -> TokenStream {
+        let mut lines = Vec::new();
+        for (k, instruction) in self.program.instructions.iter().enumerate() {
+            if self.moving[k] && !self.inlined[k] {
+                let names = match instruction {
+                    Operation::SineCosine(_) => vec![named("ws", k), named("wc", k)],
+                    Operation::Binary(..) => vec![named("wr", k), named("w", k)],
+                    _ => vec![named("w", k)],
+                };
+                lines.push((names, self.statement(k, instruction)));
+            }
+        }
+        in_blocks(&lines)
+    }
+
     /// Order 0.
     fn first(&self, o: &Operand<'g>) -> TokenStream {
         operand(o, self.names, self.scalar)
@@ -59,7 +89,7 @@ impl<'g> Order<'_, 'g> {
         let moves = |k: usize| self.moving[k];
         match o {
             Operand::Number(_) => None,
-            Operand::Symbol(symbol) => self.coefficients.get(&symbol.key()).cloned(),
+            Operand::Input(symbol) => self.coefficients.get(&symbol.key()).cloned(),
             Operand::Value(k) if moves(*k) => Some(named("w", *k)),
             Operand::Sine(k) if moves(*k) => Some(named("ws", *k)),
             Operand::Cosine(k) if moves(*k) => Some(named("wc", *k)),
@@ -141,18 +171,7 @@ impl<'g> Order<'_, 'g> {
                 self.gather(instruction, false, &mut sum);
                 sum.write(&real).unwrap_or(zero)
             }
-            Operation::Divide(a, b) => {
-                let divisor = self.first(b);
-                let reciprocal = self.reciprocal(k, &divisor);
-                let ak = self.coefficient(a).unwrap_or(zero);
-                match self.coefficient(b) {
-                    Some(bk) => {
-                        let sum = self.lane(w.clone(), bk.clone());
-                        quote!(#real::fma(-#v0, #bk, #ak - #sum) * #reciprocal)
-                    }
-                    None => quote!(#ak * #reciprocal),
-                }
-            }
+            Operation::Divide(a, b) => self.quotient(k, a, b),
             Operation::Call(Function::Sqrt, a) => {
                 let reciprocal = self.reciprocal(k, &quote!((#v0 + #v0)));
                 let (sum, ak) = (self.lane(w.clone(), w.clone()), self.coefficient(a).unwrap_or(zero));
@@ -169,41 +188,57 @@ impl<'g> Order<'_, 'g> {
                 let sum = self.lane(quote!(#ak * __order), w.clone());
                 quote!(#real::fma(__over, #sum, #ak * #v0))
             }
-            Operation::SineCosine(a) => {
-                let ak = self.coefficient(a).unwrap_or(zero);
-                let (s0, c0) = (self.first(&Operand::Sine(k)), self.first(&Operand::Cosine(k)));
-                let (s, c) = (named("ws", k), named("wc", k));
-                let (with_cosine, with_sine) =
-                    (self.lane(quote!(#ak * __order), c.clone()), self.lane(quote!(#ak * __order), s.clone()));
-                return quote! {
-                    let #s = #real::fma(__over, #with_cosine, #ak * #c0);
-                    let #c = -#real::fma(__over, #with_sine, #ak * #s0);
-                };
-            }
-            Operation::Binary(BinaryFunction::Atan2, y, x) => {
-                let (x0, y0) = (self.first(x), self.first(y));
-                let (xk, yk) = (self.coefficient(x).unwrap_or(zero.clone()), self.coefficient(y).unwrap_or(zero));
-                let (rk, square) = (named("wr", k), quote!((#x0 * #x0 + #y0 * #y0)));
-                let reciprocal = self.reciprocal(k, &square);
-                let squares = [self.lane(xk.clone(), xk.clone()), self.lane(yk.clone(), yk.clone())];
-                let [x_squares, y_squares] = squares;
-                let turned = [
-                    self.lane(quote!(#yk * __order), xk.clone()),
-                    self.lane(quote!(#xk * __order), yk.clone()),
-                    self.lane(quote!(#w * __order), rk.clone()),
-                ];
-                let [forward, back, known] = turned;
-                return quote! {
-                    let #rk = #x_squares + #y_squares + ((#x0 + #x0) * #xk + (#y0 + #y0) * #yk);
-                    let #w = #real::fma(__over, #forward - #back - #known, #yk * #x0 - #xk * #y0) * #reciprocal;
-                };
-            }
+            Operation::SineCosine(a) => return self.sine_cosine(k, a),
+            Operation::Binary(BinaryFunction::Atan2, y, x) => return self.angle(k, y, x),
             Operation::Binary(..) => {
                 let message = "bug in gauss-derive: a function without a power series";
                 quote!(::core::compile_error!(#message))
             }
         };
         quote!(let #w = #value;)
+    }
+
+    fn quotient(&mut self, k: usize, a: &Operand<'g>, b: &Operand<'g>) -> TokenStream {
+        let (real, w, v0, divisor) =
+            (self.scalar.real.clone(), named("w", k), self.first(&Operand::Value(k)), self.first(b));
+        let reciprocal = self.reciprocal(k, &divisor);
+        let ak = self.coefficient(a).unwrap_or(self.zero());
+        match self.coefficient(b) {
+            Some(bk) => {
+                let sum = self.lane(w, bk.clone());
+                quote!(#real::fma(-#v0, #bk, #ak - #sum) * #reciprocal)
+            }
+            None => quote!(#ak * #reciprocal),
+        }
+    }
+
+    fn sine_cosine(&mut self, k: usize, a: &Operand<'g>) -> TokenStream {
+        let (real, ak) = (self.scalar.real.clone(), self.coefficient(a).unwrap_or(self.zero()));
+        let (s0, c0) = (self.first(&Operand::Sine(k)), self.first(&Operand::Cosine(k)));
+        let (s, c) = (named("ws", k), named("wc", k));
+        let with_cosine = self.lane(quote!(#ak * __order), c.clone());
+        let with_sine = self.lane(quote!(#ak * __order), s.clone());
+        quote! {
+            let #s = #real::fma(__over, #with_cosine, #ak * #c0);
+            let #c = -#real::fma(__over, #with_sine, #ak * #s0);
+        }
+    }
+
+    /// atan2(y, x).
+    fn angle(&mut self, k: usize, y: &Operand<'g>, x: &Operand<'g>) -> TokenStream {
+        let (real, w, rk) = (self.scalar.real.clone(), named("w", k), named("wr", k));
+        let (x0, y0) = (self.first(x), self.first(y));
+        let [xk, yk] = [x, y].map(|o| self.coefficient(o).unwrap_or(self.zero()));
+        let reciprocal = self.reciprocal(k, &quote!((#x0 * #x0 + #y0 * #y0)));
+        let x_squares = self.lane(xk.clone(), xk.clone());
+        let y_squares = self.lane(yk.clone(), yk.clone());
+        let forward = self.lane(quote!(#yk * __order), xk.clone());
+        let back = self.lane(quote!(#xk * __order), yk.clone());
+        let known = self.lane(quote!(#w * __order), rk.clone());
+        quote! {
+            let #rk = #x_squares + #y_squares + ((#x0 + #x0) * #xk + (#y0 + #y0) * #yk);
+            let #w = #real::fma(__over, #forward - #back - #known, #yk * #x0 - #xk * #y0) * #reciprocal;
+        }
     }
 
     fn zero(&self) -> TokenStream {
@@ -264,131 +299,116 @@ fn named(prefix: &str, k: usize) -> TokenStream {
     quote!(#name)
 }
 
-impl<'a, 'g> Derived<'a, 'g> {
-    /// The implementation of `TaylorSystem`, where the series are derived.
-    pub fn series(&'a self, bounded: &TokenStream, used: &TokenStream) -> Option<TokenStream> {
-        if !self.has(Method::ComponentRates) {
-            return None;
-        }
-        let (runtime, private, name) = (self.item().runtime, self.private(), self.kernel_name());
-        let scalar = self.scalar();
-        let (ty, real, zero) = (scalar.ty(), &scalar.real, quote!(__zero));
-        let program = self.program(Method::ComponentRates);
+/// All numbers that a state is made of, taken apart and named.
+struct Variables {
+    names: Vec<Ident>,
+    declarations: TokenStream,
+    /// How symbols are written in order 0, and those that move in order k.
+    first: Map<u32, TokenStream>,
+    coefficients: Map<u32, TokenStream>,
+}
 
-        // Order 0: all components by name, the values of the program.
-        let mut names: Map<u32, TokenStream> = self.constant_names();
-        let mut coefficients: Map<u32, TokenStream> = Map::default();
-        if let Some(time) = self.time() {
-            names.insert(time.key(), quote!(t));
+impl Variables {
+    fn of(derived: &Derived<'_, '_>) -> Self {
+        let (mut first, mut coefficients) = (derived.constant_names(), Map::default());
+        if let Some(time) = derived.time() {
+            first.insert(time.key(), quote!(t));
             coefficients.insert(time.key(), quote!(__time));
         }
-        let mut arguments = self.configuration_arguments();
-        arguments.push(self.vector_argument(quote!(z), self.speeds()));
-        let (mut declarations, mut variables) = (TokenStream::new(), Vec::new());
+        let mut arguments = derived.configuration_arguments();
+        arguments.push(derived.vector_argument(quote!(z), derived.speeds()));
+        let (mut declarations, mut names) = (TokenStream::new(), Vec::new());
         for argument in &arguments {
-            let start = variables.len();
+            let start = names.len();
             for symbol in &argument.symbols {
-                let (n, name) = (variables.len(), indexed("q", variables.len()));
-                names.insert(symbol.key(), quote!(#name));
+                let (n, name) = (names.len(), indexed("q", names.len()));
+                first.insert(symbol.key(), quote!(#name));
                 coefficients.insert(symbol.key(), quote!(__x[#n]));
-                variables.push(name);
+                names.push(name);
             }
-            let (own, array) = (&variables[start..], &argument.array);
+            let (own, array) = (&names[start..], &argument.array);
             declarations.extend(quote!(let [#(#own),*] = #array;));
         }
-        let (instructions, rates) = statements_kept(program, &names, &scalar, Kept::Everything);
+        Variables { names, declarations, first, coefficients }
+    }
+}
 
-        // Order k.
-        let constant = |symbol: crate::algebra::Expr<'g>| !coefficients.contains_key(&symbol.key());
-        let mut order = Order {
-            program,
-            names: &names,
-            coefficients: &coefficients,
-            scalar: &scalar,
-            moving: program.moving(constant),
-            inlined: program.added_once(),
-            lanes: Vec::new(),
-            once: TokenStream::new(),
-        };
-        let mut lines = Vec::new();
-        for (k, instruction) in order.program.instructions.iter().enumerate() {
-            if order.moving[k] && !order.inlined[k] {
-                let names = match instruction {
-                    Operation::SineCosine(_) => vec![named("ws", k), named("wc", k)],
-                    Operation::Binary(..) => vec![named("wr", k), named("w", k)],
-                    _ => vec![named("w", k)],
-                };
-                lines.push((names, order.statement(k, instruction)));
+/// The implementation, where the series are derived.
+pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    if !derived.has(Method::ComponentRates) {
+        return None;
+    }
+    let (private, scalar) = (derived.private(), derived.scalar());
+    let (ty, real, zero) = (scalar.ty(), &scalar.real, quote!(__zero));
+    let program = derived.program(Method::ComponentRates);
+    let variables = Variables::of(derived);
+    let (instructions, rates) = statements_kept(program, &variables.first, &scalar, Kept::Everything);
+    let mut order = Order::new(program, &variables, &scalar);
+    let line = order.line();
+    let of_order: Vec<TokenStream> =
+        program.outputs.iter().map(|o| order.coefficient(o).unwrap_or(zero.clone())).collect();
+    let Order { mut lanes, once, .. } = order;
+    lanes.resize(lanes.len().next_multiple_of(PACK), (zero.clone(), zero));
+    let (left, right): (Vec<_>, Vec<_>) = lanes.into_iter().unzip();
+    let Variables { names, declarations, .. } = &variables;
+    let (count, width, groups) = (names.len(), left.len(), component_groups(derived));
+    let items = quote! {
+        type Series = #private::Series<#ty, #count, #width>;
+        const GROUPS: &'static [::core::primitive::usize] = &[#(#groups),*];
+        fn expand(
+            &self,
+            t: Self::Scalar,
+            q: &Self::Configuration,
+            z: &Self::Speeds,
+            order: ::core::primitive::usize,
+            series: &mut Self::Series,
+        ) {
+            let __zero = <#ty as #real>::zero();
+            let __one = <#ty as #real>::one();
+            #declarations
+            #instructions
+            #once
+            series.set_variables(0, [#(#names),*]);
+            series.set_variables(1, [#(#rates),*]);
+            let mut __order = __zero;
+            let mut __time = __one;
+            for __k in 1..order {
+                __order = __order + __one;
+                let __over = #real::recip(__order);
+                let __next = #real::recip(__order + __one);
+                let __x = series.variables(__k);
+                let __sums = series.convolution(__k);
+                #line
+                series.set_factors(__k, [#(#left),*], [#(#right),*]);
+                series.set_variables(__k + 1, [#(#of_order * __next),*]);
+                __time = __zero;
             }
         }
-        let line = in_blocks(&lines);
-        let of_order: Vec<TokenStream> =
-            program.outputs.iter().map(|o| order.coefficient(o).unwrap_or(zero.clone())).collect();
-        let Order { mut lanes, once, .. } = order;
-        lanes.resize(lanes.len().next_multiple_of(PACK), (zero.clone(), zero.clone()));
-        let (left, right): (Vec<_>, Vec<_>) = lanes.into_iter().unzip();
-        let (count, width) = (variables.len(), left.len());
-        let groups = self.component_groups();
-        Some(quote! {
-            #[automatically_derived]
-            #[allow(unused_variables, clippy::all, clippy::pedantic)]
-            impl #bounded #runtime::series::TaylorSystem for #name #used {
-                type Series = #private::Series<#ty, #count, #width>;
-                const GROUPS: &'static [::core::primitive::usize] = &[#(#groups),*];
-                fn expand(
-                    &self,
-                    t: Self::Scalar,
-                    q: &Self::Configuration,
-                    z: &Self::Speeds,
-                    order: ::core::primitive::usize,
-                    series: &mut Self::Series,
-                ) {
-                    let __zero = <#ty as #real>::zero();
-                    let __one = <#ty as #real>::one();
-                    #declarations
-                    #instructions
-                    #once
-                    series.set_variables(0, [#(#variables),*]);
-                    series.set_variables(1, [#(#rates),*]);
-                    let mut __order = __zero;
-                    let mut __time = __one;
-                    for __k in 1..order {
-                        __order = __order + __one;
-                        let __over = #real::recip(__order);
-                        let __next = #real::recip(__order + __one);
-                        let __x = series.variables(__k);
-                        let __sums = series.convolution(__k);
-                        #line
-                        series.set_factors(__k, [#(#left),*], [#(#right),*]);
-                        series.set_variables(__k + 1, [#(#of_order * __next),*]);
-                        __time = __zero;
-                    }
-                }
-            }
-        })
-    }
+    };
+    Some(derived.implementation(quote!(series::TaylorSystem), items))
+}
 
-    /// How many components of the configuration are measured together, and each speed by itself.
-    fn component_groups(&self) -> Vec<usize> {
-        let mut groups = match self.subject {
-            Subject::Body { scene, .. } => match scene.kinematics.kind {
-                ConfigurationKind::Pose => vec![4, 3],
-                ConfigurationKind::Rotation => vec![4],
-                ConfigurationKind::PlanePose => vec![2, 2],
-                ConfigurationKind::Coordinates => vec![1; scene.kinematics.configuration.len()],
-            },
-            Subject::System(subject) => {
-                let coordinates = &subject.system.scene.coordinates;
-                let group = |coordinate: &Coordinate<'g>| match coordinate {
-                    Coordinate::Pose(..) => vec![4, 3],
-                    Coordinate::Rotation(_) => vec![4],
-                    Coordinate::Scalar(_) => vec![],
-                };
-                let scalars = coordinates.iter().filter(|c| matches!(c, Coordinate::Scalar(_))).map(|_| 1);
-                coordinates.iter().flat_map(group).chain(scalars).collect()
-            }
-        };
-        groups.extend(self.speeds().iter().map(|_| 1));
-        groups
-    }
+/// How many components of the configuration are measured together, and each speed by itself.
+fn component_groups(derived: &Derived<'_, '_>) -> Vec<usize> {
+    let mut groups = match derived.subject {
+        Subject::Body { scene, .. } => match scene.kinematics.kind {
+            ConfigurationKind::Pose => vec![4, 3],
+            ConfigurationKind::Rotation => vec![4],
+            ConfigurationKind::PlanePose => vec![2, 2],
+            ConfigurationKind::Coordinates => vec![1; scene.kinematics.configuration.len()],
+        },
+        Subject::System(subject) => {
+            let coordinates = &subject.system.scene.coordinates;
+            let group = |coordinate: &Coordinate<'_>| match coordinate {
+                Coordinate::Pose(..) => vec![4, 3],
+                Coordinate::Rotation(_) => vec![4],
+                Coordinate::Plane { .. } => vec![2, 2],
+                Coordinate::Scalar(_) => vec![],
+            };
+            let scalars = coordinates.iter().filter(|c| matches!(c, Coordinate::Scalar(_))).map(|_| 1);
+            coordinates.iter().flat_map(group).chain(scalars).collect()
+        }
+    };
+    groups.extend(derived.speeds().iter().map(|_| 1));
+    groups
 }
