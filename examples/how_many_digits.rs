@@ -1,7 +1,7 @@
 //! How many digits of an acceleration are right? `cargo run --release --example how_many_digits`.
 //!
-//! Kernels are evaluated in `Bounded<f64>`: the numbers of `f64`, each with a guaranteed bound on all rounding so far. Last comes what
-//! that costs beside `f64`, in the same run.
+//! Kernels are evaluated in `Bounded<f64>`: the numbers of `f64`, each with a guaranteed bound on all rounding so far.
+//! Last comes what that costs beside `f64`, in the same run.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -149,7 +149,8 @@ fn arm() -> Result<(), Box<dyn Error>> {
     let (q, z) = (SVector::from([1.0 - 1e-8, 0.0]), SVector::from([0.0, 0.1]));
     show(
         "An arm, ten nanometres from its stretched pose, by the place of its hand",
-        "Near the singular pose the elbow depends on the last digits of the hand's place: half of the digits are gone, and of the \
+        "Near the singular pose the elbow depends on the last digits of the hand's place: half of the digits are \
+         gone, and of the \
          small ÿ nearly all.",
         &["ẍ", "ÿ"],
         &arm,
@@ -197,7 +198,8 @@ fn needle() -> Result<(), Box<dyn Error>> {
     let z = SVector::from([1.0, 0.0, 2.0, 0.3, -0.5, 0.8]);
     show(
         "A needle, moments 1 : 1 : 10⁻⁶, as a full matrix of inertia",
-        "The entries of the matrix are rounded, and the moment along the needle is what their difference leaves: most digits of the \
+        "The entries of the matrix are rounded, and the moment along the needle is what their difference leaves: \
+         most digits of the \
          turning are lost. Give principal axes where you have them.",
         &["b̈₁", "b̈₂", "b̈₃", "ω̇₁", "ω̇₂", "ω̇₃"],
         &needle.kernel()?,
@@ -223,7 +225,8 @@ fn plate() -> Result<(), Box<dyn Error>> {
     };
     show(
         "A gram of foil that drags a ton of water along, across itself only",
-        "Along the foil one part in 10⁶ of the matrix of masses resists, and is known to as many digits less; across it all are right.",
+        "Along the foil one part in 10⁶ of the matrix of masses resists, and is known to as many digits less; \
+         every component of u̇ has a share of that.",
         &["u̇₁", "u̇₂", "u̇₃", "ω̇₁", "ω̇₂", "ω̇₃"],
         &plate.kernel()?,
         &rounded(&Isometry3::from_parts(Translation3::identity(), turned())),
@@ -241,7 +244,8 @@ fn far() -> Result<(), Box<dyn Error>> {
     let right = Right { mass, center, inertia, g }.kernel()?;
     show(
         "A body a thousand kilometres from Ω, by the velocity of its point at Ω",
-        "All digits of ξ̇ are right, but it is some 10⁵ times larger than the acceleration of the body, of which ± 10⁻⁹ leaves nine or \
+        "All digits of ξ̇ are right, but it is some 10⁵ times larger than the acceleration of the body, of which ± \
+         10⁻⁹ leaves nine or \
          so: the bound tells what the digits hide.",
         &["ξ̇₁", "ξ̇₂", "ξ̇₃", "ω̇₁", "ω̇₂", "ω̇₃"],
         &right,
@@ -251,7 +255,8 @@ fn far() -> Result<(), Box<dyn Error>> {
     let hybrid = Hybrid { mass, center, inertia, g }.kernel()?;
     show(
         "The same body by the velocity of its point O",
-        "The place is not in these equations, so distance costs nothing: the chart decides, before any arithmetic does.",
+        "The place is not in these equations, so distance costs nothing: the chart decides, before any arithmetic \
+         does.",
         &["b̈₁", "b̈₂", "b̈₃", "ω̇₁", "ω̇₂", "ω̇₃"],
         &hybrid,
         &q,

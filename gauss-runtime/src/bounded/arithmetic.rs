@@ -1,6 +1,7 @@
 //! Sums, products and quotients. a and b are the values, α and β the bounds of the operands.
 //!
-//! Operations are not inlined: kernels are thousands of them in a row, which would take the compiler many times as long.
+//! Operations are not inlined: kernels are thousands of them in a row, which would take the compiler many times as
+//! long.
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

@@ -38,8 +38,8 @@ pub trait Float: Real + PartialOrd + Display + sealed::Sealed {
     #[doc(hidden)]
     fn is_power_of_two(self) -> bool;
 
-    /// What rounding to nearest can have changed in a result, gradual underflow included. What u·|value| itself loses to
-    /// underflow is less than the least number.
+    /// What rounding to nearest can have changed in a result, gradual underflow included. What u·|value| itself loses
+    /// to underflow is less than the least number.
     #[doc(hidden)]
     #[inline(always)]
     fn half_unit(value: Self) -> Self {

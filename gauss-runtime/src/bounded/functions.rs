@@ -1,7 +1,7 @@
 //! Elementary functions, choices and constants. a is the value, A the exact number, α the bound: |a − A| ≤ α.
 //!
-//! Each rule bounds |f(a) − f(A)| by the largest slope between a and A, or where slopes are infinite by how far f can go over a distance
-//! of α anywhere. f(a) − f(A) is also never more than the width of the range of f.
+//! Each rule bounds |f(a) − f(A)| by the largest slope between a and A, or where slopes are infinite by how far f can
+//! go over a distance of α anywhere. f(a) − f(A) is also never more than the width of the range of f.
 
 use super::{Bounded, Float};
 use crate::real::Real;
@@ -44,7 +44,8 @@ impl<T: Float> Bounded<T> {
         Self::function(value, self.along(slope), SINE).at_most(T::one() + value.abs())
     }
 
-    /// Inverse sine and cosine: slope 1/√(1 − x²), and over a distance α at most acos(1 − α) = 2 asin √(α/2) ≤ π √(α/2), at the ends.
+    /// Inverse sine and cosine: slope 1/√(1 − x²), and over a distance α at most acos(1 − α) = 2 asin √(α/2) ≤ π
+    /// √(α/2), at the ends.
     #[inline(always)]
     fn inverse(self, value: T, range: f64) -> Self {
         let greatest = self.greatest();

@@ -1,8 +1,8 @@
 //! How many digits of a result are right: a scalar that carries a guaranteed bound on its own rounding.
 //!
-//! Every generic kernel, [`linearize`](crate::linearize), energies and integrators of fixed step take [`Bounded`] as they take
-//! `f64`. Its `value` is, to the last bit, what the same code computes in the plain scalar; its `bound` is never below the distance of
-//! that value from what exact arithmetic makes of the same inputs.
+//! Every generic kernel, [`linearize`](crate::linearize), energies and integrators of fixed step take [`Bounded`] as
+//! they take `f64`. Its `value` is, to the last bit, what the same code computes in the plain scalar; its `bound` is
+//! never below the distance of that value from what exact arithmetic makes of the same inputs.
 //!
 #![cfg_attr(
     feature = "derive",
@@ -43,24 +43,26 @@ assert!(a.iter().all(|a| (2.0..4.0).contains(&a.digits())));
 //!
 //! # What is bounded
 //!
-//! Running error analysis (J. H. Wilkinson; N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., section 3.3): each
-//! operation carries the bounds of its operands on, as they are, and adds its own rounding. Correlations are forgotten, so a bound is
-//! the worst case over all signs of errors.
+//! Running error analysis (J. H. Wilkinson; N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,
+//! section 3.3): each operation carries the bounds of its operands on, as they are, and adds its own rounding.
+//! Correlations are forgotten, so a bound is the worst case over all signs of errors.
 //!
-//! - Sums add the rounding that they made, which is a floating-point number (Knuth's TwoSum), products with powers of two none:
-//!   what is exact in floating point stays exact here. Other operations add half a unit in the last place.
-//! - Elementary functions are taken to be within one unit in the last place (sine and cosine together), four (hyperbolic functions) or two
-//!   (all others). The largest errors known of the libraries in use are 2.3 and below 1 (B. Gladman, V. Innocente, J. Mather &
-//!   P. Zimmermann, *Accuracy of Mathematical Functions in Single, Double, Double Extended, and Quadruple Precision*).
-//! - Bounds are rounded upwards, gradual underflow included. A bound is infinite where nothing is known: after overflow, after a division
-//!   by a number that may be zero, and where the value itself is not finite. It is never NaN.
+//! - Sums add the rounding that they made, which is a floating-point number (Knuth's TwoSum), products with powers of
+//!   two none: what is exact in floating point stays exact here. Other operations add half a unit in the last place.
+//! - Elementary functions are taken to be within one unit in the last place (sine and cosine together), four
+//!   (hyperbolic functions) or two (all others). The largest errors known of the libraries in use are 2.3 and below 1
+//!   (B. Gladman, V. Innocente, J. Mather & P. Zimmermann, *Accuracy of Mathematical Functions in Single, Double,
+//!   Double Extended, and Quadruple Precision*).
+//! - Bounds are rounded upwards, gradual underflow included. A bound is infinite where nothing is known: after
+//!   overflow, after a division by a number that may be zero, and where the value itself is not finite. It is never
+//!   NaN.
 //! - Where a comparison is open, because the two numbers lie within their bounds, the bound covers either outcome.
 //! - What the runtime leaves out of its power series, and the rounding of the coefficients of methods, counts
 //!   ([`Real::omitting`](crate::real::Real::omitting)).
 //!
-//! Exact results are those of the same steps. What a method leaves out (the error of an integrator, what is left when an iteration stops, the
-//! order in which rows are eliminated) is not rounding, and not in the bound. Roots, logarithms and inverse functions suppose that the exact
-//! argument lies in their domain.
+//! Exact results are those of the same steps. What a method leaves out (the error of an integrator, what is left when
+//! an iteration stops, the order in which rows are eliminated) is not rounding, and not in the bound. Roots, logarithms
+//! and inverse functions suppose that the exact argument lies in their domain.
 //!
 //! # Inputs
 //!
@@ -70,9 +72,9 @@ assert!(a.iter().all(|a| (2.0..4.0).contains(&a.digits())));
 //! | [`Bounded::rounded`] | rounded when it was stored, as 0.1 is |
 //! | [`Bounded::measured`] | known up to a given distance |
 //!
-//! The functions [`exact`], [`rounded`] and [`measured`] do the same to all numbers of a vector, a rotation, a pose, a body or a pair of them. Of a
-//! unit quaternion they take the four components as they are; formulas that agree for unit quaternions only agree up to
-//! its norm, so compare them with [`rounded`].
+//! The functions [`exact`], [`rounded`] and [`measured`] do the same to all numbers of a vector, a rotation, a pose, a
+//! body or a pair of them. Of a unit quaternion they take the four components as they are; formulas that agree for unit
+//! quaternions only agree up to its norm, so compare them with [`rounded`].
 
 mod arithmetic;
 mod float;
@@ -120,8 +122,8 @@ impl<T: Float> Bounded<T> {
         Self { value, bound: if known { bound.abs() } else { T::INFINITY } }
     }
 
-    /// How many decimal digits of the value are right: −log₁₀ of the bound relative to the value, between 0 and what the scalar holds
-    /// (15.95 for `f64`, 7.22 for `f32`).
+    /// How many decimal digits of the value are right: −log₁₀ of the bound relative to the value, between 0 and what
+    /// the scalar holds (15.95 for `f64`, 7.22 for `f32`).
     ///
     /// A number that is zero up to its bound has none: see [`digits_beside`](Self::digits_beside).
     #[must_use]
@@ -129,7 +131,8 @@ impl<T: Float> Bounded<T> {
         self.digits_beside(self.value)
     }
 
-    /// The digits that are right in numbers of the size of `scale`: of one component of an acceleration, beside the largest of them.
+    /// The digits that are right in numbers of the size of `scale`: of one component of an acceleration, beside the
+    /// largest of them.
     #[must_use]
     pub fn digits_beside(self, scale: T) -> f64 {
         let most = -log10(T::UNIT.lane(0));
@@ -157,8 +160,8 @@ impl<T: Float> Bounded<T> {
         (self.value.abs() + self.bound) * T::MORE
     }
 
-    /// A result: what its operands' bounds came to and what the operation itself rounded, each made of at most ten operations on
-    /// numbers that are not negative, which [`Float::MORE`] rounds up.
+    /// A result: what its operands' bounds came to and what the operation itself rounded, each made of at most ten
+    /// operations on numbers that are not negative, which [`Float::MORE`] rounds up.
     #[inline(always)]
     fn finish(value: T, inherited: T, rounding: T) -> Self {
         let bound = (inherited + rounding) * T::MORE;

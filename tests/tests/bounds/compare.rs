@@ -43,7 +43,8 @@ pub struct Excess {
 impl Excess {
     /// Asserts that every bound holds, and notes by how much it exceeds the error.
     ///
-    /// The truth is off itself, by 2⁻¹⁰⁴ where the numbers are by 2⁻⁵³: a part in 10¹⁵ of the bound, for which one in 10¹² is allowed.
+    /// The truth is off itself, by 2⁻¹⁰⁴ where the numbers are by 2⁻⁵³: a part in 10¹⁵ of the bound, for which one in
+    /// 10¹² is allowed.
     pub fn check(&mut self, what: &str, found: &[Bounded], exact: &[DoubleDouble]) {
         assert_eq!(found.len(), exact.len());
         for (i, (found, exact)) in found.iter().zip(exact).enumerate() {
@@ -69,7 +70,8 @@ impl Excess {
         sorted(&mut self.digits);
         let at = |list: &[f64], part: f64| list.get((part * list.len() as f64) as usize).copied().unwrap_or(f64::NAN);
         println!(
-            "{what}: {} numbers; bound/error median {:.1}, 90 % {:.1}, least {:.2}; {} without error; digits median {:.1}, 1 % {:.1}",
+            "{what}: {} numbers; bound/error median {:.1}, 90 % {:.1}, least {:.2}; {} without error; \
+             digits median {:.1}, 1 % {:.1}",
             self.digits.len(),
             at(&self.ratios, 0.5),
             at(&self.ratios, 0.9),

@@ -153,8 +153,8 @@ fn scaled(value: f64, exponent: i32) -> f64 {
     value
 }
 
-/// Products, quotients and roots across the whole range: operands between 1 and 2 have exact results in double-double numbers, and
-/// powers of two carry those to where the results overflow or underflow.
+/// Products, quotients and roots across the whole range: operands between 1 and 2 have exact results in double-double
+/// numbers, and powers of two carry those to where the results overflow or underflow.
 #[test]
 fn extreme_magnitudes_are_covered() {
     let mut random = Random(4);

@@ -73,7 +73,8 @@ fn explore(count: usize, motion: Motion, mut check: impl FnMut(&Parameters, &Sta
         let (parameters, state) = spread(&mut random, &parameters, &state);
         check(&parameters, &state, &mut far);
     }
-    // Bounds are worst cases of some hundred roundings, of which errors are the sum with random signs: √n short of it, about.
+    // Bounds are worst cases of some hundred roundings, of which errors are the sum with random signs: √n short of it,
+    // about.
     assert!(everyday.report(&format!("{what}, everyday")) < 200.0);
     far.report(&format!("{what}, spread"));
 }

@@ -23,7 +23,7 @@ const FREE: [&str; 12] = [
     "drag_body",
 ];
 
-const HELD: [&str; 10] = [
+const HELD: [&str; 11] = [
     "free_asym_top",
     "free_near_separatrix",
     "hlw_free_body",
@@ -34,6 +34,7 @@ const HELD: [&str; 10] = [
     "kovalevskaya",
     "lagrange_top",
     "simo_wong_top",
+    "goryachev_chaplygin",
 ];
 
 mod free {

@@ -1,7 +1,9 @@
-//! Systems: the reference scenes of pendulums, linkages and rolling bodies, and each with parameters and states spread at random.
+//! Systems: the reference scenes of pendulums, linkages and rolling bodies, and each with parameters and states spread
+//! at random.
 
 use gauss_runtime::prelude::*;
-use gauss_tests::trajectory::{numbers, reference};
+use gauss_tests::trajectory::{number, numbers, reference};
+use serde_json::Value;
 
 use crate::common::Bounded;
 use crate::common::body::list;
@@ -136,6 +138,52 @@ system!(
     { m, j, r, #[gauss(gravity)] g }
 );
 
+/// The same of bodies, published under the names of the fields.
+macro_rules! bodies {
+    ($module:ident, [$($clause:tt)+], $($body:ident)+, { $($(#[$role:meta])* $field:ident),* }) => {
+        mod $module {
+            use gauss_runtime::prelude::*;
+            use gauss_tests::trajectory::{number, reference};
+
+            #[derive(GaussDynamics)]
+            #[gauss($($clause)+)]
+            pub struct System<T> { $(#[gauss(body)] $body: RigidBody<T>,)+ $($(#[$role])* $field: T),* }
+
+            pub fn kernel<T: Real>(scene: &str) -> SystemKernel<T> {
+                let scene = &reference(scene)["parameters"];
+                let body = |name: &str| super::body(&scene[name]);
+                let number = |name: &str| T::from_f64(number(&scene[name]));
+                System { $($body: body(stringify!($body)),)+ $($field: number(stringify!($field))),* }
+                    .kernel()
+                    .expect("a system")
+            }
+        }
+    };
+}
+
+bodies!(
+    gyroscope,
+    [
+        coordinates(phi, theta, psi),
+        body(outer, rotation = rotation_z(phi)),
+        body(inner, parent = outer, rotation = rotation_x(theta)),
+        body(rotor, parent = inner, rotation = rotation_z(psi))
+    ],
+    outer inner rotor,
+    { #[gauss(gravity)] g }
+);
+
+bodies!(
+    universal_joints,
+    [
+        coordinates(a1, b1, a2, b2),
+        body(upper, rotation = rotation_x(a1) * rotation_y(b1)),
+        body(lower, parent = upper, position = [0, 0, -l1], rotation = rotation_x(a2) * rotation_y(b2))
+    ],
+    upper lower,
+    { l1, #[gauss(gravity)] g }
+);
+
 // What loses every digit in floating point: the polynomial is multiplied out.
 system!(bowl, [coordinates(x), particle(mass = 1, position = [x, (x - c).powi(4), 0])], { c });
 
@@ -160,6 +208,22 @@ mod wire {
     }
 }
 
+/// A body as published.
+fn body<T: Real>(of: &Value) -> RigidBody<T> {
+    let vector = |key: &str| numbers(&of[key]).into_iter().map(T::from_f64).collect::<Vec<T>>();
+    RigidBody {
+        mass: T::from_f64(number(&of["mass"])),
+        center_of_mass: Vector3::from_iterator(vector("centre_of_mass_body_from_O")),
+        inertia: if of["inertia_about_O"].is_null() {
+            let moments = vector("principal_inertia_about_O");
+            Matrix3::from_fn(|i, j| if i == j { moments[i] } else { T::zero() })
+        } else {
+            let entries = vector("inertia_about_O");
+            Matrix3::from_fn(|i, j| entries[3 * i + j])
+        },
+    }
+}
+
 fn published(name: &str, keys: &[&str]) -> Vec<f64> {
     keys.iter().flat_map(|key| numbers(&reference(name)["parameters"][key])).collect()
 }
@@ -169,8 +233,8 @@ fn started(name: &str) -> (Vec<f64>, Vec<f64>) {
     (numbers(&start["q"]), numbers(&start["z"]))
 }
 
-/// A scene as published, and `count` scenes whose numbers are each multiplied by a random power of ten and whose states are drawn:
-/// angles of some turns, often near multiples of a quarter turn; fast and slow.
+/// A scene as published, and `count` scenes whose numbers are each multiplied by a random power of ten and whose states
+/// are drawn: angles of some turns, often near multiples of a quarter turn; fast and slow.
 macro_rules! explore {
     ($module:ident, $parameters:expr, $state:expr, $step:expr, $count:literal, $decades:literal) => {{
         let (parameters, (q, z)): (Vec<f64>, (Vec<f64>, Vec<f64>)) = ($parameters, $state);
@@ -226,6 +290,8 @@ fn pendulums() {
     explore!(cart_pole, published(name, &["cart", "bob", "l", "g"]), started(name), Some(0.01), 500, 3.0);
     let parameters = vec![0.7, 1.2, 9.81, 0.3, std::f64::consts::FRAC_PI_2 - 0.85];
     explore!(foucault, parameters, started("foucault_pendulum"), Some(0.01), 300, 0.0);
+    let parameters = vec![28.0, 67.0, 9.81, 0.000_072_921_15, std::f64::consts::FRAC_PI_2 - 0.8526];
+    explore!(foucault, parameters, started("foucault_precession"), Some(0.01), 0, 0.0);
 }
 
 #[test]
@@ -236,6 +302,22 @@ fn constraints_and_rolling() {
     explore!(sleigh, vec![1.2, 0.3, 0.5], (vec![0.0, 0.0, 0.25], vec![0.4, 1.5]), Some(0.01), 500, 3.0);
     let start = (vec![0.0, 0.0, 0.0, 0.28_f64.acos(), 0.0], vec![0.3, 0.5, -6.0]);
     explore!(disk, vec![1.0, 0.0625, 0.5, 9.81], start, Some(0.01), 500, 2.0);
+}
+
+#[test]
+fn linkages() {
+    macro_rules! published {
+        ($module:ident, $name:literal) => {{
+            let (mut excess, (q, z)) = (Excess::default(), started($name));
+            let kernels = (&$module::kernel::<Bounded>($name), &$module::kernel::<DoubleDouble>($name));
+            outputs_hold($name, kernels, (&q, &z), &mut excess);
+            values_are_those_of_the_plain_scalar($name, (&$module::kernel::<f64>($name), kernels.0), (&q, &z));
+            run_holds($name, kernels, (&q, &z), 0.002, &mut excess);
+            assert!(excess.report($name) < 1e4);
+        }};
+    }
+    published!(gyroscope, "gyroscope_in_gimbals");
+    published!(universal_joints, "spatial_double_pendulum_of_rods");
 }
 
 #[test]
