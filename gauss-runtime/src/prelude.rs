@@ -5,6 +5,7 @@ pub use gauss_derive::GaussDynamics;
 
 #[cfg(feature = "alloc")]
 pub use crate::batch::{Batch, BatchError, Packs, StateError, States};
+pub use crate::bounded::Bounded;
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::{ConstrainedSystem, ProjectionError};
