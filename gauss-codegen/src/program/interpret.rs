@@ -4,7 +4,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::algebra::{BinaryFunction, Function, Rational};
 
-use super::{Code, Instruction, Operand};
+use super::code::Code;
+use super::instruction::{Instruction, Operand};
 
 /// What a program can be run on: `f64`, `f32`, and with a few lines dual numbers, intervals or numbers of more digits.
 pub trait Scalar:
