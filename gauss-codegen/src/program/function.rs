@@ -2,10 +2,11 @@
 
 use std::fmt;
 
+use crate::algebra::Scalar;
+
 use super::code::Code;
 use super::input::{Argument, Input, Results};
 use super::instruction::Operand;
-use super::interpret::Scalar;
 use super::verify::Malformed;
 
 /// A function with names for its arguments and results. Its fields can be read; it is made by [`Program::new`], which verifies it.

@@ -44,11 +44,10 @@ mod series;
 mod signs;
 mod verify;
 
-pub use crate::algebra::{BinaryFunction, Function, Rational};
+pub use crate::algebra::{BinaryFunction, Function, Rational, Scalar};
 pub use code::Code;
 pub use cost::{Cost, Counts, Smoothness};
 pub use function::{Program, WrongArguments};
 pub use input::{Argument, ArgumentKind, Input, Results};
 pub use instruction::{Instruction, Operand};
-pub use interpret::Scalar;
 pub use verify::Malformed;
