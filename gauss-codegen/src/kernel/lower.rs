@@ -134,13 +134,16 @@ impl<'g> Kernel<'g> {
     }
 }
 
-/// The constants that are read, and of these those that `literals` alone determine, with their values and with their definitions. Constants that only a dearer
-/// arrangement wanted are dropped.
+/// Symbols of constants and what they stand for.
+type Definitions<'g> = Vec<(Expr<'g>, Expr<'g>)>;
+
+/// The constants that are read, and of these those that `literals` alone determine, with their values and with their
+/// definitions. Constants that only a dearer arrangement wanted are dropped.
 fn constants<'g>(
     hoister: Hoister<'_, 'g>,
     read: &[Expr<'g>],
     literals: Option<&Map<u32, f64>>,
-) -> (Constants<'g>, Vec<(Expr<'g>, f64)>, Vec<(Expr<'g>, Expr<'g>)>) {
+) -> (Constants<'g>, Vec<(Expr<'g>, f64)>, Definitions<'g>) {
     let known = |definition: Expr<'g>| {
         let literals = literals?;
         let value = Evaluation::new(literals).value(definition);

@@ -100,7 +100,7 @@ pub fn project<S: ConstrainedSystem>(
         is_finite: |q: &S::Configuration| q.is_finite(),
         scalar: PhantomData,
     };
-    let q = positions.from_any_start(*q)?;
+    let q = positions.settle_from_any_start(*q)?;
     let velocities = Search {
         level: ConstraintLevel::Velocity,
         residual: |z: &S::Speeds| system.velocity_residual(t, &q, z),
@@ -109,7 +109,7 @@ pub fn project<S: ConstrainedSystem>(
         is_finite: |z: &S::Speeds| z.is_finite(),
         scalar: PhantomData,
     };
-    let z = velocities.from_any_start(*z)?;
+    let z = velocities.settle_from_any_start(*z)?;
     Ok((q, z))
 }
 
@@ -125,7 +125,10 @@ struct Search<T, R, C, M, F> {
 
 impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
     /// From `start`, and where that fails from some corrections away.
-    fn from_any_start<X: Copy, L: VectorSpace<T>, K: VectorSpace<T>>(&self, start: X) -> Result<X, ProjectionError>
+    fn settle_from_any_start<X: Copy, L: VectorSpace<T>, K: VectorSpace<T>>(
+        &self,
+        start: X,
+    ) -> Result<X, ProjectionError>
     where
         R: Fn(&X) -> L,
         C: Fn(&X, &L) -> K,
@@ -164,7 +167,8 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
             let next = (self.moved)(&point, &step);
             let remaining = (self.residual)(&next);
             let defined = (self.is_finite)(&next) && remaining.is_finite();
-            if !defined && !(step.is_finite() && (self.is_finite)(&point) && left.is_finite()) {
+            let from_defined = step.is_finite() && (self.is_finite)(&point) && left.is_finite();
+            if !(defined || from_defined) {
                 return stopped(ProjectionFailure::NonFinite, &left);
             }
             if defined && remaining.max_norm() < 0.5 * left.max_norm() {
