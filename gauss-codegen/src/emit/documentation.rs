@@ -10,6 +10,7 @@ use super::derived::{Derived, Subject};
 use super::system::SystemSubject;
 
 /// The equations as plain text and as one LaTeX environment.
+#[derive(Clone, Debug)]
 pub struct Equations {
     pub text: String,
     pub latex: String,

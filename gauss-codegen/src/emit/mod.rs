@@ -49,12 +49,11 @@ pub use fallback::fallback;
 pub use system::SystemSubject;
 
 /// The whole output of the derive.
-pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
-    let equations = documentation::Equations::of(derived);
-    let kernel = kernel::kernel_struct(derived, &equations);
+pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
+    let kernel = kernel::kernel_struct(derived, equations);
     let constructor = kernel::constructor(derived);
     let gauss_system = gauss_system::gauss_system(derived);
-    let described = description::described(derived, &equations);
+    let described = description::described(derived, equations);
     let rigid_body = rigid_body::rigid_body_system(derived);
     let constrained = constrained::constrained_system(derived);
     let forced = forced::forced_system(derived);

@@ -10,7 +10,7 @@ use crate::mechanics::{Matter, Quantity};
 use crate::model::{ExpressionKind, Field, Model, Motion, Role, Shape};
 use crate::translate::{DragMatrix, Part, Source};
 
-use super::assigned::{assigned_bodies, assigned_local};
+use super::assigned::{assigned_bodies, assigned_local, fluid};
 use super::derived::{Derived, Plain};
 use super::parameters::constants;
 use super::program::statements;
@@ -97,7 +97,7 @@ pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_,
         checks.extend(match (field.role, field.shape) {
             (_, Shape::RigidBody | Shape::Other) => TokenStream::new(),
             (Some(role), shape) => role_check(derived, model, role, shape, &said, &name),
-            _ => finite(k, field),
+            _ => finite(derived, k, field),
         });
     }
     for given in &model.given {
@@ -106,6 +106,7 @@ pub fn system_kernel_body(derived: &Derived<'_, '_>, subject: &SystemSubject<'_,
     }
     read.extend(assigned);
     checks.extend(assigned_bodies(derived, subject, &symbols));
+    checks.extend(fluid(derived, subject, &symbols));
     let particles = system.scene.tree.links.iter().filter_map(|link| match link.matter {
         Matter::Particle(mass) => Some(mass),
         _ => None,
@@ -176,8 +177,13 @@ fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream
     }
 }
 
-fn finite(k: usize, field: &Field) -> TokenStream {
-    finite_value(field.shape, &field.ident.unraw().to_string(), &local(k, ""))
+/// What must hold of a field without a role.
+fn finite(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream {
+    let (said, name) = (field.ident.unraw().to_string(), local(k, ""));
+    if field.shape == Shape::Matrix6 && derived.model().is_added_mass(&field.ident) {
+        return quote!(__check.symmetric(#said, &#name););
+    }
+    finite_value(field.shape, &said, &name)
 }
 
 fn finite_value(shape: Shape, said: &str, name: &Ident) -> TokenStream {
@@ -191,7 +197,7 @@ fn finite_value(shape: Shape, said: &str, name: &Ident) -> TokenStream {
 /// Plain parameters of one body in a chart: their locals, and what is checked of them.
 pub fn plain_fields(derived: &Derived<'_, '_>, fields: &[Field], sources: &[Source<'_>]) -> (TokenStream, TokenStream) {
     let plain = fields.iter().enumerate().filter(|(k, f)| f.role.is_none() && sources.iter().any(|s| s.field == *k));
-    plain.map(|(k, field)| (read_field(derived, k, field), finite(k, field))).unzip()
+    plain.map(|(k, field)| (read_field(derived, k, field), finite(derived, k, field))).unzip()
 }
 
 /// `warnings()`: what is likely not meant; only of scenes with drag.

@@ -186,6 +186,7 @@ impl<'g> Body<'g> {
         self.center_of_mass.iter_mut().for_each(put);
         self.inertia.iter_mut().flatten().for_each(put);
         self.gravity.iter_mut().flatten().for_each(put);
+        self.added_mass.iter_mut().flatten().flatten().for_each(put);
         if let Some((mass, center)) = &mut self.displaced {
             put(mass);
             center.iter_mut().for_each(put);

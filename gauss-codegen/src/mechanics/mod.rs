@@ -78,6 +78,7 @@ pub use formula::{Formula, Method};
 pub use linearize::Linearization;
 pub use link::{Matter, Placement, identity};
 pub use methods::Scene;
+pub use momentum::KineticMatrix;
 pub use names::Name;
 pub use regressor::{InertialParameters, Regressor};
 pub use rotation::{about_axis, poisson, rotation_of_quaternion};

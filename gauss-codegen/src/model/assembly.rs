@@ -1,43 +1,36 @@
 //! The clauses and fields of a scene put together: every name known, every kind right, nothing missing.
 
-use super::bodies;
-use super::constraints;
-use super::context::Context;
-use super::definitions;
-use super::dimensions;
-use super::fields::{ReadField, Reader};
-use super::forces;
-use super::given;
-use super::kinds;
-use super::motion;
-use super::naming::{self, same, word};
-use super::places::Place;
-use super::scene::Clauses;
-use super::scope::{Meaning, Scope, UNNAMED};
-use super::shapes::Kind;
-use super::statements::{Statement, Statements};
-use super::validate;
-use super::{BodyClause, Expression, Field, ForceKind, InChart, Model, Role, Scalar, Shape, Wanted};
+use crate::model::checks::{bodies, coefficients, constraints, field_shapes, forces, masses, motion};
+use crate::model::language::context::Context;
+use crate::model::language::fields::{ReadField, Reader};
+use crate::model::language::shapes::TypeKind;
+use crate::model::language::statements::Statements;
+use crate::model::language::struct_clauses::Clauses;
+use crate::model::language::words::{same, word};
+use crate::model::names::expressions::{self, ENTRY};
+use crate::model::names::places::Place;
+use crate::model::names::{declared, definitions, kinds, naming};
+use crate::model::scene::charts::InChart;
+use crate::model::scene::clauses::BodyClause;
+use crate::model::scene::expression::Expression;
+use crate::model::scene::model::{Field, Model, Scalar, Wanted};
+use crate::model::scene::roles::{Role, Shape};
+use crate::model::units::needs;
 use proc_macro2::{Ident, Span};
 use syn::{DeriveInput, Path};
 
 /// The checked scene; `None` when something is wrong, which is then noted.
-pub(super) fn model(
-    input: &DeriveInput,
-    clauses: Clauses,
-    mut reader: Reader<'_>,
-    context: &mut Context,
-) -> Option<Model> {
+pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, context: &mut Context) -> Option<Model> {
     let Clauses { in_chart, runtime, wanted, mut statements, .. } = clauses;
     let is_empty = statements.is_empty();
     if in_chart.is_some() {
         statements.bodies.insert(0, body_in_chart());
     }
     mark_named(&statements, &mut reader);
-    let scalar = validate::common_scalar(&reader.fields);
-    let scalar_name = validate::scalar_name(scalar.as_ref(), input);
+    let scalar = field_shapes::common_scalar(&reader.fields);
+    let scalar_name = field_shapes::scalar_name(scalar.as_ref(), input);
     let whole = if in_chart.is_some() { "body" } else { "system" };
-    let (shapes, owners) = validate::shapes(&reader, scalar.as_ref(), &scalar_name, whole, context);
+    let (shapes, owners) = field_shapes::shapes(&reader, scalar.as_ref(), &scalar_name, whole, context);
     let uncertain = statements.missed;
 
     // A body in a chart about which nothing else is said has no names that anything could confuse.
@@ -45,7 +38,7 @@ pub(super) fn model(
         naming::check(&statements, &reader.fields, context);
     }
     motion::check_kinematics(&statements, uncertain, context);
-    check_masses(input, &statements, &reader, &owners, &scalar_name, uncertain, context);
+    masses::check_roles(input, &statements, &reader, &owners, &scalar_name, uncertain, context);
     bodies::check(&statements, &reader, &scalar_name, context);
     let unused = check_expressions(&mut statements, &reader, &shapes, &scalar_name, uncertain, context);
     if in_chart.is_none() && statements.coordinates.is_none() && !uncertain {
@@ -53,12 +46,12 @@ pub(super) fn model(
         context.error(span, "the system has no coordinates; add `coordinates(…)` with their names");
     }
     if context.is_clean() {
-        motion::check_dependence(&statements, &expressions(&statements), context);
+        motion::check_dependence(&statements, &expressions::all(&statements), context);
         check_effect(&statements, &unused, &owners, context);
     }
     let scalar = match scalar {
         Some(scalar) => scalar,
-        None => validate::scalar_without_fields(input, &reader.fields, context)?,
+        None => field_shapes::scalar_without_fields(input, &reader.fields, context)?,
     };
     let fields = fields(&reader, &shapes);
     assembled(input, (runtime, wanted, scalar, in_chart), fields, statements)
@@ -87,24 +80,25 @@ fn check_expressions(
     context: &mut Context,
 ) -> Vec<Ident> {
     let earlier = context.count();
-    let mut scope = scope(statements, &reader.fields, shapes, scalar, uncertain);
+    let mut scope = declared::scope(statements, &reader.fields, shapes, scalar, uncertain);
     definitions::check(&statements.definitions, &mut scope, context);
-    for (place, expression) in expressions(statements) {
+    for (place, expression) in expressions::all(statements) {
         // Of constraints and mass data the kind is needed as well.
-        if !matches!(place, Place::Constraint(_) | Place::Given(_)) {
+        let later = matches!(place, Place::Constraint(_) | Place::Given(_)) || place == ENTRY;
+        if !later {
             kinds::check(expression, place, &scope, context);
         }
     }
-    given::check(&mut statements.given, &scope, context);
-    statements.bodies.iter_mut().for_each(|body| given::check(&mut body.given, &scope, context));
+    let all = std::iter::once(&mut statements.given).chain(statements.bodies.iter_mut().map(|body| &mut body.given));
+    all.for_each(|given| masses::check(given, &reader.fields, &scope, context));
     forces::check(statements, context);
-    forces::check_coefficients(statements, &reader.fields, &scope, scalar, context);
+    coefficients::check(statements, &reader.fields, &scope, scalar, context);
     let well = constraints::check_kinds(statements, &scope, context);
-    let all: Vec<&Expression> = expressions(statements).into_iter().map(|(_, expression)| expression).collect();
+    let all: Vec<&Expression> = expressions::all(statements).into_iter().map(|(_, expression)| expression).collect();
     let unused = definitions::unused(statements, &all);
     // Only what is well otherwise has dimensions.
     if context.count() == earlier {
-        dimensions::check(statements, &reader.fields, context);
+        needs::check(statements, &reader.fields, context);
     }
     definitions::inline(statements);
     constraints::check(statements, &well, uncertain, context);
@@ -114,7 +108,9 @@ fn check_expressions(
 /// Everything that is written does something. Asked only where all else is well.
 fn check_effect(statements: &Statements, unused: &[Ident], owners: &[(Role, usize)], context: &mut Context) {
     forces::check_effect(statements, context);
-    let fluid = owners.iter().any(|(role, _)| matches!(role, Role::AddedMass | Role::DisplacedMass));
+    let given = statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given));
+    let mut roles = owners.iter().map(|(role, _)| *role).chain(given.map(|given| given.role));
+    let fluid = roles.any(|role| matches!(role, Role::AddedMass | Role::DisplacedMass));
     forces::check_medium(statements, fluid, context);
     for name in unused {
         context.error(name.span(), format!("`{name}` is defined and never used; remove it"));
@@ -179,260 +175,16 @@ fn assembled(
     })
 }
 
-/// Every expression, with its place; those of constraints come after the others.
-fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
-    let mut all = Vec::new();
-    let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
-    for (name, rate) in statements.kinematics.iter().flat_map(|kinematics| &kinematics.rates) {
-        let kind = coordinates().find(|coordinate| same(&coordinate.ident, name)).map(|coordinate| coordinate.kind);
-        all.extend(rate.as_ref().map(|rate| (Place::Kinematics(kind), rate)));
-    }
-    for body in &statements.bodies {
-        all.extend(body.position.as_ref().map(|position| (Place::Position, position)));
-        all.extend(body.rotation.as_ref().map(|rotation| (Place::Rotation, rotation)));
-    }
-    let given = statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given));
-    all.extend(given.map(|given| (Place::Given(given.role), &given.value)));
-    for particle in &statements.particles {
-        all.push((Place::Mass, &particle.mass));
-        all.push((Place::Particle { parent: particle.parent.is_some() }, &particle.position));
-    }
-    all.extend(statements.points.iter().map(|point| (Place::At, &point.at)));
-    if let Some((_, Some(potential))) = &statements.potential {
-        all.push((Place::Potential, potential));
-    }
-    if let Some((_, Some(velocity))) = &statements.medium {
-        all.push((Place::Medium, velocity));
-    }
-    for clause in &statements.attractions {
-        all.push((Place::Constant { word: "gravitational parameter", noun: "central gravity" }, &clause.mu));
-        all.extend(clause.center.as_ref().map(|center| (Place::Center, center)));
-    }
-    for clause in &statements.forces {
-        let on = clause.kind.body_with_place();
-        for (place, expression) in clause.expressions() {
-            match place {
-                // What a point of the body itself is called says where that is in the body.
-                Place::ForceAt { .. } if on.is_some_and(|body| statements.own_point(body, expression).is_some()) => {}
-                Place::ForceAt { .. } if statements.in_chart => all.push((Place::ForceAt { bound: true }, expression)),
-                place => all.push((place, expression)),
-            }
-        }
-    }
-    all.extend(statements.constraints.iter().map(|clause| (Place::Constraint(clause.kind), &clause.expression)));
-    all
-}
-
 /// Fields that expressions name are computed with, as those with roles are.
 fn mark_named(statements: &Statements, reader: &mut Reader<'_>) {
-    let coefficients = forces::coefficient_fields(statements);
+    let coefficients = coefficients::fields(statements);
     for field in &mut reader.fields {
         field.computed |= match field.reading.kind {
-            Kind::Known(Shape::Scalar | Shape::Vector3) => statements.name(&word(field.ident)),
-            Kind::Known(Shape::Vector6 | Shape::Matrix6) => coefficients.iter().any(|name| same(name, field.ident)),
+            TypeKind::Known(Shape::Scalar | Shape::Vector3) => statements.name(&word(field.ident)),
+            TypeKind::Known(Shape::Vector6 | Shape::Matrix6) => {
+                coefficients.iter().any(|(name, _)| same(name, field.ident))
+            }
             _ => false,
         };
-    }
-}
-
-impl Statements {
-    /// Whether some expression names `word`.
-    pub(super) fn name(&self, word: &str) -> bool {
-        let definitions = self.definitions.iter().filter_map(|definition| definition.expression.as_ref());
-        let all = expressions(self);
-        all.iter().map(|(_, expression)| *expression).chain(definitions).any(|expression| expression.names(word))
-    }
-
-    /// Calls `change` with every expression.
-    pub(super) fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
-        let rates = self.kinematics.iter_mut().flat_map(|kinematics| &mut kinematics.rates);
-        rates.filter_map(|(_, rate)| rate.as_mut()).for_each(&mut *change);
-        for body in &mut self.bodies {
-            body.position.iter_mut().chain(&mut body.rotation).for_each(&mut *change);
-        }
-        let of_bodies = self.bodies.iter_mut().flat_map(|body| &mut body.given);
-        self.given.iter_mut().chain(of_bodies).for_each(|given| change(&mut given.value));
-        for particle in &mut self.particles {
-            change(&mut particle.mass);
-            change(&mut particle.position);
-        }
-        self.points.iter_mut().for_each(|point| change(&mut point.at));
-        self.constraints.iter_mut().for_each(|constraint| change(&mut constraint.expression));
-        for (_, value) in self.potential.iter_mut().chain(&mut self.medium) {
-            value.iter_mut().for_each(&mut *change);
-        }
-        for clause in &mut self.attractions {
-            change(&mut clause.mu);
-            clause.center.iter_mut().for_each(&mut *change);
-        }
-        self.forces.iter_mut().for_each(|clause| clause.kind.each_expression(change));
-    }
-
-    /// Writes the places of points in the place of their names, where forces act in the axes of the body that has them.
-    fn place_at_points(&mut self) {
-        let mut forces = std::mem::take(&mut self.forces);
-        for clause in &mut forces {
-            let Some(body) = clause.kind.body_with_place().cloned() else { continue };
-            if let ForceKind::OnBody { at: Some(at), .. } | ForceKind::Wrench { at: Some(at), .. } = &mut clause.kind
-                && let Some(point) = self.own_point(&body, at)
-            {
-                *at = point.at.clone();
-            }
-        }
-        self.forces = forces;
-    }
-}
-
-/// Something has mass, and roles belong to the unnamed body.
-fn check_masses(
-    input: &DeriveInput,
-    statements: &Statements,
-    reader: &Reader<'_>,
-    owners: &[(Role, usize)],
-    scalar: &str,
-    uncertain: bool,
-    context: &mut Context,
-) {
-    let given = |role: Role| statements.given.iter().any(|given| given.role == role);
-    let known =
-        |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role) || given(role);
-    // An accelerating medium pushes the displaced mass as gravity does.
-    let pushed = statements.medium.is_some();
-    let known = |role: Role| known(role) || (role == Role::Gravity && pushed);
-    let bodies = statements.massive().count();
-    // Of several unnamed bodies none is meant to have the roles: they must get names first.
-    if let (Some(clause), [false, false]) = (&statements.of_chart, [Role::Mass, Role::Inertia].map(known)) {
-        let [mass, inertia] = [Role::Mass, Role::Inertia].map(|role| role.example(scalar));
-        context.error(
-            clause.span(),
-            format!(
-                "`{clause}` moves a body without a name, and `{}` has no mass data of one; add `{mass}` and `{inertia}`, \
-                 or remove `{clause}`: what else moves is said by `coordinates` and `speeds`",
-                input.ident
-            ),
-        );
-    } else if statements.in_chart || (statements.has_unnamed_body() && bodies == 1 && !uncertain) {
-        for role in [Role::Mass, Role::Inertia] {
-            if !known(role) {
-                validate::missing_role(input, role, scalar, context);
-            }
-        }
-    }
-    for claim in reader.fields.iter().filter_map(|field| field.role.as_ref()) {
-        validate::check_companion(claim.role, claim.span, known, scalar, context);
-    }
-    given::check_roles(&statements.given, &reader.fields, known, scalar, context);
-    if statements.has_unnamed_body() {
-        return;
-    }
-    if uncertain || statements.missed_any(&[Statement::Body, Statement::Particle]) {
-        return;
-    }
-    if bodies == 0 && statements.particles.is_empty() {
-        let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
-        let body_field = reader.fields.iter().any(|field| field.role.as_ref().is_some_and(|c| c.role == Role::Body));
-        // Of a field without its clause, or a role without its body, it is said there what to add.
-        if !body_field {
-            context.error(
-                span,
-                "the system has no body and no particle, so nothing in it has mass; \
-                 add `body(position = […], rotation = …)` or `particle(mass = …, position = […])`",
-            );
-        }
-        return;
-    }
-    for given in statements.given.iter().filter(|given| given.role != Role::Gravity) {
-        let word = given.role.word();
-        context.error(
-            given.span,
-            format!(
-                "`{word}` is that of a body without a name, and this system has none; write it in the clause of the body: \
-                 `body(name, {word} = …)`"
-            ),
-        );
-    }
-    for field in &reader.fields {
-        let Some(claim) = &field.role else { continue };
-        if matches!(claim.role, Role::Gravity | Role::Body) {
-            continue;
-        }
-        let word = claim.role.word();
-        context.error(
-            claim.span,
-            format!(
-                "the role `{word}` belongs to a body without a name, and this system has none; \
-                 add `body(position = […], rotation = …)`, or remove the role: expressions can name `{}` without it",
-                field.ident
-            ),
-        );
-    }
-}
-
-/// What expressions may name.
-fn scope(statements: &Statements, fields: &[ReadField<'_>], shapes: &[Shape], scalar: &str, uncertain: bool) -> Scope {
-    let coordinates = statements.coordinates.as_ref();
-    let speeds = statements.speeds.as_ref();
-    let inputs = statements.inputs.as_ref();
-    // Without a clause of coordinates, or of speeds where there are kinematics, every name is one that is missing there.
-    let complete = !uncertain
-        && !statements.missed_any(&[Statement::Frame, Statement::Point, Statement::Define])
-        && coordinates.map_or(statements.in_chart, |names| names.complete)
-        && speeds.map_or(statements.kinematics.is_none(), |names| names.complete)
-        && inputs.is_none_or(|names| names.complete);
-    let mut scope = Scope::new(complete);
-    for coordinate in coordinates.iter().flat_map(|names| &names.names) {
-        scope.add(&coordinate.ident, Meaning::Coordinate(coordinate.kind));
-    }
-    for speed in speeds.iter().flat_map(|names| &names.names) {
-        scope.add(&speed.ident, Meaning::Speed(speed.kind));
-    }
-    for input in inputs.iter().flat_map(|names| &names.names) {
-        scope.add(&input.ident, Meaning::Input(input.kind));
-    }
-    for (index, definition) in statements.definitions.iter().enumerate() {
-        scope.add(&definition.name, Meaning::Definition(index));
-    }
-    for (field, shape) in fields.iter().zip(shapes) {
-        scope.add(field.ident, meaning(field, *shape, scalar));
-    }
-    // A body whose field is missing, or something else, is a body all the same.
-    for name in statements.massive().filter_map(|body| body.name.as_ref()) {
-        scope.add(name, Meaning::Body);
-    }
-    if statements.has_unnamed_body() {
-        scope.add(&Ident::new(UNNAMED, Span::call_site()), Meaning::Body);
-    }
-    for name in statements.frames() {
-        scope.add(name, Meaning::Frame);
-    }
-    for point in &statements.points {
-        scope.add(&point.name, Meaning::Point);
-    }
-    scope
-}
-
-fn meaning(field: &ReadField<'_>, shape: Shape, scalar: &str) -> Meaning {
-    let name = field.ident;
-    let found = &field.reading.name;
-    // The shape by role serves where the type is an alias; a wrong scalar is noted where it is written.
-    let shape = match field.reading.kind {
-        Kind::Known(known) if shape == Shape::Other => known,
-        _ => shape,
-    };
-    match (shape, field.reading.kind) {
-        (Shape::Scalar, _) => Meaning::Scalar,
-        (Shape::Vector3, _) => Meaning::Vector,
-        (Shape::RigidBody, _) if field.role.is_some() => Meaning::Body,
-        (Shape::RigidBody, _) => Meaning::Unusable(format!(
-            "the field `{name}` has no role; a body is a field `#[gauss(body)] {name}: RigidBody<{scalar}>` with a clause \
-             `body({name}, …)`"
-        )),
-        (Shape::Other, Kind::Alias) => Meaning::Unusable(format!(
-            "what the field `{name}` is cannot be read from {found}; write `{scalar}` or `Vector3<{scalar}>` for its type"
-        )),
-        _ => Meaning::Unusable(format!(
-            "the type of the field `{name}` is {found}, and expressions name scalars and vectors only: \
-             `{scalar}` or `Vector3<{scalar}>`"
-        )),
     }
 }

@@ -2,13 +2,17 @@
 //!
 //! - `symbols`: what every field, coordinate and speed is called, and where the value of each symbol is read.
 //! - `values`: expressions.
+//! - `domains`: expressions without a value.
 //! - `forces`: what acts.
 //! - `parameters`: what the numbers of fields are called.
 //! - here: the scene, part by part, in the order in which one part can name another.
 
+mod domains;
+mod drag;
 mod forces;
 mod parameters;
 mod symbols;
+mod value;
 mod values;
 
 use std::cell::RefCell;
@@ -24,13 +28,15 @@ use crate::mechanics::{
     Assigned, Body, Constraint, ConstraintKind, Coordinate, Element, Kinematics, Matter, Observed, Placement, Quantity,
     SystemScene, Tree, Turn, poisson,
 };
-use crate::model::{self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, InChart, Model, Property};
+use crate::model::{
+    self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, GivenValue, InChart, Model, Property, Shape,
+};
 
-pub use forces::DragMatrix;
+pub use drag::DragMatrix;
 pub use parameters::{Parameter, parameters_of_body, parameters_of_system};
 use symbols::Declared;
 pub use symbols::{Part, Source, body_shape, role_of};
-use values::{Piece, Value};
+use value::{Piece, Value};
 
 /// Translates a system; kept between two translations of one system with different speeds.
 pub struct Translator<'a, 'g> {
@@ -44,6 +50,8 @@ pub struct Translator<'a, 'g> {
     links_of_clauses: Vec<usize>,
     /// Literal numbers that are constants of their own.
     literals: RefCell<Vec<(Rational, Expr<'g>)>>,
+    /// Expressions without a value.
+    mistakes: RefCell<Vec<(Span, String)>>,
     /// Matrices of drag, for warnings.
     drags: RefCell<Vec<DragMatrix<'g>>>,
     /// ḃ of each coordinate that is a pose, where the kinematics give it rather than u.
@@ -73,6 +81,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             links,
             links_of_clauses: vec![0; model.bodies.len()],
             literals: RefCell::default(),
+            mistakes: RefCell::default(),
             drags: RefCell::default(),
             pose_rates: vec![None; model.coordinates.len()],
             chart: None,
@@ -113,12 +122,23 @@ impl<'a, 'g> Translator<'a, 'g> {
     pub fn assigned(&self, given: &[Given]) -> syn::Result<Vec<Assigned<'g>>> {
         let nothing = self.no_links();
         let value = |given: &Given| {
-            let values = match self.value(&given.value, &nothing)? {
-                Value::Scalar(value) => vec![value],
-                Value::Vector(values) => values.to_vec(),
-                _ => return Err(bug(given.value.span)),
+            let values = match &given.value {
+                GivenValue::Expression(e) => match self.value(e, &nothing)? {
+                    Value::Scalar(value) => vec![value],
+                    Value::Vector(values) => values.to_vec(),
+                    _ => return Err(bug(given.span)),
+                },
+                GivenValue::Coefficients(coefficients) => {
+                    let matrix = self.coefficients(coefficients, &nothing)?;
+                    // Of a matrix the entries on and below the diagonal, column by column, as a body has them.
+                    let below = |i: usize| (i..6).map(move |j| (j, i));
+                    match given.shape {
+                        Shape::Matrix6 => (0..6).flat_map(below).map(|(i, j)| matrix[i][j]).collect(),
+                        _ => (0..6).map(|i| matrix[i][i]).collect(),
+                    }
+                }
             };
-            let quantity = symbols::quantity_of(given.role).ok_or_else(|| bug(given.value.span))?;
+            let quantity = symbols::quantity_of(given.role).ok_or_else(|| bug(given.span))?;
             Ok(Assigned { quantity, values })
         };
         given.iter().map(value).collect()

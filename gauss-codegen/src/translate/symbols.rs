@@ -11,7 +11,7 @@ use crate::mechanics::{
 };
 use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
 
-use super::values::Value;
+use super::value::Value;
 
 /// Which number of a field a symbol stands for.
 #[derive(Clone, Copy, Debug)]
@@ -284,17 +284,17 @@ impl<'g> Declared<'g> {
         if clause.massless {
             return None;
         }
+        let given = |role: Role| clause.given.iter().find(|given| given.role == role).map(|given| given.shape);
         let mut body = match &clause.name {
-            Some(name) if !clause.given.is_empty() => {
-                let shape_of =
-                    |role: Role| clause.given.iter().find(|given| given.role == role).map(|given| given.shape);
-                Body::named(self.graph, body_shape(shape_of), 2, name_of(name))
-            }
+            Some(name) if clause.has_matter() => Body::named(self.graph, body_shape(given), 2, name_of(name)),
             Some(name) => {
-                let has = |role: Role| [Role::CenterOfMass, Role::Inertia].contains(&role).then_some(Shape::RigidBody);
+                let of_field = |role: Role| [Role::CenterOfMass, Role::Inertia].contains(&role);
+                let has = |role: Role| if of_field(role) { Some(Shape::RigidBody) } else { given(role) };
                 let body = Body::named(self.graph, body_shape(has), 2, name_of(name));
                 let field = model.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
-                self.sources.extend(body.parameters.iter().map(|p| Source {
+                // What the clause says of the fluid takes the place of the other symbols.
+                let of_field = |p: &&ParameterSymbol<'g>| p.quantity == Quantity::Mass || of_field(role_of(p.quantity));
+                self.sources.extend(body.parameters.iter().filter(of_field).map(|p| Source {
                     symbol: p.symbol,
                     field,
                     part: Part::Body(p.quantity, p.row, p.column),
@@ -334,6 +334,9 @@ impl<'g> Declared<'g> {
                     _ => Part::Entry(p.row, p.column),
                 },
             }));
+            if let (Role::AddedMass, Some(matrix)) = (role, &body.added_mass) {
+                self.matrices.push((fields[field].ident.unraw().to_string(), matrix.clone()));
+            }
             let value = match (shape, own.as_slice()) {
                 (Shape::Scalar, [p]) => Value::Scalar(p.symbol),
                 (Shape::Vector3, [a, b, c]) => Value::Vector([a.symbol, b.symbol, c.symbol]),

@@ -3,7 +3,7 @@
 #[cfg(feature = "alloc")]
 use alloc::{vec, vec::Vec};
 
-use super::jacobian::{Differences, Given};
+use super::ways::{Differences, Given};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::{Feedback, Form, InputSource, MomentumForm, Problem, Rates, Sample, State, SystemProblem};
 use crate::real::Real;

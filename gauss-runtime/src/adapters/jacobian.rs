@@ -1,6 +1,7 @@
 //! ∂f/∂x times a vector, for implicit methods.
 
 use super::flat::FlatSystem;
+use super::ways::{Differences, Given};
 use crate::integrate::Problem;
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -19,14 +20,6 @@ pub trait JacobianProduct<P: Problem>: Sized {
         product: &mut [Scalar<P>],
     );
 }
-
-/// By central differences: two evaluations a product, right to ∛ε² of the third derivative (some 1e-10 in double precision) where all
-/// components of x are of one size. Implicit methods converge with less; their accuracy does not depend on it.
-///
-/// The points are `x ± hv` with `h = ∛ε max(1, |x|)/|v|` and the largest components as norms, so that components of x should not be
-/// smaller than 1 by many orders.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Differences;
 
 impl<S, P> JacobianProduct<P> for Differences
 where
@@ -54,10 +47,6 @@ where
         system.rates_by(t, |i| (-h).fma(v[i], x[i]), |i, value| product[i] = factor * (product[i] - value));
     }
 }
-
-/// By a function `(t, x, v, result)`: exact derivatives of your own.
-#[derive(Clone, Copy, Debug)]
-pub struct Given<G>(pub G);
 
 impl<S, P, G> JacobianProduct<P> for Given<G>
 where

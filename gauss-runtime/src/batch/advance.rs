@@ -3,9 +3,9 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::BatchSystem;
 use super::error::StateError;
 use super::packs::{SingleConfiguration, SingleSpeeds};
+use super::system::BatchSystem;
 use crate::configuration::Configuration;
 use crate::integrate::{IntegrationErrorKind, OneStep, Problem, Rates, State, accept, number_of_steps, prepare};
 use crate::real::Real;

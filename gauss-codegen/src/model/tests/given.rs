@@ -74,7 +74,11 @@ fn once_and_all_of_it() {
     );
     check(
         &under("mass = 1, inertia = 2, added_mass = 3", ""),
-        &[("added_mass", "the added mass is a field, a matrix or its diagonal; write `#[gauss(added_mass)]` on one")],
+        &[(
+            "3",
+            "an added mass is six, one for each component; write six scalars `[a, b, c, d, e, f]` in the order (u, ω), or \
+             the name of a field that is a `Vector6` or a `Matrix6`",
+        )],
     );
     check(
         &under("mass = 1, inertia = 2, displaced_mass = 3", ""),

@@ -1,7 +1,7 @@
 //! Bodies: names, fields, parents, roles.
 
 use super::super::check;
-use crate::model::arithmetic::ALLOWED;
+use crate::model::language::arithmetic::ALLOWED;
 
 /// A system with two named bodies whose clauses are given.
 fn two(first: &str, second: &str) -> String {

@@ -1,0 +1,233 @@
+//! What must hold between the bodies and frames of a scene: their names, their fields and their parents.
+
+use super::masses;
+use crate::model::language::context::Context;
+use crate::model::language::fields::{ReadField, Reader};
+use crate::model::language::statements::{Statement, Statements};
+use crate::model::language::words::{self, UNNAMED, same, word};
+use crate::model::scene::clauses::{BodyClause, ForceKind};
+use crate::model::scene::roles::Role;
+use proc_macro2::Ident;
+use syn::ext::IdentExt;
+
+/// Checks the clauses and the fields of bodies against one another; `scalar` is what proposed types are made of.
+pub fn check(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
+    check_names(statements, scalar, context);
+    check_fields(statements, reader, scalar, context);
+    check_references(statements, context);
+    check_cycles(&statements.bodies, context);
+}
+
+impl BodyClause {
+    /// What it is called in expressions and clauses.
+    pub fn word(&self) -> String {
+        self.name.as_ref().map_or_else(|| UNNAMED.to_owned(), word)
+    }
+}
+
+/// The names that bodies have.
+fn named<'a>(bodies: &[&'a BodyClause]) -> Vec<&'a Ident> {
+    bodies.iter().filter_map(|body| body.name.as_ref()).collect()
+}
+
+/// Only one body can do without a name, and no two have one.
+fn check_names(statements: &Statements, scalar: &str, context: &mut Context) {
+    let bodies: Vec<&BodyClause> = statements.massive().collect();
+    for (index, body) in bodies.iter().enumerate() {
+        match &body.name {
+            None if bodies.len() > 1 && !statements.in_chart => context.error(
+                body.span,
+                format!(
+                    "a body without a name must be the only one, and there are {}; write `body(name, …)` with a field \
+                     `#[gauss(body)] name: RigidBody<{scalar}>`",
+                    bodies.len()
+                ),
+            ),
+            Some(name) if named(&bodies[..index]).iter().any(|earlier| same(earlier, name)) => context.error(
+                name.span(),
+                format!("two bodies are called `{name}`; each has a field of its own: rename one of the two"),
+            ),
+            _ => {}
+        }
+    }
+}
+
+/// Each named body has a field, and each field that is a body has a clause.
+fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
+    let is_body = |field: &ReadField<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
+    statements.massive().filter(|body| body.has_matter()).for_each(|body| {
+        masses::check_named(body, &reader.fields, context);
+    });
+    let bodies = named(&statements.massive().filter(|body| !body.has_matter()).collect::<Vec<_>>());
+    // That a frame cannot have the name of a field is noted with the names.
+    let frames: Vec<&Ident> = statements.frames().collect();
+    let all = named(&statements.massive().collect::<Vec<_>>());
+    let placed = |field: &ReadField<'_>| all.iter().chain(&frames).any(|name| same(name, field.ident));
+    let unclaimed: Vec<(String, ())> = reader
+        .fields
+        .iter()
+        .filter(|field| is_body(field) && !placed(field))
+        .map(|field| (field.ident.unraw().to_string(), ()))
+        .collect();
+    let table: Vec<(&str, ())> = unclaimed.iter().map(|(name, ())| (name.as_str(), ())).collect();
+    // A field whose name is misspelt in its clause is not also a field without a clause.
+    let mut meant: Vec<String> = Vec::new();
+    for (index, name) in bodies.iter().enumerate() {
+        if bodies[..index].iter().any(|earlier| same(earlier, name)) {
+            continue;
+        }
+        let field = reader.fields.iter().find(|field| same(field.ident, name));
+        match field {
+            Some(field) if is_body(field) => {}
+            // Its role is wrong, which is noted.
+            Some(_) if reader.meant.contains(&Role::Body) => {}
+            Some(field) => {
+                let problem = match &field.role {
+                    Some(claim) => format!("is the {} of a body, not a body", claim.role.word().replace('_', " ")),
+                    None => "has no role".into(),
+                };
+                context.error(
+                    name.span(),
+                    format!(
+                        "the body `{name}` takes its mass data from the field `{name}`, which {problem}; \
+                         write `#[gauss(body)] {name}: RigidBody<{scalar}>`"
+                    ),
+                );
+            }
+            None => {
+                let near = words::nearest(&name.unraw().to_string(), &table);
+                let remedy = match near {
+                    Some((near, ())) => {
+                        meant.push(near.into());
+                        format!("did you mean `{near}`?")
+                    }
+                    None => format!(
+                        "add `#[gauss(body)] {name}: RigidBody<{scalar}>`, or `mass = …` and `inertia = …` to the clause"
+                    ),
+                };
+                context.error(name.span(), format!("the body `{name}` has no field with its mass data; {remedy}"));
+            }
+        }
+    }
+    if statements.missed_any(&[Statement::Body]) {
+        return;
+    }
+    for field in reader.fields.iter().filter(|field| is_body(field)) {
+        let name = field.ident.unraw().to_string();
+        if let Some(claim) = &field.role
+            && table.iter().any(|(unclaimed, ())| *unclaimed == name)
+            && !meant.contains(&name)
+        {
+            context.error(
+                claim.span,
+                format!(
+                    "the field `{name}` is a body, but no clause says where it is; \
+                     add `body({name}, position = […], rotation = …)` above `struct`"
+                ),
+            );
+        }
+    }
+}
+
+/// The body or frame called `name`.
+fn find(bodies: &[BodyClause], name: &Ident) -> Option<usize> {
+    bodies.iter().position(|body| body.word() == word(name))
+}
+
+/// Parents, the bodies that points are fixed in, and those that forces act on, are bodies and frames of the system.
+fn check_references(statements: &Statements, context: &mut Context) {
+    if statements.missed_any(&[Statement::Body, Statement::Frame]) {
+        return;
+    }
+    // Each with the body that it cannot be, and the argument that can be left out.
+    let mut references: Vec<(&Ident, Option<&Ident>, Option<&str>)> = Vec::new();
+    for body in &statements.bodies {
+        references.extend(body.parent.as_ref().map(|parent| (parent, body.name.as_ref(), Some("parent"))));
+    }
+    for particle in &statements.particles {
+        references.extend(particle.parent.as_ref().map(|parent| (parent, None, Some("parent"))));
+    }
+    references.extend(statements.points.iter().map(|point| (&point.body, None, None)));
+    for clause in &statements.forces {
+        match &clause.kind {
+            ForceKind::OnBody { body, .. } | ForceKind::Wrench { body, .. } | ForceKind::Drag { body, .. } => {
+                references.push((body, None, None));
+            }
+            ForceKind::Torque { body, reaction, .. } => {
+                references.push((body, None, None));
+                references.extend(reaction.as_ref().map(|reaction| (reaction, Some(body), Some("reaction"))));
+            }
+            _ => {}
+        }
+    }
+    for (written, other, optional) in references {
+        if find(&statements.bodies, written).is_some() {
+            continue;
+        }
+        let names: Vec<String> = statements
+            .bodies
+            .iter()
+            .map(BodyClause::word)
+            .filter(|name| other.is_none_or(|other| *name != word(other)))
+            .collect();
+        let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
+        let remedy = match words::nearest(&written.unraw().to_string(), &table) {
+            Some((near, ())) => format!("did you mean `{near}`?"),
+            None if statements.has_unnamed_body() && table.len() == 1 => format!("the only body is `{UNNAMED}`"),
+            None if !table.is_empty() => format!("expected {}", words::list(&table)),
+            None => match optional {
+                Some(argument) => format!("there is no other: leave `{argument}` out"),
+                None => format!("add `body({written}, …)` or `frame({written}, …)`"),
+            },
+        };
+        let problem = if statements.points.iter().any(|point| same(&point.name, written)) {
+            format!("`{written}` is a point, not a body or frame")
+        } else {
+            format!("no body or frame is called `{written}`")
+        };
+        context.error(written.span(), format!("{problem}; {remedy}"));
+    }
+}
+
+/// No body is, by whatever way, its own parent.
+fn check_cycles(bodies: &[BodyClause], context: &mut Context) {
+    let parents: Vec<Option<usize>> =
+        bodies.iter().map(|body| body.parent.as_ref().and_then(|name| find(bodies, name))).collect();
+    let mut seen = vec![false; bodies.len()];
+    for start in 0..bodies.len() {
+        let mut cycle = vec![start];
+        let mut next = parents[start];
+        while let Some(index) = next
+            && index != start
+            && cycle.len() <= bodies.len()
+        {
+            cycle.push(index);
+            next = parents[index];
+        }
+        if next != Some(start) || cycle.iter().any(|&index| seen[index]) {
+            continue;
+        }
+        cycle.iter().for_each(|&index| seen[index] = true);
+        if let Some(parent) = &bodies[start].parent {
+            let names: Vec<String> = cycle.iter().map(|&index| format!("`{}`", bodies[index].word())).collect();
+            let frames = cycle.iter().filter(|&&index| bodies[index].massless).count();
+            let (one, several) = match frames {
+                0 => ("body", "bodies"),
+                all if all == cycle.len() => ("frame", "frames"),
+                _ => ("body or frame", "bodies and frames"),
+            };
+            let message = match names.as_slice() {
+                [own] => format!("the {one} {own} is its own parent"),
+                [a, b] => format!("the {several} {a} and {b} are each other's parent"),
+                [rest @ .., last] => {
+                    format!("the parents of the {several} {} and {last} go round in a circle", rest.join(", "))
+                }
+                [] => continue,
+            };
+            context.error(
+                parent.span(),
+                format!("{message}; one {one} must be placed in the observer's frame: leave one `parent` out"),
+            );
+        }
+    }
+}

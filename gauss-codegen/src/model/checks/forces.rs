@@ -1,0 +1,170 @@
+//! What must hold of forces and inputs.
+
+use crate::model::language::context::Context;
+use crate::model::language::statements::Statements;
+use crate::model::language::words::{self, same, word};
+use crate::model::names::moving::Moving;
+use crate::model::scene::clauses::{CoordinateKind, Extent, ForceKind};
+use crate::model::scene::expression::{Expression, ExpressionKind, Property};
+use proc_macro2::Ident;
+
+/// What names and numbers alone show: which coordinates are driven, reactions, limits.
+pub fn check(statements: &Statements, context: &mut Context) {
+    for clause in &statements.forces {
+        match &clause.kind {
+            ForceKind::Drive { rates } => check_drive(rates, statements, context),
+            ForceKind::Torque { body, reaction: Some(reaction), .. } if same(body, reaction) => context.error(
+                reaction.span(),
+                format!("the torque on `{body}` and its reaction on `{body}` cancel; name another body"),
+            ),
+            ForceKind::Stop { least, most, width, .. } => {
+                let literal = |limit: &Option<Expression>| limit.as_ref().and_then(Expression::literal);
+                if let (Some(first), Some((a, b))) = (least, literal(least).zip(literal(most)))
+                    && a >= b
+                {
+                    context.error(first.span, "the lower limit of a stop is below its upper limit; exchange the two");
+                }
+                if width.literal().is_some_and(|width| width <= 0.0) {
+                    context.error(
+                        width.span,
+                        "the width of a stop is the distance over which it sets in; write a positive number",
+                    );
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Scalar coordinates, each of them once.
+fn check_drive(rates: &[(Ident, Expression)], statements: &Statements, context: &mut Context) {
+    let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
+    let scalars: Vec<String> =
+        coordinates().filter(|q| q.kind == CoordinateKind::Scalar).map(|q| word(&q.ident)).collect();
+    let table: Vec<(&str, ())> = scalars.iter().map(|name| (name.as_str(), ())).collect();
+    for (index, (name, _)) in rates.iter().enumerate() {
+        if rates[..index].iter().any(|(earlier, _)| same(earlier, name)) {
+            context.error(name.span(), format!("`{name}` is driven twice in one clause; write the sum of the two"));
+            continue;
+        }
+        match coordinates().find(|q| same(&q.ident, name)).map(|q| q.kind) {
+            Some(CoordinateKind::Scalar) => {}
+            Some(CoordinateKind::Rotation) => context.error(
+                name.span(),
+                format!(
+                    "`{name}` is a rotation, and what drives its angular velocity is a torque; \
+                     write `torque(body = …, value = …)`"
+                ),
+            ),
+            Some(CoordinateKind::Pose) => context.error(
+                name.span(),
+                format!(
+                    "`{name}` is a pose, and what drives its twist are forces and torques; \
+                     write `force(body = …, value = …)` and `torque(body = …, value = …)`"
+                ),
+            ),
+            None if statements.coordinates.as_ref().is_some_and(|names| names.complete) && !statements.missed => {
+                let is_speed =
+                    statements.speeds.iter().flat_map(|names| &names.names).any(|speed| same(&speed.ident, name));
+                let problem = if is_speed { "is a speed, not a coordinate" } else { "is no coordinate" };
+                // Between single letters every name is near; a speed is no misspelt coordinate.
+                let single = word(name).chars().count() == 1;
+                let near = if is_speed || single { None } else { words::nearest(&word(name), &table) };
+                let remedy = match near {
+                    Some((near, ())) => format!("did you mean `{near}`?"),
+                    None if table.is_empty() => "write `force(…)` or `torque(…)`".into(),
+                    None => format!("expected {}", words::list(&table)),
+                };
+                context.error(
+                    name.span(),
+                    format!("`{name}` {problem}, and a drive acts on rates of scalar coordinates; {remedy}"),
+                );
+            }
+            None => {}
+        }
+    }
+}
+
+/// What acts does something, and inputs are for something. Asked only where all else is well, since what could not be read
+/// may be what is missed.
+pub fn check_effect(statements: &Statements, context: &mut Context) {
+    let moving = Moving::new(statements);
+    for clause in &statements.forces {
+        let message = match &clause.kind {
+            ForceKind::AtPoint { at, .. } if !moving.in_place(at) => {
+                "the point of the force is at rest, where it does nothing: it names no coordinate, and no body or point \
+                 that moves; add `body = …` if it is meant in the axes of a body"
+                    .into()
+            }
+            ForceKind::OnBody { body, .. } if !moving.moves(body) => at_rest("force", body),
+            ForceKind::Torque { body, reaction: None, .. } if !moving.moves(body) => at_rest("torque", body),
+            ForceKind::Torque { body, reaction: Some(reaction), .. }
+                if !moving.moves(body) && !moving.moves(reaction) =>
+            {
+                format!("neither `{body}` nor `{reaction}` moves, so the torque does nothing; remove it")
+            }
+            ForceKind::Wrench { body, .. } if !moving.moves(body) => at_rest("wrench", body),
+            ForceKind::Drag { body, .. } if !moving.moves(body) => at_rest("drag", body),
+            ForceKind::Spring { extent, .. } | ForceKind::Stop { extent, .. } if !extent.varies(&moving) => {
+                let noun = clause.noun();
+                match extent {
+                    Extent::Between { .. } => {
+                        format!("neither end of the {noun} moves; name a coordinate, or a body or point that moves")
+                    }
+                    Extent::Along(_) => format!(
+                        "what the {noun} acts along does not change: it names no coordinate, and no body or point that moves"
+                    ),
+                }
+            }
+            ForceKind::Dissipation(function) if !moving.in_velocity(function) => {
+                "the dissipation function contains no velocity of anything that moves, so it brakes nothing; name a \
+                 speed, or a velocity such as `rate(…)`"
+                    .into()
+            }
+            _ => continue,
+        };
+        context.error(clause.span, message);
+    }
+    let expressions: Vec<&Expression> =
+        statements.forces.iter().flat_map(|clause| clause.expressions()).map(|(_, expression)| expression).collect();
+    for input in statements.inputs.iter().flat_map(|names| &names.names) {
+        let ident = &input.ident;
+        if !expressions.iter().any(|expression| expression.names(&word(ident))) {
+            context.error(
+                ident.span(),
+                format!("the input `{ident}` is used nowhere; name it in the value of a force, or remove it"),
+            );
+        }
+    }
+}
+
+/// Something depends on the velocity of the medium. `fluid`: some body has added mass, or displaces some of it.
+pub fn check_medium(statements: &Statements, fluid: bool, context: &mut Context) {
+    let Some((name, _)) = &statements.medium else { return };
+    let relative = |part: &Expression| matches!(part.kind, ExpressionKind::Property(_, Property::RelativeVelocity));
+    let felt = statements.forces.iter().any(|clause| {
+        let mut found = matches!(clause.kind, ForceKind::Drag { .. });
+        clause.expressions().iter().for_each(|(_, e)| e.walk(&mut |part| found |= relative(part)));
+        found
+    });
+    if !felt && !fluid {
+        context.error(
+            name.span(),
+            "nothing in the scene feels the medium; add `drag(…)`, name `.relative_velocity` of a body in a force, give \
+             the body a field with the role `added_mass`, or remove `medium`",
+        );
+    }
+}
+
+fn at_rest(noun: &str, body: &Ident) -> String {
+    format!("`{body}` does not move, so the {noun} does nothing; name a body that moves")
+}
+
+impl Extent {
+    fn varies(&self, moving: &Moving) -> bool {
+        match self {
+            Extent::Between { from, to } => moving.in_place(from) || moving.in_place(to),
+            Extent::Along(along) => moving.in_place(along),
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! What must hold of mass data: something has mass, roles belong to a body, nothing is said twice.
+
+use super::field_shapes;
+use crate::model::language::context::Context;
+use crate::model::language::fields::{ReadField, Reader};
+use crate::model::language::kind::Kind;
+use crate::model::language::shapes::TypeKind;
+use crate::model::language::statements::{Statement, Statements};
+use crate::model::language::words::same;
+use crate::model::names::expressions::ENTRY;
+use crate::model::names::kinds;
+use crate::model::names::places::Place;
+use crate::model::names::scope::Scope;
+use crate::model::scene::clauses::{BodyClause, Coefficients, Given, GivenValue};
+use crate::model::scene::expression::{Expression, ExpressionKind};
+use crate::model::scene::roles::{Role, Shape};
+use proc_macro2::{Ident, Span};
+use syn::DeriveInput;
+
+/// Something has mass, and roles belong to the unnamed body.
+pub fn check_roles(
+    input: &DeriveInput,
+    statements: &Statements,
+    reader: &Reader<'_>,
+    owners: &[(Role, usize)],
+    scalar: &str,
+    uncertain: bool,
+    context: &mut Context,
+) {
+    let given = |role: Role| statements.given.iter().any(|given| given.role == role);
+    let known =
+        |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role) || given(role);
+    // An accelerating medium pushes the displaced mass as gravity does.
+    let pushed = statements.medium.is_some();
+    let known = |role: Role| known(role) || (role == Role::Gravity && pushed);
+    let bodies = statements.massive().count();
+    // Of several unnamed bodies none is meant to have the roles: they must get names first.
+    if let (Some(clause), [false, false]) = (&statements.of_chart, [Role::Mass, Role::Inertia].map(known)) {
+        let [mass, inertia] = [Role::Mass, Role::Inertia].map(|role| role.example(scalar));
+        context.error(
+            clause.span(),
+            format!(
+                "`{clause}` moves a body without a name, and `{}` has no mass data of one; add `{mass}` and `{inertia}`, \
+                 or remove `{clause}`: what else moves is said by `coordinates` and `speeds`",
+                input.ident
+            ),
+        );
+    } else if statements.in_chart || (statements.has_unnamed_body() && bodies == 1 && !uncertain) {
+        for role in [Role::Mass, Role::Inertia] {
+            if !known(role) {
+                field_shapes::missing_role(input, role, scalar, context);
+            }
+        }
+    }
+    for claim in reader.fields.iter().filter_map(|field| field.role.as_ref()) {
+        field_shapes::check_companion(claim.role, claim.span, known, scalar, context);
+    }
+    check_twice(&statements.given, &reader.fields, known, scalar, context);
+    statements.massive().for_each(|body| check_fluid(body, known(Role::Gravity), scalar, context));
+    if statements.has_unnamed_body() {
+        return;
+    }
+    if uncertain || statements.missed_any(&[Statement::Body, Statement::Particle]) {
+        return;
+    }
+    if bodies == 0 && statements.particles.is_empty() {
+        let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
+        let body_field = reader.fields.iter().any(|field| field.role.as_ref().is_some_and(|c| c.role == Role::Body));
+        // Of a field without its clause, or a role without its body, it is said there what to add.
+        if !body_field {
+            context.error(
+                span,
+                "the system has no body and no particle, so nothing in it has mass; \
+                 add `body(position = […], rotation = …)` or `particle(mass = …, position = […])`",
+            );
+        }
+        return;
+    }
+    for given in statements.given.iter().filter(|given| given.role != Role::Gravity) {
+        let word = given.role.word();
+        context.error(
+            given.span,
+            format!(
+                "`{word}` is that of a body without a name, and this system has none; write it in the clause of the body: \
+                 `body(name, {word} = …)`"
+            ),
+        );
+    }
+    for field in &reader.fields {
+        let Some(claim) = &field.role else { continue };
+        if matches!(claim.role, Role::Gravity | Role::Body) {
+            continue;
+        }
+        let word = claim.role.word();
+        context.error(
+            claim.span,
+            format!(
+                "the role `{word}` belongs to a body without a name, and this system has none; \
+                 add `body(position = […], rotation = …)`, or remove the role: expressions can name `{}` without it",
+                field.ident
+            ),
+        );
+    }
+}
+
+/// Settles the shapes, and refuses numbers that no body has.
+pub fn check(list: &mut [Given], fields: &[ReadField<'_>], scope: &Scope, context: &mut Context) {
+    for given in list {
+        match &given.value {
+            GivenValue::Coefficients(Coefficients::Field(name)) => {
+                let field = fields.iter().find(|field| same(field.ident, name));
+                // What is no such field is noted with those of drags.
+                if let Some(TypeKind::Known(shape)) = field.map(|field| field.reading.kind) {
+                    given.shape = shape;
+                }
+                continue;
+            }
+            GivenValue::Coefficients(Coefficients::Diagonal(entries)) => {
+                given.shape = Shape::Vector6;
+                for entry in entries {
+                    kinds::check(entry, ENTRY, scope, context);
+                }
+                continue;
+            }
+            GivenValue::Expression(value) => match kinds::check(value, Place::Given(given.role), scope, context) {
+                Some(Kind::Scalar) => given.shape = Shape::Scalar,
+                Some(Kind::Vector) => given.shape = Shape::Vector3,
+                _ => continue,
+            },
+        }
+        if let Some((span, rule)) = broken_rule(given) {
+            context.error(span, rule);
+        }
+    }
+}
+
+/// What literal numbers alone show to be wrong. The rest is checked when a kernel is made, because it depends on the motion: of a body
+/// in the plane one moment of inertia matters.
+fn broken_rule(given: &Given) -> Option<(Span, String)> {
+    let GivenValue::Expression(value) = &given.value else { return None };
+    let parts: Vec<&Expression> = match &value.kind {
+        ExpressionKind::Vector(parts) => parts.iter().map(|part| &**part).collect(),
+        _ => vec![value],
+    };
+    let word = given.role.word();
+    let (least, positive) = match given.role {
+        Role::Mass => ("positive", true),
+        Role::Inertia | Role::DisplacedMass => ("zero or more", false),
+        _ => return None,
+    };
+    let wrong = |part: &&Expression| part.literal().is_some_and(|number| number < 0.0 || (positive && number == 0.0));
+    let part = parts.into_iter().find(wrong)?;
+    Some((part.span, format!("`{word}` must be {least}, found {}", part.literal()?)))
+}
+
+/// What a field says is not said by a clause too; `known` are the roles that something plays.
+pub fn check_twice(
+    list: &[Given],
+    fields: &[ReadField<'_>],
+    known: impl Fn(Role) -> bool,
+    scalar: &str,
+    context: &mut Context,
+) {
+    for given in list {
+        let word = given.role.word();
+        let owner = fields.iter().find(|field| field.role.as_ref().is_some_and(|claim| claim.role == given.role));
+        if let Some(field) = owner {
+            context.error(
+                given.span,
+                format!("`{word}` is given here and by the field `{}`; keep one of the two", field.ident),
+            );
+        }
+        field_shapes::check_companion(given.role, given.span, &known, scalar, context);
+    }
+}
+
+/// What the fluid does to a body with a name needs gravity, and something that it displaces.
+pub fn check_fluid(body: &BodyClause, gravity: bool, scalar: &str, context: &mut Context) {
+    let Some(name) = &body.name else { return };
+    for given in &body.given {
+        let displaced = body.given.iter().any(|other| other.role == Role::DisplacedMass);
+        match given.role {
+            Role::DisplacedMass => {
+                let known = |role: Role| role != Role::Gravity || gravity;
+                field_shapes::check_companion(given.role, given.span, known, scalar, context);
+            }
+            Role::CenterOfBuoyancy if !displaced => context.error(
+                given.span,
+                format!(
+                    "`{}` of `{name}` needs `displaced_mass`; without a displaced mass nothing acts there: add \
+                     `displaced_mass = …`",
+                    given.role.word()
+                ),
+            ),
+            _ => {}
+        }
+    }
+}
+
+/// A named body has its mass data from a field or from its clause, from there all of them.
+pub fn check_named(body: &BodyClause, fields: &[ReadField<'_>], context: &mut Context) {
+    let Some(name) = &body.name else { return };
+    if let Some(field) = fields.iter().find(|field| same(field.ident, name)) {
+        context.error(
+            name.span(),
+            format!(
+                "the mass data of the body `{name}` are given here and by the field `{}`; keep one of the two",
+                field.ident
+            ),
+        );
+    }
+    let has = |role: Role| body.given.iter().any(|given| given.role == role);
+    for role in [Role::Mass, Role::Inertia] {
+        if !has(role) {
+            let remedy = if role == Role::Inertia { ", or write a `particle`" } else { "" };
+            context.error(
+                body.span,
+                format!(
+                    "the body `{name}` has some of its mass data here, but no `{}`; add `{} = …`{remedy}",
+                    role.word(),
+                    role.word()
+                ),
+            );
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! What must hold of a scene as a whole, beyond its single expressions.
+
+pub mod bodies;
+pub mod coefficients;
+pub mod constraints;
+pub mod field_shapes;
+pub mod forces;
+pub mod masses;
+pub mod motion;

@@ -1,0 +1,190 @@
+//! What must hold between coordinates, speeds and kinematics.
+
+use crate::model::language::context::Context;
+use crate::model::language::statements::Statements;
+use crate::model::language::words::{self, same};
+use crate::model::names::naming::is_reserved;
+use crate::model::names::places::Place;
+use crate::model::scene::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind};
+use crate::model::scene::expression::Expression;
+use proc_macro2::Ident;
+use syn::ext::IdentExt;
+
+/// With speeds of its own a system needs one equation for each coordinate; without, it needs none.
+pub fn check_kinematics(statements: &Statements, uncertain: bool, context: &mut Context) {
+    let coordinates = statements.coordinates.as_ref();
+    if statements.in_chart && coordinates.is_none() {
+        let speeds = statements.speeds.iter().map(|speeds| &speeds.clause);
+        for clause in speeds.chain(statements.kinematics.iter().map(|kinematics| &kinematics.clause)) {
+            context.error(
+                clause.span(),
+                format!(
+                    "the chart has speeds and kinematics of its own, and `{clause}` is of coordinates beside it; add \
+                     `coordinates(…)` of what else moves, remove `{clause}`, or remove `chart` and `motion`"
+                ),
+            );
+        }
+        return;
+    }
+    match (&statements.speeds, &statements.kinematics) {
+        (None, None) => {}
+        (Some(speeds), None) => {
+            if !uncertain {
+                let equations: Vec<String> = coordinates.iter().flat_map(|names| &names.names).map(equation).collect();
+                let equations = if equations.is_empty() { "x = …".into() } else { equations.join(", ") };
+                context.error(
+                    speeds.clause.span(),
+                    format!("`speeds` do not say how the coordinates change; add `kinematics({equations})`"),
+                );
+            }
+            return;
+        }
+        (None, Some(kinematics)) => {
+            if !uncertain {
+                context.error(
+                    kinematics.clause.span(),
+                    "`kinematics` needs `speeds`, which it expresses the rates of the coordinates in; \
+                     add `speeds(…)`, or remove `kinematics` to have these rates for speeds",
+                );
+            }
+        }
+        (Some(_), Some(_)) => {}
+    }
+    let (Some(kinematics), Some(coordinates)) = (&statements.kinematics, coordinates) else { return };
+    let table: Vec<(String, ())> = coordinates.names.iter().map(|name| (name.ident.unraw().to_string(), ())).collect();
+    let table: Vec<(&str, ())> = table.iter().map(|(name, ())| (name.as_str(), ())).collect();
+    let mut meant: Vec<String> = Vec::new();
+    for (index, (name, _)) in kinematics.rates.iter().enumerate() {
+        let word = name.unraw().to_string();
+        if kinematics.rates[..index].iter().any(|(earlier, _)| same(earlier, name)) {
+            context.error(name.span(), format!("`{word}` has kinematics twice; keep one of the two"));
+            continue;
+        }
+        if table.iter().any(|(known, ())| *known == word) {
+            continue;
+        }
+        let is_speed = statements.speeds.iter().flat_map(|speeds| &speeds.names).any(|speed| same(&speed.ident, name));
+        // Between single letters every name is near; a speed is no misspelt coordinate.
+        let near = if is_speed || word.chars().count() == 1 { None } else { words::nearest(&word, &table) };
+        meant.extend(near.map(|(near, ())| near.to_owned()));
+        if coordinates.complete {
+            let problem = if is_speed { "is a speed, not a coordinate" } else { "is no coordinate" };
+            let remedy = match near {
+                Some((near, ())) => format!("did you mean `{near}`?"),
+                None if table.is_empty() => "add it to `coordinates(…)`".into(),
+                None => format!("expected {}", words::list(&table)),
+            };
+            context.error(name.span(), format!("`{word}` {problem}; {remedy}"));
+        }
+    }
+    if !kinematics.complete || statements.speeds.is_none() {
+        return;
+    }
+    for (index, coordinate) in coordinates.names.iter().enumerate() {
+        let Coordinate { ident, .. } = coordinate;
+        let word = ident.unraw().to_string();
+        // A name that must change, or go, needs no kinematics yet.
+        let refused =
+            is_reserved(&word) || coordinates.names[..index].iter().any(|earlier| same(&earlier.ident, ident));
+        if refused {
+            continue;
+        }
+        if !kinematics.rates.iter().any(|(name, _)| same(name, ident)) && !meant.contains(&word) {
+            let equation = equation(coordinate);
+            context.error(
+                ident.span(),
+                format!("the coordinate `{word}` has no kinematics; add `{equation}` to `kinematics(…)`"),
+            );
+        }
+    }
+}
+
+/// Speeds that no rate depends on, and coordinates that no mass depends on, have no equation of motion: A of (3.4) is
+/// singular. What this sees in the names alone is said here; the rest shows when A is formed.
+///
+/// What is named as a whole, or in any part, counts as named; `all` is every expression with its place.
+pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], context: &mut Context) {
+    let Some(coordinates) = &statements.coordinates else { return };
+    let named = |name: &Ident, at: &dyn Fn(Place) -> bool| {
+        let word = name.unraw().to_string();
+        all.iter().any(|(place, expression)| at(*place) && expression.names(&word))
+    };
+    match &statements.speeds {
+        Some(speeds) => {
+            let in_kinematics = |place: Place| matches!(place, Place::Kinematics(_));
+            for Speed { ident, .. } in speeds.names.iter().filter(|speed| !named(&speed.ident, &in_kinematics)) {
+                context.error(
+                    ident.span(),
+                    format!(
+                        "no velocity depends on the speed `{ident}`, so nothing determines its rate; \
+                         name it in `kinematics(…)` or remove it"
+                    ),
+                );
+            }
+            let dimension: usize = coordinates.names.iter().map(|coordinate| coordinate.kind.dimension()).sum();
+            let mut count = 0;
+            let mut excess = None;
+            for speed in &speeds.names {
+                count += speed.kind.dimension();
+                excess = excess.or((count > dimension).then_some(&speed.ident));
+            }
+            if let Some(excess) = excess {
+                // Poses and rotations have as many rates as they have degrees of freedom.
+                let scalar = coordinates.names.iter().all(|coordinate| coordinate.kind == CoordinateKind::Scalar);
+                let what = if scalar { "coordinates" } else { "degrees of freedom of the coordinates" };
+                context.error(
+                    excess.span(),
+                    format!(
+                        "there are more speeds ({count}) than {what} ({dimension}), so the velocities do not \
+                         determine them; remove {}",
+                        count - dimension
+                    ),
+                );
+            }
+        }
+        None => {
+            let moving = |place: Place| {
+                matches!(place, Place::Position | Place::Rotation | Place::Particle { .. } | Place::Constraint(_))
+            };
+            for Coordinate { ident, .. } in coordinates.names.iter().filter(|name| !named(&name.ident, &moving)) {
+                context.error(
+                    ident.span(),
+                    format!(
+                        "no position and no rotation depends on the coordinate `{ident}`, so nothing determines its \
+                         acceleration; name it in one of them or remove it"
+                    ),
+                );
+            }
+        }
+    }
+}
+
+/// The form of a coordinate's kinematics.
+fn equation(coordinate: &Coordinate) -> String {
+    let rate = match coordinate.kind {
+        CoordinateKind::Scalar | CoordinateKind::Rotation => "…",
+        CoordinateKind::Pose => "twist(…, …)",
+    };
+    format!("{} = {rate}", coordinate.ident.unraw())
+}
+
+impl CoordinateKind {
+    /// How many independent rates it has.
+    fn dimension(self) -> usize {
+        match self {
+            CoordinateKind::Scalar => 1,
+            CoordinateKind::Pose => 6,
+            CoordinateKind::Rotation => 3,
+        }
+    }
+}
+
+impl SpeedKind {
+    /// How many numbers it is.
+    pub fn dimension(self) -> usize {
+        match self {
+            SpeedKind::Scalar => 1,
+            SpeedKind::Vector => 3,
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! Clauses that declare names: coordinates, speeds and inputs with their kinds, speeds that stay independent, kinematics, and
+//! definitions.
+
+use super::arguments::{self, brackets, value};
+use super::attributes::{self, Clause, Owner};
+use super::context::Context;
+use super::words::{self, Table};
+use crate::model::scene::clauses::{Coordinate, CoordinateKind, InputKind, InputName, Speed, SpeedKind};
+use crate::model::scene::expression::Expression;
+use proc_macro2::{Ident, Span, TokenTree};
+
+/// What a clause declares, in brackets.
+pub struct Names<N> {
+    pub clause: Ident,
+    pub names: Vec<N>,
+    /// Each of them could be read.
+    pub complete: bool,
+}
+
+/// `kinematics(x = …)`.
+pub struct Kinematics {
+    pub clause: Ident,
+    /// Rates that could not be read are kept, so that they are not missing as well.
+    pub rates: Vec<(Ident, Option<Expression>)>,
+    pub complete: bool,
+}
+
+/// `define(name = …)`: one of its equations.
+pub struct Definition {
+    pub name: Ident,
+    /// One that could not be read is kept, so that its name is known.
+    pub expression: Option<Expression>,
+}
+
+const COORDINATES: &Table<CoordinateKind> = &[("Pose", CoordinateKind::Pose), ("Rotation", CoordinateKind::Rotation)];
+const SPEEDS: &Table<SpeedKind> = &[("Vector3", SpeedKind::Vector)];
+const INPUTS: &Table<InputKind> = &[("Vector3", InputKind::Vector), ("Wrench", InputKind::Wrench)];
+
+/// How the names of a clause are declared, for messages.
+struct Language<K: 'static> {
+    noun: &'static str,
+    example: &'static str,
+    kinds: &'static Table<K>,
+    scalar: K,
+    /// Units may follow, `thrust = "N"`.
+    units: bool,
+}
+
+/// `coordinates(x, pose: Pose)`.
+pub fn read_coordinates(clause: &Clause, context: &mut Context) -> Names<Coordinate> {
+    let language = Language {
+        noun: "coordinate",
+        example: "x, y, theta",
+        kinds: COORDINATES,
+        scalar: CoordinateKind::Scalar,
+        units: false,
+    };
+    read_names(clause, &language, |ident, kind, _| Coordinate { ident, kind }, context)
+}
+
+/// `speeds(v, w: Vector3)`.
+pub fn read_speeds(clause: &Clause, context: &mut Context) -> Names<Speed> {
+    let language =
+        Language { noun: "speed", example: "v, omega", kinds: SPEEDS, scalar: SpeedKind::Scalar, units: false };
+    read_names(clause, &language, |ident, kind, _| Speed { ident, kind }, context)
+}
+
+/// `independent(v, w)`.
+pub fn read_independent(clause: &Clause, context: &mut Context) -> Names<Ident> {
+    let language = Language { noun: "speed", example: "v, omega", kinds: &[], scalar: (), units: false };
+    read_names(clause, &language, |ident, (), _| ident, context)
+}
+
+/// `input(thrust = "N", wind: Vector3 = "m/s", gust: Wrench)`.
+pub fn read_inputs(clause: &Clause, context: &mut Context) -> Names<InputName> {
+    let language =
+        Language { noun: "input", example: "thrust, rudder", kinds: INPUTS, scalar: InputKind::Scalar, units: true };
+    let mut of_wrenches = Vec::new();
+    let make = |ident: Ident, kind, unit: Option<(String, Span)>| {
+        if let (InputKind::Wrench, Some((_, span))) = (kind, &unit) {
+            of_wrenches.push((ident.clone(), *span));
+        }
+        InputName { ident, kind, unit: unit.map(|(text, _)| text).filter(|_| kind != InputKind::Wrench) }
+    };
+    let names = read_names(clause, &language, make, context);
+    for (ident, span) in of_wrenches {
+        context.error(
+            span,
+            format!(
+                "a wrench has two units, N of its force and N m of its torque, without being told; write `{ident}: Wrench`"
+            ),
+        );
+    }
+    names
+}
+
+fn read_names<N, K: Copy>(
+    clause: &Clause,
+    language: &Language<K>,
+    mut make: impl FnMut(Ident, K, Option<(String, Span)>) -> N,
+    context: &mut Context,
+) -> Names<N> {
+    let noun = language.noun;
+    let mut names = Names { clause: clause.name.clone(), names: Vec::new(), complete: false };
+    let Some(group) = brackets(clause, language.example, context) else { return names };
+    names.complete = true;
+    for piece in attributes::pieces(group.stream(), &format!("the name of {}", words::a(noun)), context) {
+        let (ident, rest) = match piece.split_first() {
+            Some((TokenTree::Ident(ident), rest)) => (ident, rest),
+            Some((other, _)) => {
+                context.error(
+                    attributes::start(other),
+                    format!("expected the name of {}, found {}", words::a(noun), attributes::found(other)),
+                );
+                names.complete = false;
+                continue;
+            }
+            None => continue,
+        };
+        let Some(ident) = arguments::name(ident, noun, context) else {
+            names.complete = false;
+            continue;
+        };
+        let equals = |token: &TokenTree| matches!(token, TokenTree::Punct(equals) if equals.as_char() == '=');
+        let (rest, unit) = match rest.iter().position(equals).filter(|_| language.units) {
+            Some(index) => {
+                (&rest[..index], arguments::read_unit(&ident, &rest[index + 1..], rest[index].span(), context))
+            }
+            None => (rest, None),
+        };
+        match rest {
+            [] => names.names.push(make(ident, language.scalar, unit)),
+            [TokenTree::Punct(colon), ty @ ..] if colon.as_char() == ':' => {
+                match read_kind(&ident, colon.span(), ty, language, context) {
+                    Some(kind) => names.names.push(make(ident, kind, unit)),
+                    None => names.complete = false,
+                }
+            }
+            [other, ..] => {
+                context.error(
+                    attributes::start(other),
+                    format!(
+                        "expected `,` after `{ident}`, found {}; separate names by commas",
+                        attributes::found(other)
+                    ),
+                );
+                names.names.push(make(ident, language.scalar, unit));
+                names.complete = false;
+            }
+        }
+    }
+    names
+}
+
+/// What stands after the colon; `None` if it is unknown what was meant, which is noted.
+fn read_kind<K: Copy>(
+    ident: &Ident,
+    colon: Span,
+    ty: &[TokenTree],
+    language: &Language<K>,
+    context: &mut Context,
+) -> Option<K> {
+    let Language { noun, kinds, scalar, .. } = language;
+    if kinds.is_empty() {
+        context.error(colon, format!("the kind of {} is said where it is declared; write `{ident}`", words::a(noun)));
+        return Some(*scalar);
+    }
+    let ty = attributes::flat(ty.iter().cloned().collect());
+    if let [TokenTree::Ident(word)] = ty.as_slice()
+        && let Some(&(_, kind)) = kinds.iter().find(|(name, _)| word == name)
+    {
+        return Some(kind);
+    }
+    let written = attributes::written(&ty);
+    if let ([TokenTree::Literal(_)], true, true) = (ty.as_slice(), language.units, written.starts_with('"')) {
+        context.error(colon, format!("a unit follows `=`; write `{ident} = {written}`"));
+        return Some(*scalar);
+    }
+    // The last word before any `<…>`: `f64`, `Rotation` of `gauss::Rotation`, `Vector3` of `Vector3<f64>`.
+    let head = written.split('<').next().unwrap_or_default();
+    let word = head.rsplit("::").next().unwrap_or_default().trim();
+    let span = ty.first().map_or(colon, attributes::start);
+    if word.is_empty() {
+        let list = words::list(kinds);
+        context.error(colon, format!("nothing follows `{ident}:`; expected {list}, or `{ident}` alone for a scalar"));
+        return Some(*scalar);
+    }
+    if matches!(word, "f64" | "f32" | "T" | "Scalar") {
+        context.error(colon, format!("a scalar {noun} has no type; write `{ident}`"));
+        return Some(*scalar);
+    }
+    if let Some((near, kind)) = words::nearest(word, kinds) {
+        let message = if near == word {
+            format!("`{written}` is written as one word; write `{ident}: {near}`")
+        } else {
+            format!("unknown kind of {noun} `{word}`; did you mean `{near}`?")
+        };
+        context.error(span, message);
+        return Some(kind);
+    }
+    let list = words::list(kinds);
+    context
+        .error(span, format!("unknown kind of {noun} `{written}`; expected {list}, or `{ident}` alone for a scalar"));
+    None
+}
+
+pub fn read_kinematics(clause: &Clause, context: &mut Context) -> Kinematics {
+    let mut kinematics = Kinematics { clause: clause.name.clone(), rates: Vec::new(), complete: false };
+    let Some(group) = brackets(clause, "x = v, …", context) else { return kinematics };
+    let (equations, complete) = arguments::arguments(group, Owner::Kinematics, context);
+    kinematics.complete = complete;
+    for equation in &equations {
+        kinematics.rates.push((equation.name.clone(), value(equation, "v", context)));
+    }
+    kinematics
+}
+
+/// `define(u = body.relative_velocity, …)`.
+pub fn read_definitions(clause: &Clause, context: &mut Context) -> Vec<Definition> {
+    let Some(group) = brackets(clause, "name = …", context) else { return Vec::new() };
+    let (equations, _) = arguments::arguments(group, Owner::Define, context);
+    let read = |equation: &Clause, context: &mut Context| {
+        let name = arguments::name(&equation.name, "definition", context)?;
+        Some(Definition { name, expression: value(equation, "…", context) })
+    };
+    equations.iter().filter_map(|equation| read(equation, context)).collect()
+}

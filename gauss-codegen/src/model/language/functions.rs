@@ -1,0 +1,188 @@
+//! The functions that expressions may call, what they take and what they give; and what they may ask of bodies.
+
+use super::kind::Kind;
+use super::words::Table;
+use crate::model::scene::expression::{FunctionName, Property};
+
+/// A function as it is called: integer powers are kept apart, since their exponent is no expression.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Function {
+    Named(FunctionName),
+    Power,
+}
+
+/// Every function by its word.
+pub const FUNCTIONS: &Table<Function> = &[
+    ("sin", Function::Named(FunctionName::Sin)),
+    ("cos", Function::Named(FunctionName::Cos)),
+    ("tan", Function::Named(FunctionName::Tan)),
+    ("exp", Function::Named(FunctionName::Exp)),
+    ("ln", Function::Named(FunctionName::Ln)),
+    ("sqrt", Function::Named(FunctionName::Sqrt)),
+    ("powi", Function::Power),
+    ("atan2", Function::Named(FunctionName::Atan2)),
+    ("dot", Function::Named(FunctionName::Dot)),
+    ("cross", Function::Named(FunctionName::Cross)),
+    ("rotation_x", Function::Named(FunctionName::RotationX)),
+    ("rotation_y", Function::Named(FunctionName::RotationY)),
+    ("rotation_z", Function::Named(FunctionName::RotationZ)),
+    ("inverse", Function::Named(FunctionName::Inverse)),
+    ("twist", Function::Named(FunctionName::Twist)),
+    ("rate", Function::Named(FunctionName::Rate)),
+    ("abs", Function::Named(FunctionName::Abs)),
+    ("min", Function::Named(FunctionName::Min)),
+    ("max", Function::Named(FunctionName::Max)),
+    ("hypot", Function::Named(FunctionName::Hypot)),
+    ("signum", Function::Named(FunctionName::Signum)),
+    ("clamp", Function::Named(FunctionName::Clamp)),
+    ("smooth_step", Function::Named(FunctionName::SmoothStep)),
+];
+
+impl Function {
+    /// How many arguments it takes; the value that a method is called on is the first.
+    pub fn arguments(self) -> usize {
+        match self {
+            Function::Power => 2,
+            Function::Named(name) => name.arguments(),
+        }
+    }
+
+    /// A call of it, for messages.
+    pub fn example(self) -> String {
+        match self {
+            Function::Power => "powi(x, 2)".into(),
+            Function::Named(FunctionName::Atan2) => "atan2(y, x)".into(),
+            Function::Named(FunctionName::Inverse) => "inverse(r)".into(),
+            Function::Named(FunctionName::Clamp) => "clamp(x, low, high)".into(),
+            Function::Named(FunctionName::SmoothStep) => "smooth_step(x, from, to)".into(),
+            Function::Named(name) if name.arguments() == 2 => format!("{}(a, b)", name.word()),
+            Function::Named(name) => format!("{}(x)", name.word()),
+        }
+    }
+}
+
+impl FunctionName {
+    /// The word in expressions.
+    pub fn word(self) -> &'static str {
+        match self {
+            FunctionName::Sin => "sin",
+            FunctionName::Cos => "cos",
+            FunctionName::Tan => "tan",
+            FunctionName::Exp => "exp",
+            FunctionName::Ln => "ln",
+            FunctionName::Sqrt => "sqrt",
+            FunctionName::RotationX => "rotation_x",
+            FunctionName::RotationY => "rotation_y",
+            FunctionName::RotationZ => "rotation_z",
+            FunctionName::Dot => "dot",
+            FunctionName::Cross => "cross",
+            FunctionName::Atan2 => "atan2",
+            FunctionName::Twist => "twist",
+            FunctionName::Inverse => "inverse",
+            FunctionName::Rate => "rate",
+            FunctionName::Abs => "abs",
+            FunctionName::Min => "min",
+            FunctionName::Max => "max",
+            FunctionName::Hypot => "hypot",
+            FunctionName::Signum => "signum",
+            FunctionName::Clamp => "clamp",
+            FunctionName::SmoothStep => "smooth_step",
+        }
+    }
+
+    fn arguments(self) -> usize {
+        match self {
+            FunctionName::Dot
+            | FunctionName::Cross
+            | FunctionName::Atan2
+            | FunctionName::Twist
+            | FunctionName::Min
+            | FunctionName::Max
+            | FunctionName::Hypot => 2,
+            FunctionName::Clamp | FunctionName::SmoothStep => 3,
+            _ => 1,
+        }
+    }
+
+    /// It jumps, or one of its first two derivatives does, so that only what is not differentiated can contain it.
+    pub fn has_kink(self) -> bool {
+        matches!(
+            self,
+            FunctionName::Abs
+                | FunctionName::Min
+                | FunctionName::Max
+                | FunctionName::Signum
+                | FunctionName::Clamp
+                | FunctionName::SmoothStep
+        )
+    }
+
+    /// What of it jumps, for messages.
+    pub fn jump(self) -> String {
+        match self {
+            FunctionName::Signum => "`signum` jumps".into(),
+            FunctionName::SmoothStep => "the second derivative of `smooth_step` jumps".into(),
+            _ => format!("the derivative of `{}` jumps", self.word()),
+        }
+    }
+
+    /// The kind of each argument; `None` for a scalar or a vector.
+    pub fn takes(self) -> Option<Kind> {
+        match self {
+            FunctionName::Dot | FunctionName::Cross | FunctionName::Twist => Some(Kind::Vector),
+            FunctionName::Inverse => Some(Kind::Rotation),
+            FunctionName::Rate => None,
+            _ => Some(Kind::Scalar),
+        }
+    }
+
+    /// The kind of the value; `None` for that of the argument.
+    pub fn gives(self) -> Option<Kind> {
+        match self {
+            FunctionName::Cross => Some(Kind::Vector),
+            FunctionName::RotationX | FunctionName::RotationY | FunctionName::RotationZ | FunctionName::Inverse => {
+                Some(Kind::Rotation)
+            }
+            FunctionName::Twist => Some(Kind::Twist),
+            FunctionName::Rate => None,
+            _ => Some(Kind::Scalar),
+        }
+    }
+}
+
+/// What can be asked of bodies, by its word.
+pub const PROPERTIES: &Table<Property> = &[
+    ("position", Property::Position),
+    ("rotation", Property::Rotation),
+    ("velocity", Property::Velocity),
+    ("angular_velocity", Property::AngularVelocity),
+    ("body_velocity", Property::BodyVelocity),
+    ("body_angular_velocity", Property::BodyAngularVelocity),
+    ("relative_velocity", Property::RelativeVelocity),
+    ("force", Property::Force),
+    ("torque", Property::Torque),
+];
+
+impl Property {
+    /// The word after the point.
+    pub fn word(self) -> &'static str {
+        PROPERTIES.iter().find(|(_, property)| *property == self).map_or("", |(word, _)| word)
+    }
+
+    /// It is a velocity.
+    pub fn is_velocity(self) -> bool {
+        matches!(
+            self,
+            Property::Velocity
+                | Property::AngularVelocity
+                | Property::BodyVelocity
+                | Property::BodyAngularVelocity
+                | Property::RelativeVelocity
+        )
+    }
+
+    /// It is a part of a wrench.
+    pub fn is_of_wrench(self) -> bool {
+        matches!(self, Property::Force | Property::Torque)
+    }
+}

@@ -1,0 +1,47 @@
+//! Mass data that are written in clauses, `mass = 2.0` or `inertia = [a, a, c]`, in place of fields: numbers known when the
+//! code is generated, equal moments, and components that are zero stay out of it. Of the fluid about any body: `added_mass = x`.
+
+use super::attributes::{self, Clause};
+use super::context::Context;
+use super::role_words::ROLES;
+use super::{arguments, arithmetic};
+use crate::model::scene::clauses::{Given, GivenValue};
+use crate::model::scene::roles::{Role, Shape};
+
+/// The role that a word of a clause means.
+pub fn role(word: &str) -> Option<Role> {
+    ROLES.iter().find(|(name, _)| *name == word).map(|&(_, role)| role)
+}
+
+/// Reads `role = value` into the list; of what is given twice the first counts.
+pub fn read(role: Role, clause: &Clause, list: &mut Vec<Given>, context: &mut Context) {
+    let word = role.word();
+    let example = match role {
+        Role::CenterOfMass | Role::CenterOfBuoyancy => "[0, 0, l]",
+        Role::Inertia => "[a, a, c]",
+        Role::AddedMass => "[a, b, c, d, e, f]",
+        _ => "2.0",
+    };
+    let Some(tokens) = arguments::equals(clause, example, context) else { return };
+    let value = match role {
+        Role::AddedMass => arithmetic::read_coefficients(word, tokens, context).map(GivenValue::Coefficients),
+        _ => arithmetic::read(word, tokens, context).map(GivenValue::Expression),
+    };
+    if let Some(value) = value {
+        add(Given { role, shape: Shape::Other, value, span: clause.name.span() }, list, context);
+    }
+}
+
+/// Adds one to a list that has none of its role.
+pub fn add(given: Given, list: &mut Vec<Given>, context: &mut Context) {
+    if list.iter().any(|other| other.role == given.role) {
+        context.error(given.span, format!("`{}` is given twice; keep one of the two", given.role.word()));
+    } else {
+        list.push(given);
+    }
+}
+
+/// A clause `word` without `=`, where it is the role of a field.
+pub fn belongs_to_field(clause: &Clause) -> bool {
+    !matches!(clause.value, attributes::Content::Equals(_))
+}

@@ -1,0 +1,20 @@
+//! From the tokens of attributes to clauses, each read on its own, with every mistake at its token.
+
+pub mod actions;
+pub mod arguments;
+pub mod arithmetic;
+pub mod attributes;
+pub mod context;
+pub mod declarations;
+pub mod fields;
+pub mod functions;
+pub mod given;
+pub mod kind;
+pub mod number;
+pub mod placements;
+pub mod role_words;
+pub mod shapes;
+pub mod statements;
+pub mod struct_clauses;
+pub mod units;
+pub mod words;

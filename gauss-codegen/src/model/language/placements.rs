@@ -1,0 +1,180 @@
+//! Clauses that place things: bodies, frames, particles, and points of bodies.
+
+use super::arguments::{self, brackets, known, value};
+use super::attributes::{self, Clause, Content, Owner};
+use super::context::Context;
+use super::given;
+use super::words::{self, Table, UNNAMED};
+use crate::model::scene::clauses::{BodyClause, ParticleClause, PointClause};
+use proc_macro2::{Ident, TokenTree};
+
+const BODY: &Table<()> = &[
+    ("position", ()),
+    ("rotation", ()),
+    ("parent", ()),
+    ("mass", ()),
+    ("center_of_mass", ()),
+    ("inertia", ()),
+    ("added_mass", ()),
+    ("displaced_mass", ()),
+    ("center_of_buoyancy", ()),
+];
+const PARTICLE: &Table<()> = &[("mass", ()), ("position", ()), ("parent", ())];
+const POINT: &Table<()> = &[("body", ()), ("at", ())];
+
+/// `body(name, …)`, or `frame(name, …)` if it is `massless`; `None` if not even its name is certain.
+pub fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Option<BodyClause> {
+    let (noun, place, example) = if massless {
+        ("frame", Owner::Frame, "name, position = […], rotation = …")
+    } else {
+        ("body", Owner::Body, "position = […], rotation = …")
+    };
+    let group = brackets(clause, example, context)?;
+    let mut body = BodyClause {
+        name: None,
+        massless,
+        parent: None,
+        position: None,
+        rotation: None,
+        given: Vec::new(),
+        span: clause.name.span(),
+    };
+    let (arguments, complete) = arguments::arguments(group, place, context);
+    let mut names: Vec<String> = Vec::new();
+    let mut certain = true;
+    for (index, argument) in arguments.iter().enumerate() {
+        let word = argument.word();
+        if index == 0 && may_be_name(argument, BODY) {
+            body.name = match argument.value {
+                Content::Absent => arguments::name(&argument.name, noun, context),
+                _ => None,
+            };
+            certain &= body.name.is_some();
+            continue;
+        }
+        let role = given::role(&word);
+        if massless && role.is_some() {
+            context.error(argument.name.span(), "a frame has no mass; what has mass is a `body` or a `particle`");
+            continue;
+        }
+        if !known(argument, noun, BODY, &mut names, context) {
+            continue;
+        }
+        match word.as_str() {
+            "position" => body.position = value(argument, "[x, y, 0]", context).or(body.position),
+            _ if role.is_some() => {
+                role.into_iter().for_each(|role| given::read(role, argument, &mut body.given, context))
+            }
+            "rotation" => body.rotation = value(argument, "rotation_z(theta)", context).or(body.rotation),
+            _ => body.parent = read_reference(argument, "another body or frame", context).or(body.parent),
+        }
+    }
+    if massless && body.name.is_none() {
+        if certain && complete {
+            context.error(clause.name.span(), "a frame needs a name to be referred to by; write `frame(name, …)`");
+        }
+        return None;
+    }
+    certain.then_some(body)
+}
+
+/// A word alone at the beginning is the name; so may be one after which something is wrong.
+pub fn may_be_name(argument: &Clause, table: &Table<()>) -> bool {
+    matches!(argument.value, Content::Absent | Content::Malformed)
+        && !table.iter().any(|(name, ())| argument.word() == *name)
+}
+
+/// `None` if something is missing or wrong, which is noted.
+pub fn read_particle(clause: &Clause, context: &mut Context) -> Option<ParticleClause> {
+    let group = brackets(clause, "mass = m, position = [x, y, z]", context)?;
+    let (mut mass, mut position, mut parent) = (None, None, None);
+    let mut given: Vec<String> = Vec::new();
+    let (arguments, _) = arguments::arguments(group, Owner::Particle, context);
+    let mut misspelt = Vec::new();
+    for argument in &arguments {
+        let word = argument.word();
+        if !known(argument, "particle", PARTICLE, &mut given, context) {
+            misspelt.extend(words::nearest(&word, PARTICLE).map(|(name, ())| name));
+            continue;
+        }
+        match word.as_str() {
+            "mass" => mass = value(argument, "m", context).or(mass),
+            "position" => position = value(argument, "[x, y, 0]", context).or(position),
+            _ => parent = read_reference(argument, "a body or a frame", context).or(parent),
+        }
+    }
+    for (word, example) in [("mass", "mass = m"), ("position", "position = [x, y, z]")] {
+        if !given.iter().any(|name| name == word) && !misspelt.contains(&word) {
+            context.error(clause.name.span(), format!("a particle needs its {word}; add `{example}`"));
+        }
+    }
+    Some(ParticleClause { mass: mass?, position: position?, parent, span: clause.name.span() })
+}
+
+/// `None` if something is missing or wrong, which is noted. In a chart it is a point of the only body.
+pub fn read_point(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<PointClause> {
+    let group = brackets(clause, "name, body = …, at = [x, y, z]", context)?;
+    let (arguments, complete) = arguments::arguments(group, Owner::Point, context);
+    let (mut name, mut body, mut at) = (None, None, None);
+    let mut given: Vec<String> = Vec::new();
+    let mut misspelt = Vec::new();
+    let mut named = !complete;
+    for (index, argument) in arguments.iter().enumerate() {
+        let word = argument.word();
+        if index == 0 && may_be_name(argument, POINT) {
+            named = true;
+            if matches!(argument.value, Content::Absent) {
+                name = arguments::name(&argument.name, "point", context);
+            }
+            continue;
+        }
+        if !known(argument, "point", POINT, &mut given, context) {
+            misspelt.extend(words::nearest(&word, POINT).map(|(name, ())| name));
+            continue;
+        }
+        match word.as_str() {
+            "body" => body = read_reference(argument, "a body or a frame", context).or(body),
+            _ => at = value(argument, "[l, 0, 0]", context).or(at),
+        }
+    }
+    if !named {
+        context.error(clause.name.span(), "a point needs a name to be referred to by; write `point(name, …)`");
+    }
+    for (word, what, example) in
+        [("body", "the body that it is fixed in", "body = name"), ("at", "its place in the body", "at = [x, y, z]")]
+    {
+        let spared = word == "body" && in_chart;
+        if !given.iter().any(|name| name == word) && !misspelt.contains(&word) && !spared {
+            context.error(clause.name.span(), format!("a point needs {what}; add `{example}`"));
+        }
+    }
+    if in_chart && !given.iter().any(|name| name == "body") {
+        body = Some(Ident::new(UNNAMED, clause.name.span()));
+    }
+    Some(PointClause { name: name?, body: body?, at: at?, span: clause.name.span() })
+}
+
+/// The name of `what` that an argument is said to be.
+pub fn read_reference(argument: &Clause, what: &str, context: &mut Context) -> Option<Ident> {
+    let name = &argument.name;
+    let tokens = match &argument.value {
+        Content::Malformed => return None,
+        Content::Equals(tokens) => attributes::flat(tokens.iter().cloned().collect()),
+        Content::Absent | Content::Brackets(_) => {
+            let remedy = if name == "parent" { ", or leave it out" } else { "" };
+            context.error(name.span(), format!("`{name}` needs the name of {what}; write `{name} = other`{remedy}"));
+            return None;
+        }
+    };
+    match tokens.as_slice() {
+        [TokenTree::Ident(parent)] => Some(parent.clone()),
+        [TokenTree::Ident(_), extra, ..] | [extra, ..] => {
+            context.error(
+                attributes::start(extra),
+                format!("`{name}` is the name of {what}, found {}", attributes::found(extra)),
+            );
+            None
+        }
+        [] => None,
+    }
+}

@@ -1,0 +1,376 @@
+//! The clauses of a system, each read on its own: what `declarations`, `placements` and `actions` read, constraints, the
+//! potential, the dissipation function, and the limit on the size of the code.
+
+use super::arguments::{self, brackets, equals, value};
+use super::attributes::{self, Clause, Owner};
+use super::context::Context;
+use super::declarations::{self, Definition, Kinematics, Names};
+use super::words::{self, Table, same};
+use super::{actions, given, placements};
+use crate::model::scene::clauses::{
+    Attraction, BodyClause, ConstraintClause, ConstraintKind, Coordinate, ForceClause, ForceKind, Given, InputName,
+    ParticleClause, PointClause, Speed,
+};
+use crate::model::scene::expression::{Expression, ExpressionKind};
+use proc_macro2::{Group, Ident, TokenTree};
+use syn::LitInt;
+
+/// What the clauses of a system say, before their names are checked.
+#[derive(Default)]
+pub struct Statements {
+    /// A body without a name moves in a chart: what is said without a body is about this one.
+    pub in_chart: bool,
+    /// `chart` or `motion`, beside clauses that say what else moves.
+    pub of_chart: Option<Ident>,
+    /// What the speeds of the chart are called, one by one.
+    pub speeds_of_chart: Vec<String>,
+    /// Some clause declares coordinates.
+    has_coordinates: bool,
+    /// The name of the first clause: where a mistake of the scene as a whole is shown.
+    pub first: Option<Ident>,
+    pub coordinates: Option<Names<Coordinate>>,
+    pub speeds: Option<Names<Speed>>,
+    pub kinematics: Option<Kinematics>,
+    pub bodies: Vec<BodyClause>,
+    pub particles: Vec<ParticleClause>,
+    pub points: Vec<PointClause>,
+    pub constraints: Vec<ConstraintClause>,
+    pub independent: Option<Names<Ident>>,
+    pub limit: Option<(Ident, Option<usize>)>,
+    pub potential: Option<(Ident, Option<Expression>)>,
+    pub inputs: Option<Names<InputName>>,
+    pub forces: Vec<ForceClause>,
+    pub definitions: Vec<Definition>,
+    pub attractions: Vec<Attraction>,
+    pub medium: Option<(Ident, Option<Expression>)>,
+    /// Mass data of the body without a name, and gravity.
+    pub given: Vec<Given>,
+    /// `damping = …` is written.
+    damped: bool,
+    /// Some clause could not be read: what seems to be missing may be what it says.
+    pub missed: bool,
+    /// What clauses that could not be read were to say.
+    unread: Vec<Statement>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Statement {
+    Coordinates,
+    Speeds,
+    Kinematics,
+    Body,
+    Frame,
+    Particle,
+    Point,
+    Constraint,
+    Independent,
+    Potential,
+    Input,
+    Force,
+    Torque,
+    Drive,
+    Spring,
+    Damping,
+    Limit,
+    Wrench,
+    Stop,
+    Drag,
+    Define,
+    Medium,
+    CentralGravity,
+}
+
+/// The clauses of systems.
+pub const STATEMENTS: &Table<Statement> = &[
+    ("coordinates", Statement::Coordinates),
+    ("speeds", Statement::Speeds),
+    ("kinematics", Statement::Kinematics),
+    ("body", Statement::Body),
+    ("frame", Statement::Frame),
+    ("particle", Statement::Particle),
+    ("point", Statement::Point),
+    ("constraint", Statement::Constraint),
+    ("independent", Statement::Independent),
+    ("potential", Statement::Potential),
+    ("input", Statement::Input),
+    ("force", Statement::Force),
+    ("torque", Statement::Torque),
+    ("wrench", Statement::Wrench),
+    ("drive", Statement::Drive),
+    ("spring", Statement::Spring),
+    ("stop", Statement::Stop),
+    ("drag", Statement::Drag),
+    ("damping", Statement::Damping),
+    ("medium", Statement::Medium),
+    ("central_gravity", Statement::CentralGravity),
+    ("define", Statement::Define),
+    ("limit", Statement::Limit),
+];
+
+const CONSTRAINT: &Table<ConstraintKind> =
+    &[("position", ConstraintKind::Position), ("velocity", ConstraintKind::Velocity)];
+
+/// The clause that `word` is, or that it is a misspelling of.
+pub fn meant(word: &str) -> Option<Statement> {
+    words::nearest(word, STATEMENTS).map(|(_, statement)| statement)
+}
+
+/// How the clause `word` is written, if it is one of these.
+pub fn form(word: &str) -> Option<String> {
+    STATEMENTS.iter().find(|(name, _)| *name == word).map(|(_, statement)| match statement {
+        Statement::Potential | Statement::Damping | Statement::Limit => format!("{word} = …"),
+        _ => format!("{word}(…)"),
+    })
+}
+
+impl Statement {
+    /// It says what moves: what it stands in is a system. The others are about whatever there is already.
+    pub fn makes_system(self) -> bool {
+        matches!(
+            self,
+            Statement::Coordinates
+                | Statement::Speeds
+                | Statement::Kinematics
+                | Statement::Body
+                | Statement::Frame
+                | Statement::Particle
+                | Statement::Constraint
+                | Statement::Independent
+        )
+    }
+}
+
+impl Statements {
+    /// None so far.
+    pub fn new(in_chart: bool, has_coordinates: bool) -> Statements {
+        Statements { in_chart, has_coordinates, ..Statements::default() }
+    }
+
+    /// Reads a clause whose name is in [`STATEMENTS`].
+    pub fn read(&mut self, clause: &Clause, context: &mut Context) {
+        self.first.get_or_insert_with(|| clause.name.clone());
+        let Some(statement) = meant(&clause.word()) else { return };
+        let in_chart = self.in_chart;
+        let given = match statement {
+            Statement::Coordinates => self.coordinates.is_some(),
+            Statement::Speeds => self.speeds.is_some(),
+            Statement::Kinematics => self.kinematics.is_some(),
+            Statement::Independent => self.independent.is_some(),
+            Statement::Potential => self.potential.is_some(),
+            Statement::Limit => self.limit.is_some(),
+            Statement::Input => self.inputs.is_some(),
+            Statement::Damping => self.damped,
+            Statement::Medium => self.medium.is_some(),
+            _ => false,
+        };
+        if given {
+            let name = &clause.name;
+            let remedy = match statement {
+                Statement::Potential | Statement::Damping => "write the sum of the two in one",
+                Statement::Limit | Statement::Medium => "keep one of the two",
+                _ => "write all of it in one",
+            };
+            context.error(name.span(), format!("`{name}` is given twice; {remedy}"));
+        }
+        match statement {
+            Statement::Coordinates => {
+                let names = declarations::read_coordinates(clause, context);
+                self.coordinates = self.coordinates.take().or(Some(names));
+            }
+            Statement::Speeds => {
+                let names = declarations::read_speeds(clause, context);
+                self.speeds = self.speeds.take().or(Some(names));
+            }
+            Statement::Kinematics => {
+                let kinematics = declarations::read_kinematics(clause, context);
+                self.kinematics = self.kinematics.take().or(Some(kinematics));
+            }
+            Statement::Independent => {
+                let names = declarations::read_independent(clause, context);
+                self.independent = self.independent.take().or(Some(names));
+            }
+            Statement::Body => match placements::read_body(clause, false, context) {
+                Some(body) if in_chart && body.name.is_none() => context.error(
+                    body.span,
+                    "the body without a name moves in the chart, which says where it is; give another body a name, \
+                     `body(name, …)`, write mass data as clauses of the struct, or remove `chart` and `motion`",
+                ),
+                Some(mut body) => {
+                    // Of the only body there is one set of mass data, wherever they are written.
+                    if body.name.is_none() {
+                        for given in body.given.drain(..) {
+                            given::add(given, &mut self.given, context);
+                        }
+                    }
+                    self.bodies.push(body);
+                }
+                None => self.unread.push(statement),
+            },
+            Statement::Frame => match placements::read_body(clause, true, context) {
+                Some(frame) => self.bodies.push(frame),
+                None => self.unread.push(statement),
+            },
+            Statement::Particle => match placements::read_particle(clause, context) {
+                Some(particle) => self.particles.push(particle),
+                None => self.unread.push(statement),
+            },
+            Statement::Point => match placements::read_point(clause, in_chart, context) {
+                Some(point) => self.points.push(point),
+                None => self.unread.push(statement),
+            },
+            Statement::Constraint => match read_constraint(clause, context) {
+                Some(constraint) => self.constraints.push(constraint),
+                None => self.unread.push(statement),
+            },
+            Statement::Potential => {
+                let value = value(clause, "k * x * x / 2", context);
+                self.potential = self.potential.take().or(Some((clause.name.clone(), value)));
+            }
+            Statement::Input => {
+                let names = declarations::read_inputs(clause, context);
+                self.inputs = self.inputs.take().or(Some(names));
+            }
+            Statement::Force => self.forces.extend(actions::read_force(clause, in_chart, context)),
+            Statement::Torque => self.forces.extend(actions::read_torque(clause, in_chart, context)),
+            Statement::Wrench => self.forces.extend(actions::read_wrench(clause, in_chart, context)),
+            Statement::Drive if in_chart && !self.has_coordinates => context.error(
+                clause.name.span(),
+                "`drive` acts on rates of named coordinates, and those of a chart have no names; write `force(…)` or \
+                 `torque(…)`, or `coordinates(…)` of what else moves",
+            ),
+            Statement::Drive => self.forces.extend(actions::read_drive(clause, context)),
+            Statement::Spring => self.forces.extend(actions::read_spring(clause, context)),
+            Statement::Stop => self.forces.extend(actions::read_stop(clause, context)),
+            Statement::Drag => self.forces.extend(actions::read_drag(clause, in_chart, context)),
+            Statement::Define => {
+                let definitions = declarations::read_definitions(clause, context);
+                if definitions.is_empty() {
+                    self.unread.push(statement);
+                }
+                self.definitions.extend(definitions);
+            }
+            Statement::Medium => {
+                let velocity = actions::read_medium(clause, context);
+                self.medium = self.medium.take().or(Some((clause.name.clone(), velocity)));
+            }
+            Statement::CentralGravity => self.attractions.extend(actions::read_attraction(clause, context)),
+            Statement::Damping => {
+                self.damped = true;
+                let kind = value(clause, "c * v * v / 2", context).map(ForceKind::Dissipation);
+                self.forces.extend(kind.map(|kind| ForceClause { name: None, kind, span: clause.name.span() }));
+            }
+            Statement::Limit => {
+                let limit = read_limit(clause, context);
+                self.limit = self.limit.take().or(Some((clause.name.clone(), limit)));
+            }
+        }
+    }
+
+    /// Takes note of a clause that is refused.
+    pub fn miss(&mut self, clause: &Clause) {
+        self.missed = true;
+        self.first.get_or_insert_with(|| clause.name.clone());
+    }
+
+    /// Whether some clause of one of these kinds could not be read: what is unknown may be what it names.
+    pub fn missed_any(&self, statements: &[Statement]) -> bool {
+        self.missed || self.unread.iter().any(|unread| statements.contains(unread))
+    }
+
+    /// Something is written besides the chart: of what moves, of what acts, or of mass data.
+    pub fn is_empty(&self) -> bool {
+        self.first.is_none() && self.given.is_empty()
+    }
+
+    /// The bodies that have mass.
+    pub fn massive(&self) -> impl Iterator<Item = &BodyClause> {
+        self.bodies.iter().filter(|body| !body.massless)
+    }
+
+    /// The bodies without mass.
+    pub fn frames(&self) -> impl Iterator<Item = &Ident> {
+        self.bodies.iter().filter(|body| body.massless).filter_map(|body| body.name.as_ref())
+    }
+
+    /// The point that `at` names, if it is one of `body` itself: its place in the body is known.
+    pub fn own_point(&self, body: &Ident, at: &Expression) -> Option<&PointClause> {
+        let ExpressionKind::Name(name) = &at.kind else { return None };
+        self.points.iter().find(|point| same(&point.name, name) && same(&point.body, body))
+    }
+
+    /// Some body has no name.
+    pub fn has_unnamed_body(&self) -> bool {
+        self.bodies.iter().any(|body| body.name.is_none())
+    }
+}
+
+/// `None` if something is missing or wrong, which is noted. Whether the expression is a vector is not known yet.
+fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintClause> {
+    let group = brackets(clause, "velocity = …", context)?;
+    if let Some(expression) = bare_expression(group) {
+        let written = attributes::written(&expression);
+        context.error(
+            expression.first().map_or(clause.name.span(), attributes::start),
+            format!(
+                "it is not said what is constrained; write `constraint(position = {written})` or \
+                 `constraint(velocity = {written})`"
+            ),
+        );
+        return None;
+    }
+    let (arguments, _) = arguments::arguments(group, Owner::Constraint, context);
+    let mut read = None;
+    for (index, argument) in arguments.iter().enumerate() {
+        let name = &argument.name;
+        let Ok(kind) = words::resolve("argument of `constraint`:", name, CONSTRAINT, context) else { continue };
+        if index > 0 {
+            context.error(
+                name.span(),
+                format!("a clause has one constraint; write `constraint({name} = …)` in a clause of its own"),
+            );
+        }
+        let example = match kind {
+            ConstraintKind::Position => "x - l",
+            ConstraintKind::Velocity => "v - r * w",
+        };
+        let Some(expression) = value(argument, example, context) else { continue };
+        read = read.or(Some(ConstraintClause { kind, expression, vector: false, span: clause.name.span() }));
+    }
+    read
+}
+
+/// What stands in the brackets of a constraint, if it is an expression without a word for what is constrained.
+fn bare_expression(group: &Group) -> Option<Vec<TokenTree>> {
+    let pieces = attributes::pieces(group.stream(), "", &mut Context::default());
+    let [piece] = pieces.as_slice() else { return None };
+    let argument = match piece.as_slice() {
+        [TokenTree::Ident(_), TokenTree::Punct(equals), ..] if equals.as_char() == '=' => true,
+        [TokenTree::Ident(word), ..] => words::nearest(&word.to_string(), CONSTRAINT).is_some(),
+        _ => false,
+    };
+    (!argument).then(|| piece.clone())
+}
+
+/// A positive integer.
+fn read_limit(clause: &Clause, context: &mut Context) -> Option<usize> {
+    let tokens = attributes::flat(equals(clause, "50000", context)?.iter().cloned().collect());
+    let number = match tokens.as_slice() {
+        [TokenTree::Literal(literal)] => syn::parse_str::<LitInt>(&literal.to_string())
+            .ok()
+            .filter(|number| matches!(number.suffix(), "" | "usize"))
+            .and_then(|number| number.base10_parse::<usize>().ok())
+            .filter(|&number| number > 0),
+        _ => None,
+    };
+    if number.is_none() {
+        context.error(
+            tokens.first().map_or(clause.name.span(), attributes::start),
+            format!(
+                "`limit` is the most operations that the generated code may have, a positive integer, found `{}`; \
+                 write `limit = 50000`",
+                attributes::written(&tokens)
+            ),
+        );
+    }
+    number
+}

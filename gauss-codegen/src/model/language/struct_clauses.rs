@@ -1,0 +1,405 @@
+//! The clauses of the struct: which equations are wanted. Those of what moves and acts are read by `statements`.
+//!
+//! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
+//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `regressor` alone;
+//! `linearize` alone or as `linearize(parameters)`.
+
+use super::arguments::UNIT;
+use super::attributes::{self, Clause, Content, Owner, Word};
+use super::context::Context;
+use super::given;
+use super::role_words::ROLES;
+use super::statements::{self, STATEMENTS, Statement, Statements};
+use super::words::{self, Table};
+use crate::model::scene::charts::{Chart, InChart, Motion, RotationChart};
+use crate::model::scene::model::Wanted;
+use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use syn::ext::IdentExt;
+use syn::parse::Parser;
+use syn::{Attribute, Path, PathSegment};
+
+/// What the clauses of the struct say.
+pub struct Clauses {
+    /// The chart of the body without a name, unless the scene has coordinates of its own only.
+    pub in_chart: Option<InChart>,
+    pub runtime: Path,
+    /// What is wanted beside the equations.
+    pub wanted: Wanted,
+    /// What moves, what has mass and what acts.
+    pub statements: Statements,
+    /// Some clause says what else moves than the body of a chart.
+    pub own: bool,
+}
+
+/// Clauses of the struct.
+pub const CLAUSES: &Table<Topic> = &[
+    ("chart", Topic::Chart),
+    ("motion", Topic::Motion),
+    ("crate", Topic::Runtime),
+    ("taylor", Topic::Taylor),
+    ("linearize", Topic::Linearize),
+    ("regressor", Topic::Regressor),
+];
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Topic {
+    Chart,
+    Motion,
+    Runtime,
+    Taylor,
+    Linearize,
+    Regressor,
+}
+
+/// `None` stands for `jet`, which needs to know the motion.
+const CHARTS: &Table<Option<Chart>> = &[
+    ("left_invariant", Some(Chart::LeftInvariant)),
+    ("right_invariant", Some(Chart::RightInvariant)),
+    ("hybrid", Some(Chart::Hybrid)),
+    ("jet", None),
+];
+
+const MOTIONS: &Table<Motion> =
+    &[("free", Motion::Free), ("fixed_point", Motion::FixedPoint), ("planar", Motion::Planar)];
+
+const ROTATIONS: &Table<RotationChart> = &[
+    ("euler_zyx", RotationChart::Euler([2, 1, 0])),
+    ("euler_zxz", RotationChart::Euler([2, 0, 2])),
+    ("euler_zyz", RotationChart::Euler([2, 1, 2])),
+    ("euler_xyz", RotationChart::Euler([0, 1, 2])),
+    ("euler_xzy", RotationChart::Euler([0, 2, 1])),
+    ("euler_yxz", RotationChart::Euler([1, 0, 2])),
+    ("euler_yzx", RotationChart::Euler([1, 2, 0])),
+    ("euler_zxy", RotationChart::Euler([2, 0, 1])),
+    ("euler_xyx", RotationChart::Euler([0, 1, 0])),
+    ("euler_xzx", RotationChart::Euler([0, 2, 0])),
+    ("euler_yxy", RotationChart::Euler([1, 0, 1])),
+    ("euler_yzy", RotationChart::Euler([1, 2, 1])),
+    ("rodrigues", RotationChart::Rodrigues),
+    ("modified_rodrigues", RotationChart::ModifiedRodrigues),
+];
+
+/// A chart as written, before the motion is known.
+enum Written {
+    Known(Chart),
+    /// `jet`, with the word in its brackets if there are brackets.
+    Jet {
+        jet: Ident,
+        argument: Option<Ident>,
+    },
+}
+
+/// Reads the attributes of the struct. `chart` or `motion` says that a body without a name moves in a chart; so does it if no
+/// clause and no field, as with `has_body`, says what moves.
+pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> Clauses {
+    let clauses = attributes::clauses(attributes, Owner::Struct, context);
+    let meant = |clause: &Clause| statements::meant(&clause.word());
+    let own = clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
+    let of_chart = clauses.iter().find(|clause| ["chart", "motion"].contains(&clause.word().as_str()));
+    let of_chart = of_chart.map(|clause| clause.name.clone()).filter(|_| own || has_body);
+    let in_chart = of_chart.is_some() || !(own || has_body);
+    let has_coordinates = clauses.iter().any(|clause| meant(clause) == Some(Statement::Coordinates));
+    let mut statements = Statements::new(in_chart, has_coordinates);
+    let mut charts = Vec::new();
+    let mut motion = None;
+    let mut runtime = None;
+    let mut wanted = Wanted::default();
+    let mut first: Vec<(Topic, String)> = Vec::new();
+    for clause in clauses {
+        let word = clause.word();
+        if STATEMENTS.iter().any(|(name, _)| *name == word) {
+            statements.read(&clause, context);
+            continue;
+        }
+        if let Some(role) = given::role(&word).filter(|_| !given::belongs_to_field(&clause)) {
+            given::read(role, &clause, &mut statements.given, context);
+            continue;
+        }
+        let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) else {
+            refuse(&clause, &word, own, context);
+            statements.miss(&clause);
+            continue;
+        };
+        if let Some((_, earlier)) = first.iter().find(|(other, _)| *other == topic) {
+            context.error(
+                clause.name.span(),
+                format!("`{word}` is given twice; it was given first as `{earlier}`: keep one of the two"),
+            );
+        } else {
+            first.push((topic, clause.written()));
+        }
+        // Of clauses given twice the first counts, but mistakes in the second are found all the same.
+        match topic {
+            Topic::Chart => charts.push(read_chart(&clause, context)),
+            Topic::Motion => motion = motion.or(Some(read_motion(&clause, context))),
+            Topic::Runtime => runtime = runtime.or(Some(read_runtime(&clause, context))),
+            Topic::Taylor => {
+                wanted.taylor.get_or_insert(clause.name.clone());
+                check_alone(&clause, context);
+            }
+            Topic::Linearize => {
+                wanted.linearize = true;
+                wanted.by_parameters |= names_parameters(&clause, context);
+            }
+            Topic::Regressor => {
+                wanted.regressor.get_or_insert(clause.name.clone());
+                check_alone(&clause, context);
+            }
+        }
+    }
+    // A clause left out means its default; a clause that could not be read is known to be unknown.
+    let motion = motion.unwrap_or(Some(Motion::Free));
+    let mut chart = None;
+    for written in charts.into_iter().flatten() {
+        let settled = settle(written, motion, context);
+        chart = chart.or(settled);
+    }
+    let chart = chart.unwrap_or(Chart::LeftInvariant);
+    let motion = motion.unwrap_or(Motion::Free);
+    let in_chart = in_chart.then_some(InChart { chart, motion });
+    statements.of_chart = of_chart;
+    statements.speeds_of_chart = in_chart.map_or_else(Vec::new, InChart::speed_words);
+    Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own }
+}
+
+/// Notes why a clause is none of the struct's.
+fn refuse(clause: &Clause, word: &str, own: bool, context: &mut Context) {
+    let span = clause.name.span();
+    let message = if word == UNIT {
+        "units are those of fields and inputs; write `#[gauss(unit = \"N\")]` on a field, or `input(thrust = \"N\")`"
+            .into()
+    } else if ROLES.iter().any(|(name, _)| *name == word) {
+        format!(
+            "`{word}` is the role of a field; write `#[gauss({word})]` on that field, or say here what it is: `{word} = …`"
+        )
+    } else if CHARTS.iter().any(|(name, _)| *name == word) {
+        let chart = match &clause.value {
+            Content::Brackets(_) => clause.written(),
+            Content::Equals(tokens) if word == "jet" => {
+                format!("jet({})", attributes::written(tokens))
+            }
+            _ => word.into(),
+        };
+        format!("`{word}` is a chart; write `chart = {chart}`")
+    } else if MOTIONS.iter().any(|(name, _)| *name == word) {
+        format!("`{word}` is a motion; write `motion = {word}`")
+    } else if ROTATIONS.iter().any(|(name, _)| *name == word) {
+        format!("`{word}` is a rotation chart; write `chart = jet({word})`")
+    } else if let Some((name, _)) = words::nearest(word, CLAUSES) {
+        format!("unknown clause `{word}`; did you mean `{name}`?")
+    } else if let Some((name, _)) = words::nearest(word, STATEMENTS) {
+        format!("unknown clause `{word}`; did you mean `{name}`?")
+    } else if own {
+        format!(
+            "unknown clause `{word}`; expected {}, `crate`, `taylor`, `linearize` or `regressor`",
+            words::list(STATEMENTS).replace(" or ", ", ")
+        )
+    } else {
+        format!("unknown clause `{word}`; expected {}, or what acts, such as `force(…)`", words::list(CLAUSES))
+    };
+    context.error(span, message);
+}
+
+fn read_chart(clause: &Clause, context: &mut Context) -> Option<Written> {
+    let Word { ident, arguments } = clause.bare_word(CHARTS, context)?;
+    let chart = words::resolve("chart", &ident, CHARTS, context).ok()?;
+    match (chart, arguments) {
+        (Some(chart), None) => Some(Written::Known(chart)),
+        (Some(_), Some(arguments)) => {
+            let name = &clause.name;
+            context.error(
+                arguments.span_open(),
+                format!("the chart `{ident}` takes nothing in brackets; write `{name} = {ident}`"),
+            );
+            None
+        }
+        (None, None) => Some(Written::Jet { jet: ident, argument: None }),
+        (None, Some(arguments)) => {
+            let argument = read_argument(&ident, &arguments, context)?;
+            Some(Written::Jet { jet: ident, argument: Some(argument) })
+        }
+    }
+}
+
+/// The one word in the brackets of `jet(…)`.
+fn read_argument(jet: &Ident, arguments: &Group, context: &mut Context) -> Option<Ident> {
+    let tokens = attributes::flat(arguments.stream());
+    let (word, rest) = match tokens.split_first() {
+        Some((TokenTree::Ident(word), rest)) => (word, rest),
+        Some((other, _)) => {
+            attributes::not_a_word(jet, None, other, ROTATIONS, context);
+            return None;
+        }
+        None => {
+            context.error(
+                arguments.span_open(),
+                "`jet()` has nothing in its brackets; write a rotation chart such as `jet(euler_zyx)`, or `jet` alone in planar motion",
+            );
+            return None;
+        }
+    };
+    match rest.first() {
+        None => Some(word.clone()),
+        Some(TokenTree::Punct(comma)) if comma.as_char() == ',' && rest.len() == 1 => Some(word.clone()),
+        Some(extra) => {
+            context.error(
+                attributes::start(extra),
+                format!(
+                    "`jet` takes one rotation chart, found {} after `{word}`; write one word, such as `jet(euler_zyx)`",
+                    attributes::found(extra)
+                ),
+            );
+            None
+        }
+    }
+}
+
+/// The chart in this motion; `motion` is `None` where it could not be read.
+fn settle(written: Written, motion: Option<Motion>, context: &mut Context) -> Option<Chart> {
+    match (written, motion) {
+        (Written::Known(chart), _) => Some(chart),
+        (Written::Jet { argument: None, .. }, Some(Motion::Planar)) => Some(Chart::Jet(RotationChart::Angle)),
+        (Written::Jet { argument: None, .. }, None) => None,
+        (Written::Jet { jet, argument: None }, Some(_)) => {
+            context.error(
+                jet.span(),
+                format!(
+                    "`jet` needs a rotation chart unless the motion is planar; write `jet(…)` with {}",
+                    words::list(ROTATIONS)
+                ),
+            );
+            None
+        }
+        (Written::Jet { argument: Some(argument), .. }, Some(Motion::Planar)) => {
+            context.error(
+                argument.span(),
+                format!(
+                    "`jet({argument})` contradicts `motion = planar`, where the body turns through one angle only; \
+                     write `chart = jet`"
+                ),
+            );
+            None
+        }
+        (Written::Jet { argument: Some(argument), .. }, _) => read_rotation(&argument, context).map(Chart::Jet),
+    }
+}
+
+fn read_rotation(ident: &Ident, context: &mut Context) -> Option<RotationChart> {
+    let word = ident.unraw().to_string();
+    // Two mistakes that edit distance cannot see: axes without `euler_`, and a sequence that repeats an axis.
+    let axes = word.strip_prefix("euler_").unwrap_or(&word);
+    if axes.len() == 3 && axes.chars().all(|axis| matches!(axis, 'x' | 'y' | 'z')) {
+        let full = format!("euler_{axes}");
+        let letters: Vec<char> = axes.chars().collect();
+        if let Some(pair) = letters.windows(2).find(|pair| pair[0] == pair[1]) {
+            context.error(
+                ident.span(),
+                format!(
+                    "`{word}` turns about {} twice in a row, which is one turn; \
+                     expected three axes with no two neighbours equal, such as `euler_zyx` or `euler_zxz`",
+                    pair[0]
+                ),
+            );
+            return None;
+        }
+        if full != word {
+            context.error(ident.span(), format!("unknown rotation chart `{word}`; did you mean `{full}`?"));
+            return None;
+        }
+    }
+    words::resolve("rotation chart", ident, ROTATIONS, context).ok()
+}
+
+fn read_motion(clause: &Clause, context: &mut Context) -> Option<Motion> {
+    let Word { ident, arguments } = clause.bare_word(MOTIONS, context)?;
+    let motion = words::resolve("motion", &ident, MOTIONS, context).ok()?;
+    if let Some(arguments) = arguments {
+        let name = &clause.name;
+        context.error(
+            arguments.span_open(),
+            format!("the motion `{ident}` takes nothing in brackets; write `{name} = {ident}`"),
+        );
+        return None;
+    }
+    Some(motion)
+}
+
+/// A clause that says all there is to say by its name.
+fn check_alone(clause: &Clause, context: &mut Context) {
+    let name = &clause.name;
+    let span = match &clause.value {
+        Content::Absent | Content::Malformed => return,
+        Content::Equals(tokens) => tokens.first().map_or(name.span(), attributes::start),
+        Content::Brackets(group) => group.span_open(),
+    };
+    context.error(span, format!("`{name}` takes no value; write `{name}` alone, or leave it out"));
+}
+
+/// Whether it is `linearize(parameters)`.
+fn names_parameters(clause: &Clause, context: &mut Context) -> bool {
+    const REMEDY: &str = "write `linearize` alone for the derivatives by state, time and input, or \
+                          `linearize(parameters)` to have those by the parameters as well";
+    let (span, message) = match &clause.value {
+        Content::Absent | Content::Malformed => return false,
+        Content::Equals(tokens) => (
+            tokens.first().map_or(clause.name.span(), attributes::start),
+            format!("`linearize` takes no value after `=`; {REMEDY}"),
+        ),
+        Content::Brackets(group) => {
+            let tokens = attributes::flat(group.stream());
+            let is_parameters =
+                |token: &TokenTree| matches!(token, TokenTree::Ident(word) if word.unraw() == "parameters");
+            let wrong = match tokens.split_first() {
+                None => {
+                    context.error(group.span_open(), format!("the brackets of `linearize` are empty; {REMEDY}"));
+                    return false;
+                }
+                Some((first, _)) if !is_parameters(first) => first,
+                Some((_, [])) => return true,
+                Some((_, [TokenTree::Punct(comma)])) if comma.as_char() == ',' => return true,
+                Some((_, [extra, ..])) => extra,
+            };
+            (
+                attributes::start(wrong),
+                format!("`linearize` takes `parameters` in its brackets, found {}; {REMEDY}", attributes::found(wrong)),
+            )
+        }
+    };
+    context.error(span, message);
+    false
+}
+
+fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {
+    let tokens = match &clause.value {
+        Content::Equals(tokens) => attributes::flat(tokens.iter().cloned().collect()),
+        Content::Malformed => return None,
+        Content::Absent | Content::Brackets(_) => {
+            context.error(clause.name.span(), "`crate` needs the path to the runtime; write `crate = ::gauss_runtime`");
+            return None;
+        }
+    };
+    match Path::parse_mod_style.parse2(tokens.iter().cloned().collect::<TokenStream>()) {
+        Ok(path) => Some(path),
+        Err(_) => {
+            let first = tokens.first()?;
+            let remedy = match first {
+                TokenTree::Literal(literal) => match syn::parse_str::<syn::LitStr>(&literal.to_string()) {
+                    Ok(text) => format!("write `crate = {}` without quotes", text.value()),
+                    Err(_) => "write `crate = ::gauss_runtime`".into(),
+                },
+                _ => "write `crate = ::gauss_runtime`".into(),
+            };
+            context.error(
+                attributes::start(first),
+                format!("`crate` takes the path to the runtime, found `{}`; {remedy}", attributes::written(&tokens)),
+            );
+            None
+        }
+    }
+}
+
+/// `::gauss_runtime`.
+fn default_runtime() -> Path {
+    let segment = PathSegment::from(Ident::new("gauss_runtime", Span::mixed_site()));
+    Path { leading_colon: Some(syn::Token![::](Span::mixed_site())), segments: [segment].into_iter().collect() }
+}

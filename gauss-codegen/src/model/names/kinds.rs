@@ -1,0 +1,325 @@
+//! What kind of value an expression has, and whether it is the kind that its place needs.
+
+use super::places::Place;
+use super::scope::{Meaning, Scope};
+use crate::model::language::context::Context;
+use crate::model::language::kind::Kind;
+use crate::model::scene::clauses::{CoordinateKind, InputKind, SpeedKind};
+use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+use proc_macro2::{Ident, Span};
+use std::cmp::Ordering;
+
+/// Checks names and kinds of an expression that stands at `place`; its kind, unless something is wrong, which is noted.
+pub fn check(expression: &Expression, place: Place, scope: &Scope, context: &mut Context) -> Option<Kind> {
+    let mut checker = Checker { place, scope, context, differentiated: false, within: None };
+    let found = match &expression.kind {
+        // Only a whole rate is a twist.
+        ExpressionKind::Call(FunctionName::Twist, arguments) if matches!(place, Place::Kinematics(_)) => {
+            checker.arguments(FunctionName::Twist, arguments);
+            Kind::Twist
+        }
+        _ => checker.kind(expression)?,
+    };
+    if place.accepts(found) {
+        return Some(found);
+    }
+    checker.note(expression.span, place.mismatch(found))
+}
+
+struct Checker<'a> {
+    place: Place,
+    scope: &'a Scope,
+    context: &'a mut Context,
+    /// Inside `rate(…)`.
+    differentiated: bool,
+    /// Inside a definition, whose name stands in the expression.
+    within: Option<usize>,
+}
+
+impl Checker<'_> {
+    /// The kind of an expression; `None` where something is wrong, which is then noted.
+    fn kind(&mut self, expression: &Expression) -> Option<Kind> {
+        match &expression.kind {
+            ExpressionKind::Number { .. } => Some(Kind::Scalar),
+            ExpressionKind::Name(name) => self.name(name),
+            ExpressionKind::Property(base, property) => self.property(base, *property, expression.span),
+            ExpressionKind::Component(base, _) => {
+                let kind = self.kind(base)?;
+                self.expect(kind, Kind::Vector, expression.span, "components are those of")?;
+                Some(Kind::Scalar)
+            }
+            ExpressionKind::Negate(inner) => match self.kind(inner)? {
+                Kind::Rotation => {
+                    self.note(expression.span, "a rotation has no negative; the inverse of `r` is `inverse(r)`".into())
+                }
+                kind => Some(kind),
+            },
+            ExpressionKind::Binary(operator, left, right) => {
+                let (left, right) = (self.kind(left), self.kind(right));
+                self.binary(*operator, left?, right?, expression.span)
+            }
+            ExpressionKind::Power(base, _) => {
+                let kind = self.kind(base)?;
+                self.expect(kind, Kind::Scalar, base.span, "`powi` takes")?;
+                Some(Kind::Scalar)
+            }
+            ExpressionKind::Call(FunctionName::Twist, arguments) => {
+                self.arguments(FunctionName::Twist, arguments);
+                self.note(
+                    expression.span,
+                    "a twist is no part of another expression; write `pose = twist(linear, angular)` in `kinematics(…)`"
+                        .into(),
+                )
+            }
+            ExpressionKind::Call(FunctionName::Rate, arguments) => self.rate(arguments, expression.span),
+            ExpressionKind::Call(function, arguments) => {
+                self.arguments(*function, arguments);
+                if function.has_kink()
+                    && let Some(message) = self.refuses_kink(*function)
+                {
+                    return self.note(expression.span, message);
+                }
+                function.gives()
+            }
+            ExpressionKind::Vector(components) => {
+                for component in components {
+                    if let Some(kind) = self.kind(component) {
+                        self.expect(kind, Kind::Scalar, component.span, "each component of a vector is");
+                    }
+                }
+                Some(Kind::Vector)
+            }
+        }
+    }
+
+    /// The kind of the last argument, if nothing is wrong with it.
+    fn arguments(&mut self, function: FunctionName, arguments: &[Expression]) -> Option<Kind> {
+        let mut last = None;
+        for argument in arguments {
+            last = self.kind(argument);
+            let (Some(kind), Some(taken)) = (last, function.takes()) else { continue };
+            last = self.expect(kind, taken, argument.span, &format!("`{}` takes", function.word())).map(|()| kind);
+        }
+        last
+    }
+
+    /// What to say of a function whose derivative jumps, where derivatives are taken.
+    fn refuses_kink(&self, function: FunctionName) -> Option<String> {
+        if self.differentiated {
+            return Some(format!(
+                "{}, and `rate` takes derivatives; take `{}` out of `rate(…)`",
+                function.jump(),
+                function.word()
+            ));
+        }
+        self.place.refuses_kink(function)
+    }
+
+    /// A time derivative, which is a velocity.
+    fn rate(&mut self, arguments: &[Expression], span: Span) -> Option<Kind> {
+        if let Some(message) = self.place.refuses_velocity("rate(…)") {
+            return self.note(span, message);
+        }
+        if self.differentiated {
+            return self.note(span, self.acceleration("rate(…)", "one `rate`"));
+        }
+        self.differentiated = true;
+        let kind = self.arguments(FunctionName::Rate, arguments);
+        self.differentiated = false;
+        match kind? {
+            kind @ (Kind::Scalar | Kind::Vector) => Some(kind),
+            kind => self.note(
+                arguments.first().map_or(span, |argument| argument.span),
+                format!("`rate` takes a scalar or a vector, found {}; ask bodies for `.angular_velocity`", kind.noun()),
+            ),
+        }
+    }
+
+    fn meaning(&mut self, name: &Ident, expected: impl Fn(&Meaning) -> bool) -> Option<Meaning> {
+        match self.scope.find(name, expected) {
+            Ok(Meaning::Unusable(message)) => {
+                self.note(name.span(), message.clone());
+                None
+            }
+            Ok(meaning) if self.place.allows(meaning) => Some(meaning.clone()),
+            Ok(meaning) => {
+                self.note(name.span(), self.place.refusal(name, meaning));
+                None
+            }
+            Err(message) => {
+                self.note(name.span(), message?);
+                None
+            }
+        }
+    }
+
+    fn name(&mut self, name: &Ident) -> Option<Kind> {
+        let place = self.place;
+        match self.meaning(name, |meaning| place.allows(meaning))? {
+            Meaning::Speed(_) if self.differentiated => {
+                self.note(name.span(), self.acceleration(&name.to_string(), &format!("`{name}` itself")))
+            }
+            Meaning::Input(_) if self.differentiated => self.note(name.span(), rate_of_input(name)),
+            Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => Some(Kind::Scalar),
+            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(InputKind::Scalar) => Some(Kind::Scalar),
+            Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => Some(Kind::Vector),
+            Meaning::Input(InputKind::Wrench) => self.note(
+                name.span(),
+                format!("`{name}` is a wrench, which is two vectors; write `{name}.force` or `{name}.torque`"),
+            ),
+            Meaning::Definition(index) => self.definition(name, index),
+            Meaning::Vector | Meaning::Point => Some(Kind::Vector),
+            Meaning::Coordinate(CoordinateKind::Rotation) => Some(Kind::Rotation),
+            meaning => self.note(
+                name.span(),
+                format!("`{name}` is {}; write `{name}.position` or `{name}.rotation`", meaning.described()),
+            ),
+        }
+    }
+
+    /// The kind of a definition, whose expression stands where its name stands.
+    fn definition(&mut self, name: &Ident, index: usize) -> Option<Kind> {
+        let scope = self.scope;
+        match scope.definition(index) {
+            Ok(expression) => {
+                let outside = self.within.replace(index);
+                let kind = self.kind(expression?);
+                self.within = outside;
+                kind
+            }
+            Err(order) => {
+                let message = match order {
+                    Ordering::Greater => format!("`{name}` is defined later; move its definition up"),
+                    _ => format!("`{name}` is defined by itself; say what it is without `{name}`"),
+                };
+                self.note(name.span(), message)
+            }
+        }
+    }
+
+    /// `arm.position`.
+    fn property(&mut self, base: &Expression, property: Property, span: Span) -> Option<Kind> {
+        let word = property.word();
+        let ExpressionKind::Name(name) = &base.kind else {
+            self.kind(base)?;
+            return self.note(span, format!("`.{word}` is asked of bodies, frames and poses by their names"));
+        };
+        let place = self.place;
+        let pose = Meaning::Coordinate(CoordinateKind::Pose);
+        let wrench = Meaning::Input(InputKind::Wrench);
+        let has = |meaning: &Meaning| {
+            place.allows(meaning)
+                && if property.is_of_wrench() { *meaning == wrench } else { meaning.is_body() || *meaning == pose }
+        };
+        let meaning = self.meaning(name, has)?;
+        let message = match (&meaning, property) {
+            (Meaning::Body | Meaning::Frame, property) if property.is_velocity() => {
+                let written = format!("{name}.{word}");
+                match self.place.refuses_velocity(&written) {
+                    Some(message) => message,
+                    None if self.differentiated => self.acceleration(&written, &format!("`{written}` itself")),
+                    None => return Some(Kind::Vector),
+                }
+            }
+            (Meaning::Body | Meaning::Frame | Meaning::Coordinate(CoordinateKind::Pose), Property::Position) => {
+                return Some(Kind::Vector);
+            }
+            (Meaning::Body | Meaning::Frame | Meaning::Coordinate(CoordinateKind::Pose), Property::Rotation) => {
+                return Some(Kind::Rotation);
+            }
+            (Meaning::Input(InputKind::Wrench), Property::Force | Property::Torque) => {
+                if !self.differentiated {
+                    return Some(Kind::Vector);
+                }
+                rate_of_input(name)
+            }
+            (Meaning::Input(InputKind::Wrench), _) => {
+                format!("`{name}` is a wrench and has no `.{word}`; it has `.force` and `.torque`")
+            }
+            (meaning, Property::Force | Property::Torque) => format!(
+                "`{name}` is {} and has no `.{word}`; inputs that are wrenches have: `input(name: Wrench)`",
+                meaning.described()
+            ),
+            (Meaning::Coordinate(CoordinateKind::Pose), _) => format!(
+                "a pose has `.position` and `.rotation`, and no `.{word}`; ask it of the body that has this pose"
+            ),
+            (Meaning::Coordinate(CoordinateKind::Rotation), Property::Rotation) => {
+                format!("`{name}` is itself a rotation; write `{name}`")
+            }
+            (Meaning::Point, Property::Position) => format!("`{name}` is itself a position; write `{name}`"),
+            (Meaning::Point, Property::Velocity) => {
+                format!("`{name}` is a position and has no `.velocity`; write `rate({name})`")
+            }
+            (meaning, _) => format!(
+                "`{name}` is {} and has no `.{word}`; bodies and frames have, by their names",
+                meaning.described()
+            ),
+        };
+        self.note(span, message)
+    }
+
+    fn binary(&mut self, operator: BinaryOperator, left: Kind, right: Kind, span: Span) -> Option<Kind> {
+        use Kind::{Rotation, Scalar, Vector};
+        let found = format!("found {} and {}", left.noun(), right.noun());
+        let message = match (operator, left, right) {
+            (BinaryOperator::Add | BinaryOperator::Subtract, Scalar, Scalar) => return Some(Scalar),
+            (BinaryOperator::Add | BinaryOperator::Subtract, Vector, Vector) => return Some(Vector),
+            (BinaryOperator::Add, ..) => format!("`+` joins two scalars or two vectors, {found}"),
+            (BinaryOperator::Subtract, ..) => format!("`-` joins two scalars or two vectors, {found}"),
+            (BinaryOperator::Multiply, Scalar, Scalar) => return Some(Scalar),
+            (BinaryOperator::Multiply, Scalar, Vector) | (BinaryOperator::Multiply, Vector, Scalar) => {
+                return Some(Vector);
+            }
+            (BinaryOperator::Multiply, Rotation, Vector) => return Some(Vector),
+            (BinaryOperator::Multiply, Rotation, Rotation) => return Some(Rotation),
+            (BinaryOperator::Multiply, Vector, Vector) => {
+                "two vectors have two products; write `dot(a, b)` or `cross(a, b)`".into()
+            }
+            (BinaryOperator::Multiply, Vector, Rotation) => {
+                "a rotation stands before the vector that it turns; write `rotation * vector`".into()
+            }
+            (BinaryOperator::Multiply, ..) => format!("`*` turns a vector or another rotation, {found}"),
+            (BinaryOperator::Divide, Scalar, Scalar) => return Some(Scalar),
+            (BinaryOperator::Divide, Vector, Scalar) => return Some(Vector),
+            (BinaryOperator::Divide, ..) => format!("`/` divides a scalar or a vector by a scalar, {found}"),
+        };
+        self.note(span, message)
+    }
+
+    fn expect(&mut self, found: Kind, expected: Kind, span: Span, what: &str) -> Option<()> {
+        if found == expected {
+            return Some(());
+        }
+        self.note(span, format!("{what} {}, found {}", expected.noun(), found.noun()));
+        None
+    }
+
+    fn note(&mut self, span: Span, message: String) -> Option<Kind> {
+        let Some(definition) = self.within else {
+            self.context.error(span, message);
+            return None;
+        };
+        // It is well by itself, so that the use is what forbids it.
+        if self.scope.is_new(definition, &message) {
+            let (name, subject) = (self.scope.name_of_definition(definition), self.place.subject());
+            self.context.error(span, format!("in the definition of `{name}`, which {subject} uses: {message}"));
+        }
+        None
+    }
+
+    /// What to say of the time derivative of a velocity.
+    fn acceleration(&self, written: &str, instead: &str) -> String {
+        format!(
+            "the time derivative of `{written}` is an acceleration, which {} cannot contain; write {instead}",
+            self.place.subject()
+        )
+    }
+}
+
+/// What to say of an input in `rate(…)`.
+fn rate_of_input(name: &Ident) -> String {
+    format!(
+        "`{name}` is an input, whose rate is never known; take it out of `rate(…)`, and declare an input for its rate if \
+         that is known"
+    )
+}

@@ -1,0 +1,68 @@
+//! What changes when coordinates or speeds do.
+
+use crate::model::language::statements::Statements;
+use crate::model::language::words::{UNNAMED, word};
+use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
+use proc_macro2::Ident;
+
+/// What moves, by name.
+pub struct Moving {
+    /// Coordinates; bodies, frames and points that are placed by them.
+    places: Vec<String>,
+    speeds: Vec<String>,
+}
+
+impl Moving {
+    pub fn new(statements: &Statements) -> Moving {
+        let mut places: Vec<String> = Vec::new();
+        places.extend(statements.coordinates.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)));
+        places.extend(statements.in_chart.then(|| UNNAMED.to_owned()));
+        let speeds = statements.speeds.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)).collect();
+        // A child may be written before its parent: round after round adds those that are moved by what moves.
+        for _ in &statements.bodies {
+            for body in &statements.bodies {
+                let name = body.word();
+                let moved = body.parent.as_ref().is_some_and(|parent| places.contains(&word(parent)))
+                    || body.position.iter().chain(&body.rotation).any(|e| names_any(e, &places));
+                if moved && !places.contains(&name) {
+                    places.push(name);
+                }
+            }
+        }
+        for point in &statements.points {
+            if places.contains(&word(&point.body)) {
+                places.push(word(&point.name));
+            }
+        }
+        Moving { places, speeds }
+    }
+
+    /// Whether a coordinate, a body, a frame or a point moves.
+    pub fn moves(&self, name: &Ident) -> bool {
+        self.places.contains(&word(name))
+    }
+
+    /// Whether some part of it is the name of what moves.
+    pub fn in_place(&self, expression: &Expression) -> bool {
+        names_any(expression, &self.places)
+    }
+
+    /// Whether some part of it is a velocity of what moves.
+    pub fn in_velocity(&self, expression: &Expression) -> bool {
+        let mut found = names_any(expression, &self.speeds);
+        expression.walk(&mut |part| {
+            found |= match &part.kind {
+                ExpressionKind::Call(FunctionName::Rate, arguments) => {
+                    arguments.iter().any(|argument| names_any(argument, &self.places))
+                }
+                ExpressionKind::Property(body, property) if property.is_velocity() => names_any(body, &self.places),
+                _ => false,
+            };
+        });
+        found
+    }
+}
+
+fn names_any(expression: &Expression, words: &[String]) -> bool {
+    words.iter().any(|word| expression.names(word))
+}

@@ -1,0 +1,352 @@
+//! Where expressions stand: which kind of value is needed there, and which names may stand there.
+
+use super::scope::Meaning;
+use crate::model::language::kind::Kind;
+use crate::model::scene::clauses::{ConstraintKind, CoordinateKind};
+use crate::model::scene::expression::FunctionName;
+use crate::model::scene::roles::{Role, Shape};
+use proc_macro2::Ident;
+
+/// Where an expression stands.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// The rate of a coordinate; of `None` it is not known which.
+    Kinematics(Option<CoordinateKind>),
+    /// Of a body or a frame.
+    Position,
+    /// Of a body or a frame.
+    Rotation,
+    /// Of a particle, without a parent or relative to one.
+    Particle {
+        parent: bool,
+    },
+    Mass,
+    /// Of a body, in a clause.
+    Given(Role),
+    /// Of a point in its body.
+    At,
+    Potential,
+    Constraint(ConstraintKind),
+    /// Of the point where a force acts, in observer axes.
+    ForcePoint,
+    /// Of the point where a force acts, in its body; `bound`: there is no other way to say where it acts.
+    ForceAt {
+        bound: bool,
+    },
+    /// The components of a force.
+    Force,
+    /// The components of a torque.
+    Torque,
+    /// The generalised force on the rate of a coordinate.
+    Drive,
+    /// Where a spring or a stop begins or ends, with its noun.
+    End(&'static str),
+    /// What a spring or a stop acts along, with its noun.
+    Along(&'static str),
+    /// A constant `word` of `noun`, such as the stiffness of a spring.
+    Constant {
+        word: &'static str,
+        noun: &'static str,
+    },
+    /// Rayleigh's.
+    Dissipation,
+    /// One of the coefficients of a drag.
+    Coefficient,
+    /// The velocity of the medium.
+    Medium,
+    /// What central gravity attracts to.
+    Center,
+    /// An expression with a name: what it may contain depends on where the name stands.
+    Definition,
+}
+
+impl Place {
+    /// Whether values of this kind are what is needed.
+    pub fn accepts(self, kind: Kind) -> bool {
+        match self {
+            Place::Kinematics(None) => true,
+            Place::Kinematics(Some(CoordinateKind::Scalar)) | Place::Mass | Place::Potential => kind == Kind::Scalar,
+            Place::Drive | Place::Along(_) | Place::Constant { .. } | Place::Dissipation | Place::Coefficient => {
+                kind == Kind::Scalar
+            }
+            Place::Kinematics(Some(CoordinateKind::Pose)) => kind == Kind::Twist,
+            Place::Kinematics(Some(CoordinateKind::Rotation))
+            | Place::Position
+            | Place::Particle { .. }
+            | Place::At => kind == Kind::Vector,
+            Place::ForcePoint | Place::ForceAt { .. } | Place::Force | Place::Torque | Place::End(_) => {
+                kind == Kind::Vector
+            }
+            Place::Medium | Place::Center => kind == Kind::Vector,
+            Place::Rotation => kind == Kind::Rotation,
+            Place::Given(role) => match kind {
+                Kind::Scalar => role.takes(Shape::Scalar),
+                Kind::Vector => role.takes(Shape::Vector3),
+                _ => false,
+            },
+            Place::Constraint(_) => matches!(kind, Kind::Scalar | Kind::Vector),
+            Place::Definition => kind != Kind::Twist,
+        }
+    }
+
+    /// What to say of an expression of another kind.
+    pub fn mismatch(self, found: Kind) -> String {
+        let (needed, remedy) = match self {
+            Place::Kinematics(Some(CoordinateKind::Pose)) => (
+                "a pose changes by `twist(linear, angular)`, two vectors in body axes",
+                "write `twist(u, w)` with speeds `u: Vector3, w: Vector3`",
+            ),
+            Place::Kinematics(Some(CoordinateKind::Rotation)) => (
+                "a rotation changes by its angular velocity, a vector in body axes",
+                "write `[w1, w2, w3]`, or the name of a speed `w: Vector3`",
+            ),
+            Place::Kinematics(_) => {
+                ("the rate of a coordinate is a scalar", "write one number, such as `v * cos(theta)`")
+            }
+            Place::Position | Place::Particle { .. } => ("a position is a vector", "write `[x, y, z]`"),
+            Place::At => ("the place of a point in its body is a vector", "write `[x, y, z]`"),
+            Place::Rotation => ("expected a rotation", "write `rotation_z(theta)`, or a product of such turns"),
+            Place::Mass => ("the mass of a particle is a scalar", "write one number or the name of a field"),
+            Place::Given(role) => {
+                let remedy = match (role.takes(Shape::Scalar), role.takes(Shape::Vector3)) {
+                    (true, true) => "write one number or `[a, b, c]`",
+                    (false, _) => "write `[x, y, z]`",
+                    _ => "write one number",
+                };
+                return format!("{}, found {}; {remedy}", role.reason(), found.noun());
+            }
+            Place::Potential => ("a potential is a scalar", "write one number, such as `k * x * x / 2`"),
+            Place::Constraint(_) => (
+                "a constraint is a scalar or a vector that is zero",
+                "write numbers that vanish when it holds, such as products of unit vectors",
+            ),
+            Place::ForcePoint => {
+                ("the point of a force is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
+            }
+            Place::ForceAt { .. } => ("the point of a force in its body is a vector", "write `[x, y, z]`"),
+            Place::Force => ("a force is a vector", "write `[fx, fy, fz]`"),
+            Place::Torque => ("a torque is a vector", "write `[mx, my, mz]`"),
+            Place::Drive => {
+                ("the generalised force on the rate of a scalar coordinate is a scalar", "write one number")
+            }
+            Place::End(noun) => {
+                return format!(
+                    "the end of {noun} is a vector, found {}; write the name of a point, `arm.position` or `[x, y, z]`",
+                    found.noun()
+                );
+            }
+            Place::Along(noun) => {
+                return format!(
+                    "what {noun} acts along is a scalar, found {}; write one number such as an angle, or `from = …` and \
+                     `to = …` for the distance of two points",
+                    found.noun()
+                );
+            }
+            Place::Constant { word, noun } => {
+                return format!(
+                    "the {word} of {noun} is a scalar, found {}; write one number or the name of a field",
+                    found.noun()
+                );
+            }
+            Place::Coefficient => ("a coefficient of a drag is a scalar", "write one number"),
+            Place::Medium => ("the velocity of the medium is a vector", "write `[cx, cy, cz]`"),
+            Place::Center => ("the center of gravity is a vector", "write `[x, y, z]`"),
+            Place::Definition => ("a definition is a scalar, a vector or a rotation", "write one of them"),
+            Place::Dissipation => ("a dissipation function is a scalar", "write one number, such as `c * v * v / 2`"),
+        };
+        format!("{needed}, found {}; {remedy}", found.noun())
+    }
+
+    /// Whether a name with this meaning may stand here.
+    pub fn allows(self, meaning: &Meaning) -> bool {
+        match meaning {
+            Meaning::Scalar | Meaning::Vector | Meaning::Definition(_) | Meaning::Unusable(_) => true,
+            Meaning::Time => !self.is_constant(),
+            Meaning::Coordinate(_) => !self.is_constant() && !self.is_given(),
+            Meaning::Speed(_) => self.of_velocities(),
+            Meaning::Input(_) => self.is_action(),
+            Meaning::Body | Meaning::Frame | Meaning::Point => {
+                self.is_action()
+                    || matches!(
+                        self,
+                        Place::Particle { parent: false }
+                            | Place::Potential
+                            | Place::Constraint(_)
+                            | Place::ForcePoint
+                            | Place::End(_)
+                            | Place::Along(_)
+                    )
+            }
+        }
+    }
+
+    /// What acts: a function of all that is known at an instant.
+    fn is_action(self) -> bool {
+        matches!(
+            self,
+            Place::Force | Place::Torque | Place::Drive | Place::Dissipation | Place::Coefficient | Place::Definition
+        )
+    }
+
+    /// Nothing that moves with the system may stand here, but time may.
+    fn is_given(self) -> bool {
+        matches!(self, Place::Medium | Place::Center)
+    }
+
+    /// Speeds may stand here.
+    fn of_velocities(self) -> bool {
+        self.is_action() || matches!(self, Place::Kinematics(_) | Place::Constraint(ConstraintKind::Velocity))
+    }
+
+    /// Nothing that changes may stand here.
+    fn is_constant(self) -> bool {
+        matches!(self, Place::Mass | Place::Given(_) | Place::At | Place::ForceAt { .. } | Place::Constant { .. })
+    }
+
+    /// What stands here, for messages.
+    pub fn subject(self) -> &'static str {
+        match self {
+            Place::Kinematics(_) => "the rate of a coordinate",
+            Place::Position | Place::Particle { .. } => "a position",
+            Place::Rotation => "a rotation",
+            Place::Mass => "a mass",
+            Place::Given(_) => "what a body is",
+            Place::At => "a point of a body",
+            Place::Potential => "a potential",
+            Place::Constraint(ConstraintKind::Position) => "a constraint of positions",
+            Place::Constraint(ConstraintKind::Velocity) => "a constraint of velocities",
+            Place::ForcePoint | Place::ForceAt { .. } => "the point of a force",
+            Place::Force => "a force",
+            Place::Torque => "a torque",
+            Place::Drive => "a generalised force",
+            Place::End("a stop") => "the end of a stop",
+            Place::End(_) => "the end of a spring",
+            Place::Along("a stop") => "the extent of a stop",
+            Place::Along(_) => "the extent of a spring",
+            Place::Constant { noun: "a stop", .. } => "a constant of a stop",
+            Place::Constant { noun: "a spring", .. } => "a constant of a spring",
+            Place::Constant { noun: "an added mass", .. } => "an added mass",
+            Place::Constant { .. } => "a gravitational parameter",
+            Place::Dissipation => "a dissipation function",
+            Place::Coefficient => "a coefficient of a drag",
+            Place::Medium => "the velocity of the medium",
+            Place::Center => "a center of gravity",
+            Place::Definition => "a definition",
+        }
+    }
+
+    /// What to say of a name that may not stand here.
+    pub fn refusal(self, name: &Ident, meaning: &Meaning) -> String {
+        let what = meaning.described();
+        match (self, meaning) {
+            (Place::Medium, Meaning::Input(_)) => format!(
+                "`{name}` is an input, whose rate is never known, and bodies feel the rate of the velocity of the medium \
+                 by their added mass; write it in `t`, fields and numbers"
+            ),
+            (Place::Medium, _) => format!(
+                "`{name}` moves with the system, and there is no added mass in a stream that varies with the place; write \
+                 the velocity of the medium in `t`, fields and numbers, and the drag in any other stream as `force(…)`"
+            ),
+            (_, Meaning::Input(_)) => format!(
+                "`{name}` is an input, whose value is not known before run time, and whose rate is never; inputs stand \
+                 in values of `force`, `torque`, `wrench` and `drive`, in coefficients of `drag`, and in `damping`"
+            ),
+            (Place::Center, _) => format!(
+                "`{name}` moves with the system, and the center of gravity is given beforehand; write it in `t`, fields \
+                 and numbers"
+            ),
+            (Place::Kinematics(_), _) => format!(
+                "`{name}` is {what}, and its velocity follows from the kinematics, not the kinematics from it; \
+                 write rates in coordinates, speeds, fields and `t`"
+            ),
+            (Place::Mass, _) => {
+                format!("`{name}` varies, and the mass of a particle is constant; write numbers and fields only")
+            }
+            (Place::Given(role), _) => {
+                format!("`{name}` varies, and `{}` of a body is constant; write numbers and fields only", role.word())
+            }
+            (Place::Constant { word, noun }, _) => {
+                format!("`{name}` varies, and the {word} of {noun} is constant; write numbers and fields only")
+            }
+            (Place::At, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+                "`{name}` is {what}, and a point is given in the axes of its own body; write numbers and fields only"
+            ),
+            (Place::At, _) => {
+                format!("`{name}` varies, and a point is fixed in its body; write numbers and fields only")
+            }
+            (Place::ForceAt { bound: true }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+                "`{name}` is {what}, which is known in observer axes, and the place where this acts is in the axes of its \
+                 body; write numbers and fields, or the name of a point of that body"
+            ),
+            (Place::ForceAt { bound: true }, _) => format!(
+                "`{name}` varies, and the place where this acts is fixed in its body; write numbers and fields only"
+            ),
+            (Place::ForceAt { .. }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+                "`{name}` is {what}, which is known in observer axes, and with `body` a force acts at a place in the axes \
+                 of that body; write numbers and fields, the name of a point of that body, or leave `body` out"
+            ),
+            (Place::ForceAt { .. }, _) => format!(
+                "`{name}` varies, and with `body` a force acts at a fixed place of that body; write numbers and fields \
+                 only, or leave `body` out"
+            ),
+            (Place::Position | Place::Rotation, Meaning::Body | Meaning::Frame) => format!(
+                "`{name}` is {what}, and bodies are placed relative to one another by parents; \
+                 write `parent = {name}` and what is relative to it"
+            ),
+            (Place::Position | Place::Rotation, Meaning::Point) => format!(
+                "`{name}` is a point, and bodies are placed relative to one another by parents; \
+                 write `parent = …` with its body"
+            ),
+            (Place::Particle { .. }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+                "`{name}` is {what}, which is known in observer axes, and the position of a particle with a parent is in \
+                 the axes of the parent; leave `parent` out, or write the position without `{name}`"
+            ),
+            (place, _) => {
+                let remedy = match place {
+                    Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
+                    Place::Constraint(_) => "write `constraint(velocity = …)`",
+                    Place::ForcePoint | Place::End(_) | Place::Along(_) => "speeds stand in values of forces",
+                    _ => "speeds stand in `kinematics`",
+                };
+                let subject = place.subject();
+                format!("`{name}` is a speed, and {subject} depends on coordinates, fields and `t` only; {remedy}")
+            }
+        }
+    }
+
+    /// What to say of a velocity, `written` so, where none may stand.
+    pub fn refuses_velocity(self, written: &str) -> Option<String> {
+        let remedy = match self {
+            place if place.is_action() => return None,
+            Place::Constraint(ConstraintKind::Velocity) => return None,
+            Place::Constraint(ConstraintKind::Position) => "write `constraint(velocity = …)`",
+            Place::Kinematics(_) => "the rates of coordinates are written in speeds",
+            Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
+            _ => "remove it",
+        };
+        Some(format!(
+            "`{written}` is a velocity, which only `constraint(velocity = …)` and values of forces can contain; {remedy}"
+        ))
+    }
+
+    /// What to say of a function that is not smooth, where derivatives are taken.
+    pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
+        match self {
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient | Place::Definition => None,
+            place if place.is_constant() => Some(format!(
+                "`{}` stands in values of forces only; make the number a field of the struct",
+                function.word()
+            )),
+            Place::Dissipation => Some(format!(
+                "{}, and forces are derivatives of a dissipation function; write the force itself as `force(…)`, \
+                 `torque(…)` or `drive(…)`",
+                function.jump()
+            )),
+            place => Some(format!(
+                "{}, and {} is differentiated; only values of forces can contain it",
+                function.jump(),
+                place.subject()
+            )),
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! What the names in expressions mean.
+
+use crate::model::language::functions::FUNCTIONS;
+use crate::model::language::words::{self, TIME};
+use crate::model::scene::clauses::{CoordinateKind, InputKind, SpeedKind};
+use crate::model::scene::expression::Expression;
+use proc_macro2::Ident;
+use std::cell::RefCell;
+use std::cmp::Ordering;
+use syn::ext::IdentExt;
+
+/// What a name stands for.
+#[derive(Clone, PartialEq, Eq)]
+pub enum Meaning {
+    Time,
+    Coordinate(CoordinateKind),
+    Speed(SpeedKind),
+    /// A value that arrives at run time.
+    Input(InputKind),
+    /// An expression, by its place among the definitions.
+    Definition(usize),
+    /// A field that is a number.
+    Scalar,
+    /// A field that is a vector of three.
+    Vector,
+    /// A body with mass.
+    Body,
+    /// A body without mass.
+    Frame,
+    /// A point of a body.
+    Point,
+    /// A field that expressions cannot use; the message says why.
+    Unusable(String),
+}
+
+/// The names that expressions may use.
+pub struct Scope {
+    names: Vec<(String, Meaning)>,
+    /// Every name could be read; if not, an unknown name may well be one of those that could not.
+    complete: bool,
+    /// What the definitions stand for, as far as they are known to be well by themselves.
+    definitions: Vec<Option<Expression>>,
+    /// Mistakes that uses found in definitions: what several uses forbid is said once.
+    said: RefCell<Vec<(usize, String)>>,
+}
+
+impl Scope {
+    pub fn new(complete: bool) -> Scope {
+        Scope { names: vec![(TIME.into(), Meaning::Time)], complete, definitions: Vec::new(), said: RefCell::default() }
+    }
+
+    /// Says what the next definition stands for; `None` if something is wrong with it.
+    pub fn define(&mut self, expression: Option<Expression>) {
+        self.definitions.push(expression);
+    }
+
+    /// What a definition stands for; `None` if something is wrong with it.
+    ///
+    /// # Errors
+    /// It comes after the one that is being read, or is this one.
+    pub fn definition(&self, index: usize) -> Result<Option<&Expression>, Ordering> {
+        self.definitions.get(index).map(Option::as_ref).ok_or(index.cmp(&self.definitions.len()))
+    }
+
+    /// Whether this is new to be said of the definition.
+    pub fn is_new(&self, definition: usize, message: &str) -> bool {
+        let mut said = self.said.borrow_mut();
+        let new = !said.iter().any(|(other, known)| *other == definition && known == message);
+        if new {
+            said.push((definition, message.to_owned()));
+        }
+        new
+    }
+
+    /// The name of a definition.
+    pub fn name_of_definition(&self, index: usize) -> &str {
+        let named = self.names.iter().find(|(_, meaning)| *meaning == Meaning::Definition(index));
+        named.map_or("", |(name, _)| name)
+    }
+
+    /// Adds a name; one with two meanings keeps both.
+    pub fn add(&mut self, name: &Ident, meaning: Meaning) {
+        let entry = (name.unraw().to_string(), meaning);
+        if !self.names.contains(&entry) {
+            self.names.push(entry);
+        }
+    }
+
+    /// The meaning of `name` where names with an `expected` meaning may stand.
+    ///
+    /// # Errors
+    /// What to say of an unknown name; `None` where that is said elsewhere.
+    pub fn find(&self, name: &Ident, expected: impl Fn(&Meaning) -> bool) -> Result<&Meaning, Option<String>> {
+        let word = name.unraw().to_string();
+        let mut meanings = self.names.iter().filter(|(known, _)| *known == word).map(|(_, meaning)| meaning);
+        if let Some(meaning) = meanings.next() {
+            // What a name with two meanings was meant to be cannot be told; that it has two is noted elsewhere.
+            return if meanings.next().is_some() { Err(None) } else { Ok(meaning) };
+        }
+        if let Some((_, function)) = FUNCTIONS.iter().find(|(function, _)| *function == word) {
+            return Err(Some(format!("`{word}` is a function; write `{}`", function.example())));
+        }
+        if !self.complete {
+            return Err(None);
+        }
+        let remedy = match self.nearest(&word) {
+            Some((near, meaning)) => format!("did you mean {}`{near}`?", meaning.noun()),
+            None if expected(&Meaning::Input(InputKind::Scalar)) => {
+                format!("declare it by `input({word})` if it arrives at run time, or write {}", self.list(expected))
+            }
+            None => format!("expected {}", self.list(expected)),
+        };
+        Err(Some(format!("unknown name `{word}`; {remedy}")))
+    }
+
+    /// The nearest usable name. A single letter is near to nothing but its other case: any two letters are one edit
+    /// apart.
+    fn nearest(&self, word: &str) -> Option<(&str, &Meaning)> {
+        let usable = self.names.iter().filter(|(_, meaning)| !matches!(meaning, Meaning::Unusable(_)));
+        let single = word.chars().count() == 1;
+        let table: Vec<(&str, &Meaning)> = usable
+            .filter(|(name, _)| !single || name.eq_ignore_ascii_case(word))
+            .map(|(name, meaning)| (name.as_str(), meaning))
+            .collect();
+        words::nearest(word, &table)
+    }
+
+    /// All expected names, by what they are.
+    fn list(&self, expected: impl Fn(&Meaning) -> bool) -> String {
+        let mut parts = Vec::new();
+        for noun in [
+            "the coordinate ",
+            "the speed ",
+            "the input ",
+            "the definition ",
+            "the field ",
+            "the body ",
+            "the frame ",
+            "the point ",
+        ] {
+            let table: Vec<(&str, ())> = self
+                .names
+                .iter()
+                .filter(|(_, meaning)| meaning.noun() == noun && expected(meaning))
+                .map(|(name, _)| (name.as_str(), ()))
+                .collect();
+            if !table.is_empty() {
+                parts.push(format!("{}({})", words::a(&noun[4..]), words::list(&table)));
+            }
+        }
+        if expected(&Meaning::Time) {
+            parts.push(format!("`{TIME}`"));
+        }
+        match parts.split_last() {
+            Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+            Some((last, _)) => last.clone(),
+            None => "a number".into(),
+        }
+    }
+}
+
+impl Meaning {
+    fn noun(&self) -> &'static str {
+        match self {
+            Meaning::Time | Meaning::Unusable(_) => "",
+            Meaning::Coordinate(_) => "the coordinate ",
+            Meaning::Speed(_) => "the speed ",
+            Meaning::Input(_) => "the input ",
+            Meaning::Definition(_) => "the definition ",
+            Meaning::Scalar | Meaning::Vector => "the field ",
+            Meaning::Body => "the body ",
+            Meaning::Frame => "the frame ",
+            Meaning::Point => "the point ",
+        }
+    }
+
+    /// A body or a frame.
+    pub fn is_body(&self) -> bool {
+        matches!(self, Meaning::Body | Meaning::Frame)
+    }
+
+    /// What it is, for messages.
+    pub fn described(&self) -> &'static str {
+        match self {
+            Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => "a scalar",
+            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(InputKind::Scalar) => "a scalar",
+            Meaning::Vector | Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => "a vector",
+            Meaning::Input(InputKind::Wrench) => "a wrench",
+            Meaning::Definition(_) => "a definition",
+            Meaning::Coordinate(CoordinateKind::Pose) => "a pose",
+            Meaning::Coordinate(CoordinateKind::Rotation) => "a rotation",
+            Meaning::Body => "a body",
+            Meaning::Frame => "a frame",
+            Meaning::Point => "a point",
+            Meaning::Unusable(_) => "a field",
+        }
+    }
+}

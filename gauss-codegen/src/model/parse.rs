@@ -1,0 +1,69 @@
+//! The whole way: the attributes and the fields of a struct in, its model out.
+
+use crate::model::assembly;
+use crate::model::language::context::Context;
+use crate::model::language::{fields, struct_clauses};
+use crate::model::scene::model::Model;
+use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics};
+
+/// Reads and checks a struct.
+///
+/// # Errors
+/// All mistakes of the struct combined, each at the token that is wrong.
+pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
+    let mut context = Context::default();
+    let clauses = struct_clauses::read(&input.attrs, fields::any_body(input), &mut context);
+    check_generics(&input.generics, &mut context);
+    let model = named_fields(input, &mut context).and_then(|named| {
+        let reader = fields::read(named, &input.generics, clauses.own, &mut context);
+        assembly::model(input, clauses, reader, &mut context)
+    });
+    context.finish(model)
+}
+
+/// The fields of a struct with named fields; anything else is a mistake at its name.
+fn named_fields<'a>(input: &'a DeriveInput, context: &mut Context) -> Option<&'a FieldsNamed> {
+    let found = match &input.data {
+        Data::Struct(data) => match &data.fields {
+            Fields::Named(named) => return Some(named),
+            Fields::Unnamed(_) => "a tuple struct",
+            Fields::Unit => "a unit struct",
+        },
+        Data::Enum(_) => "an enum",
+        Data::Union(_) => "a union",
+    };
+    let name = &input.ident;
+    context.error(
+        name.span(),
+        format!(
+            "`GaussDynamics` is derived for structs with named fields, and `{name}` is {found}; \
+             write `struct {name} {{ #[gauss(mass)] mass: f64, #[gauss(inertia)] inertia: f64 }}`"
+        ),
+    );
+    None
+}
+
+/// A kernel holds numbers of one scalar type, so type parameters are all that it can carry over.
+fn check_generics(generics: &Generics, context: &mut Context) {
+    for parameter in &generics.params {
+        match parameter {
+            GenericParam::Type(_) => {}
+            GenericParam::Lifetime(parameter) => context.error_at(
+                &parameter.lifetime,
+                format!(
+                    "the lifetime parameter `{}` is not supported; \
+                     a kernel outlives the struct that it is made from: write fields that own their values",
+                    parameter.lifetime
+                ),
+            ),
+            GenericParam::Const(parameter) => context.error(
+                parameter.ident.span(),
+                format!(
+                    "the const parameter `{}` is not supported; \
+                     the shape of every role is fixed: write the number where it is used",
+                    parameter.ident
+                ),
+            ),
+        }
+    }
+}

@@ -1,0 +1,333 @@
+//! The clauses of a scene, checked: coordinates and speeds, what has mass, and what acts.
+
+use super::expression::Expression;
+use super::roles::{Role, Shape};
+use proc_macro2::Span;
+use syn::Ident;
+
+/// One coordinate, or three or six that are an element of a group.
+#[derive(Clone)]
+pub struct Coordinate {
+    /// Its name.
+    pub ident: Ident,
+    /// What it takes its values in.
+    pub kind: CoordinateKind,
+}
+
+/// What a coordinate takes its values in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoordinateKind {
+    /// The real numbers.
+    Scalar,
+    /// SE(3): (R, b).
+    Pose,
+    /// SO(3): R.
+    Rotation,
+}
+
+/// One speed, or three under one name.
+#[derive(Clone)]
+pub struct Speed {
+    /// Its name.
+    pub ident: Ident,
+    /// How many it stands for.
+    pub kind: SpeedKind,
+}
+
+/// How many speeds are under one name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpeedKind {
+    /// One.
+    Scalar,
+    /// Three.
+    Vector,
+}
+
+/// `body(name, parent = …, position = …, rotation = …)` or `frame(name, …)`.
+#[derive(Clone)]
+pub struct BodyClause {
+    /// Of a body the field with its mass data, unless they are given here; `None` for the only body, whose mass data are the
+    /// fields with roles. Frames have names.
+    pub name: Option<Ident>,
+    /// It is a frame: axes with an origin and no mass.
+    pub massless: bool,
+    /// The body or frame whose O and axes position and rotation are relative to; `None`: Ω and k.
+    pub parent: Option<Ident>,
+    /// Where O is; `None`: at the parent's O, or at Ω, or where the chart says.
+    pub position: Option<Expression>,
+    /// How the axes e are turned; `None`: like the parent's, or like k, or as the chart says.
+    pub rotation: Option<Expression>,
+    /// Mass, centre of mass and inertia where the body has no field; what the fluid about it does, in any case.
+    pub given: Vec<Given>,
+    /// The word `body` or `frame`.
+    pub span: Span,
+}
+
+impl BodyClause {
+    /// Its mass data are said in the clause.
+    pub fn has_matter(&self) -> bool {
+        self.given.iter().any(Given::is_of_matter)
+    }
+}
+
+/// `particle(mass = …, position = …, parent = …)`.
+#[derive(Clone)]
+pub struct ParticleClause {
+    /// A scalar of fields and numbers.
+    pub mass: Expression,
+    /// A vector of t and q: in the axes of the parent from its O, or in observer axes from Ω.
+    pub position: Expression,
+    /// The body or frame that the position is relative to.
+    pub parent: Option<Ident>,
+    /// The word `particle`.
+    #[allow(dead_code, reason = "where a mistake about the whole clause belongs")]
+    pub span: Span,
+}
+
+/// `point(name, body = …, at = …)`.
+#[derive(Clone)]
+pub struct PointClause {
+    /// In expressions the name is the position vector from Ω, in observer axes.
+    pub name: Ident,
+    /// The body or frame that the point is fixed in.
+    pub body: Ident,
+    /// A vector of fields and numbers: body axes from O.
+    pub at: Expression,
+    /// The word `point`.
+    pub span: Span,
+}
+
+/// `constraint(position = …)` or `constraint(velocity = …)`: the expression is zero.
+#[derive(Clone)]
+pub struct ConstraintClause {
+    /// What is constrained.
+    pub kind: ConstraintKind,
+    /// A scalar or a vector: of t and q; of t, q and z if velocities are constrained.
+    pub expression: Expression,
+    /// The expression is a vector: three constraints.
+    pub vector: bool,
+    /// The word `constraint`.
+    pub span: Span,
+}
+
+/// What a constraint is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConstraintKind {
+    /// φ(t, q) = 0.
+    Position,
+    /// φ(t, q, z) = 0.
+    Velocity,
+}
+
+/// One value that arrives at run time, or several under one name.
+#[derive(Clone)]
+pub struct InputName {
+    /// Its name.
+    pub ident: Ident,
+    /// How many it stands for.
+    pub kind: InputKind,
+    /// The unit, if one is written; a wrench is in N and N m.
+    pub unit: Option<String>,
+}
+
+/// How many values are under one name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InputKind {
+    /// One.
+    Scalar,
+    /// Three.
+    Vector,
+    /// Six: a force, then a torque, each a vector of its own in expressions.
+    Wrench,
+}
+
+/// `central_gravity(mu = …, center = …)`: the acceleration `−mu d/|d|³` of everything with mass, d from the center.
+#[derive(Clone)]
+pub struct Attraction {
+    /// What its generalised force is called, different from those of the other elements; `None` if it has no name.
+    pub name: Option<Ident>,
+    /// The gravitational parameter: a scalar of fields and numbers.
+    pub mu: Expression,
+    /// Where it attracts to: a vector of t, fields and numbers, observer axes from Ω; `None`: Ω.
+    pub center: Option<Expression>,
+}
+
+/// `force(…)`, `torque(…)`, `wrench(…)`, `drive(…)`, `spring(…)`, `stop(…)`, `drag(…)` or `damping = …`: an element of
+/// what acts.
+#[derive(Clone)]
+pub struct ForceClause {
+    /// What its generalised force is called, different from those of the other elements; `None` if it has no name.
+    pub name: Option<Ident>,
+    /// What acts, and where.
+    pub kind: ForceKind,
+    /// The word that the clause begins with.
+    pub span: Span,
+}
+
+/// What acts. A value may depend on t, q, z and the inputs; a place on t and q only.
+#[derive(Clone)]
+pub enum ForceKind {
+    /// `force(at = …, value = …)`: at the point that has this position.
+    AtPoint {
+        /// A vector of t and q: observer axes from Ω.
+        at: Expression,
+        /// A vector: observer axes.
+        value: Expression,
+    },
+    /// `force(body = …, at = …, value = …, axes = …)`: at a point fixed in a body or a frame.
+    OnBody {
+        /// The body or frame.
+        body: Ident,
+        /// A vector of fields and numbers: body axes from O; `None`: at O.
+        at: Option<Expression>,
+        /// A vector.
+        value: Expression,
+        /// Those of the value.
+        axes: ForceAxes,
+    },
+    /// `torque(body = …, value = …, axes = …, reaction = …)`.
+    Torque {
+        /// The body or frame that it acts on.
+        body: Ident,
+        /// A vector.
+        value: Expression,
+        /// Those of the value: the observer's, or those of `body`, never of `reaction`.
+        axes: ForceAxes,
+        /// The body or frame that the opposite torque acts on, another one than `body`.
+        reaction: Option<Ident>,
+    },
+    /// `wrench(body = …, at = …, force = …, torque = …, axes = …)`: a force, a torque or both.
+    Wrench {
+        /// The body or frame that it acts on.
+        body: Ident,
+        /// Where the force acts: a vector of fields and numbers, body axes from O; `None`: at O.
+        at: Option<Expression>,
+        /// A vector; `None` only if there is a torque.
+        force: Option<Expression>,
+        /// A vector; `None` only if there is a force.
+        torque: Option<Expression>,
+        /// Those of both.
+        axes: ForceAxes,
+    },
+    /// `drive(theta = …)`: generalised forces; each one delivers the power of its value times the rate of its coordinate.
+    Drive {
+        /// Scalar coordinates, each once, with scalars.
+        rates: Vec<(Ident, Expression)>,
+    },
+    /// `spring(from = …, to = …, stiffness = …, length = …, damping = …)` or `spring(along = …, …)`.
+    Spring {
+        /// What it is the elongation of.
+        extent: Extent,
+        /// Force by elongation: a scalar of fields and numbers.
+        stiffness: Expression,
+        /// The extent without force: a scalar of fields and numbers; `None`: zero.
+        length: Option<Expression>,
+        /// Force by rate of elongation: a scalar of fields and numbers; `None`: zero.
+        damping: Option<Expression>,
+    },
+    /// `stop(along = …, least = …, most = …, stiffness = …, width = …, damping = …)` or `stop(from = …, to = …, …)`:
+    /// pushes the extent back between two limits. Every constant is a scalar of fields and numbers.
+    Stop {
+        /// What is kept within limits.
+        extent: Extent,
+        /// The lower limit; `None` only if there is an upper one.
+        least: Option<Expression>,
+        /// The upper limit; `None` only if there is a lower one.
+        most: Option<Expression>,
+        /// Force by extent beyond a limit.
+        stiffness: Expression,
+        /// The distance, or angle, over which the stop sets in.
+        width: Expression,
+        /// Force by rate of the extent while beyond a limit; `None`: zero.
+        damping: Option<Expression>,
+    },
+    /// `drag(body = …, linear = …, quadratic = …)`: against the velocity relative to the medium, pole O, body axes.
+    Drag {
+        /// The body or frame that it acts on.
+        body: Ident,
+        /// Force by velocity; `None` only if there is a quadratic part.
+        linear: Option<Coefficients>,
+        /// Force by velocity times its magnitude, component by component; `None` only if there is a linear part.
+        quadratic: Option<Coefficients>,
+    },
+    /// `damping = …`: Rayleigh's dissipation function, a scalar whose negative partial derivatives by z are the
+    /// generalised forces.
+    Dissipation(Expression),
+}
+
+/// What a spring or a stop acts along.
+#[derive(Clone)]
+pub enum Extent {
+    /// The distance between two points, each a vector of t and q: observer axes from Ω.
+    Between {
+        /// Where it begins.
+        from: Expression,
+        /// Where it ends.
+        to: Expression,
+    },
+    /// A scalar of t and q, such as the angle of a joint.
+    Along(Expression),
+}
+
+/// Coefficients of a drag, or an added mass, in body axes, pole O, order (u, ω).
+#[derive(Clone)]
+pub enum Coefficients {
+    /// `[a, b, c, d, e, f]`: one for each component, scalars as in values of forces.
+    Diagonal([Box<Expression>; 6]),
+    /// A field that is a `Vector6`, one for each component, or a `Matrix6`.
+    Field(Ident),
+}
+
+/// The axes that the components of a force or a torque are taken in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceAxes {
+    /// e, of the body that it acts on.
+    Body,
+    /// k.
+    Observer,
+}
+
+/// `role = value`, of the body that has it.
+#[derive(Clone)]
+pub struct Given {
+    /// Any but that of being a body.
+    pub role: Role,
+    /// Scalar or vector; of an added mass six, or six by six.
+    pub shape: Shape,
+    /// Of fields and numbers.
+    pub value: GivenValue,
+    /// The word of the role.
+    pub span: Span,
+}
+
+/// What a role is said to be.
+#[derive(Clone)]
+pub enum GivenValue {
+    /// A scalar or a vector.
+    Expression(Expression),
+    /// An added mass.
+    Coefficients(Coefficients),
+}
+
+impl Given {
+    /// It is of the body itself, not of the fluid about it.
+    pub fn is_of_matter(&self) -> bool {
+        matches!(self.role, Role::Mass | Role::CenterOfMass | Role::Inertia)
+    }
+}
+
+impl ForceClause {
+    /// What it is called in messages.
+    pub fn noun(&self) -> &'static str {
+        match self.kind {
+            ForceKind::AtPoint { .. } | ForceKind::OnBody { .. } => "force",
+            ForceKind::Torque { .. } => "torque",
+            ForceKind::Wrench { .. } => "wrench",
+            ForceKind::Drive { .. } => "drive",
+            ForceKind::Spring { .. } => "spring",
+            ForceKind::Stop { .. } => "stop",
+            ForceKind::Drag { .. } => "drag",
+            ForceKind::Dissipation(_) => "dissipation function",
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! A scene as the user wrote it, checked: coordinates and speeds, or the chart of a body; bodies, particles, constraints and
+//! what acts.
+
+use super::charts::InChart;
+use super::clauses::{
+    Attraction, BodyClause, Coefficients, ConstraintClause, Coordinate, ForceClause, Given, GivenValue, InputName,
+    ParticleClause, PointClause, Speed,
+};
+use super::expression::Expression;
+use super::roles::{Role, Shape};
+use syn::{Generics, Ident, Path, Visibility};
+
+/// Any system that the Gauss condition covers.
+#[derive(Clone)]
+pub struct Model {
+    /// Name of the struct.
+    pub ident: Ident,
+    /// Visibility of the struct; the kernel gets the same.
+    pub visibility: Visibility,
+    /// Generics of the struct: type parameters only.
+    pub generics: Generics,
+    /// The one scalar of every field with a role and of every field that an expression names; `f64` if there are none.
+    pub scalar: Scalar,
+    /// Where the generated code finds the runtime: `::gauss_runtime`, or what `crate = path` says.
+    pub runtime: Path,
+    /// What is wanted beside the equations.
+    pub wanted: Wanted,
+    /// Every field of the struct, in order.
+    pub fields: Vec<Field>,
+    /// The chart and the motion of the body without a name, which is then among [`bodies`](Self::bodies) without a place: the
+    /// first coordinates, speeds and components of ψ are those of its chart.
+    pub in_chart: Option<InChart>,
+    /// The coordinates q, in order; in a chart, those after the chart's.
+    pub coordinates: Vec<Coordinate>,
+    /// The speeds z, in order; `None` for the rates of the coordinates: ẋ of a scalar, ω (body axes) of a rotation, the
+    /// twist (u, ω) (body axes, pole O) of a pose.
+    pub speeds: Option<Vec<Speed>>,
+    /// q̇ = ψ(t, q, z) of (3.2): one for each coordinate, in the order of the coordinates; empty without speeds. A scalar
+    /// for a scalar, ω in body axes for a rotation, a call of [`Twist`](super::FunctionName::Twist) for a pose.
+    pub kinematics: Vec<(Ident, Expression)>,
+    /// The bodies and frames, in the order in which they are written: a parent may come after its child.
+    pub bodies: Vec<BodyClause>,
+    /// The particles of (3.3).
+    pub particles: Vec<ParticleClause>,
+    /// Named points of bodies and frames.
+    pub points: Vec<PointClause>,
+    /// What is further required of the motion.
+    pub constraints: Vec<ConstraintClause>,
+    /// The speeds that stay when the constraints are solved for the others at compile time; `None`: multipliers.
+    pub independent: Option<Vec<Ident>>,
+    /// The most operations that the generated code may have; `None`: the limit of the derive.
+    pub limit: Option<usize>,
+    /// The potential energy besides that of gravity: a scalar of t and q.
+    pub potential: Option<Expression>,
+    /// Values that arrive at run time, in order.
+    pub inputs: Vec<InputName>,
+    /// Mass data of the only body without a name, and gravity, where they are no fields.
+    pub given: Vec<Given>,
+    /// The velocity of the medium: a vector of t, fields and numbers, observer axes; `None`: at rest.
+    pub medium: Option<Expression>,
+    /// Central gravity: each acts on every body and every particle.
+    pub attractions: Vec<Attraction>,
+    /// What acts besides gravity and the potential, in the order in which it is written.
+    pub forces: Vec<ForceClause>,
+}
+
+impl Model {
+    /// The field that plays a role.
+    pub fn field(&self, role: Role) -> Option<&Field> {
+        self.fields.iter().find(|field| field.role == Some(role))
+    }
+
+    /// The shape of what plays a role, a field or a clause; without it the body without a name has no such thing.
+    pub fn shape(&self, role: Role) -> Option<Shape> {
+        let given = || self.given.iter().find(|given| given.role == role);
+        self.field(role).map(|field| field.shape).or_else(|| given().map(|given| given.shape))
+    }
+
+    /// One body in a chart, which nothing is attached to and nothing constrains.
+    pub fn one_body(&self) -> Option<InChart> {
+        let alone = self.bodies.len() == 1
+            && self.coordinates.is_empty()
+            && self.particles.is_empty()
+            && self.constraints.is_empty();
+        self.in_chart.filter(|_| alone)
+    }
+
+    /// Something acts besides weight and buoyancy.
+    pub fn is_acted_upon(&self) -> bool {
+        let by_elements = !self.forces.is_empty() || !self.attractions.is_empty();
+        by_elements || self.potential.is_some() || self.medium.is_some() || !self.inputs.is_empty()
+    }
+
+    /// Some expression is written, of what acts or of mass data.
+    pub fn has_expressions(&self) -> bool {
+        self.is_acted_upon() || !self.given.is_empty() || !self.points.is_empty()
+    }
+
+    /// Whether the field is the added mass that some clause names.
+    pub fn is_added_mass(&self, field: &Ident) -> bool {
+        let all = self.given.iter().chain(self.bodies.iter().flat_map(|body| &body.given));
+        let named = |given: &Given| matches!(&given.value, GivenValue::Coefficients(Coefficients::Field(name)) if name == field);
+        all.into_iter().any(named)
+    }
+
+    /// Whether the model itself says where the body is: in a chart.
+    pub fn is_in_chart(&self, body: &BodyClause) -> bool {
+        self.in_chart.is_some() && body.name.is_none()
+    }
+}
+
+/// One field of the struct.
+#[derive(Clone)]
+pub struct Field {
+    /// Name of the field.
+    pub ident: Ident,
+    /// What the field means to the body without a name, or that it is one with a name; `None` for a plain parameter.
+    pub role: Option<Role>,
+    /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].
+    pub shape: Shape,
+    /// The unit, if one is written.
+    pub unit: Option<String>,
+    /// Its doc comment, trimmed; empty when it has none.
+    pub documentation: String,
+}
+
+/// What is wanted beside the equations.
+#[derive(Clone, Default)]
+pub struct Wanted {
+    /// `taylor`, where it is written: power series of the motion.
+    pub taylor: Option<Ident>,
+    /// `linearize`: the derivatives of the equations by the state.
+    pub linearize: bool,
+    /// `linearize(parameters)`: by the parameters, too.
+    pub by_parameters: bool,
+    /// `regressor`, where it is written: the coefficients of the inertial parameters.
+    pub regressor: Option<Ident>,
+}
+
+/// The number type that kernels compute with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Scalar {
+    /// `f32`.
+    F32,
+    /// `f64`.
+    F64,
+    /// A type parameter of the struct.
+    Parameter(Ident),
+}
+
+impl std::fmt::Display for Scalar {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Scalar::F32 => formatter.write_str("f32"),
+            Scalar::F64 => formatter.write_str("f64"),
+            Scalar::Parameter(ident) => ident.fmt(formatter),
+        }
+    }
+}

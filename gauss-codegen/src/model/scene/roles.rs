@@ -1,0 +1,41 @@
+//! What fields mean, and the shapes that their values have.
+
+/// Shape of a field's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// One number.
+    Scalar,
+    /// Three numbers.
+    Vector3,
+    /// Three by three.
+    Matrix3,
+    /// Six numbers, order (linear, angular).
+    Vector6,
+    /// Six by six, order (linear, angular).
+    Matrix6,
+    /// Mass, centre of mass and inertia of a body.
+    RigidBody,
+    /// Anything else: only plain parameters have it.
+    Other,
+}
+
+/// What a field means to the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The mass m: scalar.
+    Mass,
+    /// G − O in body axes: vector.
+    CenterOfMass,
+    /// About O, body axes: scalar (spherical), vector (principal) or matrix (full).
+    Inertia,
+    /// Six by six about O, body axes: vector (diagonal) or matrix (full).
+    AddedMass,
+    /// Scalar along −k₃, or a vector in observer axes.
+    Gravity,
+    /// Mass of the displaced fluid: scalar.
+    DisplacedMass,
+    /// Where buoyancy acts, body axes from O: vector.
+    CenterOfBuoyancy,
+    /// A body, named like the field.
+    Body,
+}
