@@ -35,8 +35,10 @@
 
 mod code;
 mod cost;
+mod input;
 mod instruction;
 mod interpret;
+mod malformed;
 mod print;
 mod series;
 mod signs;
@@ -47,9 +49,10 @@ use std::fmt;
 pub use crate::algebra::{BinaryFunction, Function, Rational};
 pub use code::Code;
 pub use cost::{Cost, Counts, Smoothness};
+pub use input::Input;
 pub use instruction::{Instruction, Operand};
 pub use interpret::Scalar;
-pub use verify::Malformed;
+pub use malformed::Malformed;
 
 /// A function with names for its arguments and results. Its fields can be read; it is made by [`Program::new`], which verifies it.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,21 +127,6 @@ impl fmt::Display for ArgumentKind {
             ArgumentKind::Inputs => "inputs",
         })
     }
-}
-
-/// An input of a program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Input {
-    /// A component of an argument, both by their index.
-    Component {
-        /// Index among the arguments.
-        argument: usize,
-        /// Index among the components of that argument.
-        component: usize,
-    },
-    /// A number of the program, by its index.
-    Number(usize),
 }
 
 /// Outputs that belong together: a number (one row, one column), a vector (one column), or a matrix, row after row.
