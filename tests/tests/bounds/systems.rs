@@ -251,7 +251,8 @@ macro_rules! explore {
         check(&parameters, &q, &z, $step, &mut excess);
         assert!(excess.report(&format!("{what}, as published")) < 1e4);
         let (mut excess, mut random) = (Excess::default(), Random(11));
-        for _ in 0..$count {
+        let count: u32 = $count;
+        for _ in 0..count {
             let parameters: Vec<_> = parameters.iter().map(|p| p * random.decades(-$decades, $decades)).collect();
             let mut angle = |_: &f64| {
                 let near = f64::from(random.below(9) as u32) - 4.0;
