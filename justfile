@@ -22,6 +22,10 @@ lint:
 snapshots:
     cargo insta review
 
+# Writes the table of operations anew: what each method of each scene costs. Read the difference before it is committed.
+operations:
+    UPDATE_OPERATIONS=1 cargo test -p gauss-codegen --test operations
+
 # How long a derive takes with an unoptimised macro.
 expansion:
     cargo run --profile unoptimised --example expansion_time

@@ -3,12 +3,15 @@
 #![warn(missing_docs)]
 
 mod algebra;
+mod derivation;
 mod emit;
 mod expand;
 mod kernel;
+mod lowering;
 mod mechanics;
 mod mistakes;
 mod model;
 mod translate;
 
+pub use emit::fallback;
 pub use expand::expand;

@@ -8,20 +8,22 @@ use crate::kernel::Kernel;
 use crate::mechanics::{
     Coordinate, Elimination, Formula, Method, Obstacle, Regressor, System, SystemFault, SystemScene,
 };
-use crate::model::SystemModel;
+use crate::model::Model;
 use crate::translate::Translator;
 
 /// Operations up to which code is generated unless the user says otherwise: some seconds of the compiler's time.
 const LIMIT: usize = 50_000;
 
 /// Rates that are not affine in the speeds.
-pub fn refuse_curved_kinematics(model: &SystemModel, scene: &SystemScene<'_>) -> syn::Result<()> {
+pub fn refuse_curved_kinematics(model: &Model, scene: &SystemScene<'_>) -> syn::Result<()> {
     let mut mistakes = Mistakes::default();
     let mut curved: Vec<usize> =
         scene.rates_not_affine().into_iter().map(|k| Coordinate::of_component(&scene.coordinates, k)).collect();
     curved.dedup();
     for k in curved {
-        let (coordinate, rate) = &model.kinematics[k];
+        // ψ of a chart is affine; the declared coordinates come after its own.
+        let before = scene.coordinates.len() - model.coordinates.len();
+        let (coordinate, rate) = &model.kinematics[k - before];
         mistakes.push(
             rate.span,
             format!(
@@ -64,11 +66,7 @@ pub fn refuse_series(
 }
 
 /// Speeds that nothing with mass moves with.
-pub fn refuse_idle_speeds(
-    model: &SystemModel,
-    translator: &Translator<'_, '_>,
-    system: &System<'_>,
-) -> syn::Result<()> {
+pub fn refuse_idle_speeds(model: &Model, translator: &Translator<'_, '_>, system: &System<'_>) -> syn::Result<()> {
     let mut mistakes = Mistakes::default();
     for k in system.idle_speeds() {
         let (name, span) = speed(model, translator, k);
@@ -81,7 +79,7 @@ pub fn refuse_idle_speeds(
 }
 
 /// More code than the compiler should be given without being asked.
-pub fn refuse_too_much(model: &SystemModel, kernel: &Kernel<'_>) -> syn::Result<()> {
+pub fn refuse_too_much(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
     let operations = kernel
         .functions
         .iter()
@@ -123,7 +121,7 @@ pub fn refuse_regressor(
 
 /// Solves the constraints for the speeds that are not named.
 pub fn eliminate<'g>(
-    model: &SystemModel,
+    model: &Model,
     translator: &Translator<'_, 'g>,
     whole: System<'g>,
     independent: &[Ident],
@@ -157,7 +155,7 @@ pub fn eliminate<'g>(
 
 /// What the check of a system finds, each at the token that is wrong.
 pub fn system_faults(
-    model: &SystemModel,
+    model: &Model,
     translator: &Translator<'_, '_>,
     system: &System<'_>,
     faults: &[SystemFault],
@@ -193,12 +191,11 @@ pub fn system_faults(
 }
 
 /// The name of a speed, and where it is written: without `speeds` at its coordinate.
-fn speed(model: &SystemModel, translator: &Translator<'_, '_>, k: usize) -> (String, Span) {
+fn speed(model: &Model, translator: &Translator<'_, '_>, k: usize) -> (String, Span) {
     match translator.speed_idents().get(k) {
         Some(ident) => (ident.to_string(), ident.span()),
         None => {
-            let coordinate = translator.coordinate_of_speed(k).min(model.coordinates.len() - 1);
-            let ident = &model.coordinates[coordinate].ident;
+            let ident = translator.coordinate_of_speed(k).map_or(&model.ident, |coordinate| &coordinate.ident);
             (format!("d{ident}/dt"), ident.span())
         }
     }

@@ -1,10 +1,10 @@
-//! `#[derive(GaussDynamics)]`: equations of motion of a rigid body derived at compile time, as flat Rust kernels.
+//! `#[derive(GaussDynamics)]`: equations of motion of rigid bodies derived at compile time, as flat Rust kernels.
 //!
 //! Depend on `gauss-runtime`, which re-exports the macro.
 
 #![warn(missing_docs)]
 
-/// Derives the equations of motion of a rigid body from the Gauss condition, and generates `Name::kernel()` and the
+/// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()` and the
 /// `NameKernel` that implements `GaussSystem` and `RigidBodySystem`.
 ///
 /// # The struct: `#[gauss(…)]`
@@ -38,9 +38,10 @@
 /// parameter of the struct (`struct Body<T> { … }`; the kernel is then generic over `T: Real`). Fields without a role are
 /// left alone.
 ///
-/// Instead of fields the same words can be clauses of the struct, all but `added_mass`: `mass = 2.0, inertia = [a, a, c],
-/// center_of_mass = [0, 0, l]`, expressions of numbers and fields without a role. Numbers that they determine are computed when
-/// the code is generated (unless the scalar is a type parameter), and zeros and equal moments leave it.
+/// Instead of fields the same words can be clauses of the struct: `mass = 2.0, inertia = [a, a, c], center_of_mass = [0, 0, l]`,
+/// expressions of numbers and fields without a role; `added_mass` is a list of six, or a field that is a `Vector6` or a `Matrix6`.
+/// Numbers that they determine are computed when the code is generated (unless the scalar is a type parameter), and zeros and
+/// equal moments leave it.
 ///
 /// # Configurations and order of z
 ///
@@ -54,25 +55,35 @@
 ///
 /// # Systems
 ///
-/// Any of these clauses but `point` and `limit`, in place of `chart` and `motion`, makes a system, as does a field that is a
-/// body; its kernel implements `GaussSystem`, with `taylor` also `TaylorSystem`:
+/// Any of these clauses but `point` and `limit` makes a system, as does a field that is a body; its kernel implements
+/// `GaussSystem`, with `taylor` also `TaylorSystem`. Without `chart` and `motion` the coordinates are those of the clauses. With
+/// one of the two, the body without a name, which is called `body`, moves in its chart: its configuration, its speeds and their
+/// kinematics come first, those of the clauses after them, and whatever else there is can hang on it or constrain it:
+///
+/// ```text
+/// #[gauss(
+///     chart = hybrid, coordinates(elbow),
+///     body(arm, parent = body, position = [l, 0, 0], rotation = rotation_z(elbow), mass = m, inertia = [a, b, b]),
+///     constraint(position = dot(arm.position, [0, 0, 1]) - h),
+/// )]
+/// ```
 ///
 /// | clause | meaning |
 /// |---|---|
 /// | `coordinates(x, theta, pose: Pose, attitude: Rotation)` | the configuration: scalars, elements of SE(3) and of SO(3) |
 /// | `speeds(v, u: Vector3)` and `kinematics(x = v, pose = twist(u, w), attitude = w)` | quasi-velocities z with q̇ = ψ(t, q, z), affine in z; a `Vector3` is three of them, `u.x` or `u[0]` and so on. A pose changes by its twist in body axes, pole O, a rotation by ω in body axes. Without speeds these rates are the z |
-/// | `body(position = […], rotation = …)` | the only body; its mass data from the roles above |
-/// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`, or from the clause: `mass = m, center_of_mass = [0, 0, l], inertia = [a, a, c]` (about O); position and rotation relative to the parent, a body or a frame |
+/// | `body(position = […], rotation = …)` | the only body, where there is no chart; its mass data from the roles above |
+/// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`, or from the clause: `mass = m, center_of_mass = [0, 0, l], inertia = [a, a, c]` (about O); from the clause what the fluid does: `added_mass = x, displaced_mass = m, center_of_buoyancy = […]`, as above; position and rotation relative to the parent, a body or a frame |
 /// | `frame(name, parent = other, position = […], rotation = …)` | a body without mass |
 /// | `particle(mass = m, position = […], parent = other)` | a point with mass; the position in observer's axes from Ω, or in the axes of the parent from its O |
 /// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |
 /// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once |
-/// | `independent(v, w)` | the speeds that stay when the constraints are solved for the others at compile time |
-/// | `limit = 50000` | the most operations that the generated code may have |
+/// | `independent(v, w)` | the speeds that stay when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
+/// | `limit = 50000` | the most operations that the generated code may have, also of one body |
 ///
 /// # What acts
 ///
-/// These clauses stand in systems, and beside `chart` and `motion` of one body. There the body is called `body`, as is the
+/// These clauses stand in systems, and beside `chart` and `motion`. There the body of the chart is called `body`, as is the
 /// only body of a system that has no name of its own; in a chart `body = body` can be left out, and `at = …` is in body axes.
 ///
 /// | clause | meaning |
@@ -82,12 +93,12 @@
 /// | `medium(velocity = […])` | the velocity of the medium, observer's axes, of `t`, fields and numbers: drags, added mass and `relative_velocity` feel it |
 /// | `input(thrust = "N", wind: Vector3 = "m/s", gust: Wrench)` | values that arrive at run time, with their units if these are to be checked; of a wrench force then torque, `gust.force` and `gust.torque` |
 /// | `define(u = body.relative_velocity, q = u.x * u.x)` | names for expressions: scalars, vectors or rotations. A definition can name those before it and stands for what it is, wherever that may stand |
-/// | `force(name, at = …, value = […])` | in a system: a force at a point, both in observer's axes, the point from Ω |
+/// | `force(name, at = …, value = […])` | without a chart: a force at a point, both in observer's axes, the point from Ω |
 /// | `force(name, body = other, at = […], value = […], axes = body)` | a force at a point fixed in a body or a frame, at numbers and fields in its axes from O or at a `point` of that body by its name, by default at O; the value in `axes = body`, which is the default, or `axes = observer` |
 /// | `torque(name, body = other, value = […], axes = body, reaction = another)` | a torque, and the opposite one on another body or frame; axes as above |
 /// | `wrench(name, body = other, at = […], force = […], torque = […], axes = body)` | a force, a torque or both; place and axes as above |
 /// | `drag(name, body = other, linear = d, quadratic = e)` | −D V − Q (\|V\| V), with V = (u, ω) relative to the medium, body axes, pole O, \|V\| V component by component: coefficients are a list of six scalars, which can depend on what forces depend on, or a field `Vector6` (diagonal) or `Matrix6`. One of the two or both |
-/// | `drive(name, theta = expr, x = expr)` | in a system: generalised forces on scalar coordinates, each of the power `expr` · dθ/dt |
+/// | `drive(name, theta = expr, x = expr)` | generalised forces on scalar coordinates, each of the power `expr` · dθ/dt |
 /// | `spring(name, from = …, to = …, stiffness = k, length = l, damping = c)` | a spring with a damper between two points, observer's axes from Ω; `length`, at which it is without force, and `damping` are 0 by default |
 /// | `spring(name, along = theta, stiffness = k, length = l, damping = c)` | the same along any scalar of coordinates and time, such as the angle of a joint |
 /// | `stop(name, along = theta, least = a, most = b, stiffness = k, width = e, damping = c)`, `stop(name, from = …, to = …, …)` | pushes back what leaves the limits, of which one is enough, and sets in smoothly over `width` |
@@ -125,9 +136,10 @@
 ///
 /// # Errors
 ///
-/// Every mistake is a compile error at the token that is wrong, all of them at once.
+/// Every mistake is a compile error at the token that is wrong, all of them at once. What uses the kernel of such a struct
+/// gives no further errors.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let input = syn::parse_macro_input!(input as syn::DeriveInput);
-    gauss_codegen::expand(&input).unwrap_or_else(|error| error.into_compile_error()).into()
+    gauss_codegen::expand(&input).unwrap_or_else(|mistakes| gauss_codegen::fallback(&input, &mistakes)).into()
 }

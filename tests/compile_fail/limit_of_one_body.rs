@@ -1,4 +1,4 @@
-//! A limit where nothing acts.
+//! A limit below what one body needs.
 
 use gauss_runtime::prelude::*;
 

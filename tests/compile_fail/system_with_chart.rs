@@ -1,4 +1,4 @@
-//! Charts and motions are for one body.
+//! A chart without the mass data of the body that moves in it.
 
 use gauss_runtime::prelude::*;
 

@@ -6,13 +6,12 @@ use syn::ext::IdentExt;
 
 use crate::algebra::Map;
 use crate::kernel::Program;
-use crate::mechanics::{Assigned, Quantity};
-use crate::model::Shape;
+use crate::mechanics::{Assigned, KineticMatrix, Quantity};
+use crate::model::{Motion, Role, Shape};
 
-use super::kernel::Derived;
+use super::derived::Derived;
+use super::parameters::{in_plane, inertia_rows};
 use super::program::statements;
-use super::system::SystemSubject;
-use super::system_parameters::{in_plane, inertia_rows};
 
 /// `let name = …;`: the value, or the array of components.
 pub fn assigned_local(
@@ -24,17 +23,69 @@ pub fn assigned_local(
     let (compute, values) = statements(&Program::lower(&assigned.values), symbols, &derived.scalar());
     match values.as_slice() {
         [value] => quote!(let #name = { #compute #value };),
+        // Half of a symmetric matrix, column by column.
+        values if values.len() == 21 => {
+            let place = |i: usize, j: usize| 6 * i - i * (i + 1) / 2 + j;
+            let rows = (0..6).map(|i: usize| {
+                let row = (0..6).map(|j: usize| &values[place(i.min(j), i.max(j))]);
+                quote!([#(#row),*])
+            });
+            quote!(let #name = { #compute [#(#rows),*] };)
+        }
         values => quote!(let #name = { #compute [#(#values),*] };),
     }
 }
 
+/// What must hold of the fluid about the bodies: what clauses of named bodies say of it, and that the body and its added mass
+/// together have a positive definite kinetic energy in every motion that the body can have.
+pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let subject = &derived.subject;
+    let model = subject.model;
+    let mut checks = TokenStream::new();
+    for (clause, written) in model.bodies.iter().enumerate() {
+        let named = |word: &str| match (&written.name, model.field(Role::AddedMass)) {
+            (Some(name), _) => format!("{}.{word}", name.unraw()),
+            (None, Some(field)) => field.ident.unraw().to_string(),
+            (None, None) => word.to_owned(),
+        };
+        let own = written.name.iter().flat_map(|_| written.given.iter().zip(&subject.assigned_to_bodies[clause]));
+        for (given, assigned) in own.filter(|(given, _)| !given.is_of_matter()) {
+            let (said, local) = (named(given.role.word()), format_ident!("__fluid", span = Span::mixed_site()));
+            let value = assigned_local(derived, &local, assigned, symbols);
+            let check = match (given.role, given.shape) {
+                (Role::DisplacedMass, _) => quote!(__check.non_negative(#said, #local);),
+                (_, Shape::Matrix6) => continue,
+                _ => quote!(__check.finite(#said, &#local);),
+            };
+            checks.extend(quote!({ #value #check }));
+        }
+        let link = &subject.system.scene.tree.links[subject.links[clause]];
+        let Some(body) = link.body().filter(|body| body.added_mass.is_some()) else { continue };
+        let active = match model.in_chart.filter(|_| model.is_in_chart(written)).map(|own| own.motion) {
+            Some(Motion::Planar) => vec![0, 1, 5],
+            Some(Motion::FixedPoint) => vec![3, 4, 5],
+            _ => match link.only_axis() {
+                Some(axis) => vec![(axis + 1) % 3, (axis + 2) % 3, 3 + axis],
+                None => (0..6).collect(),
+            },
+        };
+        let matrix = KineticMatrix::new(link.frame.graph, body, &[0, 1, 2], &[3, 4, 5]);
+        let entries: Vec<_> = active
+            .iter()
+            .flat_map(|&i| active.iter().map(move |&j| (i, j)))
+            .map(|(i, j)| matrix.entries[i][j])
+            .collect();
+        let (compute, outputs) = statements(&Program::lower(&entries), symbols, &derived.scalar());
+        let rows = outputs.chunks(active.len()).map(|row| quote!([#(#row),*]));
+        let said = named(Role::AddedMass.word());
+        checks.extend(quote!({ #compute __check.kinetic_matrix(#said, &[#(#rows),*]); }));
+    }
+    checks
+}
+
 /// Locals and checks of the bodies of a system whose mass data stand in their clauses.
-pub fn assigned_bodies(
-    derived: &Derived<'_, '_>,
-    subject: &SystemSubject<'_, '_>,
-    symbols: &Map<u32, TokenStream>,
-) -> TokenStream {
-    let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
+pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let (ty, real, subject) = (derived.scalar().ty(), derived.scalar().real, &derived.subject);
     let mut checks = TokenStream::new();
     for (clause, body) in subject.model.bodies.iter().enumerate() {
         let Some(name) = &body.name else { continue };

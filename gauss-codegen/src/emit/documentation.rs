@@ -5,13 +5,26 @@ use syn::ext::IdentExt;
 use crate::algebra::Notation;
 use crate::kernel::Counts;
 use crate::mechanics::{Method, Section};
-use crate::model::{InputKind, Role};
+use crate::model::{InChart, InputKind, Role};
 
-use super::kernel::{Derived, Subject};
-use super::system::SystemSubject;
+use super::body::{chart_name, motion_name};
+use super::derived::Derived;
 
-/// The equations as plain text.
-pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
+/// The equations as plain text and as one LaTeX environment.
+pub struct Equations {
+    pub text: String,
+    pub latex: String,
+}
+
+impl Equations {
+    /// Printed once for all that is said of them: a second time the terms of a sum can come in another order.
+    pub fn of(derived: &Derived<'_, '_>) -> Self {
+        let sections = derived.subject.system.equations();
+        Equations { text: text(derived, &sections), latex: latex(&sections) }
+    }
+}
+
+fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     let mut out = format!(
         "{}: {}
 ",
@@ -24,7 +37,7 @@ pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
             "with {}{}
 ",
             letters.join(", "),
-            if derived.body().is_some() { "; x̂ = R x + b" } else { "" }
+            if derived.subject.model.one_body().is_some() { "; x̂ = R x + b" } else { "" }
         ));
     }
     for section in sections {
@@ -36,8 +49,7 @@ pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     out
 }
 
-/// The equations as one LaTeX environment.
-pub fn latex(sections: &[Section<'_>]) -> String {
+fn latex(sections: &[Section<'_>]) -> String {
     let mut out = String::from("\\begin{align*}\n");
     for section in sections {
         out.push_str(&format!("&\\text{{{}}} \\\\\n", section.title.latex));
@@ -51,16 +63,8 @@ pub fn latex(sections: &[Section<'_>]) -> String {
 
 /// What the letters of the equations stand for: (letter, field, what its author says of it).
 fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
-    let fields: Vec<_> = match derived.subject {
-        Subject::Body { model, .. } => {
-            model.parameters.iter().map(|p| (p.role, &p.ident, &p.documentation, &p.unit)).collect()
-        }
-        Subject::System(SystemSubject { model, .. }) => {
-            model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit)).collect()
-        }
-    };
+    let fields = derived.subject.model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
     fields
-        .into_iter()
         .filter_map(|(role, ident, documentation, unit)| role.map(|role| (role, ident, documentation, unit)))
         .filter(|(role, ..)| *role != Role::Body)
         .map(|(role, ident, documentation, unit)| {
@@ -91,14 +95,12 @@ fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
 fn description(derived: &Derived<'_, '_>) -> String {
     let speeds: Vec<String> = derived.speeds().iter().map(|z| crate::algebra::print(*z, Notation::Text)).collect();
     let speeds = speeds.join(", ");
-    match (derived.body(), derived.subject) {
-        (Some(body), _) => format!("chart {}, motion {}, z = ({speeds})", body.chart_name(), body.motion_name()),
-        (None, Subject::System(SystemSubject { system, .. })) => {
-            let q: Vec<&str> = system.scene.coordinate_names.iter().map(|name| name.text.as_str()).collect();
-            format!("chart own, q = ({}), z = ({speeds})", q.join(", "))
-        }
-        _ => format!("z = ({speeds})"),
+    if let Some(InChart { chart, motion }) = derived.subject.model.one_body() {
+        return format!("chart {}, motion {}, z = ({speeds})", chart_name(chart), motion_name(motion));
     }
+    let names = &derived.subject.system.scene.coordinate_names;
+    let q: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
+    format!("chart own, q = ({}), z = ({speeds})", q.join(", "))
 }
 
 /// Rustdoc of the kernel: what it is, its equations, its costs.
@@ -131,13 +133,9 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
 
 /// The components of the input in order, and the elements in the order of their powers.
 fn acting(derived: &Derived<'_, '_>) -> String {
-    let model = match derived.subject {
-        Subject::Body { model, .. } => model.system.as_deref(),
-        Subject::System(SystemSubject { model, .. }) => Some(model),
-    };
     let mut out = String::new();
     let mut next = 0;
-    for input in model.iter().flat_map(|model| &model.inputs) {
+    for input in &derived.subject.model.inputs {
         if next == 0 {
             out.push_str("\n# Input\n\n| components | input | unit |\n|---|---|---|\n");
         }

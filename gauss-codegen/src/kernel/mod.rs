@@ -123,8 +123,7 @@ impl<'g> Kernel<'g> {
             programs.push(if *cost == Cost::Values { program.with_signs_led_back() } else { program });
             chosen.push(outputs);
         }
-        let of_joined: Vec<Expr<'g>> = joined.iter().flat_map(|&k| chosen[k]).copied().collect();
-        let joined = Program::lower(&hoister.hoist(&of_joined)).with_signs_led_back();
+        let (joined, of_joined) = lower_together(&mut hoister, functions, &chosen, joined);
         let by_state = wanted.by_state.map(|wanted| wanted.lower(&mut hoister, Kept::ValuesToo));
         let regressor = wanted.regressor.map(|wanted| wanted.lower(&mut hoister, Kept::DerivativesAlone));
         let (tangents, expected_tangents) = by_state.unzip();
@@ -226,6 +225,36 @@ impl<'g> Kernel<'g> {
         }
         Ok(())
     }
+}
+
+/// Several functions in one program. What wins alone may have less in common with the rest than what comes first: it is replaced where
+/// that costs less.
+fn lower_together<'g>(
+    hoister: &mut Hoister<'_, 'g>,
+    functions: &[Candidates<'g>],
+    chosen: &[&Vec<Expr<'g>>],
+    joined: &[usize],
+) -> (Program<'g>, Vec<Expr<'g>>) {
+    let mut lower = |parts: &[&Vec<Expr<'g>>]| {
+        let outputs: Vec<Expr<'g>> = parts.iter().flat_map(|part| part.iter()).copied().collect();
+        (Program::lower(&hoister.hoist(&outputs)), outputs)
+    };
+    let mut parts: Vec<&Vec<Expr<'g>>> = joined.iter().map(|&k| chosen[k]).collect();
+    let mut best = lower(&parts);
+    for (place, &k) in joined.iter().enumerate() {
+        let first = &functions[k].arrangements[0];
+        if first == parts[place] {
+            continue;
+        }
+        let won = std::mem::replace(&mut parts[place], first);
+        let other = lower(&parts);
+        if other.0.cost() < best.0.cost() {
+            best = other;
+        } else {
+            parts[place] = won;
+        }
+    }
+    (best.0.with_signs_led_back(), best.1)
 }
 
 /// Refuses what is not computed as expected.

@@ -30,6 +30,10 @@ pub(super) fn read(owner: &str, tokens: &[TokenTree], context: &mut Context) -> 
 pub(super) fn read_coefficients(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Coefficients> {
     const REMEDY: &str = "write six scalars `[a, b, c, d, e, f]` in the order (u, ω), or the name of a field that is a \
          `Vector6` or a `Matrix6`";
+    let what = match owner {
+        "added_mass" => "an added mass is".to_owned(),
+        _ => format!("the `{owner}` coefficients of a drag are"),
+    };
     let parsed = parse(owner, tokens, context)?;
     let mut bare = &parsed;
     while let Expr::Group(ExprGroup { expr, .. }) | Expr::Paren(ExprParen { expr, .. }) = bare {
@@ -42,10 +46,9 @@ pub(super) fn read_coefficients(owner: &str, tokens: &[TokenTree], context: &mut
             let entries: Vec<Expression> = entries.into_iter().collect::<Option<_>>()?;
             match <[Expression; 6]>::try_from(entries) {
                 Ok(entries) => return Some(Coefficients::Diagonal(entries.map(Box::new))),
-                Err(_) => context.error(
-                    array.bracket_token.span.open(),
-                    format!("the `{owner}` coefficients of a drag are six, found {count}; {REMEDY}"),
-                ),
+                Err(_) => {
+                    context.error(array.bracket_token.span.open(), format!("{what} six, found {count}; {REMEDY}"))
+                }
             }
         }
         Expr::Path(path) if path.qself.is_none() && path.path.get_ident().is_some() => {
@@ -53,7 +56,7 @@ pub(super) fn read_coefficients(owner: &str, tokens: &[TokenTree], context: &mut
         }
         other => context.error(
             other.to_token_stream().into_iter().next().map_or_else(Span::call_site, |token| attributes::start(&token)),
-            format!("the `{owner}` coefficients of a drag are six, one for each component; {REMEDY}"),
+            format!("{what} six, one for each component; {REMEDY}"),
         ),
     }
     None

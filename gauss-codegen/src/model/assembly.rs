@@ -1,12 +1,11 @@
-//! The clauses and fields of a system put together: every name known, every kind right, nothing missing. What acts on one body
-//! in a chart is checked in the same way.
+//! The clauses and fields of a scene put together: every name known, every kind right, nothing missing.
 
 use super::bodies;
 use super::constraints;
 use super::context::Context;
 use super::definitions;
 use super::dimensions;
-use super::fields::{Field, Reader};
+use super::fields::{ReadField, Reader};
 use super::forces;
 use super::given;
 use super::kinds;
@@ -15,37 +14,41 @@ use super::naming::{self, same, word};
 use super::places::Place;
 use super::scene::Clauses;
 use super::scope::{Meaning, Scope, UNNAMED};
-use super::shapes::{Element, Kind};
+use super::shapes::Kind;
 use super::statements::{Statement, Statements};
 use super::validate;
-use super::{Expression, ForceKind, Role, Scalar, Shape, SystemField, SystemModel, Wanted};
+use super::{BodyClause, Expression, Field, ForceKind, Given, InChart, Model, Role, Scalar, Shape, Wanted};
 use proc_macro2::{Ident, Span};
-use syn::ext::IdentExt;
-use syn::{DeriveInput, GenericParam, Path};
+use syn::{DeriveInput, Path};
 
-/// The checked system; `None` when something is wrong, which is then noted.
-pub(super) fn system(
+/// The checked scene; `None` when something is wrong, which is then noted.
+pub(super) fn model(
     input: &DeriveInput,
     clauses: Clauses,
     mut reader: Reader<'_>,
     context: &mut Context,
-) -> Option<SystemModel> {
-    let mut statements = clauses.statements;
-    for clause in &clauses.of_one_body {
-        refuse_clause_of_one_body(clause, context);
+) -> Option<Model> {
+    let Clauses { in_chart, runtime, wanted, mut statements, .. } = clauses;
+    let is_empty = statements.is_empty();
+    if in_chart.is_some() {
+        statements.bodies.insert(0, body_in_chart());
     }
     mark_named(&statements, &mut reader);
     let scalar = validate::common_scalar(&reader.fields);
     let scalar_name = validate::scalar_name(scalar.as_ref(), input);
-    let (shapes, owners) = validate::shapes(&reader, scalar.as_ref(), &scalar_name, "system", context);
+    let whole = if in_chart.is_some() { "body" } else { "system" };
+    let (shapes, owners) = validate::shapes(&reader, scalar.as_ref(), &scalar_name, whole, context);
     let uncertain = statements.missed;
 
-    naming::check(&statements, &reader.fields, context);
+    // A body in a chart about which nothing else is said has no names that anything could confuse.
+    if in_chart.is_none() || !is_empty {
+        naming::check(&statements, &reader.fields, context);
+    }
     motion::check_kinematics(&statements, uncertain, context);
     check_masses(input, &statements, &reader, &owners, &scalar_name, uncertain, context);
     bodies::check(&statements, &reader, &scalar_name, context);
     let unused = check_expressions(&mut statements, &reader, &shapes, &scalar_name, uncertain, context);
-    if statements.coordinates.is_none() && !uncertain {
+    if in_chart.is_none() && statements.coordinates.is_none() && !uncertain {
         let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
         context.error(span, "the system has no coordinates; add `coordinates(…)` with their names");
     }
@@ -55,13 +58,27 @@ pub(super) fn system(
     }
     let scalar = match scalar {
         Some(scalar) => scalar,
-        None => scalar_without_fields(input, &reader.fields, context)?,
+        None => validate::scalar_without_fields(input, &reader.fields, context)?,
     };
-    model(input, clauses.runtime, clauses.wanted, scalar, fields(&reader, &shapes), statements)
+    let fields = fields(&reader, &shapes);
+    assembled(input, (runtime, wanted, scalar, in_chart), fields, statements)
+}
+
+/// The body without a name, where a chart says where it is.
+fn body_in_chart() -> BodyClause {
+    BodyClause {
+        name: None,
+        massless: false,
+        parent: None,
+        position: None,
+        rotation: None,
+        given: Vec::new(),
+        span: Span::call_site(),
+    }
 }
 
 /// Checks names and kinds in all expressions, and writes the definitions out; gives back those that are not used.
-pub(super) fn check_expressions(
+fn check_expressions(
     statements: &mut Statements,
     reader: &Reader<'_>,
     shapes: &[Shape],
@@ -74,12 +91,13 @@ pub(super) fn check_expressions(
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions(statements) {
         // Of constraints and mass data the kind is needed as well.
-        if !matches!(place, Place::Constraint(_) | Place::Given(_)) {
+        let later = matches!(place, Place::Constraint(_) | Place::Given(_)) || place == given::ENTRY;
+        if !later {
             kinds::check(expression, place, &scope, context);
         }
     }
-    given::check(&mut statements.given, &scope, context);
-    statements.bodies.iter_mut().for_each(|body| given::check(&mut body.given, &scope, context));
+    let all = std::iter::once(&mut statements.given).chain(statements.bodies.iter_mut().map(|body| &mut body.given));
+    all.for_each(|given| given::check(given, &reader.fields, &scope, context));
     forces::check(statements, context);
     forces::check_coefficients(statements, &reader.fields, &scope, scalar, context);
     let well = constraints::check_kinds(statements, &scope, context);
@@ -95,9 +113,11 @@ pub(super) fn check_expressions(
 }
 
 /// Everything that is written does something. Asked only where all else is well.
-pub(super) fn check_effect(statements: &Statements, unused: &[Ident], owners: &[(Role, usize)], context: &mut Context) {
+fn check_effect(statements: &Statements, unused: &[Ident], owners: &[(Role, usize)], context: &mut Context) {
     forces::check_effect(statements, context);
-    let fluid = owners.iter().any(|(role, _)| matches!(role, Role::AddedMass | Role::DisplacedMass));
+    let given = statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given));
+    let mut roles = owners.iter().map(|(role, _)| *role).chain(given.map(|given| given.role));
+    let fluid = roles.any(|role| matches!(role, Role::AddedMass | Role::DisplacedMass));
     forces::check_medium(statements, fluid, context);
     for name in unused {
         context.error(name.span(), format!("`{name}` is defined and never used; remove it"));
@@ -105,8 +125,8 @@ pub(super) fn check_effect(statements: &Statements, unused: &[Ident], owners: &[
 }
 
 /// The fields with their shapes.
-pub(super) fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<SystemField> {
-    let field = |(field, &shape): (&Field<'_>, &Shape)| SystemField {
+fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<Field> {
+    let field = |(field, &shape): (&ReadField<'_>, &Shape)| Field {
         ident: field.ident.clone(),
         role: field.role.as_ref().map(|claim| claim.role),
         shape,
@@ -117,16 +137,17 @@ pub(super) fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<SystemField> 
 }
 
 /// The model; `None` if the coordinates or the kinematics are not known, which is then noted.
-pub(super) fn model(
+fn assembled(
     input: &DeriveInput,
-    runtime: Path,
-    wanted: Wanted,
-    scalar: Scalar,
-    fields: Vec<SystemField>,
+    (runtime, wanted, scalar, in_chart): (Path, Wanted, Scalar, Option<InChart>),
+    fields: Vec<Field>,
     mut statements: Statements,
-) -> Option<SystemModel> {
+) -> Option<Model> {
     statements.place_at_points();
-    let coordinates = statements.coordinates?.names;
+    let coordinates = match statements.coordinates {
+        Some(coordinates) => coordinates.names,
+        None => in_chart.map(|_| Vec::new())?,
+    };
     let mut kinematics = Vec::new();
     if let Some(written) = &statements.kinematics {
         for coordinate in &coordinates {
@@ -134,7 +155,7 @@ pub(super) fn model(
             kinematics.push((coordinate.ident.clone(), rate.clone()?));
         }
     }
-    Some(SystemModel {
+    Some(Model {
         ident: input.ident.clone(),
         visibility: input.vis.clone(),
         generics: input.generics.clone(),
@@ -142,6 +163,7 @@ pub(super) fn model(
         runtime,
         wanted,
         fields,
+        in_chart,
         coordinates,
         speeds: statements.speeds.map(|speeds| speeds.names),
         kinematics,
@@ -160,19 +182,6 @@ pub(super) fn model(
     })
 }
 
-/// `chart` and `motion` choose among what one body has; a system says both by its own clauses.
-fn refuse_clause_of_one_body(clause: &Ident, context: &mut Context) {
-    let instead = if clause.unraw() == "chart" {
-        "the quasi-velocities of a system are its `speeds`, or the rates of its `coordinates`"
-    } else {
-        "what a system is free to do is said by its `coordinates` and `speeds`"
-    };
-    context.error(
-        clause.span(),
-        format!("`{clause}` is for one body without coordinates of its own; {instead}: remove `{clause}`"),
-    );
-}
-
 /// Every expression, with its place; those of constraints come after the others.
 fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
     let mut all = Vec::new();
@@ -181,13 +190,12 @@ fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
         let kind = coordinates().find(|coordinate| same(&coordinate.ident, name)).map(|coordinate| coordinate.kind);
         all.extend(rate.as_ref().map(|rate| (Place::Kinematics(kind), rate)));
     }
-    // In a chart the body is placed by the model, not by the user.
-    for body in statements.bodies.iter().filter(|_| !statements.in_chart) {
+    for body in &statements.bodies {
         all.extend(body.position.as_ref().map(|position| (Place::Position, position)));
         all.extend(body.rotation.as_ref().map(|rotation| (Place::Rotation, rotation)));
     }
     let given = statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given));
-    all.extend(given.map(|given| (Place::Given(given.role), &given.value)));
+    all.extend(given.flat_map(Given::expressions));
     for particle in &statements.particles {
         all.push((Place::Mass, &particle.mass));
         all.push((Place::Particle { parent: particle.parent.is_some() }, &particle.position));
@@ -219,12 +227,14 @@ fn expressions(statements: &Statements) -> Vec<(Place, &Expression)> {
 }
 
 /// Fields that expressions name are computed with, as those with roles are.
-pub(super) fn mark_named(statements: &Statements, reader: &mut Reader<'_>) {
+fn mark_named(statements: &Statements, reader: &mut Reader<'_>) {
     let coefficients = forces::coefficient_fields(statements);
     for field in &mut reader.fields {
         field.computed |= match field.reading.kind {
             Kind::Known(Shape::Scalar | Shape::Vector3) => statements.name(&word(field.ident)),
-            Kind::Known(Shape::Vector6 | Shape::Matrix6) => coefficients.iter().any(|name| same(name, field.ident)),
+            Kind::Known(Shape::Vector6 | Shape::Matrix6) => {
+                coefficients.iter().any(|(name, _)| same(name, field.ident))
+            }
             _ => false,
         };
     }
@@ -246,7 +256,7 @@ impl Statements {
             body.position.iter_mut().chain(&mut body.rotation).for_each(&mut *change);
         }
         let of_bodies = self.bodies.iter_mut().flat_map(|body| &mut body.given);
-        self.given.iter_mut().chain(of_bodies).for_each(|given| change(&mut given.value));
+        self.given.iter_mut().chain(of_bodies).for_each(|given| given.each_expression(change));
         for particle in &mut self.particles {
             change(&mut particle.mass);
             change(&mut particle.position);
@@ -294,20 +304,31 @@ fn check_masses(
     // An accelerating medium pushes the displaced mass as gravity does.
     let pushed = statements.medium.is_some();
     let known = |role: Role| known(role) || (role == Role::Gravity && pushed);
+    let bodies = statements.massive().count();
+    // Of several unnamed bodies none is meant to have the roles: they must get names first.
+    if let (Some(clause), [false, false]) = (&statements.of_chart, [Role::Mass, Role::Inertia].map(known)) {
+        let [mass, inertia] = [Role::Mass, Role::Inertia].map(|role| role.example(scalar));
+        context.error(
+            clause.span(),
+            format!(
+                "`{clause}` moves a body without a name, and `{}` has no mass data of one; add `{mass}` and `{inertia}`, \
+                 or remove `{clause}`: what else moves is said by `coordinates` and `speeds`",
+                input.ident
+            ),
+        );
+    } else if statements.in_chart || (statements.has_unnamed_body() && bodies == 1 && !uncertain) {
+        for role in [Role::Mass, Role::Inertia] {
+            if !known(role) {
+                validate::missing_role(input, role, scalar, context);
+            }
+        }
+    }
     for claim in reader.fields.iter().filter_map(|field| field.role.as_ref()) {
         validate::check_companion(claim.role, claim.span, known, scalar, context);
     }
     given::check_roles(&statements.given, &reader.fields, known, scalar, context);
-    let bodies = statements.massive().count();
+    statements.massive().for_each(|body| given::check_fluid(body, known(Role::Gravity), scalar, context));
     if statements.has_unnamed_body() {
-        // Of several unnamed bodies none is meant to have the roles: they must get names first.
-        if bodies == 1 && !uncertain {
-            for role in [Role::Mass, Role::Inertia] {
-                if !known(role) {
-                    validate::missing_role(input, role, scalar, context);
-                }
-            }
-        }
         return;
     }
     if uncertain || statements.missed_any(&[Statement::Body, Statement::Particle]) {
@@ -354,19 +375,18 @@ fn check_masses(
 }
 
 /// What expressions may name.
-fn scope(statements: &Statements, fields: &[Field<'_>], shapes: &[Shape], scalar: &str, uncertain: bool) -> Scope {
+fn scope(statements: &Statements, fields: &[ReadField<'_>], shapes: &[Shape], scalar: &str, uncertain: bool) -> Scope {
     let coordinates = statements.coordinates.as_ref();
     let speeds = statements.speeds.as_ref();
     let inputs = statements.inputs.as_ref();
     // Without a clause of coordinates, or of speeds where there are kinematics, every name is one that is missing there.
     let complete = !uncertain
         && !statements.missed_any(&[Statement::Frame, Statement::Point, Statement::Define])
-        && coordinates.is_some_and(|names| names.complete)
+        && coordinates.map_or(statements.in_chart, |names| names.complete)
         && speeds.map_or(statements.kinematics.is_none(), |names| names.complete)
         && inputs.is_none_or(|names| names.complete);
     let mut scope = Scope::new(complete);
-    // The pose of a body in a chart is the model's own.
-    for coordinate in coordinates.iter().filter(|_| !statements.in_chart).flat_map(|names| &names.names) {
+    for coordinate in coordinates.iter().flat_map(|names| &names.names) {
         scope.add(&coordinate.ident, Meaning::Coordinate(coordinate.kind));
     }
     for speed in speeds.iter().flat_map(|names| &names.names) {
@@ -397,7 +417,7 @@ fn scope(statements: &Statements, fields: &[Field<'_>], shapes: &[Shape], scalar
     scope
 }
 
-fn meaning(field: &Field<'_>, shape: Shape, scalar: &str) -> Meaning {
+fn meaning(field: &ReadField<'_>, shape: Shape, scalar: &str) -> Meaning {
     let name = field.ident;
     let found = &field.reading.name;
     // The shape by role serves where the type is an alias; a wrong scalar is noted where it is written.
@@ -420,29 +440,5 @@ fn meaning(field: &Field<'_>, shape: Shape, scalar: &str) -> Meaning {
             "the type of the field `{name}` is {found}, and expressions name scalars and vectors only: \
              `{scalar}` or `Vector3<{scalar}>`"
         )),
-    }
-}
-
-/// The scalar of a system none of whose fields shows one.
-pub(super) fn scalar_without_fields(
-    input: &DeriveInput,
-    fields: &[Field<'_>],
-    context: &mut Context,
-) -> Option<Scalar> {
-    let generic = input.generics.params.iter().any(|parameter| matches!(parameter, GenericParam::Type(_)));
-    let hidden = fields.iter().find(|field| field.computed && matches!(field.reading.element, Element::Hidden));
-    match hidden {
-        None if !generic => Some(Scalar::F64),
-        _ => {
-            if context.is_clean() {
-                let span: Span = hidden.map_or(input.ident.span(), |field| field.ident.span());
-                context.error(
-                    span,
-                    "the scalar cannot be read from any field that the system computes with; \
-                     write `f64`, `f32` or a type parameter in one of them",
-                );
-            }
-            None
-        }
     }
 }

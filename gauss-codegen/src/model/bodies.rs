@@ -1,7 +1,7 @@
-//! What must hold between the bodies and frames of a system: their names, their fields and their parents.
+//! What must hold between the bodies and frames of a scene: their names, their fields and their parents.
 
 use super::context::Context;
-use super::fields::{Field, Reader};
+use super::fields::{ReadField, Reader};
 use super::given;
 use super::names;
 use super::naming::{same, word};
@@ -36,7 +36,7 @@ fn check_names(statements: &Statements, scalar: &str, context: &mut Context) {
     let bodies: Vec<&BodyClause> = statements.massive().collect();
     for (index, body) in bodies.iter().enumerate() {
         match &body.name {
-            None if bodies.len() > 1 => context.error(
+            None if bodies.len() > 1 && !statements.in_chart => context.error(
                 body.span,
                 format!(
                     "a body without a name must be the only one, and there are {}; write `body(name, …)` with a field \
@@ -55,15 +55,15 @@ fn check_names(statements: &Statements, scalar: &str, context: &mut Context) {
 
 /// Each named body has a field, and each field that is a body has a clause.
 fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
-    let is_body = |field: &Field<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
-    statements.massive().filter(|body| !body.given.is_empty()).for_each(|body| {
+    let is_body = |field: &ReadField<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
+    statements.massive().filter(|body| body.has_matter()).for_each(|body| {
         given::check_named(body, &reader.fields, context);
     });
-    let bodies = named(&statements.massive().filter(|body| body.given.is_empty()).collect::<Vec<_>>());
+    let bodies = named(&statements.massive().filter(|body| !body.has_matter()).collect::<Vec<_>>());
     // That a frame cannot have the name of a field is noted with the names.
     let frames: Vec<&Ident> = statements.frames().collect();
     let all = named(&statements.massive().collect::<Vec<_>>());
-    let placed = |field: &Field<'_>| all.iter().chain(&frames).any(|name| same(name, field.ident));
+    let placed = |field: &ReadField<'_>| all.iter().chain(&frames).any(|name| same(name, field.ident));
     let unclaimed: Vec<(String, ())> = reader
         .fields
         .iter()

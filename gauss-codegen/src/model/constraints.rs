@@ -58,7 +58,10 @@ fn check_independent(statements: &Statements, uncertain: bool, context: &mut Con
             "without constraints all speeds are independent; add `constraint(…)`, or remove `independent`",
         );
     }
-    let Some(speeds) = &statements.speeds else {
+    let own = statements.speeds.as_ref();
+    // Coordinates beside a chart whose rates are the speeds leave some without a name.
+    let unnamed = own.is_none() && statements.coordinates.is_some();
+    if unnamed || (own.is_none() && !statements.in_chart) {
         if !uncertain {
             context.error(
                 independent.clause.span(),
@@ -67,13 +70,16 @@ fn check_independent(statements: &Statements, uncertain: bool, context: &mut Con
             );
         }
         return;
-    };
-    let table: Vec<String> = speeds.names.iter().map(|speed| word(&speed.ident)).collect();
+    }
+    let mut table = statements.speeds_of_chart.clone();
+    table.extend(own.iter().flat_map(|speeds| &speeds.names).map(|speed| word(&speed.ident)));
+    table.dedup();
+    let complete = own.is_none_or(|speeds| speeds.complete);
     let table: Vec<(&str, ())> = table.iter().map(|name| (name.as_str(), ())).collect();
     for (index, name) in independent.names.iter().enumerate() {
         if independent.names[..index].iter().any(|earlier| same(earlier, name)) {
             context.error(name.span(), format!("`{name}` is named independent twice; remove one of the two"));
-        } else if !speeds.names.iter().any(|speed| same(&speed.ident, name)) && speeds.complete {
+        } else if !table.iter().any(|(speed, ())| word(name) == **speed) && complete {
             let coordinate =
                 statements.coordinates.iter().flat_map(|names| &names.names).any(|other| same(&other.ident, name));
             let problem = if coordinate { "is a coordinate, not a speed" } else { "is no speed" };
@@ -88,8 +94,8 @@ fn check_independent(statements: &Statements, uncertain: bool, context: &mut Con
             context.error(name.span(), format!("`{name}` {problem}; {remedy}"));
         }
     }
-    let all_named = speeds.names.iter().all(|speed| independent.names.iter().any(|name| same(&speed.ident, name)));
-    if all_named && speeds.complete && !speeds.names.is_empty() {
+    let all_named = table.iter().all(|(speed, ())| independent.names.iter().any(|name| word(name) == **speed));
+    if all_named && complete && !table.is_empty() {
         context.error(
             independent.clause.span(),
             "all speeds are named independent, and none is left to solve the constraints for; \

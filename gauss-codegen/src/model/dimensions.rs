@@ -5,7 +5,7 @@
 //! literal agrees with everything too, in a sum or alone; as a factor it has no dimension, unless it is zero.
 
 use super::context::Context;
-use super::fields::Field;
+use super::fields::ReadField;
 use super::naming::{same, word};
 use super::needs::{ANGLE, ANGULAR_VELOCITY, FORCE, LENGTH, Need, TORQUE, VELOCITY};
 use super::scope::TIME;
@@ -86,7 +86,7 @@ impl Value {
 }
 
 /// Notes where dimensions disagree with one another or with what is needed. Names and kinds are right.
-pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut Context) {
+pub(super) fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Context) {
     let inputs = || statements.inputs.iter().flat_map(|names| &names.names);
     let units: Vec<(&Ident, &str)> = fields
         .iter()

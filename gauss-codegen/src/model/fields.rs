@@ -16,7 +16,7 @@ use syn::{Attribute, Data, DeriveInput, Expr, ExprLit, FieldsNamed, Generics, Li
 pub(super) const UNIT: &str = "unit";
 
 /// One field as written.
-pub(super) struct Field<'a> {
+pub(super) struct ReadField<'a> {
     pub(super) ident: &'a Ident,
     pub(super) ty: &'a Type,
     pub(super) reading: Reading,
@@ -47,7 +47,7 @@ pub(super) struct Form {
 
 /// Every field, and what is known about the roles beyond them.
 pub(super) struct Reader<'a> {
-    pub(super) fields: Vec<Field<'a>>,
+    pub(super) fields: Vec<ReadField<'a>>,
     /// Roles that some clause means although it is wrong (misspelt, or second on its field); they are not missing too.
     pub(super) meant: Vec<Role>,
     /// The struct is a system, because of its clauses or because some field is a body.
@@ -108,7 +108,7 @@ pub(super) fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool
             }
             None => true,
         });
-        reader.fields.push(Field {
+        reader.fields.push(ReadField {
             ident,
             ty: &field.ty,
             reading,

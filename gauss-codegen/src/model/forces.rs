@@ -1,7 +1,7 @@
 //! What must hold of forces and inputs.
 
 use super::context::Context;
-use super::fields::Field;
+use super::fields::ReadField;
 use super::moving::Moving;
 use super::names;
 use super::naming::{same, word};
@@ -10,7 +10,8 @@ use super::scope::Scope;
 use super::shapes::Kind;
 use super::statements::Statements;
 use super::{
-    Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceClause, ForceKind, Property, Shape,
+    Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceClause, ForceKind, GivenValue, Property,
+    Shape,
 };
 use proc_macro2::Ident;
 
@@ -93,11 +94,7 @@ impl ForceKind {
                 [stiffness, width].into_iter().chain(least).chain(most).chain(damping).for_each(change);
             }
             ForceKind::Drag { linear, quadratic, .. } => {
-                for coefficients in linear.iter_mut().chain(quadratic) {
-                    if let Coefficients::Diagonal(entries) = coefficients {
-                        entries.iter_mut().for_each(|entry| change(entry));
-                    }
-                }
+                linear.iter_mut().chain(quadratic).for_each(|coefficients| coefficients.each_expression(change));
             }
         }
     }
@@ -119,7 +116,13 @@ fn extended<'a>(
 }
 
 impl Coefficients {
-    fn entries(&self) -> impl Iterator<Item = &Expression> {
+    pub(super) fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
+        if let Coefficients::Diagonal(entries) = self {
+            entries.iter_mut().for_each(|entry| change(entry));
+        }
+    }
+
+    pub(super) fn entries(&self) -> impl Iterator<Item = &Expression> {
         let entries = match self {
             Coefficients::Diagonal(entries) => Some(entries),
             Coefficients::Field(_) => None,
@@ -128,23 +131,29 @@ impl Coefficients {
     }
 }
 
-/// The fields that are the coefficients of drags.
-pub(super) fn coefficient_fields(statements: &Statements) -> Vec<&Ident> {
-    let mut names = Vec::new();
+/// The fields that are six by six or the diagonal of that, with what they are: the coefficients of drags, and added masses.
+pub(super) fn coefficient_fields(statements: &Statements) -> Vec<(&Ident, &'static str)> {
+    let mut all: Vec<(&Coefficients, &str)> = Vec::new();
     for clause in &statements.forces {
         let ForceKind::Drag { linear, quadratic, .. } = &clause.kind else { continue };
-        names.extend(linear.iter().chain(quadratic).filter_map(|coefficients| match coefficients {
-            Coefficients::Field(name) => Some(name),
-            Coefficients::Diagonal(_) => None,
-        }));
+        all.extend(linear.iter().chain(quadratic).map(|coefficients| (coefficients, "the coefficients of a drag are")));
     }
-    names
+    for given in statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given)) {
+        if let GivenValue::Coefficients(coefficients) = &given.value {
+            all.push((coefficients, "an added mass is"));
+        }
+    }
+    let field = |(coefficients, what)| match coefficients {
+        &Coefficients::Field(ref name) => Some((name, what)),
+        Coefficients::Diagonal(_) => None,
+    };
+    all.into_iter().filter_map(field).collect()
 }
 
 /// Coefficients that are fields are six or a matrix.
 pub(super) fn check_coefficients(
     statements: &Statements,
-    fields: &[Field<'_>],
+    fields: &[ReadField<'_>],
     scope: &Scope,
     scalar: &str,
     context: &mut Context,
@@ -152,7 +161,7 @@ pub(super) fn check_coefficients(
     let expected = format!(
         "six scalars in a list `[a, b, c, d, e, f]`, a `Vector6<{scalar}>` (diagonal) or a `Matrix6<{scalar}>` (full)"
     );
-    for name in coefficient_fields(statements) {
+    for (name, what) in coefficient_fields(statements) {
         let message = match fields.iter().find(|field| same(field.ident, name)) {
             Some(field) => match field.reading.kind {
                 Kind::Known(Shape::Vector6 | Shape::Matrix6) => continue,
@@ -161,19 +170,17 @@ pub(super) fn check_coefficients(
                      for its type",
                     field.reading.name
                 ),
-                _ => format!(
-                    "the type of the field `{name}` is {}, and the coefficients of a drag are {expected}",
-                    field.reading.name
-                ),
+                _ => format!("the type of the field `{name}` is {}, and {what} {expected}", field.reading.name),
             },
             None => match scope.find(name, |_| false) {
                 Ok(meaning) => {
-                    format!("`{name}` is {}, and the coefficients of a drag are {expected}", meaning.described())
+                    format!("`{name}` is {}, and {what} {expected}", meaning.described())
                 }
                 Err(None) => continue,
                 Err(Some(_)) => {
-                    let six =
-                        |field: &&Field<'_>| matches!(field.reading.kind, Kind::Known(Shape::Vector6 | Shape::Matrix6));
+                    let six = |field: &&ReadField<'_>| {
+                        matches!(field.reading.kind, Kind::Known(Shape::Vector6 | Shape::Matrix6))
+                    };
                     let names: Vec<String> = fields.iter().filter(six).map(|field| word(field.ident)).collect();
                     let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
                     let remedy = match names::nearest(&word(name), &table) {

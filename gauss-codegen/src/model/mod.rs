@@ -1,5 +1,4 @@
-//! The attribute language, read and checked: a struct with `#[gauss(…)]` goes in, a [`Scene`] comes out: the [`Model`]
-//! of one body in one of the charts, or the [`SystemModel`] of a system with its own coordinates.
+//! The attribute language, read and checked: a struct with `#[gauss(…)]` goes in, a [`Model`] comes out.
 //!
 //! This is the only part of the derive that knows syn's input types. Nothing here panics on what a user can write;
 //! every mistake is collected in a [`Context`](context::Context) and all of them are reported together, each at the
@@ -21,6 +20,7 @@
 //! | `expression`, `arithmetic`, `number`, `functions` | Rust arithmetic → trees with spans |
 //! | `scope`, `places`, `kinds` | what names mean in expressions and where they may stand; scalar, vector or rotation |
 //! | `naming` | one name, one meaning |
+//! | `charts` | what the speeds of charts are called |
 //! | `motion` | what must hold between coordinates, speeds and kinematics |
 //! | `bodies` | what must hold between bodies: names, fields, parents |
 //! | `constraints` | what must hold of constraints and independent speeds |
@@ -28,17 +28,16 @@
 //! | `units`, `dimensions`, `needs` | units of fields and inputs; dimensions of expressions that follow; which are needed where |
 //! | `definitions` | named expressions, put in the place of their names |
 //! | `moving` | what moves with the coordinates and the speeds |
-//! | `assembly`, `system` | a whole system checked, and the type that it has then |
-//! | `acting` | what acts on one body in a chart, which is said as it is of a system |
+//! | `assembly`, `system` | a whole scene checked, and the type that it has then |
 //! | `names` | the nearest valid word to a misspelt one |
 //! | `context` | the mistakes found so far |
 
-mod acting;
 mod actions;
 mod arithmetic;
 mod assembly;
 mod attributes;
 mod bodies;
+mod charts;
 mod constraints;
 mod context;
 mod declarations;
@@ -70,65 +69,15 @@ mod units;
 mod validate;
 
 pub use expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
-pub use given::Given;
+pub use given::{Given, GivenValue};
 pub use system::{
-    Attraction, BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, Extent,
-    ForceAxes, ForceClause, ForceKind, InputKind, InputName, ParticleClause, PointClause, Speed, SpeedKind,
-    SystemField, SystemModel,
+    Attraction, BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, Extent, Field,
+    ForceAxes, ForceClause, ForceKind, InChart, InputKind, InputName, Model, ParticleClause, PointClause, Speed,
+    SpeedKind,
 };
 
 use context::Context;
-use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics, Ident, Path, Visibility};
-
-/// What a struct describes.
-#[derive(Clone)]
-pub enum Scene {
-    /// One rigid body in one of the charts.
-    Body(Box<Model>),
-    /// A system with coordinates of its own.
-    System(Box<SystemModel>),
-}
-
-/// One rigid body as the user wrote it, checked.
-#[derive(Clone)]
-pub struct Model {
-    /// Name of the struct.
-    pub ident: Ident,
-    /// Visibility of the struct; the kernel gets the same.
-    pub visibility: Visibility,
-    /// Generics of the struct: type parameters only.
-    pub generics: Generics,
-    /// The one scalar of every field with a role.
-    pub scalar: Scalar,
-    /// Where the generated code finds the runtime: `::gauss_runtime`, or what `crate = path` says.
-    pub runtime: Path,
-    /// The quasi-velocities that the equations are written in.
-    pub chart: Chart,
-    /// What the body is free to do.
-    pub motion: Motion,
-    /// Every field of the struct, in order.
-    pub parameters: Vec<Parameter>,
-    /// Where expressions are written, of what acts besides weight and buoyancy or of mass data: the same body as a system
-    /// whose only coordinate is its pose, free whatever `motion` is, and whose only body has no name.
-    pub system: Option<Box<SystemModel>>,
-    /// Something acts besides weight and buoyancy.
-    pub acted_upon: bool,
-    /// What is wanted beside the equations.
-    pub wanted: Wanted,
-}
-
-impl Model {
-    /// The field that plays a role.
-    pub fn field(&self, role: Role) -> Option<&Parameter> {
-        self.parameters.iter().find(|parameter| parameter.role == Some(role))
-    }
-
-    /// The shape of what plays a role, a field or a clause; without it the body has no such thing.
-    pub fn shape(&self, role: Role) -> Option<Shape> {
-        let given = || self.system.iter().flat_map(|system| &system.given).find(|given| given.role == role);
-        self.field(role).map(|field| field.shape).or_else(|| given().map(|given| given.shape))
-    }
-}
+use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics, Ident};
 
 /// What is wanted beside the equations.
 #[derive(Clone, Default)]
@@ -201,21 +150,6 @@ pub enum Motion {
     Planar,
 }
 
-/// One field of the struct.
-#[derive(Clone)]
-pub struct Parameter {
-    /// Name of the field.
-    pub ident: Ident,
-    /// What the field means to the body; `None` for a plain parameter.
-    pub role: Option<Role>,
-    /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].
-    pub shape: Shape,
-    /// The unit, if one is written.
-    pub unit: Option<String>,
-    /// Its doc comment, trimmed; empty when it has none.
-    pub documentation: String,
-}
-
 /// Shape of a field's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -229,7 +163,7 @@ pub enum Shape {
     Vector6,
     /// Six by six, order (linear, angular).
     Matrix6,
-    /// Mass, centre of mass and inertia of a body of a system.
+    /// Mass, centre of mass and inertia of a body.
     RigidBody,
     /// Anything else: only plain parameters have it.
     Other,
@@ -252,42 +186,23 @@ pub enum Role {
     DisplacedMass,
     /// Where buoyancy acts, body axes from O: vector.
     CenterOfBuoyancy,
-    /// A body of a system, named like the field.
+    /// A body, named like the field.
     Body,
 }
 
-/// Reads and checks a struct that describes one body: for tests of what only bodies have.
-///
-/// # Errors
-/// All mistakes of the struct combined, each at the token that is wrong; or that it describes a system.
-#[cfg(test)]
-pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
-    match parse_scene(input)? {
-        Scene::Body(model) => Ok(*model),
-        Scene::System(model) => {
-            Err(Error::new(model.ident.span(), "a system with coordinates of its own is not one body in a chart"))
-        }
-    }
-}
-
-/// Reads and checks a struct: a system if any clause or field is one that only systems have, else one body.
+/// Reads and checks a struct.
 ///
 /// # Errors
 /// All mistakes of the struct combined, each at the token that is wrong.
-pub fn parse_scene(input: &DeriveInput) -> Result<Scene, Error> {
+pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     let mut context = Context::default();
     let clauses = scene::read(&input.attrs, fields::any_body(input), &mut context);
     check_generics(&input.generics, &mut context);
-    let scene = named_fields(input, &mut context).and_then(|named| {
-        let reader = fields::read(named, &input.generics, clauses.is_system, &mut context);
-        if reader.system {
-            let system = assembly::system(input, clauses, reader, &mut context)?;
-            Some(Scene::System(Box::new(system)))
-        } else {
-            Some(Scene::Body(Box::new(validate::model(input, clauses, reader, &mut context)?)))
-        }
+    let model = named_fields(input, &mut context).and_then(|named| {
+        let reader = fields::read(named, &input.generics, clauses.own, &mut context);
+        assembly::model(input, clauses, reader, &mut context)
     });
-    context.finish(scene)
+    context.finish(model)
 }
 
 /// The fields of a struct with named fields; anything else is a mistake at its name.

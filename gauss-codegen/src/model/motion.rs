@@ -12,6 +12,19 @@ use syn::ext::IdentExt;
 /// With speeds of its own a system needs one equation for each coordinate; without, it needs none.
 pub(super) fn check_kinematics(statements: &Statements, uncertain: bool, context: &mut Context) {
     let coordinates = statements.coordinates.as_ref();
+    if statements.in_chart && coordinates.is_none() {
+        let speeds = statements.speeds.iter().map(|speeds| &speeds.clause);
+        for clause in speeds.chain(statements.kinematics.iter().map(|kinematics| &kinematics.clause)) {
+            context.error(
+                clause.span(),
+                format!(
+                    "the chart has speeds and kinematics of its own, and `{clause}` is of coordinates beside it; add \
+                     `coordinates(…)` of what else moves, remove `{clause}`, or remove `chart` and `motion`"
+                ),
+            );
+        }
+        return;
+    }
     match (&statements.speeds, &statements.kinematics) {
         (None, None) => {}
         (Some(speeds), None) => {

@@ -1,6 +1,7 @@
 //! What changes when coordinates or speeds do.
 
 use super::naming::word;
+use super::scope::UNNAMED;
 use super::statements::Statements;
 use super::{Expression, ExpressionKind, FunctionName};
 use proc_macro2::Ident;
@@ -16,6 +17,7 @@ impl Moving {
     pub(super) fn new(statements: &Statements) -> Moving {
         let mut places: Vec<String> = Vec::new();
         places.extend(statements.coordinates.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)));
+        places.extend(statements.in_chart.then(|| UNNAMED.to_owned()));
         let speeds = statements.speeds.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)).collect();
         // A child may be written before its parent: round after round adds those that are moved by what moves.
         for _ in &statements.bodies {

@@ -1,7 +1,7 @@
 //! Words of the language, and the nearest of them to a misspelt one.
 
 use super::context::Context;
-use std::collections::BTreeMap;
+use strsim::damerau_levenshtein;
 use syn::Ident;
 use syn::ext::IdentExt;
 
@@ -42,7 +42,7 @@ pub(super) fn nearest<'a, T: Copy>(word: &str, table: &[(&'a str, T)]) -> Option
     let limit = (word.chars().count() / 3).max(1);
     table
         .iter()
-        .map(|&entry| (distance(&word.to_lowercase(), &entry.0.to_lowercase()), entry))
+        .map(|&entry| (damerau_levenshtein(&word.to_lowercase(), &entry.0.to_lowercase()), entry))
         .filter(|&(distance, _)| distance <= limit)
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, entry)| entry)
@@ -68,56 +68,20 @@ pub(super) fn list<T>(table: &[(&str, T)]) -> String {
     text
 }
 
-/// Damerau–Levenshtein distance: insertions, deletions, substitutions and transpositions of neighbours, with edits
-/// allowed between the transposed letters (the unrestricted form, by Lowrance and Wagner).
-fn distance(a: &str, b: &str) -> usize {
-    let a: Vec<char> = a.chars().collect();
-    let b: Vec<char> = b.chars().collect();
-    let bound = a.len() + b.len();
-    // One row and one column more than the usual table: they hold `bound`, which no edit can profit from.
-    let mut cost = vec![vec![bound; b.len() + 2]; a.len() + 2];
-    for (i, row) in cost.iter_mut().enumerate().skip(1) {
-        row[1] = i - 1;
-    }
-    for (j, cell) in cost[1].iter_mut().enumerate().skip(1) {
-        *cell = j - 1;
-    }
-    // Last row in which each letter of `a` was seen, and last column of this row in which the letters agreed.
-    let mut last_row: BTreeMap<char, usize> = BTreeMap::new();
-    for i in 1..=a.len() {
-        let mut last_column = 0;
-        for j in 1..=b.len() {
-            let row = last_row.get(&b[j - 1]).copied().unwrap_or(0);
-            let column = last_column;
-            let same = a[i - 1] == b[j - 1];
-            if same {
-                last_column = j;
-            }
-            let substitution = cost[i][j] + usize::from(!same);
-            let insertion = cost[i + 1][j] + 1;
-            let deletion = cost[i][j + 1] + 1;
-            let transposition = cost[row][column] + (i - row - 1) + 1 + (j - column - 1);
-            cost[i + 1][j + 1] = substitution.min(insertion).min(deletion).min(transposition);
-        }
-        last_row.insert(a[i - 1], i);
-    }
-    cost[a.len() + 1][b.len() + 1]
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{distance, list, nearest};
+    use super::{damerau_levenshtein, list, nearest};
 
     #[test]
-    fn distances() {
-        assert_eq!(distance("", ""), 0);
-        assert_eq!(distance("", "mass"), 4);
-        assert_eq!(distance("mass", "mass"), 0);
-        assert_eq!(distance("mas", "mass"), 1);
-        assert_eq!(distance("hybird", "hybrid"), 1);
-        assert_eq!(distance("centre", "center"), 1);
-        assert_eq!(distance("ca", "abc"), 2);
-        assert_eq!(distance("kitten", "sitting"), 3);
+    fn distances_let_neighbours_change_places() {
+        assert_eq!(damerau_levenshtein("", ""), 0);
+        assert_eq!(damerau_levenshtein("", "mass"), 4);
+        assert_eq!(damerau_levenshtein("mass", "mass"), 0);
+        assert_eq!(damerau_levenshtein("mas", "mass"), 1);
+        assert_eq!(damerau_levenshtein("hybird", "hybrid"), 1);
+        assert_eq!(damerau_levenshtein("centre", "center"), 1);
+        assert_eq!(damerau_levenshtein("ca", "abc"), 2);
+        assert_eq!(damerau_levenshtein("kitten", "sitting"), 3);
     }
 
     #[test]

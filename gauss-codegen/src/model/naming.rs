@@ -2,7 +2,7 @@
 
 use super::Role;
 use super::context::Context;
-use super::fields::Field;
+use super::fields::ReadField;
 use super::functions::FUNCTIONS;
 use super::names;
 use super::scope::{TIME, UNNAMED};
@@ -12,9 +12,9 @@ use syn::ext::IdentExt;
 
 /// Fields, coordinates, speeds, inputs, definitions, bodies, frames and points have different names, elements of what acts too
 /// among themselves, and none a name that expressions use already.
-pub(super) fn check(statements: &Statements, fields: &[Field<'_>], context: &mut Context) {
+pub(super) fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Context) {
     let is_body = |name: &Ident| {
-        let role = |field: &Field<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
+        let role = |field: &ReadField<'_>| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body);
         fields.iter().any(|field| same(field.ident, name) && role(field))
     };
     // Expressions do not name what acts: a force may have the name of its input.

@@ -33,6 +33,8 @@ pub(super) const TORQUE: (&str, Dimension) = ("N m", Dimension::new(1, 2, -2));
 const ENERGY: (&str, Dimension) = ("J", Dimension::new(1, 2, -2));
 const POWER: (&str, Dimension) = ("W", Dimension::new(1, 2, -3));
 const GRAVITATION: (&str, Dimension) = ("m^3/s^2", Dimension::new(0, 3, -2));
+/// The diagonal of an added mass.
+const ADDED_MASS: [(&str, Dimension); 2] = [MASS, ("kg m^2", Dimension::new(1, 2, 0))];
 /// Of drag: linear and quadratic, each of a force and of a torque.
 const COEFFICIENTS: [[(&str, Dimension); 2]; 2] = [
     [("N s/m", Dimension::new(1, 0, -1)), ("N m s", Dimension::new(1, 2, -1))],
@@ -71,8 +73,15 @@ impl Checker<'_> {
             }
         }
         for given in statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given)) {
-            if let Some(unit) = given.role.unit() {
-                self.require(&given.value, &Need::new(format!("`{}` is", given.role.word()), unit));
+            for (index, (_, value)) in given.expressions().into_iter().enumerate() {
+                match given.role.unit() {
+                    Some(unit) => self.require(value, &Need::new(format!("`{}` is", given.role.word()), unit)),
+                    None => {
+                        let part = usize::from(index >= 3);
+                        let what = format!("the {} three entries of an added mass are", ["first", "last"][part]);
+                        self.require(value, &Need::new(what, ADDED_MASS[part]));
+                    }
+                }
             }
         }
         for particle in &statements.particles {

@@ -9,8 +9,17 @@ use super::statements::{self, brackets, known, value};
 use super::{BodyClause, ParticleClause, PointClause};
 use proc_macro2::{Ident, TokenTree};
 
-const BODY: &Table<()> =
-    &[("position", ()), ("rotation", ()), ("parent", ()), ("mass", ()), ("center_of_mass", ()), ("inertia", ())];
+const BODY: &Table<()> = &[
+    ("position", ()),
+    ("rotation", ()),
+    ("parent", ()),
+    ("mass", ()),
+    ("center_of_mass", ()),
+    ("inertia", ()),
+    ("added_mass", ()),
+    ("displaced_mass", ()),
+    ("center_of_buoyancy", ()),
+];
 const PARTICLE: &Table<()> = &[("mass", ()), ("position", ()), ("parent", ())];
 const POINT: &Table<()> = &[("body", ()), ("at", ())];
 

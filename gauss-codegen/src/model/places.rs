@@ -223,6 +223,7 @@ impl Place {
             Place::Along(_) => "the extent of a spring",
             Place::Constant { noun: "a stop", .. } => "a constant of a stop",
             Place::Constant { noun: "a spring", .. } => "a constant of a spring",
+            Place::Constant { noun: "an added mass", .. } => "an added mass",
             Place::Constant { .. } => "a gravitational parameter",
             Place::Dissipation => "a dissipation function",
             Place::Coefficient => "a coefficient of a drag",

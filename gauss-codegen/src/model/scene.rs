@@ -1,4 +1,4 @@
-//! The clauses of the struct: which equations are wanted. Those of systems are read by `statements`.
+//! The clauses of the struct: which equations are wanted. Those of what moves and acts are read by `statements`.
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
 //! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `regressor` alone;
@@ -11,7 +11,7 @@ use super::given;
 use super::names::{self, Table};
 use super::roles::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
-use super::{Chart, Motion, RotationChart, Wanted};
+use super::{Chart, InChart, Motion, RotationChart, Wanted};
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::Parser;
@@ -19,17 +19,15 @@ use syn::{Attribute, Path, PathSegment};
 
 /// What the clauses of the struct say.
 pub(super) struct Clauses {
-    pub(super) chart: Chart,
-    pub(super) motion: Motion,
+    /// The chart of the body without a name, unless the scene has coordinates of its own only.
+    pub(super) in_chart: Option<InChart>,
     pub(super) runtime: Path,
     /// What is wanted beside the equations.
     pub(super) wanted: Wanted,
-    /// The clauses of a system, or those that say what acts on one body.
+    /// What moves, what has mass and what acts.
     pub(super) statements: Statements,
-    /// Some clause is one that only systems have.
-    pub(super) is_system: bool,
-    /// `chart` and `motion` where they are written: clauses that only one body has.
-    pub(super) of_one_body: Vec<Ident>,
+    /// Some clause says what else moves than the body of a chart.
+    pub(super) own: bool,
 }
 
 /// Clauses of the struct.
@@ -90,12 +88,17 @@ enum Written {
     },
 }
 
-/// Reads the attributes of the struct; it is a system also if some field of it is a body.
+/// Reads the attributes of the struct. `chart` or `motion` says that a body without a name moves in a chart; so does it if no
+/// clause and no field, as with `has_body`, says what moves.
 pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> Clauses {
     let clauses = attributes::clauses(attributes, Place::Struct, context);
-    let is_system = clauses.iter().any(|clause| statements::meant(&clause.word()).is_some_and(Statement::makes_system));
-    let mut statements = Statements::new(!is_system && !has_body);
-    let mut of_one_body = Vec::new();
+    let meant = |clause: &Clause| statements::meant(&clause.word());
+    let own = clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
+    let of_chart = clauses.iter().find(|clause| ["chart", "motion"].contains(&clause.word().as_str()));
+    let of_chart = of_chart.map(|clause| clause.name.clone()).filter(|_| own || has_body);
+    let in_chart = of_chart.is_some() || !(own || has_body);
+    let has_coordinates = clauses.iter().any(|clause| meant(clause) == Some(Statement::Coordinates));
+    let mut statements = Statements::new(in_chart, has_coordinates);
     let mut charts = Vec::new();
     let mut motion = None;
     let mut runtime = None;
@@ -112,7 +115,7 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
             continue;
         }
         let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) else {
-            refuse(&clause, &word, is_system, context);
+            refuse(&clause, &word, own, context);
             statements.miss(&clause);
             continue;
         };
@@ -124,13 +127,8 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
         } else {
             first.push((topic, clause.written()));
         }
-        if matches!(topic, Topic::Chart | Topic::Motion) {
-            of_one_body.push(clause.name.clone());
-        }
-        // Of clauses given twice the first counts, but mistakes in the second are found all the same. A system is told
-        // to do without the clauses of one body, whatever they say.
+        // Of clauses given twice the first counts, but mistakes in the second are found all the same.
         match topic {
-            Topic::Chart | Topic::Motion if is_system => {}
             Topic::Chart => charts.push(read_chart(&clause, context)),
             Topic::Motion => motion = motion.or(Some(read_motion(&clause, context))),
             Topic::Runtime => runtime = runtime.or(Some(read_runtime(&clause, context))),
@@ -156,19 +154,15 @@ pub(super) fn read(attributes: &[Attribute], has_body: bool, context: &mut Conte
         chart = chart.or(settled);
     }
     let chart = chart.unwrap_or(Chart::LeftInvariant);
-    Clauses {
-        chart,
-        motion: motion.unwrap_or(Motion::Free),
-        runtime: runtime.flatten().unwrap_or_else(default_runtime),
-        wanted,
-        statements,
-        is_system,
-        of_one_body,
-    }
+    let motion = motion.unwrap_or(Motion::Free);
+    let in_chart = in_chart.then_some(InChart { chart, motion });
+    statements.of_chart = of_chart;
+    statements.speeds_of_chart = in_chart.map_or_else(Vec::new, InChart::speed_words);
+    Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own }
 }
 
 /// Notes why a clause is none of the struct's.
-fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) {
+fn refuse(clause: &Clause, word: &str, own: bool, context: &mut Context) {
     let span = clause.name.span();
     let message = if word == UNIT {
         "units are those of fields and inputs; write `#[gauss(unit = \"N\")]` on a field, or `input(thrust = \"N\")`"
@@ -194,7 +188,7 @@ fn refuse(clause: &Clause, word: &str, is_system: bool, context: &mut Context) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
     } else if let Some((name, _)) = names::nearest(word, STATEMENTS) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
-    } else if is_system {
+    } else if own {
         format!(
             "unknown clause `{word}`; expected {}, `crate`, `taylor`, `linearize` or `regressor`",
             names::list(STATEMENTS).replace(" or ", ", ")

@@ -20,11 +20,15 @@ use syn::LitInt;
 /// What the clauses of a system say, before their names are checked.
 #[derive(Default)]
 pub(super) struct Statements {
-    /// What they are about is one body in a chart, which needs no name to be spoken of.
+    /// A body without a name moves in a chart: what is said without a body is about this one.
     pub(super) in_chart: bool,
-    /// Some clause says what acts.
-    pub(super) acting: bool,
-    /// The name of the first clause: where a mistake of the system as a whole is shown.
+    /// `chart` or `motion`, beside clauses that say what else moves.
+    pub(super) of_chart: Option<Ident>,
+    /// What the speeds of the chart are called, one by one.
+    pub(super) speeds_of_chart: Vec<String>,
+    /// Some clause declares coordinates.
+    has_coordinates: bool,
+    /// The name of the first clause: where a mistake of the scene as a whole is shown.
     pub(super) first: Option<Ident>,
     pub(super) coordinates: Option<Names<Coordinate>>,
     pub(super) speeds: Option<Names<Speed>>,
@@ -139,16 +143,15 @@ impl Statement {
 }
 
 impl Statements {
-    /// None so far, of a system or of one body in a chart.
-    pub(super) fn new(in_chart: bool) -> Statements {
-        Statements { in_chart, ..Statements::default() }
+    /// None so far.
+    pub(super) fn new(in_chart: bool, has_coordinates: bool) -> Statements {
+        Statements { in_chart, has_coordinates, ..Statements::default() }
     }
 
     /// Reads a clause whose name is in [`STATEMENTS`].
     pub(super) fn read(&mut self, clause: &Clause, context: &mut Context) {
         self.first.get_or_insert_with(|| clause.name.clone());
         let Some(statement) = meant(&clause.word()) else { return };
-        self.acting |= !statement.makes_system() && statement != Statement::Limit;
         let in_chart = self.in_chart;
         let given = match statement {
             Statement::Coordinates => self.coordinates.is_some(),
@@ -189,6 +192,11 @@ impl Statements {
                 self.independent = self.independent.take().or(Some(names));
             }
             Statement::Body => match placements::read_body(clause, false, context) {
+                Some(body) if in_chart && body.name.is_none() => context.error(
+                    body.span,
+                    "the body without a name moves in the chart, which says where it is; give another body a name, \
+                     `body(name, …)`, write mass data as clauses of the struct, or remove `chart` and `motion`",
+                ),
                 Some(mut body) => {
                     // Of the only body there is one set of mass data, wherever they are written.
                     if body.name.is_none() {
@@ -227,10 +235,10 @@ impl Statements {
             Statement::Force => self.forces.extend(actions::read_force(clause, in_chart, context)),
             Statement::Torque => self.forces.extend(actions::read_torque(clause, in_chart, context)),
             Statement::Wrench => self.forces.extend(actions::read_wrench(clause, in_chart, context)),
-            Statement::Drive if in_chart => context.error(
+            Statement::Drive if in_chart && !self.has_coordinates => context.error(
                 clause.name.span(),
-                "`drive` acts on rates of named coordinates, and one body in a chart has none; write `force(…)` or \
-                 `torque(…)`, or give the body `coordinates(…)` and `body(…)` in place of `chart` and `motion`",
+                "`drive` acts on rates of named coordinates, and those of a chart have no names; write `force(…)` or \
+                 `torque(…)`, or `coordinates(…)` of what else moves",
             ),
             Statement::Drive => self.forces.extend(actions::read_drive(clause, context)),
             Statement::Spring => self.forces.extend(actions::read_spring(clause, context)),
@@ -269,6 +277,11 @@ impl Statements {
     /// Whether some clause of one of these kinds could not be read: what is unknown may be what it names.
     pub(super) fn missed_any(&self, statements: &[Statement]) -> bool {
         self.missed || self.unread.iter().any(|unread| statements.contains(unread))
+    }
+
+    /// Something is written besides the chart: of what moves, of what acts, or of mass data.
+    pub(super) fn is_empty(&self) -> bool {
+        self.first.is_none() && self.given.is_empty()
     }
 
     /// The bodies that have mass.

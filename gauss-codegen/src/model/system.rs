@@ -1,12 +1,13 @@
-//! A system as the user wrote it, checked: own coordinates and speeds, bodies, particles, constraints and forces.
+//! A scene as the user wrote it, checked: coordinates and speeds, or the chart of a body; bodies, particles, constraints and
+//! what acts.
 
-use super::{Expression, Given, Role, Scalar, Shape, Wanted};
+use super::{Chart, Expression, Given, GivenValue, Motion, Role, Scalar, Shape, Wanted};
 use proc_macro2::Span;
 use syn::{Generics, Ident, Path, Visibility};
 
-/// Any system that the Gauss condition covers, in its own coordinates q and speeds z.
+/// Any system that the Gauss condition covers.
 #[derive(Clone)]
-pub struct SystemModel {
+pub struct Model {
     /// Name of the struct.
     pub ident: Ident,
     /// Visibility of the struct; the kernel gets the same.
@@ -20,8 +21,11 @@ pub struct SystemModel {
     /// What is wanted beside the equations.
     pub wanted: Wanted,
     /// Every field of the struct, in order.
-    pub fields: Vec<SystemField>,
-    /// The coordinates q, in order.
+    pub fields: Vec<Field>,
+    /// The chart and the motion of the body without a name, which is then among [`bodies`](Self::bodies) without a place: the
+    /// first coordinates, speeds and components of ψ are those of its chart.
+    pub in_chart: Option<InChart>,
+    /// The coordinates q, in order; in a chart, those after the chart's.
     pub coordinates: Vec<Coordinate>,
     /// The speeds z, in order; `None` for the rates of the coordinates: ẋ of a scalar, ω (body axes) of a rotation, the
     /// twist (u, ω) (body axes, pole O) of a pose.
@@ -55,12 +59,66 @@ pub struct SystemModel {
     pub forces: Vec<ForceClause>,
 }
 
-/// One field of the struct of a system.
+/// A chart of one body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InChart {
+    /// The quasi-velocities that the equations are written in.
+    pub chart: Chart,
+    /// What the body is free to do.
+    pub motion: Motion,
+}
+
+impl Model {
+    /// The field that plays a role.
+    pub fn field(&self, role: Role) -> Option<&Field> {
+        self.fields.iter().find(|field| field.role == Some(role))
+    }
+
+    /// The shape of what plays a role, a field or a clause; without it the body without a name has no such thing.
+    pub fn shape(&self, role: Role) -> Option<Shape> {
+        let given = || self.given.iter().find(|given| given.role == role);
+        self.field(role).map(|field| field.shape).or_else(|| given().map(|given| given.shape))
+    }
+
+    /// One body in a chart, which nothing is attached to and nothing constrains.
+    pub fn one_body(&self) -> Option<InChart> {
+        let alone = self.bodies.len() == 1
+            && self.coordinates.is_empty()
+            && self.particles.is_empty()
+            && self.constraints.is_empty();
+        self.in_chart.filter(|_| alone)
+    }
+
+    /// Something acts besides weight and buoyancy.
+    pub fn is_acted_upon(&self) -> bool {
+        let by_elements = !self.forces.is_empty() || !self.attractions.is_empty();
+        by_elements || self.potential.is_some() || self.medium.is_some() || !self.inputs.is_empty()
+    }
+
+    /// Some expression is written, of what acts or of mass data.
+    pub fn has_expressions(&self) -> bool {
+        self.is_acted_upon() || !self.given.is_empty() || !self.points.is_empty()
+    }
+
+    /// Whether the field is the added mass that some clause names.
+    pub fn is_added_mass(&self, field: &Ident) -> bool {
+        let all = self.given.iter().chain(self.bodies.iter().flat_map(|body| &body.given));
+        let named = |given: &Given| matches!(&given.value, GivenValue::Coefficients(Coefficients::Field(name)) if name == field);
+        all.into_iter().any(named)
+    }
+
+    /// Whether the model itself says where the body is: in a chart.
+    pub fn is_in_chart(&self, body: &BodyClause) -> bool {
+        self.in_chart.is_some() && body.name.is_none()
+    }
+}
+
+/// One field of the struct.
 #[derive(Clone)]
-pub struct SystemField {
+pub struct Field {
     /// Name of the field.
     pub ident: Ident,
-    /// What the field means to the unnamed body, or that it is a named one; `None` for a plain parameter.
+    /// What the field means to the body without a name, or that it is one with a name; `None` for a plain parameter.
     pub role: Option<Role>,
     /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].
     pub shape: Shape,
@@ -118,14 +176,21 @@ pub struct BodyClause {
     pub massless: bool,
     /// The body or frame whose O and axes position and rotation are relative to; `None`: Ω and k.
     pub parent: Option<Ident>,
-    /// Where O is; `None`: at the parent's O, or at Ω.
+    /// Where O is; `None`: at the parent's O, or at Ω, or where the chart says.
     pub position: Option<Expression>,
-    /// How the axes e are turned; `None`: like the parent's, or like k.
+    /// How the axes e are turned; `None`: like the parent's, or like k, or as the chart says.
     pub rotation: Option<Expression>,
-    /// Mass, centre of mass and inertia where the body has no field.
+    /// Mass, centre of mass and inertia where the body has no field; what the fluid about it does, in any case.
     pub given: Vec<Given>,
     /// The word `body` or `frame`.
     pub span: Span,
+}
+
+impl BodyClause {
+    /// Its mass data are said in the clause.
+    pub fn has_matter(&self) -> bool {
+        self.given.iter().any(Given::is_of_matter)
+    }
 }
 
 /// `particle(mass = …, position = …, parent = …)`.
@@ -327,7 +392,7 @@ pub enum Extent {
     Along(Expression),
 }
 
-/// Coefficients of a drag, in body axes, pole O, order (u, ω).
+/// Coefficients of a drag, or an added mass, in body axes, pole O, order (u, ω).
 #[derive(Clone)]
 pub enum Coefficients {
     /// `[a, b, c, d, e, f]`: one for each component, scalars as in values of forces.

@@ -2,6 +2,7 @@
 
 mod accepted;
 mod acting;
+mod charts;
 mod clauses;
 mod given;
 mod items;

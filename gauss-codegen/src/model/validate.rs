@@ -1,94 +1,14 @@
 //! What must hold between the fields: shapes that fit their roles, one scalar, no role missing, doubled or alone.
 
-use super::acting;
-use super::assembly;
 use super::context::Context;
-use super::fields::{Claim, Field, Reader};
-use super::given;
+use super::fields::{Claim, ReadField, Reader};
 use super::names;
 use super::roles::ROLES;
-use super::scene::Clauses;
 use super::shapes::{Element, Kind};
-use super::{Model, Parameter, Role, Scalar, Shape};
+use super::{Role, Scalar, Shape};
 use proc_macro2::Span;
 use quote::ToTokens;
 use syn::{DeriveInput, GenericParam};
-
-/// The checked model; `None` when something that it needs is missing, which is then noted.
-pub(super) fn model(
-    input: &DeriveInput,
-    scene: Clauses,
-    mut reader: Reader<'_>,
-    context: &mut Context,
-) -> Option<Model> {
-    let mut statements = scene.statements;
-    assembly::mark_named(&statements, &mut reader);
-    let scalar = common_scalar(&reader.fields);
-    let name = scalar_name(scalar.as_ref(), input);
-    let (shapes, owners) = shapes(&reader, scalar.as_ref(), &name, "body", context);
-    let given = |role: Role| statements.given.iter().any(|given| given.role == role);
-    let known =
-        |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role) || given(role);
-    for role in [Role::Mass, Role::Inertia] {
-        if !known(role) {
-            missing_role(input, role, &name, context);
-        }
-    }
-    // An accelerating medium pushes the displaced mass as gravity does.
-    let pushed = statements.medium.is_some();
-    let known = |role: Role| known(role) || (role == Role::Gravity && pushed);
-    for claim in reader.fields.iter().filter_map(|field| field.role.as_ref()) {
-        check_companion(claim.role, claim.span, known, &name, context);
-    }
-    given::check_roles(&statements.given, &reader.fields, known, &name, context);
-    if let Some((name, _)) = statements.limit.as_ref().filter(|_| !statements.acting) {
-        context.error(
-            name.span(),
-            format!(
-                "the equations of one body in a chart are short where nothing acts but weight and buoyancy; remove `{name}`"
-            ),
-        );
-    }
-    let described = statements.acting || !statements.given.is_empty();
-    if described {
-        acting::check(&mut statements, &reader, &shapes, &owners, &name, context);
-    }
-    let scalar = match scalar {
-        Some(scalar) => scalar,
-        None if reader.fields.iter().all(|field| !field.computed) => {
-            assembly::scalar_without_fields(input, &reader.fields, context)?
-        }
-        None => return hidden_scalar(input, &reader.fields, context),
-    };
-    let acted_upon = statements.acting;
-    let system = if described {
-        let fields = assembly::fields(&reader, &shapes);
-        let (runtime, wanted) = (scene.runtime.clone(), scene.wanted.clone());
-        Some(Box::new(assembly::model(input, runtime, wanted, scalar.clone(), fields, statements)?))
-    } else {
-        None
-    };
-    let parameters = reader.fields.iter().zip(shapes).map(|(field, shape)| Parameter {
-        ident: field.ident.clone(),
-        role: field.role.as_ref().map(|claim| claim.role),
-        shape,
-        unit: field.unit.clone(),
-        documentation: field.documentation.clone(),
-    });
-    Some(Model {
-        ident: input.ident.clone(),
-        visibility: input.vis.clone(),
-        generics: input.generics.clone(),
-        scalar,
-        runtime: scene.runtime,
-        chart: scene.chart,
-        motion: scene.motion,
-        parameters: parameters.collect(),
-        system,
-        acted_upon,
-        wanted: scene.wanted,
-    })
-}
 
 /// The shape of every field, and the first field of every role. `whole` is what one scalar serves.
 pub(super) fn shapes(
@@ -132,7 +52,7 @@ pub(super) fn missing_role(input: &DeriveInput, role: Role, scalar: &str, contex
 }
 
 /// The scalar that most computed fields show, the first of equally frequent ones: the others are the odd ones.
-pub(super) fn common_scalar(fields: &[Field<'_>]) -> Option<Scalar> {
+pub(super) fn common_scalar(fields: &[ReadField<'_>]) -> Option<Scalar> {
     let mut counts: Vec<(&Scalar, usize)> = Vec::new();
     for (_, scalar) in shown(fields) {
         match counts.iter_mut().find(|(other, _)| *other == scalar) {
@@ -145,7 +65,7 @@ pub(super) fn common_scalar(fields: &[Field<'_>]) -> Option<Scalar> {
 }
 
 /// The computed fields that show their scalar.
-fn shown<'a>(fields: &'a [Field<'_>]) -> impl Iterator<Item = (&'a Field<'a>, &'a Scalar)> {
+fn shown<'a>(fields: &'a [ReadField<'_>]) -> impl Iterator<Item = (&'a ReadField<'a>, &'a Scalar)> {
     fields.iter().filter(|field| field.computed).filter_map(|field| match &field.reading.element {
         Element::Shown(scalar, _) => Some((field, scalar)),
         Element::Hidden | Element::Wrong(..) => None,
@@ -163,10 +83,10 @@ pub(super) fn scalar_name(scalar: Option<&Scalar>, input: &DeriveInput) -> Strin
 
 /// A role belongs to one field, but for that of being a body.
 fn check_duplicate(
-    field: &Field<'_>,
+    field: &ReadField<'_>,
     claim: &Claim,
     owners: &[(Role, usize)],
-    fields: &[Field<'_>],
+    fields: &[ReadField<'_>],
     context: &mut Context,
 ) {
     if claim.role == Role::Body {
@@ -187,7 +107,13 @@ fn check_duplicate(
 }
 
 /// One scalar serves all fields that are computed with, and it is a floating-point type or a type parameter.
-fn check_scalar(field: &Field<'_>, common: Option<&Scalar>, fields: &[Field<'_>], whole: &str, context: &mut Context) {
+fn check_scalar(
+    field: &ReadField<'_>,
+    common: Option<&Scalar>,
+    fields: &[ReadField<'_>],
+    whole: &str,
+    context: &mut Context,
+) {
     match (&field.reading.element, common) {
         (Element::Wrong(found, span), _) => context.error(
             *span,
@@ -213,7 +139,7 @@ fn check_scalar(field: &Field<'_>, common: Option<&Scalar>, fields: &[Field<'_>]
 }
 
 /// The shape of a field with a role.
-fn role_shape(field: &Field<'_>, claim: &Claim, scalar: &str, context: &mut Context) -> Shape {
+fn role_shape(field: &ReadField<'_>, claim: &Claim, scalar: &str, context: &mut Context) -> Shape {
     let role = claim.role;
     let found = &field.reading.name;
     match (field.reading.kind, &claim.form) {
@@ -282,7 +208,7 @@ fn article(found: &str) -> String {
 }
 
 /// The shape of a plain parameter: expressions can use it only if its scalar is that of the model.
-fn plain_shape(field: &Field<'_>, common: Option<&Scalar>) -> Shape {
+fn plain_shape(field: &ReadField<'_>, common: Option<&Scalar>) -> Shape {
     match (field.reading.kind, &field.reading.element) {
         (Kind::Known(shape), Element::Shown(scalar, _)) if Some(scalar) == common => shape,
         (Kind::Known(shape), Element::Hidden) => shape,
@@ -316,19 +242,26 @@ pub(super) fn check_companion(
     }
 }
 
-/// No field with a role shows its scalar. Said only if nothing else is wrong, since any other remedy may show it.
-fn hidden_scalar(input: &DeriveInput, fields: &[Field<'_>], context: &mut Context) -> Option<Model> {
+/// The scalar where no field shows one. That it is hidden is said only if nothing else is wrong, since any other remedy may
+/// show it.
+pub(super) fn scalar_without_fields(
+    input: &DeriveInput,
+    fields: &[ReadField<'_>],
+    context: &mut Context,
+) -> Option<Scalar> {
+    let generic = input.generics.params.iter().any(|parameter| matches!(parameter, GenericParam::Type(_)));
+    let of_role = |role: Role| move |field: &&ReadField<'_>| field.role.as_ref().is_some_and(|c| c.role == role);
+    let hidden = |field: &&ReadField<'_>| field.computed && matches!(field.reading.element, Element::Hidden);
+    let by_role = ROLES.iter().find_map(|&(_, role)| fields.iter().filter(of_role(role)).find(hidden));
+    let hidden = by_role.or_else(|| fields.iter().find(hidden));
+    if hidden.is_none() && !generic && fields.iter().all(|field| !field.computed) {
+        return Some(Scalar::F64);
+    }
     if context.is_clean() {
-        let position = ROLES.iter().find_map(|&(_, role)| {
-            fields
-                .iter()
-                .find(|field| field.role.as_ref().is_some_and(|claim| claim.role == role))
-                .map(|field| field.ty)
-        });
-        let message = "the scalar cannot be read from any field with a role, since each type is behind an alias; \
+        let message = "the scalar cannot be read from any field that is computed with, since each type is behind an alias; \
                        write `f64`, `f32` or a type parameter in one of them";
-        match position {
-            Some(ty) => context.error_at(ty.to_token_stream(), message),
+        match hidden {
+            Some(field) => context.error_at(field.ty.to_token_stream(), message),
             None => context.error(input.ident.span(), message),
         }
     }

@@ -50,22 +50,22 @@ impl<'g> Translator<'_, 'g> {
         let mut elements = Vec::new();
         if let Some(potential) = &model.potential {
             let name = names.of(None, "potential");
-            elements.push(Element { name, action: Action::Potential(self.scalar(potential, tree)?) });
+            elements.push(Element::new(name, Action::Potential(self.scalar(potential, tree)?)));
         }
         for clause in &model.attractions {
             let mu = self.scalar(&clause.mu, tree)?;
             let center = clause.center.as_ref().map(|e| self.vector(e, tree)).transpose()?;
             let name = names.of(clause.name.as_ref(), "central gravity");
-            elements.push(Element { name, action: Action::Potential(self.attraction(mu, center, tree)) });
+            elements.push(Element::new(name, Action::Potential(self.attraction(mu, center, tree))));
         }
         let entrained = self.medium(tree)?;
         if !entrained.is_empty() {
-            elements.push(Element { name: names.of(None, "medium"), action: Action::Forces(entrained) });
+            elements.push(Element::new(names.of(None, "medium"), Action::Forces(entrained)));
         }
         for clause in &model.forces {
             let name = names.of(clause.name.as_ref(), noun(clause));
             for (suffix, action) in self.actions(clause, &name, tree)? {
-                elements.push(Element { name: format!("{name}{suffix}"), action });
+                elements.push(Element::new(format!("{name}{suffix}"), action));
             }
         }
         Ok(elements)
@@ -230,7 +230,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// Six by six.
-    fn coefficients(&self, coefficients: &Coefficients, tree: &Tree<'g>) -> syn::Result<Vec<Vec<Expr<'g>>>> {
+    pub(super) fn coefficients(&self, coefficients: &Coefficients, tree: &Tree<'g>) -> syn::Result<Vec<Vec<Expr<'g>>>> {
         match coefficients {
             Coefficients::Diagonal(entries) => {
                 let entries = entries.iter().map(|e| self.scalar(e, tree)).collect::<syn::Result<Vec<_>>>()?;
@@ -292,7 +292,7 @@ impl<'g> Translator<'_, 'g> {
     /// ψ of a scalar coordinate.
     fn rate_of_coordinate(&self, name: &Ident) -> syn::Result<Expr<'g>> {
         let index = self.model.coordinates.iter().position(|q| q.ident == *name).ok_or_else(|| bug(name.span()))?;
-        Ok(self.declared.rate_of(index, &self.kinematics)[0])
+        Ok(self.declared.rate_of(self.declared.before + index, &self.kinematics)[0])
     }
 }
 

@@ -1,13 +1,17 @@
 //! What the language accepts, and the model that comes out.
 
 use super::{body, model, with};
-use crate::model::{Chart, Motion, Role, RotationChart, Scalar, Shape};
+use crate::model::{Chart, InChart, Motion, Role, RotationChart, Scalar, Shape};
 use quote::ToTokens;
+
+fn in_chart(attributes: &str) -> InChart {
+    model(&body(attributes)).in_chart.expect("one body is in a chart")
+}
 
 #[test]
 fn defaults() {
     let model = model(&body(""));
-    assert_eq!((model.chart, model.motion), (Chart::LeftInvariant, Motion::Free));
+    assert_eq!(model.in_chart, Some(InChart { chart: Chart::LeftInvariant, motion: Motion::Free }));
     assert_eq!(model.scalar, Scalar::F64);
     assert_eq!(model.runtime.to_token_stream().to_string(), ":: gauss_runtime");
     assert_eq!([Role::Mass, Role::Inertia].map(|role| model.shape(role)), [Some(Shape::Scalar), Some(Shape::Vector3)]);
@@ -17,7 +21,7 @@ fn defaults() {
 
 #[test]
 fn every_chart() {
-    let chart = |value: &str| model(&body(&format!("#[gauss(chart = {value})]"))).chart;
+    let chart = |value: &str| in_chart(&format!("#[gauss(chart = {value})]")).chart;
     assert_eq!(chart("left_invariant"), Chart::LeftInvariant);
     assert_eq!(chart("right_invariant"), Chart::RightInvariant);
     assert_eq!(chart("hybrid"), Chart::Hybrid);
@@ -41,10 +45,10 @@ fn every_chart() {
 #[test]
 fn clauses_merge() {
     let merged = model(&body("#[gauss(motion = fixed_point,)] #[gauss(chart = hybrid, crate = ::a::b)]"));
-    assert_eq!((merged.chart, merged.motion), (Chart::Hybrid, Motion::FixedPoint));
+    assert_eq!(merged.in_chart, Some(InChart { chart: Chart::Hybrid, motion: Motion::FixedPoint }));
     assert_eq!(merged.runtime.to_token_stream().to_string(), ":: a :: b");
     // `jet` may come before the motion that it needs.
-    assert_eq!(model(&body("#[gauss(chart = jet)] #[gauss(motion = planar)]")).motion, Motion::Planar);
+    assert_eq!(in_chart("#[gauss(chart = jet)] #[gauss(motion = planar)]").motion, Motion::Planar);
     assert_eq!(model(&body("#[gauss(crate = crate)]")).runtime.to_token_stream().to_string(), "crate");
 }
 
@@ -75,7 +79,7 @@ fn every_role_and_shape() {
                 if role.starts_with("displaced") { "" } else { "#[gauss(displaced_mass)] d: f64," },
             ),
         };
-        model(&source).parameters[0].shape
+        model(&source).fields[0].shape
     };
     assert_eq!(shape("mass", "f64"), Shape::Scalar);
     assert_eq!(shape("mass", "::core::primitive::f64"), Shape::Scalar);
@@ -114,16 +118,16 @@ fn scalars() {
 fn a_hidden_dimension_still_shows_the_scalar() {
     let source = "struct Body { #[gauss(mass)] m: Kg, #[gauss(inertia = principal)] j: SVector<f32, N> }";
     let model = model(source);
-    assert_eq!((model.scalar, model.parameters[1].shape), (Scalar::F32, Shape::Vector3));
+    assert_eq!((model.scalar, model.fields[1].shape), (Scalar::F32, Shape::Vector3));
 }
 
 #[test]
 fn plain_parameters() {
     let source = with("k: f64, v: Vector3<f64>, single: f32, name: String, r: &'static str, n: usize");
-    let shapes: Vec<Shape> = model(&source).parameters.iter().skip(2).map(|parameter| parameter.shape).collect();
+    let shapes: Vec<Shape> = model(&source).fields.iter().skip(2).map(|parameter| parameter.shape).collect();
     let expected = [Shape::Scalar, Shape::Vector3, Shape::Other, Shape::Other, Shape::Other, Shape::Other];
     assert_eq!(shapes, expected);
-    assert!(model(&source).parameters.iter().skip(2).all(|parameter| parameter.role.is_none()));
+    assert!(model(&source).fields.iter().skip(2).all(|parameter| parameter.role.is_none()));
 }
 
 #[test]
@@ -135,7 +139,7 @@ fn documentation_and_order() {
     let name = |role: Role| model.field(role).map(|field| field.ident.to_string());
     assert_eq!([Role::Mass, Role::Inertia].map(name), [Some("m".into()), Some("j".into())]);
     assert_eq!(model.ident, "Body");
-    assert_eq!(model.parameters[1].documentation, "Mass in kg,\ndry.");
-    assert_eq!(model.parameters[0].documentation, "");
-    assert_eq!(model.parameters[1].role, Some(Role::Mass));
+    assert_eq!(model.fields[1].documentation, "Mass in kg,\ndry.");
+    assert_eq!(model.fields[0].documentation, "");
+    assert_eq!(model.fields[1].role, Some(Role::Mass));
 }

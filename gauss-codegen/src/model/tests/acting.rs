@@ -2,7 +2,7 @@
 
 use super::systems::{show, shown};
 use super::{Mistake, check, model};
-use crate::model::{CoordinateKind, Shape, SystemModel};
+use crate::model::{Chart, Model, RotationChart, Shape};
 
 /// A body in a chart with `clauses` and more fields.
 fn body(clauses: &str) -> String {
@@ -12,8 +12,10 @@ fn body(clauses: &str) -> String {
     )
 }
 
-fn acting(clauses: &str) -> SystemModel {
-    *model(&body(clauses)).system.expect("something acts")
+fn acting(clauses: &str) -> Model {
+    let model = model(&body(clauses));
+    assert!(model.is_acted_upon());
+    model
 }
 
 #[track_caller]
@@ -23,7 +25,7 @@ fn mistakes(clauses: &str, expected: &[Mistake<'_>]) {
 
 #[test]
 fn the_same_body_as_a_system() {
-    assert!(model(&body("chart = hybrid")).system.is_none());
+    assert!(!model(&body("chart = hybrid")).is_acted_upon());
     let model = acting(
         "chart = jet(euler_zyx), input(fin, gust: Wrench), define(u = body.relative_velocity), \
          point(tail, at = [-l, 0, 0]), medium(velocity = c), central_gravity(mu = k), potential = k * tail.z, limit = 5000, \
@@ -49,14 +51,11 @@ fn the_same_body_as_a_system() {
         ]
     );
     assert_eq!(model.points[0].body, "body");
-    assert_eq!(model.coordinates.len(), 1);
-    assert_eq!(model.coordinates[0].kind, CoordinateKind::Pose);
-    assert!(model.speeds.is_none() && model.kinematics.is_empty());
+    assert!(model.coordinates.is_empty() && model.speeds.is_none() && model.kinematics.is_empty());
+    assert_eq!(model.one_body().map(|own| own.chart), Some(Chart::Jet(RotationChart::Euler([2, 1, 0]))));
     let [only] = model.bodies.as_slice() else { panic!("{} bodies", model.bodies.len()) };
     assert!(only.name.is_none() && !only.massless && only.parent.is_none());
-    let pose = model.coordinates[0].ident.to_string();
-    assert_eq!(only.position.as_ref().map(show), Some(format!("{pose}.Position")));
-    assert_eq!(only.rotation.as_ref().map(show), Some(format!("{pose}.Rotation")));
+    assert!(model.is_in_chart(only) && only.position.is_none() && only.rotation.is_none());
     assert_eq!(model.potential.as_ref().map(show), Some("(Multiply k tail[2])".into()));
     assert_eq!(model.limit, Some(5000));
     let shapes: Vec<Shape> = model.fields.iter().map(|field| field.shape).collect();
@@ -99,18 +98,11 @@ fn what_systems_alone_have() {
         "drive(x = k)",
         &[(
             "drive",
-            "`drive` acts on rates of named coordinates, and one body in a chart has none; write `force(…)` or \
-                 `torque(…)`, or give the body `coordinates(…)` and `body(…)` in place of `chart` and `motion`",
+            "`drive` acts on rates of named coordinates, and those of a chart have no names; write `force(…)` or \
+             `torque(…)`, or `coordinates(…)` of what else moves",
         )],
     );
-    mistakes(
-        "limit = 10",
-        &[(
-            "limit",
-            "the equations of one body in a chart are short where nothing acts but weight and buoyancy; remove \
-                 `limit`",
-        )],
-    );
+    assert_eq!(model(&body("limit = 10")).limit, Some(10));
 }
 
 #[test]
@@ -143,7 +135,7 @@ fn names() {
              struct Body {{ #[gauss(mass)] body: f64, #[gauss(inertia)] j: f64, c: Vector3<f64> }}"
         )
     };
-    assert!(model(&field("c")).system.is_some());
+    assert!(model(&field("c")).is_acted_upon());
     check(
         &field("-body.velocity"),
         &[("body", "`body` is the only body in expressions and clauses, and a field; rename the field")],
@@ -186,7 +178,7 @@ fn potentials_and_the_medium() {
     );
     let fluid = "#[gauss(medium(velocity = [1, 0, 0]))] \
         struct Body { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64, #[gauss(added_mass)] a: Matrix6<f64> }";
-    assert!(model(fluid).system.is_some());
+    assert!(model(fluid).is_acted_upon());
 }
 
 #[test]

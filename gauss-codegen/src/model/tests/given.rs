@@ -12,7 +12,7 @@ fn under(clauses: &str, fields: &str) -> String {
 fn a_body_without_fields() {
     let model = model(&under("mass = 2.0, inertia = [0.1, 0.1, 0.2], center_of_mass = [0, 0, 0.3]", ""));
     assert_eq!(model.scalar, Scalar::F64);
-    assert!(!model.acted_upon && model.parameters.is_empty());
+    assert!(!model.is_acted_upon() && model.fields.is_empty());
     let shapes = [Role::Mass, Role::Inertia, Role::CenterOfMass, Role::Gravity].map(|role| model.shape(role));
     assert_eq!(shapes, [Some(Shape::Scalar), Some(Shape::Vector3), Some(Shape::Vector3), None]);
 }
@@ -74,7 +74,11 @@ fn once_and_all_of_it() {
     );
     check(
         &under("mass = 1, inertia = 2, added_mass = 3", ""),
-        &[("added_mass", "the added mass is a field, a matrix or its diagonal; write `#[gauss(added_mass)]` on one")],
+        &[(
+            "3",
+            "an added mass is six, one for each component; write six scalars `[a, b, c, d, e, f]` in the order (u, ω), or \
+             the name of a field that is a `Vector6` or a `Matrix6`",
+        )],
     );
     check(
         &under("mass = 1, inertia = 2, displaced_mass = 3", ""),

@@ -37,7 +37,7 @@ fn generics() {
             ),
         ],
     );
-    let hidden = "the scalar cannot be read from any field with a role, since each type is behind an alias; \
+    let hidden = "the scalar cannot be read from any field that is computed with, since each type is behind an alias; \
         write `f64`, `f32` or a type parameter in one of them";
     check("struct Body { #[gauss(inertia = full)] j: Tensor, #[gauss(mass)] m: Mass }", &[("Mass", hidden)]);
     check(

@@ -68,15 +68,15 @@ fn fields() {
         &[
             (
                 "chart",
-                "`chart` is for one body without coordinates of its own; the quasi-velocities of a system are its \
-                 `speeds`, or the rates of its `coordinates`: remove `chart`",
+                "`chart` moves a body without a name, and `Scene` has no mass data of one; add `#[gauss(mass)] mass: f64` \
+                 and `#[gauss(inertia)] inertia: Vector3<f64>`, or remove `chart`: what else moves is said by \
+                 `coordinates` and `speeds`",
             ),
             (
                 "body",
                 "the field `arm` is a body, but no clause says where it is; \
                  add `body(arm, position = […], rotation = …)` above `struct`",
             ),
-            ("Scene", "the system has no coordinates; add `coordinates(…)` with their names"),
         ],
     );
 }

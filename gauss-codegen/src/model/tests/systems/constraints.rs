@@ -211,11 +211,4 @@ fn limit() {
             ("(", "the value of `limit` follows `=`, without brackets; write `limit = 50000`"),
         ],
     );
-    check(
-        "#[gauss(limit = 10)] struct Body { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }",
-        &[(
-            "limit",
-            "the equations of one body in a chart are short where nothing acts but weight and buoyancy; remove `limit`",
-        )],
-    );
 }

@@ -12,16 +12,13 @@ mod groups;
 mod names;
 
 use super::{Mistake, check};
-use crate::model::{
-    Coefficients, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Scene, SystemModel,
-    parse_scene,
-};
+use crate::model::{Coefficients, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Model, parse};
 use syn::DeriveInput;
 
-pub(super) fn system(source: &str) -> SystemModel {
-    match parse_scene(&syn::parse_str::<DeriveInput>(source).expect("the snippet is Rust")) {
-        Ok(Scene::System(model)) => *model,
-        Ok(Scene::Body(_)) => panic!("one body: {source}"),
+pub(super) fn system(source: &str) -> Model {
+    match parse(&syn::parse_str::<DeriveInput>(source).expect("the snippet is Rust")) {
+        Ok(model) if model.in_chart.is_none() => model,
+        Ok(_) => panic!("in a chart: {source}"),
         Err(error) => panic!("{source}: {error}"),
     }
 }
@@ -221,7 +218,7 @@ fn nothing_panics() {
                     let body = format!("#[gauss({source})] struct Scene {{ #[gauss(mass)] x: f64, a: Matrix6<f64> }}");
                     for source in [system, body] {
                         if let Ok(input) = syn::parse_str(&source) {
-                            let _ = parse_scene(&input);
+                            let _ = parse(&input);
                             read_snippets += 1;
                         }
                     }

@@ -161,19 +161,16 @@ fn places_of_speeds() {
 }
 
 #[test]
-fn clauses_of_one_body() {
+fn charts_without_a_body_and_unknown_clauses() {
     check(
         &particle("chart = hybird, motion = planar", ""),
         &[
+            ("hybird", "unknown chart `hybird`; did you mean `hybrid`?"),
             (
                 "chart",
-                "`chart` is for one body without coordinates of its own; the quasi-velocities of a system are its \
-                 `speeds`, or the rates of its `coordinates`: remove `chart`",
-            ),
-            (
-                "motion",
-                "`motion` is for one body without coordinates of its own; what a system is free to do is said by its \
-                 `coordinates` and `speeds`: remove `motion`",
+                "`chart` moves a body without a name, and `Scene` has no mass data of one; add `#[gauss(mass)] mass: f64` \
+                 and `#[gauss(inertia)] inertia: Vector3<f64>`, or remove `chart`: what else moves is said by \
+                 `coordinates` and `speeds`",
             ),
         ],
     );

@@ -1,0 +1,29 @@
+//! `ConstrainedSystem`: multipliers, residuals and corrections; and `project` of `GaussSystem`, which needs them.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::derived::Derived;
+use super::subject::Subject;
+
+/// The system, where there are constraints.
+fn constrained<'a, 'g>(derived: &'a Derived<'_, 'g>) -> Option<&'a Subject<'a, 'g>> {
+    Some(&derived.subject).filter(|subject| !subject.constraints.is_empty())
+}
+
+pub fn constrained_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let subject = constrained(derived)?;
+    let (runtime, ty, count) = (derived.item().runtime, derived.scalar().ty(), subject.constraints.count());
+    let methods = subject.constraint_methods(runtime).into_iter();
+    let methods = methods.map(|(method, arguments, result)| derived.function(method, arguments, result));
+    let items = quote! {
+        type Multipliers = #runtime::prelude::SVector<#ty, #count>;
+        #(#methods)*
+    };
+    Some(derived.implementation(quote!(constraint::ConstrainedSystem), items))
+}
+
+/// `project` of `GaussSystem`, where a run can drift away from constraints.
+pub fn projection(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    constrained(derived).map(|subject| subject.projection(derived))
+}

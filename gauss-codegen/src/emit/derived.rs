@@ -1,0 +1,257 @@
+//! Everything known about one derive when code is written, and what all implementations of traits are made with.
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::algebra::{Expr, Map};
+use crate::derivation::Derivation;
+use crate::kernel::{Counts, Kernel, Program, Smoothness};
+use crate::mechanics::{Account, Formula, Linearization, Method, Regressor};
+use crate::model::{Model, Scalar};
+use crate::translate::{DragMatrix, Parameter, Translator};
+use syn::{Generics, Path, Visibility};
+
+use super::arguments::{Argument, declare};
+use super::documentation::method_name;
+use super::program::{ScalarTokens, statements};
+use super::subject::Subject;
+
+/// Everything known about one derive when code is written.
+pub struct Derived<'a, 'g> {
+    pub subject: Subject<'a, 'g>,
+    /// Matrices of drag.
+    pub drags: Vec<DragMatrix<'g>>,
+    pub formulas: &'a [Formula<'g>],
+    pub kernel: &'a Kernel<'g>,
+    /// What is differentiated by the state, where that is asked for.
+    pub linearization: Option<&'a Linearization<'g>>,
+    /// The numbers of fields.
+    pub parameters: &'a [Parameter<'g>],
+    /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
+    pub regressor: Option<&'a Regressor<'g>>,
+}
+
+/// What the struct says of itself, whatever it describes.
+pub struct Item<'a> {
+    pub ident: &'a Ident,
+    pub visibility: &'a Visibility,
+    pub generics: &'a Generics,
+    pub scalar: &'a Scalar,
+    pub runtime: &'a Path,
+}
+
+/// Type parameters of the kernel; nothing where the scalar is a type.
+#[derive(Default)]
+pub struct KernelGenerics {
+    pub declared: TokenStream,
+    pub bounded: TokenStream,
+    pub used: TokenStream,
+}
+
+/// Symbols of the arguments of the methods.
+pub struct Formal<'a, 'g> {
+    pub speeds: &'a [Expr<'g>],
+    pub speed_rates: &'a [Expr<'g>],
+    pub momenta: &'a [Expr<'g>],
+    pub residuals: &'a [Expr<'g>],
+    pub inputs: &'a [Expr<'g>],
+}
+
+impl<'a, 'g> Derived<'a, 'g> {
+    /// # Errors
+    /// Only what the model should have refused: a bug of this crate.
+    pub fn new(
+        model: &'a Model,
+        translator: &'a Translator<'_, 'g>,
+        derivation: &'a Derivation<'g>,
+        kernel: &'a Kernel<'g>,
+    ) -> syn::Result<Self> {
+        let assigned_to_bodies = model.bodies.iter().map(|body| translator.assigned(&body.given));
+        let subject = Subject {
+            model,
+            system: &derivation.system,
+            constraints: derivation.constraints(),
+            can_drift: derivation.can_drift(),
+            sources: translator.sources(),
+            literals: translator.literals(),
+            assigned: translator.assigned(&model.given)?,
+            assigned_to_bodies: assigned_to_bodies.collect::<syn::Result<_>>()?,
+            links: translator.links_of_clauses(),
+            quaternions: &derivation.quaternions,
+        };
+        Ok(Self {
+            subject,
+            drags: translator.drags(),
+            formulas: &derivation.formulas,
+            kernel,
+            linearization: derivation.linearization.as_ref(),
+            parameters: &derivation.parameters,
+            regressor: derivation.regressor.as_ref(),
+        })
+    }
+
+    pub fn item(&self) -> Item<'a> {
+        let Subject { model, .. } = &self.subject;
+        Item {
+            ident: &model.ident,
+            visibility: &model.visibility,
+            generics: &model.generics,
+            scalar: &model.scalar,
+            runtime: &model.runtime,
+        }
+    }
+
+    pub fn formal(&self) -> Formal<'a, 'g> {
+        let Subject { system, constraints, .. } = &self.subject;
+        Formal {
+            speeds: &system.scene.speeds,
+            speed_rates: &system.scene.speed_rates,
+            momenta: &system.scene.momenta,
+            residuals: &constraints.residuals,
+            inputs: &system.scene.inputs,
+        }
+    }
+
+    pub fn speeds(&self) -> &'a [Expr<'g>] {
+        self.formal().speeds
+    }
+
+    pub fn scalar(&self) -> ScalarTokens<'a> {
+        let Item { runtime, scalar, .. } = self.item();
+        ScalarTokens { scalar, real: quote!(#runtime::real::Real) }
+    }
+
+    pub fn kernel_name(&self) -> Ident {
+        format_ident!("{}Kernel", self.item().ident)
+    }
+
+    pub fn constant_fields(&self) -> Vec<Ident> {
+        (0..self.kernel.constant_symbols.len()).map(|k| format_ident!("k{}", k)).collect()
+    }
+
+    pub fn program(&self, method: Method) -> &Program<'g> {
+        let position = self.formulas.iter().position(|f| f.method == method);
+        &self.kernel.functions[position.expect("a method that is written was derived")]
+    }
+
+    pub fn has(&self, method: Method) -> bool {
+        self.formulas.iter().any(|f| f.method == method)
+    }
+
+    pub fn accounts(&self) -> Vec<Account<'g>> {
+        self.subject.system.accounts()
+    }
+
+    pub fn smoothness(&self) -> Smoothness {
+        self.program(Method::Acceleration).smoothness()
+    }
+
+    pub fn private(&self) -> TokenStream {
+        let runtime = self.item().runtime;
+        quote!(#runtime::__private)
+    }
+
+    /// How constants are written in methods.
+    pub fn constant_names(&self) -> Map<u32, TokenStream> {
+        let symbols = self.kernel.constant_symbols.iter().zip(self.constant_fields());
+        let mut names: Map<u32, TokenStream> =
+            symbols.map(|(symbol, field)| (symbol.key(), quote!(self.#field))).collect();
+        let scalar = self.scalar();
+        names.extend(self.kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), scalar.literal(*value))));
+        names
+    }
+
+    /// A vector taken apart.
+    pub fn vector_argument(&self, name: TokenStream, symbols: &[Expr<'g>]) -> Argument<'g> {
+        let private = self.private();
+        Argument { array: quote!(#private::components(#name)), symbols: symbols.to_vec() }
+    }
+
+    /// Arguments taken apart and the instructions of a program; its outputs.
+    pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
+        let Formal { speeds, speed_rates, momenta, residuals, inputs } = self.formal();
+        let mut names = self.constant_names();
+        names.insert(self.subject.system.scene.time.key(), quote!(t));
+        let mut arguments = self.subject.configuration_arguments(self);
+        let vector = |name: TokenStream, symbols: &[Expr<'g>]| self.vector_argument(name, symbols);
+        arguments.push(vector(quote!(z), speeds));
+        arguments.push(vector(quote!(p), momenta));
+        arguments.push(vector(quote!(acceleration), speed_rates));
+        if let Some(body) = self.subject.system.rigid_body() {
+            arguments.push(vector(quote!(twist), &body.twist));
+        }
+        arguments.push(vector(quote!(residual), residuals));
+        arguments.push(vector(quote!(input), inputs));
+        let declarations = declare(program, &arguments, &mut names);
+        let (instructions, outputs) = statements(program, &names, &self.scalar());
+        (quote!(#declarations #instructions), outputs)
+    }
+
+    /// The body of a method: arguments taken apart, instructions, result.
+    pub fn method_body(&self, method: Method) -> TokenStream {
+        let (private, speeds) = (self.private(), self.speeds());
+        let (instructions, outputs) = self.computed(self.program(method));
+        let result = match method {
+            Method::KineticEnergy | Method::PotentialEnergy | Method::ConstraintFunction | Method::SuppliedPower => {
+                quote!(#(#outputs)*)
+            }
+            Method::MassMatrix | Method::ElementForces => {
+                let rows = outputs.chunks(outputs.len() / speeds.len()).map(|row| quote!([#(#row),*]));
+                quote!(#private::matrix([#(#rows),*]))
+            }
+            // The volume over the product of the lengths.
+            Method::Regularity => {
+                let (volume, squares, real) = (&outputs[0], &outputs[1], self.scalar().real);
+                quote!(#volume / #real::sqrt(#squares))
+            }
+            Method::Kinematics | Method::PositionCorrection => self.subject.tangent(self, &outputs),
+            _ => quote!(#private::vector([#(#outputs),*])),
+        };
+        quote!(#instructions #result)
+    }
+
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.speeds().len()
+    }
+
+    /// A method of a trait: its arguments after `t` and `q`, its result.
+    pub fn function(&self, method: Method, arguments: TokenStream, result: TokenStream) -> TokenStream {
+        let (function, body) = (Ident::new(method_name(method), Span::call_site()), self.method_body(method));
+        quote! {
+            #[inline]
+            fn #function(&self, t: Self::Scalar, q: &Self::Configuration, #arguments) -> #result { #body }
+        }
+    }
+
+    /// Is the scalar a type parameter?
+    pub fn is_generic(&self) -> bool {
+        matches!(self.item().scalar, Scalar::Parameter(_))
+    }
+
+    /// Type parameters of the kernel: as the struct declares them, as `impl` does, as they are used.
+    pub fn kernel_generics(&self) -> KernelGenerics {
+        if !self.is_generic() {
+            return KernelGenerics::default();
+        }
+        let (ty, real) = (self.scalar().ty(), self.scalar().real);
+        KernelGenerics { declared: quote!(<#ty>), bounded: quote!(<#ty: #real>), used: quote!(<#ty>) }
+    }
+
+    /// `impl Trait for NameKernel`; the path of the trait begins in the runtime.
+    pub fn implementation(&self, of: TokenStream, items: TokenStream) -> TokenStream {
+        let (runtime, name, KernelGenerics { bounded, used, .. }) =
+            (self.item().runtime, self.kernel_name(), self.kernel_generics());
+        quote! {
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all, clippy::pedantic)]
+            impl #bounded #runtime::#of for #name #used { #items }
+        }
+    }
+
+    /// How many operations a program has, as a value of the runtime.
+    pub fn count(&self, counts: Counts) -> TokenStream {
+        let runtime = self.item().runtime;
+        let Counts { additions, multiplications, divisions, roots, transcendentals } = counts;
+        quote!(#runtime::system::OperationCount::new(#additions, #multiplications, #divisions, #roots, #transcendentals))
+    }
+}

@@ -1,0 +1,108 @@
+//! `GaussSystem`: the equations of motion.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::kernel::Smoothness;
+use crate::mechanics::Method;
+
+use super::constrained::projection;
+use super::derived::Derived;
+use super::description::description;
+use super::documentation::Equations;
+
+pub fn gauss_system(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
+    let (types, description, smoothness) = (types(derived), description(derived, equations), smoothness(derived));
+    let (methods, evaluate, projection) = (methods(derived), evaluate(derived), projection(derived));
+    let items = quote! {
+        #types
+        #description
+        #smoothness
+        #methods
+        #evaluate
+        #projection
+    };
+    derived.implementation(quote!(system::GaussSystem), items)
+}
+
+/// Associated types, degrees of freedom, chart.
+fn types(derived: &Derived<'_, '_>) -> TokenStream {
+    let (runtime, ty, n) = (derived.item().runtime, derived.scalar().ty(), derived.degrees_of_freedom());
+    let (configuration, chart) = (derived.subject.configuration_type(derived), derived.subject.chart_tokens(derived));
+    let input = match derived.formal().inputs.len() {
+        0 => quote!(()),
+        count => quote!(#runtime::prelude::SVector<#ty, #count>),
+    };
+    quote! {
+        type Scalar = #ty;
+        type Configuration = #configuration;
+        type Speeds = #runtime::prelude::SVector<#ty, #n>;
+        type MassMatrix = #runtime::prelude::SMatrix<#ty, #n, #n>;
+        type Input = #input;
+        const DOF: ::core::primitive::usize = #n;
+        const CHART: #runtime::chart::Chart = #chart;
+    }
+}
+
+/// Of what acts alone: kinematics are smooth where they are regular.
+fn smoothness(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let word = match derived.smoothness() {
+        Smoothness::Smooth => return None,
+        Smoothness::Kinks => quote!(Kinks),
+        Smoothness::Jumps => quote!(Jumps),
+    };
+    let runtime = derived.item().runtime;
+    let smoothness = quote!(#runtime::system::Smoothness);
+    Some(quote!(const SMOOTHNESS: #smoothness = #smoothness::#word;))
+}
+
+fn methods(derived: &Derived<'_, '_>) -> TokenStream {
+    let runtime = derived.item().runtime;
+    let [z, p, input] = [quote!(z: &Self::Speeds), quote!(p: &Self::Speeds), quote!(input: &Self::Input)];
+    let acceleration = quote!(z: &Self::Speeds, acceleration: &Self::Speeds, input: &Self::Input);
+    let [speeds, matrix, scalar] = [quote!(Self::Speeds), quote!(Self::MassMatrix), quote!(Self::Scalar)];
+    let tangent = quote!(<Self::Configuration as #runtime::configuration::Configuration>::Tangent);
+    let methods = [
+        (Method::Acceleration, quote!(#z, #input), &speeds),
+        (Method::Momentum, z.clone(), &speeds),
+        (Method::Velocity, p.clone(), &speeds),
+        (Method::MomentumRate, quote!(#p, #input), &speeds),
+        (Method::MassMatrix, quote!(), &matrix),
+        (Method::KineticEnergy, z.clone(), &scalar),
+        (Method::PotentialEnergy, quote!(), &scalar),
+        (Method::GaussResidual, acceleration.clone(), &speeds),
+        (Method::ConstraintFunction, acceleration, &scalar),
+        (Method::Kinematics, z, &tangent),
+        (Method::Regularity, quote!(), &scalar),
+    ];
+    let written = methods.into_iter().filter(|(method, ..)| derived.has(*method));
+    written.map(|(method, arguments, result)| derived.function(method, arguments, result.clone())).collect()
+}
+
+/// `evaluate`: q̇, ż and the energies at once.
+fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
+    let (runtime, private) = (derived.item().runtime, derived.private());
+    let (instructions, outputs) = derived.computed(&derived.kernel.joined);
+    let (configuration, rest) = outputs.split_at(derived.program(Method::Kinematics).outputs.len());
+    let (speeds, energies) = rest.split_at(derived.degrees_of_freedom());
+    let velocity = derived.subject.tangent(derived, configuration);
+    quote! {
+        #[inline]
+        fn evaluate(
+            &self,
+            t: Self::Scalar,
+            q: &Self::Configuration,
+            z: &Self::Speeds,
+            input: &Self::Input,
+        ) -> #runtime::system::Evaluated<Self> {
+            #instructions
+            let [__kinetic, __potential] = [#(#energies),*];
+            #runtime::system::Evaluated {
+                velocity: #velocity,
+                acceleration: #private::vector([#(#speeds),*]),
+                kinetic_energy: __kinetic,
+                potential_energy: __potential,
+            }
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! `RigidBodySystem`: the configuration as a pose, twist and momentum in body axes; of one body in a chart, and where its pose is the only coordinate.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::mechanics::Method;
+
+use super::body::pose_bodies;
+use super::derived::Derived;
+
+pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    derived.subject.system.rigid_body()?;
+    let (pose, configuration_of_pose) = pose_bodies(derived, derived.subject.model.one_body())?;
+    let runtime = derived.item().runtime;
+    let six = quote!(#runtime::prelude::SVector<Self::Scalar, 6>);
+    let twist = derived.function(Method::BodyTwist, quote!(z: &Self::Speeds), six.clone());
+    let speeds = derived.function(Method::Speeds, quote!(twist: &#six), quote!(Self::Speeds));
+    let momentum = derived.function(Method::BodyMomentum, quote!(z: &Self::Speeds), six);
+    let items = quote! {
+        #[inline]
+        fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> #runtime::prelude::Isometry3<Self::Scalar> {
+            #pose
+        }
+        #[inline]
+        fn configuration(
+            &self,
+            pose: &#runtime::prelude::Isometry3<Self::Scalar>,
+        ) -> ::core::result::Result<Self::Configuration, #runtime::chart::ChartError> {
+            #configuration_of_pose
+        }
+        #twist
+        #speeds
+        #momentum
+    };
+    Some(derived.implementation(quote!(system::RigidBodySystem), items))
+}

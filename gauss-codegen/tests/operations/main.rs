@@ -1,0 +1,64 @@
+//! The gate: what every method of every scene costs, beside the table of this folder.
+//!
+//! A row is worse when its operations, its divisions and functions, or its longest chain grew; then the test fails.
+//! What became better fails too, until the table says so:
+//! `UPDATE_OPERATIONS=1 cargo test -p gauss-codegen --test operations` writes it.
+
+mod counts;
+mod scenes;
+mod sources;
+mod table;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use counts::Row;
+use scenes::Scene;
+use table::Table;
+
+/// Expands every scene, on all threads; or says which ones are refused.
+fn measured(scenes: &[Scene]) -> Result<Table, String> {
+    let next = AtomicUsize::new(0);
+    let found = Mutex::new((Table::default(), String::new()));
+    let work = || {
+        while let Some(scene) = scenes.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let rows = rows(scene);
+            let (table, refused) = &mut *found.lock().expect("no thread panics with the table");
+            match rows {
+                Ok(rows) => table.add(&scene.name, rows),
+                Err(error) => *refused += &format!("{}: {error}\n", scene.name),
+            }
+        }
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(work);
+        }
+    });
+    let (table, refused) = found.into_inner().expect("no thread panics with the table");
+    if refused.is_empty() { Ok(table) } else { Err(refused) }
+}
+
+fn rows(scene: &Scene) -> syn::Result<Vec<(String, Row)>> {
+    counts::of_code(gauss_codegen::expand(&syn::parse_str(&scene.source)?)?)
+}
+
+#[test]
+fn no_method_costs_more_than_before() {
+    let scenes = scenes::all();
+    let measured = measured(&scenes).unwrap_or_else(|refused| panic!("\n{refused}"));
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/operations/table.csv");
+    if std::env::var("UPDATE_OPERATIONS").is_ok_and(|value| value == "1") {
+        std::fs::write(path, measured.to_csv()).expect("the table can be written");
+        return;
+    }
+    let known =
+        Table::from_csv(&std::fs::read_to_string(path).expect("the table is there")).expect("the table is whole");
+    let changes = known.changes_to(&measured);
+    assert!(
+        changes.is_empty(),
+        "\n{changes}\nIf all of it is meant: UPDATE_OPERATIONS=1 cargo test -p gauss-codegen --test operations"
+    );
+}

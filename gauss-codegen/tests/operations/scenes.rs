@@ -1,0 +1,242 @@
+//! What is counted: one body in every chart and motion, loads one by one, and the systems of the tables.
+
+#[path = "../../../tests/examples/structures/mod.rs"]
+mod structures;
+
+use crate::sources;
+
+/// A struct and its attribute, as the derive reads them.
+pub struct Scene {
+    pub name: String,
+    pub source: String,
+}
+
+pub fn all() -> Vec<Scene> {
+    [bodies(), loads(), one_link(), chains(), written_out(), in_macros()].into_iter().flatten().collect()
+}
+
+/// Charts of each motion.
+const MOTIONS: [(&str, &[&str]); 3] = [
+    ("free", &SPATIAL),
+    ("fixed_point", &SPATIAL),
+    ("planar", &["left_invariant", "right_invariant", "hybrid", "jet"]),
+];
+
+const SPATIAL: [&str; 7] = [
+    "left_invariant",
+    "right_invariant",
+    "hybrid",
+    "jet(euler_zyx)",
+    "jet(euler_zxz)",
+    "jet(rodrigues)",
+    "jet(modified_rodrigues)",
+];
+
+const MASS: &str = "#[gauss(mass)] m: f64,";
+const SPHERICAL: &str = "#[gauss(inertia)] i: f64,";
+const PRINCIPAL: &str = "#[gauss(inertia)] i: Vector3<f64>,";
+const FULL: &str = "#[gauss(inertia)] i: Matrix3<f64>,";
+const CENTER: &str = "#[gauss(center_of_mass)] c: Vector3<f64>,";
+const DIAGONAL_FLUID: &str = "#[gauss(added_mass)] x: Vector6<f64>,";
+const FULL_FLUID: &str = "#[gauss(added_mass)] x: Matrix6<f64>,";
+const VERTICAL: &str = "#[gauss(gravity)] g: f64,";
+const FIELD: &str = "#[gauss(gravity)] g: Vector3<f64>,";
+const BUOYANCY: &str = "#[gauss(displaced_mass)] d: f64,";
+const OFF_CENTER: &str = "#[gauss(center_of_buoyancy)] h: Vector3<f64>,";
+
+/// Shapes of a body: each feature alone, and those that go together.
+const SHAPES: [(&str, &[&str]); 17] = [
+    ("spherical", &[SPHERICAL]),
+    ("principal", &[PRINCIPAL]),
+    ("full", &[FULL]),
+    ("principal; g", &[PRINCIPAL, VERTICAL]),
+    ("principal; field", &[PRINCIPAL, FIELD]),
+    ("spherical off centre", &[SPHERICAL, CENTER]),
+    ("principal off centre", &[PRINCIPAL, CENTER]),
+    ("full off centre", &[FULL, CENTER]),
+    ("principal off centre; g", &[PRINCIPAL, CENTER, VERTICAL]),
+    ("full off centre; g", &[FULL, CENTER, VERTICAL]),
+    ("principal in fluid (6)", &[PRINCIPAL, DIAGONAL_FLUID]),
+    ("principal in fluid (6×6)", &[PRINCIPAL, FULL_FLUID]),
+    ("principal off centre in fluid (6)", &[PRINCIPAL, CENTER, DIAGONAL_FLUID]),
+    ("full off centre in fluid (6×6)", &[FULL, CENTER, FULL_FLUID]),
+    ("principal; g and buoyancy off O", &[PRINCIPAL, VERTICAL, BUOYANCY, OFF_CENTER]),
+    ("principal off centre in fluid (6×6); field and buoyancy", &[PRINCIPAL, CENTER, FULL_FLUID, FIELD, BUOYANCY]),
+    ("everything", &[FULL, CENTER, FULL_FLUID, FIELD, BUOYANCY, OFF_CENTER]),
+];
+
+/// One body: chart × motion × shape.
+fn bodies() -> Vec<Scene> {
+    let mut scenes = Vec::new();
+    for (motion, charts) in MOTIONS {
+        for chart in charts {
+            for (shape, fields) in SHAPES {
+                let name = format!("{motion} {chart} {shape}");
+                let fields = fields.concat();
+                let source = format!("#[gauss(chart = {chart}, motion = {motion})] struct Body {{ {MASS} {fields} }}");
+                scenes.push(Scene { name, source });
+            }
+        }
+    }
+    scenes
+}
+
+/// What acts, on a body in principal axes: clause, fields.
+const LOADS: [(&str, &str, &str); 12] = [
+    ("central gravity", "central_gravity(mu = k)", "k: f64"),
+    ("stream", "medium(velocity = s)", "#[gauss(added_mass)] x: Vector6<f64>, s: Vector3<f64>"),
+    ("linear drag (6)", "drag(linear = e)", "e: Vector6<f64>"),
+    ("linear drag (6×6)", "drag(linear = e)", "e: Matrix6<f64>"),
+    ("quadratic drag (6)", "drag(quadratic = e)", "e: Vector6<f64>"),
+    ("quadratic drag (6×6)", "drag(quadratic = e)", "e: Matrix6<f64>"),
+    ("input at a point", "input(f), force(thrust, at = a, value = [f, 0, 0])", "a: Vector3<f64>"),
+    (
+        "input at a point in observer's axes",
+        "input(f: Vector3), force(thrust, at = a, value = f, axes = observer)",
+        "a: Vector3<f64>",
+    ),
+    ("input of a torque", "input(n: Vector3), torque(motor, value = n)", ""),
+    ("potential", "potential = k * body.position.x", "k: f64"),
+    (
+        "literal data",
+        "center_of_mass = [0, 0, k], force(push, at = [0.2, 0, 0.1], value = [1, 2, 0.5], axes = observer)",
+        "#[gauss(gravity)] g: f64, k: f64",
+    ),
+    (
+        "a vehicle in a stream",
+        "input(thrust, rudder), medium(velocity = s * sin(t)), define(v = body.relative_velocity), \
+         drag(quadratic = e), force(lift, at = a, value = [0, k * v.x * v.y, k * v.x * v.z]), \
+         force(fin, at = a, value = [thrust, l * v.x * v.x * rudder, 0])",
+        "#[gauss(added_mass)] x: Matrix6<f64>, #[gauss(gravity)] g: Vector3<f64>, #[gauss(displaced_mass)] d: f64, \
+         s: Vector3<f64>, a: Vector3<f64>, k: f64, l: f64, e: Matrix6<f64>",
+    ),
+];
+
+/// A free body with one load, in four charts; derivatives of the heavy body.
+fn loads() -> Vec<Scene> {
+    let mut scenes = Vec::new();
+    for chart in &SPATIAL[..4] {
+        for (load, clause, fields) in LOADS {
+            let source = format!("#[gauss(chart = {chart}, {clause})] struct Body {{ {MASS} {PRINCIPAL} {fields} }}");
+            scenes.push(Scene { name: format!("load {chart} {load}"), source });
+        }
+        for wanted in ["linearize(parameters)", "regressor", "taylor"] {
+            let source =
+                format!("#[gauss(chart = {chart}, {wanted})] struct Body {{ {MASS} {FULL} {CENTER} {VERTICAL} }}");
+            scenes.push(Scene { name: format!("wanted {chart} {wanted}"), source });
+        }
+    }
+    scenes
+}
+
+/// The charts of one body in the language of systems.
+fn one_link() -> Vec<Scene> {
+    let charts = [
+        ("twist", "coordinates(pose: Pose)", "position = pose.position, rotation = pose.rotation"),
+        (
+            "hybrid",
+            "coordinates(pose: Pose), speeds(v: Vector3, w: Vector3), \
+             kinematics(pose = twist(inverse(pose.rotation) * v, w))",
+            "position = pose.position, rotation = pose.rotation",
+        ),
+        (
+            "right",
+            "coordinates(pose: Pose), speeds(v: Vector3, w: Vector3), \
+             kinematics(pose = twist(inverse(pose.rotation) * (v + cross(w, pose.position)), \
+             inverse(pose.rotation) * w))",
+            "position = pose.position, rotation = pose.rotation",
+        ),
+        (
+            "zyx",
+            "coordinates(x, y, z, psi, theta, phi)",
+            "position = [x, y, z], rotation = rotation_z(psi) * rotation_y(theta) * rotation_x(phi)",
+        ),
+        ("ball", "coordinates(turn: Rotation)", "rotation = turn"),
+        ("plane", "coordinates(x, y, theta)", "position = [x, y, 0], rotation = rotation_z(theta)"),
+    ];
+    let shapes = [
+        ("principal", [PRINCIPAL].as_slice()),
+        ("full off centre", &[FULL, CENTER]),
+        ("full off centre; g", &[FULL, CENTER, VERTICAL]),
+    ];
+    let mut scenes = Vec::new();
+    for (chart, coordinates, place) in charts {
+        for (shape, fields) in shapes {
+            let fields = fields.concat();
+            let source = format!("#[gauss({coordinates}, body({place}))] struct Body {{ {MASS} {fields} }}");
+            scenes.push(Scene { name: format!("one link {chart} {shape}"), source });
+        }
+    }
+    scenes
+}
+
+fn chains() -> Vec<Scene> {
+    let mut scenes = vec![
+        ("structure torpedo".into(), structures::torpedo("")),
+        ("structure torpedo linearize".into(), structures::torpedo(", linearize")),
+        ("structure top".into(), structures::top("")),
+        ("structure arm".into(), structures::arm("")),
+        ("structure arm linearize".into(), structures::arm(", linearize")),
+    ];
+    for n in [2, 3, 4, 5, 6, 8, 10, 14] {
+        scenes.push((format!("chain of {n} in the plane; relative"), structures::planar(n, true)));
+    }
+    for n in [2, 4, 8] {
+        scenes.push((format!("chain of {n} in the plane; absolute"), structures::planar(n, false)));
+        scenes.push((format!("chain of {n} particles"), structures::particles(n)));
+    }
+    for n in [2, 3, 4, 6] {
+        scenes.push((format!("chain of {n} in space"), structures::spatial(n)));
+    }
+    scenes.into_iter().map(|(name, source)| Scene { name, source }).collect()
+}
+
+/// Structs of benchmarks, examples and tests.
+fn written_out() -> Vec<Scene> {
+    let places = [
+        "benches/src/scenes.rs",
+        "examples",
+        "tests/tests/arm.rs",
+        "tests/tests/central_gravity.rs",
+        "tests/tests/elements.rs",
+        "tests/tests/holonomic.rs",
+        "tests/tests/linkages.rs",
+        "tests/tests/media.rs",
+        "tests/tests/nonholonomic",
+        "tests/tests/rolling",
+        "tests/tests/systems.rs",
+    ];
+    places.into_iter().flat_map(sources::of).collect()
+}
+
+/// Structs that macros write.
+fn in_macros() -> Vec<Scene> {
+    let mut scenes = Vec::new();
+    for (name, chart) in [
+        ("Kirchhoff", "left_invariant"),
+        ("NewtonEuler", "right_invariant"),
+        ("Hybrid", "hybrid"),
+        ("Lagrange", "jet(euler_zyx)"),
+    ] {
+        let values = [("name", name), ("chart", chart)];
+        scenes.push(sources::in_macro("examples/src/vehicle.rs", "vehicle", &values));
+        scenes.push(sources::in_macro("examples/remus100/vehicle.rs", "vehicle", &values));
+    }
+    let pendulums = [
+        (
+            "DoublePendulum",
+            "coordinates(a, b)",
+            "position = [length * sin(a), 0, -length * cos(a)], rotation = rotation_y(-b)",
+        ),
+        (
+            "JointedPendulum",
+            "coordinates(a, c)",
+            "parent = upper, position = [0, 0, -length], rotation = rotation_y(-c)",
+        ),
+    ];
+    for (name, coordinates, place) in pendulums {
+        let values = [("name", name), ("coordinates", coordinates), ("lower", "lower"), ("place", place)];
+        scenes.push(sources::in_macro("benches/src/scenes.rs", "pendulum", &values));
+    }
+    scenes
+}
