@@ -25,6 +25,12 @@ struct Step<'g> {
 impl<'g> Solver<'g> {
     /// `None` when the matrix is singular.
     pub fn new(matrix: Vec<Vec<Expr<'g>>>) -> Option<Self> {
+        let whole = matrix.len();
+        Self::with_blocks_up_to(matrix, whole)
+    }
+
+    /// `None` also when more unknowns than so many have to be solved for together.
+    pub fn with_blocks_up_to(matrix: Vec<Vec<Expr<'g>>>, most: usize) -> Option<Self> {
         let mut rows: Vec<usize> = (0..matrix.len()).collect();
         let mut solved: Vec<usize> = Vec::new();
         let mut steps = Vec::new();
@@ -38,6 +44,9 @@ impl<'g> Solver<'g> {
             };
             let block: Vec<Vec<Expr<'g>>> =
                 block_rows.iter().map(|&i| block_unknowns.iter().map(|&j| matrix[i][j]).collect()).collect();
+            if block_rows.len() > most {
+                return None;
+            }
             rows.retain(|row| !block_rows.contains(row));
             solved.extend(&block_unknowns);
             steps.push(Step { rows: block_rows, unknowns: block_unknowns, inverse: inverse_by_cofactors(&block)? });

@@ -34,15 +34,19 @@ impl fmt::Display for Unbound {
 impl<'g> Signature<'g> {
     pub fn new(derived: &Derived<'_, 'g>) -> Self {
         let formal = derived.formal();
-        let configuration: Vec<Expr<'g>> =
-            derived.configuration_arguments().into_iter().flat_map(|argument| argument.symbols).collect();
+        let configuration: Vec<Expr<'g>> = derived
+            .subject
+            .configuration_arguments(derived)
+            .into_iter()
+            .flat_map(|argument| argument.symbols)
+            .collect();
         let parameters = derived.parameters.iter();
         let (names, symbols) = parameters.map(|parameter| (parameter.name.clone(), parameter.symbol)).unzip();
         let constants = &derived.kernel.constant_symbols;
         let arguments = vec![
             (Argument::new(ArgumentKind::Parameters, "parameters", names), symbols),
             argument(ArgumentKind::Constants, "k", constants),
-            (Argument::new(ArgumentKind::Time, "t", vec!["t".to_owned()]), derived.time().into_iter().collect()),
+            (Argument::new(ArgumentKind::Time, "t", vec!["t".to_owned()]), vec![derived.time()]),
             argument(ArgumentKind::Configuration, "q", &configuration),
             argument(ArgumentKind::Speeds, "z", formal.speeds),
             argument(ArgumentKind::Momenta, "p", formal.momenta),

@@ -10,9 +10,8 @@ use crate::mechanics::{Assigned, KineticMatrix, Quantity};
 use crate::model::{Motion, Role, Shape};
 
 use super::derived::Derived;
+use super::parameters::{in_plane, inertia_rows};
 use super::program::statements;
-use super::system::SystemSubject;
-use super::system_parameters::{in_plane, inertia_rows};
 
 /// `let name = …;`: the value, or the array of components.
 pub fn assigned_local(
@@ -39,11 +38,8 @@ pub fn assigned_local(
 
 /// What must hold of the fluid about the bodies: what clauses of named bodies say of it, and that the body and its added mass
 /// together have a positive definite kinetic energy in every motion that the body can have.
-pub fn fluid(
-    derived: &Derived<'_, '_>,
-    subject: &SystemSubject<'_, '_>,
-    symbols: &Map<u32, TokenStream>,
-) -> TokenStream {
+pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let subject = &derived.subject;
     let model = subject.model;
     let mut checks = TokenStream::new();
     for (clause, written) in model.bodies.iter().enumerate() {
@@ -88,12 +84,8 @@ pub fn fluid(
 }
 
 /// Locals and checks of the bodies of a system whose mass data stand in their clauses.
-pub fn assigned_bodies(
-    derived: &Derived<'_, '_>,
-    subject: &SystemSubject<'_, '_>,
-    symbols: &Map<u32, TokenStream>,
-) -> TokenStream {
-    let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
+pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let (ty, real, subject) = (derived.scalar().ty(), derived.scalar().real, &derived.subject);
     let mut checks = TokenStream::new();
     for (clause, body) in subject.model.bodies.iter().enumerate() {
         let Some(name) = &body.name else { continue };

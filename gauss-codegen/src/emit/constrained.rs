@@ -3,21 +3,18 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::derived::{Derived, Subject};
-use super::system::SystemSubject;
+use super::derived::Derived;
+use super::subject::Subject;
 
 /// The system, where there are constraints.
-fn constrained<'a, 'g>(derived: &Derived<'a, 'g>) -> Option<SystemSubject<'a, 'g>> {
-    match derived.subject {
-        Subject::System(subject) if !subject.constraints.is_empty() => Some(subject),
-        _ => None,
-    }
+fn constrained<'a, 'g>(derived: &'a Derived<'_, 'g>) -> Option<&'a Subject<'a, 'g>> {
+    Some(&derived.subject).filter(|subject| !subject.constraints.is_empty())
 }
 
 pub fn constrained_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let subject = constrained(derived)?;
     let (private, ty, count) = (derived.private(), derived.scalar().ty(), subject.constraints.count());
-    let methods = subject.constraint_methods(derived.item().runtime).into_iter();
+    let methods = subject.constraint_methods(&derived.private()).into_iter();
     let methods = methods.map(|(method, arguments, result)| derived.function(method, arguments, result));
     let items = quote! {
         type Multipliers = #private::SVector<#ty, #count>;

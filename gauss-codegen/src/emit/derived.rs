@@ -4,16 +4,17 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational};
+use crate::formulation::Formulation;
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
-use crate::mechanics::{Account, Assigned, Formula, Linearization, Method, Regressor, Scene};
-use crate::model::{Field, InChart, Model, Scalar};
-use crate::translate::{DragMatrix, Parameter, Source};
+use crate::mechanics::{Account, Formula, Linearization, Method, Regressor};
+use crate::model::{Model, Scalar};
+use crate::translate::{DragMatrix, Parameter, Translator};
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
 use super::documentation::method_name;
 use super::program::{ScalarTokens, statements};
-use super::system::SystemSubject;
+use super::subject::Subject;
 
 /// `__private_` and the version of this crate, which is that of the runtime.
 pub const PRIVATE: &str = concat!(
@@ -29,7 +30,7 @@ pub const PRIVATE: &str = concat!(
 pub struct Derived<'a, 'g> {
     pub subject: Subject<'a, 'g>,
     /// Matrices of drag.
-    pub drags: &'a [DragMatrix<'g>],
+    pub drags: Vec<DragMatrix<'g>>,
     pub formulas: &'a [Formula<'g>],
     pub kernel: &'a Kernel<'g>,
     /// What is differentiated by the state, where that is asked for.
@@ -38,45 +39,6 @@ pub struct Derived<'a, 'g> {
     pub parameters: &'a [Parameter<'g>],
     /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
     pub regressor: Option<&'a Regressor<'g>>,
-}
-
-/// What is derived.
-#[derive(Clone, Copy)]
-pub enum Subject<'a, 'g> {
-    /// One body in a chart.
-    Body {
-        model: &'a Model,
-        in_chart: InChart,
-        scene: &'a Scene<'g>,
-        /// Components x, y, z, w of the unit quaternion behind R, where there is one.
-        quaternion: Option<[Expr<'g>; 4]>,
-        /// Parameters that only what acts depends on.
-        plain: Option<Plain<'a, 'g>>,
-    },
-    /// A system in coordinates of its own.
-    System(SystemSubject<'a, 'g>),
-}
-
-/// One body, where what is written needs to know that it is one.
-#[derive(Clone, Copy)]
-pub struct BodySubject<'a, 'g> {
-    pub derived: &'a Derived<'a, 'g>,
-    pub model: &'a Model,
-    pub in_chart: InChart,
-    pub scene: &'a Scene<'g>,
-    pub quaternion: Option<[Expr<'g>; 4]>,
-    pub plain: Option<Plain<'a, 'g>>,
-}
-
-/// Parameters without a role, and where the symbols of expressions are read.
-#[derive(Clone, Copy)]
-pub struct Plain<'a, 'g> {
-    pub fields: &'a [Field],
-    pub sources: &'a [Source<'g>],
-    /// Literal numbers that symbols stand for.
-    pub literals: &'a [(Rational, Expr<'g>)],
-    /// Mass data of the body without a name that are written in clauses.
-    pub assigned: &'a [Assigned<'g>],
 }
 
 /// What the struct says of itself, whatever it describes.
@@ -107,44 +69,58 @@ pub struct Formal<'a, 'g> {
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
-    pub fn model(&self) -> &'a Model {
-        match self.subject {
-            Subject::Body { model, .. } | Subject::System(SystemSubject { model, .. }) => model,
-        }
+    /// # Errors
+    /// Only what the model should have refused: a bug of this crate.
+    pub fn new(
+        model: &'a Model,
+        translator: &'a Translator<'_, 'g>,
+        formulation: &'a Formulation<'g>,
+        kernel: &'a Kernel<'g>,
+    ) -> syn::Result<Self> {
+        let assigned_to_bodies = model.bodies.iter().map(|body| translator.assigned(&body.given));
+        let subject = Subject {
+            model,
+            system: &formulation.system,
+            constraints: formulation.constraints(),
+            can_drift: formulation.can_drift(),
+            sources: translator.sources(),
+            literals: translator.literals(),
+            assigned: translator.assigned(&model.given)?,
+            assigned_to_bodies: assigned_to_bodies.collect::<syn::Result<_>>()?,
+            links: translator.links_of_clauses(),
+            quaternions: &formulation.quaternions,
+        };
+        Ok(Self {
+            subject,
+            drags: translator.drags(),
+            formulas: &formulation.formulas,
+            kernel,
+            linearization: formulation.linearization.as_ref(),
+            parameters: &formulation.parameters,
+            regressor: formulation.regressor.as_ref(),
+        })
     }
 
     pub fn item(&self) -> Item<'a> {
-        let Model { ident, visibility, generics, scalar, runtime, .. } = self.model();
-        Item { ident, visibility, generics, scalar, runtime }
-    }
-
-    pub fn body(&'a self) -> Option<BodySubject<'a, 'g>> {
-        match self.subject {
-            Subject::Body { model, in_chart, scene, quaternion, plain } => {
-                Some(BodySubject { derived: self, model, in_chart, scene, quaternion, plain })
-            }
-            Subject::System(_) => None,
+        let Subject { model, .. } = &self.subject;
+        Item {
+            ident: &model.ident,
+            visibility: &model.visibility,
+            generics: &model.generics,
+            scalar: &model.scalar,
+            runtime: &model.runtime,
         }
     }
 
     pub fn formal(&self) -> Formal<'a, 'g> {
-        match self.subject {
-            Subject::Body { scene, .. } => Formal {
-                speeds: &scene.kinematics.speeds,
-                speed_rates: &scene.kinematics.speed_rates,
-                momenta: &scene.momenta,
-                twist: &scene.twist,
-                residuals: &[],
-                inputs: scene.acting.as_ref().map_or(&[], |acting| &acting.inputs),
-            },
-            Subject::System(SystemSubject { system, constraints, .. }) => Formal {
-                speeds: &system.scene.speeds,
-                speed_rates: &system.scene.speed_rates,
-                momenta: &system.scene.momenta,
-                twist: &[],
-                residuals: &constraints.residuals,
-                inputs: &system.scene.inputs,
-            },
+        let Subject { system, constraints, .. } = &self.subject;
+        Formal {
+            speeds: &system.scene.speeds,
+            speed_rates: &system.scene.speed_rates,
+            momenta: &system.scene.momenta,
+            twist: system.rigid_body().map_or(&[], |body| &body.twist),
+            residuals: &constraints.residuals,
+            inputs: &system.scene.inputs,
         }
     }
 
@@ -175,10 +151,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     pub fn accounts(&self) -> Vec<Account<'g>> {
-        match self.subject {
-            Subject::Body { scene, .. } => scene.accounts(),
-            Subject::System(SystemSubject { system, .. }) => system.accounts(),
-        }
+        self.subject.system.accounts()
     }
 
     pub fn smoothness(&self) -> Smoothness {
@@ -202,27 +175,13 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     /// Literal numbers that symbols stand for.
-    pub fn literals(&self) -> &'a [(Rational, Expr<'g>)] {
-        match self.subject {
-            Subject::Body { plain, .. } => plain.map_or(&[], |plain| plain.literals),
-            Subject::System(subject) => subject.literals,
-        }
+    pub fn literals(&self) -> &[(Rational, Expr<'g>)] {
+        &self.subject.literals
     }
 
-    /// The symbol of the time, where something can depend on it.
-    pub fn time(&self) -> Option<Expr<'g>> {
-        match self.subject {
-            Subject::Body { scene, .. } => scene.acting.as_ref().map(|acting| acting.time),
-            Subject::System(subject) => Some(subject.system.scene.time),
-        }
-    }
-
-    /// The configuration `q` taken apart.
-    pub fn configuration_arguments(&'a self) -> Vec<Argument<'g>> {
-        match self.subject {
-            Subject::Body { .. } => self.body().map(|body| body.configuration_arguments()).unwrap_or_default(),
-            Subject::System(subject) => subject.configuration_arguments(self),
-        }
+    /// The symbol of the time.
+    pub fn time(&self) -> Expr<'g> {
+        self.subject.system.scene.time
     }
 
     /// A vector taken apart.
@@ -235,8 +194,8 @@ impl<'a, 'g> Derived<'a, 'g> {
     pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
         let Formal { speeds, speed_rates, momenta, twist, residuals, inputs } = self.formal();
         let mut names = self.constant_names();
-        names.extend(self.time().map(|time| (time.key(), quote!(t))));
-        let mut arguments = self.configuration_arguments();
+        names.insert(self.subject.system.scene.time.key(), quote!(t));
+        let mut arguments = self.subject.configuration_arguments(self);
         let vector = |name: TokenStream, symbols: &[Expr<'g>]| self.vector_argument(name, symbols);
         arguments.push(vector(quote!(z), speeds));
         arguments.push(vector(quote!(p), momenta));
@@ -268,19 +227,10 @@ impl<'a, 'g> Derived<'a, 'g> {
                 let (volume, squares, real) = (&outputs[0], &outputs[1], self.scalar().real);
                 quote!(#volume / #real::sqrt(#squares))
             }
-            Method::Kinematics | Method::PositionCorrection => self.tangent(&outputs),
+            Method::Kinematics | Method::PositionCorrection => self.subject.tangent(self, &outputs),
             _ => quote!(#private::vector([#(#outputs),*])),
         };
         quote!(#instructions #result)
-    }
-
-    /// A velocity of the configuration.
-    pub fn tangent(&self, components: &[TokenStream]) -> TokenStream {
-        let private = self.private();
-        match self.subject {
-            Subject::System(subject) => subject.tangent(self, components),
-            Subject::Body { .. } => quote!(#private::vector([#(#components),*])),
-        }
     }
 
     pub fn degrees_of_freedom(&self) -> usize {

@@ -4,10 +4,10 @@ use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
 use crate::mechanics::{Method, Section};
-use crate::model::{InputKind, Role};
+use crate::model::{InChart, InputKind, Role};
 
-use super::derived::{Derived, Subject};
-use super::system::SystemSubject;
+use super::body::{chart_name, motion_name};
+use super::derived::Derived;
 
 /// The equations as plain text and as one LaTeX environment.
 #[derive(Clone, Debug)]
@@ -19,10 +19,7 @@ pub struct Equations {
 impl Equations {
     /// Printed once for all that is said of them: a second time the terms of a sum can come in another order.
     pub fn of(derived: &Derived<'_, '_>) -> Self {
-        let sections = match derived.subject {
-            Subject::Body { scene, .. } => scene.equations(),
-            Subject::System(SystemSubject { system, .. }) => system.equations(),
-        };
+        let sections = derived.subject.system.equations();
         Equations { text: text(derived, &sections), latex: latex(&sections) }
     }
 }
@@ -40,7 +37,7 @@ fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
             "with {}{}
 ",
             letters.join(", "),
-            if derived.body().is_some() { "; x̂ = R x + b" } else { "" }
+            if derived.subject.model.one_body().is_some() { "; x̂ = R x + b" } else { "" }
         ));
     }
     for section in sections {
@@ -66,7 +63,7 @@ fn latex(sections: &[Section<'_>]) -> String {
 
 /// What the letters of the equations stand for: (letter, field, what its author says of it).
 fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
-    let fields = derived.model().fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
+    let fields = derived.subject.model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
     fields
         .filter_map(|(role, ident, documentation, unit)| role.map(|role| (role, ident, documentation, unit)))
         .filter(|(role, ..)| *role != Role::Body)
@@ -98,14 +95,12 @@ fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
 fn description(derived: &Derived<'_, '_>) -> String {
     let speeds: Vec<String> = derived.speeds().iter().map(|z| crate::algebra::print(*z, Notation::Text)).collect();
     let speeds = speeds.join(", ");
-    match (derived.body(), derived.subject) {
-        (Some(body), _) => format!("chart {}, motion {}, z = ({speeds})", body.chart_name(), body.motion_name()),
-        (None, Subject::System(SystemSubject { system, .. })) => {
-            let q: Vec<&str> = system.scene.coordinate_names.iter().map(|name| name.text.as_str()).collect();
-            format!("chart own, q = ({}), z = ({speeds})", q.join(", "))
-        }
-        _ => format!("z = ({speeds})"),
+    if let Some(InChart { chart, motion }) = derived.subject.model.one_body() {
+        return format!("chart {}, motion {}, z = ({speeds})", chart_name(chart), motion_name(motion));
     }
+    let names = &derived.subject.system.scene.coordinate_names;
+    let q: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
+    format!("chart own, q = ({}), z = ({speeds})", q.join(", "))
 }
 
 /// The methods that [`Kernel::derivatives`](crate::kernel::Kernel::derivatives) has the programs of.
@@ -143,7 +138,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
 fn acting(derived: &Derived<'_, '_>) -> String {
     let mut out = String::new();
     let mut next = 0;
-    for input in &derived.model().inputs {
+    for input in &derived.subject.model.inputs {
         if next == 0 {
             out.push_str("\n# Input\n\n| components | input | unit |\n|---|---|---|\n");
         }

@@ -7,7 +7,7 @@ use crate::kernel::Smoothness;
 use crate::mechanics::Method;
 
 use super::constrained::projection;
-use super::derived::{Derived, Subject};
+use super::derived::Derived;
 
 pub fn gauss_system(derived: &Derived<'_, '_>) -> TokenStream {
     let (types, smoothness) = (types(derived), smoothness(derived));
@@ -25,12 +25,7 @@ pub fn gauss_system(derived: &Derived<'_, '_>) -> TokenStream {
 /// Associated types, degrees of freedom, chart.
 fn types(derived: &Derived<'_, '_>) -> TokenStream {
     let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
-    let (configuration, chart) = match derived.subject {
-        Subject::Body { .. } => {
-            derived.body().map(|body| (body.configuration_type(), body.chart_tokens())).unwrap_or_default()
-        }
-        Subject::System(subject) => (subject.configuration_type(derived), quote!(#private::Chart::Own)),
-    };
+    let (configuration, chart) = (derived.subject.configuration_type(derived), derived.subject.chart_tokens(derived));
     let input = match derived.formal().inputs.len() {
         0 => quote!(()),
         count => quote!(#private::SVector<#ty, #count>),
@@ -87,7 +82,7 @@ fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
     let (instructions, outputs) = derived.computed(&derived.kernel.joined);
     let (configuration, rest) = outputs.split_at(derived.program(Method::Kinematics).outputs.len());
     let (speeds, energies) = rest.split_at(derived.degrees_of_freedom());
-    let velocity = derived.tangent(configuration);
+    let velocity = derived.subject.tangent(derived, configuration);
     quote! {
         #[inline]
         fn evaluate(

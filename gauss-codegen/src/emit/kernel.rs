@@ -3,11 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::derived::{BodySubject, Derived, Item, KernelGenerics, Plain, Subject};
+use super::derived::{Derived, Item, KernelGenerics};
 use super::documentation::{Equations, rustdoc};
-use super::parameters::kernel_body;
-use super::system::SystemSubject;
-use super::system_parameters::{system_kernel_body, warnings};
+use super::parameters::{kernel_body, warnings};
 
 /// The struct: the constants that `kernel()` computes.
 pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
@@ -37,17 +35,8 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
         "Checks the parameters and computes once whatever depends on them alone: the kernel of [`{ident}`].\n\n\
          # Errors\nEvery parameter that no body can have, with its field, value and the rule it breaks."
     );
-    let (body, plain) = match derived.subject {
-        Subject::Body { model, in_chart, scene, quaternion, plain } => {
-            (kernel_body(&BodySubject { derived, model, in_chart, scene, quaternion, plain }), plain)
-        }
-        Subject::System(subject) => {
-            let SystemSubject { model, sources, literals, assigned, .. } = subject;
-            let plain = Plain { fields: &model.fields, sources, literals, assigned };
-            (system_kernel_body(derived, &subject), Some(plain))
-        }
-    };
-    let warnings = plain.map(|plain| warnings(derived, &plain, derived.drags));
+    let body = kernel_body(derived);
+    let warnings = warnings(derived);
     quote! {
         #[automatically_derived]
         impl #impl_generics #ident #type_generics where #predicates #bound {

@@ -4,8 +4,8 @@
 //! |---|---|
 //! | `program` | instructions as `let` statements |
 //! | `arguments` | where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel |
-//! | `parameters`, `system_parameters`, `assigned` | the parameters read, checked, and turned into constants |
-//! | `body`, `system` | what is particular to one body in a chart, and to a system |
+//! | `parameters`, `assigned` | the parameters read, checked, and turned into constants |
+//! | `subject`, `body` | what is derived: its configuration, its constraints; the names of charts and poses |
 //! | `documentation` | equations and costs as text, LaTeX and rustdoc |
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
@@ -35,18 +35,16 @@ mod regressor;
 mod rigid_body;
 #[cfg(test)]
 mod specialisation_tests;
-mod system;
-mod system_parameters;
+mod subject;
 #[cfg(test)]
 mod system_tests;
 mod taylor;
 #[cfg(test)]
 mod tests;
 
-pub use derived::{Derived, Plain, Subject};
+pub use derived::Derived;
 pub use documentation::{Equations, method_name};
 pub use fallback::fallback;
-pub use system::SystemSubject;
 
 /// The whole output of the derive.
 pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {

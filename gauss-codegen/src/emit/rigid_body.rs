@@ -1,14 +1,16 @@
-//! `RigidBodySystem`: the configuration as a pose, twist and momentum in body axes; of one body in a chart.
+//! `RigidBodySystem`: the configuration as a pose, twist and momentum in body axes; of one body in a chart, and where its pose is the only coordinate.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::mechanics::Method;
 
+use super::body::pose_bodies;
 use super::derived::Derived;
 
 pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let (pose, configuration_of_pose) = derived.body()?.pose_bodies();
+    derived.subject.system.rigid_body()?;
+    let (pose, configuration_of_pose) = pose_bodies(derived, derived.subject.model.one_body())?;
     let private = derived.private();
     let six = quote!(#private::SVector<Self::Scalar, 6>);
     let twist = derived.function(Method::BodyTwist, quote!(z: &Self::Speeds), six.clone());

@@ -20,9 +20,9 @@ use quote::{format_ident, quote};
 
 use crate::algebra::{BinaryFunction, Function, Map};
 use crate::kernel::{Operand, Operation, Program};
-use crate::mechanics::{ConfigurationKind, Coordinate, Method};
+use crate::mechanics::{Coordinate, Method};
 
-use super::derived::{Derived, Subject};
+use super::derived::Derived;
 use super::program::{Kept, ScalarTokens, in_blocks, operand, statements_kept};
 
 /// The number of lanes is a multiple of this: the runtime sums them in packs.
@@ -311,11 +311,10 @@ struct Variables {
 impl Variables {
     fn of(derived: &Derived<'_, '_>) -> Self {
         let (mut first, mut coefficients) = (derived.constant_names(), Map::default());
-        if let Some(time) = derived.time() {
-            first.insert(time.key(), quote!(t));
-            coefficients.insert(time.key(), quote!(__time));
-        }
-        let mut arguments = derived.configuration_arguments();
+        let time = derived.subject.system.scene.time;
+        first.insert(time.key(), quote!(t));
+        coefficients.insert(time.key(), quote!(__time));
+        let mut arguments = derived.subject.configuration_arguments(derived);
         arguments.push(derived.vector_argument(quote!(z), derived.speeds()));
         let (mut declarations, mut names) = (TokenStream::new(), Vec::new());
         for argument in &arguments {
@@ -390,25 +389,15 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 
 /// How many components of the configuration are measured together, and each speed by itself.
 fn component_groups(derived: &Derived<'_, '_>) -> Vec<usize> {
-    let mut groups = match derived.subject {
-        Subject::Body { scene, .. } => match scene.kinematics.kind {
-            ConfigurationKind::Pose => vec![4, 3],
-            ConfigurationKind::Rotation => vec![4],
-            ConfigurationKind::PlanePose => vec![2, 2],
-            ConfigurationKind::Coordinates => vec![1; scene.kinematics.configuration.len()],
-        },
-        Subject::System(subject) => {
-            let coordinates = &subject.system.scene.coordinates;
-            let group = |coordinate: &Coordinate<'_>| match coordinate {
-                Coordinate::Pose(..) => vec![4, 3],
-                Coordinate::Rotation(_) => vec![4],
-                Coordinate::Plane { .. } => vec![2, 2],
-                Coordinate::Scalar(_) => vec![],
-            };
-            let scalars = coordinates.iter().filter(|c| matches!(c, Coordinate::Scalar(_))).map(|_| 1);
-            coordinates.iter().flat_map(group).chain(scalars).collect()
-        }
+    let coordinates = &derived.subject.system.scene.coordinates;
+    let group = |coordinate: &Coordinate<'_>| match coordinate {
+        Coordinate::Pose(..) => vec![4, 3],
+        Coordinate::Rotation(_) => vec![4],
+        Coordinate::Plane { .. } => vec![2, 2],
+        Coordinate::Scalar(_) => vec![],
     };
+    let scalars = coordinates.iter().filter(|c| matches!(c, Coordinate::Scalar(_))).map(|_| 1);
+    let mut groups: Vec<usize> = coordinates.iter().flat_map(group).chain(scalars).collect();
     groups.extend(derived.speeds().iter().map(|_| 1));
     groups
 }

@@ -80,10 +80,10 @@ impl<'g> Kernel<'g> {
         literals: Literals<'_, 'g>,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
+        let candidates = functions;
         let (functions, chosen): (Vec<_>, Vec<_>) =
-            functions.iter().map(|candidates| candidates.cheapest(&mut hoister)).unzip();
-        let of_joined: Vec<Expr<'g>> = joined.iter().flat_map(|&k| chosen[k]).copied().collect();
-        let joined = Program::lower(&hoister.hoist(&of_joined)).with_signs_led_back();
+            candidates.iter().map(|candidates| candidates.cheapest(&mut hoister)).unzip();
+        let (joined, of_joined) = lower_together(&mut hoister, candidates, &chosen, joined);
         let (tangents, expected_tangents) =
             wanted.by_state.map(|wanted| wanted.lower(&mut hoister, Kept::ValuesToo)).unzip();
         let (regressor, expected_regressor) =
@@ -132,6 +132,36 @@ impl<'g> Kernel<'g> {
     pub fn derivatives(&self) -> impl Iterator<Item = Option<&Program<'g>>> {
         [&self.tangents, &self.by_parameters, &self.regressor].into_iter().map(Option::as_ref)
     }
+}
+
+/// Several functions in one program. What wins alone may have less in common with the rest than what comes first: it is
+/// replaced where that costs less.
+fn lower_together<'g>(
+    hoister: &mut Hoister<'_, 'g>,
+    functions: &[Candidates<'g>],
+    chosen: &[&[Expr<'g>]],
+    joined: &[usize],
+) -> (Program<'g>, Vec<Expr<'g>>) {
+    let mut lower = |parts: &[&[Expr<'g>]]| {
+        let outputs = parts.concat();
+        (Program::lower(&hoister.hoist(&outputs)), outputs)
+    };
+    let mut parts: Vec<&[Expr<'g>]> = joined.iter().map(|&k| chosen[k]).collect();
+    let mut best = lower(&parts);
+    for (place, &k) in joined.iter().enumerate() {
+        let first = functions[k].arrangements[0].as_slice();
+        if first == parts[place] {
+            continue;
+        }
+        let won = std::mem::replace(&mut parts[place], first);
+        let other = lower(&parts);
+        if other.0.cost().total() < best.0.cost().total() {
+            best = other;
+        } else {
+            parts[place] = won;
+        }
+    }
+    (best.0.with_signs_led_back(), best.1)
 }
 
 /// Symbols of constants and what they stand for.

@@ -25,7 +25,6 @@ mod tests;
 mod write;
 
 pub use crate::program::{Counts, Smoothness};
-pub use check::Miscompiled;
 pub use derivatives::{ByParameters, Derivatives, Differentiated, Equation};
 pub use lower::{Aim, Candidates, Kernel, Literals};
 pub use tangent::Direction;

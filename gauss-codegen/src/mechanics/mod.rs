@@ -1,90 +1,65 @@
-//! From a scene to its equations: frames and vectors, charts, moments, the Gauss condition. Reads like the paper;
-//! knows nothing of tokens.
+//! From a scene to its equations. Reads like the paper; knows nothing of tokens. One body in a chart is a system of one link.
 //!
-//! - `vector`, `rotation`: components in the body's and the observer's axes, rotation matrices.
-//! - `body`: the parameters as symbols, integrals over the body by moments.
-//! - `chart`: ψ of each chart (3.2).
-//! - `chart_scene`: the body of a chart as a link of a system.
-//! - `gauss`: the Gauss condition (3.4) from v_P, word for word; the reference for all that follows.
-//! - `check`: every scene against that condition, before code is written.
-//! - `momentum`: the same through (Q, Γ), solved in body axes.
-//! - `turn`, `link`: bodies, frames and particles, each relative to its parent.
-//! - `moments`, `regroup`: what their matter amounts to, and what of it moves with the parent as well.
-//! - `tree`, `articulated`: sums over links by recursion, and A ż = r solved link by link.
-//! - `forces`: what acts beside weight and buoyancy.
-//! - `fields`: what acts on all that a body is made of: central gravity, a medium that moves.
-//! - `wrench`: the same on one body in a chart.
-//! - `accounts`: power and generalised force of each element.
-//! - `constraint`: what coordinates and speeds do not solve by themselves.
-//! - `elimination`: constraints solved for the speeds that depend on others.
-//! - `system`, `system_check`, `system_equations`: the equations of bodies and particles in coordinates of their own.
-//! - `methods`: every method of a kernel as expressions.
-//! - `linearize`: what the equations are differentiated along.
-//! - `regressor`: forces of inertia as a linear function of inertial parameters.
-//! - `equations`: the equations for people.
+//! Folders, in the order of the work:
+//!
+//! - `kinematics`: frames and vectors, rotations, how one body moves, ψ of each chart (3.2).
+//! - `matter`: bodies as symbols, integrals over them by moments.
+//! - `links`: bodies, frames and particles, each relative to its parent; sums over them by recursion; what moves with the parent as well.
+//! - `loads`: forces and potentials, their wrenches on one link, central gravity, a medium that moves, accounts of power.
+//! - `constraints`: multipliers, and constraints solved for the speeds that depend on others.
+//! - `arrangements`: ways to write the same equations: a free link in its body axes, multiplied out, link by link.
+//! - `check`: the definition (3.1), and every scene against it before code is written.
+//! - `derivatives`: what the equations are differentiated along; the regressor; rates of all numbers of a state.
+//! - `print`: the equations for people.
+//!
+//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several arrangements. `tidy` is what is multiplied out
+//! where that is short.
 
-mod accounts;
-mod articulated;
-mod body;
-mod chart;
-mod chart_scene;
+mod arrangements;
 mod check;
-mod component_rates;
-mod constraint;
-mod elimination;
-mod equations;
-mod fields;
-mod forces;
+mod constraints;
+mod derivatives;
 mod formula;
-mod gauss;
-mod linearize;
-mod link;
-mod methods;
-mod moments;
-mod momentum;
-mod names;
+mod kinematics;
+mod links;
+mod loads;
+mod matter;
+mod print;
 #[cfg(test)]
 mod proof;
 #[cfg(test)]
 mod random_systems;
-mod regressor;
-mod regroup;
-mod rotation;
-mod short;
+mod scene;
 #[cfg(test)]
 mod snapshots;
 #[cfg(test)]
 mod special_cases;
 mod system;
-mod system_check;
-mod system_equations;
 #[cfg(test)]
 pub mod tests;
-mod tree;
-mod turn;
-mod vector;
-mod wrench;
+mod tidy;
 
-pub use accounts::Account;
-pub use body::{AddedMassShape, Assigned, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
-pub use chart::{ConfigurationKind, Kinematics};
-pub use check::check_against_definition;
-pub use constraint::{Constraint, ConstraintKind, Constraints};
-pub use elimination::{Elimination, Obstacle};
-pub use equations::Section;
-pub use fields::{attraction, entrained};
-pub use forces::{Action, Element, Force};
+pub use arrangements::balance::KineticMatrix;
+pub use check::witness::{SystemFault, check_system_against_definition};
+pub use constraints::constraint::{Constraint, ConstraintKind, Constraints};
+pub use constraints::elimination::{Elimination, Obstacle};
+pub use derivatives::linearize::Linearization;
+pub use derivatives::regressor::{InertialParameters, Regressor};
 pub use formula::{Formula, Method};
-pub use linearize::Linearization;
-pub use link::{Matter, Placement, identity};
-pub use methods::Scene;
-pub use momentum::KineticMatrix;
-pub use names::Name;
-pub use regressor::{InertialParameters, Regressor};
-pub use rotation::{about_axis, poisson, rotation_of_quaternion};
-pub use system::{Coordinate, System, SystemScene};
-pub use system_check::{SystemFault, check_system_against_definition};
-pub use tree::Tree;
-pub use turn::Turn;
-pub use vector::{Axes, cross, subtract};
-pub use wrench::{Acting, Observed};
+pub use kinematics::chart::ChartedBody;
+pub use kinematics::rotation::{about_axis, poisson, rotation_of_quaternion};
+pub use kinematics::turn::Turn;
+pub use kinematics::vector::{Axes, Vector, cross, subtract};
+pub use links::link::{Matter, Placement, identity};
+pub use links::tree::Tree;
+pub use loads::accounts::Account;
+pub use loads::fields::{attraction, entrained};
+pub use loads::forces::{Action, Element, Force};
+pub use loads::wrench::Observed;
+pub use matter::body::{
+    AddedMassShape, Assigned, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity,
+};
+pub use print::equations::Section;
+pub use print::names::Name;
+pub use scene::{Coordinate, Lettering, SystemScene};
+pub use system::System;

@@ -5,12 +5,12 @@ use crate::algebra::ideal::Ideal;
 use crate::algebra::{Expr, Graph};
 use crate::model::{Chart, Motion};
 
-use super::body::{AffineField, Body, BodyShape, GravityShape, InertiaShape, integrate_product};
-use super::chart::{ConfigurationKind, Kinematics};
-use super::gauss::{gauss_condition, pairing, stationarity, velocity_field};
-use super::methods::Scene;
-use super::tests::scenes;
-use super::vector::{Axes, Triple, add, cross, scale};
+use crate::mechanics::check::definition::{gauss_condition, pairing, stationarity, velocity_field};
+use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, scale};
+use crate::mechanics::matter::body::{AffineField, Body, BodyShape, GravityShape, InertiaShape, integrate_product};
+use crate::mechanics::scene::Coordinate;
+use crate::mechanics::system::System;
+use crate::mechanics::tests::{Charted, scenes};
 
 /// Full inertia, O ≠ G, weight in any direction, buoyancy. The fluid's impulse enters both derivations alike.
 pub const GENERAL: BodyShape = BodyShape {
@@ -23,15 +23,14 @@ pub const GENERAL: BodyShape = BodyShape {
 };
 
 /// What the symbols of the configuration satisfy.
-pub fn relations<'g>(graph: &'g Graph, kinematics: &Kinematics<'g>) -> Ideal<'g> {
-    match kinematics.kind {
-        ConfigurationKind::Pose | ConfigurationKind::Rotation => Ideal::of_rotation(graph, &kinematics.frame.rotation),
-        ConfigurationKind::PlanePose => {
-            let [cos, sin] = [kinematics.configuration[0], kinematics.configuration[1]];
-            Ideal::generated_by(vec![cos * cos + sin * sin - graph.one()])
+pub fn relations<'g>(graph: &'g Graph, system: &System<'g>) -> Ideal<'g> {
+    match &system.scene.coordinates[0] {
+        Coordinate::Pose(rotation, _) | Coordinate::Rotation(rotation) => Ideal::of_rotation(graph, rotation),
+        Coordinate::Plane { turn: [cos, sin], .. } => {
+            Ideal::generated_by(vec![*cos * *cos + *sin * *sin - graph.one()])
         }
         // Sines, cosines and denominators are reduced by the normal form itself.
-        ConfigurationKind::Coordinates => Ideal::generated_by(Vec::new()),
+        Coordinate::Scalar(_) => Ideal::generated_by(Vec::new()),
     }
 }
 
@@ -46,15 +45,15 @@ fn rigid_momentum<'g>(body: &Body<'g>, u: &Triple<'g>, omega: &Triple<'g>) -> (T
 fn moments_and_momenta_give_the_same_condition_identically() {
     for (motion, chart) in scenes() {
         let graph = Graph::new();
-        let scene = Scene::new(&graph, motion, chart, GENERAL, &[]);
-        let (kinematics, body) = (&scene.kinematics, &scene.body);
-        let relations = relations(&graph, kinematics);
+        let scene = Charted::new(&graph, motion, chart, GENERAL);
+        let (kinematics, body) = (&scene.chart.kinematics, &scene.body);
+        let relations = relations(&graph, &scene.system);
         let along = kinematics.rates_with_accelerations();
         let u = kinematics.frame.resolve(&kinematics.velocity, Axes::Body);
         let omega = kinematics.frame.resolve(&kinematics.angular_velocity, Axes::Body);
         let (q, gamma) = rigid_momentum(body, &u, &omega);
         let (q, gamma) = (kinematics.frame.body_vector(q), kinematics.frame.body_vector(gamma));
-        let forces = scene.generalised_forces();
+        let forces = scene.free().generalised_forces();
         let conditions = gauss_condition(kinematics, body).into_iter().zip(stationarity(kinematics, body));
         for ((&z, (by_moments, by_principle)), force) in kinematics.speeds.iter().zip(conditions).zip(forces) {
             assert!(
@@ -75,14 +74,14 @@ fn moments_and_momenta_give_the_same_condition_identically() {
 fn a_wrong_term_would_be_seen() {
     // Rates of the components of Q alone, with ω × Q left out, are not what the condition says.
     let graph = Graph::new();
-    let scene = Scene::new(&graph, Motion::Free, Chart::LeftInvariant, GENERAL, &[]);
-    let kinematics = &scene.kinematics;
+    let scene = Charted::new(&graph, Motion::Free, Chart::LeftInvariant, GENERAL);
+    let kinematics = &scene.chart.kinematics;
     let u = kinematics.frame.resolve(&kinematics.velocity, Axes::Body);
     let omega = kinematics.frame.resolve(&kinematics.angular_velocity, Axes::Body);
     let (q, _) = rigid_momentum(&scene.body, &u, &omega);
-    let wrong = q[0].derivative(&kinematics.rates_with_accelerations()) - scene.generalised_forces()[0];
+    let wrong = q[0].derivative(&kinematics.rates_with_accelerations()) - scene.free().generalised_forces()[0];
     let condition = gauss_condition(kinematics, &scene.body);
-    assert!(!relations(&graph, kinematics).annihilates(condition[0] - wrong));
+    assert!(!relations(&graph, &scene.system).annihilates(condition[0] - wrong));
 }
 
 #[test]
@@ -90,13 +89,13 @@ fn the_moments_of_the_velocity_field_are_the_momenta() {
     // ∂T/∂z of T = ½∫v_P² dm against Q·a_α + Γ_O·o_α, in every chart and motion.
     for (motion, chart) in scenes() {
         let graph = Graph::new();
-        let scene = Scene::new(&graph, motion, chart, GENERAL, &[]);
-        let kinematics = &scene.kinematics;
-        let relations = relations(&graph, kinematics);
+        let scene = Charted::new(&graph, motion, chart, GENERAL);
+        let kinematics = &scene.chart.kinematics;
+        let relations = relations(&graph, &scene.system);
         let x: Triple<'_> = std::array::from_fn(|_| graph.symbol("x", "x", false));
         let field = AffineField::of(&velocity_field(kinematics, &x), &x);
         let energy = integrate_product(&scene.body, &field, &field).half();
-        for (&z, p) in kinematics.speeds.iter().zip(scene.momentum()) {
+        for (&z, p) in kinematics.speeds.iter().zip(scene.free().momentum()) {
             let difference: Expr<'_> = energy.partial(z) - p;
             assert!(relations.annihilates(difference), "momentum of {z:?} in {motion:?} {chart:?}");
         }

@@ -19,11 +19,11 @@ mod witness;
 use crate::algebra::{Graph, Map};
 use crate::kernel::{Candidates, Derivatives, Kernel, Program};
 
-use super::elimination::Elimination;
-use super::formula::{Formula, Method};
-use super::system::System;
-use super::system_check::check_system_against_definition;
-use super::tests::Random;
+use crate::mechanics::check::witness::check_system_against_definition;
+use crate::mechanics::constraints::elimination::Elimination;
+use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::system::System;
+use crate::mechanics::tests::Random;
 
 use dense::largest;
 use expectation::{Expectation, Reduction, of_reduced, of_whole};

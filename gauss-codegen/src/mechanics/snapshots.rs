@@ -4,8 +4,8 @@
 use crate::algebra::{Graph, Notation};
 use crate::model::{Chart, Motion, RotationChart};
 
-use super::body::{AddedMassShape, BodyShape, GravityShape, InertiaShape};
-use super::methods::Scene;
+use crate::mechanics::matter::body::{AddedMassShape, BodyShape, GravityShape, InertiaShape};
+use crate::mechanics::tests::Charted;
 
 const PRINCIPAL: BodyShape = BodyShape {
     inertia: InertiaShape::Principal,
@@ -33,7 +33,7 @@ fn equations(motion: Motion, chart: Chart, notation: Notation) -> String {
     for (title, shape) in bodies() {
         let graph = Graph::new();
         out.push_str(&format!("=== {title}\n"));
-        for section in Scene::new(&graph, motion, chart, shape, &[]).equations() {
+        for section in Charted::new(&graph, motion, chart, shape).system.equations() {
             let title = if notation == Notation::Latex { section.title.latex } else { section.title.text };
             out.push_str(&format!("\n{title}\n"));
             for row in section.rows {

@@ -1,90 +1,23 @@
-//! Systems of bodies and particles in coordinates of their own: the Gauss condition (3.3), (3.4) summed over all of them,
+//! Systems of bodies and particles: the Gauss condition (3.3), (3.4) summed over all of them,
 //! and every method of their kernels.
 
-use crate::algebra::{Expr, Graph, Map, solve_pairs, solve_symmetric};
+use crate::algebra::{Expr, Map, solve_pairs, solve_symmetric};
 
-use super::accounts::account_formulas;
-use super::articulated::Articulated;
-use super::constraint::{Constraint, Constraints};
-use super::equations::tidy;
-use super::forces::{Element, Force, forces_of, potential_of};
-use super::formula::{Formula, Method};
-use super::names::Name;
-use super::tree::{Inertia, Tree};
-use super::vector::Triple;
+use crate::mechanics::arrangements::articulated::Articulated;
+use crate::mechanics::arrangements::free_link::FreeLink;
+use crate::mechanics::constraints::constraint::Constraints;
+use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::links::tree::Inertia;
+use crate::mechanics::loads::accounts::account_formulas;
+use crate::mechanics::loads::forces::{Force, forces_of, potential_of};
+use crate::mechanics::scene::{Lettering, SystemScene};
+use crate::mechanics::tidy::tidy;
 
 /// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of links
 /// that do not, where a free body must be among them.
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 const DENSE: usize = 10;
-
-/// One coordinate of the configuration.
-#[derive(Clone)]
-pub enum Coordinate<'g> {
-    Scalar(Expr<'g>),
-    /// R, by its entries.
-    Rotation([Triple<'g>; 3]),
-    /// (R, b).
-    Pose([Triple<'g>; 3], Triple<'g>),
-    /// SE(2), in the plane k₁k₂: cos θ and sin θ, b₁ and b₂. Its rate is (u₁, u₂, ω).
-    Plane {
-        turn: [Expr<'g>; 2],
-        position: [Expr<'g>; 2],
-    },
-}
-
-impl<'g> Coordinate<'g> {
-    /// How many components its rate has.
-    pub fn size(&self) -> usize {
-        match self {
-            Coordinate::Scalar(_) => 1,
-            Coordinate::Rotation(_) | Coordinate::Plane { .. } => 3,
-            Coordinate::Pose(..) => 6,
-        }
-    }
-
-    /// Of several coordinates the one that a component of their rates belongs to.
-    pub fn of_component(all: &[Self], component: usize) -> usize {
-        let mut end = 0;
-        let ends = all.iter().map(|coordinate| {
-            end += coordinate.size();
-            end
-        });
-        ends.take_while(|end| *end <= component).count()
-    }
-
-    /// R, where it is stored as a quaternion.
-    pub fn rotation(&self) -> Option<&[Triple<'g>; 3]> {
-        match self {
-            Coordinate::Scalar(_) | Coordinate::Plane { .. } => None,
-            Coordinate::Rotation(rotation) | Coordinate::Pose(rotation, _) => Some(rotation),
-        }
-    }
-}
-
-/// A system as it is given: every expression in terms of t, q, z and parameters.
-pub struct SystemScene<'g> {
-    pub graph: &'g Graph,
-    pub time: Expr<'g>,
-    pub coordinates: Vec<Coordinate<'g>>,
-    pub coordinate_names: Vec<Name>,
-    pub speeds: Vec<Expr<'g>>,
-    /// What the momenta are momenta of.
-    pub momentum_names: Vec<Name>,
-    pub speed_rates: Vec<Expr<'g>>,
-    pub momenta: Vec<Expr<'g>>,
-    /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z.
-    pub kinematics: Vec<Expr<'g>>,
-    /// Rates of t and of the symbols of q.
-    pub rates: Map<u32, Expr<'g>>,
-    pub tree: Tree<'g>,
-    pub constraints: Vec<Constraint<'g>>,
-    /// Values that arrive at run time.
-    pub inputs: Vec<Expr<'g>>,
-    /// What acts beside weight and buoyancy.
-    pub elements: Vec<Element<'g>>,
-}
 
 /// A system with what its equations are made of.
 pub struct System<'g> {
@@ -93,6 +26,8 @@ pub struct System<'g> {
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
     pub constraints: Constraints<'g>,
+    /// Links that nothing else moves with.
+    pub free: Vec<FreeLink<'g>>,
     /// Something is moved as a function of time: velocities, or what constraints say of them, do not vanish with z.
     pub driven: bool,
     /// Rates of t and q, and those with ż.
@@ -109,51 +44,201 @@ struct Arrangement<'g> {
     residual: Vec<Expr<'g>>,
 }
 
+/// The methods in equivalent arrangements.
+struct Arranged<'g> {
+    acceleration: Vec<Vec<Expr<'g>>>,
+    momentum: Vec<Vec<Expr<'g>>>,
+    velocity: Vec<Vec<Expr<'g>>>,
+    momentum_rate: Vec<Vec<Expr<'g>>>,
+    mass_matrix: Vec<Vec<Expr<'g>>>,
+    kinetic_energy: Vec<Vec<Expr<'g>>>,
+    potential_energy: Vec<Vec<Expr<'g>>>,
+    residual: Vec<Vec<Expr<'g>>>,
+    constraint: Vec<Vec<Expr<'g>>>,
+}
+
+impl<'g> Arranged<'g> {
+    /// Of the only body, which is free.
+    fn of_body(system: &System<'g>, body: &FreeLink<'g>) -> Self {
+        let balances = body.balances();
+        let short = body.short();
+        let and = |mut ways: Vec<Vec<Expr<'g>>>, short: Option<Vec<Expr<'g>>>| -> Vec<Vec<Expr<'g>>> {
+            ways.extend(short);
+            ways
+        };
+        let residual = and(balances[..2].iter().map(|b| body.residual(b)).collect(), short.residual);
+        let for_constraint = residual.iter().chain(&short.collected);
+        let momentum = body.momentum();
+        let potential = body.potential_energy();
+        let potential = system.potential.map_or(potential, |other| potential + other);
+        Self {
+            acceleration: and(balances.iter().map(|b| body.acceleration(b)).collect(), short.acceleration),
+            momentum_rate: and(body.momentum_rates(&Map::default()), short.momentum_rate),
+            velocity: and(body.velocities_of_momentum(), short.velocity),
+            mass_matrix: and(vec![body.mass_matrix(&momentum)], short.matrix),
+            momentum: and(vec![momentum], short.momentum),
+            kinetic_energy: and(body.kinetic_energies().map(|e| vec![e]).into(), short.kinetic_energy),
+            potential_energy: and(vec![vec![potential]], system.tidied_too(&[potential])),
+            constraint: for_constraint.flat_map(|r| system.constraints_of(r)).map(|c| vec![c]).collect(),
+            residual,
+        }
+    }
+
+    fn into_formulas(self) -> [Formula<'g>; 9] {
+        [
+            (Method::Acceleration, self.acceleration),
+            (Method::Momentum, self.momentum),
+            (Method::Velocity, self.velocity),
+            (Method::MomentumRate, self.momentum_rate),
+            (Method::MassMatrix, self.mass_matrix),
+            (Method::KineticEnergy, self.kinetic_energy),
+            (Method::PotentialEnergy, self.potential_energy),
+            (Method::GaussResidual, self.residual),
+            (Method::ConstraintFunction, self.constraint),
+        ]
+        .map(|(method, arrangements)| Formula { method, arrangements })
+    }
+}
+
 impl<'g> System<'g> {
     pub fn new(scene: SystemScene<'g>) -> Self {
         let mut along = scene.rates.clone();
         along.extend(scene.speeds.iter().zip(&scene.speed_rates).map(|(z, rate)| (z.key(), *rate)));
         let constraints = Constraints::new(&scene, &scene.rates);
-        let matrix = scene.tree.mass_matrix();
-        // Where links hang on one another entries are short as they are, and long multiplied out.
-        let matrix = if scene.tree.is_chained() { grouped(&matrix) } else { tidied(&matrix) };
+        let free = FreeLink::all(&scene);
         let (potential, forces) = (potential_of(&scene.elements), forces_of(&scene.elements));
-        let mut system = Self { scene, potential, forces, constraints, driven: false, along, matrix };
+        let mut system = Self { scene, potential, forces, constraints, free, driven: false, along, matrix: Vec::new() };
+        system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();
-        let mut velocities = system.momentum();
-        velocities.push(system.scene.tree.twice_kinetic_energy());
-        velocities.extend(&system.constraints.on_velocities);
+        let mut velocities = system.constraints.on_velocities.clone();
+        // The velocities of a free link are homogeneous in its speeds.
+        if system.only_body().is_none() {
+            velocities.extend(system.momentum());
+            velocities.push(system.scene.tree.twice_kinetic_energy());
+        }
         system.driven = velocities.iter().any(|e| !tidy(e.substitute(&at_rest)).is_zero());
         system
     }
 
+    fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
+        if let Some(body) = self.only_body().filter(|_| self.constraints.is_empty()) {
+            let entries = body.mass_matrix(&body.momentum());
+            return entries.chunks(self.scene.speeds.len()).map(<[Expr<'g>]>::to_vec).collect();
+        }
+        let matrix = self.scene.tree.mass_matrix();
+        // Where links hang on one another entries are short as they are, and long multiplied out.
+        if self.scene.tree.is_chained() { grouped(&matrix) } else { tidied(&matrix) }
+    }
+
+    /// The free link that is all of the system.
+    pub fn only_body(&self) -> Option<&FreeLink<'g>> {
+        match self.free.as_slice() {
+            [body] if body.block.len() == self.scene.speeds.len() && self.scene.tree.links.len() == 1 => Some(body),
+            _ => None,
+        }
+    }
+
+    /// The body that is all of the system, where the configuration is known to be its pose: in a chart, or with the pose or the rotation for
+    /// its only coordinate.
+    pub fn rigid_body(&self) -> Option<&FreeLink<'g>> {
+        let body = self.only_body().filter(|_| self.constraints.is_empty())?;
+        let placed = match self.scene.coordinates.as_slice() {
+            [coordinate] => body.is_placed_by(coordinate),
+            _ => false,
+        };
+        (placed || self.scene.lettering == Lettering::Textbook).then_some(body)
+    }
+
     pub fn formulas(&self) -> Vec<Formula<'g>> {
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
-        let arrangements = self.arrangements();
-        let each = |method, f: &dyn Fn(&Arrangement<'g>) -> Vec<Expr<'g>>| Formula {
-            method,
-            arrangements: arrangements.iter().map(f).collect(),
-        };
-        let momentum = self.momentum();
-        let velocities = self.velocities(&momentum);
-        let rates = velocities.iter().map(|z| self.momentum_rate(z, &arrangements[0])).collect();
-        let mut formulas = vec![
-            single(Method::Kinematics, self.scene.kinematics.clone()),
-            Formula { method: Method::Acceleration, arrangements: self.accelerations(&arrangements) },
-            Formula { method: Method::Momentum, arrangements: self.with_tidied(momentum) },
-            Formula { method: Method::Velocity, arrangements: velocities },
-            Formula { method: Method::MomentumRate, arrangements: rates },
-            single(Method::MassMatrix, self.matrix.iter().flatten().copied().collect()),
-            Formula { method: Method::KineticEnergy, arrangements: self.kinetic_energies() },
-            Formula { method: Method::PotentialEnergy, arrangements: self.with_tidied(vec![self.potential_energy()]) },
-            each(Method::ConstraintFunction, &|a| vec![self.constraint_function(a)]),
-            each(Method::GaussResidual, &|a| self.gauss_residual(a)),
-        ];
+        let mut formulas = vec![single(Method::Kinematics, self.scene.kinematics.clone())];
+        formulas.extend(self.arranged().into_formulas());
+        formulas.extend(self.rigid_body().into_iter().flat_map(|body| {
+            let mut formulas = vec![
+                single(Method::BodyTwist, body.kinematics.body_twist().to_vec()),
+                single(Method::Speeds, body.speeds_of_twist()),
+                single(Method::BodyMomentum, body.body_momentum()),
+            ];
+            formulas.extend(body.regularity().map(|outputs| single(Method::Regularity, outputs)));
+            formulas
+        }));
         if !self.constraints.is_empty() {
             formulas.extend(self.constraint_formulas());
         }
         formulas.extend(account_formulas(&self.accounts(), self.explicit_power()));
+        formulas.sort_by_key(|formula| formula.method);
         formulas
+    }
+
+    /// Everything in the arrangements that are worth trying.
+    fn arranged(&self) -> Arranged<'g> {
+        let Some(body) = self.only_body() else {
+            let mut general = self.arranged_in_general();
+            if self.constraints.is_empty() && !self.free.is_empty() {
+                self.put_free_links(&mut general);
+            }
+            return general;
+        };
+        let of_body = Arranged::of_body(self, body);
+        if self.constraints.is_empty() {
+            return of_body;
+        }
+        // Multipliers are found together with the accelerations.
+        let mut arranged = self.arranged_in_general();
+        arranged.momentum.extend(of_body.momentum);
+        arranged.velocity.extend(of_body.velocity);
+        arranged.mass_matrix.extend(of_body.mass_matrix);
+        arranged.kinetic_energy.extend(of_body.kinetic_energy);
+        arranged.potential_energy.extend(of_body.potential_energy);
+        arranged
+    }
+
+    fn arranged_in_general(&self) -> Arranged<'g> {
+        let arrangements = self.arrangements();
+        let momentum = self.momentum();
+        let velocity = self.velocities(&momentum);
+        Arranged {
+            acceleration: self.accelerations(&arrangements),
+            momentum: self.with_tidied(momentum),
+            momentum_rate: velocity.iter().map(|z| self.momentum_rate(z, &arrangements[0])).collect(),
+            velocity,
+            mass_matrix: vec![self.matrix.concat()],
+            kinetic_energy: self.kinetic_energies(),
+            potential_energy: self.with_tidied(vec![self.potential_energy()]),
+            constraint: arrangements.iter().map(|a| vec![self.constraint_function(a)]).collect(),
+            residual: arrangements.iter().map(|a| self.gauss_residual(a)).collect(),
+        }
+    }
+
+    /// In the place of the rows of free links what they are in their arrangements.
+    fn put_free_links(&self, arranged: &mut Arranged<'g>) {
+        let balances: Vec<_> = self.free.iter().map(|free| (free, free.balances())).collect();
+        let of_all = |f: &dyn Fn(&FreeLink<'g>) -> Vec<Vec<Expr<'g>>>| -> Vec<Vec<Vec<Expr<'g>>>> {
+            self.free.iter().map(f).collect()
+        };
+        let accelerations = balances.iter().map(|(free, b)| b.iter().map(|b| free.acceleration(b)).collect()).collect();
+        let residuals = balances.iter().map(|(free, b)| b[..2].iter().map(|b| free.residual(b)).collect()).collect();
+        self.put(&mut arranged.acceleration, accelerations);
+        self.put(&mut arranged.residual, residuals);
+        self.put(&mut arranged.momentum, of_all(&|free| vec![free.momentum()]));
+        self.put(&mut arranged.velocity, of_all(&|free| free.velocities_of_momentum()));
+        let velocity = arranged.velocity.last().expect("a way at least");
+        let speeds = self.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
+        self.put(&mut arranged.momentum_rate, of_all(&|free| free.momentum_rates(&speeds)));
+    }
+
+    /// Adds arrangements of the first one with rows of free links replaced.
+    fn put(&self, arrangements: &mut Vec<Vec<Expr<'g>>>, of_free: Vec<Vec<Vec<Expr<'g>>>>) {
+        let base = arrangements[0].clone();
+        let most = of_free.iter().map(Vec::len).max().unwrap_or(0);
+        for k in 0..most {
+            let mut rows = base.clone();
+            for (free, ways) in self.free.iter().zip(&of_free) {
+                let way = &ways[k.min(ways.len() - 1)];
+                free.block.iter().zip(way).for_each(|(&z, e)| rows[z] = *e);
+            }
+            arrangements.push(rows);
+        }
     }
 
     /// What the kernel says of its constraints.
@@ -168,6 +253,11 @@ impl<'g> System<'g> {
             single(Method::PositionCorrection, self.moved_by(&correction)),
             single(Method::VelocityCorrection, self.constraints.velocity_correction(&self.matrix)),
         ]
+    }
+
+    /// Multiplied out, where that is not long.
+    fn tidied_too(&self, outputs: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
+        (!self.is_long()).then(|| outputs.iter().map(|e| tidy(*e)).collect())
     }
 
     /// Multiplied out as well, where that is not long.
@@ -223,11 +313,17 @@ impl<'g> System<'g> {
 
     /// `∫∂v_P/∂z·dF` of the elements alone.
     pub fn element_forces(&self) -> Vec<Expr<'g>> {
+        if let Some(body) = self.only_body() {
+            return body.load_forces();
+        }
         sums(&self.scene.tree.loads(&self.forces), &self.other_forces())
     }
 
     /// ∂C/∂ż of the unconstrained C without the elements of what acts: inertia, weight and buoyancy.
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
+        if let Some(body) = self.only_body() {
+            return body.inertial_residuals();
+        }
         let tree = &self.scene.tree;
         let residuals = tree.inertias(self.is_long()).iter().map(|&inertia| tree.residual(&self.along, inertia, &[]));
         residuals.flat_map(|residual| self.with_tidied(residual)).collect()
@@ -263,7 +359,7 @@ impl<'g> System<'g> {
     }
 
     /// ż in one of the ways in which it is formed.
-    pub(super) fn any_acceleration(&self) -> Vec<Expr<'g>> {
+    pub(in crate::mechanics) fn any_acceleration(&self) -> Vec<Expr<'g>> {
         let arrangements = self.arrangements();
         self.accelerations(&arrangements[..1]).swap_remove(0)
     }
@@ -302,7 +398,7 @@ impl<'g> System<'g> {
     }
 
     /// z = 0.
-    pub(super) fn at_rest(&self) -> Map<u32, Expr<'g>> {
+    pub(in crate::mechanics) fn at_rest(&self) -> Map<u32, Expr<'g>> {
         self.scene.speeds.iter().map(|z| (z.key(), self.scene.graph.zero())).collect()
     }
 
@@ -352,6 +448,17 @@ impl<'g> System<'g> {
         terms.sum::<Expr<'g>>().half()
     }
 
+    /// The same from the gradient alone, its two values added as they are and as quantities of their own.
+    fn constraints_of(&self, residual: &[Expr<'g>]) -> [Expr<'g>; 2] {
+        let zero = self.scene.graph.zero();
+        let still: Map<u32, Expr<'g>> = self.scene.speed_rates.iter().map(|dz| (dz.key(), zero)).collect();
+        let sums = residual.iter().map(|r| *r + r.substitute(&still));
+        let rows = || sums.clone().zip(&self.scene.speed_rates);
+        let plain = rows().map(|(sum, &dz)| dz * sum).sum::<Expr<'g>>();
+        let grouped = rows().map(|(sum, &dz)| dz * sum.group()).sum::<Expr<'g>>();
+        [plain.half(), grouped.half()]
+    }
+
     /// The increment of the configuration that an increment of z makes: ψ is affine in z.
     fn moved_by(&self, increment: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let named: Vec<Expr<'g>> = increment.iter().map(|e| e.group()).collect();
@@ -364,21 +471,7 @@ impl<'g> System<'g> {
     }
 }
 
-impl<'g> SystemScene<'g> {
-    /// Rates whose ψ is not affine in z: velocities would then not be linear in z, and (3.4) not this one. Indices into the
-    /// kinematics.
-    pub fn rates_not_affine(&self) -> Vec<usize> {
-        let affine = |rate: &Expr<'g>| {
-            self.speeds.iter().all(|&z| {
-                let partial = rate.partial(z);
-                self.speeds.iter().all(|&w| tidy(partial.partial(w)).is_zero())
-            })
-        };
-        (0..self.kinematics.len()).filter(|&k| !affine(&self.kinematics[k])).collect()
-    }
-}
-
-pub(super) fn sums<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Vec<Expr<'g>> {
+pub(in crate::mechanics) fn sums<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Vec<Expr<'g>> {
     a.iter().zip(b).map(|(a, b)| *a + *b).collect()
 }
 

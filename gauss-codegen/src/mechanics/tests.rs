@@ -3,12 +3,18 @@
 use crate::algebra::{Evaluation, Expr, Graph, Map};
 use crate::model::{Chart, Motion, RotationChart};
 
-use super::body::{AddedMassShape, BodyShape, GravityShape, InertiaShape, Quantity};
-use super::chart::ConfigurationKind;
-use super::formula::Method;
-use super::gauss::gauss_condition;
-use super::methods::Scene;
-use super::rotation::rotation_of_quaternion;
+use crate::mechanics::arrangements::free_link::FreeLink;
+use crate::mechanics::check::definition::gauss_condition;
+use crate::mechanics::formula::Method;
+use crate::mechanics::kinematics::chart::ChartedBody;
+use crate::mechanics::kinematics::motion::Kinematics;
+use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
+use crate::mechanics::links::link::Matter;
+use crate::mechanics::links::tree::Tree;
+use crate::mechanics::loads::forces::Element;
+use crate::mechanics::matter::body::{AddedMassShape, Body, BodyShape, GravityShape, InertiaShape, Quantity};
+use crate::mechanics::scene::{Coordinate, Lettering, SystemScene};
+use crate::mechanics::system::System;
 
 pub fn rotation_charts() -> Vec<RotationChart> {
     let mut charts = Vec::new();
@@ -69,6 +75,65 @@ pub fn shapes() -> Vec<BodyShape> {
     ]
 }
 
+/// One body in a chart, as the system that it is.
+pub struct Charted<'g> {
+    pub chart: ChartedBody<'g>,
+    pub body: Body<'g>,
+    pub system: System<'g>,
+}
+
+impl<'g> Charted<'g> {
+    pub fn new(graph: &'g Graph, motion: Motion, chart: Chart, shape: BodyShape) -> Self {
+        Self::acted_upon(graph, motion, chart, shape, |_| Vec::new())
+    }
+
+    /// With elements, in terms of the kinematics.
+    pub fn acted_upon(
+        graph: &'g Graph,
+        motion: Motion,
+        chart: Chart,
+        shape: BodyShape,
+        elements: impl Fn(&Kinematics<'g>) -> Vec<Element<'g>>,
+    ) -> Self {
+        let body = Body::new(graph, shape, if motion == Motion::Planar { 1 } else { 2 });
+        let time = graph.symbol("t", "t", false);
+        let chart = ChartedBody::new(graph, motion, chart);
+        let kinematics = &chart.kinematics;
+        let placement = chart.placement(Matter::Body(Box::new(body.clone())), true);
+        let mut rates = kinematics.rates.clone();
+        rates.insert(time.key(), graph.one());
+        let speeds = kinematics.speeds.clone();
+        let mut tree = Tree::new(graph, vec![placement], speeds.clone(), rates.clone(), body.gravity);
+        tree.settle();
+        let momenta = chart.momentum_names.iter();
+        let scene = SystemScene {
+            graph,
+            time,
+            coordinates: chart.coordinates.clone(),
+            coordinate_names: chart.coordinate_names.clone(),
+            speeds,
+            lettering: Lettering::Textbook,
+            momentum_names: chart.momentum_names.clone(),
+            force_names: chart.force_names.clone(),
+            speed_rates: kinematics.speed_rates.clone(),
+            momenta: momenta.map(|name| graph.symbol(name.text.clone(), name.latex.clone(), false)).collect(),
+            kinematics: chart.coordinate_rates(),
+            rates,
+            tree,
+            constraints: Vec::new(),
+            inputs: Vec::new(),
+            elements: elements(kinematics),
+        };
+        let system = System::new(scene);
+        Self { chart, body, system }
+    }
+
+    /// The body as a free link.
+    pub fn free(&self) -> &FreeLink<'g> {
+        self.system.only_body().expect("a body in a chart is free")
+    }
+}
+
 /// A reproducible sequence of numbers in (−1, 1).
 pub struct Random(pub u64);
 
@@ -80,8 +145,8 @@ impl Random {
 }
 
 /// Random values for every symbol of a scene; rotations are rotations and inertias positive definite.
-pub fn random_point(scene: &Scene<'_>, random: &mut Random) -> Map<u32, f64> {
-    let kinematics = &scene.kinematics;
+pub fn random_point(scene: &Charted<'_>, random: &mut Random) -> Map<u32, f64> {
+    let kinematics = &scene.chart.kinematics;
     let mut values = Map::default();
     for p in &scene.body.parameters {
         // Diagonals dominate, so every kinetic matrix is positive definite.
@@ -92,33 +157,42 @@ pub fn random_point(scene: &Scene<'_>, random: &mut Random) -> Map<u32, f64> {
         };
         values.insert(p.symbol.key(), value);
     }
-    let mut q = kinematics.configuration.iter();
-    match kinematics.kind {
-        ConfigurationKind::Pose | ConfigurationKind::Rotation => {
+    let mut others: Vec<Expr<'_>> = Vec::new();
+    for coordinate in &scene.system.scene.coordinates {
+        if let Some(rotation) = coordinate.rotation() {
             let graph = Graph::new();
             let axis = [random.next(), random.next(), random.next(), random.next()];
             let norm = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
             let quaternion = axis.map(|_| graph.symbol("q", "q", false));
             let at: Map<u32, f64> = quaternion.iter().zip(axis).map(|(s, a)| (s.key(), a / norm)).collect();
             let mut evaluation = Evaluation::new(&at);
-            for e in rotation_of_quaternion(&graph, quaternion).iter().flatten() {
-                values.insert(q.next().unwrap().key(), evaluation.value(*e));
+            for (symbol, e) in
+                rotation.iter().flatten().zip(rotation_of_quaternion(&graph, quaternion).iter().flatten())
+            {
+                values.insert(symbol.key(), evaluation.value(*e));
             }
         }
-        ConfigurationKind::PlanePose => {
-            let angle = 3.0 * random.next();
-            values.insert(q.next().unwrap().key(), angle.cos());
-            values.insert(q.next().unwrap().key(), angle.sin());
+        match coordinate {
+            Coordinate::Pose(_, position) => others.extend(position),
+            Coordinate::Plane { turn: [cosine, sine], position } => {
+                let angle = 3.0 * random.next();
+                values.insert(cosine.key(), angle.cos());
+                values.insert(sine.key(), angle.sin());
+                others.extend(position);
+            }
+            Coordinate::Scalar(q) => others.push(*q),
+            Coordinate::Rotation(_) => {}
         }
-        ConfigurationKind::Coordinates => {}
     }
-    for symbol in q.chain(&kinematics.speeds).chain(&kinematics.speed_rates).chain(&scene.momenta).chain(&scene.twist) {
+    let free = scene.free();
+    let formal = kinematics.speeds.iter().chain(&kinematics.speed_rates).chain(&free.momenta).chain(&free.twist);
+    for symbol in others.iter().chain(formal) {
         values.insert(symbol.key(), random.next());
     }
     values
 }
 
-fn is_diagonal(scene: &Scene<'_>, symbol: Expr<'_>) -> bool {
+fn is_diagonal(scene: &Charted<'_>, symbol: Expr<'_>) -> bool {
     let inertia = (0..3).any(|i| scene.body.inertia[i][i] == symbol);
     inertia || scene.body.added_mass.as_ref().is_some_and(|m| (0..6).any(|i| m[i][i] == symbol))
 }
@@ -143,9 +217,9 @@ fn every_formula_satisfies_the_gauss_condition() {
     for (motion, chart) in scenes() {
         for shape in shapes() {
             let graph = Graph::new();
-            let scene = Scene::new(&graph, motion, chart, shape, &[]);
-            let formulas = scene.formulas();
-            let kinematics = &scene.kinematics;
+            let scene = Charted::new(&graph, motion, chart, shape);
+            let formulas = scene.system.formulas();
+            let kinematics = &scene.chart.kinematics;
             let condition = gauss_condition(kinematics, &scene.body);
             let along = kinematics.rates_with_accelerations();
             let what = |m: &str| format!("{m} in {motion:?} {chart:?} {shape:?}");
@@ -172,11 +246,11 @@ fn every_formula_satisfies_the_gauss_condition() {
             assert_close(&what("mass matrix"), &values(&at, &outputs(Method::MassMatrix)[0]), &values(&at, &hessian));
             // Velocity inverts momentum; the twist and z are inverse to one another.
             let p = values(&at, momentum);
-            at.extend(scene.momenta.iter().zip(&p).map(|(s, p)| (s.key(), *p)));
+            at.extend(scene.free().momenta.iter().zip(&p).map(|(s, p)| (s.key(), *p)));
             let z: Vec<f64> = kinematics.speeds.iter().map(|s| at[&s.key()]).collect();
             assert_close(&what("velocity"), &values(&at, &outputs(Method::Velocity)[0]), &z);
             let twist = values(&at, &outputs(Method::BodyTwist)[0]);
-            at.extend(scene.twist.iter().zip(&twist).map(|(s, p)| (s.key(), *p)));
+            at.extend(scene.free().twist.iter().zip(&twist).map(|(s, p)| (s.key(), *p)));
             assert_close(&what("speeds"), &values(&at, &outputs(Method::Speeds)[0]), &z);
             // At the acceleration the condition vanishes, and dp/dt is the momentum rate.
             let momentum_rate: Vec<Expr<'_>> = momentum.iter().map(|p| p.derivative(&along)).collect();
@@ -189,7 +263,7 @@ fn every_formula_satisfies_the_gauss_condition() {
             }
             // The potential gives the forces: dU/dt = −Σ force·z.
             let potential = outputs(Method::PotentialEnergy)[0][0].derivative(&kinematics.rates);
-            let power: f64 = values(&at, &scene.generalised_forces()).iter().zip(&z).map(|(f, z)| f * z).sum();
+            let power: f64 = values(&at, &scene.free().generalised_forces()).iter().zip(&z).map(|(f, z)| f * z).sum();
             assert_close(&what("power"), &values(&at, &[potential]), &[-power]);
         }
     }

@@ -31,5 +31,5 @@ pub use scene::clauses::{
     Given, GivenValue, InputKind, InputName, SpeedKind,
 };
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
-pub use scene::model::{Field, Model, Scalar, Wanted};
+pub use scene::model::{Field, Model, Scalar};
 pub use scene::roles::{Role, Shape};

@@ -41,22 +41,22 @@ impl<'g> Translator<'_, 'g> {
         let mut elements = Vec::new();
         if let Some(potential) = &model.potential {
             let name = names.of(None, "potential");
-            elements.push(Element { name, action: Action::Potential(self.scalar(potential, tree)?) });
+            elements.push(Element::new(name, Action::Potential(self.scalar(potential, tree)?)));
         }
         for clause in &model.attractions {
             let mu = self.scalar(&clause.mu, tree)?;
             let center = clause.center.as_ref().map(|e| self.vector(e, tree)).transpose()?;
             let name = names.of(clause.name.as_ref(), "central gravity");
-            elements.push(Element { name, action: Action::Potential(self.attraction(mu, center, tree)) });
+            elements.push(Element::new(name, Action::Potential(self.attraction(mu, center, tree))));
         }
         let entrained = self.medium(tree)?;
         if !entrained.is_empty() {
-            elements.push(Element { name: names.of(None, "medium"), action: Action::Forces(entrained) });
+            elements.push(Element::new(names.of(None, "medium"), Action::Forces(entrained)));
         }
         for clause in &model.forces {
             let name = names.of(clause.name.as_ref(), noun(clause));
             for (suffix, action) in self.actions(clause, &name, tree)? {
-                elements.push(Element { name: format!("{name}{suffix}"), action });
+                elements.push(Element::new(format!("{name}{suffix}"), action));
             }
         }
         Ok(elements)

@@ -25,17 +25,17 @@ use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::mechanics::{
-    Assigned, Body, Constraint, ConstraintKind, Coordinate, Element, Kinematics, Matter, Observed, Placement, Quantity,
-    SystemScene, Tree, Turn, poisson,
+    Assigned, Body, ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Lettering, Matter, Observed,
+    Placement, Quantity, SystemScene, Tree, Turn, Vector, poisson,
 };
 use crate::model::{
     self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, GivenValue, InChart, Model, Property, Shape,
 };
 
 pub use drag::DragMatrix;
-pub use parameters::{Parameter, parameters_of_body, parameters_of_system};
+pub use parameters::{Parameter, parameters};
 use symbols::Declared;
-pub use symbols::{Part, Source, body_shape, role_of};
+pub use symbols::{Part, Source};
 use value::{Piece, Value};
 
 /// Translates a system; kept between two translations of one system with different speeds.
@@ -54,10 +54,10 @@ pub struct Translator<'a, 'g> {
     mistakes: RefCell<Vec<(Span, String)>>,
     /// Matrices of drag, for warnings.
     drags: RefCell<Vec<DragMatrix<'g>>>,
-    /// ḃ of each coordinate that is a pose, where the kinematics give it rather than u.
-    pose_rates: Vec<Option<[Expr<'g>; 3]>>,
+    /// ḃ and ω̂ of each coordinate that is a pose or a rotation, where the kinematics give them rather than u and ω.
+    observed_rates: Vec<[Option<[Expr<'g>; 3]>; 2]>,
     /// The chart's motion, with the speeds as they are now.
-    chart: Option<Kinematics<'g>>,
+    chart: Option<ChartedBody<'g>>,
     /// The motion of the only body, where it is known by symbols of its own.
     observed: Option<Observed<'g>>,
     /// ψ, and the rates of t and of the symbols of q.
@@ -66,12 +66,10 @@ pub struct Translator<'a, 'g> {
 }
 
 impl<'a, 'g> Translator<'a, 'g> {
-    /// `alone`: of one body in a chart only what acts is to be translated, in terms of its motion.
-    ///
     /// # Errors
     /// Only what the model should have refused: a bug of this crate.
-    pub fn new(graph: &'g Graph, model: &'a Model, alone: bool) -> syn::Result<Self> {
-        let declared = Declared::new(graph, model, alone);
+    pub fn new(graph: &'g Graph, model: &'a Model) -> syn::Result<Self> {
+        let declared = Declared::new(graph, model);
         let (names, links) = (HashMap::new(), HashMap::new());
         let mut translator = Self {
             graph,
@@ -83,7 +81,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             literals: RefCell::default(),
             mistakes: RefCell::default(),
             drags: RefCell::default(),
-            pose_rates: vec![None; model.coordinates.len()],
+            observed_rates: vec![[None; 2]; model.coordinates.len()],
             chart: None,
             observed: None,
             kinematics: Vec::new(),
@@ -198,7 +196,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         let (graph, model) = (self.graph, self.model);
         let time = self.declared.time;
         let of_chart = self.declared.chart.as_ref();
-        self.chart = of_chart.map(|chart| chart.with_speeds(&values[..chart.speeds.len()]));
+        self.chart = of_chart.map(|chart| chart.with_speeds(&values[..chart.kinematics.speeds.len()]));
         self.name_everything(values);
         self.kinematics = self.kinematics(values)?;
         self.rates = self.rates();
@@ -214,11 +212,15 @@ impl<'a, 'g> Translator<'a, 'g> {
                 matter: Matter::Particle(self.scalar(&clause.mass, &tree)?),
                 parent,
                 position: self.vector(&clause.position, &tree)?,
-                velocity_in_own_axes: None,
+                velocity: None,
+                angular_velocity: None,
                 turns: Vec::new(),
             });
         }
-        let elements = self.elements(&tree)?;
+        let elements = match (model.one_body(), self.chart.clone()) {
+            (Some(_), Some(chart)) => self.elements_on(&chart)?,
+            _ => self.elements(&tree)?,
+        };
         let constraints = self.constraints(&tree)?;
         tree.settle();
         Ok(SystemScene {
@@ -226,7 +228,9 @@ impl<'a, 'g> Translator<'a, 'g> {
             time,
             coordinates: self.declared.coordinates.clone(),
             coordinate_names: self.declared.coordinate_names.clone(),
+            lettering: if model.one_body().is_some() { Lettering::Textbook } else { Lettering::Declared },
             momentum_names: kept.iter().map(|&k| self.declared.momentum_names[k].clone()).collect(),
+            force_names: kept.iter().map(|&k| self.declared.force_names[k].clone()).collect(),
             speed_rates: pick(&self.declared.speed_rates),
             momenta: pick(&self.declared.momenta),
             speeds,
@@ -256,43 +260,29 @@ impl<'a, 'g> Translator<'a, 'g> {
         scene
     }
 
-    /// What acts on the body of a chart, the pose being the only coordinate: the symbols of its motion, and the elements in
-    /// terms of them.
-    ///
-    /// # Errors
-    /// Only what the model should have refused: a bug of this crate.
-    pub fn on_one_body(&mut self) -> syn::Result<(Observed<'g>, Vec<Element<'g>>)> {
-        let speeds = self.declared.speeds.clone();
-        let Some(&Coordinate::Pose(rotation, position)) = self.declared.coordinates.first() else {
-            return Err(bug(self.model.ident.span()));
-        };
-        let observed = Observed::new(self.graph, self.declared.time, rotation, position);
-        self.name_everything(&speeds);
-        self.rates = observed.rates.clone();
+    /// What acts on the only body, whose motion a chart describes: translated in terms of symbols for it, so that each part of a
+    /// wrench stays in the axes where it arises.
+    fn elements_on(&mut self, chart: &ChartedBody<'g>) -> syn::Result<Vec<Element<'g>>> {
+        if !self.model.is_acted_upon() {
+            return Ok(Vec::new());
+        }
+        let observed = Observed::new(self.graph, self.declared.time);
+        let rates = std::mem::replace(&mut self.rates, observed.rates.clone());
         let body = self.declared.bodies.first().cloned().flatten().ok_or_else(|| bug(self.model.ident.span()))?;
         let placement = Placement {
             matter: Matter::Body(Box::new(body)),
             parent: None,
-            position,
-            velocity_in_own_axes: None,
-            turns: vec![Turn::given(rotation, observed.body_angular_velocity)],
+            position: observed.position,
+            velocity: None,
+            angular_velocity: None,
+            turns: vec![Turn::given(observed.rotation, observed.body_angular_velocity)],
         };
-        self.links.insert("body".to_owned(), 0);
         let tree = Tree::new(self.graph, vec![placement], Vec::new(), self.rates.clone(), None);
         self.observed = Some(observed);
-        self.name_points(&tree)?;
-        let elements = self.elements(&tree)?;
-        self.observed.take().map(|observed| (observed, elements)).ok_or_else(|| bug(self.model.ident.span()))
-    }
-
-    /// Symbols of the only body's parameters here, with those that the same parameters have in another description of it.
-    pub fn parameters_of(&self, body: &Body<'g>) -> Map<u32, Expr<'g>> {
-        self.declared.parameters_of(self.model, body)
-    }
-
-    /// Values that arrive at run time.
-    pub fn inputs(&self) -> &[Expr<'g>] {
-        &self.declared.inputs
+        let elements = self.name_points(&tree).and_then(|()| self.elements(&tree));
+        self.rates = rates;
+        let observed = self.observed.take().ok_or_else(|| bug(self.model.ident.span()))?;
+        Ok(observed.in_motion(&chart.kinematics, &elements?))
     }
 
     fn name_everything(&mut self, values: &[Expr<'g>]) {
@@ -324,7 +314,7 @@ impl<'a, 'g> Translator<'a, 'g> {
 
     /// How many of the speeds are the chart's.
     fn speeds_of_chart(&self) -> usize {
-        self.declared.chart.as_ref().map_or(0, |chart| chart.speeds.len())
+        self.declared.chart.as_ref().map_or(0, |chart| chart.kinematics.speeds.len())
     }
 
     /// The value of one name, or of three under one.
@@ -365,14 +355,14 @@ impl<'a, 'g> Translator<'a, 'g> {
 
     /// ψ, in the order of the coordinates.
     fn kinematics(&mut self, values: &[Expr<'g>]) -> syn::Result<Vec<Expr<'g>>> {
-        let mut rates = self.chart.as_ref().map(Kinematics::coordinate_rates).unwrap_or_default();
+        let mut rates = self.chart.as_ref().map(ChartedBody::coordinate_rates).unwrap_or_default();
         if self.model.speeds.is_none() {
             rates.extend(&values[self.speeds_of_chart()..]);
             return Ok(rates);
         }
         let nothing = self.no_links();
         for (k, (_, e)) in self.model.kinematics.iter().enumerate() {
-            self.pose_rates[k] = self.observed_velocity(k, e, &nothing)?;
+            self.observed_rates[k] = self.observed_rates_of(k, e, &nothing)?;
             match self.value(e, &nothing)? {
                 Value::Scalar(rate) => rates.push(rate),
                 Value::Vector(omega) => rates.extend(omega),
@@ -383,21 +373,34 @@ impl<'a, 'g> Translator<'a, 'g> {
         Ok(rates)
     }
 
-    /// v of `twist(inverse(pose.rotation) * v, …)`: turned back into observer's axes it is what it was.
-    fn observed_velocity(
+    /// v and w of `twist(inverse(pose.rotation) * v, inverse(pose.rotation) * w)`, and w of `inverse(rotation) * w`: turned back into
+    /// observer's axes they are what they were.
+    fn observed_rates_of(
         &self,
         coordinate: usize,
         rate: &model::Expression,
         nothing: &Tree<'g>,
-    ) -> syn::Result<Option<[Expr<'g>; 3]>> {
-        let ExpressionKind::Call(FunctionName::Twist, parts) = &rate.kind else { return Ok(None) };
-        let Some(ExpressionKind::Binary(BinaryOperator::Multiply, turned, v)) = parts.first().map(|e| &e.kind) else {
-            return Ok(None);
-        };
-        let ExpressionKind::Call(FunctionName::Inverse, rotation) = &turned.kind else { return Ok(None) };
-        let pose = rotation.first().and_then(|e| name_of_property(e, Property::Rotation));
+    ) -> syn::Result<[Option<[Expr<'g>; 3]>; 2]> {
         let own = &self.model.coordinates[coordinate].ident;
-        if pose.is_some_and(|pose| own.unraw() == pose) { self.vector(v, nothing).map(Some) } else { Ok(None) }
+        let turned_back = |e: &model::Expression| -> syn::Result<Option<[Expr<'g>; 3]>> {
+            let ExpressionKind::Binary(BinaryOperator::Multiply, turned, v) = &e.kind else { return Ok(None) };
+            let ExpressionKind::Call(FunctionName::Inverse, rotation) = &turned.kind else { return Ok(None) };
+            let Some(rotation) = rotation.first() else { return Ok(None) };
+            let of_pose = name_of_property(rotation, Property::Rotation);
+            let itself = matches!(&rotation.kind, ExpressionKind::Name(name) if name.unraw() == own.unraw());
+            if itself || of_pose.is_some_and(|pose| own.unraw() == pose) {
+                self.vector(v, nothing).map(Some)
+            } else {
+                Ok(None)
+            }
+        };
+        match &rate.kind {
+            ExpressionKind::Call(FunctionName::Twist, parts) => match parts.as_slice() {
+                [linear, angular] => Ok([turned_back(linear)?, turned_back(angular)?]),
+                _ => Ok([None; 2]),
+            },
+            _ => Ok([None, turned_back(rate)?]),
+        }
     }
 
     fn no_links(&self) -> Tree<'g> {
@@ -407,7 +410,7 @@ impl<'a, 'g> Translator<'a, 'g> {
     /// Rates of t and of the symbols of q: Ṙ = R [ω]× (Poisson), ḃ = R u.
     fn rates(&self) -> Map<u32, Expr<'g>> {
         let mut rates: Map<u32, Expr<'g>> = Map::from_iter([(self.declared.time.key(), self.graph.one())]);
-        rates.extend(self.chart.iter().flat_map(|chart| &chart.rates).map(|(&key, &rate)| (key, rate)));
+        rates.extend(self.chart.iter().flat_map(|chart| &chart.kinematics.rates).map(|(&key, &rate)| (key, rate)));
         let own = || self.declared.coordinates.iter().enumerate().skip(self.declared.before);
         for (k, coordinate) in own() {
             let rate = self.declared.rate_of(k, &self.kinematics);
@@ -426,7 +429,8 @@ impl<'a, 'g> Translator<'a, 'g> {
                 Coordinate::Pose(matrix, position) => {
                     for (i, (row, b)) in matrix.iter().zip(position).enumerate() {
                         let turned = || (0..3).map(|k| row[k] * rate[k]).sum();
-                        rates.insert(b.key(), self.pose_rates[k - self.declared.before].map_or_else(turned, |v| v[i]));
+                        let [observed, _] = self.observed_rates[k - self.declared.before];
+                        rates.insert(b.key(), observed.map_or_else(turned, |v| v[i]));
                     }
                 }
             }
@@ -460,7 +464,10 @@ impl<'a, 'g> Translator<'a, 'g> {
             None => Matter::Nothing,
         };
         if let Some(chart) = self.chart.as_ref().filter(|_| self.model.is_in_chart(clause)) {
-            return Ok(chart.placement(matter));
+            let hangs = |parent: &Option<Ident>| parent.as_ref().is_some_and(|name| name == "body");
+            let bodies = self.model.bodies.iter().map(|body| &body.parent);
+            let alone = !bodies.chain(self.model.particles.iter().map(|particle| &particle.parent)).any(hangs);
+            return Ok(chart.placement(matter, alone));
         }
         let turns = match &clause.rotation {
             Some(e) => match self.value(e, &nothing)? {
@@ -469,30 +476,38 @@ impl<'a, 'g> Translator<'a, 'g> {
             },
             None => Vec::new(),
         };
+        let [velocity, angular_velocity] = self.velocities_of_pose(clause);
         Ok(Placement {
             matter,
             parent: clause.parent.as_ref().and_then(|name| self.links.get(&name.unraw().to_string()).copied()),
             position: clause.position.as_ref().map_or(Ok([zero; 3]), |e| self.vector(e, &nothing))?,
-            velocity_in_own_axes: self.velocity_of_pose(clause),
+            velocity,
+            angular_velocity,
             turns,
         })
     }
 
-    /// u of the pose whose position and rotation are those of the body.
-    fn velocity_of_pose(&self, clause: &BodyClause) -> Option<[Expr<'g>; 3]> {
-        let name = name_of_property(clause.position.as_ref()?, Property::Position)?;
-        let turned_by = clause.rotation.as_ref().and_then(|e| name_of_property(e, Property::Rotation));
-        if clause.parent.is_some() || turned_by.as_ref() != Some(&name) {
-            return None;
-        }
-        let k = self.model.coordinates.iter().position(|q| q.ident.unraw() == name)?;
-        if self.pose_rates[k].is_some() {
-            return None;
-        }
-        match self.declared.rate_of(self.declared.before + k, &self.kinematics) {
-            &[u1, u2, u3, ..] => Some([u1, u2, u3]),
+    /// The velocity of O and the angular velocity, each in the axes in which the kinematics give it, of a body whose position and rotation
+    /// are those of a pose, or whose rotation is a coordinate.
+    fn velocities_of_pose(&self, clause: &BodyClause) -> [Option<Vector<'g>>; 2] {
+        let none = [self.graph.zero(); 3];
+        let in_body = |body| Vector { body, space: none };
+        let in_space = |space| Vector { body: none, space };
+        let turned_by = clause.rotation.as_ref().and_then(|e| match &e.kind {
+            ExpressionKind::Name(name) => Some(name.unraw().to_string()),
+            _ => name_of_property(e, Property::Rotation),
+        });
+        let coordinate = |name: &String| self.model.coordinates.iter().position(|q| q.ident.unraw() == *name);
+        let Some(k) = turned_by.as_ref().and_then(coordinate).filter(|_| clause.parent.is_none()) else {
+            return [None; 2];
+        };
+        let [linear, angular] = self.observed_rates[k];
+        let placed_by = clause.position.as_ref().and_then(|e| name_of_property(e, Property::Position));
+        let velocity = match self.declared.rate_of(self.declared.before + k, &self.kinematics) {
+            &[u1, u2, u3, _, _, _] if placed_by == turned_by && linear.is_none() => Some(in_body([u1, u2, u3])),
             _ => None,
-        }
+        };
+        [velocity, angular.map(in_space)]
     }
 
     fn name_points(&mut self, tree: &Tree<'g>) -> syn::Result<()> {

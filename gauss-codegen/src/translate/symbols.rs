@@ -1,12 +1,11 @@
 //! Symbols of everything that is declared, and where the value of each is read.
 
 use proc_macro2::Ident;
-use quote::format_ident;
 use syn::ext::IdentExt;
 
-use crate::algebra::{Expr, Graph, Map};
+use crate::algebra::{Expr, Graph};
 use crate::mechanics::{
-    AddedMassShape, Body, BodyShape, Coordinate, GravityShape, InertiaShape, Kinematics, Name, ParameterSymbol,
+    AddedMassShape, Body, BodyShape, ChartedBody, Coordinate, GravityShape, InertiaShape, Name, ParameterSymbol,
     Quantity,
 };
 use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
@@ -37,14 +36,15 @@ pub struct Declared<'g> {
     graph: &'g Graph,
     pub time: Expr<'g>,
     /// That of the chart, whose coordinates and speeds come before the declared ones.
-    pub chart: Option<Kinematics<'g>>,
+    pub chart: Option<ChartedBody<'g>>,
     pub coordinates: Vec<Coordinate<'g>>,
     /// How many of them are the chart's.
     pub before: usize,
     pub coordinate_names: Vec<Name>,
     pub speeds: Vec<Expr<'g>>,
-    /// What the momenta are momenta of: the coordinate, where its rate is the speed.
+    /// Of the momenta and of the forces: after the coordinate, where its rate is the speed.
     pub momentum_names: Vec<Name>,
+    pub force_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
     pub momenta: Vec<Expr<'g>>,
     /// Values that arrive at run time.
@@ -142,56 +142,65 @@ fn momentum_names(model: &Model, coordinates: &[Coordinate<'_>], speed_names: &[
 }
 
 impl<'g> Declared<'g> {
-    /// `alone`: the chart is left to who asks, and what is declared is for what acts on its only body.
-    pub fn new(graph: &'g Graph, model: &Model, alone: bool) -> Self {
+    pub fn new(graph: &'g Graph, model: &Model) -> Self {
+        let mut declared = Self::of_parameters(graph, model);
         let time = graph.symbol("t", "t", false);
-        let chart = model.in_chart.filter(|_| !alone).map(|own| Kinematics::new(graph, own.motion, own.chart));
-        let declared: Vec<Coordinate<'g>> = model.coordinates.iter().map(|q| coordinate(graph, q)).collect();
+        let chart = model.in_chart.map(|own| ChartedBody::new(graph, own.motion, own.chart));
+        let own: Vec<Coordinate<'g>> = model.coordinates.iter().map(|q| coordinate(graph, q)).collect();
         let own_speeds = speed_names(model);
-        let own_momenta = momentum_names(model, &declared, &own_speeds);
-        let of_chart = match (&chart, model.in_chart) {
-            (Some(chart), _) => chart.coordinates(),
-            (None, Some(_)) => {
-                let pose = model::Coordinate { ident: format_ident!("body"), kind: CoordinateKind::Pose };
-                vec![(coordinate(graph, &pose), name_of(&pose.ident))]
-            }
-            (None, None) => Vec::new(),
+        let own_momenta = momentum_names(model, &own, &own_speeds);
+        let symbols = |name: &dyn Fn(&Name) -> Name| -> Vec<Expr<'g>> {
+            own_speeds.iter().map(|z| symbol(graph, &name(z), false)).collect()
         };
-        let before = of_chart.len();
-        let (mut coordinates, mut coordinate_names): (Vec<_>, Vec<_>) = of_chart.into_iter().unzip();
-        coordinates.extend(declared);
-        coordinate_names.extend(model.coordinates.iter().map(|q| name_of(&q.ident)));
-        let named = |own: Vec<Name>, of: &dyn Fn(&Kinematics<'g>) -> Vec<Name>| -> Vec<Name> {
-            chart.iter().flat_map(of).chain(own).collect()
-        };
-        let momentum_names = named(own_momenta, &|chart| match chart.coordinate_names.as_slice() {
-            [] => chart.speed_names.clone(),
-            coordinates => coordinates.to_vec(),
-        });
-        let symbols = |of: &dyn Fn(&Kinematics<'g>) -> Vec<Expr<'g>>, name: &dyn Fn(&Name) -> Name| -> Vec<Expr<'g>> {
-            let own = own_speeds.iter().map(|z| symbol(graph, &name(z), false));
-            chart.iter().flat_map(of).chain(own).collect()
-        };
+        let named =
+            |letter: &str| -> Vec<Name> { own_momenta.iter().map(|name| Name::new(letter, letter).of(name)).collect() };
+        declared.time = time;
+        if let Some(chart) = &chart {
+            declared.before = chart.coordinates.len();
+            declared.coordinates.clone_from(&chart.coordinates);
+            declared.coordinate_names.clone_from(&chart.coordinate_names);
+            declared.speeds.clone_from(&chart.kinematics.speeds);
+            declared.speed_rates.clone_from(&chart.kinematics.speed_rates);
+            declared.momentum_names.clone_from(&chart.momentum_names);
+            declared.force_names.clone_from(&chart.force_names);
+        }
+        declared.coordinates.extend(own);
+        declared.coordinate_names.extend(model.coordinates.iter().map(|q| name_of(&q.ident)));
+        declared.speeds.extend(symbols(&Name::clone));
+        declared.speed_rates.extend(symbols(&Name::rate));
+        declared.momentum_names.extend(named("p"));
+        declared.force_names.extend(named("F"));
+        declared.momenta = declared.momentum_names.iter().map(|name| symbol(graph, name, false)).collect();
+        declared.inputs = model.inputs.iter().flat_map(input_names).map(|name| symbol(graph, &name, false)).collect();
+        declared.chart = chart;
+        declared
+    }
+
+    /// What parameters are, and nothing else yet.
+    fn of_parameters(graph: &'g Graph, model: &Model) -> Self {
         let mut declared = Self {
             graph,
-            time,
-            coordinates,
-            before,
-            coordinate_names,
-            speeds: symbols(&|chart| chart.speeds.clone(), &Name::clone),
-            speed_rates: symbols(&|chart| chart.speed_rates.clone(), &Name::rate),
-            momenta: momentum_names.iter().map(|z| symbol(graph, &Name::new("p", "p").of(z), false)).collect(),
-            momentum_names,
-            chart,
-            inputs: model.inputs.iter().flat_map(input_names).map(|name| symbol(graph, &name, false)).collect(),
+            time: graph.zero(),
+            chart: None,
+            coordinates: Vec::new(),
+            before: 0,
+            coordinate_names: Vec::new(),
+            speeds: Vec::new(),
+            momentum_names: Vec::new(),
+            force_names: Vec::new(),
+            speed_rates: Vec::new(),
+            momenta: Vec::new(),
+            inputs: Vec::new(),
             gravity: None,
             matrices: Vec::new(),
             fields: Vec::new(),
             bodies: Vec::new(),
             sources: Vec::new(),
         };
-        declared.plain_fields(model);
         declared.bodies = model.bodies.iter().map(|clause| declared.body(model, clause)).collect();
+        declared.plain_fields(model);
+        let gravity = declared.gravity;
+        declared.bodies.iter_mut().flatten().for_each(|body| body.gravity = gravity);
         declared
     }
 
@@ -209,7 +218,10 @@ impl<'g> Declared<'g> {
     /// Symbols for gravity and for every field without a role that expressions can name; the acceleration of free fall.
     fn plain_fields(&mut self, model: &Model) {
         for (field, Field { ident, role, shape, .. }) in model.fields.iter().enumerate() {
-            if !matches!(role, None | Some(Role::Gravity)) {
+            // Of a body without a name gravity is among its symbols.
+            let known = role.is_some() && self.gravity.is_some();
+            let unread = role.is_none() && model.one_body().is_some() && !model.has_expressions();
+            if known || unread || !matches!(role, None | Some(Role::Gravity)) {
                 continue;
             }
             let name = if role.is_some() { Name::new("g", "g") } else { name_of(ident) };
@@ -263,22 +275,6 @@ impl<'g> Declared<'g> {
         self.matrices.iter().find(|(known, _)| name.unraw() == known).map(|(_, matrix)| matrix)
     }
 
-    /// Symbols of fields with roles, with those that the same entries have in the given body.
-    pub fn parameters_of(&self, model: &Model, body: &Body<'g>) -> Map<u32, Expr<'g>> {
-        let pair = |source: &Source<'g>| {
-            let quantity = quantity_of(model.fields[source.field].role?)?;
-            let (row, column) = match source.part {
-                Part::Scalar => (0, 0),
-                Part::Component(i) => (i, 0),
-                Part::Entry(i, j) => (i, j),
-                Part::Body(..) => return None,
-            };
-            let same = |p: &&ParameterSymbol<'g>| (p.quantity, p.row, p.column) == (quantity, row, column);
-            body.parameters.iter().find(same).map(|p| (source.symbol.key(), p.symbol))
-        };
-        self.sources.iter().filter_map(pair).collect()
-    }
-
     /// The mass data of a body, under the names of the fields that have them.
     fn body(&mut self, model: &Model, clause: &BodyClause) -> Option<Body<'g>> {
         if clause.massless {
@@ -293,7 +289,9 @@ impl<'g> Declared<'g> {
                 let body = Body::named(self.graph, body_shape(has), 2, name_of(name));
                 let field = model.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
                 // What the clause says of the fluid takes the place of the other symbols.
-                let of_field = |p: &&ParameterSymbol<'g>| p.quantity == Quantity::Mass || of_field(role_of(p.quantity));
+                let of_field = |p: &&ParameterSymbol<'g>| {
+                    [Quantity::Mass, Quantity::CenterOfMass, Quantity::Inertia].contains(&p.quantity)
+                };
                 self.sources.extend(body.parameters.iter().filter(of_field).map(|p| Source {
                     symbol: p.symbol,
                     field,
@@ -312,8 +310,10 @@ impl<'g> Declared<'g> {
         let field = |role: Role| fields.iter().position(|f| f.role == Some(role));
         let given = |role: Role| model.given.iter().find(|given| given.role == role).map(|given| given.shape);
         let shape_of = |role: Role| field(role).map(|k| fields[k].shape).or_else(|| given(role));
-        let body = Body::new(self.graph, BodyShape { gravity: None, ..body_shape(shape_of) }, 2);
+        let body = Body::new(self.graph, body_shape(shape_of), up(model));
+        self.gravity = body.gravity;
         for role in [
+            Role::Gravity,
             Role::Mass,
             Role::CenterOfMass,
             Role::Inertia,
@@ -348,12 +348,14 @@ impl<'g> Declared<'g> {
     }
 }
 
-/// Down: along −k₃, in a plane along −k₂.
+/// The observer's axis that gravity opposes: k₃, in a plane k₂.
+fn up(model: &Model) -> usize {
+    if model.in_chart.is_some_and(|own| own.motion == Motion::Planar) { 1 } else { 2 }
+}
+
+/// Down, with the magnitude g.
 pub fn free_fall<'g>(model: &Model, zero: Expr<'g>, g: Expr<'g>) -> [Expr<'g>; 3] {
-    match model.in_chart.map(|own| own.motion) {
-        Some(Motion::Planar) => [zero, -g, zero],
-        _ => [zero, zero, -g],
-    }
+    std::array::from_fn(|i| if i == up(model) { -g } else { zero })
 }
 
 /// What a body has, from the shapes of what plays the roles.
@@ -404,19 +406,7 @@ fn velocity_name(name: &Name) -> Name {
     }
 }
 
-/// The role that gives a quantity.
-pub fn role_of(quantity: Quantity) -> Role {
-    match quantity {
-        Quantity::Mass => Role::Mass,
-        Quantity::CenterOfMass => Role::CenterOfMass,
-        Quantity::Inertia => Role::Inertia,
-        Quantity::AddedMass => Role::AddedMass,
-        Quantity::Gravity => Role::Gravity,
-        Quantity::DisplacedMass => Role::DisplacedMass,
-        Quantity::CenterOfBuoyancy => Role::CenterOfBuoyancy,
-    }
-}
-
+/// The quantity that a role gives.
 pub(super) fn quantity_of(role: Role) -> Option<Quantity> {
     Some(match role {
         Role::Mass => Quantity::Mass,

@@ -1,7 +1,7 @@
 //! Systems as data, from which both sides are built: coordinates, speeds, links and constraints, drawn at random.
 
-use crate::mechanics::body::InertiaShape;
-use crate::mechanics::constraint::ConstraintKind;
+use crate::mechanics::constraints::constraint::ConstraintKind;
+use crate::mechanics::matter::body::InertiaShape;
 use crate::mechanics::tests::Random;
 
 use super::numbers::{Number, Smooth, below};

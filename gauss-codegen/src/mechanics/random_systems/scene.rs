@@ -1,16 +1,16 @@
 //! From a plan to the scene of a system, as the translation of an attribute does it.
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::mechanics::body::{AddedMassShape, Body, BodyShape, InertiaShape, Quantity};
-use crate::mechanics::constraint::{Constraint, ConstraintKind};
-use crate::mechanics::forces::{Action, Element};
-use crate::mechanics::link::{Matter, Placement};
-use crate::mechanics::names::Name;
-use crate::mechanics::rotation::rotation_of_quaternion;
-use crate::mechanics::system::{Coordinate, SystemScene};
-use crate::mechanics::tree::Tree;
-use crate::mechanics::turn::Turn;
-use crate::mechanics::vector::{Axes, Triple, dot, subtract};
+use crate::mechanics::constraints::constraint::{Constraint, ConstraintKind};
+use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
+use crate::mechanics::kinematics::turn::Turn;
+use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, dot, subtract};
+use crate::mechanics::links::link::{Matter, Placement};
+use crate::mechanics::links::tree::Tree;
+use crate::mechanics::loads::forces::{Action, Element};
+use crate::mechanics::matter::body::{AddedMassShape, Body, BodyShape, InertiaShape, Quantity};
+use crate::mechanics::print::names::Name;
+use crate::mechanics::scene::{Coordinate, Lettering, SystemScene};
 
 use super::plan::{ConstraintPlan, CoordinateKind, LinkPlan, MatterPlan, Place, Plan, Solid, TurnPlan};
 
@@ -148,7 +148,9 @@ impl<'g> Symbols<'g> {
             time: self.time,
             coordinate_names: names("q", coordinates.len()),
             speeds: pick(&self.speeds),
+            lettering: Lettering::Declared,
             momentum_names: names("p", kept.len()),
+            force_names: names("F", kept.len()),
             speed_rates: pick(&self.speed_rates),
             momenta: pick(&self.momenta),
             coordinates,
@@ -160,10 +162,7 @@ impl<'g> Symbols<'g> {
             elements: plan
                 .potential
                 .iter()
-                .map(|potential| Element {
-                    name: "potential".to_owned(),
-                    action: Action::Potential(potential.at(&variables)),
-                })
+                .map(|potential| Element::new("potential".to_owned(), Action::Potential(potential.at(&variables))))
                 .collect(),
         }
     }
@@ -199,7 +198,7 @@ impl<'g> Building<'_, 'g> {
     }
 
     fn placement(&self, link: &LinkPlan, matter: &MatterSymbols<'g>) -> Placement<'g> {
-        let (position, velocity_in_own_axes) = match &link.place {
+        let (position, velocity) = match &link.place {
             Place::Offset(offset) => (self.triple(offset), None),
             Place::Pose(k) => match (&self.coordinates[*k], self.plan.coordinates[*k]) {
                 (Coordinate::Pose(_, position), CoordinateKind::Pose { observed }) => {
@@ -217,7 +216,8 @@ impl<'g> Building<'_, 'g> {
             },
             parent: link.parent,
             position,
-            velocity_in_own_axes,
+            velocity: velocity.map(|body| Vector { body, space: [self.graph().zero(); 3] }),
+            angular_velocity: None,
             turns: link.turns.iter().map(|turn| self.turn(turn)).collect(),
         }
     }

@@ -1,0 +1,192 @@
+//! What is derived: its configuration as a product, its constraints, and where what its author wrote is read.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::Ident;
+
+use crate::algebra::{Expr, Rational};
+use crate::mechanics::{Assigned, Constraints, Coordinate, Method, System};
+use crate::model::Model;
+use crate::translate::Source;
+
+use super::arguments::Argument;
+use super::body::chart_tokens;
+use super::derived::Derived;
+
+/// What is derived.
+pub struct Subject<'a, 'g> {
+    pub model: &'a Model,
+    pub system: &'a System<'g>,
+    /// The constraints, and whether a run can drift away from them.
+    pub constraints: &'a Constraints<'g>,
+    pub can_drift: bool,
+    /// Where the symbols of fields are read.
+    pub sources: &'a [Source<'g>],
+    /// Literal numbers that symbols stand for.
+    pub literals: Vec<(Rational, Expr<'g>)>,
+    /// Mass data that are written in clauses: of the body without a name, and of each of the others.
+    pub assigned: Vec<Assigned<'g>>,
+    pub assigned_to_bodies: Vec<Vec<Assigned<'g>>>,
+    /// Which link each clause of a body or frame became.
+    pub links: Vec<usize>,
+    /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate.
+    pub quaternions: &'a [Option<[Expr<'g>; 4]>],
+}
+
+/// A factor of the configuration: elements of groups in the order in which they are declared, then all scalars together.
+enum Factor<'g> {
+    Group { coordinate: usize },
+    Scalars { symbols: Vec<Expr<'g>> },
+}
+
+impl<'g> Subject<'_, 'g> {
+    fn coordinates(&self) -> &[Coordinate<'g>] {
+        &self.system.scene.coordinates
+    }
+
+    fn factors(&self) -> Vec<Factor<'g>> {
+        let mut scalars = Vec::new();
+        let mut factors = Vec::new();
+        for (coordinate, written) in self.coordinates().iter().enumerate() {
+            match written {
+                Coordinate::Scalar(symbol) => scalars.push(*symbol),
+                _ => factors.push(Factor::Group { coordinate }),
+            }
+        }
+        if !scalars.is_empty() || factors.is_empty() {
+            factors.push(Factor::Scalars { symbols: scalars });
+        }
+        factors
+    }
+
+    /// `A`, `(A, B)`, `(A, (B, C))`…
+    pub fn configuration_type(&self, derived: &Derived<'_, '_>) -> TokenStream {
+        let (private, ty) = (derived.private(), derived.scalar().ty());
+        let types = self.factors().into_iter().map(|factor| match factor {
+            Factor::Scalars { symbols } => {
+                let n = symbols.len();
+                quote!(#private::SVector<#ty, #n>)
+            }
+            Factor::Group { coordinate } => match self.coordinates()[coordinate] {
+                Coordinate::Pose(..) => quote!(#private::Isometry3<#ty>),
+                Coordinate::Plane { .. } => quote!(#private::Isometry2<#ty>),
+                _ => quote!(#private::UnitQuaternion<#ty>),
+            },
+        });
+        nested(types, |a, b| quote!((#a, #b)))
+    }
+
+    /// The configuration taken apart.
+    pub fn configuration_arguments(&self, derived: &Derived<'_, '_>) -> Vec<Argument<'g>> {
+        let private = derived.private();
+        let factors = self.factors();
+        let last = factors.len() - 1;
+        let mut arguments = Vec::new();
+        for (k, factor) in factors.into_iter().enumerate() {
+            let mut place = quote!(q);
+            if last > 0 {
+                let deeper = (0..k).map(|_| quote!(.1));
+                let own = if k < last { quote!(.0) } else { quote!() };
+                place = quote!((&q #(#deeper)* #own));
+            }
+            match factor {
+                Factor::Scalars { symbols } => {
+                    arguments.push(Argument { array: quote!(#private::components(#place)), symbols });
+                }
+                Factor::Group { coordinate } => {
+                    let quaternion = self.quaternions[coordinate].map(|q| q.to_vec()).unwrap_or_default();
+                    match &self.coordinates()[coordinate] {
+                        Coordinate::Pose(_, position) => {
+                            let array = quote!(#private::isometry3(#place));
+                            arguments.push(Argument { array: quote!(#array.0), symbols: quaternion });
+                            arguments.push(Argument { array: quote!(#array.1), symbols: position.to_vec() });
+                        }
+                        Coordinate::Plane { turn, position } => {
+                            let array = quote!(#private::isometry2(#place));
+                            arguments.push(Argument { array: quote!(#array.0), symbols: turn.to_vec() });
+                            arguments.push(Argument { array: quote!(#array.1), symbols: position.to_vec() });
+                        }
+                        _ => arguments
+                            .push(Argument { array: quote!(#private::quaternion(#place)), symbols: quaternion }),
+                    }
+                }
+            }
+        }
+        arguments
+    }
+
+    /// The components of an increment of the configuration, in the order of the coordinates, as its type.
+    pub fn tangent(&self, derived: &Derived<'_, '_>, outputs: &[TokenStream]) -> TokenStream {
+        let private = derived.private();
+        let mut groups = Vec::new();
+        let mut scalars = Vec::new();
+        let mut rest = outputs;
+        for coordinate in self.coordinates() {
+            let (own, after) = rest.split_at(coordinate.size());
+            rest = after;
+            match coordinate {
+                Coordinate::Scalar(_) => scalars.extend(own),
+                _ => groups.push(quote!(#private::vector([#(#own),*]))),
+            }
+        }
+        if !scalars.is_empty() || groups.is_empty() {
+            groups.push(quote!(#private::vector([#(#scalars),*])));
+        }
+        nested(groups, |a, b| quote!(#private::product(#a, #b)))
+    }
+
+    /// The chart that the speeds belong to.
+    pub fn chart_tokens(&self, derived: &Derived<'_, '_>) -> TokenStream {
+        let private = derived.private();
+        match self.model.one_body() {
+            Some(own) => chart_tokens(&private, own.chart),
+            None => quote!(#private::Chart::Own),
+        }
+    }
+
+    /// The only body axis that the body of that name (the unnamed one) turns about.
+    pub fn only_axis(&self, name: Option<&Ident>) -> Option<usize> {
+        let clause = self.model.bodies.iter().position(|body| body.name.as_ref() == name)?;
+        self.system.scene.tree.links[self.links[clause]].only_axis()
+    }
+
+    /// `project` of the kernel's [`GaussSystem`], where there is something to project to.
+    pub fn projection(&self, derived: &Derived<'_, '_>) -> TokenStream {
+        let private = derived.private();
+        if !self.can_drift {
+            return TokenStream::new();
+        }
+        quote! {
+            const CONSTRAINED: ::core::primitive::bool = true;
+            #[inline]
+            fn project(
+                &self,
+                t: Self::Scalar,
+                q: &Self::Configuration,
+                z: &Self::Speeds,
+            ) -> ::core::result::Result<(Self::Configuration, Self::Speeds), #private::ProjectionError> {
+                #private::project(self, t, q, z)
+            }
+        }
+    }
+
+    /// The methods of constrained systems: method, arguments after `t` and `q`, result.
+    pub fn constraint_methods(&self, private: &TokenStream) -> Vec<(Method, TokenStream, TokenStream)> {
+        let tangent = quote!(<Self::Configuration as #private::Configuration>::Tangent);
+        vec![
+            (Method::Multipliers, quote!(z: &Self::Speeds, input: &Self::Input), quote!(Self::Multipliers)),
+            (Method::PositionResidual, quote!(), quote!(Self::Multipliers)),
+            (Method::VelocityResidual, quote!(z: &Self::Speeds), quote!(Self::Multipliers)),
+            (Method::PositionCorrection, quote!(residual: &Self::Multipliers), tangent),
+            (Method::VelocityCorrection, quote!(z: &Self::Speeds, residual: &Self::Multipliers), quote!(Self::Speeds)),
+        ]
+    }
+}
+
+fn nested(
+    parts: impl IntoIterator<Item = TokenStream>,
+    pair: impl Fn(TokenStream, TokenStream) -> TokenStream,
+) -> TokenStream {
+    let parts: Vec<TokenStream> = parts.into_iter().collect();
+    parts.into_iter().rev().reduce(|inner, outer| pair(outer, inner)).unwrap_or_default()
+}

@@ -1,0 +1,139 @@
+//! From a model to formulas: the system, checked against the definition, and all that is asked of it.
+
+use crate::algebra::{Expr, Graph, Map};
+use crate::mechanics::{
+    Constraints, Coordinate, Elimination, Formula, InertialParameters, Linearization, Regressor, System,
+    check_system_against_definition, rotation_of_quaternion,
+};
+use crate::mistakes::{eliminate, refuse_curved_kinematics, refuse_idle_speeds, system_faults};
+use crate::model::Model;
+use crate::translate::{Parameter, Translator, parameters};
+
+/// A system with its formulas.
+pub struct Formulation<'g> {
+    pub system: System<'g>,
+    /// How its speeds were found, where constraints are solved for the others.
+    pub elimination: Option<Elimination<'g>>,
+    pub formulas: Vec<Formula<'g>>,
+    /// What is differentiated by the state, where that is asked for.
+    pub linearization: Option<Linearization<'g>>,
+    /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
+    pub regressor: Option<Regressor<'g>>,
+    /// The numbers of fields.
+    pub parameters: Vec<Parameter<'g>>,
+    /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate, and the entries of R in terms of them.
+    pub quaternions: Vec<Option<[Expr<'g>; 4]>>,
+    pub definitions: Map<u32, Expr<'g>>,
+    /// Coordinates that are the components of one unit quaternion or of one unit vector.
+    pub units: Vec<Vec<Expr<'g>>>,
+}
+
+impl<'g> Formulation<'g> {
+    /// # Errors
+    /// What only the derivation finds wrong with a system.
+    pub fn of(model: &Model, translator: &mut Translator<'_, 'g>) -> syn::Result<Self> {
+        let Reduced { system, elimination, values, kept } = Reduced::of(model, translator)?;
+        let mut formulas = system.formulas();
+        check_system_against_definition(&system, &formulas)
+            .map_err(|faults| system_faults(model, translator, &system, &faults))?;
+        formulas.extend(elimination.iter().flat_map(Elimination::formulas));
+        let (quaternions, definitions) = system_rotations(system.scene.graph, &system);
+        let linearization = model.wanted.linearize.then(|| Linearization::new(&system, &formulas));
+        let parameters = parameters(&model.fields, translator.sources());
+        let regressor = match model.wanted.regressor {
+            Some(_) => {
+                let names = names_of(&parameters);
+                let inertial = InertialParameters::new(&system, &names);
+                // The system once more, of bodies by their first moments.
+                let other = translator.scene_of(|body| inertial.by_first_moment(body), &values, &kept)?;
+                let residuals = System::new(other).inertial_residuals();
+                Some(inertial.regressor(&residuals, &system.element_forces(), system.defined()))
+            }
+            None => None,
+        };
+        if model.wanted.taylor.is_some() {
+            formulas.push(system.component_rates(&quaternions, &formulas));
+        }
+        formulas.extend(regressor.iter().flat_map(|regressor: &Regressor<'g>| regressor.formulas.clone()));
+        let units = units_of(&system, &quaternions);
+        Ok(Self {
+            system,
+            elimination,
+            formulas,
+            linearization,
+            regressor,
+            parameters,
+            quaternions,
+            definitions,
+            units,
+        })
+    }
+
+    /// The constraints, those among them that were solved too.
+    pub fn constraints(&self) -> &Constraints<'g> {
+        &self.elimination.as_ref().map_or(&self.system, |elimination| &elimination.whole).constraints
+    }
+
+    /// Whether a run can drift away from the constraints.
+    pub fn can_drift(&self) -> bool {
+        self.elimination.as_ref().map_or(!self.system.constraints.is_empty(), Elimination::can_drift)
+    }
+}
+
+/// A system with the speeds that are left, of all declared ones with their values.
+struct Reduced<'g> {
+    system: System<'g>,
+    elimination: Option<Elimination<'g>>,
+    values: Vec<Expr<'g>>,
+    kept: Vec<usize>,
+}
+
+impl<'g> Reduced<'g> {
+    fn of(model: &Model, translator: &mut Translator<'_, 'g>) -> syn::Result<Self> {
+        let values = translator.speeds().to_vec();
+        let kept: Vec<usize> = (0..values.len()).collect();
+        let scene = translator.scene(&values, &kept)?;
+        translator.refuse_mistakes()?;
+        refuse_curved_kinematics(model, &scene)?;
+        let whole = System::new(scene);
+        refuse_idle_speeds(model, translator, &whole)?;
+        let Some(independent) = &model.independent else {
+            return Ok(Self { system: whole, elimination: None, values, kept });
+        };
+        let elimination = eliminate(model, translator, whole, independent)?;
+        let kept = translator.indices_of_speeds(independent);
+        let mut scene = translator.scene(&elimination.values, &kept)?;
+        scene.constraints.clear();
+        let (system, values) = (System::new(scene), elimination.values.clone());
+        Ok(Self { system, elimination: Some(elimination), values, kept })
+    }
+}
+
+/// What the numbers of fields are called, by their symbols.
+fn names_of(parameters: &[Parameter<'_>]) -> Map<u32, String> {
+    parameters.iter().map(|parameter| (parameter.symbol.key(), parameter.name.clone())).collect()
+}
+
+/// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them.
+fn system_rotations<'g>(graph: &'g Graph, system: &System<'g>) -> (Vec<Option<[Expr<'g>; 4]>>, Map<u32, Expr<'g>>) {
+    let mut definitions = Map::default();
+    let coordinates = system.scene.coordinates.iter().map(|coordinate| {
+        let matrix = coordinate.rotation()?;
+        let quaternion = ["x", "y", "z", "w"].map(|name| graph.symbol(name, name, false));
+        let entries = rotation_of_quaternion(graph, quaternion);
+        let symbols = matrix.iter().flatten().map(|symbol| symbol.key());
+        definitions.extend(symbols.zip(entries.into_iter().flatten().map(Expr::group)));
+        Some(quaternion)
+    });
+    (coordinates.collect(), definitions)
+}
+
+/// Coordinates that are the components of one unit quaternion, or of one unit vector of the plane.
+fn units_of<'g>(system: &System<'g>, quaternions: &[Option<[Expr<'g>; 4]>]) -> Vec<Vec<Expr<'g>>> {
+    let angle = |coordinate: &Coordinate<'g>| match coordinate {
+        Coordinate::Plane { turn, .. } => Some(turn.to_vec()),
+        _ => None,
+    };
+    let angles = system.scene.coordinates.iter().filter_map(angle);
+    quaternions.iter().flatten().map(|q| q.to_vec()).chain(angles).collect()
+}

@@ -1,0 +1,59 @@
+//! From formulas to programs, with what only the programs show to be a mistake.
+
+use crate::algebra::{Expr, Graph, Rational};
+use crate::formulation::Formulation;
+use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
+use crate::mechanics::{Formula, Method};
+use crate::mistakes::{bug, refuse_regressor, refuse_series, refuse_too_much};
+use crate::model::{Model, Scalar};
+use crate::translate::Translator;
+
+/// The programs of all formulas and of the derivatives that are wanted.
+///
+/// # Errors
+/// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this crate.
+pub fn lower<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    translator: &Translator<'_, 'g>,
+    formulation: &Formulation<'g>,
+) -> syn::Result<Kernel<'g>> {
+    let Formulation { formulas, linearization, regressor, .. } = formulation;
+    let functions: Vec<_> = formulas.iter().map(candidates).collect();
+    let parameters: Vec<Expr<'g>> = formulation.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let by_parameters = linearization.as_ref().filter(|_| model.wanted.by_parameters);
+    let wanted = Derivatives {
+        by_state: linearization.as_ref().map(|l| &l.differentiated),
+        units: if by_parameters.is_some() { &formulation.units } else { &[] },
+        by_parameters: by_parameters.map(|linearization| linearization.by_parameters(formulas, &parameters)),
+        regressor: regressor.as_ref().map(|r| &r.differentiated),
+    };
+    let literals = translator.literals();
+    let known = foldable(&model.scalar, &literals);
+    let kernel = Kernel::lower(graph, &functions, &joined(formulas), &formulation.definitions, &wanted, known)
+        .map_err(|error| bug(&model.ident, &error))?;
+    if graph.is_undefined() {
+        return Err(bug(&model.ident, &"the equations divide by zero"));
+    }
+    refuse_too_much(model, &kernel)?;
+    refuse_regressor(model.wanted.regressor.as_ref(), regressor.as_ref(), &kernel)?;
+    refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), formulas, &kernel)?;
+    Ok(kernel)
+}
+
+/// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.
+fn foldable<'a, 'g>(scalar: &Scalar, literals: &'a [(Rational, Expr<'g>)]) -> Literals<'a, 'g> {
+    (!matches!(scalar, Scalar::Parameter(_))).then_some(literals)
+}
+
+/// What `evaluate` computes together.
+fn joined(formulas: &[Formula<'_>]) -> Vec<usize> {
+    let of = |method: &Method| formulas.iter().position(|formula| formula.method == *method);
+    Method::EVALUATED.iter().filter_map(of).collect()
+}
+
+/// What a formula is lowered from.
+fn candidates<'g>(formula: &Formula<'g>) -> Candidates<'g> {
+    let aim = if formula.method == Method::ComponentRates { Aim::Series } else { Aim::Values };
+    Candidates { arrangements: formula.arrangements.clone(), aim }
+}

@@ -1,0 +1,287 @@
+//! A x = r solved link by link: a quadratic function of the motion of all links is minimised over the speeds of the leaves
+//! first, which leaves a quadratic function of their parents' motion alone. The work grows with the number of links, where
+//! that of a factorisation of A grows with its cube.
+//!
+//! Where a speed moves several links in ways of their own — angles from the vertical turn the next joint back — the joints'
+//! own speeds, sums of those of the user, are eliminated in their place.
+//!
+//! This is Gaussian elimination in an order that never forms A, and the *articulated-body inertia* of a link (Featherstone,
+//! Rigid Body Dynamics Algorithms, chapter 7) is what the elimination leaves at it.
+
+use crate::algebra::{Expr, Rational};
+
+use crate::mechanics::kinematics::turn::{Turn, inward};
+use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, cross_matrix, dot, subtract};
+use crate::mechanics::links::link::Link;
+use crate::mechanics::links::tree::Tree;
+use crate::mechanics::matter::moments::Moments;
+
+type Matrix<'g> = [Triple<'g>; 3];
+
+/// `F = linear·a + mixed·α`, `N = mixedᵀ·a + angular·α`: what a motion (a, α) of O asks for.
+#[derive(Clone, Copy)]
+struct ArticulatedInertia<'g> {
+    linear: Matrix<'g>,
+    mixed: Matrix<'g>,
+    angular: Matrix<'g>,
+}
+
+/// A linear and an angular part at O, working axes.
+type Pair<'g> = (Triple<'g>, Triple<'g>);
+
+/// A speed of a joint: its partial velocity, and what it is in terms of the user's speeds.
+struct JointSpeed<'g> {
+    link: usize,
+    row: Pair<'g>,
+    combination: Vec<(usize, Rational)>,
+}
+
+/// A speed of a joint when it is eliminated: its partial velocity, what that asks for, and the reciprocal of the pivot.
+struct Pivot<'g> {
+    speed: usize,
+    row: Pair<'g>,
+    response: Pair<'g>,
+    inverse: Expr<'g>,
+}
+
+/// Pivots of every link, in the order of elimination.
+pub struct Articulated<'a, 'g> {
+    tree: &'a Tree<'g>,
+    joints: Vec<JointSpeed<'g>>,
+    pivots: Vec<Vec<Pivot<'g>>>,
+}
+
+impl<'a, 'g> Articulated<'a, 'g> {
+    /// `None` when no joint has speeds of its own that determine those of the user, or there is fluid.
+    pub fn new(tree: &'a Tree<'g>) -> Option<Self> {
+        let dry = |link: &Link<'g>| link.body().is_none_or(|body| body.added_mass.is_none());
+        let joints = joint_speeds(tree).filter(|_| tree.links.iter().all(dry))?;
+        let mut inertias: Vec<ArticulatedInertia<'g>> =
+            tree.links.iter().map(|link| ArticulatedInertia::of(&link.moments)).collect();
+        let mut pivots: Vec<Vec<Pivot<'g>>> = tree.links.iter().map(|_| Vec::new()).collect();
+        for k in (0..tree.links.len()).rev() {
+            let link = &tree.links[k];
+            for (speed, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.link == k) {
+                let pivot = Pivot::new(speed, joint.row, &inertias[k]);
+                inertias[k] = inertias[k].without(&pivot);
+                pivots[k].push(pivot);
+            }
+            if let Some(parent) = link.parent {
+                let carried = inertias[k].turned(&link.joint.turns).shifted(&link.joint.offset);
+                inertias[parent] = inertias[parent].plus(&carried);
+            }
+        }
+        Some(Self { tree, joints, pivots })
+    }
+
+    /// x with A x = right: with y = T x for the speeds of the joints, `A = Tᵀ A_y T`.
+    pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let combinations: Vec<Vec<(usize, Rational)>> = self.joints.iter().map(|j| j.combination.clone()).collect();
+        let mut columns: Vec<Vec<(usize, Rational)>> = vec![Vec::new(); right.len()];
+        for (joint, combination) in combinations.iter().enumerate() {
+            combination.iter().for_each(|&(speed, c)| columns[speed].push((joint, c)));
+        }
+        let solvable = "the order of substitution was found when the joints were";
+        let right = substituted(&columns, right).expect(solvable);
+        substituted(&combinations, &self.solve_joints(&right)).expect(solvable)
+    }
+
+    /// y with A_y y = right.
+    fn solve_joints(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let zero = self.tree.graph.zero();
+        let links = &self.tree.links;
+        let nothing: Pair<'g> = ([zero; 3], [zero; 3]);
+        let mut asked = vec![nothing; links.len()];
+        let mut reduced = right.to_vec();
+        for k in (0..links.len()).rev() {
+            for pivot in &self.pivots[k] {
+                let rest = right[pivot.speed] - pair(&pivot.row, &asked[k]);
+                reduced[pivot.speed] = rest.group();
+                let share = (reduced[pivot.speed] * pivot.inverse).group();
+                asked[k] = moved(&asked[k], share, &pivot.response);
+            }
+            if let Some(parent) = links[k].parent {
+                let (linear, angular) = self.tree.carried(k, &asked[k].0, &asked[k].1);
+                asked[parent] =
+                    (add(&asked[parent].0, &linear).map(Expr::group), add(&asked[parent].1, &angular).map(Expr::group));
+            }
+        }
+        let mut solution = vec![zero; right.len()];
+        let mut motions: Vec<Pair<'g>> = Vec::with_capacity(links.len());
+        for (k, link) in links.iter().enumerate() {
+            let mut motion = match link.parent {
+                None => nothing,
+                Some(parent) => {
+                    let (linear, angular) = &motions[parent];
+                    let joint = &link.joint;
+                    let carried = add(linear, &cross(angular, &joint.offset)).map(Expr::group);
+                    (inward(&joint.turns, &carried), inward(&joint.turns, angular))
+                }
+            };
+            for pivot in self.pivots[k].iter().rev() {
+                let rest = reduced[pivot.speed] - pair(&pivot.response, &motion);
+                solution[pivot.speed] = (rest.group() * pivot.inverse).group();
+                motion = moved(&motion, solution[pivot.speed], &pivot.row);
+            }
+            motions.push(motion);
+        }
+        solution
+    }
+}
+
+/// The speeds of the joints, if there are as many as the user's and each set determines the other by substitution.
+fn joint_speeds<'g>(tree: &Tree<'g>) -> Option<Vec<JointSpeed<'g>>> {
+    let count = tree.speed_count();
+    let links_moved = |speed: usize| tree.links.iter().filter(|link| link.is_moved_by(speed)).count();
+    let shared: Vec<bool> = (0..count).map(|speed| links_moved(speed) > 1).collect();
+    let mut joints = Vec::with_capacity(count);
+    for (k, link) in tree.links.iter().enumerate() {
+        let moved: Vec<usize> = (0..count).filter(|&speed| link.is_moved_by(speed)).collect();
+        let row = |speed: usize| (link.frame.resolve(&link.linear_rows[speed], Axes::Body), link.angular_rows[speed]);
+        if moved.iter().any(|&speed| shared[speed]) {
+            // One way to move, in which all these speeds take part.
+            let first = row(moved[0]);
+            let parts = moved.iter().map(|&speed| Some((speed, ratio(&row(speed), &first)?)));
+            joints.push(JointSpeed { link: k, row: first, combination: parts.collect::<Option<_>>()? });
+        } else {
+            let own =
+                |&speed: &usize| JointSpeed { link: k, row: row(speed), combination: vec![(speed, Rational::one())] };
+            joints.extend(moved.iter().map(own));
+        }
+    }
+    let combinations: Vec<Vec<(usize, Rational)>> = joints.iter().map(|j| j.combination.clone()).collect();
+    let zeros = vec![tree.graph.zero(); count];
+    (joints.len() == count && substituted(&combinations, &zeros).is_some()).then_some(joints)
+}
+
+/// The number c with a = c·b.
+fn ratio<'g>(a: &Pair<'g>, b: &Pair<'g>) -> Option<Rational> {
+    let mut ratio = None;
+    for (x, y) in a.0.iter().chain(&a.1).zip(b.0.iter().chain(&b.1)) {
+        match (x.is_zero(), y.is_zero()) {
+            (true, true) => continue,
+            (false, false) => {}
+            _ => return None,
+        }
+        let own = (*x * y.recip()).as_number()?;
+        if *ratio.get_or_insert(own) != own {
+            return None;
+        }
+    }
+    ratio
+}
+
+/// Solves `Σ c x = right`, row by row, each time one in which a single unknown is left; `None` when there is no such row.
+fn substituted<'g>(rows: &[Vec<(usize, Rational)>], right: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
+    let mut known: Vec<Option<Expr<'g>>> = vec![None; right.len()];
+    let mut open: Vec<usize> = (0..rows.len()).collect();
+    while !open.is_empty() {
+        let unknown = |row: usize| rows[row].iter().filter(|(x, _)| known[*x].is_none()).count();
+        let row = open.remove(open.iter().position(|&row| unknown(row) == 1)?);
+        let (mut rest, mut last) = (right[row], None);
+        for &(x, c) in &rows[row] {
+            match known[x] {
+                Some(value) => rest = rest - value.scale(c),
+                None => last = Some((x, c)),
+            }
+        }
+        let (x, c) = last?;
+        known[x] = Some(rest.group().scale(c.recip()));
+    }
+    known.into_iter().collect()
+}
+
+fn pair<'g>(a: &Pair<'g>, b: &Pair<'g>) -> Expr<'g> {
+    dot(&a.0, &b.0) + dot(&a.1, &b.1)
+}
+
+/// `a + factor·b`.
+fn moved<'g>(a: &Pair<'g>, factor: Expr<'g>, b: &Pair<'g>) -> Pair<'g> {
+    let sum = |a: &Triple<'g>, b: &Triple<'g>| std::array::from_fn(|i| (a[i] + factor * b[i]).group());
+    (sum(&a.0, &b.0), sum(&a.1, &b.1))
+}
+
+impl<'g> Pivot<'g> {
+    fn new(speed: usize, row: Pair<'g>, inertia: &ArticulatedInertia<'g>) -> Self {
+        let response = inertia.apply(&row);
+        let inverse = pair(&row, &response).group().recip();
+        Self { speed, row, response, inverse }
+    }
+}
+
+impl<'g> ArticulatedInertia<'g> {
+    fn of(moments: &Moments<'g>) -> Self {
+        let zero = moments.mass.graph().zero();
+        let linear = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { moments.mass } else { zero }));
+        let mixed = cross_matrix(&moments.first.map(|e| -e));
+        Self { linear, mixed, angular: moments.inertia().map(|row| row.map(Expr::group)) }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        let sum = |a: &Matrix<'g>, b: &Matrix<'g>| std::array::from_fn(|i| add(&a[i], &b[i]).map(Expr::group));
+        Self {
+            linear: sum(&self.linear, &other.linear),
+            mixed: sum(&self.mixed, &other.mixed),
+            angular: sum(&self.angular, &other.angular),
+        }
+    }
+
+    fn apply(&self, (a, alpha): &Pair<'g>) -> Pair<'g> {
+        let product = |m: &Matrix<'g>, v: &Triple<'g>| -> Triple<'g> { std::array::from_fn(|i| dot(&m[i], v)) };
+        let force = add(&product(&self.linear, a), &product(&self.mixed, alpha)).map(Expr::group);
+        let torque = add(&product(&transposed(&self.mixed), a), &product(&self.angular, alpha)).map(Expr::group);
+        (force, torque)
+    }
+
+    /// What is left when the speed takes the value that is best for every motion of the rest.
+    fn without(&self, pivot: &Pivot<'g>) -> Self {
+        let (force, torque) = &pivot.response;
+        let share = |a: &Triple<'g>| a.map(|e| (e * pivot.inverse).group());
+        let (force_share, torque_share) = (share(force), share(torque));
+        let symmetric = |m: &Matrix<'g>, part: &Triple<'g>, a: &Triple<'g>| -> Matrix<'g> {
+            mirrored(|i, j| (m[i][j] - part[i] * a[j]).group())
+        };
+        Self {
+            linear: symmetric(&self.linear, &force_share, force),
+            mixed: std::array::from_fn(|i| {
+                std::array::from_fn(|j| (self.mixed[i][j] - force[i] * torque_share[j]).group())
+            }),
+            angular: symmetric(&self.angular, &torque_share, torque),
+        }
+    }
+
+    /// In the axes before the turns.
+    fn turned(&self, turns: &[Turn<'g>]) -> Self {
+        turns.iter().rev().fold(*self, |inertia, turn| {
+            let rows: Matrix<'g> = std::array::from_fn(|i| turn.vector(&inertia.mixed[i]).map(Expr::group));
+            let columns = transposed(&rows).map(|column| turn.vector(&column).map(Expr::group));
+            Self {
+                linear: turn.tensor(&inertia.linear),
+                mixed: transposed(&columns),
+                angular: turn.tensor(&inertia.angular),
+            }
+        })
+    }
+
+    /// About a pole from which the old one is at r: `a` of the old is `a + α × r` of the new, and `r × F` joins the torque.
+    fn shifted(&self, r: &Triple<'g>) -> Self {
+        let turn = cross_matrix(r);
+        let product = |a: &Matrix<'g>, b: &Matrix<'g>| -> Matrix<'g> {
+            std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+        };
+        let pulled = product(&self.linear, &turn);
+        let mixed: Matrix<'g> = std::array::from_fn(|i| subtract(&self.mixed[i], &pulled[i]).map(Expr::group));
+        let (back, lifted) = (product(&transposed(&self.mixed), &turn), product(&turn, &mixed));
+        let angular = mirrored(|i, j| (self.angular[i][j] - back[i][j] + lifted[i][j]).group());
+        Self { linear: self.linear, mixed, angular }
+    }
+}
+
+fn transposed<'g>(m: &Matrix<'g>) -> Matrix<'g> {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
+}
+
+/// A symmetric matrix from its upper triangle.
+fn mirrored<'g>(entry: impl Fn(usize, usize) -> Expr<'g>) -> Matrix<'g> {
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i.min(j), i.max(j))))
+}

@@ -1,0 +1,118 @@
+//! The equations of one body in coordinates with everything multiplied out, where that makes them short.
+
+use crate::algebra::{Expr, Map, NodeView, Solver};
+
+use crate::mechanics::tidy::readable;
+
+use super::free_link::FreeLink;
+
+/// What is short when it is multiplied out.
+#[derive(Default)]
+pub struct Short<'g> {
+    pub acceleration: Option<Vec<Expr<'g>>>,
+    pub residual: Option<Vec<Expr<'g>>>,
+    pub matrix: Option<Vec<Expr<'g>>>,
+    pub momentum: Option<Vec<Expr<'g>>>,
+    pub velocity: Option<Vec<Expr<'g>>>,
+    pub kinetic_energy: Option<Vec<Expr<'g>>>,
+    pub momentum_rate: Option<Vec<Expr<'g>>>,
+    /// The residual once more, for C alone: derivatives of what it is made of can be longer.
+    pub collected: Option<Vec<Expr<'g>>>,
+}
+
+fn short<'g>(rows: Vec<Expr<'g>>) -> Option<Vec<Expr<'g>>> {
+    rows.into_iter().map(|row| readable(row).map(|p| p.collect())).collect()
+}
+
+impl<'g> FreeLink<'g> {
+    pub fn short(&self) -> Short<'g> {
+        if self.in_coordinates {
+            self.short_in_coordinates().unwrap_or_default()
+        } else if self.has_constant_rows() {
+            self.short_in_components()
+        } else {
+            Short::default()
+        }
+    }
+
+    /// In components of the twist: what is written in products and factors first can be shorter without.
+    fn short_in_components(&self) -> Short<'g> {
+        let momentum = self.momentum();
+        let matrix = short(momentum.clone()).map(|momentum| self.mass_matrix(&momentum));
+        let velocity = self.velocities_of_momentum().swap_remove(0);
+        let speeds = self.kinematics.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group()));
+        let of_momenta: Map<u32, Expr<'g>> = speeds.collect();
+        let rate = |bracket: Vec<Expr<'g>>| -> Vec<Expr<'g>> {
+            let rows = bracket.into_iter().zip(self.generalised_forces());
+            rows.map(|(bracket, force)| (bracket + force).substitute(&of_momenta)).collect()
+        };
+        Short {
+            momentum: short(momentum),
+            matrix,
+            kinetic_energy: short(vec![self.kinetic_energy()]),
+            momentum_rate: short(self.bracket_in_speeds()).map(rate),
+            collected: short(self.collected_residual()),
+            ..Short::default()
+        }
+    }
+
+    /// In coordinates what does not depend on one of them, because the body is the same whichever way it is turned about an axis, is
+    /// free of it only when it is multiplied out.
+    ///
+    /// Near a singularity of the coordinates det A vanishes with the square of a sine or of a cosine. The normal form has sin² for
+    /// the one, which is reduced and loses nothing, and 1 − sin² for the other, whose leading digits cancel: solutions with such a
+    /// divisor are left to the other arrangements.
+    fn short_in_coordinates(&self) -> Option<Short<'g>> {
+        let kinematics = &self.kinematics;
+        let graph = kinematics.frame.graph;
+        let zero = graph.zero();
+        // Loads stay as they are written: a spring near its length of rest has its digits in the difference.
+        let loads = self.load_forces().into_iter().enumerate().map(|(k, force)| match force {
+            force if force.is_zero() => (force, force),
+            force => (graph.symbol(format!("F{}", k + 1), "F", false), force.group()),
+        });
+        let loads: Vec<(Expr<'g>, Expr<'g>)> = loads.collect();
+        let written: Map<u32, Expr<'g>> =
+            loads.iter().filter(|(_, force)| !force.is_zero()).map(|(symbol, force)| (symbol.key(), *force)).collect();
+        let with_loads = |rows: Vec<Expr<'g>>| -> Vec<Expr<'g>> {
+            if written.is_empty() { rows } else { rows.iter().map(|e| e.substitute(&written)).collect() }
+        };
+        let inertial = self.inertial_residuals().swap_remove(1);
+        let residual = short(inertial.into_iter().zip(&loads).map(|(row, (load, _))| row - *load).collect())?;
+        let at_rest: Map<u32, Expr<'g>> = kinematics.speed_rates.iter().map(|dz| (dz.key(), zero)).collect();
+        let matrix: Vec<Vec<Expr<'g>>> =
+            residual.iter().map(|row| kinematics.speed_rates.iter().map(|&dz| row.partial(dz)).collect()).collect();
+        let right: Vec<Expr<'g>> = residual.iter().map(|row| -row.substitute(&at_rest)).collect();
+        let solver = Solver::new(matrix.clone())?;
+        let solved = |right: &[Expr<'g>]| {
+            short(solver.solve(right)).filter(|rows| !rows.iter().any(divides_by_sum)).map(with_loads)
+        };
+        Some(Short {
+            acceleration: solved(&right),
+            velocity: solved(&self.momenta),
+            momentum: Some(short(self.momentum())?),
+            kinetic_energy: Some(short(vec![self.kinetic_energy()])?),
+            matrix: Some(matrix.concat()),
+            residual: Some(with_loads(residual)),
+            ..Short::default()
+        })
+    }
+}
+
+/// Whether a sum that moves stands below the line.
+fn divides_by_sum(e: &Expr<'_>) -> bool {
+    fn is_sum(e: &Expr<'_>) -> bool {
+        match e.view() {
+            NodeView::Group(inner) => is_sum(&inner),
+            NodeView::Sum(_) => !e.is_constant(&mut Map::default()),
+            _ => false,
+        }
+    }
+    match e.view() {
+        NodeView::Number(_) | NodeView::Symbol(_) | NodeView::Opaque(_) => false,
+        NodeView::Group(inner) | NodeView::Call(_, inner) => divides_by_sum(&inner),
+        NodeView::Binary(_, a, b) => divides_by_sum(&a) || divides_by_sum(&b),
+        NodeView::Product(factors) => factors.iter().any(|(f, n)| (*n < 0 && is_sum(f)) || divides_by_sum(f)),
+        NodeView::Sum(terms) => terms.iter().any(|(_, term)| divides_by_sum(term)),
+    }
+}

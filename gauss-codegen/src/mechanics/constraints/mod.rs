@@ -1,0 +1,4 @@
+//! What coordinates and speeds do not solve by themselves.
+
+pub mod constraint;
+pub mod elimination;

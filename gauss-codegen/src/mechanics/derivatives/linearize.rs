@@ -1,0 +1,141 @@
+//! What the derivatives of the equations by the state are taken along: a direction for each component of an increment of the
+//! configuration, for each speed, for time and for each input.
+//!
+//! Increments are those of the runtime, seen from the body: along `q ∘ exp(σ)` the rate of R is R σ̂ and that of b is R σ_u, as
+//! under a velocity V = σ. So the directions of the configuration are its rates with V a unit vector.
+
+use crate::algebra::{Expr, Graph};
+use crate::kernel::{ByParameters, Differentiated, Direction, Equation};
+
+use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::kinematics::rotation::poisson;
+use crate::mechanics::kinematics::vector::Triple;
+use crate::mechanics::scene::Coordinate;
+use crate::mechanics::system::System;
+
+/// What is differentiated: V, component by component in the order of increments, then ż.
+pub struct Linearization<'g> {
+    /// Along the components of an increment, the speeds, time, and the inputs, in this order.
+    pub differentiated: Differentiated<'g>,
+    /// How many components an increment has.
+    pub increments: usize,
+    pub speeds: usize,
+    pub inputs: usize,
+    /// The components of an increment in the order of ψ.
+    order: Vec<usize>,
+    speed_rates: Vec<Expr<'g>>,
+    momenta: Vec<Expr<'g>>,
+    /// Accelerations are those that constraints admit.
+    constrained: bool,
+}
+
+impl<'g> Linearization<'g> {
+    /// The derivatives of the same functions by parameters. Without constraints accelerations solve ∂C/∂ż = 0, whose matrix A is
+    /// the one that takes z to the momenta.
+    pub fn by_parameters<'a>(&'a self, formulas: &[Formula<'g>], parameters: &'a [Expr<'g>]) -> ByParameters<'a, 'g> {
+        let number = |method: Method| {
+            let number = formulas.iter().position(|formula| formula.method == method);
+            number.expect("every kernel has the methods of a system")
+        };
+        ByParameters {
+            parameters,
+            velocity: number(Method::Kinematics),
+            order: &self.order,
+            acceleration: number(Method::Acceleration),
+            equation: (!self.constrained).then(|| Equation {
+                residual: number(Method::GaussResidual),
+                unknowns: &self.speed_rates,
+                solution: number(Method::Velocity),
+                loads: &self.momenta,
+            }),
+        }
+    }
+
+    pub fn new(system: &System<'g>, formulas: &[Formula<'g>]) -> Self {
+        let scene = &system.scene;
+        let graph = scene.graph;
+        let (mut groups, mut scalars) = (Vec::new(), Vec::new());
+        // Elements of groups come first in an increment, then all scalars; ψ is in the order of the coordinates.
+        let (mut of_groups, mut of_scalars) = (Vec::new(), Vec::new());
+        let mut component = 0;
+        for coordinate in &scene.coordinates {
+            let own = component..component + coordinate.size();
+            component = own.end;
+            match coordinate {
+                Coordinate::Scalar(q) => {
+                    scalars.push(vec![(*q, graph.one())]);
+                    of_scalars.extend(own);
+                }
+                Coordinate::Rotation(rotation) => {
+                    groups.extend(along_rotation(graph, rotation));
+                    of_groups.extend(own);
+                }
+                Coordinate::Pose(rotation, position) => {
+                    groups.extend(along_pose(graph, rotation, position));
+                    of_groups.extend(own);
+                }
+                Coordinate::Plane { turn: [cosine, sine], position: [b1, b2] } => {
+                    groups.extend([
+                        vec![(*b1, *cosine), (*b2, *sine)],
+                        vec![(*b1, -*sine), (*b2, *cosine)],
+                        vec![(*cosine, -*sine), (*sine, *cosine)],
+                    ]);
+                    of_groups.extend(own);
+                }
+            }
+        }
+        groups.extend(scalars);
+        of_groups.extend(of_scalars);
+        let arrangements_of = |method: Method| -> &[Vec<Expr<'g>>] {
+            let formula = formulas.iter().find(|formula| formula.method == method);
+            &formula.expect("every kernel has kinematics and accelerations").arrangements
+        };
+        let kinematics = &arrangements_of(Method::Kinematics)[0];
+        let velocity: Vec<Expr<'g>> = of_groups.iter().map(|&k| kinematics[k]).collect();
+        let arrangements = arrangements_of(Method::Acceleration).iter();
+        let arrangements = arrangements.map(|outputs| velocity.iter().chain(outputs).copied().collect()).collect();
+        let alone = |symbols: &[Expr<'g>]| -> Vec<Direction<'g>> {
+            symbols.iter().map(|&symbol| vec![(symbol, graph.one())]).collect()
+        };
+        let increments = groups.len();
+        let mut directions = groups;
+        directions.extend(alone(&scene.speeds));
+        directions.push(vec![(scene.time, graph.one())]);
+        directions.extend(alone(&scene.inputs));
+        Self {
+            differentiated: Differentiated { arrangements, defined: system.defined(), directions },
+            increments,
+            speeds: scene.speeds.len(),
+            inputs: scene.inputs.len(),
+            order: of_groups,
+            speed_rates: scene.speed_rates.clone(),
+            momenta: scene.momenta.clone(),
+            constrained: !system.constraints.is_empty(),
+        }
+    }
+}
+
+impl<'g> System<'g> {
+    /// Entries of rotations that stand for expressions of quaternions.
+    pub fn defined(&self) -> Vec<Expr<'g>> {
+        let rotations = self.scene.coordinates.iter().filter_map(Coordinate::rotation);
+        rotations.flatten().flatten().copied().collect()
+    }
+}
+
+/// (R, b) under u and then ω, each a unit vector in body axes: ḃ = R u, Ṙ = R [ω]×.
+fn along_pose<'g>(graph: &'g Graph, rotation: &[Triple<'g>; 3], position: &Triple<'g>) -> Vec<Direction<'g>> {
+    let translations = (0..3).map(|k| (0..3).map(|i| (position[i], rotation[i][k])).collect());
+    translations.chain(along_rotation(graph, rotation)).collect()
+}
+
+/// R under a unit vector ω in body axes.
+fn along_rotation<'g>(graph: &'g Graph, rotation: &[Triple<'g>; 3]) -> Vec<Direction<'g>> {
+    let entries: Vec<Expr<'g>> = rotation.iter().flatten().copied().collect();
+    let about = |k: usize| {
+        let axis: Triple<'g> = std::array::from_fn(|i| if i == k { graph.one() } else { graph.zero() });
+        let rates = poisson(rotation, &axis);
+        entries.iter().copied().zip(rates.map(|(_, rate)| rate)).collect()
+    };
+    (0..3).map(about).collect()
+}

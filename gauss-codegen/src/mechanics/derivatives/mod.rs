@@ -1,0 +1,5 @@
+//! What the equations are differentiated along, and rates of all numbers of a state.
+
+pub mod component_rates;
+pub mod linearize;
+pub mod regressor;

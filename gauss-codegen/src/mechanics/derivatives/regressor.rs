@@ -1,0 +1,128 @@
+//! The forces of inertia as a linear function of inertial parameters, `Y π`: what identification solves for.
+//!
+//! ∂C/∂ż is linear in the moments of the masses and in the added mass, not in the centre of mass: in it `c = s/m` is put in place of
+//! c, with the first moment s, and the coefficients of m, s, I_O and X are its derivatives by them. Uniform gravity is an
+//! acceleration of the observer and goes with the masses; the elements of what acts, and buoyancy, do not.
+
+use crate::algebra::{Expr, Graph, Map};
+use crate::kernel::{Differentiated, Kernel};
+
+use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::links::link::Matter;
+use crate::mechanics::matter::body::Body;
+use crate::mechanics::system::System;
+
+/// What is affine in the inertial parameters, and what they are.
+pub struct Regressor<'g> {
+    /// The forces of inertia, in terms of a symbol for each parameter, along which they are differentiated.
+    pub differentiated: Differentiated<'g>,
+    /// π, and the generalised forces of everything else.
+    pub formulas: [Formula<'g>; 2],
+    pub parameters: Vec<InertialParameter<'g>>,
+}
+
+/// A number in which the forces of inertia are linear.
+pub struct InertialParameter<'g> {
+    /// In terms of what the user calls its factors.
+    pub name: String,
+    value: Expr<'g>,
+    symbol: Expr<'g>,
+}
+
+/// The inertial parameters of a scene, and what takes the place of the symbols of fields.
+pub struct InertialParameters<'a, 'g> {
+    graph: &'g Graph,
+    names: &'a Map<u32, String>,
+    list: Vec<InertialParameter<'g>>,
+    /// Masses, inertias and added masses.
+    replacement: Map<u32, Expr<'g>>,
+    /// c = s/m, by the mass and c: bodies may share the one or the other.
+    centers: Map<(u32, u32), Expr<'g>>,
+}
+
+impl<'a, 'g> InertialParameters<'a, 'g> {
+    /// Of all bodies and particles; `names` are those of the numbers of fields.
+    pub fn new(system: &System<'g>, names: &'a Map<u32, String>) -> Self {
+        let graph = system.scene.graph;
+        let (replacement, centers) = (Map::default(), Map::default());
+        let mut parameters = Self { graph, names, list: Vec::new(), replacement, centers };
+        for link in &system.scene.tree.links {
+            match &link.matter {
+                Matter::Body(body) => parameters.take_body(body),
+                Matter::Particle(mass) => parameters.take(*mass),
+                Matter::Nothing => {}
+            }
+        }
+        parameters
+    }
+
+    /// Takes a number for a parameter if it is one of a field, and was not taken before.
+    fn take(&mut self, value: Expr<'g>) {
+        if let Some(name) = self.names.get(&value.key())
+            && !self.replacement.contains_key(&value.key())
+        {
+            let symbol = self.push(name.clone(), value);
+            self.replacement.insert(value.key(), symbol);
+        }
+    }
+
+    fn push(&mut self, name: String, value: Expr<'g>) -> Expr<'g> {
+        let symbol = self.graph.symbol(name.clone(), name.clone(), false);
+        self.list.push(InertialParameter { name, value, symbol });
+        symbol
+    }
+
+    fn take_body(&mut self, body: &Body<'g>) {
+        self.take(body.mass);
+        for c in body.center_of_mass {
+            let key = (body.mass.key(), c.key());
+            let Some(name) = self.names.get(&c.key()).filter(|_| !self.centers.contains_key(&key)) else { continue };
+            let center = match self.names.get(&body.mass.key()) {
+                Some(mass) => self.push(format!("{mass} * {name}"), body.mass * c) * body.mass.recip(),
+                // With a mass that is no parameter forces are linear in c.
+                None => self.push(name.clone(), c),
+            };
+            self.centers.insert(key, center);
+        }
+        (0..3).for_each(|i| (i..3).for_each(|j| self.take(body.inertia[i][j])));
+        for (i, row) in body.added_mass.iter().flatten().enumerate() {
+            row[i..].iter().for_each(|&x| self.take(x));
+        }
+    }
+
+    /// The body by its first moment: from the start, because common factors are pulled out of sums as soon as these are formed.
+    pub fn by_first_moment(&self, body: &Body<'g>) -> Body<'g> {
+        let center = |c: Expr<'g>| self.centers.get(&(body.mass.key(), c.key())).copied().unwrap_or(c);
+        Body { center_of_mass: body.center_of_mass.map(center), ..body.clone() }
+    }
+
+    /// `residuals` are arrangements of the forces of inertia, weight and buoyancy of bodies by their first moments, `forces` those of
+    /// all else; `defined` are symbols that stand for expressions of the arguments.
+    pub fn regressor(self, residuals: &[Vec<Expr<'g>>], forces: &[Expr<'g>], defined: Vec<Expr<'g>>) -> Regressor<'g> {
+        let Self { graph, list, replacement, .. } = self;
+        let replaced =
+            |row: &Vec<Expr<'g>>| -> Vec<Expr<'g>> { row.iter().map(|e| e.substitute(&replacement)).collect() };
+        let arrangements: Vec<Vec<Expr<'g>>> = residuals.iter().map(replaced).collect();
+        let nothing: Map<u32, Expr<'g>> = list.iter().map(|p| (p.symbol.key(), graph.zero())).collect();
+        let rest = |row: &Vec<Expr<'g>>| forces.iter().zip(row).map(|(f, r)| *f - r.substitute(&nothing)).collect();
+        let formulas = [
+            Formula {
+                method: Method::InertialParameters,
+                arrangements: vec![list.iter().map(|parameter| parameter.value).collect()],
+            },
+            Formula { method: Method::OtherForces, arrangements: arrangements.iter().map(rest).collect() },
+        ];
+        let directions = list.iter().map(|parameter| vec![(parameter.symbol, graph.one())]).collect();
+        Regressor { differentiated: Differentiated { arrangements, defined, directions }, formulas, parameters: list }
+    }
+}
+
+impl<'g> Regressor<'g> {
+    /// Parameters in which the forces are not linear after all: the coefficients depend on them. None, unless a mass is
+    /// something else besides.
+    pub fn not_linear(&self, kernel: &Kernel<'g>) -> Vec<&str> {
+        let read: Vec<Expr<'g>> = kernel.regressor.iter().flat_map(|program| program.symbols()).collect();
+        let curved = self.parameters.iter().filter(|parameter| read.contains(&parameter.symbol));
+        curved.map(|parameter| parameter.name.as_str()).collect()
+    }
+}

@@ -1,0 +1,7 @@
+//! Frames, rotations, and how one body moves in each chart.
+
+pub mod chart;
+pub mod motion;
+pub mod rotation;
+pub mod turn;
+pub mod vector;

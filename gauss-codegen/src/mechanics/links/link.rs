@@ -1,0 +1,288 @@
+//! Links: bodies, frames and particles where they hang. Each is placed and moves relative to its parent, and its partial
+//! velocities are taken relative to the parent's too, so that every quantity is formed once, from the one before.
+
+use crate::algebra::{Expr, Graph, Map};
+
+use crate::mechanics::kinematics::rotation::product;
+use crate::mechanics::kinematics::turn::{Turn, angular_velocity, inward};
+use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector, add, cross, is_zero};
+use crate::mechanics::matter::body::Body;
+use crate::mechanics::matter::moments::Moments;
+use crate::mechanics::tidy::tidy;
+
+/// What has mass.
+pub enum Matter<'g> {
+    /// A frame.
+    Nothing,
+    /// A particle (3.3), by its mass.
+    Particle(Expr<'g>),
+    Body(Box<Body<'g>>),
+}
+
+/// A link as it is given: relative to its parent's O and axes, or to Ω and k.
+pub struct Placement<'g> {
+    pub matter: Matter<'g>,
+    /// Index of an earlier link.
+    pub parent: Option<usize>,
+    pub position: Triple<'g>,
+    /// Of O and of the axes of a root, each part in the axes where it is simplest, where they are known so; else they follow from the
+    /// position and the turns.
+    pub velocity: Option<Vector<'g>>,
+    pub angular_velocity: Option<Vector<'g>>,
+    pub turns: Vec<Turn<'g>>,
+}
+
+/// How a link hangs on its parent.
+#[derive(Clone)]
+pub struct Joint<'g> {
+    /// From the link's axes to the parent's (to k for a root).
+    pub turns: Vec<Turn<'g>>,
+    /// O − O_parent and its rate, in the parent's axes.
+    pub offset: Triple<'g>,
+    pub offset_rate: Triple<'g>,
+}
+
+/// A link with its motion. Its *working axes*, in which components are taken, are the body's own, or k throughout where
+/// everything moves in the plane.
+pub struct Link<'g> {
+    pub matter: Matter<'g>,
+    pub parent: Option<usize>,
+    pub has_children: bool,
+    /// From the working axes to k.
+    pub frame: Frame<'g>,
+    /// Between body axes, and between working axes.
+    pub own_joint: Joint<'g>,
+    pub joint: Joint<'g>,
+    /// Velocity of O beyond what the parent's motion gives, and angular velocity relative to the parent: body axes.
+    pub velocity_beyond: Triple<'g>,
+    pub spin: Triple<'g>,
+    /// O − Ω, observer's components.
+    pub position: Triple<'g>,
+    /// From body axes to k.
+    pub rotation: [Triple<'g>; 3],
+    /// That turn where everything moves in the plane.
+    planar: Option<Turn<'g>>,
+    /// Of O. Below a root, in working axes alone.
+    pub velocity: Vector<'g>,
+    /// Working axes.
+    pub angular_velocity: Triple<'g>,
+    /// The same with each part in the axes where it is simplest.
+    pub angular_velocity_in_parts: Vector<'g>,
+    /// ∂v_O/∂z^α and ∂ω/∂z^α beyond what the parent's motion gives.
+    pub linear_rows: Vec<Vector<'g>>,
+    pub angular_rows: Vec<Triple<'g>>,
+    /// Pole O; body axes until [`settle`](Self::settle) takes them to the working axes.
+    pub moments: Moments<'g>,
+}
+
+impl<'g> Link<'g> {
+    pub fn new(
+        graph: &'g Graph,
+        placement: Placement<'g>,
+        parent: Option<&Self>,
+        planar: Option<usize>,
+        speeds: &[Expr<'g>],
+        rates: &Map<u32, Expr<'g>>,
+    ) -> Self {
+        let Placement { matter, parent: index, position: offset, velocity: known, angular_velocity: known_spin, turns } =
+            placement;
+        let turns = Turn::merged(turns, rates);
+        let grouped = |a: Triple<'g>| a.map(Expr::group);
+        let turned = |r, turn: &Turn<'g>| product(&r, &turn.matrix).map(grouped);
+        // In the plane angles add up; else rotations are multiplied.
+        let whole = planar.map(|axis| {
+            let before = parent.and_then(|p| p.planar.as_ref()).into_iter();
+            let angles = before.chain(&turns).filter_map(Turn::axis_and_angle).map(|(_, angle)| angle);
+            Turn::about(graph, axis, angles.fold(graph.zero(), |sum, angle| sum + angle), rates)
+        });
+        let rotation = match &whole {
+            Some(turn) => turn.matrix,
+            None => turns.iter().fold(parent.map_or_else(|| identity(graph), |p| p.rotation), turned),
+        };
+        let own_joint = Joint { turns, offset, offset_rate: offset.map(|e| e.derivative(rates)) };
+        let spin = angular_velocity(&own_joint.turns, &[graph.zero(); 3]);
+        let velocity_beyond = match known {
+            Some(velocity) if is_zero(&velocity.space) => velocity.body,
+            _ => inward(&own_joint.turns, &own_joint.offset_rate),
+        };
+        let joint = match parent {
+            _ if planar.is_none() => own_joint.clone(),
+            None => Joint { turns: Vec::new(), ..own_joint.clone() },
+            Some(p) => {
+                let turned = |a: &Triple<'g>| grouped(Frame { graph, rotation: p.rotation }.to_space(a));
+                let (offset, offset_rate) = (turned(&own_joint.offset), turned(&own_joint.offset_rate));
+                Joint { turns: Vec::new(), offset, offset_rate }
+            }
+        };
+        let frame = Frame { graph, rotation: if planar.is_some() { identity(graph) } else { rotation } };
+        let (position, velocity, omega, own_velocity) = match parent {
+            None => {
+                let velocity = known.unwrap_or_else(|| frame.space_vector(joint.offset_rate));
+                (offset, velocity, spin, velocity)
+            }
+            Some(p) => {
+                let omega = match planar {
+                    Some(_) => add(&p.angular_velocity, &spin),
+                    None => angular_velocity(&joint.turns, &p.angular_velocity),
+                };
+                let u = p.frame.resolve(&p.velocity, Axes::Body);
+                let carried = grouped(add(&u, &add(&cross(&p.angular_velocity, &joint.offset), &joint.offset_rate)));
+                let position = add(&p.position, &grouped(p.frame.to_space(&joint.offset)));
+                let velocity = frame.body_vector(inward(&joint.turns, &carried));
+                (position, velocity, omega, frame.body_vector(inward(&joint.turns, &joint.offset_rate)))
+            }
+        };
+        let named = |e: Expr<'g>| tidy(e).group();
+        let linear_rows = speeds.iter().map(|&z| own_velocity.partial(z).map(named)).collect();
+        let angular_rows = speeds.iter().map(|&z| spin.map(|e| named(e.partial(z)))).collect();
+        let moments = match &matter {
+            Matter::Nothing => Moments::zero(graph),
+            Matter::Particle(mass) => Moments::particle(*mass),
+            Matter::Body(body) => Moments::of_body(body),
+        };
+        Self {
+            matter,
+            parent: index,
+            has_children: false,
+            own_joint,
+            joint,
+            velocity_beyond,
+            spin,
+            position,
+            rotation,
+            planar: whole,
+            velocity,
+            angular_velocity: omega,
+            angular_velocity_in_parts: known_spin.unwrap_or_else(|| frame.body_vector(omega)),
+            frame,
+            linear_rows,
+            angular_rows,
+            moments,
+        }
+    }
+
+    /// Takes the moments from body to working axes.
+    pub fn settle(&mut self) {
+        if let Some(turn) = self.planar {
+            self.moments = self.moments.turned(&[turn]);
+        }
+    }
+
+    pub fn body(&self) -> Option<&Body<'g>> {
+        match &self.matter {
+            Matter::Body(body) => Some(body),
+            _ => None,
+        }
+    }
+
+    /// Mass of the displaced fluid and its centre from O, working axes.
+    pub fn displaced(&self) -> Option<(Expr<'g>, Triple<'g>)> {
+        let (mass, center) = self.body()?.displaced?;
+        Some((mass, self.planar.map_or(center, |turn| turn.vector(&center).map(Expr::group))))
+    }
+
+    /// The only body axis that it turns about.
+    pub fn only_axis(&self) -> Option<usize> {
+        let still = |axis: usize| self.angular_velocity[axis].is_zero();
+        (0..3).find(|&axis| !still(axis) && still((axis + 1) % 3) && still((axis + 2) % 3))
+    }
+
+    /// Components in working axes, of a vector given in body axes or in observer's.
+    pub fn in_working_axes(&self, a: &Triple<'g>, axes: Axes) -> Triple<'g> {
+        match (axes, &self.planar) {
+            (Axes::Body, Some(turn)) => turn.vector(a),
+            (Axes::Body, None) => *a,
+            (Axes::Space, _) => self.frame.to_body(a),
+        }
+    }
+
+    /// The body axes e seen from k, whatever the working axes are.
+    pub fn axes(&self) -> Frame<'g> {
+        Frame { graph: self.frame.graph, rotation: self.rotation }
+    }
+
+    /// Components in body axes.
+    pub fn in_body_axes(&self, a: &Vector<'g>) -> Triple<'g> {
+        match &self.planar {
+            Some(turn) => turn.back(&self.frame.resolve(a, Axes::Space)).map(Expr::group),
+            None => self.frame.resolve(a, Axes::Body).map(Expr::group),
+        }
+    }
+
+    /// u = Rᵀ v_O and ω, body axes.
+    pub fn twist(&self) -> (Triple<'g>, Triple<'g>) {
+        (self.in_body_axes(&self.velocity), self.in_body_axes(&self.frame.body_vector(self.angular_velocity)))
+    }
+
+    /// Whether its working axes are the body's own.
+    pub fn works_in_body_axes(&self) -> bool {
+        self.planar.is_none()
+    }
+
+    /// Whether nothing is joined to it: its velocities may then keep parts in both frames.
+    pub fn is_alone(&self) -> bool {
+        self.parent.is_none() && !self.has_children
+    }
+
+    /// Whether the speed moves it in another way than its parent.
+    pub fn is_moved_by(&self, speed: usize) -> bool {
+        let row = &self.linear_rows[speed];
+        !is_zero(&row.body) || !is_zero(&row.space) || !is_zero(&self.angular_rows[speed])
+    }
+
+    /// `linear·a_α + angular·o_α` with the partial velocities relative to the parent's.
+    pub fn project(&self, speed: usize, linear: &Vector<'g>, angular: &Triple<'g>) -> Expr<'g> {
+        self.frame.dot(linear, &self.linear_rows[speed])
+            + crate::mechanics::kinematics::vector::dot(angular, &self.angular_rows[speed])
+    }
+
+    /// (Q, Γ_O) of moments that move with v_O and ω; body and fluid.
+    pub fn momentum(
+        &self,
+        moments: &Moments<'g>,
+        velocity: &Vector<'g>,
+        omega: &Triple<'g>,
+    ) -> (Vector<'g>, Triple<'g>) {
+        let zero = [self.frame.graph.zero(); 3];
+        let added = self.body().and_then(|body| body.added_mass.as_ref());
+        // What vanishes with O = G need not be turned.
+        let coupled = added.is_some() || !is_zero(&moments.first);
+        let u = if coupled { self.frame.resolve(velocity, Axes::Body) } else { zero };
+        let (beside, mut gamma) = moments.momentum(&u, omega);
+        let mut q = velocity.times(moments.mass).plus(&self.frame.body_vector(beside));
+        if let Some(added) = added {
+            let (impulse, moment) = impulse(added, &u, omega);
+            q = q.plus(&self.frame.body_vector(impulse));
+            gamma = add(&gamma, &moment);
+        }
+        (q.map(Expr::group), gamma.map(Expr::group))
+    }
+}
+
+/// (Q_f, Γ_f) = M_A (u, ω).
+pub fn impulse<'g>(added: &[Vec<Expr<'g>>], u: &Triple<'g>, omega: &Triple<'g>) -> (Triple<'g>, Triple<'g>) {
+    let row = |first: usize| -> Triple<'g> {
+        let (linear, angular) = (
+            crate::mechanics::kinematics::vector::apply_block(added, first, 0, u),
+            crate::mechanics::kinematics::vector::apply_block(added, first, 3, omega),
+        );
+        add(&linear, &angular).map(Expr::group)
+    };
+    (row(0), row(3))
+}
+
+/// `dQ_f/dt` and `dΓ_f/dt + v_O × Q_f` of the fluid's impulse in body axes; `u` is the velocity of O relative to the fluid far
+/// away, `rate` the observer's derivative of a vector in body axes.
+pub fn reaction<'g>(
+    added: &[Vec<Expr<'g>>],
+    u: &Triple<'g>,
+    omega: &Triple<'g>,
+    rate: impl Fn(&Triple<'g>) -> Triple<'g>,
+) -> (Triple<'g>, Triple<'g>) {
+    let (q, gamma) = impulse(added, u, omega);
+    (rate(&q), add(&rate(&gamma), &cross(u, &q)))
+}
+
+pub fn identity(graph: &Graph) -> [Triple<'_>; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { graph.one() } else { graph.zero() }))
+}

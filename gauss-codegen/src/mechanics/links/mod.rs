@@ -1,0 +1,5 @@
+//! Bodies, frames and particles, each relative to its parent, and sums over them by recursion.
+
+pub mod link;
+pub mod regroup;
+pub mod tree;

@@ -1,0 +1,455 @@
+//! Sums over links by recursion: velocities and accelerations outward from the roots, momenta and forces inward, so that
+//! what moves together is summed before it is projected. Every sum over bodies of (3.3) and (3.4) is one of these.
+
+use crate::algebra::{Expr, Graph, Map};
+
+use crate::mechanics::arrangements::balance::Weight;
+use crate::mechanics::kinematics::turn::{Turn, angular_acceleration, inward, outward};
+use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, scale, subtract};
+use crate::mechanics::links::link::{Link, Matter, Placement, impulse, reaction};
+use crate::mechanics::links::regroup::regroup;
+use crate::mechanics::loads::forces::Force;
+use crate::mechanics::matter::body::Body;
+use crate::mechanics::matter::moments::Moments;
+
+/// A linear and an angular part at the pole O of each link: momenta or forces.
+pub type Pairs<'g> = Vec<(Vector<'g>, Triple<'g>)>;
+
+/// The rate of the angular momentum of a link: two ways to form it, one cheaper here, the other there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inertia {
+    /// `I ω̇ + ω × I ω`.
+    Tensor,
+    /// `∫x × Ξ x dm` with the acceleration field `a_O + Ξ x`, `Ξ = [ω̇]× + [ω]×²`.
+    Field,
+}
+
+/// Links, parents before children.
+pub struct Tree<'g> {
+    pub graph: &'g Graph,
+    pub links: Vec<Link<'g>>,
+    /// The axis that every turn is about, if components are taken in k for that.
+    planar: Option<usize>,
+    speeds: Vec<Expr<'g>>,
+    rates: Map<u32, Expr<'g>>,
+    /// Acceleration of free fall, observer's axes.
+    pub gravity: Option<Triple<'g>>,
+}
+
+impl<'g> Tree<'g> {
+    /// Components are taken in k where every turn is about one and the same axis, else in body axes, in which the added mass
+    /// of a fluid is constant.
+    pub fn new(
+        graph: &'g Graph,
+        placements: Vec<Placement<'g>>,
+        speeds: Vec<Expr<'g>>,
+        rates: Map<u32, Expr<'g>>,
+        gravity: Option<Triple<'g>>,
+    ) -> Self {
+        let chained = placements.iter().any(|p| p.parent.is_some());
+        let mut turns = placements.iter().flat_map(|p| &p.turns);
+        let axis = turns.clone().next().and_then(|turn| turn.axis_and_angle()).map(|(axis, _)| axis);
+        let about_it = |turn: &Turn<'g>| turn.axis_and_angle().is_some_and(|(own, _)| Some(own) == axis);
+        let dry = placements.iter().all(|p| !matches!(&p.matter, Matter::Body(body) if body.added_mass.is_some()));
+        let planar = axis.filter(|_| chained && dry && turns.all(about_it));
+        let mut tree = Self { graph, links: Vec::new(), planar, speeds, rates, gravity };
+        placements.into_iter().for_each(|placement| tree.hang(placement));
+        tree
+    }
+
+    /// Adds a link; its parent is there already.
+    pub fn hang(&mut self, placement: Placement<'g>) {
+        if let Some(parent) = placement.parent {
+            self.links[parent].has_children = true;
+        }
+        let parent = placement.parent.map(|k| &self.links[k]);
+        let link = Link::new(self.graph, placement, parent, self.planar, &self.speeds, &self.rates);
+        self.links.push(link);
+    }
+
+    /// Gives to parents what moves with them as well; to be called once all links hang.
+    pub fn settle(&mut self) {
+        regroup(self.graph, &mut self.links);
+        self.links.iter_mut().for_each(Link::settle);
+    }
+
+    /// Leaves all moments where they were given.
+    #[cfg(test)]
+    pub fn settle_without_regrouping(&mut self) {
+        self.links.iter_mut().for_each(Link::settle);
+    }
+
+    fn speeds(&self) -> std::ops::Range<usize> {
+        0..self.speeds.len()
+    }
+
+    pub fn speed_count(&self) -> usize {
+        self.speeds.len()
+    }
+
+    /// The ways to form the rates of angular momenta that are worth trying: about a single axis the tensor is a number, and
+    /// particles have none.
+    pub fn inertias(&self, long: bool) -> &'static [Inertia] {
+        let particles = self.links.iter().all(|link| link.body().is_none());
+        match (self.planar.is_some() || particles, long) {
+            (true, true) => &[Inertia::Tensor],
+            (true, false) if particles => &[Inertia::Tensor],
+            (false, true) => &[Inertia::Field],
+            (_, false) => &[Inertia::Tensor, Inertia::Field],
+        }
+    }
+
+    pub fn is_chained(&self) -> bool {
+        self.links.iter().any(|link| link.parent.is_some())
+    }
+
+    /// (Q, Γ_O) of every link by itself.
+    fn momenta(&self) -> Pairs<'g> {
+        self.links.iter().map(|link| link.momentum(&link.moments, &link.velocity, &link.angular_velocity)).collect()
+    }
+
+    /// Adds to every link what hangs on it, moved to its pole.
+    fn gathered(&self, mut pairs: Pairs<'g>) -> Pairs<'g> {
+        for k in (0..self.links.len()).rev() {
+            let Some(parent) = self.links[k].parent else { continue };
+            let (linear, angular) = self.carried(k, &pairs[k].0.body, &pairs[k].1);
+            let pair = &mut pairs[parent];
+            pair.0.body = add(&pair.0.body, &linear).map(Expr::group);
+            pair.1 = add(&pair.1, &angular).map(Expr::group);
+        }
+        pairs
+    }
+
+    /// A linear and an angular part at the pole of a link, at its parent's pole and in its axes.
+    pub fn carried(&self, k: usize, linear: &Triple<'g>, angular: &Triple<'g>) -> (Triple<'g>, Triple<'g>) {
+        let joint = &self.links[k].joint;
+        let linear = outward(&joint.turns, linear);
+        let angular = outward(&joint.turns, angular);
+        (linear, add(&angular, &cross(&joint.offset, &linear)))
+    }
+
+    /// `Σ linear·a_α + angular·o_α` over all links.
+    fn projected(&self, pairs: &Pairs<'g>) -> Vec<Expr<'g>> {
+        let row = |k: usize| {
+            let links = self.links.iter().zip(pairs).filter(|(link, _)| link.is_moved_by(k));
+            let terms = links.map(|(link, (linear, angular))| link.project(k, linear, angular));
+            terms.fold(self.graph.zero(), |sum, e| sum + e)
+        };
+        self.speeds().map(row).collect()
+    }
+
+    /// p_α = ∂T/∂z^α.
+    pub fn momentum(&self) -> Vec<Expr<'g>> {
+        self.projected(&self.gathered(self.momenta()))
+    }
+
+    /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of the
+    /// links on the way to the root.
+    pub fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
+        let n = self.speeds.len();
+        let mut matrix = vec![vec![self.graph.zero(); n]; n];
+        let mut together: Vec<Moments<'g>> = self.links.iter().map(|link| link.moments).collect();
+        for k in (0..self.links.len()).rev() {
+            let link = &self.links[k];
+            let moved: Vec<usize> = self.speeds().filter(|&z| link.is_moved_by(z)).collect();
+            for &column in &moved {
+                let (row_a, row_o) = (&link.linear_rows[column], &link.angular_rows[column]);
+                let (q, gamma) = link.momentum(&together[k], row_a, row_o);
+                for &row in moved.iter().filter(|&&row| row <= column) {
+                    matrix[row][column] = matrix[row][column] + link.project(row, &q, &gamma);
+                }
+                let (mut at, mut linear, mut angular) = (k, q.body, gamma);
+                while let Some(parent) = self.links[at].parent {
+                    (linear, angular) = self.carried(at, &linear, &angular);
+                    (linear, angular) = (linear.map(Expr::group), angular.map(Expr::group));
+                    at = parent;
+                    let above = &self.links[at];
+                    for row in self.speeds().filter(|&z| above.is_moved_by(z)) {
+                        let entry = above.project(row, &above.frame.body_vector(linear), &angular);
+                        let (low, high) = (row.min(column), row.max(column));
+                        // On the diagonal the pair of links counts in both orders.
+                        let entry = if low == high { entry + entry } else { entry };
+                        matrix[low][high] = matrix[low][high] + entry;
+                    }
+                }
+            }
+            if let Some(parent) = link.parent {
+                let moments = together[k].turned(&link.joint.turns).shifted(&link.joint.offset);
+                together[parent] = together[parent].plus(&moments).map(Expr::group);
+            }
+        }
+        self.add_carried_fluid(&mut matrix);
+        for row in 0..n {
+            for column in 0..row {
+                matrix[row][column] = matrix[column][row];
+            }
+        }
+        matrix
+    }
+
+    /// What the fluid around a link adds to A through the motion of its ancestors alone: it is no moment, so it is not in
+    /// what moves together with them.
+    fn add_carried_fluid(&self, matrix: &mut [Vec<Expr<'g>>]) {
+        for (k, link) in self.links.iter().enumerate() {
+            let added = link.body().and_then(|body| body.added_mass.as_ref());
+            let (Some(added), Some(_)) = (added, link.parent) else { continue };
+            let carried: Vec<_> = self.speeds().map(|speed| self.carried_motion(k, speed)).collect();
+            let moves = |z: &usize| !is_zero(&carried[*z].0) || !is_zero(&carried[*z].1);
+            for column in self.speeds().filter(moves) {
+                let (linear, angular) = impulse(added, &carried[column].0, &carried[column].1);
+                for row in (0..=column).filter(moves) {
+                    let entry = dot(&linear, &carried[row].0) + dot(&angular, &carried[row].1);
+                    matrix[row][column] = matrix[row][column] + entry;
+                }
+            }
+        }
+    }
+
+    /// ∂v_O/∂z^α and ∂ω/∂z^α that a link has from its ancestors, in its working axes.
+    fn carried_motion(&self, k: usize, speed: usize) -> (Triple<'g>, Triple<'g>) {
+        let Some(parent) = self.links[k].parent else { return ([self.graph.zero(); 3], [self.graph.zero(); 3]) };
+        let (above, joint) = (&self.links[parent], &self.links[k].joint);
+        let (linear, angular) = self.carried_motion(parent, speed);
+        let own = above.frame.resolve(&above.linear_rows[speed], Axes::Body);
+        let (linear, angular) = (add(&linear, &own), add(&angular, &above.angular_rows[speed]));
+        let moved = add(&linear, &cross(&angular, &joint.offset)).map(Expr::group);
+        (inward(&joint.turns, &moved), inward(&joint.turns, &angular))
+    }
+
+    /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm`, the fluid's share and the
+    /// loads, with ż by its rates in `along`.
+    pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
+        let accelerations = self.accelerations(along);
+        let inertia_forces = self.links.iter().zip(&accelerations);
+        let mut pairs: Pairs<'g> =
+            inertia_forces.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
+        for (link, force, torque) in forces.iter().filter_map(|force| force.load(&self.links)) {
+            let (linear, angular) = &mut pairs[link];
+            *linear = linear.minus(&force).map(Expr::group);
+            *angular = subtract(angular, &torque).map(Expr::group);
+        }
+        self.projected(&self.gathered(pairs))
+    }
+
+    /// `R·a_α + M_O·o_α` of the forces that act on links.
+    pub fn loads(&self, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
+        let none = [self.graph.zero(); 3];
+        let mut pairs: Pairs<'g> = self.links.iter().map(|link| (link.frame.zero(), none)).collect();
+        for (link, force, torque) in forces.iter().filter_map(|force| force.load(&self.links)) {
+            let (linear, angular) = &mut pairs[link];
+            *linear = linear.plus(&force);
+            *angular = add(angular, &torque);
+        }
+        self.projected(&self.gathered(pairs))
+    }
+
+    /// `a_O − g` and ω̇ of every link; uniform gravity is an acceleration of the observer.
+    fn accelerations(&self, along: &Map<u32, Expr<'g>>) -> Vec<(Vector<'g>, Triple<'g>)> {
+        let mut accelerations: Vec<(Vector<'g>, Triple<'g>)> = Vec::with_capacity(self.links.len());
+        for link in &self.links {
+            let frame = &link.frame;
+            let entry = match link.parent {
+                None => {
+                    let omega = frame.body_vector(link.angular_velocity);
+                    let a = frame.derivative(&link.velocity, along, &omega).map(Expr::group);
+                    let a = self.gravity.map_or(a, |g| a.minus(&frame.space_vector(g)));
+                    let a = if link.is_alone() {
+                        a
+                    } else {
+                        frame.body_vector(frame.resolve(&a, Axes::Body).map(Expr::group))
+                    };
+                    (a, link.angular_velocity.map(|e| e.derivative(along).group()))
+                }
+                Some(parent) => {
+                    let (above, joint) = (&self.links[parent], &link.joint);
+                    let (a, alpha) = &accelerations[parent];
+                    let omega = &above.angular_velocity;
+                    let carried = add(&a.body, &apply(&acceleration_gradient(omega, alpha), &joint.offset));
+                    let rate = &joint.offset_rate;
+                    // The components of the rate turn with the parent's axes, unless they are in k: the rate of their
+                    // rate then has one ω × rate in it already.
+                    let drift = cross(omega, rate);
+                    let drift = if self.planar.is_some() { drift } else { scale(self.graph.integer(2), &drift) };
+                    let own = add(&rate.map(|e| e.derivative(along)), &drift);
+                    let a = frame.body_vector(inward(&joint.turns, &add(&carried, &own).map(Expr::group)));
+                    let alpha = if self.planar.is_some() {
+                        add(alpha, &link.spin.map(|e| e.derivative(along))).map(Expr::group)
+                    } else {
+                        angular_acceleration(&joint.turns, [omega, alpha], along)
+                    };
+                    (a, alpha)
+                }
+            };
+            accelerations.push(entry);
+        }
+        accelerations
+    }
+
+    /// `∫(a_P − g) dm` and `∫x × (a_P − g) dm`, and what the fluid needs to follow.
+    fn inertia_force(
+        &self,
+        link: &Link<'g>,
+        a: &Vector<'g>,
+        alpha: &Triple<'g>,
+        along: &Map<u32, Expr<'g>>,
+        inertia: Inertia,
+    ) -> (Vector<'g>, Triple<'g>) {
+        let (frame, moments, w) = (&link.frame, &link.moments, &link.angular_velocity);
+        let first = &moments.first;
+        let (turning, mut torque) = match inertia {
+            Inertia::Field => {
+                let field = acceleration_gradient(w, alpha);
+                // ∫x × Ξx dm is the axial vector of Ξ J.
+                let product = |i: usize, j: usize| dot(&field[i], &moments.second[j]);
+                let torque = std::array::from_fn(|i| {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    product(k, j) - product(j, k)
+                });
+                (apply(&field, first), torque)
+            }
+            Inertia::Tensor => {
+                let tensor = moments.inertia();
+                let spin = apply(&tensor, w).map(Expr::group);
+                let turning = add(&cross(alpha, first), &cross(w, &cross(w, first).map(Expr::group)));
+                (turning, add(&apply(&tensor, alpha), &cross(w, &spin)))
+            }
+        };
+        let mut force = a.times(moments.mass).plus(&frame.body_vector(turning));
+        if !is_zero(first) {
+            torque = add(&torque, &cross(first, &frame.resolve(a, Axes::Body)));
+        }
+        if let Some(body) = link.body() {
+            let (more, moment) = self.fluid_force(link, body, along);
+            force = force.plus(&more);
+            torque = add(&torque, &moment);
+        }
+        (force.map(Expr::group), torque.map(Expr::group))
+    }
+
+    /// `dQ_f/dt` and `dΓ_f/dt + v_O × Q_f` of the fluid's impulse, minus buoyancy.
+    fn fluid_force(&self, link: &Link<'g>, body: &Body<'g>, along: &Map<u32, Expr<'g>>) -> (Vector<'g>, Triple<'g>) {
+        let frame = &link.frame;
+        let zero = [self.graph.zero(); 3];
+        let (mut force, mut torque) = (frame.zero(), zero);
+        if let Some(added) = &body.added_mass {
+            let (u, w) = (frame.resolve(&link.velocity, Axes::Body), &link.angular_velocity);
+            let rate = |a: &Triple<'g>| add(&a.map(|e| e.derivative(along)), &cross(w, a));
+            let (resultant, moment) = reaction(added, &u, w, rate);
+            force = frame.body_vector(resultant);
+            torque = moment;
+        }
+        if let (Some((mass, center)), Some(gravity)) = (link.displaced(), self.gravity) {
+            let lift = frame.space_vector(scale(mass, &gravity));
+            let turned = frame.resolve(&lift, Axes::Body);
+            torque = add(&torque, &cross(&center, &turned));
+            // What is handed on to a parent is in body axes.
+            force = force.plus(&if link.is_alone() { lift } else { frame.body_vector(turned) });
+        }
+        (force, torque)
+    }
+
+    /// `Σ Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α` with the momenta of all that moves together.
+    pub fn bracket(&self) -> Vec<Expr<'g>> {
+        let own = self.momenta();
+        let gathered = self.gathered(own);
+        let mut bracket = vec![self.graph.zero(); self.speeds.len()];
+        for (link, (q, gamma)) in self.links.iter().zip(&gathered) {
+            let frame = &link.frame;
+            let omega = if self.planar.is_some() { frame.zero() } else { frame.body_vector(link.angular_velocity) };
+            // A multiple of v_O drops out of v_O × Q.
+            let beside = if link.is_alone() && link.body().is_none_or(|body| body.added_mass.is_none()) {
+                frame.body_vector(cross(&link.angular_velocity, &link.moments.first))
+            } else {
+                *q
+            };
+            let moved = frame.resolve(&frame.cross(&beside, &link.velocity), Axes::Body);
+            let turned = add(&cross(gamma, &frame.resolve(&omega, Axes::Body)), &moved);
+            for k in self.speeds().filter(|&k| link.is_moved_by(k)) {
+                let a = frame.derivative(&link.linear_rows[k], &self.rates, &omega);
+                let o = link.angular_rows[k].map(|e| e.derivative(&self.rates));
+                let turned = dot(&turned, &link.angular_rows[k]);
+                bracket[k] = bracket[k] + frame.dot(q, &a) + dot(gamma, &o) + turned;
+            }
+        }
+        bracket
+    }
+
+    /// `R·a_α + M_O·o_α` of weight and buoyancy.
+    pub fn weights(&self) -> Vec<Expr<'g>> {
+        let Some(gravity) = self.gravity else { return vec![self.graph.zero(); self.speeds.len()] };
+        let forces = self.links.iter().map(|link| {
+            let frame = &link.frame;
+            let (mut mass, mut first) = (link.moments.mass, link.moments.first);
+            if let Some((displaced, center)) = link.displaced() {
+                mass = mass - displaced;
+                first = subtract(&first, &scale(displaced, &center));
+            }
+            let g = frame.space_vector(gravity);
+            let force = g.times(mass);
+            let torque = if is_zero(&first) { first } else { cross(&first, &frame.resolve(&g, Axes::Body)) };
+            let force = if link.is_alone() { force } else { frame.body_vector(frame.resolve(&force, Axes::Body)) };
+            (force, torque.map(Expr::group))
+        });
+        self.projected(&self.gathered(forces.collect()))
+    }
+
+    /// 2T = Σ Q·v_O + Γ_O·ω.
+    pub fn twice_kinetic_energy(&self) -> Expr<'g> {
+        let links = self.links.iter().zip(self.momenta());
+        let terms =
+            links.map(|(link, (q, gamma))| link.frame.dot(&q, &link.velocity) + dot(&gamma, &link.angular_velocity));
+        terms.fold(self.graph.zero(), |sum, e| sum + e)
+    }
+
+    /// Of weight and buoyancy: `−ĝ·Σ∫x̂ dm`, the first moments gathered at the roots. All matter counts, also what keeps
+    /// still.
+    pub fn potential_energy(&self) -> Expr<'g> {
+        let Some(gravity) = self.gravity else { return self.graph.zero() };
+        let mut gathered: Vec<(Expr<'g>, Triple<'g>)> = Vec::with_capacity(self.links.len());
+        for link in &self.links {
+            gathered.push(match &link.matter {
+                Matter::Nothing => (self.graph.zero(), [self.graph.zero(); 3]),
+                Matter::Particle(mass) => (*mass, [self.graph.zero(); 3]),
+                Matter::Body(body) => match Weight::new(body) {
+                    Some(weight) => (weight.effective_mass, weight.effective_moment),
+                    None => (body.mass, body.first_moment()),
+                },
+            });
+        }
+        let mut energy = self.graph.zero();
+        for k in (0..self.links.len()).rev() {
+            let link = &self.links[k];
+            let (mass, first) = gathered[k];
+            match link.parent {
+                Some(parent) => {
+                    let own = &link.own_joint;
+                    let first = add(&outward(&own.turns, &first), &scale(mass, &own.offset));
+                    gathered[parent].0 = gathered[parent].0 + mass;
+                    gathered[parent].1 = add(&gathered[parent].1, &first).map(Expr::group);
+                }
+                None => {
+                    let first = add(&outward(&link.own_joint.turns, &first), &scale(mass, &link.position));
+                    energy = energy - dot(&gravity, &first);
+                }
+            }
+        }
+        energy
+    }
+}
+
+/// Ξ of the acceleration field `a_O + Ξ x`: `[ω̇]× + [ω]×²`.
+fn acceleration_gradient<'g>(omega: &Triple<'g>, alpha: &Triple<'g>) -> [Triple<'g>; 3] {
+    let turn = crate::mechanics::kinematics::vector::cross_matrix(alpha);
+    let square: Expr<'g> = dot(omega, omega);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let own = omega[i] * omega[j];
+            let centripetal = if i == j { own - square } else { own };
+            (turn[i][j] + centripetal).group()
+        })
+    })
+}
+
+fn apply<'g>(matrix: &[Triple<'g>; 3], a: &Triple<'g>) -> Triple<'g> {
+    std::array::from_fn(|i| dot(&matrix[i], a))
+}

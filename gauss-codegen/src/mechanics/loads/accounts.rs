@@ -1,0 +1,118 @@
+//! Accounts: the power and the generalised force of every element of what acts, and what changes the energy.
+
+use crate::algebra::Expr;
+
+use crate::mechanics::arrangements::free_link::FreeLink;
+use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::loads::forces::{Action, Force};
+use crate::mechanics::loads::wrench::Wrench;
+use crate::mechanics::system::{System, sums};
+
+/// One element in the accounts.
+pub struct Account<'g> {
+    pub name: String,
+    /// It is part of the potential energy.
+    pub conservative: bool,
+    /// `∫∂v_P/∂z^α·dF`, one for each speed.
+    pub forces: Vec<Expr<'g>>,
+    pub power: Expr<'g>,
+}
+
+/// What weight and buoyancy are called.
+pub const GRAVITY: &str = "gravity";
+/// What is called that moves coordinates or constraints as a function of time.
+const GUIDES: &str = "guides";
+
+/// Powers, generalised forces (speeds by elements, row by row), and dE/dt: the powers of what is not in the energy, and ∂U/∂t.
+pub fn account_formulas<'g>(accounts: &[Account<'g>], explicit_power: Expr<'g>) -> Vec<Formula<'g>> {
+    let Some(first) = accounts.first() else { return Vec::new() };
+    let single = |method, outputs| Formula { method, arrangements: vec![outputs] };
+    let rows = (0..first.forces.len()).flat_map(|row| accounts.iter().map(move |account| account.forces[row]));
+    let outside = accounts.iter().filter(|account| !account.conservative).map(|account| account.power);
+    vec![
+        single(Method::Powers, accounts.iter().map(|account| account.power).collect()),
+        single(Method::ElementForces, rows.collect()),
+        single(Method::SuppliedPower, vec![outside.fold(explicit_power, |sum, power| sum + power)]),
+    ]
+}
+
+/// The elements in the order of the accounts: those of the energy first.
+fn sorted(mut accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {
+    accounts.sort_by_key(|account| !account.conservative);
+    accounts
+}
+
+impl<'g> System<'g> {
+    /// One account for each element, with weight and buoyancy first; none where nothing else acts and no guide moves.
+    pub fn accounts(&self) -> Vec<Account<'g>> {
+        let scene = &self.scene;
+        if scene.elements.is_empty() && !self.driven {
+            return Vec::new();
+        }
+        let potential = |name: &str, potential: Expr<'g>| Account {
+            name: name.to_owned(),
+            conservative: true,
+            forces: self.potential_forces(potential),
+            // What the force does, not the change of the field in time.
+            power: potential.partial(scene.time) - potential.derivative(&scene.rates),
+        };
+        let by_wrench = |body: &FreeLink<'g>, name: &str, conservative: bool, wrench: &Wrench<'g>| Account {
+            name: name.to_owned(),
+            conservative,
+            forces: body.project_wrench(wrench),
+            power: body.power(wrench),
+        };
+        let body = self.only_body();
+        let mut accounts = Vec::new();
+        if let Some((body, wrench)) = body.and_then(|body| Some((body, body.weight_wrench()?))) {
+            accounts.push(by_wrench(body, GRAVITY, true, &wrench));
+        } else if scene.tree.gravity.is_some() {
+            let own = potential(GRAVITY, scene.tree.potential_energy());
+            accounts.push(Account { forces: scene.tree.weights(), ..own });
+        }
+        accounts.extend(scene.elements.iter().map(|element| match (&element.action, body, &element.on_link) {
+            (action, Some(body), Some((_, wrench))) => {
+                by_wrench(body, &element.name, matches!(action, Action::Potential(_)), wrench)
+            }
+            (Action::Potential(energy), ..) => potential(&element.name, *energy),
+            (Action::Forces(forces), ..) => self.account_of(&element.name, forces),
+        }));
+        if self.driven {
+            accounts.push(self.account_of_guides(&accounts));
+        }
+        sorted(accounts)
+    }
+
+    /// What moves them does work: whatever changes the kinetic energy and is done by nothing else. It has no generalised
+    /// force: its forces do no work in ∂v_P/∂z, or are multipliers.
+    fn account_of_guides(&self, others: &[Account<'g>]) -> Account<'g> {
+        let scene = &self.scene;
+        let rates = scene.speed_rates.iter().zip(self.any_acceleration()).map(|(s, e)| (s.key(), e.group())).collect();
+        let energy = scene.tree.twice_kinetic_energy().half().derivative(&self.along).substitute(&rates);
+        let known = others.iter().map(|account| account.power.group());
+        Account {
+            name: GUIDES.to_owned(),
+            conservative: false,
+            forces: vec![scene.graph.zero(); scene.speeds.len()],
+            power: known.fold(energy, |rest, power| rest - power),
+        }
+    }
+
+    fn account_of(&self, name: &str, forces: &[Force<'g>]) -> Account<'g> {
+        let scene = &self.scene;
+        let elsewhere = forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
+        let powers = forces.iter().map(|force| force.power(&scene.tree.links, &scene.speeds, &scene.rates));
+        Account {
+            name: name.to_owned(),
+            conservative: false,
+            forces: elsewhere.fold(scene.tree.loads(forces), |sum, own| sums(&sum, &own)),
+            power: powers.fold(scene.graph.zero(), |sum, power| sum + power),
+        }
+    }
+
+    /// ∂U/∂t.
+    pub(in crate::mechanics) fn explicit_power(&self) -> Expr<'g> {
+        let potential = self.potential.unwrap_or_else(|| self.scene.graph.zero());
+        potential.partial(self.scene.time) + self.scene.tree.potential_energy().partial(self.scene.time)
+    }
+}

@@ -1,0 +1,136 @@
+//! What acts beside weight and buoyancy: potentials, and forces, each of which enters through `∫∂v_P/∂z·dF` of (3.4), at the
+//! point where it acts; nothing else is ever said about it.
+
+use crate::algebra::{Expr, Map};
+
+use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector, add, cross, dot};
+use crate::mechanics::links::link::Link;
+use crate::mechanics::loads::wrench::Wrench;
+
+/// One element of what acts, under the name by which its power and its generalised force are known.
+#[derive(Clone)]
+pub struct Element<'g> {
+    pub name: String,
+    pub action: Action<'g>,
+    /// The link that all of it acts on, and its wrench there, where that is known in the axes where each part arises.
+    pub on_link: Option<(usize, Wrench<'g>)>,
+}
+
+impl<'g> Element<'g> {
+    pub fn new(name: String, action: Action<'g>) -> Self {
+        Self { name, action, on_link: None }
+    }
+}
+
+/// How an element acts.
+#[derive(Clone)]
+pub enum Action<'g> {
+    /// By a potential, a function of t and q: part of the energy.
+    Potential(Expr<'g>),
+    /// By forces that act together.
+    Forces(Vec<Force<'g>>),
+}
+
+/// The sum of all potentials.
+pub fn potential_of<'g>(elements: &[Element<'g>]) -> Option<Expr<'g>> {
+    let potentials = elements.iter().filter_map(|element| match element.action {
+        Action::Potential(potential) => Some(potential),
+        Action::Forces(_) => None,
+    });
+    potentials.reduce(|sum, potential| sum + potential)
+}
+
+/// All forces, of whichever element.
+pub fn forces_of<'g>(elements: &[Element<'g>]) -> Vec<Force<'g>> {
+    let forces = elements.iter().filter_map(|element| match &element.action {
+        Action::Potential(_) => None,
+        Action::Forces(forces) => Some(forces),
+    });
+    forces.flatten().copied().collect()
+}
+
+/// One force, by how it acts.
+#[derive(Clone, Copy)]
+pub enum Force<'g> {
+    /// A force at a point that moves, both in observer's axes from Ω.
+    AtPoint { at: Triple<'g>, force: Triple<'g> },
+    /// A force at a point fixed in a link (body axes from O), and a torque; components in the given axes.
+    OnLink { link: usize, at: Triple<'g>, force: Triple<'g>, torque: Triple<'g>, axes: Axes },
+    /// A generalised force on a rate (of a coordinate): power = force · rate.
+    OnRate { rate: Expr<'g>, force: Expr<'g> },
+    /// Rayleigh's dissipation function R: −∂R/∂z.
+    Dissipation(Expr<'g>),
+}
+
+impl<'g> Force<'g> {
+    /// Of a force on a link: its wrench, each part in the axes in which it is given.
+    pub fn wrench(&self, frame: &Frame<'g>) -> Option<Wrench<'g>> {
+        let Force::OnLink { at, force, torque, axes, .. } = self else { return None };
+        Some(match axes {
+            Axes::Body => Wrench {
+                force: frame.body_vector(*force),
+                torque: frame.body_vector(add(torque, &cross(at, &force.map(Expr::group)))),
+            },
+            Axes::Space => {
+                let arm = at.iter().any(|e| !e.is_zero());
+                let turned = if arm { frame.to_body(&force.map(Expr::group)) } else { frame.zero().body };
+                let moment = cross(at, &turned.map(Expr::group));
+                Wrench { force: frame.space_vector(*force), torque: Vector { body: moment, space: *torque } }
+            }
+        })
+    }
+
+    /// With other expressions in place of those that it is made of.
+    pub fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
+        match *self {
+            Force::AtPoint { at, force } => Force::AtPoint { at: at.map(&f), force: force.map(&f) },
+            Force::OnLink { link, at, force, torque, axes } => {
+                Force::OnLink { link, at: at.map(&f), force: force.map(&f), torque: torque.map(&f), axes }
+            }
+            Force::OnRate { rate, force } => Force::OnRate { rate: f(rate), force: f(force) },
+            Force::Dissipation(function) => Force::Dissipation(f(function)),
+        }
+    }
+
+    /// Resultant and torque about O of the link that it acts on, if that is how it acts.
+    pub fn load(&self, links: &[Link<'g>]) -> Option<(usize, Vector<'g>, Triple<'g>)> {
+        let Force::OnLink { link, at, force, torque, axes } = self else { return None };
+        let target = &links[*link];
+        let in_working = |a: &Triple<'g>, axes: Axes| target.in_working_axes(a, axes).map(Expr::group);
+        let force = in_working(force, *axes);
+        let arm = in_working(at, Axes::Body);
+        let torque = add(&in_working(torque, *axes), &cross(&arm, &force)).map(Expr::group);
+        Some((*link, target.frame.body_vector(force), torque))
+    }
+
+    /// The power that it delivers: with the velocity of what it acts on, whatever that is due to.
+    pub fn power(&self, links: &[Link<'g>], speeds: &[Expr<'g>], rates: &Map<u32, Expr<'g>>) -> Expr<'g> {
+        match self {
+            Force::AtPoint { at, force } => dot(&force.map(Expr::group), &at.map(|e| e.derivative(rates).group())),
+            Force::OnLink { link, .. } => {
+                let Some((_, force, torque)) = self.load(links) else { return links[*link].frame.graph.zero() };
+                let link = &links[*link];
+                link.frame.dot(&force, &link.velocity) + dot(&torque, &link.angular_velocity)
+            }
+            Force::OnRate { rate, force } => rate.group() * force.group(),
+            Force::Dissipation(function) => {
+                let terms = speeds.iter().map(|&z| -z * function.partial(z));
+                terms.fold(function.graph().zero(), |sum, e| sum + e)
+            }
+        }
+    }
+
+    /// Its generalised forces where it does not act on a link.
+    pub fn generalised(&self, speeds: &[Expr<'g>], rates: &Map<u32, Expr<'g>>) -> Option<Vec<Expr<'g>>> {
+        Some(match self {
+            Force::AtPoint { at, force } => {
+                let velocity = at.map(|e| e.derivative(rates).group());
+                let force = force.map(Expr::group);
+                speeds.iter().map(|&z| dot(&force, &velocity.map(|e| e.partial(z)))).collect()
+            }
+            Force::OnLink { .. } => return None,
+            Force::OnRate { rate, force } => speeds.iter().map(|&z| rate.partial(z) * force.group()).collect(),
+            Force::Dissipation(function) => speeds.iter().map(|&z| -function.partial(z)).collect(),
+        })
+    }
+}

@@ -1,0 +1,250 @@
+//! The body's parameters as symbols, and integrals over the body as moments.
+
+use crate::algebra::{Expr, Graph, Map};
+
+use crate::mechanics::kinematics::vector::Triple;
+use crate::mechanics::print::names::Name;
+
+/// How the inertia tensor about O is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum InertiaShape {
+    Spherical,
+    Principal,
+    Full,
+}
+
+/// How the added mass is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AddedMassShape {
+    Diagonal,
+    Full,
+}
+
+/// How gravity is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum GravityShape {
+    /// Along −k₃ (−k₂ in planar motion).
+    Vertical,
+    Vector,
+}
+
+/// What the scene's body has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BodyShape {
+    pub inertia: InertiaShape,
+    pub center_of_mass: bool,
+    pub added_mass: Option<AddedMassShape>,
+    pub gravity: Option<GravityShape>,
+    pub displaced_mass: bool,
+    pub center_of_buoyancy: bool,
+}
+
+/// Which parameter a symbol stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Quantity {
+    Mass,
+    CenterOfMass,
+    Inertia,
+    AddedMass,
+    Gravity,
+    DisplacedMass,
+    CenterOfBuoyancy,
+}
+
+/// A component of a parameter: row and column for matrices, row alone for vectors.
+#[derive(Clone, Copy, Debug)]
+pub struct ParameterSymbol<'g> {
+    pub symbol: Expr<'g>,
+    pub quantity: Quantity,
+    pub row: usize,
+    pub column: usize,
+}
+
+/// What a quantity is, where it is not read from a parameter of its own: one value, or the components in order.
+#[derive(Clone, Debug)]
+pub struct Assigned<'g> {
+    pub quantity: Quantity,
+    /// Expressions of parameters and numbers.
+    pub values: Vec<Expr<'g>>,
+}
+
+/// The body as the derivation sees it; all entries depend on parameters alone.
+#[derive(Clone)]
+pub struct Body<'g> {
+    pub mass: Expr<'g>,
+    /// c = G − O, body axes.
+    pub center_of_mass: Triple<'g>,
+    /// I_O, body axes.
+    pub inertia: [Triple<'g>; 3],
+    /// Added mass in the order (u, ω), body axes, pole O.
+    pub added_mass: Option<Vec<Vec<Expr<'g>>>>,
+    /// Acceleration of free fall, observer's axes.
+    pub gravity: Option<Triple<'g>>,
+    /// Mass of the displaced fluid and its centre from O, body axes.
+    pub displaced: Option<(Expr<'g>, Triple<'g>)>,
+    pub parameters: Vec<ParameterSymbol<'g>>,
+}
+
+struct Symbols<'g> {
+    graph: &'g Graph,
+    /// Which of several bodies: an index of every letter; empty for the only one.
+    suffix: Name,
+    list: Vec<ParameterSymbol<'g>>,
+}
+
+impl<'g> Symbols<'g> {
+    fn scalar(&mut self, text: &str, latex: &str, quantity: Quantity) -> Expr<'g> {
+        self.push(text.to_owned(), latex.to_owned(), quantity, 0, 0)
+    }
+
+    fn push(&mut self, text: String, latex: String, quantity: Quantity, row: usize, column: usize) -> Expr<'g> {
+        let symbol = if self.suffix.text.is_empty() {
+            self.graph.symbol(text, latex, true)
+        } else {
+            // m_{1} of the arm is m_{1,arm}.
+            let latex = match latex.strip_suffix('}') {
+                Some(open) if latex.contains("_{") => format!("{open},{}}}", self.suffix.latex),
+                _ => format!("{latex}_{{{}}}", self.suffix.latex),
+            };
+            self.graph.symbol(format!("{text}_{}", self.suffix.text), latex, true)
+        };
+        self.list.push(ParameterSymbol { symbol, quantity, row, column });
+        symbol
+    }
+
+    fn vector<const N: usize>(&mut self, name: &str, quantity: Quantity) -> [Expr<'g>; N] {
+        std::array::from_fn(|i| self.push(format!("{name}{}", i + 1), format!("{name}_{{{}}}", i + 1), quantity, i, 0))
+    }
+
+    /// Lower triangle as symbols, mirrored.
+    fn symmetric(&mut self, n: usize, name: &str, quantity: Quantity) -> Vec<Vec<Expr<'g>>> {
+        let mut matrix = vec![vec![self.graph.zero(); n]; n];
+        for i in 0..n {
+            for j in i..n {
+                let text = format!("{name}{}{}", i + 1, j + 1);
+                let latex = format!("{name}_{{{}{}}}", i + 1, j + 1);
+                // The entry below the diagonal is read; `kernel()` checks that the one above agrees.
+                matrix[i][j] = self.push(text, latex, quantity, j, i);
+                matrix[j][i] = matrix[i][j];
+            }
+        }
+        matrix
+    }
+}
+
+fn diagonal<'g>(graph: &'g Graph, entries: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
+    let n = entries.len();
+    (0..n).map(|i| (0..n).map(|j| if i == j { entries[i] } else { graph.zero() }).collect()).collect()
+}
+
+impl<'g> Body<'g> {
+    /// Symbols for what the shape has; zero for what it leaves out. `up` is the observer's axis that gravity opposes.
+    pub fn new(graph: &'g Graph, shape: BodyShape, up: usize) -> Self {
+        Self::named(graph, shape, up, Name::new("", ""))
+    }
+
+    /// One of several bodies.
+    pub fn named(graph: &'g Graph, shape: BodyShape, up: usize, suffix: Name) -> Self {
+        let zero = graph.zero();
+        let mut symbols = Symbols { graph, suffix, list: Vec::new() };
+        let mass = symbols.scalar("m", "m", Quantity::Mass);
+        let center_of_mass = if shape.center_of_mass { symbols.vector("c", Quantity::CenterOfMass) } else { [zero; 3] };
+        let inertia = match shape.inertia {
+            InertiaShape::Spherical => diagonal(graph, &[symbols.scalar("I", "I", Quantity::Inertia); 3]),
+            InertiaShape::Principal => diagonal(graph, &symbols.vector::<3>("I", Quantity::Inertia)),
+            InertiaShape::Full => symbols.symmetric(3, "I", Quantity::Inertia),
+        };
+        let inertia = std::array::from_fn(|i| std::array::from_fn(|j| inertia[i][j]));
+        let added_mass = shape.added_mass.map(|shape| match shape {
+            AddedMassShape::Diagonal => diagonal(graph, &symbols.vector::<6>("X", Quantity::AddedMass)),
+            AddedMassShape::Full => symbols.symmetric(6, "X", Quantity::AddedMass),
+        });
+        let gravity = shape.gravity.map(|shape| match shape {
+            GravityShape::Vertical => {
+                let g = symbols.scalar("g", "g", Quantity::Gravity);
+                std::array::from_fn(|i| if i == up { -g } else { zero })
+            }
+            GravityShape::Vector => symbols.vector("g", Quantity::Gravity),
+        });
+        let displaced = shape.displaced_mass.then(|| {
+            let mass = symbols.scalar("md", "m_d", Quantity::DisplacedMass);
+            let center =
+                if shape.center_of_buoyancy { symbols.vector("h", Quantity::CenterOfBuoyancy) } else { [zero; 3] };
+            (mass, center)
+        });
+        Self { mass, center_of_mass, inertia, added_mass, gravity, displaced, parameters: symbols.list }
+    }
+
+    /// Puts values in the place of the symbols of a quantity, as many as its shape has.
+    pub fn assign(&mut self, assigned: &Assigned<'g>) {
+        let own = |p: &ParameterSymbol<'g>| p.quantity == assigned.quantity;
+        let symbols = self.parameters.iter().filter(|p| own(p)).map(|p| p.symbol.key());
+        let values: Map<u32, Expr<'g>> = symbols.zip(assigned.values.iter().copied()).collect();
+        self.parameters.retain(|p| !own(p));
+        let put = |e: &mut Expr<'g>| *e = e.substitute(&values);
+        put(&mut self.mass);
+        self.center_of_mass.iter_mut().for_each(put);
+        self.inertia.iter_mut().flatten().for_each(put);
+        self.gravity.iter_mut().flatten().for_each(put);
+        self.added_mass.iter_mut().flatten().flatten().for_each(put);
+        if let Some((mass, center)) = &mut self.displaced {
+            put(mass);
+            center.iter_mut().for_each(put);
+        }
+    }
+
+    /// `∫ x dm = m c`.
+    pub fn first_moment(&self) -> Triple<'g> {
+        self.center_of_mass.map(|c| self.mass * c)
+    }
+
+    /// `J = ∫ x xᵀ dm = ½ tr(I_O) 1 − I_O`.
+    pub fn second_moment(&self) -> [Triple<'g>; 3] {
+        let half_trace = (0..3).map(|i| self.inertia[i][i]).sum::<Expr<'g>>().half();
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| if i == j { half_trace - self.inertia[i][j] } else { -self.inertia[i][j] })
+        })
+    }
+}
+
+/// A vector field over the body that is affine in the body coordinates x: `constant + Σ x_j · linear[j]`.
+#[derive(Clone, Copy)]
+pub struct AffineField<'g> {
+    pub constant: Triple<'g>,
+    pub linear: [Triple<'g>; 3],
+}
+
+#[cfg(test)]
+impl<'g> AffineField<'g> {
+    /// Reads the field off its components, which must be affine in the symbols x.
+    pub fn of(components: &Triple<'g>, x: &Triple<'g>) -> Self {
+        let linear: [Triple<'g>; 3] = std::array::from_fn(|j| components.map(|e| e.partial(x[j])));
+        let zero = components[0].graph().zero();
+        let at_origin = x.iter().map(|e| (e.key(), zero)).collect();
+        Self { constant: components.map(|e| e.substitute(&at_origin)), linear }
+    }
+
+    pub fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
+        Self { constant: self.constant.map(&f), linear: self.linear.map(|v| v.map(&f)) }
+    }
+
+    /// The value at a body point.
+    pub fn at(&self, x: &Triple<'g>) -> Triple<'g> {
+        std::array::from_fn(|i| self.constant[i] + (0..3).map(|j| self.linear[j][i] * x[j]).sum())
+    }
+}
+
+/// `∫ f·h dm` of two affine fields: monomials in x become moments (1 → m, x_i → m c_i, x_i x_j → J_ij).
+pub fn integrate_product<'g>(body: &Body<'g>, f: &AffineField<'g>, h: &AffineField<'g>) -> Expr<'g> {
+    let (first, second) = (body.first_moment(), body.second_moment());
+    let mut total = body.mass * crate::mechanics::kinematics::vector::dot(&f.constant, &h.constant);
+    for j in 0..3 {
+        let mixed = crate::mechanics::kinematics::vector::dot(&f.constant, &h.linear[j])
+            + crate::mechanics::kinematics::vector::dot(&f.linear[j], &h.constant);
+        total = total + first[j] * mixed;
+        for k in 0..3 {
+            total = total + second[j][k] * crate::mechanics::kinematics::vector::dot(&f.linear[j], &h.linear[k]);
+        }
+    }
+    total
+}

@@ -1,0 +1,4 @@
+//! Matter as symbols, and integrals over it by moments.
+
+pub mod body;
+pub mod moments;

@@ -1,0 +1,247 @@
+//! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is short.
+
+use crate::algebra::{Expr, Map, Notation, print};
+use crate::mechanics::tidy::{LIMIT, readable, tidy};
+
+use crate::mechanics::arrangements::free_link::FreeLink;
+use crate::mechanics::loads::accounts::{Account, GRAVITY};
+use crate::mechanics::print::names::Name;
+use crate::mechanics::scene::Lettering;
+use crate::mechanics::system::System;
+
+/// One line.
+pub enum Row<'g> {
+    /// name = value.
+    Definition(Name, Expr<'g>),
+    /// d(momentum)/dt = bracket + force; the force is left out where it vanishes beside a bracket.
+    Balance { momentum: Name, bracket: Expr<'g>, force: Option<Name> },
+    /// left = right.
+    Equation(Expr<'g>, Expr<'g>),
+    /// Words instead of an equation.
+    Remark(Name),
+}
+
+impl Row<'_> {
+    pub fn print(&self, notation: Notation) -> String {
+        let name = |name: &Name| if notation == Notation::Latex { name.latex.clone() } else { name.text.clone() };
+        match self {
+            Row::Definition(left, right) => format!("{} = {}", name(left), print(*right, notation)),
+            Row::Balance { momentum, bracket, force } => {
+                let mut terms = Vec::new();
+                if !bracket.is_zero() {
+                    terms.push(print(*bracket, notation));
+                }
+                terms.extend(force.as_ref().map(name));
+                format!("{} = {}", name(&momentum.time_derivative()), terms.join(" + "))
+            }
+            Row::Remark(words) => name(words),
+            Row::Equation(left, right) => format!("{} = {}", print(*left, notation), print(*right, notation)),
+        }
+    }
+}
+
+/// A heading and its rows.
+pub struct Section<'g> {
+    pub title: Name,
+    pub rows: Vec<Row<'g>>,
+}
+
+/// Generalised forces for a reader.
+pub(in crate::mechanics) struct PrintedForces<'g> {
+    /// One for each speed: where one is too long to read, all are sums over the elements, each under its name.
+    pub rows: Vec<Expr<'g>>,
+    /// What each element adds, if they are.
+    pub sections: Vec<Section<'g>>,
+}
+
+impl<'g> PrintedForces<'g> {
+    pub fn new(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name]) -> Self {
+        if accounts.len() < 2 || whole.iter().all(|e| readable(*e).is_some()) {
+            return Self { rows: whole.into_iter().map(tidy).collect(), sections: Vec::new() };
+        }
+        let row = |(k, whole): (usize, Expr<'g>)| {
+            let own = |account: &Account<'g>| match tidy(account.forces[k]) {
+                force if force.is_zero() || account.name == GRAVITY => force,
+                _ => {
+                    let name = names[k].of(&element_name(account));
+                    whole.graph().symbol(name.text, name.latex, false)
+                }
+            };
+            accounts.iter().map(own).sum()
+        };
+        let elements = accounts.iter().filter(|account| account.name != GRAVITY);
+        let sections = elements.filter_map(|account| element_section(account, names)).collect();
+        Self { rows: whole.into_iter().enumerate().map(row).collect(), sections }
+    }
+}
+
+fn element_name(account: &Account<'_>) -> Name {
+    Name::new(&account.name.replace(' ', "_"), &format!("\\text{{{}}}", account.name.replace('_', "\\_")))
+}
+
+/// Nothing of an element that does nothing.
+fn element_section<'g>(account: &Account<'g>, names: &[Name]) -> Option<Section<'g>> {
+    let title = Name::new(&format!("of {}", account.name), &format!("of {}", account.name.replace('_', "\\_")));
+    let there = account.forces.iter().zip(names).filter(|(force, _)| !tidy(**force).is_zero());
+    let rows: Option<Vec<Row<'g>>> = there
+        .map(|(force, name)| Some(Row::Definition(name.of(&element_name(account)), readable(*force)?.collect())))
+        .collect();
+    let rows = rows.unwrap_or_else(|| {
+        let words = "too long to print";
+        vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))]
+    });
+    (!rows.is_empty()).then_some(Section { title, rows })
+}
+
+impl<'g> System<'g> {
+    /// The equations, section by section; sections with nothing to say are left out.
+    pub fn equations(&self) -> Vec<Section<'g>> {
+        let textbook = self.scene.lettering == Lettering::Textbook;
+        let mut sections = match self.only_body().filter(|_| textbook) {
+            Some(body) => Textbook { system: self, body }.sections(),
+            None => self.sections(),
+        };
+        sections.retain(|section| !section.rows.is_empty());
+        sections
+    }
+}
+
+/// One body with the letters of textbooks.
+struct Textbook<'a, 'g> {
+    system: &'a System<'g>,
+    body: &'a FreeLink<'g>,
+}
+
+impl<'g> Textbook<'_, 'g> {
+    fn sections(&self) -> Vec<Section<'g>> {
+        let Self { system, body } = self;
+        let forces = PrintedForces::new(body.generalised_forces(), &system.accounts(), &system.scene.force_names);
+        let terms: Vec<_> = body.printed_bracket().into_iter().map(tidy).zip(forces.rows).collect();
+        let mut sections = vec![Section {
+            title: Name::new("velocity of O and angular velocity", "velocity of $O$ and angular velocity"),
+            rows: self.velocity_rows(),
+        }];
+        sections.extend(self.momentum_sections());
+        sections.extend([
+            Section {
+                title: Name::new("Gauss condition (3.4)", "Gauss condition (3.4)"),
+                rows: self.balance_rows(&terms),
+            },
+            Section {
+                title: Name::new("active forces (generalised)", "active forces (generalised)"),
+                rows: self.force_rows(&terms),
+            },
+        ]);
+        sections.extend(forces.sections);
+        sections.extend([Section {
+            title: Name::new("velocity form A dz/dt = r", "velocity form $A \\dot z = r$"),
+            rows: self.velocity_form_rows().unwrap_or_else(|| {
+                let words = "too long to print: see the balance above";
+                vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))]
+            }),
+        }]);
+        sections
+    }
+
+    /// Components of the velocities that are not quasi-velocities themselves.
+    fn velocity_rows(&self) -> Vec<Row<'g>> {
+        let kinematics = &self.body.kinematics;
+        let (u, omega) = (Name::new("u", "u"), Name::new("ω", "\\omega"));
+        let mut rows = Vec::new();
+        for (name, vector) in [(u, &kinematics.velocity), (omega, &kinematics.angular_velocity)] {
+            for (name, components) in [(name.clone(), vector.body), (name.hat(), vector.space)] {
+                for (i, component) in components.into_iter().enumerate() {
+                    if !component.is_zero() && !kinematics.speeds.contains(&component) {
+                        rows.push(Row::Definition(name.index(i), tidy(component)));
+                    }
+                }
+            }
+        }
+        rows
+    }
+
+    /// p in terms of z where that is short, else link by link: z → (u, ω) → (Q, Γ) → p.
+    fn momentum_sections(&self) -> Vec<Section<'g>> {
+        let title = Name::new("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$");
+        let names = self.system.scene.momentum_names.iter().cloned();
+        let momenta: Option<Vec<_>> = self.body.momentum().into_iter().map(readable).collect();
+        let chain = self.body.printed_momenta();
+        let coordinates = self.body.in_coordinates;
+        if let Some(momenta) = momenta {
+            let rows = names.zip(momenta).map(|(name, p)| Row::Definition(name, p.collect())).collect();
+            let mut sections = vec![Section { title, rows }];
+            // The balance of a jet chart is written with Γ, which is none of its momenta.
+            let axes = self.body.kinematics.angular_axes();
+            if coordinates && axes.len() == 3 {
+                let gamma = axes.into_iter().map(|i| (Name::new("Γ", "\\Gamma").index(i), chain.angular[i]));
+                sections.push(Section {
+                    title: Name::new(
+                        "angular momentum about O in body axes",
+                        "angular momentum about $O$ in body axes",
+                    ),
+                    rows: gamma.map(|(name, e)| Row::Definition(name, tidy(e))).collect(),
+                });
+            }
+            return sections;
+        }
+        // In a chart where a link is trivial it says x = x.
+        let rows = |link: Vec<(Name, Expr<'g>)>| -> Vec<Row<'g>> {
+            link.into_iter()
+                .map(|(name, e)| (name, tidy(e)))
+                .filter(|(name, e)| print(*e, Notation::Text) != name.text)
+                .map(|(name, e)| Row::Definition(name, e))
+                .collect()
+        };
+        let components = |linear: Name, angular: Name, six: Vec<Expr<'g>>| -> Vec<(Name, Expr<'g>)> {
+            let named = six.into_iter().enumerate().filter(|(k, _)| self.body.kinematics.active.contains(k));
+            named.map(|(k, e)| (if k < 3 { &linear } else { &angular }.index(k % 3), e)).collect()
+        };
+        let twist = components(Name::new("u", "u"), Name::new("ω", "\\omega"), chain.twist.to_vec());
+        let momentum = chain.linear.into_iter().chain(chain.angular).collect();
+        let momentum = components(Name::new("Q", "Q"), Name::new("Γ", "\\Gamma"), momentum);
+        vec![
+            Section { title: Name::new("twist of O in body axes", "twist of $O$ in body axes"), rows: rows(twist) },
+            Section {
+                title: Name::new("momentum about O in body axes", "momentum about $O$ in body axes"),
+                rows: rows(momentum),
+            },
+            Section { title, rows: rows(names.zip(chain.conjugate).collect()) },
+        ]
+    }
+
+    /// dp/dt = [Q·(ȧ + v_O × o) + Γ·ȯ] + force; the terms are bracket and force of every row.
+    fn balance_rows(&self, terms: &[(Expr<'g>, Expr<'g>)]) -> Vec<Row<'g>> {
+        let scene = &self.system.scene;
+        let names = scene.momentum_names.iter().cloned().zip(scene.force_names.iter().cloned());
+        names
+            .zip(terms)
+            .map(|((momentum, force), &(bracket, value))| {
+                let force = (bracket.is_zero() || !value.is_zero()).then_some(force);
+                Row::Balance { momentum, bracket, force }
+            })
+            .collect()
+    }
+
+    /// The forces that the balance names.
+    fn force_rows(&self, terms: &[(Expr<'g>, Expr<'g>)]) -> Vec<Row<'g>> {
+        let named = self.system.scene.force_names.iter().cloned().zip(terms);
+        let named = named.filter(|(_, (bracket, value))| bracket.is_zero() || !value.is_zero());
+        named.map(|(name, (_, value))| Row::Definition(name, *value)).collect()
+    }
+
+    /// The rows with everything multiplied out; `None` when one would be too long to read.
+    fn velocity_form_rows(&self) -> Option<Vec<Row<'g>>> {
+        let kinematics = &self.body.kinematics;
+        let zero = kinematics.frame.graph.zero();
+        let at_rest: Map<u32, Expr<'g>> = kinematics.speed_rates.iter().map(|dz| (dz.key(), zero)).collect();
+        self.body
+            .collected_residual()
+            .into_iter()
+            .map(|row| {
+                let whole = readable(row)?.collect();
+                let still = whole.substitute(&at_rest);
+                Some(Row::Equation((whole - still).collected(LIMIT), (-still).collected(LIMIT)))
+            })
+            .collect()
+    }
+}

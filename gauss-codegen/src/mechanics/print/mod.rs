@@ -1,0 +1,5 @@
+//! The equations for people.
+
+pub mod equations;
+pub mod names;
+pub mod sections;

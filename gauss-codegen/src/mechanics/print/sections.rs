@@ -1,0 +1,78 @@
+//! The equations of a system for people.
+
+use crate::algebra::Expr;
+
+use crate::mechanics::print::equations::{PrintedForces, Row, Section};
+use crate::mechanics::print::names::Name;
+use crate::mechanics::scene::Coordinate;
+use crate::mechanics::system::System;
+use crate::mechanics::tidy::tidy;
+
+impl<'g> System<'g> {
+    /// The equations with p and F of what the author named.
+    pub(in crate::mechanics) fn sections(&self) -> Vec<Section<'g>> {
+        let scene = &self.scene;
+        let titled = |text: &str, latex: &str, rows: Vec<Row<'g>>| Section { title: Name::new(text, latex), rows };
+        let remark = |words: &str| vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))];
+        let kinematics = titled(
+            "kinematics dq/dt = ψ(t, q, z) (3.2)",
+            "kinematics $\\dot q = \\psi(t, q, z)$ (3.2)",
+            self.kinematic_rows(),
+        );
+        let mut sections = vec![kinematics];
+        if self.is_long() {
+            let words = "too long to print";
+            sections.push(titled("Gauss condition (3.4)", "Gauss condition (3.4)", remark(words)));
+        } else {
+            let momenta = scene.momentum_names.iter().zip(self.momentum());
+            let momenta = momenta.map(|(name, e)| Row::Definition(name.clone(), tidy(e))).collect();
+            let names = scene.momentum_names.iter().zip(&scene.force_names);
+            let balance = names.zip(self.bracket());
+            let row = |((momentum, force), bracket): ((&Name, &Name), Expr<'g>)| Row::Balance {
+                momentum: momentum.clone(),
+                bracket: tidy(bracket),
+                force: Some(force.clone()),
+            };
+            let balance = balance.map(row).collect();
+            let printed = PrintedForces::new(self.generalised_forces(), &self.accounts(), &scene.force_names);
+            let forces = scene.force_names.iter().zip(printed.rows);
+            let forces = forces.map(|(name, e)| Row::Definition(name.clone(), e)).collect();
+            sections.extend([
+                titled("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$", momenta),
+                titled("Gauss condition (3.4)", "Gauss condition (3.4)", balance),
+                titled("active forces (generalised)", "active forces (generalised)", forces),
+            ]);
+            sections.extend(printed.sections);
+        }
+        let constraints = self.constraints.on_velocities.iter();
+        let constraints = constraints.map(|e| Row::Equation(tidy(*e), scene.graph.zero())).collect();
+        sections.push(titled(
+            "constraints on velocities (each adds its multiplier times its row of partial derivatives to the forces)",
+            "constraints on velocities (each adds its multiplier times its row of partial derivatives to the forces)",
+            constraints,
+        ));
+        sections
+    }
+
+    /// Rates that are not speeds themselves.
+    fn kinematic_rows(&self) -> Vec<Row<'g>> {
+        let scene = &self.scene;
+        let mut rates = scene.kinematics.iter().copied();
+        let mut rows = Vec::new();
+        for (name, coordinate) in scene.coordinate_names.iter().zip(&scene.coordinates) {
+            let (u, omega) = (Name::new("u", "u").of(name), Name::new("ω", "\\omega").of(name));
+            let names: Vec<Name> = match coordinate {
+                Coordinate::Scalar(_) => vec![name.time_derivative()],
+                Coordinate::Rotation(_) => (0..3).map(|i| omega.index(i)).collect(),
+                Coordinate::Pose(..) => (0..3).map(|i| u.index(i)).chain((0..3).map(|i| omega.index(i))).collect(),
+                Coordinate::Plane { .. } => vec![u.index(0), u.index(1), omega],
+            };
+            for (name, rate) in names.into_iter().zip(&mut rates) {
+                if !scene.speeds.contains(&rate) {
+                    rows.push(Row::Definition(name, tidy(rate)));
+                }
+            }
+        }
+        rows
+    }
+}

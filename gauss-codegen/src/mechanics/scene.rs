@@ -1,0 +1,101 @@
+//! A system as it is given: coordinates, speeds, ψ, links, constraints and loads, in symbols.
+
+use crate::algebra::{Expr, Graph, Map};
+use crate::mechanics::constraints::constraint::Constraint;
+use crate::mechanics::kinematics::vector::Triple;
+use crate::mechanics::links::tree::Tree;
+use crate::mechanics::loads::forces::Element;
+use crate::mechanics::print::names::Name;
+use crate::mechanics::tidy::tidy;
+
+/// One coordinate of the configuration.
+#[derive(Clone)]
+pub enum Coordinate<'g> {
+    Scalar(Expr<'g>),
+    /// R, by its entries.
+    Rotation([Triple<'g>; 3]),
+    /// (R, b).
+    Pose([Triple<'g>; 3], Triple<'g>),
+    /// SE(2), in the plane k₁k₂: cos θ and sin θ, b₁ and b₂. Its rate is (u₁, u₂, ω).
+    Plane {
+        turn: [Expr<'g>; 2],
+        position: [Expr<'g>; 2],
+    },
+}
+
+impl<'g> Coordinate<'g> {
+    /// How many components its rate has.
+    pub fn size(&self) -> usize {
+        match self {
+            Coordinate::Scalar(_) => 1,
+            Coordinate::Rotation(_) | Coordinate::Plane { .. } => 3,
+            Coordinate::Pose(..) => 6,
+        }
+    }
+
+    /// Of several coordinates the one that a component of their rates belongs to.
+    pub fn of_component(all: &[Self], component: usize) -> usize {
+        let mut end = 0;
+        let ends = all.iter().map(|coordinate| {
+            end += coordinate.size();
+            end
+        });
+        ends.take_while(|end| *end <= component).count()
+    }
+
+    /// R, where its entries are symbols.
+    pub fn rotation(&self) -> Option<&[Triple<'g>; 3]> {
+        match self {
+            Coordinate::Scalar(_) | Coordinate::Plane { .. } => None,
+            Coordinate::Rotation(rotation) | Coordinate::Pose(rotation, _) => Some(rotation),
+        }
+    }
+}
+
+/// How a system's equations are written for people.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lettering {
+    /// With (u, ω), (Q, Γ) and (R, M) of its only body, after the textbooks.
+    Textbook,
+    /// With p and F of what its author named.
+    Declared,
+}
+
+/// A system as it is given: every expression in terms of t, q, z and parameters.
+pub struct SystemScene<'g> {
+    pub graph: &'g Graph,
+    pub time: Expr<'g>,
+    pub coordinates: Vec<Coordinate<'g>>,
+    pub coordinate_names: Vec<Name>,
+    pub speeds: Vec<Expr<'g>>,
+    pub lettering: Lettering,
+    /// What the momenta and the forces are called.
+    pub momentum_names: Vec<Name>,
+    pub force_names: Vec<Name>,
+    pub speed_rates: Vec<Expr<'g>>,
+    pub momenta: Vec<Expr<'g>>,
+    /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z.
+    pub kinematics: Vec<Expr<'g>>,
+    /// Rates of t and of the symbols of q.
+    pub rates: Map<u32, Expr<'g>>,
+    pub tree: Tree<'g>,
+    pub constraints: Vec<Constraint<'g>>,
+    /// Values that arrive at run time.
+    pub inputs: Vec<Expr<'g>>,
+    /// What acts beside weight and buoyancy.
+    pub elements: Vec<Element<'g>>,
+}
+
+impl<'g> SystemScene<'g> {
+    /// Rates whose ψ is not affine in z: velocities would then not be linear in z, and (3.4) not this one. Indices into the
+    /// kinematics.
+    pub fn rates_not_affine(&self) -> Vec<usize> {
+        let affine = |rate: &Expr<'g>| {
+            self.speeds.iter().all(|&z| {
+                let partial = rate.partial(z);
+                self.speeds.iter().all(|&w| tidy(partial.partial(w)).is_zero())
+            })
+        };
+        (0..self.kinematics.len()).filter(|&k| !affine(&self.kinematics[k])).collect()
+    }
+}

@@ -1,0 +1,18 @@
+//! Expressions as a reader wants them: multiplied out where that is short.
+
+use crate::algebra::{Expr, Polynomial};
+
+/// Terms up to which a quantity is multiplied out to see how long it is.
+pub const LIMIT: usize = 400;
+/// Terms up to which a row is worth reading.
+const READABLE: usize = 24;
+
+/// The normal form of an expression if it is short enough to read.
+pub fn readable<'g>(e: Expr<'g>) -> Option<Polynomial<'g>> {
+    e.expand(LIMIT).filter(|p| p.len() <= READABLE)
+}
+
+/// An expression as a reader wants it.
+pub fn tidy(e: Expr<'_>) -> Expr<'_> {
+    readable(e).map_or(e, |p| p.collect())
+}
