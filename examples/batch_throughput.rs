@@ -13,7 +13,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use gauss_runtime::batch::BatchSystem;
+use gauss_runtime::batch::{Batch, BatchSystem, States};
 use gauss_runtime::integrate::OneStep;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;

@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use gauss_runtime::integrate::{Control, Fixed, Form, InputSource, NoInput, Rkmk, Sample, Tableau};
+use gauss_runtime::monitor::BodyMonitor;
 use gauss_runtime::prelude::*;
 
 /// What a run says about itself at one time, in no particular chart.

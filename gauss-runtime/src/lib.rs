@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): what a kernel offers |
 //! | [`description`] | [`Described`](description::Described): a kernel's equations as text, and what its methods cost |
+//! | [`bounded`] | a scalar that knows how many of its digits are right |
 //! | [`condition`](mod@condition) | how well a mass matrix can be inverted |
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): what acts, element by element; powers and the balance of energy |
@@ -52,6 +53,7 @@ extern crate std;
 pub mod adapters;
 #[cfg(feature = "alloc")]
 pub mod batch;
+pub mod bounded;
 pub mod chart;
 pub mod condition;
 pub mod configuration;

@@ -168,6 +168,14 @@ pub trait Real:
         Self::one() / self
     }
 
+    /// `self`, of which terms were left out that are together at most `at_most` in magnitude: the rest of a power series, the
+    /// rounding of a coefficient. Scalars that account for their error widen it; others are what they are.
+    #[inline(always)]
+    fn omitting(self, at_most: Self) -> Self {
+        let _ = at_most;
+        self
+    }
+
     /// Whether every lane (derivative parts included, where there are any) is finite.
     fn is_finite(self) -> bool;
 

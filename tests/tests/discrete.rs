@@ -3,9 +3,9 @@
 
 mod common;
 
+use common::Bounded;
 use common::agreement::equal;
 use common::body::{list, speeds};
-use common::bounded::Bounded;
 use common::dual::Dual;
 use gauss_runtime::integrate::{Feedback, OneStep, Part, Problem, State, SystemProblem};
 use gauss_runtime::linearize::error_matrix;

@@ -35,193 +35,19 @@
 
 mod code;
 mod cost;
+mod function;
 mod input;
 mod instruction;
 mod interpret;
-mod malformed;
 mod print;
 mod series;
 mod signs;
 mod verify;
 
-use std::fmt;
-
-pub use crate::algebra::{BinaryFunction, Function, Rational};
+pub use crate::algebra::{BinaryFunction, Function, Rational, Scalar};
 pub use code::Code;
 pub use cost::{Cost, Counts, Smoothness};
-pub use input::Input;
+pub use function::{Program, WrongArguments};
+pub use input::{Argument, ArgumentKind, Input, Results};
 pub use instruction::{Instruction, Operand};
-pub use interpret::Scalar;
-pub use malformed::Malformed;
-
-/// A function with names for its arguments and results. Its fields can be read; it is made by [`Program::new`], which verifies it.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Program {
-    /// The name of the method.
-    pub name: String,
-    /// In order; no component is missing because the code does not read it.
-    pub arguments: Vec<Argument>,
-    /// Numbers that are no short fractions: what literals of the scene determine in double precision.
-    pub numbers: Vec<f64>,
-    /// The instructions.
-    pub code: Code,
-    /// What the outputs of the code are, in their order.
-    pub results: Vec<Results>,
-}
-
-/// An argument: numbers that are handed over together.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Argument {
-    /// What it is.
-    pub kind: ArgumentKind,
-    /// A short name: `q`, `z`.
-    pub name: String,
-    /// The names of its numbers, as in the equations.
-    pub components: Vec<String>,
-}
-
-/// What an argument is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub enum ArgumentKind {
-    /// The numbers of the fields of a struct, in their units.
-    Parameters,
-    /// What a kernel computes once of its parameters.
-    Constants,
-    /// Time, in seconds: one number.
-    Time,
-    /// The components of the configuration, in the order of its parts: of rotations those of the unit quaternion, x, y, z, w, of turns in
-    /// the plane cosine and sine, of poses these and then the position.
-    Configuration,
-    /// The speeds z.
-    Speeds,
-    /// The momenta p = ∂T/∂z.
-    Momenta,
-    /// The rates ż of the speeds.
-    Accelerations,
-    /// The twist of a body: velocity of O, angular velocity, both in body axes.
-    Twist,
-    /// What is left of the constraints.
-    Residuals,
-    /// Values that arrive at run time.
-    Inputs,
-}
-
-impl fmt::Display for ArgumentKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            ArgumentKind::Parameters => "parameters",
-            ArgumentKind::Constants => "constants",
-            ArgumentKind::Time => "time",
-            ArgumentKind::Configuration => "configuration",
-            ArgumentKind::Speeds => "speeds",
-            ArgumentKind::Momenta => "momenta",
-            ArgumentKind::Accelerations => "accelerations",
-            ArgumentKind::Twist => "twist",
-            ArgumentKind::Residuals => "residuals",
-            ArgumentKind::Inputs => "inputs",
-        })
-    }
-}
-
-/// Outputs that belong together: a number (one row, one column), a vector (one column), or a matrix, row after row.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Results {
-    /// What they are.
-    pub name: String,
-    /// Rows of the matrix.
-    pub rows: usize,
-    /// Columns of the matrix.
-    pub columns: usize,
-}
-
-/// Arguments of a call that are not those of the program.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WrongArguments {
-    /// How many numbers each argument has.
-    pub expected: Vec<usize>,
-    /// How many were given.
-    pub found: Vec<usize>,
-}
-
-impl fmt::Display for WrongArguments {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "arguments of {:?} numbers in place of {:?}", self.found, self.expected)
-    }
-}
-
-impl std::error::Error for WrongArguments {}
-
-impl Argument {
-    /// An argument and the names of its numbers.
-    pub fn new(kind: ArgumentKind, name: impl Into<String>, components: Vec<String>) -> Self {
-        Self { kind, name: name.into(), components }
-    }
-}
-
-impl Results {
-    /// A matrix; a vector is one of one column.
-    pub fn new(name: impl Into<String>, rows: usize, columns: usize) -> Self {
-        Self { name: name.into(), rows, columns }
-    }
-
-    /// How many outputs it is made of.
-    #[expect(clippy::len_without_is_empty, reason = "the size of a matrix; no collection")]
-    pub fn len(&self) -> usize {
-        self.rows * self.columns
-    }
-
-    /// Whether it is one number.
-    pub fn is_scalar(&self) -> bool {
-        (self.rows, self.columns) == (1, 1)
-    }
-}
-
-impl Program {
-    /// A program of verified shape.
-    ///
-    /// # Errors
-    /// What is wrong with its shape.
-    pub fn new(
-        name: impl Into<String>,
-        arguments: Vec<Argument>,
-        numbers: Vec<f64>,
-        code: Code,
-        results: Vec<Results>,
-    ) -> Result<Self, Malformed> {
-        let program = Self { name: name.into(), arguments, numbers, code, results };
-        program.verify().map(|()| program)
-    }
-
-    /// The same function with other code, as a pass makes it.
-    ///
-    /// # Errors
-    /// What is wrong with its shape.
-    pub fn with_code(self, pass: impl FnOnce(Code) -> Code) -> Result<Self, Malformed> {
-        let program = Self { code: pass(self.code), ..self };
-        program.verify().map(|()| program)
-    }
-
-    /// Carries it out: one list of numbers for each argument; the outputs, result by result.
-    ///
-    /// # Errors
-    /// Arguments that are not those of the program.
-    pub fn run<T: Scalar>(&self, arguments: &[&[T]]) -> Result<Vec<T>, WrongArguments> {
-        let expected: Vec<usize> = self.arguments.iter().map(|argument| argument.components.len()).collect();
-        let found: Vec<usize> = arguments.iter().map(|argument| argument.len()).collect();
-        if expected != found {
-            return Err(WrongArguments { expected, found });
-        }
-        Ok(self.code.evaluate(|input| match input {
-            Input::Component { argument, component } => arguments[argument][component].clone(),
-            Input::Number(number) => T::number(self.numbers[number]),
-        }))
-    }
-}
+pub use verify::Malformed;

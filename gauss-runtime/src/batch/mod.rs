@@ -12,6 +12,7 @@
     feature = "derive",
     doc = r##"
 ```
+use gauss_runtime::batch::{Batch, Packs, States};
 use gauss_runtime::prelude::*;
 
 /// A heavy top that turns about O.

@@ -2,7 +2,7 @@
 //!
 //! | folder | files |
 //! |---|---|
-//! | [`problem`] | what is integrated. [`form`](problem::form): velocity form and momentum form, inputs, and the [`Problem`] that a method sees; [`error`](problem::error): [`IntegrationError`] |
+//! | [`problem`] | what is integrated. [`equations`](problem::equations): the [`Problem`] that a method sees; [`form`](problem::form): velocity form and momentum form; [`input`](problem::input): sources of inputs; [`state`](problem::state): states, rates, samples; [`error`](problem::error): [`IntegrationError`] |
 //! | [`step`] | the seam. [`one_step`](step::one_step): what a method of one step is and keeps; `iteration`: when an implicit step is solved |
 //! | [`runge_kutta`] | [`tableau`](runge_kutta::tableau): coefficients; [`components`](runge_kutta::components): steps on the components, brought back onto the group |
 //! | [`lie_group`] | [`rkmk`](lie_group::rkmk): Runge–Kutta–Munthe-Kaas steps; [`commutator_free`](lie_group::commutator_free): a method of order 4; [`discrete`](lie_group::discrete): exact derivatives of its steps, transition matrices for filters and regulators |

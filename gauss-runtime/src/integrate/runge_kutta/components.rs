@@ -72,7 +72,12 @@ impl<C, Y> Point<C, Y> {
 /// A coefficient in the scalar of the system: the `f64` of the compiler where that is as good.
 #[inline(always)]
 fn coefficient<T: Real>(value: f64, (p, q): Rational) -> T {
-    if T::EPSILON >= f64::EPSILON { T::from_f64(value) } else { T::ratio(p, q) }
+    if T::EPSILON < f64::EPSILON {
+        return T::ratio(p, q);
+    }
+    // Halves, quarters, … are not rounded.
+    let rounding = if q.unsigned_abs().is_power_of_two() { 0.0 } else { 0.5 * f64::EPSILON * value.abs() };
+    T::from_f64(value).omitting(T::from_f64(rounding))
 }
 
 /// Writes its body once for each number of a stage that a method can have, `$i` a constant: from the first stage on, or from the

@@ -498,6 +498,7 @@ let end = scene.tuned(&tuned.best).run_to_end(tilted, spinning, 0.0..10.0)?;
         feature = "derive",
         doc = r##"
 ```
+use gauss_runtime::integrate::{Scheme, Splitting};
 use gauss_runtime::prelude::*;
 
 /// A heavy top that turns about O.

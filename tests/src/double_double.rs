@@ -8,7 +8,9 @@ use gauss_runtime::prelude::Real;
 /// `high + low`, where `low` is at most half a unit in the last place of `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubleDouble {
+    /// The double nearest to it.
     pub high: f64,
+    /// The rest.
     pub low: f64,
 }
 
@@ -38,6 +40,8 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 impl DoubleDouble {
+    /// A double.
+    #[must_use]
     pub fn new(value: f64) -> Self {
         Self { high: value, low: 0.0 }
     }
@@ -51,6 +55,7 @@ impl DoubleDouble {
     ///
     /// # Panics
     /// When it is none.
+    #[must_use]
     pub fn decimal(text: &str) -> Self {
         let (sign, digits) = text.strip_prefix('-').map_or((1, text), |rest| (-1, rest));
         let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
