@@ -48,7 +48,8 @@ fn named(code: TokenStream, found: &mut Vec<Vec<String>>) {
                 }
                 k = end;
             }
-            // Fields and methods are no names of items.
+            // The names of methods where they are defined, and of fields and methods where they are used, are no items.
+            TokenTree::Ident(_) if k > 0 && matches!(&tokens[k - 1], TokenTree::Ident(before) if before == "fn") => {}
             TokenTree::Ident(_) if k > 0 && is(k - 1, '.') && !(k > 1 && is(k - 2, '.')) => {}
             TokenTree::Ident(word) => {
                 let mut path = vec![word.to_string()];
