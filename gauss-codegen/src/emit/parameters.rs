@@ -6,34 +6,33 @@ use syn::ext::IdentExt;
 
 use crate::algebra::{Map, Rational};
 use crate::kernel::Program;
-use crate::mechanics::{ParameterSymbol, Quantity};
-use crate::model::{Field, Model, Motion, Shape};
-use crate::translate::role_of;
+use crate::mechanics::ParameterSymbol;
+use crate::model::{Field, Model, Motion, Role, Shape};
 
 use super::assigned::assigned_local;
 use super::derived::{BodySubject, Derived, Plain};
 use super::program::statements;
 use super::system_parameters::{element as source_element, plain_fields};
 
-const QUANTITIES: [Quantity; 7] = [
-    Quantity::Mass,
-    Quantity::CenterOfMass,
-    Quantity::Inertia,
-    Quantity::AddedMass,
-    Quantity::Gravity,
-    Quantity::DisplacedMass,
-    Quantity::CenterOfBuoyancy,
+const QUANTITIES: [Role; 7] = [
+    Role::Mass,
+    Role::CenterOfMass,
+    Role::Inertia,
+    Role::AddedMass,
+    Role::Gravity,
+    Role::DisplacedMass,
+    Role::CenterOfBuoyancy,
 ];
 
 /// The local that holds a field while `kernel()` works.
-fn local(quantity: Quantity) -> proc_macro2::Ident {
+fn local(quantity: Role) -> proc_macro2::Ident {
     let position = QUANTITIES.iter().position(|q| *q == quantity).unwrap_or_default();
     format_ident!("__p{}", position, span = Span::mixed_site())
 }
 
 /// Is the quantity a scalar, a vector, or a matrix?
-fn rank(derived: &BodySubject<'_, '_>, quantity: Quantity) -> usize {
-    match derived.model.shape(role_of(quantity)) {
+fn rank(derived: &BodySubject<'_, '_>, quantity: Role) -> usize {
+    match derived.model.shape(quantity) {
         Some(Shape::Matrix3 | Shape::Matrix6) => 2,
         Some(Shape::Vector3 | Shape::Vector6) => 1,
         _ => 0,
@@ -50,8 +49,7 @@ fn element(derived: &BodySubject<'_, '_>, p: &ParameterSymbol<'_>) -> TokenStrea
 }
 
 /// What speaks for a quantity: its field, or the word of its clause.
-fn said(model: &Model, quantity: Quantity) -> String {
-    let role = role_of(quantity);
+fn said(model: &Model, role: Role) -> String {
     model.field(role).map_or_else(|| role.word().to_owned(), |field| field.ident.unraw().to_string())
 }
 
@@ -77,7 +75,7 @@ pub fn kernel_body(derived: &BodySubject<'_, '_>) -> TokenStream {
         if let Some(assigned) = assigned {
             read.extend(assigned_local(derived.derived, &name, assigned, &symbols));
         }
-        let Some(Field { ident, .. }) = model.field(role_of(quantity)) else { continue };
+        let Some(Field { ident, .. }) = model.field(quantity) else { continue };
         read.extend(match rank(derived, quantity) {
             0 => quote!(let #name = self.#ident;),
             1 => quote!(let #name = #private::components(&self.#ident);),
@@ -86,7 +84,7 @@ pub fn kernel_body(derived: &BodySubject<'_, '_>) -> TokenStream {
     }
     let mut checks = checks(derived, &symbols);
     checks.extend(finite);
-    let kernel = constants(derived.derived, &symbols, &said(model, Quantity::Mass));
+    let kernel = constants(derived.derived, &symbols, &said(model, Role::Mass));
     quote! {
         #read
         #checks
@@ -118,11 +116,11 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
     let scalar = derived.derived.scalar();
     let ty = scalar.ty();
     let name_of = |quantity| said(model, quantity);
-    let has = |quantity| model.shape(role_of(quantity)).is_some();
+    let has = |quantity| model.shape(quantity).is_some();
     let mut checks = TokenStream::new();
-    let (mass, mass_name) = (local(Quantity::Mass), name_of(Quantity::Mass));
+    let (mass, mass_name) = (local(Role::Mass), name_of(Role::Mass));
     checks.extend(quote!(__check.mass(#mass_name, #mass);));
-    for quantity in [Quantity::CenterOfMass, Quantity::Gravity, Quantity::CenterOfBuoyancy] {
+    for quantity in [Role::CenterOfMass, Role::Gravity, Role::CenterOfBuoyancy] {
         if has(quantity) {
             let (field, value) = (name_of(quantity), local(quantity));
             checks.extend(match rank(derived, quantity) {
@@ -131,12 +129,12 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
             });
         }
     }
-    if has(Quantity::DisplacedMass) {
-        let (field, value) = (name_of(Quantity::DisplacedMass), local(Quantity::DisplacedMass));
+    if has(Role::DisplacedMass) {
+        let (field, value) = (name_of(Role::DisplacedMass), local(Role::DisplacedMass));
         checks.extend(quote!(__check.non_negative(#field, #value);));
     }
     // In the plane only the moment about k₃ enters.
-    let inertia_name = name_of(Quantity::Inertia);
+    let inertia_name = name_of(Role::Inertia);
     let planar = derived.in_chart.motion == Motion::Planar;
     let rows = (0..3).map(|i| {
         let row = (0..3).map(|j| {
@@ -155,20 +153,20 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
         let all = (0..3).flat_map(|i| (i..3).map(move |j| (i, j))).map(|(i, j)| entry_as_written(derived, i, j));
         checks.extend(quote!(__check.finite(#inertia_name, &[#(#all),*]);));
     }
-    if derived.in_chart.motion == Motion::Free && has(Quantity::CenterOfMass) {
-        let center = local(Quantity::CenterOfMass);
+    if derived.in_chart.motion == Motion::Free && has(Role::CenterOfMass) {
+        let center = local(Role::CenterOfMass);
         checks.extend(quote!(__check.central_inertia(#inertia_name, #mass, #center, &__inertia);));
     }
-    if has(Quantity::AddedMass) {
-        let (field, value) = (name_of(Quantity::AddedMass), local(Quantity::AddedMass));
-        checks.extend(match rank(derived, Quantity::AddedMass) {
+    if has(Role::AddedMass) {
+        let (field, value) = (name_of(Role::AddedMass), local(Role::AddedMass));
+        checks.extend(match rank(derived, Role::AddedMass) {
             1 => quote!(__check.finite(#field, &#value);),
             _ => quote!(__check.symmetric(#field, &#value);),
         });
     }
     let translates = derived.in_chart.motion != Motion::FixedPoint;
-    if has(Quantity::AddedMass) || (translates && has(Quantity::CenterOfMass)) {
-        let field = if has(Quantity::AddedMass) { name_of(Quantity::AddedMass) } else { inertia_name };
+    if has(Role::AddedMass) || (translates && has(Role::CenterOfMass)) {
+        let field = if has(Role::AddedMass) { name_of(Role::AddedMass) } else { inertia_name };
         let active = &derived.scene.kinematics.active;
         let entries: Vec<_> = active
             .iter()
@@ -190,8 +188,8 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
 
 /// An entry of the inertia tensor as the user wrote it, so that an asymmetry is seen.
 fn entry_as_written(derived: &BodySubject<'_, '_>, i: usize, j: usize) -> TokenStream {
-    let name = local(Quantity::Inertia);
-    match rank(derived, Quantity::Inertia) {
+    let name = local(Role::Inertia);
+    match rank(derived, Role::Inertia) {
         2 => quote!(#name[#i][#j]),
         _ if i != j => derived.derived.scalar().number(&Rational::zero()),
         1 => quote!(#name[#i]),

@@ -66,7 +66,7 @@ mod vector;
 mod wrench;
 
 pub use accounts::Account;
-pub use body::{AddedMassShape, Assigned, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity};
+pub use body::{Assigned, Body, BodyShape, ParameterSymbol};
 pub use chart::{ConfigurationKind, Kinematics};
 pub use check::check_against_definition;
 pub use constraint::{Constraint, ConstraintKind, Constraints};

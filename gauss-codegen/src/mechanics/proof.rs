@@ -3,9 +3,9 @@
 
 use crate::algebra::ideal::Ideal;
 use crate::algebra::{Expr, Graph};
-use crate::model::{Chart, Motion};
+use crate::model::{Chart, Motion, Shape};
 
-use super::body::{AffineField, Body, BodyShape, GravityShape, InertiaShape, integrate_product};
+use super::body::{AffineField, Body, BodyShape, integrate_product};
 use super::chart::{ConfigurationKind, Kinematics};
 use super::gauss::{gauss_condition, pairing, stationarity, velocity_field};
 use super::methods::Scene;
@@ -14,10 +14,10 @@ use super::vector::{Axes, Triple, add, cross, scale};
 
 /// Full inertia, O ≠ G, weight in any direction, buoyancy. The fluid's impulse enters both derivations alike.
 pub const GENERAL: BodyShape = BodyShape {
-    inertia: InertiaShape::Full,
+    inertia: Shape::Matrix3,
     center_of_mass: true,
     added_mass: None,
-    gravity: Some(GravityShape::Vector),
+    gravity: Some(Shape::Vector3),
     displaced_mass: true,
     center_of_buoyancy: true,
 };

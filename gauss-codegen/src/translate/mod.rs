@@ -21,17 +21,18 @@ use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::mechanics::{
-    Assigned, Body, Constraint, ConstraintKind, Coordinate, Element, Kinematics, Matter, Observed, Placement, Quantity,
+    Assigned, Body, Constraint, ConstraintKind, Coordinate, Element, Kinematics, Matter, Observed, Placement,
     SystemScene, Tree, Turn, poisson,
 };
 use crate::model::{
-    self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, GivenValue, InChart, Model, Property, Shape,
+    self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, GivenValue, InChart, Model, Property, Role,
+    Shape,
 };
 
 pub use forces::DragMatrix;
 pub use parameters::{Parameter, parameters_of_body, parameters_of_system};
 use symbols::Declared;
-pub use symbols::{Part, Source, body_shape, role_of};
+pub use symbols::{Part, Source, body_shape};
 use values::{Piece, Value};
 
 /// Translates a system; kept between two translations of one system with different speeds.
@@ -91,7 +92,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         let model = self.model;
         self.names.extend(self.declared.fields.iter().cloned());
         let given = self.assigned(&model.given)?;
-        if let Some(gravity) = given.iter().find(|assigned| assigned.quantity == Quantity::Gravity) {
+        if let Some(gravity) = given.iter().find(|assigned| assigned.quantity == Role::Gravity) {
             let zero = self.graph.zero();
             self.declared.gravity = match gravity.values.as_slice() {
                 &[x, y, z] => Some([x, y, z]),
@@ -131,7 +132,7 @@ impl<'a, 'g> Translator<'a, 'g> {
                     }
                 }
             };
-            let quantity = symbols::quantity_of(given.role).ok_or_else(|| bug(given.span))?;
+            let quantity = given.role;
             Ok(Assigned { quantity, values })
         };
         given.iter().map(value).collect()

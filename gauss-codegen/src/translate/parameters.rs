@@ -3,10 +3,9 @@
 use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
-use crate::mechanics::{Body, Quantity};
-use crate::model::{Field, Model, Shape};
+use crate::mechanics::Body;
+use crate::model::{Field, Model, Role, Shape};
 
-use super::symbols::role_of;
 use super::{Part, Source};
 
 /// One number of a field.
@@ -25,7 +24,7 @@ pub fn parameters_of_system<'g>(fields: &[Field], sources: &[Source<'g>]) -> Vec
 /// Of one body in a chart: its own, and those that only what acts depends on.
 pub fn parameters_of_body<'g>(model: &Model, body: &Body<'g>, sources: &[Source<'g>]) -> Vec<Parameter<'g>> {
     let own = body.parameters.iter().filter_map(|p| {
-        let role = Some(role_of(p.quantity));
+        let role = Some(p.quantity);
         let field = model.fields.iter().position(|field| field.role == role)?;
         let said = model.fields[field].ident.unraw();
         let name = match model.fields[field].shape {
@@ -47,8 +46,8 @@ fn of_field<'g>(fields: &[Field], source: &Source<'g>) -> (usize, Parameter<'g>)
         Part::Scalar => said.to_string(),
         Part::Component(i) => format!("{said}[{i}]"),
         Part::Entry(i, j) => format!("{said}[{i}][{j}]"),
-        Part::Body(Quantity::Mass, ..) => format!("{said}.mass"),
-        Part::Body(Quantity::CenterOfMass, i, _) => format!("{said}.center_of_mass[{i}]"),
+        Part::Body(Role::Mass, ..) => format!("{said}.mass"),
+        Part::Body(Role::CenterOfMass, i, _) => format!("{said}.center_of_mass[{i}]"),
         Part::Body(_, i, j) => format!("{said}.inertia[{i}][{j}]"),
     };
     (source.field, Parameter { symbol: source.symbol, name })

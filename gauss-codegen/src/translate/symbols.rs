@@ -5,10 +5,7 @@ use quote::format_ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::mechanics::{
-    AddedMassShape, Body, BodyShape, Coordinate, GravityShape, InertiaShape, Kinematics, Name, ParameterSymbol,
-    Quantity,
-};
+use crate::mechanics::{Body, BodyShape, Coordinate, Kinematics, Name, ParameterSymbol};
 use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
 
 use super::values::Value;
@@ -20,7 +17,7 @@ pub enum Part {
     Component(usize),
     Entry(usize, usize),
     /// Of a `RigidBody`.
-    Body(Quantity, usize, usize),
+    Body(Role, usize, usize),
 }
 
 /// A symbol and where its value is read.
@@ -266,7 +263,7 @@ impl<'g> Declared<'g> {
     /// Symbols of fields with roles, with those that the same entries have in the given body.
     pub fn parameters_of(&self, model: &Model, body: &Body<'g>) -> Map<u32, Expr<'g>> {
         let pair = |source: &Source<'g>| {
-            let quantity = quantity_of(model.fields[source.field].role?)?;
+            let quantity = model.fields[source.field].role?;
             let (row, column) = match source.part {
                 Part::Scalar => (0, 0),
                 Part::Component(i) => (i, 0),
@@ -293,7 +290,7 @@ impl<'g> Declared<'g> {
                 let body = Body::named(self.graph, body_shape(has), 2, name_of(name));
                 let field = model.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
                 // What the clause says of the fluid takes the place of the other symbols.
-                let of_field = |p: &&ParameterSymbol<'g>| p.quantity == Quantity::Mass || of_field(role_of(p.quantity));
+                let of_field = |p: &&ParameterSymbol<'g>| p.quantity == Role::Mass || of_field(p.quantity);
                 self.sources.extend(body.parameters.iter().filter(of_field).map(|p| Source {
                     symbol: p.symbol,
                     field,
@@ -322,8 +319,7 @@ impl<'g> Declared<'g> {
             Role::CenterOfBuoyancy,
         ] {
             let Some(field) = field(role) else { continue };
-            let quantity = quantity_of(role);
-            let own: Vec<_> = body.parameters.iter().filter(|p| Some(p.quantity) == quantity).collect();
+            let own: Vec<_> = body.parameters.iter().filter(|p| p.quantity == role).collect();
             let shape = fields[field].shape;
             self.sources.extend(own.iter().map(|p| Source {
                 symbol: p.symbol,
@@ -359,20 +355,10 @@ pub fn free_fall<'g>(model: &Model, zero: Expr<'g>, g: Expr<'g>) -> [Expr<'g>; 3
 /// What a body has, from the shapes of what plays the roles.
 pub fn body_shape(shape_of: impl Fn(Role) -> Option<Shape>) -> BodyShape {
     BodyShape {
-        inertia: match shape_of(Role::Inertia) {
-            Some(Shape::Scalar) => InertiaShape::Spherical,
-            Some(Shape::Vector3) => InertiaShape::Principal,
-            _ => InertiaShape::Full,
-        },
+        inertia: shape_of(Role::Inertia).filter(|shape| *shape != Shape::RigidBody).unwrap_or(Shape::Matrix3),
         center_of_mass: shape_of(Role::CenterOfMass).is_some(),
-        added_mass: shape_of(Role::AddedMass).map(|shape| match shape {
-            Shape::Vector6 => AddedMassShape::Diagonal,
-            _ => AddedMassShape::Full,
-        }),
-        gravity: shape_of(Role::Gravity).map(|shape| match shape {
-            Shape::Scalar => GravityShape::Vertical,
-            _ => GravityShape::Vector,
-        }),
+        added_mass: shape_of(Role::AddedMass),
+        gravity: shape_of(Role::Gravity),
         displaced_mass: shape_of(Role::DisplacedMass).is_some(),
         center_of_buoyancy: shape_of(Role::CenterOfBuoyancy).is_some(),
     }
@@ -402,30 +388,4 @@ fn velocity_name(name: &Name) -> Name {
     } else {
         Name { text: format!("{}_dot", name.text), latex: name.dot().latex }
     }
-}
-
-/// The role that gives a quantity.
-pub fn role_of(quantity: Quantity) -> Role {
-    match quantity {
-        Quantity::Mass => Role::Mass,
-        Quantity::CenterOfMass => Role::CenterOfMass,
-        Quantity::Inertia => Role::Inertia,
-        Quantity::AddedMass => Role::AddedMass,
-        Quantity::Gravity => Role::Gravity,
-        Quantity::DisplacedMass => Role::DisplacedMass,
-        Quantity::CenterOfBuoyancy => Role::CenterOfBuoyancy,
-    }
-}
-
-pub(super) fn quantity_of(role: Role) -> Option<Quantity> {
-    Some(match role {
-        Role::Mass => Quantity::Mass,
-        Role::CenterOfMass => Quantity::CenterOfMass,
-        Role::Inertia => Quantity::Inertia,
-        Role::AddedMass => Quantity::AddedMass,
-        Role::Gravity => Quantity::Gravity,
-        Role::DisplacedMass => Quantity::DisplacedMass,
-        Role::CenterOfBuoyancy => Quantity::CenterOfBuoyancy,
-        Role::Body => return None,
-    })
 }

@@ -19,7 +19,7 @@ pub enum Shape {
     Other,
 }
 
-/// What a field means to the body.
+/// What a field or a clause says of a body; a symbol of mass data stands for a part of one of these.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// The mass m: scalar.
