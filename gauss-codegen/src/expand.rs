@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
-use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
+use crate::emit::{Derived, Equations, Plain, Subject, SystemSubject, emit};
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals, Miscompiled};
 use crate::mechanics::{
     Acting, ConfigurationKind, Coordinate, Elimination, Formula, InertialParameters, Linearization, Method, Regressor,
@@ -22,7 +22,7 @@ use crate::translate::{Parameter, Translator, body_shape, parameters_of_body, pa
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
-    derive(input, |derived| Ok(emit(derived)))
+    derive(input, |derived| Ok(emit(derived, &Equations::of(derived))))
 }
 
 /// Derives one struct, and hands everything that is known of it to whoever writes it down.
@@ -51,6 +51,7 @@ fn derive_body<R>(
         let acting = Acting::new(&observed, &scene.kinematics, &parameters, &elements, inputs);
         scene = scene.acted_upon(acting);
     }
+    translator.as_ref().map_or(Ok(()), Translator::refuse_mistakes)?;
     let mut formulas = scene.formulas();
     check_against_definition(&scene, &formulas).map_err(|error| bug(&model.ident, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
@@ -74,8 +75,8 @@ fn derive_body<R>(
     let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
     let folded = foldable(&model.scalar, &literals);
     let kernel = beside.lower(&graph, &formulas, &rotation, folded).map_err(|error| bug(&model.ident, &error))?;
-    if graph.overflowed() {
-        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
+    if graph.is_undefined() {
+        return Err(bug(&model.ident, &"the equations divide by zero"));
     }
     refuse_too_much(model, &kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), beside.regressor.as_ref(), &kernel)?;
@@ -103,6 +104,7 @@ fn derive_system<R>(model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> syn::
     let all: Vec<usize> = (0..translator.speeds().len()).collect();
     let speeds = translator.speeds().to_vec();
     let scene = translator.scene(&speeds, &all)?;
+    translator.refuse_mistakes()?;
     refuse_curved_kinematics(model, &scene)?;
     let whole = System::new(scene);
     refuse_idle_speeds(model, &translator, &whole)?;
@@ -147,8 +149,8 @@ fn derive_system<R>(model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> syn::
     let literals = translator.literals();
     let folded = foldable(&model.scalar, &literals);
     let kernel = beside.lower(&graph, &formulas, &definitions, folded).map_err(|error| bug(&model.ident, &error))?;
-    if graph.overflowed() {
-        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
+    if graph.is_undefined() {
+        return Err(bug(&model.ident, &"the equations divide by zero"));
     }
     refuse_too_much(model, &kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), beside.regressor.as_ref(), &kernel)?;

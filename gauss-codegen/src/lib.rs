@@ -1,4 +1,4 @@
-//! The library behind `#[derive(GaussDynamics)]`: tokens of a struct in; programs, equations and code of its kernel out.
+//! The library behind `#[derive(GaussDynamics)]`: a struct in; programs, equations and code of its kernel out.
 #![doc = include_str!("../README.md")]
 #![warn(missing_docs)]
 

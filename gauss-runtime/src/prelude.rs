@@ -5,9 +5,11 @@ pub use gauss_derive::GaussDynamics;
 
 #[cfg(feature = "alloc")]
 pub use crate::batch::{Batch, BatchError, Packs, StateError, States};
+pub use crate::bounded::Bounded;
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::{ConstrainedSystem, ProjectionError};
+pub use crate::description::{Described, Equations, OperationCount, Operations};
 pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
@@ -26,7 +28,7 @@ pub use crate::monitor::{EnergyBalance, monitor, monitor_body, power_balance};
 pub use crate::real::Real;
 pub use crate::series::TaylorSystem;
 pub use crate::simd::Lanes;
-pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody, RigidBodySystem, Smoothness};
+pub use crate::system::{GaussSystem, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
     UnitQuaternion, Vector3, Vector6,

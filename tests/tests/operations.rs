@@ -49,7 +49,7 @@ struct Costs {
 const CHARTS: [&str; 4] = ["left_invariant", "right_invariant", "hybrid", "jet(euler_zyx)"];
 
 fn operations<S: Scene>() -> Operations {
-    <S::Kernel<f64> as GaussSystem>::OPERATIONS
+    <S::Kernel<f64> as Described>::OPERATIONS
 }
 
 macro_rules! costs {

@@ -114,7 +114,7 @@ pub struct Graph {
     nodes: RefCell<Vec<Node>>,
     index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
-    overflow: Cell<bool>,
+    undefined: Cell<bool>,
 }
 
 /// An expression: a node of a graph. Copies are free and equality is structural.
@@ -126,17 +126,17 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        let (nodes, index, symbols, overflow) = Default::default();
-        let graph = Self { nodes, index, symbols, overflow };
+        let (nodes, index, symbols, undefined) = Default::default();
+        let graph = Self { nodes, index, symbols, undefined };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
         graph
     }
 
-    /// True once a coefficient has left the range of 64-bit fractions, or was divided by zero; every result is then meaningless.
-    pub fn overflowed(&self) -> bool {
-        self.overflow.get()
+    /// True once something was divided by zero, or by a number beyond any use in double precision; every result is then meaningless.
+    pub fn is_undefined(&self) -> bool {
+        self.undefined.get()
     }
 
     /// A new symbol; two calls give two different symbols even when the names agree.
@@ -171,8 +171,8 @@ impl Graph {
     }
 
     pub fn number(&self, value: Rational) -> Expr<'_> {
-        if value.is_overflow() {
-            self.overflow.set(true);
+        if value.is_undefined() {
+            self.undefined.set(true);
         }
         self.intern(Node::Number(value))
     }
@@ -221,8 +221,8 @@ impl Graph {
             }
         }
         collected.retain(|(c, _)| !c.is_zero());
-        if collected.iter().any(|(c, _)| c.is_overflow()) {
-            self.overflow.set(true);
+        if collected.iter().any(|(c, _)| c.is_undefined()) {
+            self.undefined.set(true);
         }
         match collected.as_slice() {
             [] => self.zero(),
@@ -292,13 +292,7 @@ impl Graph {
 
     /// The rational content of a sum: greatest common divisor of the coefficients, with the sign of the first.
     fn content(&self, terms: &[(Rational, Id)]) -> Rational {
-        let mut numerator = 0;
-        let mut denominator = Rational::one();
-        for (c, _) in terms {
-            numerator = gcd(numerator, c.numer());
-            denominator *= Rational::from_integer(c.denom() / gcd(denominator.numer(), c.denom()).max(1));
-        }
-        let content = Rational::from_integer(numerator) / denominator;
+        let content = terms.iter().fold(Rational::zero(), |content, (c, _)| content.common_divisor(*c));
         if terms[0].0.is_negative() { -content } else { content }
     }
 
@@ -331,13 +325,6 @@ impl Graph {
         }
         self.intern(Node::Call(function, argument.id))
     }
-}
-
-fn gcd(mut a: i64, mut b: i64) -> i64 {
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    a.abs()
 }
 
 impl<'g> Expr<'g> {

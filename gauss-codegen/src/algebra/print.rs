@@ -26,6 +26,19 @@ pub fn print(e: Expr<'_>, notation: Notation) -> String {
     Printer { notation }.sum(e)
 }
 
+/// To double precision, with a power of ten where many zeros would stand otherwise.
+pub fn decimal(value: Rational, notation: Notation) -> String {
+    let value = value.to_f64();
+    if (1e-5..1e16).contains(&value.abs()) {
+        return value.to_string();
+    }
+    let scientific = format!("{value:e}");
+    match scientific.split_once('e') {
+        Some((digits, exponent)) if notation == Notation::Latex => format!("{digits} \\cdot 10^{{{exponent}}}"),
+        _ => scientific,
+    }
+}
+
 struct Printer {
     notation: Notation,
 }
@@ -107,12 +120,11 @@ impl Printer {
             };
             if exponent > 0 { above.push(power) } else { below.push(power) }
         }
-        if coefficient.numer() != 1 || above.is_empty() {
-            above.insert(0, coefficient.numer().to_string());
+        let (numerator, denominator) = self.fraction(coefficient);
+        if numerator != "1" || above.is_empty() {
+            above.insert(0, numerator);
         }
-        if coefficient.denom() != 1 {
-            below.insert(0, coefficient.denom().to_string());
-        }
+        below.splice(0..0, denominator);
         let times = if self.latex() { " \\, " } else { "*" };
         let text = match (below.is_empty(), self.latex()) {
             (true, _) => above.join(times),
@@ -162,13 +174,17 @@ impl Printer {
     }
 
     fn number(&self, value: &Rational) -> String {
-        if value.is_integer() {
-            value.numer().to_string()
-        } else if self.latex() {
-            format!("\\frac{{{}}}{{{}}}", value.numer(), value.denom())
-        } else {
-            format!("{}/{}", value.numer(), value.denom())
+        match self.fraction(*value) {
+            (numerator, None) => numerator,
+            (numerator, Some(denominator)) if self.latex() => format!("\\frac{{{numerator}}}{{{denominator}}}"),
+            (numerator, Some(denominator)) => format!("{numerator}/{denominator}"),
         }
+    }
+
+    /// Numerator and denominator, if that is not one; fractions that nobody would read as numbers in double precision.
+    fn fraction(&self, value: Rational) -> (String, Option<String>) {
+        let Some((numerator, denominator)) = value.parts() else { return (decimal(value, self.notation), None) };
+        (numerator.to_string(), (denominator != 1).then(|| denominator.to_string()))
     }
 }
 

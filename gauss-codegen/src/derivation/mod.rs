@@ -24,8 +24,7 @@ pub struct Derivation {
     name: String,
     constants: Program,
     programs: Vec<Program>,
-    text: String,
-    latex: String,
+    equations: Equations,
     rust: TokenStream,
 }
 
@@ -57,8 +56,9 @@ impl Derivation {
         let refused = |malformed: &dyn fmt::Display| bug(ident, &malformed);
         let constants = signature.constants(derived).map_err(|malformed| refused(&malformed))?;
         let programs = programs(derived, &signature).map_err(|malformed| refused(&malformed))?;
-        let Equations { text, latex } = Equations::of(derived);
-        Ok(Self { name: ident.unraw().to_string(), constants, programs, text, latex, rust: emit(derived) })
+        let equations = Equations::of(derived);
+        let rust = emit(derived, &equations);
+        Ok(Self { name: ident.unraw().to_string(), constants, programs, equations, rust })
     }
 
     /// The name of the struct.
@@ -85,8 +85,8 @@ impl Derivation {
     /// The equations of motion: a page of plain text, or one LaTeX environment.
     pub fn equations(&self, notation: Notation) -> &str {
         match notation {
-            Notation::Text => &self.text,
-            Notation::Latex => &self.latex,
+            Notation::Text => &self.equations.text,
+            Notation::Latex => &self.equations.latex,
         }
     }
 

@@ -16,14 +16,14 @@ fn constrained<'a, 'g>(derived: &Derived<'a, 'g>) -> Option<SystemSubject<'a, 'g
 
 pub fn constrained_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let subject = constrained(derived)?;
-    let (runtime, ty, count) = (derived.item().runtime, derived.scalar().ty(), subject.constraints.count());
-    let methods = subject.constraint_methods(runtime).into_iter();
+    let (private, ty, count) = (derived.private(), derived.scalar().ty(), subject.constraints.count());
+    let methods = subject.constraint_methods(derived.item().runtime).into_iter();
     let methods = methods.map(|(method, arguments, result)| derived.function(method, arguments, result));
     let items = quote! {
-        type Multipliers = #runtime::prelude::SVector<#ty, #count>;
+        type Multipliers = #private::SVector<#ty, #count>;
         #(#methods)*
     };
-    Some(derived.implementation(quote!(constraint::ConstrainedSystem), items))
+    Some(derived.implementation(quote!(ConstrainedSystem), items))
 }
 
 /// `project` of `GaussSystem`, where a run can drift away from constraints.

@@ -15,6 +15,16 @@ use super::documentation::method_name;
 use super::program::{ScalarTokens, statements};
 use super::system::SystemSubject;
 
+/// `__private_` and the version of this crate, which is that of the runtime.
+pub const PRIVATE: &str = concat!(
+    "__private_",
+    env!("CARGO_PKG_VERSION_MAJOR"),
+    "_",
+    env!("CARGO_PKG_VERSION_MINOR"),
+    "_",
+    env!("CARGO_PKG_VERSION_PATCH")
+);
+
 /// Everything known about one derive when code is written.
 pub struct Derived<'a, 'g> {
     pub subject: Subject<'a, 'g>,
@@ -143,8 +153,8 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     pub fn scalar(&self) -> ScalarTokens<'a> {
-        let Item { runtime, scalar, .. } = self.item();
-        ScalarTokens { scalar, real: quote!(#runtime::real::Real) }
+        let private = self.private();
+        ScalarTokens { scalar: self.item().scalar, real: quote!(#private::Real) }
     }
 
     pub fn kernel_name(&self) -> Ident {
@@ -175,9 +185,10 @@ impl<'a, 'g> Derived<'a, 'g> {
         self.program(Method::Acceleration).smoothness()
     }
 
+    /// The module of the runtime that generated code names, with the version that both were made for.
     pub fn private(&self) -> TokenStream {
-        let runtime = self.item().runtime;
-        quote!(#runtime::__private)
+        let (runtime, module) = (self.item().runtime, Ident::new(PRIVATE, Span::call_site()));
+        quote!(#runtime::#module)
     }
 
     /// How constants are written in methods.
@@ -299,21 +310,21 @@ impl<'a, 'g> Derived<'a, 'g> {
         KernelGenerics { declared: quote!(<#ty>), bounded: quote!(<#ty: #real>), used: quote!(<#ty>) }
     }
 
-    /// `impl Trait for NameKernel`; the path of the trait begins in the runtime.
+    /// `impl Trait for NameKernel`, of a trait of the runtime.
     pub fn implementation(&self, of: TokenStream, items: TokenStream) -> TokenStream {
-        let (runtime, name, KernelGenerics { bounded, used, .. }) =
-            (self.item().runtime, self.kernel_name(), self.kernel_generics());
+        let (private, name, KernelGenerics { bounded, used, .. }) =
+            (self.private(), self.kernel_name(), self.kernel_generics());
         quote! {
             #[automatically_derived]
             #[allow(unused_variables, clippy::all, clippy::pedantic)]
-            impl #bounded #runtime::#of for #name #used { #items }
+            impl #bounded #private::#of for #name #used { #items }
         }
     }
 
     /// How many operations a program has, as a value of the runtime.
     pub fn count(&self, counts: Counts) -> TokenStream {
-        let runtime = self.item().runtime;
+        let private = self.private();
         let Counts { additions, multiplications, divisions, roots, transcendentals } = counts;
-        quote!(#runtime::system::OperationCount::new(#additions, #multiplications, #divisions, #roots, #transcendentals))
+        quote!(#private::OperationCount::new(#additions, #multiplications, #divisions, #roots, #transcendentals))
     }
 }

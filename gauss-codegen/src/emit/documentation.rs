@@ -10,6 +10,7 @@ use super::derived::{Derived, Subject};
 use super::system::SystemSubject;
 
 /// The equations as plain text and as one LaTeX environment.
+#[derive(Clone, Debug)]
 pub struct Equations {
     pub text: String,
     pub latex: String,
@@ -107,6 +108,9 @@ fn description(derived: &Derived<'_, '_>) -> String {
     }
 }
 
+/// The methods that [`Kernel::derivatives`](crate::kernel::Kernel::derivatives) has the programs of.
+pub const DERIVATIVES: [&str; 3] = ["linearize", "by_parameters", "regressor"];
+
 /// Rustdoc of the kernel: what it is, its equations, its costs.
 pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     let mut out = format!(
@@ -127,7 +131,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), program.counts()));
     }
     out.push_str(&format!("| `evaluate` | {} |\n", derived.kernel.joined.counts()));
-    for (name, program) in ["linearize", "by_parameters", "regressor"].into_iter().zip(derived.kernel.derivatives()) {
+    for (name, program) in DERIVATIVES.into_iter().zip(derived.kernel.derivatives()) {
         if let Some(program) = program {
             out.push_str(&format!("| `{name}` | {} |\n", program.counts()));
         }

@@ -8,44 +8,41 @@ use crate::mechanics::Method;
 
 use super::constrained::projection;
 use super::derived::{Derived, Subject};
-use super::description::description;
-use super::documentation::Equations;
 
-pub fn gauss_system(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
-    let (types, description, smoothness) = (types(derived), description(derived, equations), smoothness(derived));
+pub fn gauss_system(derived: &Derived<'_, '_>) -> TokenStream {
+    let (types, smoothness) = (types(derived), smoothness(derived));
     let (methods, evaluate, projection) = (methods(derived), evaluate(derived), projection(derived));
     let items = quote! {
         #types
-        #description
         #smoothness
         #methods
         #evaluate
         #projection
     };
-    derived.implementation(quote!(system::GaussSystem), items)
+    derived.implementation(quote!(GaussSystem), items)
 }
 
 /// Associated types, degrees of freedom, chart.
 fn types(derived: &Derived<'_, '_>) -> TokenStream {
-    let (runtime, ty, n) = (derived.item().runtime, derived.scalar().ty(), derived.degrees_of_freedom());
+    let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
     let (configuration, chart) = match derived.subject {
         Subject::Body { .. } => {
             derived.body().map(|body| (body.configuration_type(), body.chart_tokens())).unwrap_or_default()
         }
-        Subject::System(subject) => (subject.configuration_type(derived), quote!(#runtime::chart::Chart::Own)),
+        Subject::System(subject) => (subject.configuration_type(derived), quote!(#private::Chart::Own)),
     };
     let input = match derived.formal().inputs.len() {
         0 => quote!(()),
-        count => quote!(#runtime::prelude::SVector<#ty, #count>),
+        count => quote!(#private::SVector<#ty, #count>),
     };
     quote! {
         type Scalar = #ty;
         type Configuration = #configuration;
-        type Speeds = #runtime::prelude::SVector<#ty, #n>;
-        type MassMatrix = #runtime::prelude::SMatrix<#ty, #n, #n>;
+        type Speeds = #private::SVector<#ty, #n>;
+        type MassMatrix = #private::SMatrix<#ty, #n, #n>;
         type Input = #input;
         const DOF: ::core::primitive::usize = #n;
-        const CHART: #runtime::chart::Chart = #chart;
+        const CHART: #private::Chart = #chart;
     }
 }
 
@@ -56,17 +53,17 @@ fn smoothness(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         Smoothness::Kinks => quote!(Kinks),
         Smoothness::Jumps => quote!(Jumps),
     };
-    let runtime = derived.item().runtime;
-    let smoothness = quote!(#runtime::system::Smoothness);
+    let private = derived.private();
+    let smoothness = quote!(#private::Smoothness);
     Some(quote!(const SMOOTHNESS: #smoothness = #smoothness::#word;))
 }
 
 fn methods(derived: &Derived<'_, '_>) -> TokenStream {
-    let runtime = derived.item().runtime;
+    let private = derived.private();
     let [z, p, input] = [quote!(z: &Self::Speeds), quote!(p: &Self::Speeds), quote!(input: &Self::Input)];
     let acceleration = quote!(z: &Self::Speeds, acceleration: &Self::Speeds, input: &Self::Input);
     let [speeds, matrix, scalar] = [quote!(Self::Speeds), quote!(Self::MassMatrix), quote!(Self::Scalar)];
-    let tangent = quote!(<Self::Configuration as #runtime::configuration::Configuration>::Tangent);
+    let tangent = quote!(<Self::Configuration as #private::Configuration>::Tangent);
     let methods = [
         (Method::Acceleration, quote!(#z, #input), &speeds),
         (Method::Momentum, z.clone(), &speeds),
@@ -86,7 +83,7 @@ fn methods(derived: &Derived<'_, '_>) -> TokenStream {
 
 /// `evaluate`: q̇, ż and the energies at once.
 fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
-    let (runtime, private) = (derived.item().runtime, derived.private());
+    let private = derived.private();
     let (instructions, outputs) = derived.computed(&derived.kernel.joined);
     let (configuration, rest) = outputs.split_at(derived.program(Method::Kinematics).outputs.len());
     let (speeds, energies) = rest.split_at(derived.degrees_of_freedom());
@@ -99,15 +96,10 @@ fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
             q: &Self::Configuration,
             z: &Self::Speeds,
             input: &Self::Input,
-        ) -> #runtime::system::Evaluated<Self> {
+        ) -> #private::Evaluated<Self> {
             #instructions
             let [__kinetic, __potential] = [#(#energies),*];
-            #runtime::system::Evaluated {
-                velocity: #velocity,
-                acceleration: #private::vector([#(#speeds),*]),
-                kinetic_energy: __kinetic,
-                potential_energy: __potential,
-            }
+            #private::Evaluated::new(#velocity, #private::vector([#(#speeds),*]), __kinetic, __potential)
         }
     }
 }

@@ -24,7 +24,8 @@ pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenS
 
 /// `kernel()` and `warnings()` of the user's struct.
 pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
-    let Item { ident, visibility, generics, runtime, .. } = derived.item();
+    let Item { ident, visibility, generics, .. } = derived.item();
+    let private = derived.private();
     let (name, KernelGenerics { used, .. }) = (derived.kernel_name(), derived.kernel_generics());
     let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
     let predicates = where_clause.map(|w| {
@@ -51,7 +52,7 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
         #[automatically_derived]
         impl #impl_generics #ident #type_generics where #predicates #bound {
             #[doc = #documentation]
-            #visibility fn kernel(&self) -> ::core::result::Result<#name #used, #runtime::error::ParameterError> {
+            #visibility fn kernel(&self) -> ::core::result::Result<#name #used, #private::ParameterError> {
                 #body
             }
 

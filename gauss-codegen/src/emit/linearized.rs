@@ -13,7 +13,7 @@ use super::derived::Derived;
 /// The implementation, where it is asked for.
 pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (linearization, program) = derived.linearization.zip(derived.kernel.tangents.as_ref())?;
-    let (runtime, private, ty) = (derived.item().runtime, derived.private(), derived.scalar().ty());
+    let (private, ty) = (derived.private(), derived.scalar().ty());
     let (states, inputs) = (linearization.increments + linearization.speeds, linearization.inputs);
     let (instructions, outputs) = derived.computed(program);
     // Outputs are the rates, and then their derivatives, one column of the matrices after the other.
@@ -21,13 +21,11 @@ pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (by_state, by_input) = (rows(&outputs, states, of_states.clone()), rows(&outputs, states, of_inputs.clone()));
     let (state_pattern, input_pattern) = (pattern(program, states, of_states), pattern(program, states, of_inputs));
     let (rate, by_time) = (&outputs[..states], &outputs[states * of_time..states * (of_time + 1)]);
-    let count = derived.count(program.counts());
     let boolean = quote!(&'static [&'static [::core::primitive::bool]]);
     let items = quote! {
-            type Linearization = #runtime::linearize::Linearization<#ty, #states, #inputs>;
+            type Linearization = #private::Linearization<#ty, #states, #inputs>;
             const STATE_PATTERN: #boolean = &[#(#state_pattern),*];
             const INPUT_PATTERN: #boolean = &[#(#input_pattern),*];
-            const LINEARIZE_OPERATIONS: #runtime::system::OperationCount = #count;
             fn linearize(
                 &self,
                 t: Self::Scalar,
@@ -36,7 +34,7 @@ pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
                 input: &Self::Input,
             ) -> Self::Linearization {
                 #instructions
-                #runtime::linearize::Linearization {
+                #private::Linearization {
                     rate: #private::vector([#(#rate),*]),
                     by_state: #private::matrix([#(#by_state),*]),
                     by_time: #private::vector([#(#by_time),*]),
@@ -44,7 +42,7 @@ pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
                 }
             }
     };
-    Some(derived.implementation(quote!(linearize::LinearizedSystem), items))
+    Some(derived.implementation(quote!(LinearizedSystem), items))
 }
 
 /// The rows of a matrix whose columns are among the outputs, one column of the given height after the other.

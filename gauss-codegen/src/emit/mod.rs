@@ -10,7 +10,7 @@
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
-//! `gauss_system` with `description`, `rigid_body`, `constrained`, `forced`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
+//! `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
 //! where there are mistakes.
 
 use proc_macro2::TokenStream;
@@ -49,11 +49,11 @@ pub use fallback::fallback;
 pub use system::SystemSubject;
 
 /// The whole output of the derive.
-pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
-    let equations = documentation::Equations::of(derived);
-    let kernel = kernel::kernel_struct(derived, &equations);
+pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
+    let kernel = kernel::kernel_struct(derived, equations);
     let constructor = kernel::constructor(derived);
-    let gauss_system = gauss_system::gauss_system(derived, &equations);
+    let gauss_system = gauss_system::gauss_system(derived);
+    let described = description::described(derived, equations);
     let rigid_body = rigid_body::rigid_body_system(derived);
     let constrained = constrained::constrained_system(derived);
     let forced = forced::forced_system(derived);
@@ -67,6 +67,7 @@ pub fn emit(derived: &Derived<'_, '_>) -> TokenStream {
         const _: () = {
             #constructor
             #gauss_system
+            #described
             #rigid_body
             #constrained
             #forced

@@ -55,8 +55,7 @@ fn said(model: &Model, role: Role) -> String {
 
 /// The body of `kernel()`.
 pub fn kernel_body(derived: &BodySubject<'_, '_>) -> TokenStream {
-    let (model, runtime) = (derived.model, &derived.model.runtime);
-    let private = quote!(#runtime::__private);
+    let (model, private) = (derived.model, derived.derived.private());
     let mut read = TokenStream::new();
     let mut symbols: Map<u32, TokenStream> =
         derived.scene.body.parameters.iter().map(|p| (p.symbol.key(), element(derived, p))).collect();
@@ -112,7 +111,7 @@ pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, sai
 
 /// What makes a set of parameters a body: all violations are reported together.
 fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
-    let (model, runtime) = (derived.model, &derived.model.runtime);
+    let (model, private) = (derived.model, derived.derived.private());
     let scalar = derived.derived.scalar();
     let ty = scalar.ty();
     let name_of = |quantity| said(model, quantity);
@@ -181,7 +180,7 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
         }));
     }
     quote! {
-        let mut __check = #runtime::__private::ParameterCheck::<#ty>::new();
+        let mut __check = #private::ParameterCheck::<#ty>::new();
         #checks
     }
 }

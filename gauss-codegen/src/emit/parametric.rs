@@ -9,17 +9,15 @@ use super::linearized::{pattern, rows};
 /// The derivatives by parameters, where they are asked for.
 pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (linearization, program) = derived.linearization.zip(derived.kernel.by_parameters.as_ref())?;
-    let (runtime, private, ty) = (derived.item().runtime, derived.private(), derived.scalar().ty());
+    let (private, ty) = (derived.private(), derived.scalar().ty());
     let (states, count) = (linearization.increments + linearization.speeds, derived.parameters.len());
     let names = derived.parameters.iter().map(|parameter| &parameter.name);
     let (instructions, outputs) = derived.computed(program);
     let (matrix, pattern) = (rows(&outputs, states, 0..count), pattern(program, states, 0..count));
-    let operations = derived.count(program.counts());
     let items = quote! {
-            type ByParameters = #runtime::prelude::SMatrix<#ty, #states, #count>;
+            type ByParameters = #private::SMatrix<#ty, #states, #count>;
             const PARAMETERS: &'static [&'static ::core::primitive::str] = &[#(#names),*];
             const PARAMETER_PATTERN: &'static [&'static [::core::primitive::bool]] = &[#(#pattern),*];
-            const BY_PARAMETERS_OPERATIONS: #runtime::system::OperationCount = #operations;
             fn by_parameters(
                 &self,
                 t: Self::Scalar,
@@ -31,5 +29,5 @@ pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
                 #private::matrix([#(#matrix),*])
             }
     };
-    Some(derived.implementation(quote!(identification::ParametricSystem), items))
+    Some(derived.implementation(quote!(ParametricSystem), items))
 }

@@ -11,20 +11,18 @@ use super::linearized::{pattern, rows};
 /// The regressor, where it is asked for.
 pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (regressor, program) = derived.regressor.zip(derived.kernel.regressor.as_ref())?;
-    let (runtime, private, ty) = (derived.item().runtime, derived.private(), derived.scalar().ty());
+    let (private, ty) = (derived.private(), derived.scalar().ty());
     let (rates, count) = (derived.degrees_of_freedom(), regressor.parameters.len());
     let names = regressor.parameters.iter().map(|parameter| &parameter.name);
     let (instructions, outputs) = derived.computed(program);
     let (matrix, pattern) = (rows(&outputs, rates, 0..count), pattern(program, rates, 0..count));
-    let operations = derived.count(program.counts());
     let (parameters, forces) =
         (derived.method_body(Method::InertialParameters), derived.method_body(Method::OtherForces));
     let items = quote! {
-            type Regressor = #runtime::prelude::SMatrix<#ty, #rates, #count>;
-            type InertialParameters = #runtime::prelude::SVector<#ty, #count>;
+            type Regressor = #private::SMatrix<#ty, #rates, #count>;
+            type InertialParameters = #private::SVector<#ty, #count>;
             const INERTIAL_PARAMETERS: &'static [&'static ::core::primitive::str] = &[#(#names),*];
             const REGRESSOR_PATTERN: &'static [&'static [::core::primitive::bool]] = &[#(#pattern),*];
-            const REGRESSOR_OPERATIONS: #runtime::system::OperationCount = #operations;
             fn regressor(
                 &self,
                 t: Self::Scalar,
@@ -49,5 +47,5 @@ pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
                 #forces
             }
     };
-    Some(derived.implementation(quote!(identification::InertialRegressor), items))
+    Some(derived.implementation(quote!(InertialRegressor), items))
 }

@@ -9,26 +9,26 @@ use super::derived::Derived;
 
 pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (pose, configuration_of_pose) = derived.body()?.pose_bodies();
-    let runtime = derived.item().runtime;
-    let six = quote!(#runtime::prelude::SVector<Self::Scalar, 6>);
+    let private = derived.private();
+    let six = quote!(#private::SVector<Self::Scalar, 6>);
     let twist = derived.function(Method::BodyTwist, quote!(z: &Self::Speeds), six.clone());
     let speeds = derived.function(Method::Speeds, quote!(twist: &#six), quote!(Self::Speeds));
     let momentum = derived.function(Method::BodyMomentum, quote!(z: &Self::Speeds), six);
     let items = quote! {
         #[inline]
-        fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> #runtime::prelude::Isometry3<Self::Scalar> {
+        fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> #private::Isometry3<Self::Scalar> {
             #pose
         }
         #[inline]
         fn configuration(
             &self,
-            pose: &#runtime::prelude::Isometry3<Self::Scalar>,
-        ) -> ::core::result::Result<Self::Configuration, #runtime::chart::ChartError> {
+            pose: &#private::Isometry3<Self::Scalar>,
+        ) -> ::core::result::Result<Self::Configuration, #private::ChartError> {
             #configuration_of_pose
         }
         #twist
         #speeds
         #momentum
     };
-    Some(derived.implementation(quote!(system::RigidBodySystem), items))
+    Some(derived.implementation(quote!(RigidBodySystem), items))
 }

@@ -385,7 +385,7 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
             }
         }
     };
-    Some(derived.implementation(quote!(series::TaylorSystem), items))
+    Some(derived.implementation(quote!(TaylorSystem), items))
 }
 
 /// How many components of the configuration are measured together, and each speed by itself.

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::algebra::{Evaluation, Expr, Graph, Map, Tangents};
+use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Tangents};
 
 use super::hoist::Hoister;
 use super::tangent::{Direction, Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
@@ -207,7 +207,7 @@ impl<'a, 'g> Expected<'a, 'g> {
     }
 
     /// By dual numbers through the expressions.
-    pub fn values(&self, evaluation: &mut Evaluation<'_>) -> Vec<f64> {
+    pub fn values<N: Number>(&self, evaluation: &mut Evaluation<'_, N>) -> Vec<N> {
         let mut expected = Vec::new();
         if self.kept == Kept::ValuesToo {
             expected.extend(self.outputs.iter().map(|e| evaluation.value(*e)));

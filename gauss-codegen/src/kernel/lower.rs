@@ -92,7 +92,7 @@ impl<'g> Kernel<'g> {
             functions.iter().chain([&joined]).chain(&tangents).chain(&regressor).flat_map(Program::symbols).collect();
         let numbers: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
-        let (mut constants, known_constants) = constants(hoister, &read, literals.map(|_| &numbers));
+        let (mut constants, known_constants, folded) = constants(hoister, &read, literals.map(|_| &numbers));
         let by_parameters = wanted.by_parameters.map(|by| by.lower(graph, (&functions, &chosen), &mut constants));
         let (by_parameters, expected_by_parameters) = by_parameters.unzip();
         let Constants { program, symbols: constant_symbols } = constants;
@@ -108,7 +108,7 @@ impl<'g> Kernel<'g> {
         };
         let outputs = chosen.into_iter().chain([of_joined.as_slice()]).map(Expected::of);
         let derived = [expected_tangents, expected_by_parameters, expected_regressor];
-        let sample = Sample { definitions, units: wanted.units, literals: &numbers };
+        let sample = Sample { definitions, units: wanted.units, literals: &numbers, folded: &folded };
         kernel.checked(outputs, derived).check(graph, &sample)?;
         Ok(kernel)
     }
@@ -123,7 +123,6 @@ impl<'g> Kernel<'g> {
         Checked {
             constants: &self.constants,
             constant_symbols: &self.constant_symbols,
-            known_constants: &self.known_constants,
             functions: self.functions.iter().chain([&self.joined]).zip(functions).collect(),
             derivatives: derivatives.filter_map(|(program, expected)| program.zip(expected)).collect(),
         }
@@ -135,13 +134,13 @@ impl<'g> Kernel<'g> {
     }
 }
 
-/// The constants that are read, and of these with their values those that `literals` alone determine. Constants that only a dearer
+/// The constants that are read, and of these those that `literals` alone determine, with their values and with their definitions. Constants that only a dearer
 /// arrangement wanted are dropped.
 fn constants<'g>(
     hoister: Hoister<'_, 'g>,
     read: &[Expr<'g>],
     literals: Option<&Map<u32, f64>>,
-) -> (Constants<'g>, Vec<(Expr<'g>, f64)>) {
+) -> (Constants<'g>, Vec<(Expr<'g>, f64)>, Vec<(Expr<'g>, Expr<'g>)>) {
     let known = |definition: Expr<'g>| {
         let literals = literals?;
         let value = Evaluation::new(literals).value(definition);
@@ -150,15 +149,19 @@ fn constants<'g>(
         // What has no value is left to `kernel()`, which refuses it.
         Some(value).filter(|value| made_of_literals && value.is_finite())
     };
-    let (mut symbols, mut values, mut known_constants) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut symbols, mut values) = (Vec::new(), Vec::new());
+    let (mut known_constants, mut folded) = (Vec::new(), Vec::new());
     for (symbol, definition) in hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(symbol)) {
         match known(definition) {
-            Some(value) => known_constants.push((symbol, value)),
+            Some(value) => {
+                known_constants.push((symbol, value));
+                folded.push((symbol, definition));
+            }
             None => {
                 symbols.push(symbol);
                 values.push(definition);
             }
         }
     }
-    (Constants { program: Program::lower(&values), symbols }, known_constants)
+    (Constants { program: Program::lower(&values), symbols }, known_constants, folded)
 }

@@ -344,17 +344,7 @@ impl<'a, 'g> Pass<'a, 'g> {
                 let first = self.writer.times_plus(da, b, dc);
                 self.writer.times_plus(db, a, first)
             }
-            // (a/b)˙ = (ȧ − (a/b) ḃ)/b.
-            Operation::Divide(a, b) => {
-                let (da, db) = (self.rate(a, tangents), self.rate(b, tangents));
-                if da.is_none() && db.is_none() {
-                    return None;
-                }
-                let above = self.writer.times_plus(minus(db), own, da);
-                let b = self.here(b);
-                let reciprocal = self.writer.reciprocal(b);
-                self.writer.times(above, reciprocal)
-            }
+            Operation::Divide(a, b) => self.quotient([a, b], own, tangents),
             Operation::Negate(a) => minus(self.rate(a, tangents)),
             Operation::SineCosine(a) => self.rate(a, tangents),
             Operation::Call(function, a) => {
@@ -363,30 +353,47 @@ impl<'a, 'g> Pass<'a, 'g> {
                 let slope = self.slope(function, a, own)?;
                 self.writer.times(da, slope)
             }
-            Operation::Binary(BinaryFunction::Atan2, y, x) => {
-                let (dy, dx) = (self.rate(y, tangents), self.rate(x, tangents));
-                if dy.is_none() && dx.is_none() {
-                    return None;
-                }
-                let (y, x) = (self.here(y), self.here(x));
-                let turned = self.writer.times(dy, x);
-                let turned = self.writer.times_plus(minus(dx), y, turned);
-                let square = self.writer.multiplied(y, y);
-                let square = self.writer.push(Operation::MultiplyAdd(x, x, square));
-                let reciprocal = self.writer.reciprocal(square);
-                self.writer.times(turned, reciprocal)
-            }
-            Operation::Binary(function, a, b) => {
-                let (da, db) = (self.rate(a, tangents), self.rate(b, tangents));
-                if da.is_none() && db.is_none() {
-                    return None;
-                }
-                let (a, b) = (self.here(a), self.here(b));
-                let [of_first, of_second] = self.shares(function, a, b);
-                let first = self.writer.times(da, of_first);
-                self.writer.times_plus(db, of_second, first)
+            Operation::Binary(BinaryFunction::Atan2, y, x) => self.angle([y, x], tangents),
+            Operation::Binary(function @ (BinaryFunction::Min | BinaryFunction::Max), a, b) => {
+                self.selected(function, [a, b], tangents)
             }
         }
+    }
+
+    /// The derivatives of two operands; `None` where both are 0.
+    fn both(&mut self, operands: [Operand<'g>; 2], tangents: &[Rate<'g>]) -> Option<[Rate<'g>; 2]> {
+        let rates = operands.map(|operand| self.rate(operand, tangents));
+        rates.iter().any(Option::is_some).then_some(rates)
+    }
+
+    /// (a/b)˙ = (ȧ − (a/b) ḃ)/b, where a/b is `own`.
+    fn quotient(&mut self, [a, b]: [Operand<'g>; 2], own: Operand<'g>, tangents: &[Rate<'g>]) -> Rate<'g> {
+        let [da, db] = self.both([a, b], tangents)?;
+        let above = self.writer.times_plus(db.map(Tangent::negated), own, da);
+        let b = self.here(b);
+        let reciprocal = self.writer.reciprocal(b);
+        self.writer.times(above, reciprocal)
+    }
+
+    /// atan2(y, x)˙ = (ẏ x − ẋ y)/(x² + y²).
+    fn angle(&mut self, [y, x]: [Operand<'g>; 2], tangents: &[Rate<'g>]) -> Rate<'g> {
+        let [dy, dx] = self.both([y, x], tangents)?;
+        let (y, x) = (self.here(y), self.here(x));
+        let turned = self.writer.times(dy, x);
+        let turned = self.writer.times_plus(dx.map(Tangent::negated), y, turned);
+        let square = self.writer.multiplied(y, y);
+        let square = self.writer.push(Operation::MultiplyAdd(x, x, square));
+        let reciprocal = self.writer.reciprocal(square);
+        self.writer.times(turned, reciprocal)
+    }
+
+    /// That of the smaller or larger of two numbers.
+    fn selected(&mut self, function: BinaryFunction, [a, b]: [Operand<'g>; 2], tangents: &[Rate<'g>]) -> Rate<'g> {
+        let [da, db] = self.both([a, b], tangents)?;
+        let (a, b) = (self.here(a), self.here(b));
+        let [of_first, of_second] = self.shares(function, a, b);
+        let first = self.writer.times(da, of_first);
+        self.writer.times_plus(db, of_second, first)
     }
 
     /// f′ at the operand of the program `a`, where f is `own`; `None` is 0.

@@ -36,7 +36,7 @@ fn random_expr<'g>(random: &mut Random, leaves: &[Expr<'g>], depth: u32) -> Expr
 }
 
 fn point_of<'g>(graph: &'g Graph, definitions: &Map<u32, Expr<'g>>) -> Map<u32, f64> {
-    Sample { definitions, units: &[], literals: &Map::default() }.point(graph, 0)
+    Sample { definitions, units: &[], literals: &Map::default(), folded: &[] }.point(graph, 0)
 }
 
 #[test]
@@ -182,7 +182,7 @@ fn a_program_that_computes_something_else_is_refused() {
     )
     .expect("a program");
     kernel.functions[0] = Program::lower(&[a - b]);
-    let sample = Sample { definitions: &Map::default(), units: &[], literals: &Map::default() };
+    let sample = Sample { definitions: &Map::default(), units: &[], literals: &Map::default(), folded: &[] };
     let (functions, joined) = ([a + b], []);
     let expected = [Expected::of(&functions), Expected::of(&joined)].into_iter();
     assert!(kernel.checked(expected, []).check(&graph, &sample).is_err());

@@ -1,6 +1,6 @@
 //! From a network to straight-line code.
 
-use crate::algebra::{Expr, Function, Map, Rational};
+use crate::algebra::{Expr, Function, Map, Number, Rational};
 use crate::program::{Code, Instruction};
 
 use super::factor::Factoring;
@@ -27,8 +27,8 @@ impl<'g> Program<'g> {
     }
 
     /// Runs the program in double precision, with values of symbols by their keys.
-    pub fn run(&self, symbols: &Map<u32, f64>) -> Vec<f64> {
-        self.evaluate(|symbol| symbols.get(&symbol.key()).copied().unwrap_or(f64::NAN))
+    pub fn run<N: Number>(&self, symbols: &Map<u32, N>) -> Vec<N> {
+        self.evaluate(|symbol| symbols.get(&symbol.key()).copied().unwrap_or(N::number(f64::NAN)))
     }
 }
 

@@ -1,73 +1,8 @@
 //! The interpreter: a program run on any numbers.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
-use crate::algebra::{BinaryFunction, Function, Rational};
+use crate::algebra::Scalar;
 
 use super::{Code, Instruction, Operand};
-
-/// What a program can be run on: `f64`, `f32`, and with a few lines dual numbers, intervals or numbers of more digits.
-pub trait Scalar:
-    Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
-{
-    /// A number that no fraction of integers is, as literals of a scene determine it in double precision.
-    fn number(value: f64) -> Self;
-
-    /// A fraction, exactly where the type can hold it.
-    fn fraction(value: Rational) -> Self;
-
-    /// Sine and cosine of an angle in radians.
-    fn sine_cosine(self) -> (Self, Self);
-
-    /// A function of one argument; NaN, or what stands for it, outside its domain.
-    fn call(self, function: Function) -> Self;
-
-    /// A function of two arguments, of which this is the first.
-    fn call_with(self, function: BinaryFunction, other: Self) -> Self;
-}
-
-macro_rules! primitive {
-    ($scalar:ident) => {
-        impl Scalar for $scalar {
-            fn number(value: f64) -> Self {
-                value as $scalar
-            }
-
-            fn fraction(value: Rational) -> Self {
-                value.numer() as $scalar / value.denom() as $scalar
-            }
-
-            fn sine_cosine(self) -> (Self, Self) {
-                self.sin_cos()
-            }
-
-            fn call(self, function: Function) -> Self {
-                match function {
-                    Function::Sin => self.sin(),
-                    Function::Cos => self.cos(),
-                    Function::Exp => self.exp(),
-                    Function::Ln => self.ln(),
-                    Function::Sqrt => self.sqrt(),
-                    Function::Abs => self.abs(),
-                    // Unlike that of the primitive type, zero at zero.
-                    Function::Signum if self == 0.0 => 0.0,
-                    Function::Signum => self.signum(),
-                }
-            }
-
-            fn call_with(self, function: BinaryFunction, other: Self) -> Self {
-                match function {
-                    BinaryFunction::Atan2 => self.atan2(other),
-                    BinaryFunction::Min => self.min(other),
-                    BinaryFunction::Max => self.max(other),
-                }
-            }
-        }
-    };
-}
-
-primitive!(f64);
-primitive!(f32);
 
 /// The result of an instruction.
 enum Computed<T> {

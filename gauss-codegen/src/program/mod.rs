@@ -44,11 +44,10 @@ mod verify;
 
 use std::fmt;
 
-pub use crate::algebra::{BinaryFunction, Function, Rational};
+pub use crate::algebra::{BinaryFunction, Function, Rational, Scalar};
 pub use code::Code;
 pub use cost::{Cost, Counts, Smoothness};
 pub use instruction::{Instruction, Operand};
-pub use interpret::Scalar;
 pub use verify::Malformed;
 
 /// A function with names for its arguments and results. Its fields can be read; it is made by [`Program::new`], which verifies it.
@@ -92,8 +91,8 @@ pub enum ArgumentKind {
     Constants,
     /// Time, in seconds: one number.
     Time,
-    /// The components of the configuration, in the order of its parts: of rotations those of the unit quaternion, x, y, z, w, of poses
-    /// these and then the position.
+    /// The components of the configuration, in the order of its parts: of rotations those of the unit quaternion, x, y, z, w, of turns in
+    /// the plane cosine and sine, of poses these and then the position.
     Configuration,
     /// The speeds z.
     Speeds,

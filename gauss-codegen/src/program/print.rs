@@ -58,9 +58,10 @@ impl Program {
         match operand {
             Operand::Input(Input::Number(number)) => format!("{:?}", self.numbers[number]),
             Operand::Input(Input::Component { argument, component }) => self.name_of(argument, component),
-            Operand::Number(n) if n.is_integer() && !n.is_negative() => n.numer().to_string(),
-            Operand::Number(n) if n.is_integer() => format!("({})", n.numer()),
-            Operand::Number(n) => format!("({}/{})", n.numer(), n.denom()),
+            Operand::Number(n) => match n.parts() {
+                Some((numerator @ 0.., 1)) => numerator.to_string(),
+                _ => format!("({n:?})"),
+            },
             Operand::Value(k) => format!("%{k}"),
             Operand::Sine(k) => format!("sin %{k}"),
             Operand::Cosine(k) => format!("cos %{k}"),

@@ -80,7 +80,7 @@ impl<S: Copy> Code<S> {
 
     fn verify_operand(&self, operand: Operand<S>, reader: Option<usize>) -> Result<(), Malformed> {
         let read = match operand {
-            Operand::Number(n) if n.is_overflow() => return Err(Malformed::NotANumber),
+            Operand::Number(n) if n.is_undefined() => return Err(Malformed::NotANumber),
             Operand::Input(_) | Operand::Number(_) => return Ok(()),
             Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) => k,
         };

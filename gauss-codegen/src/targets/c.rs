@@ -204,8 +204,10 @@ fn fraction(value: Rational) -> String {
     if value.is_dyadic() {
         return literal(value.to_f64());
     }
-    let (numerator, denominator) = (value.numer() as f64, value.denom() as f64);
-    format!("({numerator:?} / {denominator:?})")
+    match value.parts() {
+        Some((numerator, denominator)) => format!("({:?} / {:?})", numerator as f64, denominator as f64),
+        None => literal(value.to_f64()),
+    }
 }
 
 /// `HeavyTop` becomes `heavy_top`; what no name in C can have is `_`.

@@ -8,7 +8,7 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::mechanics::{Body, BodyShape, Coordinate, Kinematics, Name, ParameterSymbol};
 use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
 
-use super::values::Value;
+use super::value::Value;
 
 /// Which number of a field a symbol stands for.
 #[derive(Clone, Copy, Debug)]
