@@ -1,6 +1,7 @@
 //! Straight-line code: instructions and outputs.
 
-use super::{Input, Instruction, Operand};
+use super::input::Input;
+use super::instruction::{Instruction, Operand};
 
 /// A function as a list of instructions: single assignment, no loops, no branches.
 #[derive(Clone, Debug, PartialEq, Eq)]

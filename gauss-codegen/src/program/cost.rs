@@ -4,7 +4,8 @@ use std::fmt;
 
 use crate::algebra::{BinaryFunction, Function};
 
-use super::{Code, Instruction, Operand};
+use super::code::Code;
+use super::instruction::{Instruction, Operand};
 
 /// Operations by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use crate::algebra::{BinaryFunction, Function, Rational};
 
-use super::Input;
+use super::input::Input;
 
 /// What an instruction works on. `S` is what inputs are called: an [`Input`] of a finished [`Program`](super::Program), a symbol
 /// while it is made.

@@ -2,7 +2,8 @@
 
 use crate::algebra::Scalar;
 
-use super::{Code, Instruction, Operand};
+use super::code::Code;
+use super::instruction::{Instruction, Operand};
 
 /// The result of an instruction.
 enum Computed<T> {

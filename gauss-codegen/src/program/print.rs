@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use super::{Argument, Input, Instruction, Operand, Program};
+use super::function::Program;
+use super::input::{Argument, Input};
+use super::instruction::{Instruction, Operand};
 
 /// ```text
 /// acceleration(k: constants, z: speeds)

@@ -2,7 +2,8 @@
 
 use crate::algebra::{BinaryFunction, Function};
 
-use super::{Code, Instruction, Operand};
+use super::code::Code;
+use super::instruction::{Instruction, Operand};
 
 /// What a product of series costs in one order, where a sum costs 1: a lane of multiply-adds over the lower orders and two more.
 const PRODUCT: u32 = 5;

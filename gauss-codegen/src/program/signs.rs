@@ -4,7 +4,8 @@
 //! from a result to what it was computed of, as far as nobody else reads that. Results stay the same to the last bit, but for the sign of
 //! a zero.
 
-use super::{Code, Instruction, Operand};
+use super::code::Code;
+use super::instruction::{Instruction, Operand};
 
 /// A program whose signs are being moved.
 struct Signs<S> {

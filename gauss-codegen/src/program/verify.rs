@@ -1,10 +1,12 @@
-//! The shape of programs, checked after every pass in debug builds.
+//! The shape of code, checked after every pass in debug builds.
 
 use std::fmt;
 
 use crate::algebra::Function;
 
-use super::{Code, Input, Instruction, Operand, Program};
+use super::code::Code;
+use super::input::Input;
+use super::instruction::{Instruction, Operand};
 
 /// What is wrong with the shape of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -99,37 +101,5 @@ impl<S: Copy> Code<S> {
             unreachable!("a pass made a program of wrong shape: {malformed}");
         }
         self
-    }
-}
-
-impl Program {
-    /// Checks its shape: that of its code, and that its inputs and results are there.
-    ///
-    /// # Errors
-    /// The first thing that is wrong.
-    pub fn verify(&self) -> Result<(), Malformed> {
-        self.code.verify()?;
-        for operand in self.code.operands() {
-            if let Operand::Input(input) = operand {
-                let exists = match input {
-                    Input::Component { argument, component } => {
-                        self.arguments.get(argument).is_some_and(|argument| component < argument.components.len())
-                    }
-                    Input::Number(number) => number < self.numbers.len(),
-                };
-                if !exists {
-                    return Err(Malformed::NoSuchInput(input));
-                }
-            }
-        }
-        let (expected, found) = (self.results.iter().map(|r| r.len()).sum(), self.code.outputs.len());
-        if expected != found {
-            return Err(Malformed::Outputs { expected, found });
-        }
-        let names = || self.arguments.iter().map(|a| &a.name).chain(self.results.iter().map(|r| &r.name));
-        match names().enumerate().find(|(k, name)| names().skip(k + 1).any(|other| other == *name)) {
-            Some((_, name)) => Err(Malformed::Named(name.clone())),
-            None => Ok(()),
-        }
     }
 }
