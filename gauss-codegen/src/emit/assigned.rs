@@ -6,7 +6,7 @@ use syn::ext::IdentExt;
 
 use crate::algebra::Map;
 use crate::kernel::Program;
-use crate::mechanics::{Assigned, KineticMatrix, Quantity};
+use crate::mechanics::{Assigned, KineticMatrix};
 use crate::model::{Motion, Role, Shape};
 
 use super::derived::Derived;
@@ -90,13 +90,13 @@ pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream
     for (clause, body) in subject.model.bodies.iter().enumerate() {
         let Some(name) = &body.name else { continue };
         let own = &subject.assigned_to_bodies[clause];
-        let value_of = |quantity: Quantity| own.iter().find(|assigned| assigned.quantity == quantity);
-        let (Some(mass), Some(inertia)) = (value_of(Quantity::Mass), value_of(Quantity::Inertia)) else { continue };
+        let value_of = |quantity: Role| own.iter().find(|assigned| assigned.quantity == quantity);
+        let (Some(mass), Some(inertia)) = (value_of(Role::Mass), value_of(Role::Inertia)) else { continue };
         let local = |part: &str| format_ident!("__b{}", part, span = Span::mixed_site());
         let [m, c, moments, tensor] = ["mass", "center", "moments", "inertia"].map(local);
         let zero = quote!(<#ty as #real>::zero());
         let mut read = assigned_local(derived, &m, mass, symbols);
-        read.extend(match value_of(Quantity::CenterOfMass) {
+        read.extend(match value_of(Role::CenterOfMass) {
             Some(center) => assigned_local(derived, &c, center, symbols),
             None => quote!(let #c = [#zero; 3];),
         });

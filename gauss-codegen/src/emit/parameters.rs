@@ -6,7 +6,7 @@ use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
-use crate::mechanics::{Matter, Quantity};
+use crate::mechanics::Matter;
 use crate::model::{ExpressionKind, Field, Model, Motion, Role, Shape};
 use crate::translate::{Part, Source};
 
@@ -21,10 +21,10 @@ fn local(field: usize, part: &str) -> Ident {
 }
 
 /// The word of a part of a rigid body: the field of `RigidBody` and the end of the local.
-fn word(quantity: Quantity) -> &'static str {
+fn word(quantity: Role) -> &'static str {
     match quantity {
-        Quantity::Mass => "mass",
-        Quantity::CenterOfMass => "center_of_mass",
+        Role::Mass => "mass",
+        Role::CenterOfMass => "center_of_mass",
         _ => "inertia",
     }
 }
@@ -39,8 +39,8 @@ pub fn element(source: &Source<'_>) -> TokenStream {
         Part::Body(quantity, i, j) => {
             let name = local(source.field, word(quantity));
             match quantity {
-                Quantity::Mass => quote!(#name),
-                Quantity::CenterOfMass => quote!(#name[#i]),
+                Role::Mass => quote!(#name),
+                Role::CenterOfMass => quote!(#name[#i]),
                 _ => quote!(#name[#i][#j]),
             }
         }

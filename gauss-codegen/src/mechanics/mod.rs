@@ -56,9 +56,7 @@ pub use loads::accounts::Account;
 pub use loads::fields::{attraction, entrained};
 pub use loads::forces::{Action, Element, Force};
 pub use loads::wrench::Observed;
-pub use matter::body::{
-    AddedMassShape, Assigned, Body, BodyShape, GravityShape, InertiaShape, ParameterSymbol, Quantity,
-};
+pub use matter::body::{Assigned, Body, BodyShape, ParameterSymbol};
 pub use print::equations::Section;
 pub use print::names::Name;
 pub use scene::{Coordinate, Lettering, SystemScene};

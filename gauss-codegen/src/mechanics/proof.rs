@@ -3,21 +3,21 @@
 
 use crate::algebra::ideal::Ideal;
 use crate::algebra::{Expr, Graph};
-use crate::model::{Chart, Motion};
+use crate::model::{Chart, Motion, Shape};
 
 use crate::mechanics::check::definition::{gauss_condition, pairing, stationarity, velocity_field};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, scale};
-use crate::mechanics::matter::body::{AffineField, Body, BodyShape, GravityShape, InertiaShape, integrate_product};
+use crate::mechanics::matter::body::{AffineField, Body, BodyShape, integrate_product};
 use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
 use crate::mechanics::tests::{Charted, scenes};
 
 /// Full inertia, O ≠ G, weight in any direction, buoyancy. The fluid's impulse enters both derivations alike.
 pub const GENERAL: BodyShape = BodyShape {
-    inertia: InertiaShape::Full,
+    inertia: Shape::Matrix3,
     center_of_mass: true,
     added_mass: None,
-    gravity: Some(GravityShape::Vector),
+    gravity: Some(Shape::Vector3),
     displaced_mass: true,
     center_of_buoyancy: true,
 };

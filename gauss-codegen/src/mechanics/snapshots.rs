@@ -2,13 +2,13 @@
 //! four bodies.
 
 use crate::algebra::{Graph, Notation};
-use crate::model::{Chart, Motion, RotationChart};
+use crate::model::{Chart, Motion, RotationChart, Shape};
 
-use crate::mechanics::matter::body::{AddedMassShape, BodyShape, GravityShape, InertiaShape};
+use crate::mechanics::matter::body::BodyShape;
 use crate::mechanics::tests::Charted;
 
 const PRINCIPAL: BodyShape = BodyShape {
-    inertia: InertiaShape::Principal,
+    inertia: Shape::Vector3,
     center_of_mass: false,
     added_mass: None,
     gravity: None,
@@ -19,12 +19,9 @@ const PRINCIPAL: BodyShape = BodyShape {
 fn bodies() -> [(&'static str, BodyShape); 4] {
     [
         ("principal axes at G", PRINCIPAL),
-        ("full inertia, G off O", BodyShape { inertia: InertiaShape::Full, center_of_mass: true, ..PRINCIPAL }),
-        (
-            "principal axes at G, diagonal added mass",
-            BodyShape { added_mass: Some(AddedMassShape::Diagonal), ..PRINCIPAL },
-        ),
-        ("G off O, weight", BodyShape { center_of_mass: true, gravity: Some(GravityShape::Vertical), ..PRINCIPAL }),
+        ("full inertia, G off O", BodyShape { inertia: Shape::Matrix3, center_of_mass: true, ..PRINCIPAL }),
+        ("principal axes at G, diagonal added mass", BodyShape { added_mass: Some(Shape::Vector6), ..PRINCIPAL }),
+        ("G off O, weight", BodyShape { center_of_mass: true, gravity: Some(Shape::Scalar), ..PRINCIPAL }),
     ]
 }
 

@@ -1,7 +1,7 @@
 //! Every formula of every chart, motion and body against the literal Gauss condition at random states.
 
 use crate::algebra::{Evaluation, Expr, Graph, Map};
-use crate::model::{Chart, Motion, RotationChart};
+use crate::model::{Chart, Motion, Role, RotationChart, Shape};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::check::definition::gauss_condition;
@@ -12,7 +12,7 @@ use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
 use crate::mechanics::links::link::Matter;
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::Element;
-use crate::mechanics::matter::body::{AddedMassShape, Body, BodyShape, GravityShape, InertiaShape, Quantity};
+use crate::mechanics::matter::body::{Body, BodyShape};
 use crate::mechanics::scene::{Coordinate, Lettering, SystemScene};
 use crate::mechanics::system::System;
 
@@ -46,31 +46,31 @@ pub fn scenes() -> Vec<(Motion, Chart)> {
 
 pub fn shapes() -> Vec<BodyShape> {
     let principal = BodyShape {
-        inertia: InertiaShape::Principal,
+        inertia: Shape::Vector3,
         center_of_mass: false,
         added_mass: None,
         gravity: None,
         displaced_mass: false,
         center_of_buoyancy: false,
     };
-    let heavy = BodyShape { gravity: Some(GravityShape::Vertical), ..principal };
-    let off_centre = BodyShape { center_of_mass: true, inertia: InertiaShape::Full, ..heavy };
-    let fluid = BodyShape { added_mass: Some(AddedMassShape::Diagonal), ..principal };
+    let heavy = BodyShape { gravity: Some(Shape::Scalar), ..principal };
+    let off_centre = BodyShape { center_of_mass: true, inertia: Shape::Matrix3, ..heavy };
+    let fluid = BodyShape { added_mass: Some(Shape::Vector6), ..principal };
     let everything = BodyShape {
-        added_mass: Some(AddedMassShape::Full),
-        gravity: Some(GravityShape::Vector),
+        added_mass: Some(Shape::Matrix6),
+        gravity: Some(Shape::Vector3),
         displaced_mass: true,
         center_of_buoyancy: true,
         ..off_centre
     };
     vec![
         principal,
-        BodyShape { inertia: InertiaShape::Spherical, ..principal },
+        BodyShape { inertia: Shape::Scalar, ..principal },
         heavy,
         BodyShape { gravity: None, ..off_centre },
         off_centre,
         fluid,
-        BodyShape { center_of_mass: true, displaced_mass: true, gravity: Some(GravityShape::Vertical), ..fluid },
+        BodyShape { center_of_mass: true, displaced_mass: true, gravity: Some(Shape::Scalar), ..fluid },
         everything,
     ]
 }
@@ -151,8 +151,8 @@ pub fn random_point(scene: &Charted<'_>, random: &mut Random) -> Map<u32, f64> {
     for p in &scene.body.parameters {
         // Diagonals dominate, so every kinetic matrix is positive definite.
         let value = match p.quantity {
-            Quantity::Mass | Quantity::DisplacedMass => 2.0 + random.next(),
-            Quantity::Inertia | Quantity::AddedMass if is_diagonal(scene, p.symbol) => 3.0 + random.next(),
+            Role::Mass | Role::DisplacedMass => 2.0 + random.next(),
+            Role::Inertia | Role::AddedMass if is_diagonal(scene, p.symbol) => 3.0 + random.next(),
             _ => 0.3 * random.next(),
         };
         values.insert(p.symbol.key(), value);

@@ -26,10 +26,11 @@ use syn::ext::IdentExt;
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::mechanics::{
     Assigned, Body, ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Lettering, Matter, Observed,
-    Placement, Quantity, SystemScene, Tree, Turn, Vector, poisson,
+    Placement, SystemScene, Tree, Turn, Vector, poisson,
 };
 use crate::model::{
-    self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, GivenValue, InChart, Model, Property, Shape,
+    self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, GivenValue, InChart, Model, Property, Role,
+    Shape,
 };
 
 pub use drag::DragMatrix;
@@ -96,7 +97,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         let model = self.model;
         self.names.extend(self.declared.fields.iter().cloned());
         let given = self.assigned(&model.given)?;
-        if let Some(gravity) = given.iter().find(|assigned| assigned.quantity == Quantity::Gravity) {
+        if let Some(gravity) = given.iter().find(|assigned| assigned.quantity == Role::Gravity) {
             let zero = self.graph.zero();
             self.declared.gravity = match gravity.values.as_slice() {
                 &[x, y, z] => Some([x, y, z]),
@@ -136,7 +137,7 @@ impl<'a, 'g> Translator<'a, 'g> {
                     }
                 }
             };
-            let quantity = symbols::quantity_of(given.role).ok_or_else(|| bug(given.span))?;
+            let quantity = given.role;
             Ok(Assigned { quantity, values })
         };
         given.iter().map(value).collect()

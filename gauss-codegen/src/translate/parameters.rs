@@ -3,8 +3,7 @@
 use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
-use crate::mechanics::Quantity;
-use crate::model::Field;
+use crate::model::{Field, Role};
 
 use super::{Part, Source};
 
@@ -29,8 +28,8 @@ fn of_field<'g>(fields: &[Field], source: &Source<'g>) -> (usize, Parameter<'g>)
         Part::Scalar => said.to_string(),
         Part::Component(i) => format!("{said}[{i}]"),
         Part::Entry(i, j) => format!("{said}[{i}][{j}]"),
-        Part::Body(Quantity::Mass, ..) => format!("{said}.mass"),
-        Part::Body(Quantity::CenterOfMass, i, _) => format!("{said}.center_of_mass[{i}]"),
+        Part::Body(Role::Mass, ..) => format!("{said}.mass"),
+        Part::Body(Role::CenterOfMass, i, _) => format!("{said}.center_of_mass[{i}]"),
         Part::Body(_, i, j) => format!("{said}.inertia[{i}][{j}]"),
     };
     (source.field, Parameter { symbol: source.symbol, name })

@@ -4,10 +4,7 @@ use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph};
-use crate::mechanics::{
-    AddedMassShape, Body, BodyShape, ChartedBody, Coordinate, GravityShape, InertiaShape, Name, ParameterSymbol,
-    Quantity,
-};
+use crate::mechanics::{Body, BodyShape, ChartedBody, Coordinate, Name, ParameterSymbol};
 use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
 
 use super::value::Value;
@@ -19,7 +16,7 @@ pub enum Part {
     Component(usize),
     Entry(usize, usize),
     /// Of a `RigidBody`.
-    Body(Quantity, usize, usize),
+    Body(Role, usize, usize),
 }
 
 /// A symbol and where its value is read.
@@ -289,9 +286,8 @@ impl<'g> Declared<'g> {
                 let body = Body::named(self.graph, body_shape(has), 2, name_of(name));
                 let field = model.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
                 // What the clause says of the fluid takes the place of the other symbols.
-                let of_field = |p: &&ParameterSymbol<'g>| {
-                    [Quantity::Mass, Quantity::CenterOfMass, Quantity::Inertia].contains(&p.quantity)
-                };
+                let of_field =
+                    |p: &&ParameterSymbol<'g>| [Role::Mass, Role::CenterOfMass, Role::Inertia].contains(&p.quantity);
                 self.sources.extend(body.parameters.iter().filter(of_field).map(|p| Source {
                     symbol: p.symbol,
                     field,
@@ -322,8 +318,7 @@ impl<'g> Declared<'g> {
             Role::CenterOfBuoyancy,
         ] {
             let Some(field) = field(role) else { continue };
-            let quantity = quantity_of(role);
-            let own: Vec<_> = body.parameters.iter().filter(|p| Some(p.quantity) == quantity).collect();
+            let own: Vec<_> = body.parameters.iter().filter(|p| p.quantity == role).collect();
             let shape = fields[field].shape;
             self.sources.extend(own.iter().map(|p| Source {
                 symbol: p.symbol,
@@ -361,20 +356,10 @@ pub fn free_fall<'g>(model: &Model, zero: Expr<'g>, g: Expr<'g>) -> [Expr<'g>; 3
 /// What a body has, from the shapes of what plays the roles.
 pub fn body_shape(shape_of: impl Fn(Role) -> Option<Shape>) -> BodyShape {
     BodyShape {
-        inertia: match shape_of(Role::Inertia) {
-            Some(Shape::Scalar) => InertiaShape::Spherical,
-            Some(Shape::Vector3) => InertiaShape::Principal,
-            _ => InertiaShape::Full,
-        },
+        inertia: shape_of(Role::Inertia).filter(|shape| *shape != Shape::RigidBody).unwrap_or(Shape::Matrix3),
         center_of_mass: shape_of(Role::CenterOfMass).is_some(),
-        added_mass: shape_of(Role::AddedMass).map(|shape| match shape {
-            Shape::Vector6 => AddedMassShape::Diagonal,
-            _ => AddedMassShape::Full,
-        }),
-        gravity: shape_of(Role::Gravity).map(|shape| match shape {
-            Shape::Scalar => GravityShape::Vertical,
-            _ => GravityShape::Vector,
-        }),
+        added_mass: shape_of(Role::AddedMass),
+        gravity: shape_of(Role::Gravity),
         displaced_mass: shape_of(Role::DisplacedMass).is_some(),
         center_of_buoyancy: shape_of(Role::CenterOfBuoyancy).is_some(),
     }
@@ -404,18 +389,4 @@ fn velocity_name(name: &Name) -> Name {
     } else {
         Name { text: format!("{}_dot", name.text), latex: name.dot().latex }
     }
-}
-
-/// The quantity that a role gives.
-pub(super) fn quantity_of(role: Role) -> Option<Quantity> {
-    Some(match role {
-        Role::Mass => Quantity::Mass,
-        Role::CenterOfMass => Quantity::CenterOfMass,
-        Role::Inertia => Quantity::Inertia,
-        Role::AddedMass => Quantity::AddedMass,
-        Role::Gravity => Quantity::Gravity,
-        Role::DisplacedMass => Quantity::DisplacedMass,
-        Role::CenterOfBuoyancy => Quantity::CenterOfBuoyancy,
-        Role::Body => return None,
-    })
 }

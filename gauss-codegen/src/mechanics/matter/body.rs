@@ -1,61 +1,27 @@
 //! The body's parameters as symbols, and integrals over the body as moments.
 
 use crate::algebra::{Expr, Graph, Map};
+use crate::model::{Role, Shape};
 
 use crate::mechanics::kinematics::vector::Triple;
 use crate::mechanics::print::names::Name;
 
-/// How the inertia tensor about O is given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum InertiaShape {
-    Spherical,
-    Principal,
-    Full,
-}
-
-/// How the added mass is given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum AddedMassShape {
-    Diagonal,
-    Full,
-}
-
-/// How gravity is given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum GravityShape {
-    /// Along −k₃ (−k₂ in planar motion).
-    Vertical,
-    Vector,
-}
-
 /// What the scene's body has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BodyShape {
-    pub inertia: InertiaShape,
+    pub inertia: Shape,
     pub center_of_mass: bool,
-    pub added_mass: Option<AddedMassShape>,
-    pub gravity: Option<GravityShape>,
+    pub added_mass: Option<Shape>,
+    pub gravity: Option<Shape>,
     pub displaced_mass: bool,
     pub center_of_buoyancy: bool,
-}
-
-/// Which parameter a symbol stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Quantity {
-    Mass,
-    CenterOfMass,
-    Inertia,
-    AddedMass,
-    Gravity,
-    DisplacedMass,
-    CenterOfBuoyancy,
 }
 
 /// A component of a parameter: row and column for matrices, row alone for vectors.
 #[derive(Clone, Copy, Debug)]
 pub struct ParameterSymbol<'g> {
     pub symbol: Expr<'g>,
-    pub quantity: Quantity,
+    pub quantity: Role,
     pub row: usize,
     pub column: usize,
 }
@@ -63,7 +29,7 @@ pub struct ParameterSymbol<'g> {
 /// What a quantity is, where it is not read from a parameter of its own: one value, or the components in order.
 #[derive(Clone, Debug)]
 pub struct Assigned<'g> {
-    pub quantity: Quantity,
+    pub quantity: Role,
     /// Expressions of parameters and numbers.
     pub values: Vec<Expr<'g>>,
 }
@@ -93,11 +59,11 @@ struct Symbols<'g> {
 }
 
 impl<'g> Symbols<'g> {
-    fn scalar(&mut self, text: &str, latex: &str, quantity: Quantity) -> Expr<'g> {
+    fn scalar(&mut self, text: &str, latex: &str, quantity: Role) -> Expr<'g> {
         self.push(text.to_owned(), latex.to_owned(), quantity, 0, 0)
     }
 
-    fn push(&mut self, text: String, latex: String, quantity: Quantity, row: usize, column: usize) -> Expr<'g> {
+    fn push(&mut self, text: String, latex: String, quantity: Role, row: usize, column: usize) -> Expr<'g> {
         let symbol = if self.suffix.text.is_empty() {
             self.graph.symbol(text, latex, true)
         } else {
@@ -112,12 +78,12 @@ impl<'g> Symbols<'g> {
         symbol
     }
 
-    fn vector<const N: usize>(&mut self, name: &str, quantity: Quantity) -> [Expr<'g>; N] {
+    fn vector<const N: usize>(&mut self, name: &str, quantity: Role) -> [Expr<'g>; N] {
         std::array::from_fn(|i| self.push(format!("{name}{}", i + 1), format!("{name}_{{{}}}", i + 1), quantity, i, 0))
     }
 
     /// Lower triangle as symbols, mirrored.
-    fn symmetric(&mut self, n: usize, name: &str, quantity: Quantity) -> Vec<Vec<Expr<'g>>> {
+    fn symmetric(&mut self, n: usize, name: &str, quantity: Role) -> Vec<Vec<Expr<'g>>> {
         let mut matrix = vec![vec![self.graph.zero(); n]; n];
         for i in 0..n {
             for j in i..n {
@@ -147,29 +113,28 @@ impl<'g> Body<'g> {
     pub fn named(graph: &'g Graph, shape: BodyShape, up: usize, suffix: Name) -> Self {
         let zero = graph.zero();
         let mut symbols = Symbols { graph, suffix, list: Vec::new() };
-        let mass = symbols.scalar("m", "m", Quantity::Mass);
-        let center_of_mass = if shape.center_of_mass { symbols.vector("c", Quantity::CenterOfMass) } else { [zero; 3] };
+        let mass = symbols.scalar("m", "m", Role::Mass);
+        let center_of_mass = if shape.center_of_mass { symbols.vector("c", Role::CenterOfMass) } else { [zero; 3] };
         let inertia = match shape.inertia {
-            InertiaShape::Spherical => diagonal(graph, &[symbols.scalar("I", "I", Quantity::Inertia); 3]),
-            InertiaShape::Principal => diagonal(graph, &symbols.vector::<3>("I", Quantity::Inertia)),
-            InertiaShape::Full => symbols.symmetric(3, "I", Quantity::Inertia),
+            Shape::Scalar => diagonal(graph, &[symbols.scalar("I", "I", Role::Inertia); 3]),
+            Shape::Vector3 => diagonal(graph, &symbols.vector::<3>("I", Role::Inertia)),
+            _ => symbols.symmetric(3, "I", Role::Inertia),
         };
         let inertia = std::array::from_fn(|i| std::array::from_fn(|j| inertia[i][j]));
         let added_mass = shape.added_mass.map(|shape| match shape {
-            AddedMassShape::Diagonal => diagonal(graph, &symbols.vector::<6>("X", Quantity::AddedMass)),
-            AddedMassShape::Full => symbols.symmetric(6, "X", Quantity::AddedMass),
+            Shape::Vector6 => diagonal(graph, &symbols.vector::<6>("X", Role::AddedMass)),
+            _ => symbols.symmetric(6, "X", Role::AddedMass),
         });
         let gravity = shape.gravity.map(|shape| match shape {
-            GravityShape::Vertical => {
-                let g = symbols.scalar("g", "g", Quantity::Gravity);
+            Shape::Scalar => {
+                let g = symbols.scalar("g", "g", Role::Gravity);
                 std::array::from_fn(|i| if i == up { -g } else { zero })
             }
-            GravityShape::Vector => symbols.vector("g", Quantity::Gravity),
+            _ => symbols.vector("g", Role::Gravity),
         });
         let displaced = shape.displaced_mass.then(|| {
-            let mass = symbols.scalar("md", "m_d", Quantity::DisplacedMass);
-            let center =
-                if shape.center_of_buoyancy { symbols.vector("h", Quantity::CenterOfBuoyancy) } else { [zero; 3] };
+            let mass = symbols.scalar("md", "m_d", Role::DisplacedMass);
+            let center = if shape.center_of_buoyancy { symbols.vector("h", Role::CenterOfBuoyancy) } else { [zero; 3] };
             (mass, center)
         });
         Self { mass, center_of_mass, inertia, added_mass, gravity, displaced, parameters: symbols.list }

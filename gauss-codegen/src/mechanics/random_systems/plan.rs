@@ -1,8 +1,8 @@
 //! Systems as data, from which both sides are built: coordinates, speeds, links and constraints, drawn at random.
 
 use crate::mechanics::constraints::constraint::ConstraintKind;
-use crate::mechanics::matter::body::InertiaShape;
 use crate::mechanics::tests::Random;
+use crate::model::Shape;
 
 use super::numbers::{Number, Smooth, below};
 
@@ -55,7 +55,7 @@ pub enum TurnPlan {
 /// A rigid body as particles at body points. Buoyancy is a particle with weight and no mass.
 #[derive(Clone, Debug)]
 pub struct Solid {
-    pub inertia: InertiaShape,
+    pub inertia: Shape,
     pub has_center: bool,
     /// Body coordinates and mass.
     pub points: Vec<([f64; 3], f64)>,
@@ -416,7 +416,7 @@ impl Plan {
 impl Solid {
     /// Particles with principal axes along e about O, or anywhere.
     fn random(random: &mut Random) -> Self {
-        let inertia = [InertiaShape::Spherical, InertiaShape::Principal, InertiaShape::Full][below(random, 3)];
+        let inertia = [Shape::Scalar, Shape::Vector3, Shape::Matrix3][below(random, 3)];
         let mut length = || 0.7 + 0.4 * random.next();
         let radii = [length(), length(), length()];
         let (mass, height) = (length(), length());
@@ -429,17 +429,15 @@ impl Solid {
         };
         let centered = below(random, 2) == 0;
         let points = match inertia {
-            InertiaShape::Spherical => (0..3).flat_map(|axis| pair(axis, radii[0], 0.0)).collect(),
-            InertiaShape::Principal => {
+            Shape::Scalar => (0..3).flat_map(|axis| pair(axis, radii[0], 0.0)).collect(),
+            Shape::Vector3 => {
                 let height = if centered { 0.0 } else { height };
                 (0..3).flat_map(|axis| pair(axis, radii[axis], height)).collect()
             }
-            InertiaShape::Full => {
-                (0..5).map(|_| (std::array::from_fn(|_| random.next()), 1.0 + 0.5 * random.next())).collect()
-            }
+            _ => (0..5).map(|_| (std::array::from_fn(|_| random.next()), 1.0 + 0.5 * random.next())).collect(),
         };
         let displaced = (below(random, 3) == 0).then(|| (1.0 + random.next(), std::array::from_fn(|_| random.next())));
-        let has_center = inertia == InertiaShape::Full || (inertia == InertiaShape::Principal && !centered);
+        let has_center = inertia == Shape::Matrix3 || (inertia == Shape::Vector3 && !centered);
         let added_mass = (below(random, 6) == 0).then(|| {
             // BᵀB is an energy for every B.
             let b: [[f64; 6]; 6] = std::array::from_fn(|_| std::array::from_fn(|_| 0.5 * random.next()));

@@ -8,9 +8,10 @@ use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, dot, subtract};
 use crate::mechanics::links::link::{Matter, Placement};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::{Action, Element};
-use crate::mechanics::matter::body::{AddedMassShape, Body, BodyShape, InertiaShape, Quantity};
+use crate::mechanics::matter::body::{Body, BodyShape};
 use crate::mechanics::print::names::Name;
 use crate::mechanics::scene::{Coordinate, Lettering, SystemScene};
+use crate::model::{Role, Shape};
 
 use super::plan::{ConstraintPlan, CoordinateKind, LinkPlan, MatterPlan, Place, Plan, Solid, TurnPlan};
 
@@ -86,7 +87,7 @@ impl<'g> Symbols<'g> {
                 let shape = BodyShape {
                     inertia: solid.inertia,
                     center_of_mass: solid.has_center,
-                    added_mass: solid.added_mass.map(|_| AddedMassShape::Full),
+                    added_mass: solid.added_mass.map(|_| Shape::Matrix6),
                     gravity: None,
                     displaced_mass: solid.displaced.is_some(),
                     center_of_buoyancy: solid.displaced.is_some(),
@@ -169,18 +170,18 @@ impl<'g> Symbols<'g> {
 }
 
 /// The value of a parameter of a body.
-fn parameter(solid: &Solid, quantity: Quantity, row: usize, column: usize) -> f64 {
+fn parameter(solid: &Solid, quantity: Role, row: usize, column: usize) -> f64 {
     match quantity {
-        Quantity::Mass => solid.mass(),
-        Quantity::CenterOfMass => solid.center()[row],
-        Quantity::Inertia => match solid.inertia {
-            InertiaShape::Full => solid.inertia(row, column),
+        Role::Mass => solid.mass(),
+        Role::CenterOfMass => solid.center()[row],
+        Role::Inertia => match solid.inertia {
+            Shape::Matrix3 => solid.inertia(row, column),
             _ => solid.inertia(row, row),
         },
-        Quantity::DisplacedMass => solid.displaced.map_or(0.0, |(mass, _)| mass),
-        Quantity::CenterOfBuoyancy => solid.displaced.map_or(0.0, |(_, center)| center[row]),
-        Quantity::AddedMass => solid.added_mass.map_or(0.0, |added| added[row][column]),
-        Quantity::Gravity => 0.0,
+        Role::DisplacedMass => solid.displaced.map_or(0.0, |(mass, _)| mass),
+        Role::CenterOfBuoyancy => solid.displaced.map_or(0.0, |(_, center)| center[row]),
+        Role::AddedMass => solid.added_mass.map_or(0.0, |added| added[row][column]),
+        Role::Gravity | Role::Body => 0.0,
     }
 }
 
