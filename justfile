@@ -26,6 +26,11 @@ snapshots:
 operations:
     UPDATE_OPERATIONS=1 cargo test -p gauss-codegen --test operations
 
+# Nanoseconds of every chart and of systems, free and chained: once before a change with `--write old.csv`, once after it
+# with `--against old.csv`.
+times *options:
+    cargo run --release -p gauss-benches --example gate_times -- {{options}}
+
 # How long a derive takes with an unoptimised macro.
 expansion:
     cargo run --profile unoptimised --example expansion_time

@@ -13,7 +13,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use gauss_runtime::batch::BatchSystem;
+use gauss_runtime::batch::{Batch, BatchSystem, States};
 use gauss_runtime::integrate::OneStep;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
@@ -228,7 +228,7 @@ const BYTES_OF_A_STEP: usize = 2 * (7 + 6) * 8;
 /// One line: what a batch reaches of the limits, among states that a cache holds and among `many`.
 fn limits<S>(name: &str, kernel: &S, many: usize, [peak, bandwidth]: [f64; 2])
 where
-    S: BatchSystem<Input = ()>,
+    S: BatchSystem<Input = ()> + Described,
     S::Configuration: Packed<Single = Isometry3<f64>>,
     S::Speeds: Packed<Single = SVector<f64, 6>>,
 {

@@ -4,9 +4,7 @@
 //! nothing of bodies, charts or forces: any kernel runs with it, in velocity and in momentum form.
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::integrate::{
-    Fixed, Form, InputSource, IntegrationErrorKind, OneStep, Part, Problem, Properties, Rates, State, Step,
-};
+use gauss_runtime::integrate::{Fixed, IntegrationErrorKind, OneStep, Part, Problem, Properties, Rates, State, Step};
 use gauss_runtime::prelude::*;
 
 /// A heavy top about its fixed point.
@@ -31,9 +29,9 @@ impl<S: GaussSystem> OneStep<S> for Heun {
         Properties::of_order(2)
     }
 
-    fn step<F: Form<S>, I: InputSource<S>>(
+    fn step<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         rates: &Rates<S>,
         h: S::Scalar,

@@ -58,7 +58,7 @@ fn run<C: Control<CapsuleKernel>>(kernel: &CapsuleKernel, control: C) -> Result<
 fn main() -> Result<(), Box<dyn Error>> {
     let (inertia, center) = (Vector3::new(1.0, 1.2, 0.8), Vector3::new(0.0, 0.01, -0.02));
     let kernel = Capsule { m: 1.0, inertia, center, g: 9.81, c: 1e4, b: 1e4, k: 1e3 }.kernel()?;
-    let (once, linearized) = (CapsuleKernel::OPERATIONS.acceleration, CapsuleKernel::LINEARIZE_OPERATIONS);
+    let (once, linearized) = (CapsuleKernel::OPERATIONS.acceleration, CapsuleKernel::OPERATIONS.linearize);
     println!("operations: {} for accelerations, {} for all derivatives as well\n", once.total(), linearized.total());
 
     let exact = run(&kernel, Adaptive::by(Rosenbrock, 1e-12, 1e-12))?;

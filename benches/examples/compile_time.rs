@@ -6,7 +6,7 @@
 //! and nothing is kept from build to build but them. Quoted is the median over the rounds, in which all programs of a structure take turns, of the
 //! difference to the program without the derive in the same round, with the range of the middle half.
 
-#[path = "../../tests/examples/structures/mod.rs"]
+#[path = "../../gauss-codegen/examples/structures/mod.rs"]
 mod structures;
 
 use std::error::Error;

@@ -68,7 +68,7 @@ macro_rules! case {
     }};
 }
 
-fn operations<S: GaussSystem>(_: &Generated<S>) -> OperationCount {
+fn operations<S: Described>(_: &Generated<S>) -> OperationCount {
     S::OPERATIONS.acceleration
 }
 

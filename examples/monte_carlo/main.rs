@@ -11,6 +11,7 @@ use std::time::Instant;
 
 use gauss_examples::figure::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, mosaic, write};
+use gauss_runtime::batch::{Batch, Packs, States};
 use gauss_runtime::prelude::*;
 use indicatif::{ProgressBar, ProgressStyle};
 use num_dual::{Derivative, DualSVec64};

@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use gauss_runtime::integrate::{Control, Fixed, Form, InputSource, NoInput, Rkmk, Sample, Tableau};
+use gauss_runtime::monitor::BodyMonitor;
 use gauss_runtime::prelude::*;
 
 /// What a run says about itself at one time, in no particular chart.
@@ -45,9 +46,9 @@ pub struct Plan {
 }
 
 /// A rigid body with six speeds and no input: any of the vehicles.
-pub trait Vessel: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()> {}
+pub trait Vessel: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()> + Described {}
 
-impl<K: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()>> Vessel for K {}
+impl<K: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()> + Described> Vessel for K {}
 
 /// Integrates the state of [`initial_state`](crate::vehicle::initial_state) with a form of the equations and a method.
 ///

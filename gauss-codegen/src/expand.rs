@@ -4,8 +4,8 @@ use proc_macro2::TokenStream;
 use syn::DeriveInput;
 
 use crate::algebra::{Expr, Graph, Map, Rational};
-use crate::emit::{Derived, Plain, Subject, SystemSubject, emit};
-use crate::kernel::{Candidates, Cost, Derivatives, Kernel, Literals, Miscompiled};
+use crate::emit::{Derived, Equations, Plain, Subject, SystemSubject, emit};
+use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals, Miscompiled};
 use crate::mechanics::{
     Acting, ConfigurationKind, Coordinate, Elimination, Formula, InertialParameters, Linearization, Method, Regressor,
     Scene, System, check_against_definition, check_system_against_definition, rotation_of_quaternion,
@@ -22,14 +22,23 @@ use crate::translate::{Parameter, Translator, body_shape, parameters_of_body, pa
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
+    derive(input, |derived| Ok(emit(derived, &Equations::of(derived))))
+}
+
+/// Derives one struct, and hands everything that is known of it to whoever writes it down.
+pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
     let model = model::parse(input)?;
     match model.one_body() {
-        Some(in_chart) => expand_body(&model, in_chart),
-        None => expand_system(&model),
+        Some(in_chart) => derive_body(&model, in_chart, write),
+        None => derive_system(&model, write),
     }
 }
 
-fn expand_body(model: &Model, in_chart: InChart) -> syn::Result<TokenStream> {
+fn derive_body<R>(
+    model: &Model,
+    in_chart: InChart,
+    write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>,
+) -> syn::Result<R> {
     let graph = Graph::new();
     let shape = body_shape(|role| model.shape(role));
     let mut translator = model.has_expressions().then(|| Translator::new(&graph, model, true)).transpose()?;
@@ -42,6 +51,7 @@ fn expand_body(model: &Model, in_chart: InChart) -> syn::Result<TokenStream> {
         let acting = Acting::new(&observed, &scene.kinematics, &parameters, &elements, inputs);
         scene = scene.acted_upon(acting);
     }
+    translator.as_ref().map_or(Ok(()), Translator::refuse_mistakes)?;
     let mut formulas = scene.formulas();
     check_against_definition(&scene, &formulas).map_err(|error| bug(&model.ident, &error))?;
     let (quaternion, rotation) = rotation_entries(&graph, &scene);
@@ -65,8 +75,8 @@ fn expand_body(model: &Model, in_chart: InChart) -> syn::Result<TokenStream> {
     let literals = translator.as_ref().map(Translator::literals).unwrap_or_default();
     let folded = foldable(&model.scalar, &literals);
     let kernel = beside.lower(&graph, &formulas, &rotation, folded).map_err(|error| bug(&model.ident, &error))?;
-    if graph.overflowed() {
-        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
+    if graph.is_undefined() {
+        return Err(bug(&model.ident, &"the equations divide by zero"));
     }
     refuse_too_much(model, &kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), beside.regressor.as_ref(), &kernel)?;
@@ -77,7 +87,7 @@ fn expand_body(model: &Model, in_chart: InChart) -> syn::Result<TokenStream> {
         literals: &literals,
         assigned: &assigned,
     });
-    Ok(emit(&Derived {
+    write(&Derived {
         subject: Subject::Body { model, in_chart, scene: &scene, quaternion, plain },
         drags: &translator.as_ref().map(Translator::drags).unwrap_or_default(),
         formulas: &formulas,
@@ -85,15 +95,16 @@ fn expand_body(model: &Model, in_chart: InChart) -> syn::Result<TokenStream> {
         linearization: beside.linearization.as_ref(),
         parameters: &beside.parameters,
         regressor: beside.regressor.as_ref(),
-    }))
+    })
 }
 
-fn expand_system(model: &Model) -> syn::Result<TokenStream> {
+fn derive_system<R>(model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
     let graph = Graph::new();
     let mut translator = Translator::new(&graph, model, false)?;
     let all: Vec<usize> = (0..translator.speeds().len()).collect();
     let speeds = translator.speeds().to_vec();
     let scene = translator.scene(&speeds, &all)?;
+    translator.refuse_mistakes()?;
     refuse_curved_kinematics(model, &scene)?;
     let whole = System::new(scene);
     refuse_idle_speeds(model, &translator, &whole)?;
@@ -138,8 +149,8 @@ fn expand_system(model: &Model) -> syn::Result<TokenStream> {
     let literals = translator.literals();
     let folded = foldable(&model.scalar, &literals);
     let kernel = beside.lower(&graph, &formulas, &definitions, folded).map_err(|error| bug(&model.ident, &error))?;
-    if graph.overflowed() {
-        return Err(bug(&model.ident, &"a coefficient left the range of 64-bit fractions"));
+    if graph.is_undefined() {
+        return Err(bug(&model.ident, &"the equations divide by zero"));
     }
     refuse_too_much(model, &kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), beside.regressor.as_ref(), &kernel)?;
@@ -160,7 +171,7 @@ fn expand_system(model: &Model) -> syn::Result<TokenStream> {
         quaternions: &quaternions,
     };
     let drags = translator.drags();
-    Ok(emit(&Derived {
+    write(&Derived {
         subject: Subject::System(subject),
         drags: &drags,
         formulas: &formulas,
@@ -168,7 +179,7 @@ fn expand_system(model: &Model) -> syn::Result<TokenStream> {
         linearization: beside.linearization.as_ref(),
         parameters: &beside.parameters,
         regressor: beside.regressor.as_ref(),
-    }))
+    })
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.
@@ -234,8 +245,8 @@ fn names_of(parameters: &[Parameter<'_>]) -> Map<u32, String> {
 
 /// What a formula is lowered from.
 fn candidates<'g>(formula: &Formula<'g>) -> Candidates<'g> {
-    let cost = if formula.method == Method::ComponentRates { Cost::Series } else { Cost::Values };
-    Candidates { arrangements: formula.arrangements.clone(), cost }
+    let aim = if formula.method == Method::ComponentRates { Aim::Series } else { Aim::Values };
+    Candidates { arrangements: formula.arrangements.clone(), aim }
 }
 
 /// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them.

@@ -1,14 +1,20 @@
-//! The library behind `#[derive(GaussDynamics)]`: tokens of a struct in, Rust code of its kernel out.
+//! The library behind `#[derive(GaussDynamics)]`: a struct in; programs, equations and code of its kernel out.
 #![doc = include_str!("../README.md")]
 #![warn(missing_docs)]
 
 mod algebra;
+mod derivation;
 mod emit;
 mod expand;
 mod kernel;
 mod mechanics;
 mod mistakes;
 mod model;
+pub mod program;
+pub mod targets;
 mod translate;
 
+pub use algebra::Notation;
+pub use derivation::Derivation;
+pub use emit::fallback;
 pub use expand::expand;

@@ -203,10 +203,11 @@ fn speed(model: &Model, translator: &Translator<'_, '_>, k: usize) -> (String, S
 
 /// Mistakes that only the derivation sees, all reported at once.
 #[derive(Default)]
-struct Mistakes(Option<syn::Error>);
+pub struct Mistakes(Option<syn::Error>);
 
 impl Mistakes {
-    fn push(&mut self, span: Span, message: String) {
+    /// Notes one.
+    pub fn push(&mut self, span: Span, message: String) {
         let error = syn::Error::new(span, message);
         match &mut self.0 {
             Some(all) => all.combine(error),
@@ -214,7 +215,8 @@ impl Mistakes {
         }
     }
 
-    fn finish(&mut self) -> syn::Result<()> {
+    /// All of them.
+    pub fn finish(&mut self) -> syn::Result<()> {
         self.0.take().map_or(Ok(()), Err)
     }
 }

@@ -136,9 +136,10 @@
 ///
 /// # Errors
 ///
-/// Every mistake is a compile error at the token that is wrong, all of them at once.
+/// Every mistake is a compile error at the token that is wrong, all of them at once. What uses the kernel of such a struct
+/// gives no further errors.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let input = syn::parse_macro_input!(input as syn::DeriveInput);
-    gauss_codegen::expand(&input).unwrap_or_else(|error| error.into_compile_error()).into()
+    gauss_codegen::expand(&input).unwrap_or_else(|mistakes| gauss_codegen::fallback(&input, &mistakes)).into()
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 
-use crate::__private::eigenvalues;
+use crate::private::eigenvalues;
 use crate::real::Real;
 use crate::system::GaussSystem;
 

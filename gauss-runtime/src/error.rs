@@ -60,6 +60,7 @@ pub enum Rule {
 
 /// One rule broken by one field.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Violation {
     /// The field of the struct of parameters.
     pub field: &'static str,
@@ -206,6 +207,7 @@ pub enum Finding {
 
 /// One finding about one parameter. The kernel works as given.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ParameterWarning {
     /// The field of the struct of parameters, or what is written in its place.
     pub field: &'static str,

@@ -34,7 +34,7 @@ fn columns_of_a_matrix() {
     let expected = [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]].map(|column| Some(SVector::from(column)));
     assert_eq!(columns, [expected[0], expected[1], expected[2], None]);
     // Generated code makes rectangular matrices row by row.
-    assert_eq!(crate::__private::matrix([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]), matrix);
+    assert_eq!(crate::private::matrix([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]), matrix);
 }
 
 #[test]

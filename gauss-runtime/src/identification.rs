@@ -9,7 +9,7 @@ use core::ops::Index;
 
 use crate::configuration::VectorSpace;
 use crate::linearize::LinearizedSystem;
-use crate::system::{GaussSystem, OperationCount};
+use crate::system::GaussSystem;
 
 /// A system whose equations come with their derivatives by the parameters, the numbers of the fields of its struct.
 ///
@@ -56,9 +56,6 @@ pub trait ParametricSystem: LinearizedSystem {
 
     /// Which entries of [`by_parameters`](Self::by_parameters) can be other than zero, row by row.
     const PARAMETER_PATTERN: &'static [&'static [bool]];
-
-    /// What [`by_parameters`](Self::by_parameters) costs.
-    const BY_PARAMETERS_OPERATIONS: OperationCount;
 
     /// ∂(V, ż)/∂parameters at a state, exact up to rounding; under constraints those of the accelerations that satisfy them.
     ///
@@ -134,9 +131,6 @@ pub trait InertialRegressor: GaussSystem {
 
     /// Which entries of Y can be other than zero, row by row.
     const REGRESSOR_PATTERN: &'static [&'static [bool]];
-
-    /// What [`regressor`](Self::regressor) costs.
-    const REGRESSOR_OPERATIONS: OperationCount;
 
     /// Y at a state and the rates ż, which need not be those that the forces give. Does not depend on π.
     fn regressor(

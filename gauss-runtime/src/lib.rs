@@ -3,6 +3,8 @@
 //! | module | holds |
 //! |---|---|
 //! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): what a kernel offers |
+//! | [`description`] | [`Described`](description::Described): a kernel's equations as text, and what its methods cost |
+//! | [`bounded`] | a scalar that knows how many of its digits are right |
 //! | [`condition`](mod@condition) | how well a mass matrix can be inverted |
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): what acts, element by element; powers and the balance of energy |
@@ -51,10 +53,12 @@ extern crate std;
 pub mod adapters;
 #[cfg(feature = "alloc")]
 pub mod batch;
+pub mod bounded;
 pub mod chart;
 pub mod condition;
 pub mod configuration;
 pub mod constraint;
+pub mod description;
 #[cfg(feature = "num-dual")]
 mod dual;
 pub mod error;
@@ -74,11 +78,15 @@ mod trigonometry;
 mod triple;
 mod vector_space;
 
+/// What generated code names, and nothing else of this crate. Its name carries the version, so that code which another version
+/// of the derive has written fails here and says why.
 #[doc(hidden)]
 #[path = "private/mod.rs"]
-pub mod __private;
+pub mod __private_0_1_0;
+use __private_0_1_0 as private;
 
 #[cfg(feature = "derive")]
+#[doc = include_str!("language.md")]
 pub use gauss_derive::GaussDynamics;
 
 #[cfg(test)]

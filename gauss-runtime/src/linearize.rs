@@ -9,7 +9,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
-use crate::system::{GaussSystem, OperationCount};
+use crate::system::GaussSystem;
 
 /// A system whose equations come with their derivatives, the same instructions differentiated one by one.
 ///
@@ -61,9 +61,6 @@ pub trait LinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>
 
     /// Which entries of [`Linearization::by_input`] can be other than zero, row by row.
     const INPUT_PATTERN: &'static [&'static [bool]];
-
-    /// What [`linearize`](Self::linearize) costs.
-    const LINEARIZE_OPERATIONS: OperationCount;
 
     /// (V, ż) and all their derivatives, exact up to rounding; under constraints those of the accelerations that satisfy them.
     ///

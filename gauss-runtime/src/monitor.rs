@@ -21,6 +21,7 @@ use crate::system::{GaussSystem, RigidBodySystem};
 
 /// A quantity of N components that should be constant, over time. Uses no memory: mean and covariance are updated.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Drift<const N: usize> {
     initial: [f64; N],
     largest: f64,

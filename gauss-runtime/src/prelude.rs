@@ -1,32 +1,31 @@
-//! Everything that a simulation needs: `use gauss_runtime::prelude::*;`.
+//! What most simulations need: `use gauss_runtime::prelude::*;`. The other methods are in [`integrate`](crate::integrate), many states
+//! at once in [`batch`](mod@crate::batch), reports on energy and momenta in [`monitor`](mod@crate::monitor).
 
 #[cfg(feature = "derive")]
 pub use gauss_derive::GaussDynamics;
 
-#[cfg(feature = "alloc")]
-pub use crate::batch::{Batch, BatchError, Packs, StateError, States};
+pub use crate::bounded::Bounded;
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::{ConstrainedSystem, ProjectionError};
+pub use crate::description::{Described, Equations, OperationCount, Operations};
 pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 pub use crate::integrate::{
-    Adaptive, Classical4, Collocation, CommutatorFree4, Compensated, Composed, Composition, Crossing,
-    DiscreteLinearization, DormandPrince5, DormandPrince8, EnergyMomentum, Fixed, FreeFlow, InputSource,
-    IntegrationError, IntegrationErrorKind, MomentumForm, MoserVeselov, Rosenbrock, RungeKutta, Sample, Scheme,
-    Simulation, Splitting, SplittingError, Tableau, Taylor, Variational, VelocityForm, Verner9,
+    Adaptive, Classical4, Collocation, CommutatorFree4, Crossing, DormandPrince5, DormandPrince8, Fixed, InputSource,
+    IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta, Sample, Simulation, Tableau, Taylor,
+    VelocityForm, Verner9,
 };
 #[cfg(feature = "alloc")]
 pub use crate::integrate::{Dense, Trajectory};
 pub use crate::linearize::{Linearization, LinearizedSystem};
-pub use crate::monitor::{BodyMonitor, Drift, EnergyMonitor};
 #[cfg(feature = "alloc")]
-pub use crate::monitor::{EnergyBalance, monitor, monitor_body, power_balance};
+pub use crate::monitor::{monitor, monitor_body, power_balance};
 pub use crate::real::Real;
 pub use crate::series::TaylorSystem;
 pub use crate::simd::Lanes;
-pub use crate::system::{Equations, GaussSystem, OperationCount, Operations, RigidBody, RigidBodySystem, Smoothness};
+pub use crate::system::{GaussSystem, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
     UnitQuaternion, Vector3, Vector6,

@@ -168,6 +168,14 @@ pub trait Real:
         Self::one() / self
     }
 
+    /// `self`, of which terms were left out that are together at most `at_most` in magnitude: the rest of a power series, the
+    /// rounding of a coefficient. Scalars that account for their error widen it; others are what they are.
+    #[inline(always)]
+    fn omitting(self, at_most: Self) -> Self {
+        let _ = at_most;
+        self
+    }
+
     /// Whether every lane (derivative parts included, where there are any) is finite.
     fn is_finite(self) -> bool;
 
@@ -275,12 +283,12 @@ macro_rules! implement_real {
 
 implement_real!(f64, 53;
     sqrt sqrt, sin sin, cos cos, tan tan, asin asin, acos acos, atan atan,
-    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 sin_cos);
+    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 |x: f64| sin_cos(x, f64::fma));
 implement_real!(f32, 24;
 sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
 sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f |x: f32| {
     // Rounded once more than it need be: within 0.5 ulp and a little.
-    let (sine, cosine) = sin_cos(f64::from(x));
+    let (sine, cosine) = sin_cos(f64::from(x), f64::fma);
     (sine as f32, cosine as f32)
 });
 

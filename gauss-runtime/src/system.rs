@@ -16,7 +16,8 @@ use crate::triple::{add, cross, quaternion, rotate, triple};
 
 /// A mechanical system whose equations of motion come from the Gauss condition (3.4).
 ///
-/// Implemented by the kernels that `#[derive(GaussDynamics)]` generates. Units are the user's, consistent ones; angles are
+/// Implemented by the kernels that `#[derive(GaussDynamics)]` generates, and by whoever writes equations by hand: what a kernel
+/// says of itself is in [`Described`](crate::description::Described). Units are the user's, consistent ones; angles are
 /// in radians. No method panics, and non-finite input gives non-finite output: the integrators look at it.
 pub trait GaussSystem {
     /// The number type.
@@ -35,16 +36,10 @@ pub trait GaussSystem {
     type Input;
 
     /// The number of quasi-velocities.
-    const DOF: usize;
+    const DOF: usize = <Self::Speeds as VectorSpace<Self::Scalar>>::DIM;
 
     /// The chart that z belongs to.
     const CHART: Chart;
-
-    /// The equations, as they were derived.
-    const EQUATIONS: Equations;
-
-    /// What each method costs.
-    const OPERATIONS: Operations;
 
     /// Whether there are constraints that coordinates and speeds do not solve by themselves: integrators then
     /// [`project`](Self::project) the state after every step.
@@ -82,12 +77,12 @@ pub trait GaussSystem {
         z: &Self::Speeds,
         input: &Self::Input,
     ) -> Evaluated<Self> {
-        Evaluated {
-            velocity: self.kinematics(t, q, z),
-            acceleration: self.acceleration(t, q, z, input),
-            kinetic_energy: self.kinetic_energy(t, q, z),
-            potential_energy: self.potential_energy(t, q),
-        }
+        Evaluated::new(
+            self.kinematics(t, q, z),
+            self.acceleration(t, q, z, input),
+            self.kinetic_energy(t, q, z),
+            self.potential_energy(t, q),
+        )
     }
 
     /// The momenta p = ∂T/∂z.
@@ -191,6 +186,7 @@ pub trait GaussSystem {
 }
 
 /// What [`GaussSystem::evaluate`] gives.
+#[non_exhaustive]
 pub struct Evaluated<S: GaussSystem + ?Sized> {
     /// q̇ as seen from the body: what [`GaussSystem::kinematics`] gives.
     pub velocity: <S::Configuration as Configuration>::Tangent,
@@ -223,6 +219,17 @@ impl<S: GaussSystem + ?Sized> fmt::Debug for Evaluated<S> {
 }
 
 impl<S: GaussSystem + ?Sized> Evaluated<S> {
+    /// From its parts, in the order of the fields.
+    #[inline(always)]
+    pub fn new(
+        velocity: <S::Configuration as Configuration>::Tangent,
+        acceleration: S::Speeds,
+        kinetic_energy: S::Scalar,
+        potential_energy: S::Scalar,
+    ) -> Self {
+        Self { velocity, acceleration, kinetic_energy, potential_energy }
+    }
+
     /// T + U.
     #[inline]
     pub fn energy(&self) -> S::Scalar {
@@ -237,6 +244,7 @@ impl<S: GaussSystem + ?Sized> Evaluated<S> {
 /// a kink they are of order h², across a jump of order h, whatever the method, and so is the error of what is interpolated
 /// within that step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Smoothness {
     /// As many derivatives as a method asks for, away from singularities of the coordinates.
     #[default]
@@ -294,161 +302,5 @@ pub trait RigidBodySystem: GaussSystem {
         let linear = rotate(rotation, linear);
         let lever = cross(triple(&pose.translation.vector), linear);
         join(linear, add(rotate(rotation, angular), lever))
-    }
-}
-
-/// The equations of motion as printed by the derivation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Equations {
-    /// Plain text, one equation a line.
-    pub text: &'static str,
-    /// LaTeX, for display mode.
-    pub latex: &'static str,
-}
-
-impl fmt::Display for Equations {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text)
-    }
-}
-
-/// The cost of one generated function, counted on the straight-line program that was emitted.
-///
-/// Subtractions count as additions, a sine–cosine pair as two transcendental calls; negations are free.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct OperationCount {
-    /// Additions and subtractions.
-    pub additions: u32,
-    /// Multiplications.
-    pub multiplications: u32,
-    /// Divisions.
-    pub divisions: u32,
-    /// Square roots.
-    pub roots: u32,
-    /// Transcendental functions.
-    pub transcendentals: u32,
-}
-
-impl OperationCount {
-    /// A count from its parts, in the order of the fields.
-    #[must_use]
-    pub const fn new(additions: u32, multiplications: u32, divisions: u32, roots: u32, transcendentals: u32) -> Self {
-        Self { additions, multiplications, divisions, roots, transcendentals }
-    }
-
-    /// All operations together.
-    #[must_use]
-    pub const fn total(&self) -> u32 {
-        self.additions + self.multiplications + self.divisions + self.roots + self.transcendentals
-    }
-}
-
-impl fmt::Display for OperationCount {
-    /// `12 add, 9 mul`: what is zero is left out; `0` when everything is.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let parts = [
-            (self.additions, "add"),
-            (self.multiplications, "mul"),
-            (self.divisions, "div"),
-            (self.roots, "sqrt"),
-            (self.transcendentals, "trans"),
-        ];
-        let mut separator = "";
-        for (count, name) in parts {
-            if count > 0 {
-                write!(f, "{separator}{count} {name}")?;
-                separator = ", ";
-            }
-        }
-        if separator.is_empty() { f.write_str("0") } else { Ok(()) }
-    }
-}
-
-/// The cost of every method of a kernel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Operations {
-    /// Of `kernel()`: work done once, when the kernel is made.
-    pub kernel: OperationCount,
-    /// Of [`GaussSystem::kinematics`].
-    pub kinematics: OperationCount,
-    /// Of [`GaussSystem::acceleration`].
-    pub acceleration: OperationCount,
-    /// Of [`GaussSystem::momentum`].
-    pub momentum: OperationCount,
-    /// Of [`GaussSystem::velocity`].
-    pub velocity: OperationCount,
-    /// Of [`GaussSystem::momentum_rate`].
-    pub momentum_rate: OperationCount,
-    /// Of [`GaussSystem::mass_matrix`].
-    pub mass_matrix: OperationCount,
-    /// Of [`GaussSystem::kinetic_energy`].
-    pub kinetic_energy: OperationCount,
-    /// Of [`GaussSystem::potential_energy`].
-    pub potential_energy: OperationCount,
-    /// Of [`GaussSystem::evaluate`].
-    pub evaluate: OperationCount,
-    /// Of [`GaussSystem::gauss_residual`].
-    pub gauss_residual: OperationCount,
-    /// Of [`GaussSystem::constraint_function`].
-    pub constraint_function: OperationCount,
-    /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers); none without constraints.
-    pub multipliers: OperationCount,
-    /// Of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers); none where nothing acts.
-    pub powers: OperationCount,
-}
-
-impl fmt::Display for Operations {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let rows = [
-            ("kernel", self.kernel),
-            ("kinematics", self.kinematics),
-            ("acceleration", self.acceleration),
-            ("momentum", self.momentum),
-            ("velocity", self.velocity),
-            ("momentum_rate", self.momentum_rate),
-            ("mass_matrix", self.mass_matrix),
-            ("kinetic_energy", self.kinetic_energy),
-            ("potential_energy", self.potential_energy),
-            ("gauss_residual", self.gauss_residual),
-            ("constraint_function", self.constraint_function),
-            ("evaluate", self.evaluate),
-        ];
-        for (n, (name, count)) in rows.into_iter().enumerate() {
-            if n > 0 {
-                f.write_str("\n")?;
-            }
-            write!(f, "{name:<20}{count}")?;
-        }
-        // A row only where there are constraints, or something acts.
-        for (name, count) in [("multipliers", self.multipliers), ("powers", self.powers)] {
-            if count != OperationCount::default() {
-                write!(f, "\n{name:<20}{count}")?;
-            }
-        }
-        Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::string::ToString;
-
-    #[test]
-    fn counts_print_what_is_there() {
-        assert_eq!(OperationCount::new(12, 9, 0, 0, 0).to_string(), "12 add, 9 mul");
-        assert_eq!(OperationCount::new(0, 0, 1, 2, 3).to_string(), "1 div, 2 sqrt, 3 trans");
-        assert_eq!(OperationCount::default().to_string(), "0");
-        assert_eq!(OperationCount::new(1, 2, 3, 4, 5).total(), 15);
-    }
-
-    #[test]
-    fn multipliers_and_powers_are_listed_where_there_are_any() {
-        let free = Operations::default();
-        assert!(free.to_string().ends_with("evaluate            0"), "{free}");
-        let constrained = Operations { multipliers: OperationCount::new(3, 4, 1, 0, 0), ..free };
-        assert!(constrained.to_string().ends_with("\nmultipliers         3 add, 4 mul, 1 div"), "{constrained}");
-        let forced = Operations { powers: OperationCount::new(2, 5, 0, 0, 0), ..constrained };
-        assert!(forced.to_string().ends_with("1 div\npowers              2 add, 5 mul"), "{forced}");
     }
 }

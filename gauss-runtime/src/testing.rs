@@ -7,8 +7,9 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 use nalgebra::{SMatrix, SVector, UnitQuaternion};
 
 use crate::chart::Chart;
+use crate::description::Described;
 use crate::real::Real;
-use crate::system::{Equations, GaussSystem, Operations};
+use crate::system::GaussSystem;
 
 pub(crate) mod coasting;
 pub(crate) mod constrained;
@@ -96,6 +97,8 @@ pub(crate) struct FreeTop<T> {
     pub(crate) inertia: [T; 3],
 }
 
+impl<T: Real> Described for FreeTop<T> {}
+
 impl<T: Real> GaussSystem for FreeTop<T> {
     type Scalar = T;
     type Configuration = UnitQuaternion<T>;
@@ -106,23 +109,6 @@ impl<T: Real> GaussSystem for FreeTop<T> {
 
     const DOF: usize = 3;
     const CHART: Chart = Chart::LeftInvariant;
-    const EQUATIONS: Equations = Equations { text: "", latex: "" };
-    const OPERATIONS: Operations = Operations {
-        kernel: crate::system::OperationCount::new(0, 0, 0, 0, 0),
-        kinematics: crate::system::OperationCount::new(0, 0, 0, 0, 0),
-        acceleration: crate::system::OperationCount::new(6, 6, 3, 0, 0),
-        momentum: crate::system::OperationCount::new(0, 3, 0, 0, 0),
-        velocity: crate::system::OperationCount::new(0, 0, 3, 0, 0),
-        momentum_rate: crate::system::OperationCount::new(6, 6, 3, 0, 0),
-        mass_matrix: crate::system::OperationCount::new(0, 0, 0, 0, 0),
-        kinetic_energy: crate::system::OperationCount::new(2, 7, 0, 0, 0),
-        potential_energy: crate::system::OperationCount::new(0, 0, 0, 0, 0),
-        evaluate: crate::system::OperationCount::new(8, 13, 3, 0, 0),
-        gauss_residual: crate::system::OperationCount::new(9, 9, 0, 0, 0),
-        constraint_function: crate::system::OperationCount::new(9, 12, 0, 0, 0),
-        multipliers: crate::system::OperationCount::new(0, 0, 0, 0, 0),
-        powers: crate::system::OperationCount::new(0, 0, 0, 0, 0),
-    };
 
     fn kinematics(&self, _: T, _: &UnitQuaternion<T>, z: &SVector<T, 3>) -> SVector<T, 3> {
         *z
@@ -142,7 +128,7 @@ impl<T: Real> GaussSystem for FreeTop<T> {
         SVector::from(crate::triple::add(crate::triple::cross(p.data.0[0], omega), *input))
     }
     fn mass_matrix(&self, _: T, _: &UnitQuaternion<T>) -> SMatrix<T, 3, 3> {
-        crate::__private::matrix(core::array::from_fn(|i| {
+        crate::private::matrix(core::array::from_fn(|i| {
             core::array::from_fn(|j| if i == j { self.inertia[i] } else { T::zero() })
         }))
     }

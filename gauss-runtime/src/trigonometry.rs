@@ -6,8 +6,6 @@
 //! Results are within 1 ulp. What is left goes to the library: angles beyond [`LIMIT`], angles within [`CLOSE`] of a multiple of π/2,
 //! whose leading digits cancel, and what is not finite.
 
-use crate::real::Real;
-
 /// Multiples below 2¹⁷·π/2 are exact beside parts of 33 binary digits, and what the reduction leaves out is far below an ulp.
 const LIMIT: f64 = 1.0e5;
 
@@ -41,9 +39,9 @@ const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// `(sin x, cos x)`.
+/// `(sin x, cos x)`, with the given `a·b + c`.
 #[inline(always)]
-pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
+pub(crate) fn sin_cos(angle: f64, fma: impl Fn(f64, f64, f64) -> f64) -> (f64, f64) {
     // Without its sign, so that −0 keeps it.
     let x = angle.abs();
     let shifted = x * TWO_OVER_PI + SHIFTER;
@@ -63,11 +61,11 @@ pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
     let (v, z2) = (z * y, z * z);
     // Pairs of terms side by side: what follows waits for them.
     let [s1, s2, s3, s4, s5, s6] = SINE;
-    let higher = Real::fma(Real::fma(s6, z, s5), z2, Real::fma(s4, z, s3));
-    let sine = y - ((z * (0.5 * tail - v * Real::fma(higher, z, s2)) - tail) - v * s1);
+    let higher = fma(fma(s6, z, s5), z2, fma(s4, z, s3));
+    let sine = y - ((z * (0.5 * tail - v * fma(higher, z, s2)) - tail) - v * s1);
     let [c1, c2, c3, c4, c5, c6] = COSINE;
-    let higher = Real::fma(Real::fma(c6, z, c5), z2, Real::fma(c4, z, c3));
-    let rest = Real::fma(higher, z2, Real::fma(c2, z, c1));
+    let higher = fma(fma(c6, z, c5), z2, fma(c4, z, c3));
+    let rest = fma(higher, z2, fma(c2, z, c1));
     let half = 0.5 * z;
     let most = 1.0 - half;
     let cosine = most + (((1.0 - most) - half) + (z2 * rest - y * tail));
@@ -88,8 +86,13 @@ fn library(x: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::LIMIT;
+    use crate::real::Real;
     use std::vec::Vec;
+
+    fn sin_cos(x: f64) -> (f64, f64) {
+        super::sin_cos(x, Real::fma)
+    }
 
     /// Steps from one number to the other along the numbers that there are.
     fn apart(a: f64, b: f64) -> u64 {

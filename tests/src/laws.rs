@@ -15,12 +15,12 @@ use gauss_runtime::prelude::*;
 
 /// A kernel, whatever its inputs.
 pub trait Driven:
-    GaussSystem<Scalar = f64, MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq>
+    GaussSystem<Scalar = f64, MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq> + Described
 {
 }
 
 impl<S> Driven for S where
-    S: GaussSystem<Scalar = f64, MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq>
+    S: GaussSystem<Scalar = f64, MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq> + Described
 {
 }
 

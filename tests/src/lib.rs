@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`scene`] | a reference solution, read from `data/reference` |
+//! | [`double_double`] | a scalar of some 31 digits |
 //! | [`order8`] | the Dormand–Prince method of order 8 on the group, with step control |
 //! | [`integrals`] | what a motion conserves |
 //! | [`laws`] | what holds for every system at every state, and for two descriptions of one |
@@ -11,6 +12,7 @@
 //! | [`compare`] | a kernel run from the initial to the final state of a scene, and how far it ends from it |
 
 pub mod compare;
+pub mod double_double;
 pub mod integrals;
 pub mod laws;
 pub mod nonholonomic;

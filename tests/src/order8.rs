@@ -2,8 +2,7 @@
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{
-    Control, Emit, Form, InputSource, IntegrationError, IntegrationErrorKind, OneStep, Part, Problem, Rates, Rkmk,
-    State, Tableau,
+    Control, Emit, IntegrationError, IntegrationErrorKind, OneStep, Part, Problem, Rates, Rkmk, State, Tableau,
 };
 use gauss_runtime::system::GaussSystem;
 
@@ -58,9 +57,9 @@ fn ratio<S: GaussSystem<Scalar = f64>>(from: &State<S>, to: &State<S>, error: &R
 }
 
 impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
-    fn drive<F: Form<S>, I: InputSource<S>>(
+    fn drive<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         start: State<S>,
         end: f64,
         limit: u64,
@@ -112,11 +111,10 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
             }
             if S::CONSTRAINED {
                 // As the controls of the runtime do: the end of every step goes onto the constraints.
-                let (system, form) = (problem.system, &problem.form);
-                let speeds = form.speeds(system, state.t, &state.q, &state.y);
-                let projected = system.project(state.t, &state.q, &speeds);
+                let speeds = problem.speeds(state.t, &state.q, &state.y);
+                let projected = problem.system().project(state.t, &state.q, &speeds);
                 let (q, z) = projected.map_err(|error| stopped(&before, IntegrationErrorKind::Projection { error }))?;
-                state = State { q, y: form.variables(system, state.t, &q, &z), ..state };
+                state = problem.state(state.t, q, &z);
             }
             rates = problem.rates(&state);
             if !rates.is_finite() {

@@ -2,7 +2,7 @@
 //! with the feature `adapters`.
 
 use gauss_runtime::adapters::FlatSystem;
-use gauss_runtime::integrate::{Form, NoInput};
+use gauss_runtime::integrate::{NoInput, Problem, SystemProblem};
 use gauss_runtime::prelude::*;
 
 /// A body that turns freely about its centre of mass.
@@ -62,21 +62,19 @@ fn pendulum() -> PendulumKernel {
 
 /// What another crate reached, given the system and the start.
 trait Foreign {
-    fn run<S, F, I, const N: usize>(&self, system: &FlatSystem<'_, S, F, I>, start: [f64; N], end: f64) -> Vec<f64>
+    fn run<S, P, const N: usize>(&self, system: &FlatSystem<P>, start: [f64; N], end: f64) -> Vec<f64>
     where
         S: GaussSystem<Scalar = f64>,
-        F: Form<S>,
-        I: InputSource<S> + Copy;
+        P: Problem<System = S> + Copy;
 }
 
 struct DifferentialEquations;
 
 impl Foreign for DifferentialEquations {
-    fn run<S, F, I, const N: usize>(&self, system: &FlatSystem<'_, S, F, I>, start: [f64; N], end: f64) -> Vec<f64>
+    fn run<S, P, const N: usize>(&self, system: &FlatSystem<P>, start: [f64; N], end: f64) -> Vec<f64>
     where
         S: GaussSystem<Scalar = f64>,
-        F: Form<S>,
-        I: InputSource<S> + Copy,
+        P: Problem<System = S> + Copy,
     {
         use differential_equations::prelude::{ExplicitRungeKutta, IVP};
         let method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE);
@@ -88,11 +86,10 @@ impl Foreign for DifferentialEquations {
 struct OdeSolvers;
 
 impl Foreign for OdeSolvers {
-    fn run<S, F, I, const N: usize>(&self, system: &FlatSystem<'_, S, F, I>, start: [f64; N], end: f64) -> Vec<f64>
+    fn run<S, P, const N: usize>(&self, system: &FlatSystem<P>, start: [f64; N], end: f64) -> Vec<f64>
     where
         S: GaussSystem<Scalar = f64>,
-        F: Form<S>,
-        I: InputSource<S> + Copy,
+        P: Problem<System = S> + Copy,
     {
         let start = ode_solvers::SVector::<f64, N>::from(start);
         let mut run = ode_solvers::Dop853::new(*system, 0.0, end, end, start, TOLERANCE, TOLERANCE);
@@ -113,11 +110,10 @@ struct Diffsol {
 }
 
 impl Foreign for Diffsol {
-    fn run<S, F, I, const N: usize>(&self, system: &FlatSystem<'_, S, F, I>, start: [f64; N], end: f64) -> Vec<f64>
+    fn run<S, P, const N: usize>(&self, system: &FlatSystem<P>, start: [f64; N], end: f64) -> Vec<f64>
     where
         S: GaussSystem<Scalar = f64>,
-        F: Form<S>,
-        I: InputSource<S> + Copy,
+        P: Problem<System = S> + Copy,
     {
         use diffsol::{NalgebraLU, NalgebraMat, OdeSolverMethod, VectorCommon};
         let first = system.sample(0.0, &start);
@@ -242,11 +238,11 @@ fn differential_equations_get_the_jacobian() {
 /// Without inputs the source is [`NoInput`], also for functions over all systems.
 #[test]
 fn defaults_are_the_velocity_form_without_inputs() {
-    fn dimension<S>(_: FlatSystem<'_, S, VelocityForm, NoInput>) -> usize
+    fn dimension<S>(_: FlatSystem<SystemProblem<'_, S, VelocityForm, NoInput>>) -> usize
     where
         S: GaussSystem<Input = ()>,
     {
-        FlatSystem::<'_, S, VelocityForm, NoInput>::DIM
+        FlatSystem::<SystemProblem<'_, S, VelocityForm, NoInput>>::DIM
     }
     assert_eq!((dimension(FlatSystem::new(&free_top())), dimension(FlatSystem::new(&ellipsoid()))), (7, 13));
 }

@@ -269,7 +269,7 @@ fn derivatives_by_parameters_are_in_the_regressor() {
         let mass_matrix = arm.mass_matrix(0.0, &q);
         let eigenvalues = mass_matrix.symmetric_eigenvalues();
         // Accelerations, and their derivatives once more, are known as well as A can be inverted; 8√N roundings of N operations.
-        let rounding = 8.0 * f64::from(ArmKernel::BY_PARAMETERS_OPERATIONS.total()).sqrt() * f64::EPSILON;
+        let rounding = 8.0 * f64::from(ArmKernel::OPERATIONS.by_parameters.total()).sqrt() * f64::EPSILON;
         let rounding = rounding * eigenvalues.max() / eigenvalues.min();
         for (link, body) in links.iter().enumerate() {
             for k in 0..10 {

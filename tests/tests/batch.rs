@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gauss_runtime::batch::{BatchSystem, SingleConfiguration, SingleSpeeds};
+use gauss_runtime::batch::{Batch, BatchSystem, Packs, SingleConfiguration, SingleSpeeds, States};
 use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Part, Rkmk};
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;

@@ -4,9 +4,9 @@
 #[macro_use]
 mod common;
 
+use common::Bounded;
 use common::agreement::{equal, explore, largest};
 use common::body::{Body, Parts, Scene, flow, list, rates};
-use common::bounded::Bounded;
 use common::dual::Dual;
 use common::parameters::Parameters;
 use common::states::{Motion, State};

@@ -3,9 +3,9 @@
 #[macro_use]
 mod common;
 
+use common::Bounded;
 use common::agreement::{Tally, equal, explore, largest};
 use common::body::{Body, Parts, Scene, list};
-use common::bounded::Bounded;
 use common::parameters::Parameters;
 use common::states::{Motion, State};
 use gauss_runtime::chart::MotionRule;

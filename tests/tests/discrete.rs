@@ -3,11 +3,11 @@
 
 mod common;
 
+use common::Bounded;
 use common::agreement::equal;
 use common::body::{list, speeds};
-use common::bounded::Bounded;
 use common::dual::Dual;
-use gauss_runtime::integrate::{Feedback, OneStep, Part, Problem, State};
+use gauss_runtime::integrate::{Feedback, OneStep, Part, Problem, State, SystemProblem};
 use gauss_runtime::linearize::error_matrix;
 use gauss_runtime::prelude::*;
 
@@ -41,7 +41,7 @@ fn step<S: GaussSystem<Input: Copy>>(
     h: S::Scalar,
 ) -> (S::Configuration, S::Speeds) {
     let held = *input;
-    let problem = Problem { system, form: VelocityForm, input: Feedback(move |_, _: &_, _: &_| held) };
+    let problem = SystemProblem { system, form: VelocityForm, input: Feedback(move |_, _: &_, _: &_| held) };
     let start = State { t, q: *q, y: *z };
     let end = CommutatorFree4.step(&problem, &start, &problem.rates(&start), h).expect("steps").state;
     (end.q, end.y)

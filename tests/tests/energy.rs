@@ -4,9 +4,9 @@
 #[macro_use]
 mod common;
 
+use common::Bounded;
 use common::agreement::{Tally, equal, explore, largest, zero};
 use common::body::{Body, Scene, apply, cross, flow, list, rates, rotation_matrix};
-use common::bounded::Bounded;
 use common::dual::Dual;
 use common::parameters::Parameters;
 use common::states::{Motion, State};
@@ -224,7 +224,7 @@ mod kirchhoff {
             let terms = (matrix.norm() * nu.norm_squared() + force.iter().chain(&torque).map(|f| f.abs()).sum::<f64>())
                 / eigenvalues.max();
             let slack = f64::EPSILON * condition * (3.0 * 36.0 * expected.norm() + 40.0 * terms);
-            let expected: Vec<Bounded> = expected.iter().map(|&x| Bounded::new(x, slack)).collect();
+            let expected: Vec<Bounded> = expected.iter().map(|&x| Bounded::measured(x, slack)).collect();
             equal("ν̇", &found, &expected)?;
             tally.count(&found, largest(&found).max(nu.norm_squared()));
             Ok(())

@@ -1,7 +1,7 @@
 //! The energy–momentum method on derived kernels: bodies in fluid with weight and buoyancy at different points, in space and in the
 //! plane, a top on a spring. Energy and momenta over 10⁵ steps; the order against reference solutions.
 
-use gauss_runtime::integrate::OneStep;
+use gauss_runtime::integrate::{Composed, Composition, EnergyMomentum, OneStep};
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::{Scene, quaternion_of};
 

@@ -6,9 +6,9 @@ mod common;
 
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use common::Bounded;
 use common::agreement::{equal, explore, largest};
 use common::body::{Body, Parts, Scene, duals, flow, list, rates, speeds};
-use common::bounded::Bounded;
 use common::dual::Dual;
 use common::parameters::{Parameters, parameters};
 use common::states::{Motion, State, state};

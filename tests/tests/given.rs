@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use gauss_runtime::description::OperationCount;
 use gauss_runtime::error::Rule;
 use gauss_runtime::prelude::*;
-use gauss_runtime::system::OperationCount;
 use proptest::prelude::*;
 
 /// Rounding of some tens of operations on numbers of order ten, of which sums may cancel.
@@ -34,9 +34,9 @@ mod literal {
         Fields { m: 2.5, c: Vector3::new(0.1, -0.2, 0.3), i: Vector3::new(1.1, 1.2, 1.3), g: 9.80665 }
     }
 
-    /// Of any scalar literals are fractions until the kernel is made.
+    /// Of any scalar literals are fractions until the kernel is made, also of more than 64 bits.
     #[derive(GaussDynamics)]
-    #[gauss(mass = 2.5, inertia = [a, a, 0.3], gravity = 9.80665, center_of_mass = [0, 0, l])]
+    #[gauss(mass = 2.5, inertia = [a, a, 0.3], gravity = 9.80665000000000000000001, center_of_mass = [0, 0, l])]
     pub struct AnyScalar<T> {
         pub a: T,
         pub l: T,

@@ -3,9 +3,9 @@
 
 mod common;
 
+use common::Bounded;
 use common::agreement::equal;
 use common::body::{Parts, list, speeds};
-use common::bounded::Bounded;
 use common::dual::Dual;
 use gauss_runtime::linearize::{LinearModel, error_matrix};
 use gauss_runtime::prelude::*;
@@ -56,7 +56,7 @@ fn random_configuration<C: Configuration<Scalar = f64> + Parts<f64>, B: Parts<Bo
         tangent.set_component(i, 1.2 * random.next());
     }
     let parts = origin.retract(&tangent).renormalise().parts();
-    B::assemble(&parts.iter().map(|&x| Bounded::new(x, 4.0 * f64::EPSILON * x.abs().max(1.0))).collect::<Vec<_>>())
+    B::assemble(&parts.iter().map(|&x| Bounded::measured(x, 4.0 * f64::EPSILON * x.abs().max(1.0))).collect::<Vec<_>>())
 }
 
 fn constants(values: &[Bounded]) -> Vec<Dual<Bounded>> {

@@ -1,6 +1,7 @@
 //! Bodies in gimbals and in a closed loop: a gyroscope and a four-bar linkage, with coordinates that solve the joints and with
 //! constraints that make them.
 
+use gauss_runtime::monitor::EnergyMonitor;
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least, position_rates};
 use gauss_tests::trajectory::{Run, number, reference, rows, triple};

@@ -4,9 +4,9 @@
 #[macro_use]
 mod common;
 
+use common::Bounded;
 use common::agreement::{equal, explore, largest};
 use common::body::list;
-use common::bounded::Bounded;
 use common::parameters::Parameters;
 use common::states::{Motion, State};
 use gauss_runtime::prelude::*;

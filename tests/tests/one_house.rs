@@ -6,9 +6,9 @@ mod common;
 
 use std::ops::Index;
 
+use common::Bounded;
 use common::agreement::{equal, explore, largest};
 use common::body::{Parts, list, speeds};
-use common::bounded::Bounded;
 use common::parameters::Parameters;
 use common::states::{Motion, State};
 use gauss_runtime::constraint::ConstrainedSystem;

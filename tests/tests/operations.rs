@@ -1,5 +1,5 @@
 //! A scene pays for nothing that it lacks: the operation counts of the generated code, feature by feature, and the table of
-//! them in the README.
+//! them in BENCHMARKS.md.
 
 #[macro_use]
 mod common;
@@ -49,7 +49,7 @@ struct Costs {
 const CHARTS: [&str; 4] = ["left_invariant", "right_invariant", "hybrid", "jet(euler_zyx)"];
 
 fn operations<S: Scene>() -> Operations {
-    <S::Kernel<f64> as GaussSystem>::OPERATIONS
+    <S::Kernel<f64> as Described>::OPERATIONS
 }
 
 macro_rules! costs {
@@ -159,7 +159,7 @@ fn what_is_absent_costs_nothing() {
 const BEGIN: &str = "<!-- operations:begin -->";
 const END: &str = "<!-- operations:end -->";
 
-/// The section of the README between the markers: additions + multiplications of each method.
+/// The section of BENCHMARKS.md between the markers: additions + multiplications of each method.
 fn table() -> String {
     let mut out =
         String::from("| scene | chart | acceleration | momentum rate | kinetic energy |\n|---|---|---|---|---|\n");
@@ -175,30 +175,30 @@ fn table() -> String {
     out
 }
 
-/// With `UPDATE_README=1` the section is rewritten.
+/// With `UPDATE_BENCHMARKS=1` the section is rewritten.
 #[test]
-fn the_readme_shows_the_counts() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../README.md");
+fn benchmarks_shows_the_counts() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../BENCHMARKS.md");
     let table = table();
     let wanted = format!("{BEGIN}\n{table}{END}");
-    let readme = std::fs::read_to_string(path).unwrap_or_default();
-    let section = readme.find(BEGIN).and_then(|start| {
-        let end = readme[start..].find(END)? + start + END.len();
+    let page = std::fs::read_to_string(path).unwrap_or_default();
+    let section = page.find(BEGIN).and_then(|start| {
+        let end = page[start..].find(END)? + start + END.len();
         Some(start..end)
     });
     let Some(section) = section else {
-        panic!("README.md has no section for operation counts; paste this where it belongs:\n\n{wanted}\n");
+        panic!("BENCHMARKS.md has no section for operation counts; paste this where it belongs:\n\n{wanted}\n");
     };
-    if readme[section.clone()] == wanted {
+    if page[section.clone()] == wanted {
         return;
     }
-    if std::env::var("UPDATE_README").is_ok_and(|value| value == "1") {
-        let mut updated = readme.clone();
+    if std::env::var("UPDATE_BENCHMARKS").is_ok_and(|value| value == "1") {
+        let mut updated = page.clone();
         updated.replace_range(section, &wanted);
-        std::fs::write(path, updated).expect("README.md can be written");
+        std::fs::write(path, updated).expect("BENCHMARKS.md can be written");
     } else {
         panic!(
-            "the operation counts in README.md are out of date; run this test with UPDATE_README=1, or paste:\n\n{wanted}\n"
+            "the operation counts in BENCHMARKS.md are out of date; run this test with UPDATE_BENCHMARKS=1, or paste:\n\n{wanted}\n"
         );
     }
 }

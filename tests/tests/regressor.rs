@@ -4,9 +4,9 @@
 
 mod common;
 
+use common::Bounded;
 use common::agreement::equal;
 use common::body::{Parts, list, speeds};
-use common::bounded::Bounded;
 use gauss_runtime::prelude::*;
 
 /// A reproducible stream of numbers in [−1, 1].
@@ -36,7 +36,7 @@ trait Scene {
 fn unit<const N: usize>(random: &mut Random) -> [Bounded; N] {
     let parts: [f64; N] = std::array::from_fn(|k| random.next() + if k + 1 == N { 1.5 } else { 0.0 });
     let norm = parts.iter().map(|x| x * x).sum::<f64>().sqrt();
-    parts.map(|x| Bounded::new(x / norm, 4.0 * f64::EPSILON))
+    parts.map(|x| Bounded::measured(x / norm, 4.0 * f64::EPSILON))
 }
 
 fn rotation(random: &mut Random) -> UnitQuaternion<Bounded> {

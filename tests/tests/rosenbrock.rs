@@ -3,13 +3,13 @@
 
 use std::f64::consts::PI;
 
-use gauss_runtime::integrate::{Collocation, Form, InputSource, NoInput, OneStep, Part, Problem, State};
+use gauss_runtime::integrate::{Collocation, Form, InputSource, NoInput, OneStep, Part, Problem, State, SystemProblem};
 use gauss_runtime::prelude::*;
 
 /// So many steps of one length.
 fn march<S: GaussSystem<Scalar = f64>>(
     method: &impl OneStep<S>,
-    problem: &Problem<'_, S, impl Form<S>, impl InputSource<S>>,
+    problem: &impl Problem<System = S>,
     start: &State<S>,
     span: f64,
     steps: u32,
@@ -33,8 +33,8 @@ fn order<S: LinearizedSystem<Scalar = f64>, F: Form<S>, I: InputSource<S> + Copy
     q: S::Configuration,
     z: S::Speeds,
 ) -> f64 {
-    let problem = Problem { system, form, input };
-    let start = State { t: 0.3, q, y: form.variables(system, 0.3, &q, &z) };
+    let problem = SystemProblem { system, form, input };
+    let start = problem.state(0.3, q, &z);
     let exact = march(&Collocation::order_6(), &problem, &start, 1.0, 1600);
     let points = [40_u32, 56, 80, 112, 160].map(|n| {
         let end = march(&Rosenbrock, &problem, &start, 1.0, n);

@@ -1,5 +1,5 @@
 //! What each element that acts costs: the operation counts of one body as elements are switched on, one at a time, and the table
-//! of them in the README. That a clause leaves nothing behind when it is taken out again is tested where the code is made, in
+//! of them in BENCHMARKS.md. That a clause leaves nothing behind when it is taken out again is tested where the code is made, in
 //! `gauss-codegen/src/emit/specialisation_tests.rs`.
 
 use std::fmt::Write as _;
@@ -154,7 +154,7 @@ fn a_component_in_its_own_axes_is_one_sum_and_one_product() {
 const BEGIN: &str = "<!-- specialisation:begin -->";
 const END: &str = "<!-- specialisation:end -->";
 
-/// The section of the README between the markers: additions + multiplications of `acceleration`, and what else there is.
+/// The section of BENCHMARKS.md between the markers: additions + multiplications of `acceleration`, and what else there is.
 fn table() -> String {
     let mut out = String::from("| what acts |");
     CHARTS.iter().for_each(|chart| write!(out, " `{chart}` |").expect("a string"));
@@ -174,21 +174,21 @@ fn table() -> String {
     out
 }
 
-/// With `UPDATE_README=1` the section is rewritten.
+/// With `UPDATE_BENCHMARKS=1` the section is rewritten.
 #[test]
-fn the_readme_shows_what_elements_cost() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../README.md");
-    let readme = std::fs::read_to_string(path).expect("the README is there");
+fn benchmarks_shows_what_elements_cost() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../BENCHMARKS.md");
+    let page = std::fs::read_to_string(path).expect("BENCHMARKS.md is there");
     let wanted = format!("{BEGIN}\n{}{END}", table());
-    let start = readme.find(BEGIN).expect("the README has the section");
-    let end = start + readme[start..].find(END).expect("the section ends") + END.len();
-    if readme[start..end] == wanted {
+    let start = page.find(BEGIN).expect("BENCHMARKS.md has the section");
+    let end = start + page[start..].find(END).expect("the section ends") + END.len();
+    if page[start..end] == wanted {
         return;
     }
-    if std::env::var("UPDATE_README").is_ok_and(|value| value == "1") {
-        let updated = format!("{}{wanted}{}", &readme[..start], &readme[end..]);
-        std::fs::write(path, updated).expect("README.md can be written");
+    if std::env::var("UPDATE_BENCHMARKS").is_ok_and(|value| value == "1") {
+        let updated = format!("{}{wanted}{}", &page[..start], &page[end..]);
+        std::fs::write(path, updated).expect("BENCHMARKS.md can be written");
     } else {
-        panic!("the README is out of date; run this test with UPDATE_README=1, or paste:\n\n{wanted}\n");
+        panic!("BENCHMARKS.md is out of date; run this test with UPDATE_BENCHMARKS=1, or paste:\n\n{wanted}\n");
     }
 }

@@ -4,9 +4,9 @@
 #[macro_use]
 mod common;
 
+use common::Bounded;
 use common::agreement::{equal, zero};
 use common::body::{Parts, constant, duals, list, rates, speeds};
-use common::bounded::Bounded;
 use common::dual::Dual;
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;
@@ -119,7 +119,7 @@ fn single_precision_agrees(at: &State<f64>) {
 /// The residual at ż, the momentum form and the constraint differentiated, within bounds that rounding is proved to keep.
 fn bounds_hold(at: &State<f64>) -> Result<(), TestCaseError> {
     let kernel = slung::<Bounded>();
-    let (q, z) = lift(at, |x| Bounded::new(x, 0.0));
+    let (q, z) = lift(at, |x| Bounded::measured(x, 0.0));
     let t = Bounded::zero();
     let acceleration = kernel.acceleration(t, &q, &z, &());
     let residual = list(&kernel.gauss_residual(t, &q, &z, &acceleration, &()));

@@ -41,8 +41,6 @@ impl<S: GaussSystem> GaussSystem for Counted<S> {
 
     const DOF: usize = S::DOF;
     const CHART: Chart = S::CHART;
-    const EQUATIONS: Equations = S::EQUATIONS;
-    const OPERATIONS: Operations = S::OPERATIONS;
     const CONSTRAINED: bool = S::CONSTRAINED;
     const SMOOTHNESS: Smoothness = S::SMOOTHNESS;
 

@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::rc::Rc;
 
-use gauss_runtime::integrate::{Control, Form, NoInput, Problem, Rates, State};
+use gauss_runtime::integrate::{Control, Form, NoInput, Problem, Rates, State, SystemProblem};
 use gauss_runtime::prelude::*;
 
 use super::counted::Counted;
@@ -132,8 +132,8 @@ impl<S: Kernel> Setup<S> {
         let (observe, target) = (Rc::clone(&self.observe), Rc::clone(&self.target));
         Entry::new((method, chart, name), Side::Gauss, setting, move |value, duration, ask| {
             let kernel = Counted::new(black_box(kernel));
-            let problem = Problem { system: &kernel, form, input: NoInput };
-            let start = State { t: 0.0, q, y: form.variables(&kernel, 0.0, &q, &z) };
+            let problem = SystemProblem { system: &kernel, form, input: NoInput };
+            let start = problem.state(0.0, q, &z);
             let control = control(value);
             let nothing = &mut |_: &State<_>, _: &Rates<_>| ControlFlow::Continue(());
             match ask {

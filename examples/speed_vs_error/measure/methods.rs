@@ -1,7 +1,7 @@
 //! The methods of Gauss, one line each. What no forces act on has more of them in `free_motion`.
 
 use gauss_runtime::integrate::body::BodyConfiguration;
-use gauss_runtime::integrate::{Form, Scheme, Splitting, SplittingError};
+use gauss_runtime::integrate::{Composed, Composition, Form, Scheme, Splitting, SplittingError, Variational};
 use gauss_runtime::prelude::*;
 
 use super::counted::Counted;

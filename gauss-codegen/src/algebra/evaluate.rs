@@ -1,73 +1,149 @@
 //! Numerical values of expressions, for checking one form of a result against another.
 
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
 use super::graph::{BinaryFunction, Expr, Function, NodeView};
 use super::map::Map;
+use super::rational::Rational;
 
-impl Function {
-    /// Its derivative, in double precision.
-    fn slope(self, x: f64) -> f64 {
-        match self {
-            Function::Sin => x.cos(),
-            Function::Cos => -x.sin(),
-            Function::Exp => x.exp(),
-            Function::Ln => x.recip(),
-            Function::Sqrt => 0.5 / x.sqrt(),
-            Function::Abs => Function::Signum.value(x),
-            Function::Signum => 0.0,
+/// What expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual numbers, intervals or numbers of more digits.
+pub trait Scalar:
+    Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// A number that no fraction of integers is, as literals of a scene determine it in double precision.
+    fn number(value: f64) -> Self;
+
+    /// A fraction, exactly where the type can hold it.
+    fn fraction(value: Rational) -> Self;
+
+    /// Sine and cosine of an angle in radians.
+    fn sine_cosine(self) -> (Self, Self);
+
+    /// A function of one argument; NaN, or what stands for it, outside its domain.
+    fn call(self, function: Function) -> Self;
+
+    /// A function of two arguments, of which this is the first.
+    fn call_with(self, function: BinaryFunction, other: Self) -> Self;
+}
+
+macro_rules! primitive {
+    ($scalar:ident) => {
+        impl Scalar for $scalar {
+            fn number(value: f64) -> Self {
+                value as $scalar
+            }
+
+            fn fraction(value: Rational) -> Self {
+                value.to_f64() as $scalar
+            }
+
+            fn sine_cosine(self) -> (Self, Self) {
+                self.sin_cos()
+            }
+
+            fn call(self, function: Function) -> Self {
+                match function {
+                    Function::Sin => self.sin(),
+                    Function::Cos => self.cos(),
+                    Function::Exp => self.exp(),
+                    Function::Ln => self.ln(),
+                    Function::Sqrt => self.sqrt(),
+                    Function::Abs => self.abs(),
+                    // Unlike that of the primitive type, zero at zero.
+                    Function::Signum if self == 0.0 => 0.0,
+                    Function::Signum => self.signum(),
+                }
+            }
+
+            fn call_with(self, function: BinaryFunction, other: Self) -> Self {
+                match function {
+                    BinaryFunction::Atan2 => self.atan2(other),
+                    BinaryFunction::Min => self.min(other),
+                    BinaryFunction::Max => self.max(other),
+                }
+            }
         }
+    };
+}
+
+primitive!(f64);
+primitive!(f32);
+
+/// What checks are made in.
+pub trait Number: Scalar + Copy + PartialOrd {
+    /// What is left of an unknown when numbers of order one are eliminated from it, and should be zero: some thousand roundings.
+    const NEGLIGIBLE: f64;
+
+    /// The nearest one.
+    fn to_f64(self) -> f64;
+
+    /// Whether it is a number.
+    fn is_finite(self) -> bool;
+
+    /// An integer power.
+    fn powi(self, exponent: i32) -> Self;
+}
+
+impl Number for f64 {
+    const NEGLIGIBLE: f64 = 1e-12;
+
+    fn to_f64(self) -> f64 {
+        self
     }
 
-    /// In double precision; NaN outside the domain.
-    pub fn value(self, x: f64) -> f64 {
-        match self {
-            Function::Sin => x.sin(),
-            Function::Cos => x.cos(),
-            Function::Exp => x.exp(),
-            Function::Ln => x.ln(),
-            Function::Sqrt => x.sqrt(),
-            Function::Abs => x.abs(),
-            // Unlike that of `f64`, zero at zero.
-            Function::Signum if x == 0.0 => 0.0,
-            Function::Signum => x.signum(),
-        }
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+
+    fn powi(self, exponent: i32) -> Self {
+        f64::powi(self, exponent)
     }
 }
 
-impl BinaryFunction {
-    /// In double precision.
-    pub fn value(self, a: f64, b: f64) -> f64 {
+impl Function {
+    /// Its derivative.
+    fn slope<N: Number>(self, x: N) -> N {
+        let one = N::number(1.0);
         match self {
-            BinaryFunction::Atan2 => a.atan2(b),
-            BinaryFunction::Min => a.min(b),
-            BinaryFunction::Max => a.max(b),
+            Function::Sin => x.call(Function::Cos),
+            Function::Cos => -x.call(Function::Sin),
+            Function::Exp => x.call(Function::Exp),
+            Function::Ln => one / x,
+            Function::Sqrt => N::number(0.5) / x.call(Function::Sqrt),
+            Function::Abs => x.call(Function::Signum),
+            Function::Signum => N::number(0.0),
         }
     }
 }
 
 /// Evaluates expressions at a point, each node once.
-pub struct Evaluation<'a> {
-    symbols: &'a Map<u32, f64>,
-    values: Map<u32, f64>,
+pub struct Evaluation<'a, N = f64> {
+    symbols: &'a Map<u32, N>,
+    values: Map<u32, N>,
 }
 
-impl<'a> Evaluation<'a> {
+impl<'a, N: Number> Evaluation<'a, N> {
     /// `symbols` gives the value of every symbol, by key.
-    pub fn new(symbols: &'a Map<u32, f64>) -> Self {
+    pub fn new(symbols: &'a Map<u32, N>) -> Self {
         Self { symbols, values: Map::default() }
     }
 
     /// The value of an expression; NaN where a symbol has none.
-    pub fn value(&mut self, e: Expr<'_>) -> f64 {
+    pub fn value(&mut self, e: Expr<'_>) -> N {
         if let Some(&known) = self.values.get(&e.key()) {
             return known;
         }
         let value = match e.view() {
-            NodeView::Number(value) => value.to_f64(),
-            NodeView::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(f64::NAN),
-            NodeView::Sum(terms) => terms.into_iter().map(|(c, e)| c.to_f64() * self.value(e)).sum(),
-            NodeView::Product(factors) => factors.into_iter().map(|(e, n)| self.value(e).powi(n)).product(),
-            NodeView::Call(function, e) => function.value(self.value(e)),
-            NodeView::Binary(function, a, b) => function.value(self.value(a), self.value(b)),
+            NodeView::Number(value) => N::fraction(value),
+            NodeView::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(N::number(f64::NAN)),
+            NodeView::Sum(terms) => {
+                terms.into_iter().fold(N::number(0.0), |sum, (c, e)| sum + N::fraction(c) * self.value(e))
+            }
+            NodeView::Product(factors) => {
+                factors.into_iter().fold(N::number(1.0), |product, (e, n)| product * self.value(e).powi(n))
+            }
+            NodeView::Call(function, e) => self.value(e).call(function),
+            NodeView::Binary(function, a, b) => self.value(a).call_with(function, self.value(b)),
             NodeView::Group(e) | NodeView::Opaque(e) => self.value(e),
         };
         self.values.insert(e.key(), value);
@@ -77,41 +153,42 @@ impl<'a> Evaluation<'a> {
 
 /// Directional derivatives of expressions at a point by dual numbers, each node once: differentiation that owes nothing to
 /// the symbolic one.
-pub struct Tangents<'a, 'b> {
-    values: &'a mut Evaluation<'b>,
+pub struct Tangents<'a, 'b, N = f64> {
+    values: &'a mut Evaluation<'b, N>,
     /// Rate of every symbol that moves.
-    direction: &'a Map<u32, f64>,
-    known: Map<u32, f64>,
+    direction: &'a Map<u32, N>,
+    known: Map<u32, N>,
 }
 
-impl<'a, 'b> Tangents<'a, 'b> {
+impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
     /// `direction` gives the rates of symbols, by key; all others stand still.
-    pub fn new(values: &'a mut Evaluation<'b>, direction: &'a Map<u32, f64>) -> Self {
+    pub fn new(values: &'a mut Evaluation<'b, N>, direction: &'a Map<u32, N>) -> Self {
         Self { values, direction, known: Map::default() }
     }
 
     /// The derivative of an expression along the direction.
-    pub fn along(&mut self, e: Expr<'_>) -> f64 {
+    pub fn along(&mut self, e: Expr<'_>) -> N {
         if let Some(&known) = self.known.get(&e.key()) {
             return known;
         }
+        let zero = N::number(0.0);
         let rate = match e.view() {
-            NodeView::Number(_) => 0.0,
-            NodeView::Symbol(_) => self.direction.get(&e.key()).copied().unwrap_or(0.0),
-            NodeView::Sum(terms) => terms.into_iter().map(|(c, e)| c.to_f64() * self.along(e)).sum(),
+            NodeView::Number(_) => zero,
+            NodeView::Symbol(_) => self.direction.get(&e.key()).copied().unwrap_or(zero),
+            NodeView::Sum(terms) => terms.into_iter().fold(zero, |sum, (c, e)| sum + N::fraction(c) * self.along(e)),
             NodeView::Product(factors) => {
                 // (Π fᵢ^nᵢ)˙ by the product rule on (value, rate) pairs.
-                let (mut value, mut rate) = (1.0, 0.0);
+                let (mut value, mut rate) = (N::number(1.0), zero);
                 for (e, n) in factors {
                     let (x, slope) = (self.values.value(e), self.along(e));
                     let power = x.powi(n);
-                    rate = rate * power + value * f64::from(n) * x.powi(n - 1) * slope;
-                    value *= power;
+                    rate = rate * power + value * N::number(n.into()) * x.powi(n - 1) * slope;
+                    value = value * power;
                 }
                 rate
             }
             NodeView::Call(function, e) => match self.along(e) {
-                0.0 => 0.0,
+                still if still == zero => zero,
                 rate => function.slope(self.values.value(e)) * rate,
             },
             NodeView::Binary(BinaryFunction::Atan2, y, x) => {
@@ -119,7 +196,7 @@ impl<'a, 'b> Tangents<'a, 'b> {
                 (a * self.along(y) - b * self.along(x)) / (a * a + b * b)
             }
             NodeView::Binary(function, a, b) => {
-                let first = function.value(self.values.value(a), self.values.value(b)) == self.values.value(a);
+                let first = self.values.value(a).call_with(function, self.values.value(b)) == self.values.value(a);
                 if first { self.along(a) } else { self.along(b) }
             }
             NodeView::Group(e) | NodeView::Opaque(e) => self.along(e),

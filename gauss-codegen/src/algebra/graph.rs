@@ -1,7 +1,6 @@
 //! The expression graph: every distinct expression exists once, so equality is equality of indices and sharing is free.
 
 use std::cell::{Cell, RefCell};
-use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::iter::Sum;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -12,12 +11,19 @@ use super::rational::Rational;
 
 /// A function of one argument that the language knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Function {
+    /// Sine of an angle in radians.
     Sin,
+    /// Cosine of an angle in radians.
     Cos,
+    /// Exponential.
     Exp,
+    /// Natural logarithm.
     Ln,
+    /// Square root.
     Sqrt,
+    /// Absolute value.
     Abs,
     /// −1, 0 or 1.
     Signum,
@@ -25,11 +31,40 @@ pub enum Function {
 
 /// A function of two arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum BinaryFunction {
     /// Angle of the point (x, y), given as y and x.
     Atan2,
+    /// The smaller one.
     Min,
+    /// The larger one.
     Max,
+}
+
+impl Function {
+    /// What users write.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Function::Sin => "sin",
+            Function::Cos => "cos",
+            Function::Exp => "exp",
+            Function::Ln => "ln",
+            Function::Sqrt => "sqrt",
+            Function::Abs => "abs",
+            Function::Signum => "signum",
+        }
+    }
+}
+
+impl BinaryFunction {
+    /// What users write.
+    pub const fn name(self) -> &'static str {
+        match self {
+            BinaryFunction::Atan2 => "atan2",
+            BinaryFunction::Min => "min",
+            BinaryFunction::Max => "max",
+        }
+    }
 }
 
 /// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
@@ -79,7 +114,7 @@ pub struct Graph {
     nodes: RefCell<Vec<Node>>,
     index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
-    overflow: Cell<bool>,
+    undefined: Cell<bool>,
 }
 
 /// An expression: a node of a graph. Copies are free and equality is structural.
@@ -91,17 +126,17 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        let (nodes, index, symbols, overflow) = Default::default();
-        let graph = Self { nodes, index, symbols, overflow };
+        let (nodes, index, symbols, undefined) = Default::default();
+        let graph = Self { nodes, index, symbols, undefined };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
         graph
     }
 
-    /// True once a coefficient has left the range of 64-bit fractions, or was divided by zero; every result is then meaningless.
-    pub fn overflowed(&self) -> bool {
-        self.overflow.get()
+    /// True once something was divided by zero, or by a number beyond any use in double precision; every result is then meaningless.
+    pub fn is_undefined(&self) -> bool {
+        self.undefined.get()
     }
 
     /// A new symbol; two calls give two different symbols even when the names agree.
@@ -136,8 +171,8 @@ impl Graph {
     }
 
     pub fn number(&self, value: Rational) -> Expr<'_> {
-        if value.is_overflow() {
-            self.overflow.set(true);
+        if value.is_undefined() {
+            self.undefined.set(true);
         }
         self.intern(Node::Number(value))
     }
@@ -186,8 +221,8 @@ impl Graph {
             }
         }
         collected.retain(|(c, _)| !c.is_zero());
-        if collected.iter().any(|(c, _)| c.is_overflow()) {
-            self.overflow.set(true);
+        if collected.iter().any(|(c, _)| c.is_undefined()) {
+            self.undefined.set(true);
         }
         match collected.as_slice() {
             [] => self.zero(),
@@ -257,13 +292,7 @@ impl Graph {
 
     /// The rational content of a sum: greatest common divisor of the coefficients, with the sign of the first.
     fn content(&self, terms: &[(Rational, Id)]) -> Rational {
-        let mut numerator = 0;
-        let mut denominator = Rational::one();
-        for (c, _) in terms {
-            numerator = gcd(numerator, c.numer());
-            denominator *= Rational::from_integer(c.denom() / gcd(denominator.numer(), c.denom()).max(1));
-        }
-        let content = Rational::from_integer(numerator) / denominator;
+        let content = terms.iter().fold(Rational::zero(), |content, (c, _)| content.common_divisor(*c));
         if terms[0].0.is_negative() { -content } else { content }
     }
 
@@ -296,13 +325,6 @@ impl Graph {
         }
         self.intern(Node::Call(function, argument.id))
     }
-}
-
-fn gcd(mut a: i64, mut b: i64) -> i64 {
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    a.abs()
 }
 
 impl<'g> Expr<'g> {
@@ -511,12 +533,6 @@ impl Eq for Expr<'_> {}
 impl Hash for Expr<'_> {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.id.hash(state);
-    }
-}
-
-impl fmt::Debug for Expr<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&super::print(*self, super::Notation::Text))
     }
 }
 

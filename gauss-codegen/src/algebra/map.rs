@@ -1,4 +1,5 @@
 //! Hash maps for small keys. Macros run unoptimised, where the standard hasher is the slowest part of a look-up; keys
 //! here are indices and short sequences of them, and nobody chooses them to collide.
 
-pub use rustc_hash::FxHashMap as Map;
+/// A map with a small hash function.
+pub type Map<K, V> = rustc_hash::FxHashMap<K, V>;

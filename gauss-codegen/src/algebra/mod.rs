@@ -13,18 +13,21 @@ mod evaluate;
 mod graph;
 #[cfg(test)]
 pub mod ideal;
+mod large;
 mod linear;
 mod map;
 mod polynomial;
+mod precise;
 mod print;
 mod rational;
 #[cfg(test)]
 mod tests;
 
-pub use evaluate::{Evaluation, Tangents};
+pub use evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView};
 pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
 pub use map::Map;
 pub use polynomial::Polynomial;
-pub use print::{Notation, print};
+pub use precise::Precise;
+pub use print::{Notation, decimal, print};
 pub use rational::Rational;

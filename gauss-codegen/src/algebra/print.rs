@@ -1,5 +1,7 @@
 //! Expressions for people: plain text and LaTeX.
 
+use std::fmt;
+
 use super::graph::{BinaryFunction, Expr, Function, NodeView};
 use super::map::Map;
 use super::rational::Rational;
@@ -7,13 +9,34 @@ use super::rational::Rational;
 /// How to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notation {
+    /// Plain text.
     Text,
+    /// LaTeX, in math mode.
     Latex,
+}
+
+impl fmt::Debug for Expr<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&print(*self, Notation::Text))
+    }
 }
 
 /// An expression on one line. Groups are written out.
 pub fn print(e: Expr<'_>, notation: Notation) -> String {
     Printer { notation }.sum(e)
+}
+
+/// To double precision, with a power of ten where many zeros would stand otherwise.
+pub fn decimal(value: Rational, notation: Notation) -> String {
+    let value = value.to_f64();
+    if (1e-5..1e16).contains(&value.abs()) {
+        return value.to_string();
+    }
+    let scientific = format!("{value:e}");
+    match scientific.split_once('e') {
+        Some((digits, exponent)) if notation == Notation::Latex => format!("{digits} \\cdot 10^{{{exponent}}}"),
+        _ => scientific,
+    }
 }
 
 struct Printer {
@@ -97,12 +120,11 @@ impl Printer {
             };
             if exponent > 0 { above.push(power) } else { below.push(power) }
         }
-        if coefficient.numer() != 1 || above.is_empty() {
-            above.insert(0, coefficient.numer().to_string());
+        let (numerator, denominator) = self.fraction(coefficient);
+        if numerator != "1" || above.is_empty() {
+            above.insert(0, numerator);
         }
-        if coefficient.denom() != 1 {
-            below.insert(0, coefficient.denom().to_string());
-        }
+        below.splice(0..0, denominator);
         let times = if self.latex() { " \\, " } else { "*" };
         let text = match (below.is_empty(), self.latex()) {
             (true, _) => above.join(times),
@@ -120,16 +142,10 @@ impl Printer {
             }
             NodeView::Call(function, argument) => {
                 let name = match function {
-                    Function::Sin => "sin",
-                    Function::Cos => "cos",
-                    Function::Exp => "exp",
-                    Function::Ln => "ln",
                     Function::Sqrt if self.latex() => return format!("\\sqrt{{{}}}", self.sum(argument)),
-                    Function::Sqrt => "sqrt",
                     Function::Abs if self.latex() => return format!("\\left|{}\\right|", self.sum(argument)),
-                    Function::Abs => "abs",
                     Function::Signum if self.latex() => "operatorname{sgn}",
-                    Function::Signum => "signum",
+                    function => function.name(),
                 };
                 match (self.latex(), matches!(argument.view(), NodeView::Symbol(_))) {
                     (true, true) => format!("\\{name} {}", self.sum(argument)),
@@ -140,11 +156,9 @@ impl Printer {
             NodeView::Binary(function, a, b) => {
                 let name = match (function, self.latex()) {
                     (BinaryFunction::Atan2, true) => "\\operatorname{atan2}",
-                    (BinaryFunction::Atan2, false) => "atan2",
                     (BinaryFunction::Min, true) => "\\min",
-                    (BinaryFunction::Min, false) => "min",
                     (BinaryFunction::Max, true) => "\\max",
-                    (BinaryFunction::Max, false) => "max",
+                    (function, false) => function.name(),
                 };
                 let (open, close) = if self.latex() { ("\\left(", "\\right)") } else { ("(", ")") };
                 format!("{name}{open}{}, {}{close}", self.sum(a), self.sum(b))
@@ -160,13 +174,17 @@ impl Printer {
     }
 
     fn number(&self, value: &Rational) -> String {
-        if value.is_integer() {
-            value.numer().to_string()
-        } else if self.latex() {
-            format!("\\frac{{{}}}{{{}}}", value.numer(), value.denom())
-        } else {
-            format!("{}/{}", value.numer(), value.denom())
+        match self.fraction(*value) {
+            (numerator, None) => numerator,
+            (numerator, Some(denominator)) if self.latex() => format!("\\frac{{{numerator}}}{{{denominator}}}"),
+            (numerator, Some(denominator)) => format!("{numerator}/{denominator}"),
         }
+    }
+
+    /// Numerator and denominator, if that is not one; fractions that nobody would read as numbers in double precision.
+    fn fraction(&self, value: Rational) -> (String, Option<String>) {
+        let Some((numerator, denominator)) = value.parts() else { return (decimal(value, self.notation), None) };
+        (numerator.to_string(), (denominator != 1).then(|| denominator.to_string()))
     }
 }
 

@@ -1,70 +1,93 @@
 //! Exact coefficients.
 
 use std::cmp::Ordering;
+use std::fmt;
+use std::hash::{Hash, Hasher};
 use std::ops::{Div, Mul, MulAssign, Neg, Sub};
 
-use num_rational::Ratio;
-use num_traits::{CheckedAdd, CheckedDiv, CheckedMul};
+use num_bigint::BigInt;
+use num_rational::{BigRational, Ratio};
+use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed, ToPrimitive, Zero};
 
-/// A fraction of 64-bit integers. Arithmetic never panics and never rounds: what leaves the range becomes `0/0`, which
-/// stays `0/0` and is noticed by the graph (see `Graph::overflowed`).
+use super::large;
+
+/// A fraction. Arithmetic never panics and never overflows; it rounds nothing up to a thousand bits, and by 2⁻²⁵⁶ beyond (see
+/// [`large`]). What has no value, as a quotient by zero, becomes `0/0`, which stays `0/0` and is noticed by the graph (see
+/// `Graph::is_undefined`).
 ///
 /// Nearly all coefficients are small integers, so those take a short way past the greatest common divisors of
 /// `num_rational`, whose equality and hash are also needlessly general for reduced fractions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "(String, String)", into = "(String, String)")
+)]
 pub struct Rational {
+    /// Of a large fraction: its index.
     numerator: i64,
+    /// Positive; zero without a value, [`LARGE`] where 64 bits are too few.
     denominator: i64,
 }
 
-impl Rational {
-    const OVERFLOW: Self = Self { numerator: 0, denominator: 0 };
+/// The denominator of fractions that are kept in a table.
+const LARGE: i64 = -1;
 
+impl Rational {
+    const UNDEFINED: Self = Self { numerator: 0, denominator: 0 };
+
+    /// The fraction in lowest terms; without a value where the denominator is zero.
     pub fn new(numerator: i64, denominator: i64) -> Self {
-        if denominator == 0 {
-            return Self::OVERFLOW;
+        match (numerator, denominator) {
+            (_, 0) => Self::UNDEFINED,
+            (i64::MIN, _) | (_, i64::MIN) => BigRational::new(numerator.into(), denominator.into()).into(),
+            _ => Self::from(Ratio::new(numerator, denominator)),
         }
-        Self::from(Ratio::new(numerator, denominator))
     }
 
+    /// n/1.
     pub const fn from_integer(value: i64) -> Self {
         Self { numerator: value, denominator: 1 }
     }
 
+    /// 0.
     pub const fn zero() -> Self {
         Self::from_integer(0)
     }
 
+    /// 1.
     pub const fn one() -> Self {
         Self::from_integer(1)
     }
 
-    pub const fn numer(self) -> i64 {
-        self.numerator
+    /// Numerator and denominator, where 64-bit integers hold them.
+    pub fn parts(self) -> Option<(i64, i64)> {
+        (self.denominator > 0).then_some((self.numerator, self.denominator))
     }
 
-    pub const fn denom(self) -> i64 {
-        self.denominator
+    /// Terms m·2ⁿ, the largest first, whose sum is this fraction to 180 binary digits.
+    pub fn leading_terms(self) -> Vec<(i64, i64)> {
+        self.exact().map_or_else(Vec::new, |value| large::leading_terms(&value, 3))
     }
 
-    pub const fn is_overflow(self) -> bool {
+    /// Whether it has no value.
+    pub const fn is_undefined(self) -> bool {
         self.denominator == 0
     }
 
+    /// Whether it is 0.
     pub const fn is_zero(self) -> bool {
         self.numerator == 0 && self.denominator == 1
     }
 
+    /// Whether it is 1.
     pub const fn is_one(self) -> bool {
         self.numerator == 1 && self.denominator == 1
     }
 
-    pub const fn is_integer(self) -> bool {
-        self.denominator == 1
-    }
-
-    pub const fn is_negative(self) -> bool {
-        self.numerator < 0
+    /// Whether it is less than 0.
+    pub fn is_negative(self) -> bool {
+        if self.denominator == LARGE { large::kept(self.numerator).is_negative() } else { self.numerator < 0 }
     }
 
     /// A fraction that binary floating point holds exactly (its numerator being small).
@@ -72,54 +95,154 @@ impl Rational {
         self.denominator > 0 && self.denominator & (self.denominator - 1) == 0 && self.numerator.abs() < 1 << 24
     }
 
-    pub const fn abs(self) -> Self {
-        Self { numerator: self.numerator.abs(), denominator: self.denominator }
+    /// Without its sign.
+    pub fn abs(self) -> Self {
+        if self.is_negative() { -self } else { self }
     }
 
+    /// 1/x; without a value of 0.
     pub fn recip(self) -> Self {
-        match self.numerator {
-            0 => Self::OVERFLOW,
-            n if n < 0 => Self { numerator: -self.denominator, denominator: -n },
-            n => Self { numerator: self.denominator, denominator: n },
+        match (self.numerator, self.denominator) {
+            (_, LARGE) => Self::one() / self,
+            (0, _) => Self::UNDEFINED,
+            (n, d) if n < 0 => Self { numerator: -d, denominator: -n },
+            (n, d) => Self { numerator: d, denominator: n },
         }
     }
 
+    /// Its power.
     pub fn pow(self, exponent: i32) -> Self {
-        let base = if exponent < 0 { self.recip() } else { self };
-        (0..exponent.unsigned_abs()).fold(Self::one(), |power, _| power * base)
+        let mut square = if exponent < 0 { self.recip() } else { self };
+        let (mut power, mut remaining) = (Self::one(), exponent.unsigned_abs());
+        while remaining > 0 {
+            if remaining & 1 == 1 {
+                power *= square;
+            }
+            remaining >>= 1;
+            if remaining > 0 {
+                square *= square;
+            }
+        }
+        power
     }
 
+    /// The sum.
     pub fn plus(self, other: Self) -> Self {
-        if self.denominator == 1 && other.denominator == 1 {
-            return Self::integer_or_overflow(self.numerator.checked_add(other.numerator));
+        if self.denominator == 1
+            && other.denominator == 1
+            && let Some(sum) = Self::small_integer(self.numerator.checked_add(other.numerator))
+        {
+            return sum;
         }
-        self.general(other, |a, b| a.checked_add(b))
+        self.general(other, |a, b| a.checked_add(b), |a, b| a + b)
     }
 
-    fn integer_or_overflow(value: Option<i64>) -> Self {
-        value.filter(|&n| n != i64::MIN).map_or(Self::OVERFLOW, Self::from_integer)
+    /// The greatest fraction of which both are multiples: that of the numerators over the least common multiple of the denominators.
+    pub fn common_divisor(self, other: Self) -> Self {
+        if self.denominator > 0 && other.denominator > 0 {
+            let numerator = greatest_common_divisor(self.numerator, other.numerator);
+            let factor = other.denominator / greatest_common_divisor(self.denominator, other.denominator);
+            if let Some(denominator) = self.denominator.checked_mul(factor) {
+                return Self { numerator, denominator };
+            }
+        }
+        let (Some(a), Some(b)) = (self.exact(), other.exact()) else { return Self::UNDEFINED };
+        // gcd(a/b, c/d) = gcd(a d, c b)/(b d).
+        let (mut m, mut n) = (a.numer() * b.denom(), b.numer() * a.denom());
+        while !n.is_zero() {
+            (m, n) = (n.clone(), m % n);
+        }
+        BigRational::new(m.abs(), a.denom() * b.denom()).into()
     }
 
-    fn general(self, other: Self, operation: impl Fn(&Ratio<i64>, &Ratio<i64>) -> Option<Ratio<i64>>) -> Self {
-        if self.is_overflow() || other.is_overflow() {
-            return Self::OVERFLOW;
-        }
+    /// The most negative integer counts as large, so that negation never overflows.
+    fn small_integer(value: Option<i64>) -> Option<Self> {
+        value.filter(|&n| n != i64::MIN).map(Self::from_integer)
+    }
+
+    /// Within 64 bits where that is possible.
+    fn general(
+        self,
+        other: Self,
+        small: impl Fn(&Ratio<i64>, &Ratio<i64>) -> Option<Ratio<i64>>,
+        large: impl Fn(&BigRational, &BigRational) -> BigRational,
+    ) -> Self {
         let raw = |r: Self| Ratio::new_raw(r.numerator, r.denominator);
-        operation(&raw(self), &raw(other)).map_or(Self::OVERFLOW, Self::from)
+        if self.denominator > 0
+            && other.denominator > 0
+            && let Some(result) = small(&raw(self), &raw(other)).filter(|result| *result.numer() != i64::MIN)
+        {
+            return Self { numerator: *result.numer(), denominator: *result.denom() };
+        }
+        match (self.exact(), other.exact()) {
+            (Some(a), Some(b)) => large(&a, &b).into(),
+            _ => Self::UNDEFINED,
+        }
     }
 
+    /// As a fraction of integers of any length.
+    pub fn exact(self) -> Option<BigRational> {
+        match self.denominator {
+            0 => None,
+            LARGE => Some(large::kept(self.numerator).clone()),
+            denominator => Some(Ratio::new_raw(self.numerator.into(), denominator.into())),
+        }
+    }
+
+    /// The nearest number in double precision.
     pub fn to_f64(self) -> f64 {
-        self.numerator as f64 / self.denominator as f64
+        const WHOLE: i64 = 1 << f64::MANTISSA_DIGITS;
+        if self.denominator >= 0 && self.numerator.abs() <= WHOLE && self.denominator <= WHOLE {
+            return self.numerator as f64 / self.denominator as f64;
+        }
+        self.exact().and_then(|value| value.to_f64()).unwrap_or(f64::NAN)
     }
 }
 
+/// Numerator and denominator in decimal digits; what is no fraction of these has no value.
+impl From<(String, String)> for Rational {
+    fn from((numerator, denominator): (String, String)) -> Self {
+        match (numerator.parse::<BigInt>(), denominator.parse::<BigInt>()) {
+            (Ok(numerator), Ok(denominator)) if !denominator.is_zero() => {
+                BigRational::new(numerator, denominator).into()
+            }
+            _ => Self::UNDEFINED,
+        }
+    }
+}
+
+impl From<Rational> for (String, String) {
+    fn from(value: Rational) -> Self {
+        let digits = |value: BigRational| (value.numer().to_string(), value.denom().to_string());
+        value.exact().map_or_else(|| ("0".into(), "0".into()), digits)
+    }
+}
+
+/// Euclid's algorithm.
+fn greatest_common_divisor(mut a: i64, mut b: i64) -> i64 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a.abs()
+}
+
 impl From<Ratio<i64>> for Rational {
-    /// The most negative integer counts as out of range, so that negation never overflows.
     fn from(reduced: Ratio<i64>) -> Self {
         match *reduced.numer() {
-            i64::MIN => Self::OVERFLOW,
+            numerator @ i64::MIN => BigRational::new(numerator.into(), (*reduced.denom()).into()).into(),
             numerator => Self { numerator, denominator: *reduced.denom() },
         }
+    }
+}
+
+impl From<BigRational> for Rational {
+    fn from(reduced: BigRational) -> Self {
+        let small = |n: &BigInt| i64::try_from(n).ok().filter(|&n| n != i64::MIN);
+        if let (Some(numerator), Some(denominator)) = (small(reduced.numer()), small(reduced.denom())) {
+            return Self { numerator, denominator };
+        }
+        large::bounded(reduced)
+            .map_or(Self::UNDEFINED, |value| Self { numerator: large::keep(value), denominator: LARGE })
     }
 }
 
@@ -132,10 +255,13 @@ impl From<i64> for Rational {
 impl Mul for Rational {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        if self.denominator == 1 && other.denominator == 1 {
-            return Self::integer_or_overflow(self.numerator.checked_mul(other.numerator));
+        if self.denominator == 1
+            && other.denominator == 1
+            && let Some(product) = Self::small_integer(self.numerator.checked_mul(other.numerator))
+        {
+            return product;
         }
-        self.general(other, |a, b| a.checked_mul(b))
+        self.general(other, |a, b| a.checked_mul(b), |a, b| a * b)
     }
 }
 
@@ -148,17 +274,20 @@ impl MulAssign for Rational {
 impl Div for Rational {
     type Output = Self;
     fn div(self, other: Self) -> Self {
-        if other.numerator == 0 {
-            return Self::OVERFLOW;
+        if other.is_zero() {
+            return Self::UNDEFINED;
         }
-        self.general(other, |a, b| a.checked_div(b))
+        self.general(other, |a, b| a.checked_div(b), |a, b| a / b)
     }
 }
 
 impl Neg for Rational {
     type Output = Self;
     fn neg(self) -> Self {
-        Self { numerator: -self.numerator, denominator: self.denominator }
+        match self.denominator {
+            LARGE => self * Self::from_integer(-1),
+            _ => Self { numerator: -self.numerator, denominator: self.denominator },
+        }
     }
 }
 
@@ -169,16 +298,40 @@ impl Sub for Rational {
     }
 }
 
-/// By value; 128 bits hold the cross products.
+/// By value, whatever the index of a large one; so is the order of what is kept in maps.
+impl Hash for Rational {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        if self.denominator == LARGE {
+            self.to_f64().to_bits().hash(state);
+        } else {
+            self.numerator.hash(state);
+            self.denominator.hash(state);
+        }
+    }
+}
+
+/// By value; 128 bits hold the cross products. What has no value comes first.
 impl Ord for Rational {
     fn cmp(&self, other: &Self) -> Ordering {
-        let cross = |a: &Self, b: &Self| i128::from(a.numerator) * i128::from(b.denominator);
-        cross(self, other).cmp(&cross(other, self))
+        if self.denominator > 0 && other.denominator > 0 {
+            let cross = |a: &Self, b: &Self| i128::from(a.numerator) * i128::from(b.denominator);
+            return cross(self, other).cmp(&cross(other, self));
+        }
+        self.exact().cmp(&other.exact())
     }
 }
 
 impl PartialOrd for Rational {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
+    }
+}
+
+impl fmt::Debug for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.exact() {
+            Some(value) => write!(f, "{value}"),
+            None => f.write_str("0/0"),
+        }
     }
 }

@@ -153,17 +153,60 @@ fn inverses_of_symmetric_matrices_invert() {
 }
 
 #[test]
-fn coefficients_overflow_into_a_mark_and_never_panic() {
+fn coefficients_beyond_64_bits_stay_exact() {
     let graph = Graph::new();
     let [x] = symbols(&graph, ["x"]);
-    assert!(!graph.overflowed());
     let large = graph.integer(i64::MAX);
-    let _ = large * x + large * x;
-    assert!(graph.overflowed());
-    assert!((Rational::new(1, i64::MAX) * Rational::new(1, 3)).is_overflow());
-    assert!(Rational::zero().recip().is_overflow());
+    let twice = large * x + large * x;
+    assert!((twice - x.scale(Rational::from_integer(i64::MAX)) - large * x).is_zero());
+    assert_eq!(text(twice), "1.8446744073709552e19*x");
+    let third = Rational::new(1, 3);
+    for exponent in [2, 30, 41, 300] {
+        let power = third.pow(exponent);
+        assert_eq!(power * Rational::from_integer(3).pow(exponent), Rational::one(), "{exponent}");
+        assert_eq!(power.recip(), third.pow(-exponent));
+        assert_eq!(power.common_divisor(third), power);
+        assert!(power < third && -third < -power && power.pow(2) < power);
+        assert_eq!(power.plus(third) - power, third);
+    }
+    assert_eq!(Rational::new(i64::MIN, 1), -(Rational::from_integer(i64::MAX).plus(Rational::one())));
     assert_eq!(Rational::new(6, -4), Rational::new(-3, 2));
+    assert_eq!(Rational::new(1, 6).common_divisor(Rational::new(3, 4)), Rational::new(1, 12));
     assert!(Rational::new(1, 3) < Rational::new(1, 2));
+    assert!(!graph.is_undefined());
+}
+
+/// One tenth and the like, as if they were read from digits.
+#[test]
+fn fractions_become_the_nearest_double() {
+    for (numerator, exponent) in [(1, 1), (12_345_678_901_234_567, 17), (i64::MAX, 18), (9_007_199_254_740_993, 0)] {
+        for power in [-280, -40, -1, 0, 1, 40, 200] {
+            let value = Rational::from_integer(numerator) * Rational::from_integer(10).pow(power - exponent);
+            let expected: f64 = format!("{numerator}e{}", power - exponent).parse().expect("a number");
+            assert_eq!(value.to_f64(), expected);
+            assert_eq!((-value).to_f64(), -expected);
+        }
+    }
+}
+
+/// Longer fractions than anybody has digits for are rounded, far below double precision; nothing grows without bound.
+#[test]
+fn fractions_have_bounded_length() {
+    let mut power = Rational::new(999, 1000);
+    for _ in 0..12 {
+        power = power * power;
+        let exact = 0.999_f64.powi(4096);
+        assert!(power.to_f64() > 0.9 * exact);
+    }
+    assert!((power.to_f64() / 0.999_f64.powi(4096) - 1.0).abs() < 1e-12);
+    assert_eq!(power.plus(power) - power, power);
+    // Beyond any use in double precision: without a value, at once.
+    assert!(Rational::new(1, 3).pow(i32::MAX).is_undefined());
+    assert!(Rational::new(1, 3).pow(i32::MIN).is_undefined());
+    assert!(Rational::zero().recip().is_undefined());
+    let graph = Graph::new();
+    let _ = graph.zero().recip();
+    assert!(graph.is_undefined());
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::kernel::Program;
 use crate::mechanics::{Assigned, KineticMatrix, Quantity};
 use crate::model::{Motion, Role, Shape};
 
-use super::kernel::Derived;
+use super::derived::Derived;
 use super::program::statements;
 use super::system::SystemSubject;
 use super::system_parameters::{in_plane, inertia_rows};

@@ -7,7 +7,7 @@ use crate::mechanics::ConfigurationKind;
 use crate::model::{Chart, Motion, RotationChart};
 
 use super::arguments::Argument;
-use super::kernel::BodySubject;
+use super::derived::BodySubject;
 
 impl<'g> BodySubject<'_, 'g> {
     pub fn chart_name(&self) -> String {

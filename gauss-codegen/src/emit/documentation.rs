@@ -3,15 +3,31 @@
 use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
-use crate::kernel::Counts;
 use crate::mechanics::{Method, Section};
 use crate::model::{InputKind, Role};
 
-use super::kernel::{Derived, Subject};
+use super::derived::{Derived, Subject};
 use super::system::SystemSubject;
 
-/// The equations as plain text.
-pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
+/// The equations as plain text and as one LaTeX environment.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    pub text: String,
+    pub latex: String,
+}
+
+impl Equations {
+    /// Printed once for all that is said of them: a second time the terms of a sum can come in another order.
+    pub fn of(derived: &Derived<'_, '_>) -> Self {
+        let sections = match derived.subject {
+            Subject::Body { scene, .. } => scene.equations(),
+            Subject::System(SystemSubject { system, .. }) => system.equations(),
+        };
+        Equations { text: text(derived, &sections), latex: latex(&sections) }
+    }
+}
+
+fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     let mut out = format!(
         "{}: {}
 ",
@@ -36,8 +52,7 @@ pub fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
     out
 }
 
-/// The equations as one LaTeX environment.
-pub fn latex(sections: &[Section<'_>]) -> String {
+fn latex(sections: &[Section<'_>]) -> String {
     let mut out = String::from("\\begin{align*}\n");
     for section in sections {
         out.push_str(&format!("&\\text{{{}}} \\\\\n", section.title.latex));
@@ -93,6 +108,9 @@ fn description(derived: &Derived<'_, '_>) -> String {
     }
 }
 
+/// The methods that [`Kernel::derivatives`](crate::kernel::Kernel::derivatives) has the programs of.
+pub const DERIVATIVES: [&str; 3] = ["linearize", "by_parameters", "regressor"];
+
 /// Rustdoc of the kernel: what it is, its equations, its costs.
 pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     let mut out = format!(
@@ -110,12 +128,12 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     out.push_str(&acting(derived));
     out.push_str("\n# Cost\n\n| method | operations |\n|---|---|\n");
     for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
-        out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), operations(program.counts())));
+        out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), program.counts()));
     }
-    out.push_str(&format!("| `evaluate` | {} |\n", operations(derived.kernel.joined.counts())));
-    for (name, program) in ["linearize", "by_parameters", "regressor"].into_iter().zip(derived.kernel.derivatives()) {
+    out.push_str(&format!("| `evaluate` | {} |\n", derived.kernel.joined.counts()));
+    for (name, program) in DERIVATIVES.into_iter().zip(derived.kernel.derivatives()) {
         if let Some(program) = program {
-            out.push_str(&format!("| `{name}` | {} |\n", operations(program.counts())));
+            out.push_str(&format!("| `{name}` | {} |\n", program.counts()));
         }
     }
     out
@@ -148,18 +166,6 @@ fn acting(derived: &Derived<'_, '_>) -> String {
         out.push_str(&format!("| {} | {kind} |\n", account.name));
     }
     out
-}
-
-fn operations(counts: Counts) -> String {
-    let parts = [
-        (counts.additions, "add"),
-        (counts.multiplications, "mul"),
-        (counts.divisions, "div"),
-        (counts.roots, "sqrt"),
-        (counts.transcendentals, "transcendental"),
-    ];
-    let parts: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(n, name)| format!("{n} {name}")).collect();
-    if parts.is_empty() { "none".to_owned() } else { parts.join(", ") }
 }
 
 /// Name of the generated method.

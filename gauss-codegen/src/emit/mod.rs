@@ -1,34 +1,80 @@
 //! Programs as Rust, equations as documentation.
 //!
-//! - `program`: instructions as `let` statements.
-//! - `arguments`: where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel.
-//! - `parameters`: `kernel()`: the parameters read, checked, and turned into constants.
-//! - `system_parameters`: the same for systems.
-//! - `body`: what is particular to one body in a chart.
-//! - `kernel`: the kernel struct and its implementations of the runtime's traits.
-//! - `series`: the recurrences of power series in time.
-//! - `linearize`: derivatives by the state.
-//! - `identification`: derivatives by parameters, and the regressor.
-//! - `documentation`: equations and costs as text, LaTeX and rustdoc.
+//! | file | what it holds |
+//! |---|---|
+//! | `program` | instructions as `let` statements |
+//! | `arguments` | where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel |
+//! | `parameters`, `system_parameters`, `assigned` | the parameters read, checked, and turned into constants |
+//! | `body`, `system` | what is particular to one body in a chart, and to a system |
+//! | `documentation` | equations and costs as text, LaTeX and rustdoc |
+//! | `derived` | everything known about one derive, and what the implementations are made with |
+//!
+//! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
+//! `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
+//! where there are mistakes.
+
+use proc_macro2::TokenStream;
+use quote::quote;
 
 mod arguments;
 mod assigned;
 mod body;
+mod constrained;
+mod derived;
+mod description;
 mod documentation;
-mod identification;
+mod fallback;
+mod forced;
+mod gauss_system;
 mod kernel;
-mod linearize;
+mod linearized;
 mod parameters;
+mod parametric;
 mod program;
-mod series;
+mod regressor;
+mod rigid_body;
 #[cfg(test)]
 mod specialisation_tests;
 mod system;
 mod system_parameters;
 #[cfg(test)]
 mod system_tests;
+mod taylor;
 #[cfg(test)]
 mod tests;
 
-pub use kernel::{Derived, Plain, Subject, emit};
+pub use derived::{Derived, Plain, Subject};
+pub use documentation::{Equations, method_name};
+pub use fallback::fallback;
 pub use system::SystemSubject;
+
+/// The whole output of the derive.
+pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
+    let kernel = kernel::kernel_struct(derived, equations);
+    let constructor = kernel::constructor(derived);
+    let gauss_system = gauss_system::gauss_system(derived);
+    let described = description::described(derived, equations);
+    let rigid_body = rigid_body::rigid_body_system(derived);
+    let constrained = constrained::constrained_system(derived);
+    let forced = forced::forced_system(derived);
+    let taylor = taylor::taylor_system(derived);
+    let linearized = linearized::linearized_system(derived);
+    let parametric = parametric::parametric_system(derived);
+    let regressor = regressor::inertial_regressor(derived);
+    quote! {
+        #kernel
+
+        const _: () = {
+            #constructor
+            #gauss_system
+            #described
+            #rigid_body
+            #constrained
+            #forced
+            #taylor
+            #linearized
+            #parametric
+            #regressor
+        };
+    }
+}

@@ -11,7 +11,7 @@ use crate::model::{Field, Model, Motion, Shape};
 use crate::translate::role_of;
 
 use super::assigned::assigned_local;
-use super::kernel::{BodySubject, Derived, Plain};
+use super::derived::{BodySubject, Derived, Plain};
 use super::program::statements;
 use super::system_parameters::{element as source_element, plain_fields};
 
@@ -57,8 +57,7 @@ fn said(model: &Model, quantity: Quantity) -> String {
 
 /// The body of `kernel()`.
 pub fn kernel_body(derived: &BodySubject<'_, '_>) -> TokenStream {
-    let (model, runtime) = (derived.model, &derived.model.runtime);
-    let private = quote!(#runtime::__private);
+    let (model, private) = (derived.model, derived.derived.private());
     let mut read = TokenStream::new();
     let mut symbols: Map<u32, TokenStream> =
         derived.scene.body.parameters.iter().map(|p| (p.symbol.key(), element(derived, p))).collect();
@@ -114,7 +113,7 @@ pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, sai
 
 /// What makes a set of parameters a body: all violations are reported together.
 fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
-    let (model, runtime) = (derived.model, &derived.model.runtime);
+    let (model, private) = (derived.model, derived.derived.private());
     let scalar = derived.derived.scalar();
     let ty = scalar.ty();
     let name_of = |quantity| said(model, quantity);
@@ -183,7 +182,7 @@ fn checks(derived: &BodySubject<'_, '_>, symbols: &Map<u32, TokenStream>) -> Tok
         }));
     }
     quote! {
-        let mut __check = #runtime::__private::ParameterCheck::<#ty>::new();
+        let mut __check = #private::ParameterCheck::<#ty>::new();
         #checks
     }
 }

@@ -25,11 +25,16 @@ impl ScalarTokens<'_> {
         }
     }
 
-    /// A finite number of a scalar that is a primitive type; digits enough to read back the same one.
+    /// A number of a scalar that is a primitive type; digits enough to read back the same one.
     pub fn literal(&self, value: f64) -> TokenStream {
         let literal = match self.scalar {
-            Scalar::F32 => Literal::f32_suffixed(value.abs() as f32),
-            Scalar::F64 | Scalar::Parameter(_) => Literal::f64_suffixed(value.abs()),
+            Scalar::F32 if (value as f32).is_finite() => Literal::f32_suffixed(value.abs() as f32),
+            Scalar::F64 | Scalar::Parameter(_) if value.is_finite() => Literal::f64_suffixed(value.abs()),
+            // Beyond the range of the scalar, as arithmetic at run time would have it.
+            _ => {
+                let (real, ty, sign) = (&self.real, self.ty(), if value > 0.0 { 1_i64 } else { -1 });
+                return quote!(<#ty as #real>::ratio(#sign, 0i64));
+            }
         };
         if value.is_sign_negative() { quote!((-#literal)) } else { quote!(#literal) }
     }
@@ -37,12 +42,25 @@ impl ScalarTokens<'_> {
     /// A number, exactly where the scalar can hold it.
     pub fn number(&self, value: &Rational) -> TokenStream {
         let (real, ty) = (&self.real, self.ty());
-        let (numerator, denominator) = (value.numer(), value.denom());
-        match self.scalar {
-            Scalar::F64 | Scalar::F32 if value.is_dyadic() => self.literal(value.to_f64()),
-            _ if numerator == 0 => quote!(<#ty as #real>::zero()),
-            _ if numerator == 1 && denominator == 1 => quote!(<#ty as #real>::one()),
-            _ => quote!(<#ty as #real>::ratio(#numerator, #denominator)),
+        let ratio = |p: i64, q: i64| quote!(<#ty as #real>::ratio(#p, #q));
+        match (self.scalar, value.parts()) {
+            (Scalar::F64 | Scalar::F32, None) => self.literal(value.to_f64()),
+            (Scalar::F64 | Scalar::F32, _) if value.is_dyadic() => self.literal(value.to_f64()),
+            (_, Some((0, _))) => quote!(<#ty as #real>::zero()),
+            (_, Some((1, 1))) => quote!(<#ty as #real>::one()),
+            (_, Some((numerator, denominator))) => ratio(numerator, denominator),
+            (Scalar::Parameter(_), None) => {
+                // As many digits as the scalar may have: the sum of the leading ones, each scaled by powers of two.
+                let term = |(mantissa, exponent): (i64, i64)| {
+                    let steps = exponent.unsigned_abs() as usize;
+                    let powers = std::iter::repeat_n(1_i64 << 62, steps / 62).chain([1 << (steps % 62)]);
+                    let factors = powers.map(|power| if exponent < 0 { ratio(1, power) } else { ratio(power, 1) });
+                    let mantissa = ratio(mantissa, 1);
+                    quote!(#mantissa #(* #factors)*)
+                };
+                let terms = value.leading_terms().into_iter().rev().map(term);
+                quote!((#(#terms)+*))
+            }
         }
     }
 }
@@ -64,7 +82,7 @@ fn cosine(k: usize) -> Ident {
 /// How an operand is written. `symbols` says how each symbol is.
 pub fn operand(operand: &Operand<'_>, symbols: &Map<u32, TokenStream>, scalar: &ScalarTokens<'_>) -> TokenStream {
     match operand {
-        Operand::Symbol(e) => symbols.get(&e.key()).cloned().unwrap_or_else(|| {
+        Operand::Input(e) => symbols.get(&e.key()).cloned().unwrap_or_else(|| {
             // A program reads only symbols that its caller declared; anything else is a bug in this crate.
             let message = format!("bug in gauss-derive: the symbol `{e:?}` has no source");
             quote!(::core::compile_error!(#message))

@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::translate::Source;
 
 use super::arguments::Argument;
-use super::kernel::Derived;
+use super::derived::Derived;
 
 /// A system of several coordinates or links, where what is written needs to know that it is one.
 #[derive(Clone, Copy)]

@@ -11,7 +11,7 @@ use crate::model::{ExpressionKind, Field, Model, Motion, Role, Shape};
 use crate::translate::{DragMatrix, Part, Source};
 
 use super::assigned::{assigned_bodies, assigned_local, fluid};
-use super::kernel::{Derived, Plain};
+use super::derived::{Derived, Plain};
 use super::parameters::constants;
 use super::program::statements;
 use super::system::SystemSubject;

@@ -42,15 +42,19 @@ const DISK: &str = "#[gauss(
     independent(w1, w2, w3),
 )] struct Disk { #[gauss(body)] disk: RigidBody<f64>, r: f64, #[gauss(gravity)] g: f64 }";
 
-/// The text of `EQUATIONS`: the string after `text:`.
+/// The text of `EQUATIONS`: the first string in the brackets after the name.
 fn equations(source: &str) -> String {
     fn find(tokens: TokenStream) -> Option<String> {
         let mut tokens = tokens.into_iter();
         while let Some(token) = tokens.next() {
             let found = match token {
                 TokenTree::Group(group) => find(group.stream()),
-                TokenTree::Ident(word) if word == "text" => {
-                    tokens.nth(1).and_then(|literal| syn::parse2::<syn::LitStr>(literal.into()).ok()).map(|s| s.value())
+                TokenTree::Ident(word) if word == "EQUATIONS" => {
+                    let group = tokens.find_map(|token| match token {
+                        TokenTree::Group(group) => group.stream().into_iter().next(),
+                        _ => None,
+                    });
+                    group.and_then(|text| syn::parse2::<syn::LitStr>(text.into()).ok()).map(|s| s.value())
                 }
                 _ => None,
             };

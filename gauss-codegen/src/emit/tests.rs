@@ -5,6 +5,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use crate::expand::expand;
 use crate::model::Scalar;
 
+use super::derived::PRIVATE;
 use super::program::ScalarTokens;
 
 pub fn generate(source: &str) -> TokenStream {
@@ -13,7 +14,9 @@ pub fn generate(source: &str) -> TokenStream {
 }
 
 pub fn pretty(source: &str) -> String {
-    prettyplease::unparse(&syn::parse2(generate(source)).expect("generated code is Rust"))
+    // Without the version, which is no part of what is looked at.
+    let code = generate(source).to_string().replace(PRIVATE, "__private");
+    prettyplease::unparse(&syn::parse_str(&code).expect("generated code is Rust"))
 }
 
 /// The body of one generated function.

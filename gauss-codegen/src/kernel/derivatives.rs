@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-use crate::algebra::{Evaluation, Expr, Graph, Map, Tangents};
+use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Tangents};
 
 use super::hoist::Hoister;
-use super::program::{Operand, Operation, Program};
 use super::tangent::{Direction, Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
+use super::write::{Operand, Operation, Program};
 
 /// Functions and the directions along which their derivatives are wanted.
 pub struct Differentiated<'g> {
@@ -88,7 +88,7 @@ impl<'g> Differentiated<'g> {
             (differentiate(&program, (&self.defined, &definitions), &self.directions), outputs)
         });
         let (program, outputs) =
-            lowered.min_by_key(|(program, _)| program.cost()).expect("a function has at least one arrangement");
+            lowered.min_by_key(|(program, _)| program.cost().total()).expect("a function has at least one arrangement");
         (program, Expected { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&self.directions), kept })
     }
 }
@@ -100,7 +100,7 @@ impl<'g> ByParameters<'_, 'g> {
     pub(super) fn lower<'b>(
         &self,
         graph: &'g Graph,
-        (programs, outputs): (&[Program<'g>], &[&Vec<Expr<'g>>]),
+        (programs, outputs): (&[Program<'g>], &[&[Expr<'g>]]),
         constants: &mut Constants<'g>,
     ) -> Lowered<'b, 'g> {
         let along: Vec<Direction<'g>> =
@@ -110,11 +110,8 @@ impl<'g> ByParameters<'_, 'g> {
         let ordered = self.order.iter().map(|&k| velocity.outputs[k]).collect();
         let velocity = Program { instructions: velocity.instructions.clone(), outputs: ordered };
         let acceleration = &programs[self.acceleration];
-        let mut candidates = vec![tangents_alone(
-            &joined(&velocity, acceleration),
-            (&[], &Program { instructions: Vec::new(), outputs: Vec::new() }),
-            &rates.directions,
-        )];
+        let mut candidates =
+            vec![tangents_alone(&joined(&velocity, acceleration), (&[], &Program::nothing()), &rates.directions)];
         candidates.extend(self.equation.map(|equation| {
             let implicit = Implicit {
                 root: acceleration,
@@ -125,7 +122,7 @@ impl<'g> ByParameters<'_, 'g> {
             };
             implicit_tangents(&velocity, &implicit, &rates.directions)
         }));
-        let cost = |program: &Program<'g>| program.cost() + rates.constants_for(program).program.cost();
+        let cost = |program: &Program<'g>| program.cost().total() + rates.constants_for(program).program.cost().total();
         let program = candidates.into_iter().min_by_key(cost).expect("one way at least");
         *constants = rates.constants_for(&program);
         let of_velocity = self.order.iter().map(|&k| outputs[self.velocity][k]);
@@ -153,7 +150,7 @@ impl<'g> ConstantRates<'g> {
         reason = "expressions are compared by their place in the graph, which never changes"
     )]
     fn new(graph: &'g Graph, constants: &Constants<'g>, along: &[Direction<'g>]) -> Self {
-        let nothing = Program { instructions: Vec::new(), outputs: Vec::new() };
+        let nothing = Program::nothing();
         let extended = with_tangents(&constants.program, (&[], &nothing), along);
         let symbols = constants.symbols.clone();
         let count = symbols.len();
@@ -199,9 +196,18 @@ impl<'g> ConstantRates<'g> {
     }
 }
 
-impl Expected<'_, '_> {
+impl<'a, 'g> Expected<'a, 'g> {
+    /// The values of expressions.
+    pub fn of(outputs: &'a [Expr<'g>]) -> Self {
+        Self { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&[]), kept: Kept::ValuesToo }
+    }
+
+    pub fn outputs(&self) -> &[Expr<'g>] {
+        &self.outputs
+    }
+
     /// By dual numbers through the expressions.
-    pub fn values(&self, evaluation: &mut Evaluation<'_>) -> Vec<f64> {
+    pub fn values<N: Number>(&self, evaluation: &mut Evaluation<'_, N>) -> Vec<N> {
         let mut expected = Vec::new();
         if self.kept == Kept::ValuesToo {
             expected.extend(self.outputs.iter().map(|e| evaluation.value(*e)));

@@ -6,7 +6,7 @@
 
 use crate::algebra::{BinaryFunction, Expr, Function, Map, Rational};
 
-use super::program::{Operand, Operation, Program};
+use super::write::{Operand, Operation, Program};
 
 /// The rates of the symbols that move, each a number, a symbol, or the negative of one. Others stand still.
 pub type Direction<'g> = Vec<(Expr<'g>, Expr<'g>)>;
@@ -157,31 +157,7 @@ impl<'g> Writer<'g> {
 
     /// As a program, without what no output needs.
     fn finish(self, outputs: Vec<Operand<'g>>) -> Program<'g> {
-        let mut needed = vec![false; self.instructions.len()];
-        let mark = |operand: Operand<'g>, needed: &mut Vec<bool>| {
-            if let Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) = operand {
-                needed[k] = true;
-            }
-        };
-        outputs.iter().for_each(|&operand| mark(operand, &mut needed));
-        for (k, instruction) in self.instructions.iter().enumerate().rev() {
-            if needed[k] {
-                instruction.operands().for_each(|operand| mark(operand, &mut needed));
-            }
-        }
-        // Places of what stays; those of the others are never looked up.
-        let mut places = Vec::with_capacity(needed.len());
-        let mut count = 0;
-        for &stays in &needed {
-            places.push(count);
-            count += usize::from(stays);
-        }
-        let none = Map::default();
-        let kept = self.instructions.iter().zip(&needed).filter(|(_, needed)| **needed);
-        Program {
-            instructions: kept.map(|(i, _)| i.map(|operand| moved(operand, &places, &none))).collect(),
-            outputs: outputs.into_iter().map(|operand| moved(operand, &places, &none)).collect(),
-        }
+        Program { instructions: self.instructions, outputs }.without_idle().verified()
     }
 
     fn written(&mut self, tangent: Tangent<'g>) -> Operand<'g> {
@@ -260,11 +236,8 @@ impl<'g> Writer<'g> {
 /// An operand where its instruction is now.
 fn moved<'g>(operand: Operand<'g>, places: &[usize], symbols: &Map<u32, Operand<'g>>) -> Operand<'g> {
     match operand {
-        Operand::Symbol(e) => symbols.get(&e.key()).copied().unwrap_or(operand),
-        Operand::Number(_) => operand,
-        Operand::Value(k) => Operand::Value(places[k]),
-        Operand::Sine(k) => Operand::Sine(places[k]),
-        Operand::Cosine(k) => Operand::Cosine(places[k]),
+        Operand::Input(e) => symbols.get(&e.key()).copied().unwrap_or(operand),
+        _ => operand.moved(|k| places[k]),
     }
 }
 
@@ -300,8 +273,7 @@ impl<'a, 'g> Pass<'a, 'g> {
             return None;
         }
         let (c, rest) = rate.split_coefficient();
-        let value =
-            if rest.as_number().is_some() { Operand::Number(c.abs()) } else { self.here(Operand::Symbol(rest)) };
+        let value = if rest.as_number().is_some() { Operand::Number(c.abs()) } else { self.here(Operand::Input(rest)) };
         let tangent = Tangent { negative: false, value };
         Some(if c.is_negative() { tangent.negated() } else { tangent })
     }
@@ -338,7 +310,7 @@ impl<'a, 'g> Pass<'a, 'g> {
     fn rate(&mut self, operand: Operand<'g>, tangents: &[Rate<'g>]) -> Rate<'g> {
         match operand {
             Operand::Number(_) => None,
-            Operand::Symbol(e) => self.rates.get(&e.key()).copied().flatten(),
+            Operand::Input(e) => self.rates.get(&e.key()).copied().flatten(),
             Operand::Value(k) => tangents[k],
             Operand::Sine(k) => self.writer.times(tangents[k], Operand::Cosine(self.places[k])),
             Operand::Cosine(k) => self.writer.times(tangents[k], Operand::Sine(self.places[k])).map(Tangent::negated),
@@ -372,17 +344,7 @@ impl<'a, 'g> Pass<'a, 'g> {
                 let first = self.writer.times_plus(da, b, dc);
                 self.writer.times_plus(db, a, first)
             }
-            // (a/b)˙ = (ȧ − (a/b) ḃ)/b.
-            Operation::Divide(a, b) => {
-                let (da, db) = (self.rate(a, tangents), self.rate(b, tangents));
-                if da.is_none() && db.is_none() {
-                    return None;
-                }
-                let above = self.writer.times_plus(minus(db), own, da);
-                let b = self.here(b);
-                let reciprocal = self.writer.reciprocal(b);
-                self.writer.times(above, reciprocal)
-            }
+            Operation::Divide(a, b) => self.quotient([a, b], own, tangents),
             Operation::Negate(a) => minus(self.rate(a, tangents)),
             Operation::SineCosine(a) => self.rate(a, tangents),
             Operation::Call(function, a) => {
@@ -391,30 +353,47 @@ impl<'a, 'g> Pass<'a, 'g> {
                 let slope = self.slope(function, a, own)?;
                 self.writer.times(da, slope)
             }
-            Operation::Binary(BinaryFunction::Atan2, y, x) => {
-                let (dy, dx) = (self.rate(y, tangents), self.rate(x, tangents));
-                if dy.is_none() && dx.is_none() {
-                    return None;
-                }
-                let (y, x) = (self.here(y), self.here(x));
-                let turned = self.writer.times(dy, x);
-                let turned = self.writer.times_plus(minus(dx), y, turned);
-                let square = self.writer.multiplied(y, y);
-                let square = self.writer.push(Operation::MultiplyAdd(x, x, square));
-                let reciprocal = self.writer.reciprocal(square);
-                self.writer.times(turned, reciprocal)
-            }
-            Operation::Binary(function, a, b) => {
-                let (da, db) = (self.rate(a, tangents), self.rate(b, tangents));
-                if da.is_none() && db.is_none() {
-                    return None;
-                }
-                let (a, b) = (self.here(a), self.here(b));
-                let [of_first, of_second] = self.shares(function, a, b);
-                let first = self.writer.times(da, of_first);
-                self.writer.times_plus(db, of_second, first)
+            Operation::Binary(BinaryFunction::Atan2, y, x) => self.angle([y, x], tangents),
+            Operation::Binary(function @ (BinaryFunction::Min | BinaryFunction::Max), a, b) => {
+                self.selected(function, [a, b], tangents)
             }
         }
+    }
+
+    /// The derivatives of two operands; `None` where both are 0.
+    fn both(&mut self, operands: [Operand<'g>; 2], tangents: &[Rate<'g>]) -> Option<[Rate<'g>; 2]> {
+        let rates = operands.map(|operand| self.rate(operand, tangents));
+        rates.iter().any(Option::is_some).then_some(rates)
+    }
+
+    /// (a/b)˙ = (ȧ − (a/b) ḃ)/b, where a/b is `own`.
+    fn quotient(&mut self, [a, b]: [Operand<'g>; 2], own: Operand<'g>, tangents: &[Rate<'g>]) -> Rate<'g> {
+        let [da, db] = self.both([a, b], tangents)?;
+        let above = self.writer.times_plus(db.map(Tangent::negated), own, da);
+        let b = self.here(b);
+        let reciprocal = self.writer.reciprocal(b);
+        self.writer.times(above, reciprocal)
+    }
+
+    /// atan2(y, x)˙ = (ẏ x − ẋ y)/(x² + y²).
+    fn angle(&mut self, [y, x]: [Operand<'g>; 2], tangents: &[Rate<'g>]) -> Rate<'g> {
+        let [dy, dx] = self.both([y, x], tangents)?;
+        let (y, x) = (self.here(y), self.here(x));
+        let turned = self.writer.times(dy, x);
+        let turned = self.writer.times_plus(dx.map(Tangent::negated), y, turned);
+        let square = self.writer.multiplied(y, y);
+        let square = self.writer.push(Operation::MultiplyAdd(x, x, square));
+        let reciprocal = self.writer.reciprocal(square);
+        self.writer.times(turned, reciprocal)
+    }
+
+    /// That of the smaller or larger of two numbers.
+    fn selected(&mut self, function: BinaryFunction, [a, b]: [Operand<'g>; 2], tangents: &[Rate<'g>]) -> Rate<'g> {
+        let [da, db] = self.both([a, b], tangents)?;
+        let (a, b) = (self.here(a), self.here(b));
+        let [of_first, of_second] = self.shares(function, a, b);
+        let first = self.writer.times(da, of_first);
+        self.writer.times_plus(db, of_second, first)
     }
 
     /// f′ at the operand of the program `a`, where f is `own`; `None` is 0.

@@ -1,11 +1,11 @@
 //! Each pass against its input: same values, fewer operations.
 
+use super::check::Sample;
+use super::derivatives::Expected;
 use super::factor::Factoring;
 use super::hoist::Hoister;
 use super::tangent::with_tangents;
-use super::{
-    ByParameters, Candidates, Counts, Derivatives, Differentiated, Direction, Equation, Kernel, Program, Sample,
-};
+use super::{ByParameters, Candidates, Counts, Derivatives, Differentiated, Direction, Equation, Kernel, Program};
 use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
 
 /// A reproducible stream of small integers.
@@ -36,7 +36,7 @@ fn random_expr<'g>(random: &mut Random, leaves: &[Expr<'g>], depth: u32) -> Expr
 }
 
 fn point_of<'g>(graph: &'g Graph, definitions: &Map<u32, Expr<'g>>) -> Map<u32, f64> {
-    Sample { definitions, units: &[], literals: &Map::default() }.point(graph, 0)
+    Sample { definitions, units: &[], literals: &Map::default(), folded: &[] }.point(graph, 0)
 }
 
 #[test]
@@ -182,16 +182,10 @@ fn a_program_that_computes_something_else_is_refused() {
     )
     .expect("a program");
     kernel.functions[0] = Program::lower(&[a - b]);
-    assert!(
-        kernel
-            .check(
-                &graph,
-                &[&vec![a + b], &vec![]],
-                &Sample { definitions: &Map::default(), units: &[], literals: &Map::default() },
-                &[]
-            )
-            .is_err()
-    );
+    let sample = Sample { definitions: &Map::default(), units: &[], literals: &Map::default(), folded: &[] };
+    let (functions, joined) = ([a + b], []);
+    let expected = [Expected::of(&functions), Expected::of(&joined)].into_iter();
+    assert!(kernel.checked(expected, []).check(&graph, &sample).is_err());
 }
 
 /// Values and derivatives along each direction by the symbolic derivatives of the expressions.
@@ -307,6 +301,6 @@ fn parameters_move_constants() {
         // The velocity depends on n alone, and as x does.
         let number = |value: i64| super::Operand::Number(value.into());
         let of_velocity: Vec<_> = program.outputs.iter().step_by(2).copied().collect();
-        assert_eq!(of_velocity, [number(0), super::Operand::Symbol(x), number(0), number(0)]);
+        assert_eq!(of_velocity, [number(0), super::Operand::Input(x), number(0), number(0)]);
     }
 }

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::algebra::{Evaluation, Expr, Map, Rational};
+use crate::algebra::{Evaluation, Expr, Map, Number, Precise, Rational};
 
 use super::chart::ConfigurationKind;
 use super::formula::{Formula, Method};
@@ -26,15 +26,20 @@ impl fmt::Display for Disagreement {
     }
 }
 
-/// Evaluates the condition at one state, with the residual formula at any ż and with every arrangement's acceleration.
+/// Evaluates the condition at one state, with the residual formula at any ż and with every arrangement's acceleration. What disagrees in
+/// double precision counts only if it does in numbers of many digits: see [`super::system_check`].
 pub fn check_against_definition<'g>(scene: &Scene<'g>, formulas: &[Formula<'g>]) -> Result<(), Disagreement> {
+    check_in::<f64>(scene, formulas).or_else(|_| check_in::<Precise>(scene, formulas))
+}
+
+fn check_in<'g, N: Number>(scene: &Scene<'g>, formulas: &[Formula<'g>]) -> Result<(), Disagreement> {
     let mut condition = stationarity(&scene.kinematics, &scene.body);
     if let Some(acting) = &scene.acting {
         let forces = acting.by_definition(&scene.kinematics);
         condition.iter_mut().zip(forces).for_each(|(row, force)| *row = *row - force);
     }
     let mut state = sample_state(scene);
-    let values = |state: &Map<u32, f64>, outputs: &[Expr<'g>]| -> Vec<f64> {
+    let values = |state: &Map<u32, N>, outputs: &[Expr<'g>]| -> Vec<N> {
         let mut evaluation = Evaluation::new(state);
         outputs.iter().map(|e| evaluation.value(*e)).collect()
     };
@@ -48,37 +53,39 @@ pub fn check_against_definition<'g>(scene: &Scene<'g>, formulas: &[Formula<'g>])
         for arrangement in &formula.arrangements {
             let rates = values(&state, arrangement);
             state.extend(scene.kinematics.speed_rates.iter().zip(&rates).map(|(symbol, rate)| (symbol.key(), *rate)));
-            agree(formula.method, &values(&state, &condition), &vec![0.0; rates.len()])?;
+            agree(formula.method, &values(&state, &condition), &vec![N::number(0.0); rates.len()])?;
         }
     }
     Ok(())
 }
 
 /// Two evaluations of the same rows.
-pub(super) fn agree(method: Method, found: &[f64], expected: &[f64]) -> Result<(), Disagreement> {
-    let scale = found.iter().chain(expected).fold(1.0_f64, |m, x| m.max(x.abs()));
+pub(super) fn agree<N: Number>(method: Method, found: &[N], expected: &[N]) -> Result<(), Disagreement> {
+    let scale = found.iter().chain(expected).fold(1.0_f64, |m, x| m.max(x.to_f64().abs()));
     for (row, (x, y)) in found.iter().zip(expected).enumerate() {
         // Numbers of order one and some hundreds of roundings; NaN is no agreement either.
-        let close = (x - y).abs() <= 1e-8 * scale;
+        let residual = (*x - *y).to_f64();
+        let close = residual.abs() <= 1e-8 * scale;
         if !close {
-            return Err(Disagreement { method, row, residual: x - y });
+            return Err(Disagreement { method, row, residual });
         }
     }
     Ok(())
 }
 
 /// Values of order one for all symbols; rotations are rotations, and the kinetic matrix is dominated by its diagonal.
-fn sample_state(scene: &Scene<'_>) -> Map<u32, f64> {
+fn sample_state<N: Number>(scene: &Scene<'_>) -> Map<u32, N> {
     let kinematics = &scene.kinematics;
     // Multiples of the golden ratio are spread evenly and never equal.
     let mut index = 0;
     let mut next = || {
         index += 1;
-        0.5 + (f64::from(index) * 0.618_033_988_749_894_9).fract()
+        N::number(0.5 + (f64::from(index) * 0.618_033_988_749_894_9).fract())
     };
-    let mut state: Map<u32, f64> = Map::default();
+    let mut state: Map<u32, N> = Map::default();
     for parameter in &scene.body.parameters {
-        let value = if parameter.row == parameter.column { 4.0 + next() } else { 0.3 * next() };
+        let diagonal = parameter.row == parameter.column;
+        let value = if diagonal { N::number(4.0) + next() } else { N::number(0.3) * next() };
         state.insert(parameter.symbol.key(), value);
     }
     let mut configuration = kinematics.configuration.iter();
@@ -90,11 +97,17 @@ fn sample_state(scene: &Scene<'_>) -> Map<u32, f64> {
             let none = Map::default();
             let mut evaluation = Evaluation::new(&none);
             let entries = rotation_of_quaternion(graph, quaternion);
-            let values: Vec<f64> = entries.iter().flatten().map(|e| evaluation.value(*e)).collect();
+            let values: Vec<N> = entries.iter().flatten().map(|e| evaluation.value(*e)).collect();
             state.extend(configuration.by_ref().zip(values).take(9).map(|(symbol, value)| (symbol.key(), value)));
         }
         ConfigurationKind::PlanePose => {
-            state.extend(configuration.by_ref().zip([0.6, 0.8]).take(2).map(|(symbol, value)| (symbol.key(), value)));
+            state.extend(
+                configuration
+                    .by_ref()
+                    .zip([3, 4])
+                    .take(2)
+                    .map(|(symbol, value)| (symbol.key(), N::fraction(Rational::new(value, 5)))),
+            );
         }
         ConfigurationKind::Coordinates => {}
     }

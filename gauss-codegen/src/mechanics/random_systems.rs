@@ -49,7 +49,7 @@ impl<'g> Compiled<'g> {
             each.map(|(method, outputs)| (method, Candidates::of_values(vec![outputs]))).unzip();
         let kernel = Kernel::lower(graph, &outputs, &[], &symbols.definitions, &Derivatives::default(), None);
         let kernel = kernel.unwrap_or_else(|error| panic!("{what}: {error}"));
-        assert!(!graph.overflowed(), "{what}: a coefficient left the range of 64-bit fractions");
+        assert!(!graph.is_undefined(), "{what}: a division by zero");
         let values = kernel.constants.run(&symbols.parameters);
         let constants = kernel.constant_symbols.iter().map(|s| s.key()).zip(values).collect();
         Self { kernel, methods, constants }

@@ -1,7 +1,7 @@
 //! Every system against the definition, before code is written: C of (3.1) over all bodies and particles must be
 //! stationary, with positions as they were given and all further differentiation by dual numbers, at a pseudo-random state.
 
-use crate::algebra::{Evaluation, Expr, Map, Rational, Tangents};
+use crate::algebra::{Evaluation, Expr, Map, Number, Precise, Rational, Tangents};
 
 use super::check::{Disagreement, agree};
 use super::constraint::ConstraintKind;
@@ -26,18 +26,18 @@ pub enum SystemFault {
 }
 
 /// A velocity field of a link: of O, and of the axes e as columns.
-type Field = [[f64; 3]; 4];
+type Field<N> = [[N; 3]; 4];
 
 /// One state, and what (3.1) says at it.
-struct Witness<'a, 'g> {
+struct Witness<'a, 'g, N> {
     system: &'a System<'g>,
-    state: Map<u32, f64>,
+    state: Map<u32, N>,
     /// v_P of every link: symbols of t, q and z.
     velocities: Vec<[[Expr<'g>; 3]; 4]>,
 }
 
-impl<'a, 'g> Witness<'a, 'g> {
-    fn new(system: &'a System<'g>, state: Map<u32, f64>) -> Self {
+impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
+    fn new(system: &'a System<'g>, state: Map<u32, N>) -> Self {
         let rates = &system.scene.rates;
         let velocity = |link: &Link<'g>| {
             let axis = |j: usize| std::array::from_fn(|i| link.rotation[i][j].derivative(rates));
@@ -47,7 +47,7 @@ impl<'a, 'g> Witness<'a, 'g> {
         Self { system, state, velocities }
     }
 
-    fn values<'e>(&self, outputs: impl IntoIterator<Item = &'e Expr<'g>>) -> Vec<f64>
+    fn values<'e>(&self, outputs: impl IntoIterator<Item = &'e Expr<'g>>) -> Vec<N>
     where
         'g: 'e,
     {
@@ -56,86 +56,88 @@ impl<'a, 'g> Witness<'a, 'g> {
     }
 
     /// Derivatives of the expressions along a direction.
-    fn along(&self, direction: &Map<u32, f64>, outputs: &[Expr<'g>]) -> Vec<f64> {
+    fn along(&self, direction: &Map<u32, N>, outputs: &[Expr<'g>]) -> Vec<N> {
         let mut evaluation = Evaluation::new(&self.state);
         let mut tangents = Tangents::new(&mut evaluation, direction);
         outputs.iter().map(|e| tangents.along(*e)).collect()
     }
 
     /// Derivatives of the expressions with respect to every speed: one row a speed.
-    fn partials(&self, outputs: &[Expr<'g>]) -> Vec<Vec<f64>> {
-        self.system.scene.speeds.iter().map(|z| self.along(&Map::from_iter([(z.key(), 1.0)]), outputs)).collect()
+    fn partials(&self, outputs: &[Expr<'g>]) -> Vec<Vec<N>> {
+        let one = N::number(1.0);
+        self.system.scene.speeds.iter().map(|z| self.along(&Map::from_iter([(z.key(), one)]), outputs)).collect()
     }
 
     /// The direction in which t, q and z move.
-    fn flow(&self, rates: &[f64]) -> Map<u32, f64> {
+    fn flow(&self, rates: &[N]) -> Map<u32, N> {
         let scene = &self.system.scene;
         let mut evaluation = Evaluation::new(&self.state);
-        let mut direction: Map<u32, f64> = scene.rates.iter().map(|(&key, e)| (key, evaluation.value(*e))).collect();
+        let mut direction: Map<u32, N> = scene.rates.iter().map(|(&key, e)| (key, evaluation.value(*e))).collect();
         direction.extend(scene.speeds.iter().zip(rates).map(|(z, rate)| (z.key(), *rate)));
         direction
     }
 
     /// `Σ ∫(a_P − g)·w_α dm + ∂(dU/dt)/∂z^α` at the given ż, with what the impulse of the fluid adds: one row a speed.
-    fn stationarity(&self, rates: &[f64]) -> Vec<f64> {
+    fn stationarity(&self, rates: &[N]) -> Vec<N> {
         let scene = &self.system.scene;
         let flow = self.flow(rates);
         let fields: Vec<Expr<'g>> = self.velocities.iter().flatten().flatten().copied().collect();
         let accelerations = self.along(&flow, &fields);
         let partials = self.partials(&fields);
         let mut evaluation = Evaluation::new(&self.state);
-        let mut rows = vec![0.0; scene.speeds.len()];
-        let gravity = scene.tree.gravity.map(|g| g.map(|e| evaluation.value(e))).unwrap_or_default();
+        let mut rows = vec![N::number(0.0); scene.speeds.len()];
+        let zeros = [N::number(0.0); 3];
+        let gravity = scene.tree.gravity.map_or(zeros, |g| g.map(|e| evaluation.value(e)));
         for (k, link) in scene.tree.links.iter().enumerate() {
             let moments = Distribution::of(link, &mut evaluation);
             let (mut a, lift) = (field(&accelerations, k), moments.buoyancy);
-            (0..3).for_each(|i| a[0][i] -= gravity[i]);
+            (0..3).for_each(|i| a[0][i] = a[0][i] - gravity[i]);
             for (row, partial) in rows.iter_mut().zip(&partials) {
                 let w = field(partial, k);
-                *row += moments.integral(&a, &w);
+                *row = *row + moments.integral(&a, &w);
                 if let Some((mass, center)) = lift {
-                    let at = |i: usize| w[0][i] + (0..3).map(|j| center[j] * w[j + 1][i]).sum::<f64>();
-                    *row += mass * (0..3).map(|i| gravity[i] * at(i)).sum::<f64>();
+                    let at = |i: usize| w[0][i] + sum((0..3).map(|j| center[j] * w[j + 1][i]));
+                    *row = *row + mass * sum((0..3).map(|i| gravity[i] * at(i)));
                 }
             }
         }
         if let Some(potential) = self.system.potential {
             let power = [potential.derivative(&scene.rates)];
-            rows.iter_mut().zip(self.partials(&power)).for_each(|(row, partial)| *row += partial[0]);
+            rows.iter_mut().zip(self.partials(&power)).for_each(|(row, partial)| *row = *row + partial[0]);
         }
         for (row, fluid) in rows.iter_mut().zip(self.fluid(&flow)) {
-            *row += fluid;
+            *row = *row + fluid;
         }
         for (row, force) in rows.iter_mut().zip(self.forces(&partials)) {
-            *row -= force;
+            *row = *row - force;
         }
         rows
     }
 
     /// `Σ F·∂v/∂z^α` over what acts, with velocities differentiated from positions. `partials` are those of the links.
-    fn forces(&self, partials: &[Vec<f64>]) -> Vec<f64> {
+    fn forces(&self, partials: &[Vec<N>]) -> Vec<N> {
         let scene = &self.system.scene;
-        let mut rows = vec![0.0; scene.speeds.len()];
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let mut rows = vec![N::number(0.0); scene.speeds.len()];
+        let dot = |a: &[N], b: &[N]| sum(a.iter().zip(b).map(|(a, b)| *a * *b));
         for force in &self.system.forces {
             match force {
                 Force::AtPoint { at, force } => {
                     let velocity = at.map(|e| e.derivative(&scene.rates));
                     let force = self.values(force);
                     let partials = self.partials(&velocity);
-                    rows.iter_mut().zip(partials).for_each(|(row, w)| *row += dot(&force, &w));
+                    rows.iter_mut().zip(partials).for_each(|(row, w)| *row = *row + dot(&force, &w));
                 }
                 Force::OnRate { rate, force } => {
                     let force = self.values([force]);
                     let partials = self.partials(&[*rate]);
-                    rows.iter_mut().zip(partials).for_each(|(row, w)| *row += dot(&force, &w));
+                    rows.iter_mut().zip(partials).for_each(|(row, w)| *row = *row + dot(&force, &w));
                 }
                 Force::Dissipation(function) => {
-                    rows.iter_mut().zip(self.partials(&[*function])).for_each(|(row, w)| *row -= w[0]);
+                    rows.iter_mut().zip(self.partials(&[*function])).for_each(|(row, w)| *row = *row - w[0]);
                 }
                 Force::OnLink { link, at, force, torque, axes } => {
-                    let r: Vec<f64> = self.values(scene.tree.links[*link].rotation.iter().flatten());
-                    let in_space = |a: &[Expr<'g>; 3], axes: Axes| -> Vec<f64> {
+                    let r: Vec<N> = self.values(scene.tree.links[*link].rotation.iter().flatten());
+                    let in_space = |a: &[Expr<'g>; 3], axes: Axes| -> Vec<N> {
                         let a = self.values(a);
                         match axes {
                             Axes::Space => a,
@@ -146,11 +148,11 @@ impl<'a, 'g> Witness<'a, 'g> {
                     let axis = |j: usize| [r[j], r[3 + j], r[6 + j]];
                     for (row, partial) in rows.iter_mut().zip(partials) {
                         let w = field(partial, *link);
-                        let moved: Vec<f64> =
-                            (0..3).map(|i| w[0][i] + (0..3).map(|j| at[j] * w[j + 1][i]).sum::<f64>()).collect();
+                        let moved: Vec<N> =
+                            (0..3).map(|i| w[0][i] + sum((0..3).map(|j| at[j] * w[j + 1][i]))).collect();
                         // o_α = ½ Σ e_j × ∂ė_j/∂z^α.
-                        let turned = (0..3).map(|j| dot(&torque, &cross(&axis(j), &w[j + 1]))).sum::<f64>();
-                        *row += dot(&force, &moved) + 0.5 * turned;
+                        let turned = sum((0..3).map(|j| dot(&torque, &cross(&axis(j), &w[j + 1]))));
+                        *row = *row + dot(&force, &moved) + N::number(0.5) * turned;
                     }
                 }
             }
@@ -159,9 +161,9 @@ impl<'a, 'g> Witness<'a, 'g> {
     }
 
     /// `dQ/dt·a_α + (dΓ/dt + v_O × Q)·o_α` of the fluid's impulse, body axes: zero without fluid.
-    fn fluid(&self, flow: &Map<u32, f64>) -> Vec<f64> {
+    fn fluid(&self, flow: &Map<u32, N>) -> Vec<N> {
         let scene = &self.system.scene;
-        let mut rows = vec![0.0; scene.speeds.len()];
+        let mut rows = vec![N::number(0.0); scene.speeds.len()];
         for (k, link) in scene.tree.links.iter().enumerate() {
             let Some(added) = link.body().and_then(|body| body.added_mass.as_ref()) else { continue };
             // (u, ω): components of v_O and of RᵀṘ.
@@ -175,35 +177,41 @@ impl<'a, 'g> Witness<'a, 'g> {
             let (u, w, q, gamma) = (&t[..3], &t[3..], &p[..3], &p[3..]);
             let [turned, moved, lifted] = [cross(w, q), cross(w, gamma), cross(u, q)];
             for (row, partial) in rows.iter_mut().zip(partials) {
-                *row += (0..3)
-                    .map(|i| (rate[i] + turned[i]) * partial[i] + (rate[3 + i] + moved[i] + lifted[i]) * partial[3 + i])
-                    .sum::<f64>();
+                let of = |i: usize| {
+                    (rate[i] + turned[i]) * partial[i] + (rate[3 + i] + moved[i] + lifted[i]) * partial[3 + i]
+                };
+                *row = *row + sum((0..3).map(of));
             }
         }
         rows
     }
 }
 
-fn field(components: &[f64], link: usize) -> Field {
+fn sum<N: Number>(terms: impl Iterator<Item = N>) -> N {
+    terms.fold(N::number(0.0), |sum, term| sum + term)
+}
+
+fn field<N: Number>(components: &[N], link: usize) -> Field<N> {
     std::array::from_fn(|a| std::array::from_fn(|i| components[12 * link + 3 * a + i]))
 }
 
-fn cross(a: &[f64], b: &[f64]) -> [f64; 3] {
+fn cross<N: Number>(a: &[N], b: &[N]) -> [N; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Moments of a link as it was given, before anything is regrouped.
-struct Distribution {
-    mass: f64,
-    first: [f64; 3],
-    second: [[f64; 3]; 3],
+struct Distribution<N> {
+    mass: N,
+    first: [N; 3],
+    second: [[N; 3]; 3],
     /// Mass and centre of the displaced fluid.
-    buoyancy: Option<(f64, [f64; 3])>,
+    buoyancy: Option<(N, [N; 3])>,
 }
 
-impl Distribution {
-    fn of(link: &Link<'_>, evaluation: &mut Evaluation<'_>) -> Self {
-        let nothing = Self { mass: 0.0, first: [0.0; 3], second: [[0.0; 3]; 3], buoyancy: None };
+impl<N: Number> Distribution<N> {
+    fn of(link: &Link<'_>, evaluation: &mut Evaluation<'_, N>) -> Self {
+        let zero = N::number(0.0);
+        let nothing = Self { mass: zero, first: [zero; 3], second: [[zero; 3]; 3], buoyancy: None };
         match &link.matter {
             Matter::Nothing => nothing,
             Matter::Particle(mass) => Self { mass: evaluation.value(*mass), ..nothing },
@@ -217,33 +225,41 @@ impl Distribution {
     }
 
     /// `∫ f·h dm` of two fields that are affine in the body coordinates.
-    fn integral(&self, f: &Field, h: &Field) -> f64 {
-        let dot = |a: usize, b: usize| (0..3).map(|i| f[a][i] * h[b][i]).sum::<f64>();
-        let linear = (0..3).map(|j| self.first[j] * (dot(0, j + 1) + dot(j + 1, 0))).sum::<f64>();
-        let square = (0..9).map(|n| self.second[n / 3][n % 3] * dot(n / 3 + 1, n % 3 + 1)).sum::<f64>();
+    fn integral(&self, f: &Field<N>, h: &Field<N>) -> N {
+        let dot = |a: usize, b: usize| sum((0..3).map(|i| f[a][i] * h[b][i]));
+        let linear = sum((0..3).map(|j| self.first[j] * (dot(0, j + 1) + dot(j + 1, 0))));
+        let square = sum((0..9).map(|n| self.second[n / 3][n % 3] * dot(n / 3 + 1, n % 3 + 1)));
         self.mass * dot(0, 0) + linear + square
     }
 }
 
 /// Evaluates the condition at one state, with the residual at any ż and with every arrangement's acceleration.
+///
+/// Where large terms cancel, right formulas disagree by the roundings of these, and a pivot that is small beside what it was formed of looks
+/// like zero. Such a finding of double precision counts only if numbers of many digits confirm it: roundings are smaller there by sixty
+/// decimal places, a wrong term and a dependent row are what they were.
 pub fn check_system_against_definition<'g>(
     system: &System<'g>,
     formulas: &[Formula<'g>],
 ) -> Result<(), Vec<SystemFault>> {
+    check_in::<f64>(system, formulas).or_else(|_| check_in::<Precise>(system, formulas))
+}
+
+fn check_in<'g, N: Number>(system: &System<'g>, formulas: &[Formula<'g>]) -> Result<(), Vec<SystemFault>> {
     let n = system.scene.speeds.len();
     let matrix: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
     let arrangements =
         |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
-    let arbitrary: Vec<f64> = (0..n).map(|k| 0.7 - 0.3 * (k % 4) as f64).collect();
+    let arbitrary: Vec<N> = (0..n).map(|k| N::number(0.7 - 0.3 * (k % 4) as f64)).collect();
     // Roots and logarithms have domains: the first of a few states where everything has a value. Where there is none, the
     // programs are still checked against their expressions.
-    let inside = |witness: &Witness<'_, 'g>| {
+    let inside = |witness: &Witness<'_, 'g, N>| {
         let values = witness.values(matrix.iter().chain(arrangements(Method::Acceleration).flatten()));
         values.iter().chain(&witness.stationarity(&arbitrary)).all(|x| x.is_finite())
     };
     let states = || (0..16).map(|shift| Witness::new(system, sample_state(system, shift)));
     // A singular A, or dependent constraints, have no finite accelerations, so they are looked for first.
-    let regular = |witness: &Witness<'_, 'g>| witness.values(&matrix).iter().all(|x| x.is_finite());
+    let regular = |witness: &Witness<'_, 'g, N>| witness.values(&matrix).iter().all(|x| x.is_finite());
     let singular = states().find(regular).map(|witness| vanishing_pivots(witness.values(&matrix), n));
     let mut faults: Vec<SystemFault> =
         singular.unwrap_or_default().into_iter().map(SystemFault::DependentSpeed).collect();
@@ -264,47 +280,51 @@ pub fn check_system_against_definition<'g>(
 }
 
 /// Residuals at the given ż and accelerations, against the definition.
-fn compare<'g>(mut witness: Witness<'_, 'g>, formulas: &[Formula<'g>], arbitrary: &[f64]) -> Result<(), Disagreement> {
+fn compare<'g, N: Number>(
+    mut witness: Witness<'_, 'g, N>,
+    formulas: &[Formula<'g>],
+    arbitrary: &[N],
+) -> Result<(), Disagreement> {
     let system = witness.system;
     let arrangements =
         |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
     let unconstrained = witness.stationarity(arbitrary);
     let jacobian = witness.partials(&system.constraints.on_velocities);
-    let with_forces = |witness: &Witness<'_, 'g>, rows: Vec<f64>| -> Vec<f64> {
+    let with_forces = |witness: &Witness<'_, 'g, N>, rows: Vec<N>| -> Vec<N> {
         // Jᵀλ with the multipliers of the motion.
         let Some(multipliers) = arrangements(Method::Multipliers).next() else { return rows };
         let multipliers = witness.values(multipliers);
-        let force = |row: &Vec<f64>| row.iter().zip(&multipliers).map(|(j, l)| j * l).sum::<f64>();
-        rows.iter().zip(&jacobian).map(|(r, j)| r - force(j)).collect()
+        let force = |row: &Vec<N>| sum(row.iter().zip(&multipliers).map(|(j, l)| *j * *l));
+        rows.iter().zip(&jacobian).map(|(r, j)| *r - force(j)).collect()
     };
     witness.state.extend(system.scene.speed_rates.iter().zip(arbitrary).map(|(s, x)| (s.key(), *x)));
     let expected = with_forces(&witness, unconstrained);
     for arrangement in arrangements(Method::GaussResidual) {
         agree(Method::GaussResidual, &witness.values(arrangement), &expected)?;
     }
-    let scale = expected.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+    let scale = largest(expected.iter().copied()).max(1.0);
     for arrangement in arrangements(Method::Acceleration) {
         let rates = witness.values(arrangement);
         let found = with_forces(&witness, witness.stationarity(&rates));
-        let relative: Vec<f64> = found.iter().map(|x| x / scale).collect();
-        agree(Method::Acceleration, &relative, &vec![0.0; relative.len()])?;
+        let relative: Vec<N> = found.iter().map(|x| *x / N::number(scale)).collect();
+        agree(Method::Acceleration, &relative, &vec![N::number(0.0); relative.len()])?;
         // J ż = γ: what the constraints say of velocities goes on to hold.
         let flow = witness.flow(&rates);
         let drift = witness.along(&flow, &system.constraints.on_velocities);
-        agree(Method::Acceleration, &drift, &vec![0.0; drift.len()])?;
+        agree(Method::Acceleration, &drift, &vec![N::number(0.0); drift.len()])?;
     }
     Ok(())
 }
 
 /// Constraints that say nothing new, or nothing that can hold with those before them.
-fn dependent_constraints<'a, 'g>(
+fn dependent_constraints<'a, 'g, N: Number + 'a>(
     system: &'a System<'g>,
-    states: impl Iterator<Item = Witness<'a, 'g>>,
+    states: impl Iterator<Item = Witness<'a, 'g, N>>,
 ) -> Vec<SystemFault> {
     let constraints = &system.constraints;
     let positions = constraints.on_positions();
-    let usable = |witness: &Witness<'_, 'g>| {
-        let finite = |values: Vec<f64>| values.iter().all(|x| x.is_finite());
+    let usable = |witness: &Witness<'_, 'g, N>| {
+        let finite = |values: Vec<N>| values.iter().all(|x| x.is_finite());
         finite(witness.values(constraints.on_velocities.iter().chain(&positions)))
             && witness.partials(&constraints.on_velocities).into_iter().all(finite)
     };
@@ -312,25 +332,26 @@ fn dependent_constraints<'a, 'g>(
     let (Some(witness), other) = (usable.next(), usable.next()) else { return Vec::new() };
     // What constraints say of velocities, of a system at rest.
     let mut at_rest = Witness::new(system, witness.state.clone());
-    at_rest.state.extend(system.scene.speeds.iter().map(|z| (z.key(), 0.0)));
+    let zero = N::number(0.0);
+    at_rest.state.extend(system.scene.speeds.iter().map(|z| (z.key(), zero)));
     let moving = at_rest.values(&constraints.on_velocities);
     let elsewhere = other.map(|other| (dependent_rows(&other), other.values(&positions)));
-    let combined = |coefficients: &[f64], values: &[f64]| -> f64 {
-        coefficients.iter().zip(values).map(|(c, value)| c * value).sum()
-    };
+    let combined =
+        |coefficients: &[N], values: &[N]| sum(coefficients.iter().zip(values).map(|(c, value)| *c * *value));
     dependent_rows(&witness)
         .into_iter()
         .map(|(k, coefficients)| {
             // Positions can be compared where a combination with the same coefficients everywhere is constant.
-            let of_positions =
-                (0..=k).all(|j| coefficients[j] == 0.0 || system.scene.constraints[j].kind == ConstraintKind::Position);
+            let of_positions = (0..=k)
+                .all(|j| coefficients[j] == zero || system.scene.constraints[j].kind == ConstraintKind::Position);
             let constant = elsewhere.as_ref().and_then(|(rows, values)| {
                 let (_, other) = rows.iter().find(|(row, _)| *row == k)?;
-                let same = coefficients.iter().zip(other).all(|(a, b)| (a - b).abs() <= 1e-8 * (1.0 + a.abs()));
+                let close = |a: N, b: N| (a - b).to_f64().abs() <= 1e-8 * (1.0 + a.to_f64().abs());
+                let same = coefficients.iter().zip(other).all(|(a, b)| close(*a, *b));
                 (of_positions && same).then(|| combined(other, values))
             });
             let contradicts = [Some(combined(&coefficients, &moving)), constant].into_iter().flatten();
-            match contradicts.into_iter().any(|value| value.abs() > 1e-8) {
+            match contradicts.into_iter().any(|value| value.to_f64().abs() > 1e-8) {
                 true => SystemFault::InconsistentConstraint(k),
                 false => SystemFault::DependentConstraint(k),
             }
@@ -339,53 +360,59 @@ fn dependent_constraints<'a, 'g>(
 }
 
 /// Rows of J that are combinations of those before them, with the coefficients of the combination that vanishes.
-fn dependent_rows(witness: &Witness<'_, '_>) -> Vec<(usize, Vec<f64>)> {
+fn dependent_rows<N: Number>(witness: &Witness<'_, '_, N>) -> Vec<(usize, Vec<N>)> {
     let constraints = &witness.system.constraints;
     let columns = witness.partials(&constraints.on_velocities);
     let count = constraints.count();
-    let mut rows: Vec<Vec<f64>> = (0..count).map(|k| columns.iter().map(|c| c[k]).collect()).collect();
-    let unit = |k: usize| (0..count).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
-    let mut combinations: Vec<Vec<f64>> = (0..count).map(unit).collect();
-    let sizes: Vec<f64> = rows.iter().map(|row| row.iter().fold(0.0_f64, |m, x| m.max(x.abs()))).collect();
+    let mut rows: Vec<Vec<N>> = (0..count).map(|k| columns.iter().map(|c| c[k]).collect()).collect();
+    let unit = |k: usize| (0..count).map(|j| N::number(f64::from(u8::from(j == k)))).collect::<Vec<N>>();
+    let mut combinations: Vec<Vec<N>> = (0..count).map(unit).collect();
+    let sizes: Vec<f64> = rows.iter().map(|row| largest(row.iter().copied())).collect();
     let mut dependent = Vec::new();
     for k in 0..count {
         let (pivot, size) = rows[k]
             .iter()
             .enumerate()
-            .fold((0, 0.0_f64), |best, (column, x)| if x.abs() > best.1 { (column, x.abs()) } else { best });
+            .map(|(column, x)| (column, x.to_f64().abs()))
+            .fold((0, 0.0_f64), |best, other| if other.1 > best.1 { other } else { best });
         // Elimination leaves roundings of what the row was.
-        if size <= 1e-10 * sizes[k].max(1e-3) {
+        if size <= 100.0 * N::NEGLIGIBLE * sizes[k].max(1e-3) {
             dependent.push((k, combinations[k].clone()));
             continue;
         }
         for later in k + 1..count {
             let factor = rows[later][pivot] / rows[k][pivot];
             for column in 0..rows[k].len() {
-                rows[later][column] -= factor * rows[k][column];
+                rows[later][column] = rows[later][column] - factor * rows[k][column];
             }
             for column in 0..count {
-                combinations[later][column] -= factor * combinations[k][column];
+                combinations[later][column] = combinations[later][column] - factor * combinations[k][column];
             }
         }
     }
     dependent
 }
 
+/// The size of the largest.
+fn largest<N: Number>(values: impl Iterator<Item = N>) -> f64 {
+    values.fold(0.0, |most: f64, x| most.max(x.to_f64().abs()))
+}
+
 /// The unknowns whose pivots vanish while A is eliminated, beside what they were.
-fn vanishing_pivots(mut a: Vec<f64>, n: usize) -> Vec<usize> {
-    let diagonal: Vec<f64> = (0..n).map(|k| a[k * n + k].abs()).collect();
+fn vanishing_pivots<N: Number>(mut a: Vec<N>, n: usize) -> Vec<usize> {
+    let diagonal: Vec<f64> = (0..n).map(|k| a[k * n + k].to_f64().abs()).collect();
     let mut vanishing = Vec::new();
     for k in 0..n {
         let pivot = a[k * n + k];
         // Cancellation leaves roundings of the diagonal; a regular A of numbers of order one stays far above.
-        if pivot.abs() <= 1e-12 * diagonal[k] {
+        if pivot.to_f64().abs() <= N::NEGLIGIBLE * diagonal[k] {
             vanishing.push(k);
             continue;
         }
         for i in k + 1..n {
             let factor = a[i * n + k] / pivot;
             for j in k..n {
-                a[i * n + j] -= factor * a[k * n + j];
+                a[i * n + j] = a[i * n + j] - factor * a[k * n + j];
             }
         }
     }
@@ -394,23 +421,25 @@ fn vanishing_pivots(mut a: Vec<f64>, n: usize) -> Vec<usize> {
 
 /// Values of order one for all symbols; masses and moments of inertia dominate products of inertia, rotations are
 /// rotations.
-fn sample_state(system: &System<'_>, shift: u32) -> Map<u32, f64> {
+fn sample_state<N: Number>(system: &System<'_>, shift: u32) -> Map<u32, N> {
     let scene = &system.scene;
-    let mut state: Map<u32, f64> = Map::default();
+    let mut state: Map<u32, N> = Map::default();
     for (k, key) in scene.graph.symbol_keys().into_iter().enumerate() {
         // Multiples of the golden ratio are spread evenly and never equal.
         let fraction = ((k as f64 + 0.37 * f64::from(shift)) * 0.618_033_988_749_894_9).fract();
-        state.insert(key, 0.5 + fraction);
+        state.insert(key, N::number(0.5 + fraction));
     }
     for parameter in scene.tree.links.iter().filter_map(Link::body).flat_map(|body| &body.parameters) {
-        let value = &mut *state.entry(parameter.symbol.key()).or_insert(1.0);
-        *value = if parameter.row == parameter.column { 4.0 + *value } else { 0.3 * *value };
+        let value = &mut *state.entry(parameter.symbol.key()).or_insert(N::number(1.0));
+        let diagonal = parameter.row == parameter.column;
+        *value = if diagonal { N::number(4.0) + *value } else { N::number(0.3) * *value };
     }
     let none = Map::default();
     let mut evaluation = Evaluation::new(&none);
     for coordinate in &scene.coordinates {
         if let Coordinate::Plane { turn: [cosine, sine], .. } = coordinate {
-            state.extend([(cosine.key(), 0.6), (sine.key(), 0.8)]);
+            let fifths = |n| N::fraction(Rational::new(n, 5));
+            state.extend([(cosine.key(), fifths(3)), (sine.key(), fifths(4))]);
         }
     }
     for (k, rotation) in scene.coordinates.iter().filter_map(Coordinate::rotation).enumerate() {

@@ -10,19 +10,10 @@ use crate::algebra::Expr;
 use crate::mechanics::{Action, Axes, Element, Force, Matter, Tree, attraction, entrained};
 use crate::model::{Coefficients, Expression, Extent, ForceAxes, ForceClause, ForceKind, Property};
 
+use super::drag::DragMatrix;
 use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
-
-/// The coefficients of a drag.
-#[derive(Clone)]
-pub struct DragMatrix<'g> {
-    /// The field, or the element whose clause lists them.
-    pub said: String,
-    pub quadratic: bool,
-    /// Six by six, order (u, ω), body axes, pole O.
-    pub entries: Vec<Vec<Expr<'g>>>,
-}
 
 /// Names of elements: given ones as they are, others by what they are, numbered from the second on.
 struct Names(HashSet<String>);

@@ -2,13 +2,17 @@
 //!
 //! - `symbols`: what every field, coordinate and speed is called, and where the value of each symbol is read.
 //! - `values`: expressions.
+//! - `domains`: expressions without a value.
 //! - `forces`: what acts.
 //! - `parameters`: what the numbers of fields are called.
 //! - here: the scene, part by part, in the order in which one part can name another.
 
+mod domains;
+mod drag;
 mod forces;
 mod parameters;
 mod symbols;
+mod value;
 mod values;
 
 use std::cell::RefCell;
@@ -28,11 +32,11 @@ use crate::model::{
     self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, GivenValue, InChart, Model, Property, Shape,
 };
 
-pub use forces::DragMatrix;
+pub use drag::DragMatrix;
 pub use parameters::{Parameter, parameters_of_body, parameters_of_system};
 use symbols::Declared;
 pub use symbols::{Part, Source, body_shape, role_of};
-use values::{Piece, Value};
+use value::{Piece, Value};
 
 /// Translates a system; kept between two translations of one system with different speeds.
 pub struct Translator<'a, 'g> {
@@ -46,6 +50,8 @@ pub struct Translator<'a, 'g> {
     links_of_clauses: Vec<usize>,
     /// Literal numbers that are constants of their own.
     literals: RefCell<Vec<(Rational, Expr<'g>)>>,
+    /// Expressions without a value.
+    mistakes: RefCell<Vec<(Span, String)>>,
     /// Matrices of drag, for warnings.
     drags: RefCell<Vec<DragMatrix<'g>>>,
     /// ḃ of each coordinate that is a pose, where the kinematics give it rather than u.
@@ -75,6 +81,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             links,
             links_of_clauses: vec![0; model.bodies.len()],
             literals: RefCell::default(),
+            mistakes: RefCell::default(),
             drags: RefCell::default(),
             pose_rates: vec![None; model.coordinates.len()],
             chart: None,

@@ -11,7 +11,7 @@ use crate::mechanics::{
 };
 use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
 
-use super::values::Value;
+use super::value::Value;
 
 /// Which number of a field a symbol stands for.
 #[derive(Clone, Copy, Debug)]

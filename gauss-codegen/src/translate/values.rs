@@ -3,70 +3,14 @@
 use proc_macro2::Span;
 use syn::ext::IdentExt;
 
-use crate::algebra::{BinaryFunction, Expr, Function, Graph, Map, Rational};
-use crate::mechanics::{Axes, Tree, Turn, about_axis, identity, subtract};
+use crate::algebra::{BinaryFunction, Expr, Function, Notation, Rational, decimal};
+use crate::mechanics::{Axes, Tree, Turn, subtract};
 use crate::model::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 
+use super::value::{Piece, Value};
 use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
-
-/// What an expression stands for.
-#[derive(Clone)]
-pub enum Value<'g> {
-    Scalar(Expr<'g>),
-    /// Observer's axes, or those in which it was written.
-    Vector(Triple<'g>),
-    /// A product.
-    Rotation(Vec<Piece<'g>>),
-    /// R and b.
-    Pose(Piece<'g>, Triple<'g>),
-    /// (u, ω), or the force and the torque of a wrench.
-    Twist(Triple<'g>, Triple<'g>),
-}
-
-/// One factor of a rotation.
-#[derive(Clone, Copy)]
-pub enum Piece<'g> {
-    /// By an angle about an axis.
-    About(usize, Expr<'g>),
-    /// A coordinate, or a quarter turn, whose entries are integers.
-    Given(Turn<'g>),
-}
-
-impl<'g> Piece<'g> {
-    fn quarters(graph: &'g Graph, axis: usize, quarters: usize) -> Self {
-        let (cos, sin) = [(1, 0), (0, 1), (-1, 0), (0, -1)][quarters % 4];
-        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-        let mut matrix = identity(graph);
-        matrix[a][a] = graph.integer(cos);
-        matrix[b][b] = graph.integer(cos);
-        matrix[a][b] = graph.integer(-sin);
-        matrix[b][a] = graph.integer(sin);
-        Piece::Given(Turn::given(matrix, [graph.zero(); 3]))
-    }
-
-    pub fn turn(&self, graph: &'g Graph, rates: &Map<u32, Expr<'g>>) -> Turn<'g> {
-        match *self {
-            Piece::About(axis, angle) => Turn::about(graph, axis, angle, rates),
-            Piece::Given(turn) => turn,
-        }
-    }
-
-    fn matrix(&self, graph: &'g Graph) -> [Triple<'g>; 3] {
-        match self {
-            Piece::About(axis, angle) => about_axis(graph, *axis, *angle),
-            Piece::Given(turn) => turn.matrix,
-        }
-    }
-
-    fn inverse(&self) -> Self {
-        match *self {
-            Piece::About(axis, angle) => Piece::About(axis, -angle),
-            Piece::Given(turn) => Piece::Given(turn.inverse()),
-        }
-    }
-}
 
 /// Numerators and denominators up to which literals are fractions in the algebra.
 const EXACT: i64 = 1000;
@@ -75,7 +19,7 @@ const EXACT: i64 = 1000;
 /// and zero, not 6e-17.
 fn quarter_turns(angle: &Expression) -> Option<usize> {
     let angle = match &angle.kind {
-        ExpressionKind::Number { numerator, denominator } => *numerator as f64 / *denominator as f64,
+        ExpressionKind::Number { value } => value.to_f64(),
         ExpressionKind::Negate(inner) => return quarter_turns(inner).map(|quarters| (4 - quarters) % 4),
         _ => return None,
     };
@@ -108,9 +52,7 @@ impl<'g> Translator<'_, 'g> {
     /// The value of an expression; links that it names are those of the tree.
     pub(super) fn value(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
         Ok(match &e.kind {
-            ExpressionKind::Number { numerator, denominator } => {
-                Value::Scalar(self.number(Rational::new(*numerator, *denominator)))
-            }
+            ExpressionKind::Number { value } => Value::Scalar(self.number(*value)),
             ExpressionKind::Name(name) => {
                 self.names.get(&name.unraw().to_string()).cloned().ok_or_else(|| bug(e.span))?
             }
@@ -123,28 +65,43 @@ impl<'g> Translator<'_, 'g> {
                 Value::Vector(a) => Value::Vector(a.map(|a| -a)),
                 _ => return Err(bug(e.span)),
             },
-            ExpressionKind::Power(inner, exponent) => Value::Scalar(self.scalar(inner, tree)?.powi(*exponent)),
+            ExpressionKind::Power(inner, exponent) => {
+                let base = self.scalar(inner, tree)?;
+                let base = if *exponent < 0 { self.divisor(base, inner.span) } else { base };
+                Value::Scalar(self.in_range(base.powi(*exponent), e))
+            }
             ExpressionKind::Vector([a, b, c]) => {
                 Value::Vector([self.scalar(a, tree)?, self.scalar(b, tree)?, self.scalar(c, tree)?])
             }
-            ExpressionKind::Call(function, arguments) => self.call(*function, arguments, e.span, tree)?,
+            ExpressionKind::Call(function, arguments) => match self.call(*function, arguments, e.span, tree)? {
+                Value::Scalar(value) => Value::Scalar(self.in_range(value, e)),
+                value => value,
+            },
             ExpressionKind::Binary(operator, left, right) => {
-                self.binary(*operator, self.value(left, tree)?, self.value(right, tree)?).ok_or_else(|| bug(e.span))?
+                let value = self.value(left, tree)?;
+                let other = match (operator, self.value(right, tree)?) {
+                    (BinaryOperator::Divide, Value::Scalar(b)) => Value::Scalar(self.divisor(b, right.span)),
+                    (_, other) => other,
+                };
+                match self.binary(*operator, value, other).ok_or_else(|| bug(e.span))? {
+                    Value::Scalar(value) => Value::Scalar(self.in_range(value, e)),
+                    value => value,
+                }
             }
         })
     }
 
-    /// A literal; one of many digits is a constant of its own, so that products of several stay within 64-bit fractions.
+    /// A literal; one of many digits is a constant of its own: nothing cancels against it, and products of several would have ever more digits.
     fn number(&self, value: Rational) -> Expr<'g> {
-        if value.numer().abs().max(value.denom()) <= EXACT {
+        if value.parts().is_some_and(|(numerator, denominator)| numerator.abs().max(denominator) <= EXACT) {
             return self.graph.number(value);
         }
         let mut literals = self.literals.borrow_mut();
         if let Some((_, symbol)) = literals.iter().find(|(known, _)| *known == value) {
             return *symbol;
         }
-        let text = value.to_f64().to_string();
-        let symbol = self.graph.symbol(text.clone(), text, true);
+        let [text, latex] = [Notation::Text, Notation::Latex].map(|notation| decimal(value, notation));
+        let symbol = self.graph.symbol(text, latex, true);
         literals.push((value, symbol));
         symbol
     }
@@ -244,17 +201,20 @@ impl<'g> Translator<'_, 'g> {
             // The sine–cosine pair is shared with whatever else turns by the angle.
             (FunctionName::Tan, [a]) => Value::Scalar(scalar(a)?.sin() * scalar(a)?.cos().recip()),
             (FunctionName::Exp, [a]) => Value::Scalar(scalar(a)?.exp()),
-            (FunctionName::Ln, [a]) => Value::Scalar(scalar(a)?.ln()),
-            (FunctionName::Sqrt, [a]) => Value::Scalar(scalar(a)?.sqrt()),
-            (FunctionName::Atan2, [y, x]) => Value::Scalar(scalar(y)?.binary(BinaryFunction::Atan2, scalar(x)?)),
+            (FunctionName::Ln, [a]) => Value::Scalar(self.in_domain(Function::Ln, scalar(a)?, a.span).ln()),
+            (FunctionName::Sqrt, [a]) => Value::Scalar(self.in_domain(Function::Sqrt, scalar(a)?, a.span).sqrt()),
+            (FunctionName::Atan2, [y, x]) => {
+                let (b, a) = (scalar(y)?, scalar(x)?);
+                Value::Scalar(self.ordinate([b, a], span).binary(BinaryFunction::Atan2, a))
+            }
             (FunctionName::Abs, [a]) => Value::Scalar(scalar(a)?.abs()),
             (FunctionName::Min, [a, b]) => Value::Scalar(scalar(a)?.binary(BinaryFunction::Min, scalar(b)?)),
             (FunctionName::Max, [a, b]) => Value::Scalar(scalar(a)?.binary(BinaryFunction::Max, scalar(b)?)),
             (FunctionName::Signum, [a]) => Value::Scalar(self.graph.call(Function::Signum, scalar(a)?)),
             (FunctionName::Clamp, [x, low, high]) => Value::Scalar(clamped(scalar(x)?, [scalar(low)?, scalar(high)?])),
             (FunctionName::SmoothStep, [x, from, to]) => {
-                let (from, to) = (scalar(from)?, scalar(to)?);
-                let s = (scalar(x)? - from) * (to - from).group().recip();
+                let (start, end) = (scalar(from)?, scalar(to)?);
+                let s = (scalar(x)? - start) * self.width(end - start, from.span).group().recip();
                 let s = clamped(s, [self.graph.zero(), self.graph.one()]).group();
                 let three = self.graph.integer(3);
                 Value::Scalar(s.powi(2) * (three - s.scale(Rational::from_integer(2))).group())

@@ -25,9 +25,9 @@ const PINNED: [&str; 12] = [
     "kinematics",
     "evaluate",
     "multipliers",
-    "LINEARIZE_OPERATIONS",
-    "BY_PARAMETERS_OPERATIONS",
-    "REGRESSOR_OPERATIONS",
+    "linearize",
+    "by_parameters",
+    "regressor",
 ];
 
 /// Of `kernel()`, which runs once.
@@ -96,13 +96,15 @@ fn read(item: &Item, counts: &mut Vec<(String, [u32; 5])>, chains: &mut HashMap<
     }
 }
 
-/// `OperationCount::new(…)` under the name of the constant, or of the field of a struct that it stands in.
+/// `OperationCount::new(…)` under the name of the constant, or of the field that it is assigned to in a block.
 fn constants(name: &str, value: &Expr, counts: &mut Vec<(String, [u32; 5])>) {
     match value {
-        Expr::Struct(value) => {
-            for field in &value.fields {
-                if let syn::Member::Named(name) = &field.member {
-                    constants(&name.to_string(), &field.expr, counts);
+        Expr::Block(block) => {
+            for statement in &block.block.stmts {
+                if let Stmt::Expr(Expr::Assign(assignment), _) = statement
+                    && let Expr::Field(syn::ExprField { member: syn::Member::Named(name), .. }) = &*assignment.left
+                {
+                    constants(&name.to_string(), &assignment.right, counts);
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! What is counted: one body in every chart and motion, loads one by one, and the systems of the tables.
 
-#[path = "../../../tests/examples/structures/mod.rs"]
+#[path = "../../examples/structures/mod.rs"]
 mod structures;
 
 use crate::sources;
@@ -45,7 +45,7 @@ const BUOYANCY: &str = "#[gauss(displaced_mass)] d: f64,";
 const OFF_CENTER: &str = "#[gauss(center_of_buoyancy)] h: Vector3<f64>,";
 
 /// Shapes of a body: each feature alone, and those that go together.
-const SHAPES: [(&str, &[&str]); 17] = [
+const SHAPES: [(&str, &[&str]); 18] = [
     ("spherical", &[SPHERICAL]),
     ("principal", &[PRINCIPAL]),
     ("full", &[FULL]),
@@ -59,6 +59,7 @@ const SHAPES: [(&str, &[&str]); 17] = [
     ("principal in fluid (6)", &[PRINCIPAL, DIAGONAL_FLUID]),
     ("principal in fluid (6×6)", &[PRINCIPAL, FULL_FLUID]),
     ("principal off centre in fluid (6)", &[PRINCIPAL, CENTER, DIAGONAL_FLUID]),
+    ("principal off centre in fluid (6); g", &[PRINCIPAL, CENTER, DIAGONAL_FLUID, VERTICAL]),
     ("full off centre in fluid (6×6)", &[FULL, CENTER, FULL_FLUID]),
     ("principal; g and buoyancy off O", &[PRINCIPAL, VERTICAL, BUOYANCY, OFF_CENTER]),
     ("principal off centre in fluid (6×6); field and buoyancy", &[PRINCIPAL, CENTER, FULL_FLUID, FIELD, BUOYANCY]),
@@ -148,16 +149,17 @@ fn one_link() -> Vec<Scene> {
         ),
         (
             "zyx",
-            "coordinates(x, y, z, psi, theta, phi)",
-            "position = [x, y, z], rotation = rotation_z(psi) * rotation_y(theta) * rotation_x(phi)",
+            "coordinates(b1, b2, b3, psi, theta, phi)",
+            "position = [b1, b2, b3], rotation = rotation_z(psi) * rotation_y(theta) * rotation_x(phi)",
         ),
         ("ball", "coordinates(turn: Rotation)", "rotation = turn"),
-        ("plane", "coordinates(x, y, theta)", "position = [x, y, 0], rotation = rotation_z(theta)"),
+        ("plane", "coordinates(b1, b2, theta)", "position = [b1, b2, 0], rotation = rotation_z(theta)"),
     ];
     let shapes = [
         ("principal", [PRINCIPAL].as_slice()),
         ("full off centre", &[FULL, CENTER]),
         ("full off centre; g", &[FULL, CENTER, VERTICAL]),
+        ("principal off centre in fluid (6); g", &[PRINCIPAL, CENTER, DIAGONAL_FLUID, VERTICAL]),
     ];
     let mut scenes = Vec::new();
     for (chart, coordinates, place) in charts {

@@ -48,18 +48,17 @@ use ::differential_equations::traits::{Real as Scalar, State};
 
 use super::flat::FlatSystem;
 use super::jacobian::JacobianProduct;
-use crate::integrate::{Form, InputSource};
+use crate::integrate::Problem;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-impl<T, Y, S, F, I, J> ODE<T, Y> for FlatSystem<'_, S, F, I, J>
+impl<T, Y, S, P, J> ODE<T, Y> for FlatSystem<P, J>
 where
     T: Real + Scalar,
     Y: State<T>,
     S: GaussSystem<Scalar = T>,
-    F: Form<S>,
-    I: InputSource<S>,
-    J: JacobianProduct<S, F, I>,
+    P: Problem<System = S>,
+    J: JacobianProduct<P>,
 {
     #[inline]
     fn diff(&self, t: T, x: &Y, slope: &mut Y) {

@@ -46,19 +46,18 @@ use ::diffsol::{Closure, ConstantClosure, Matrix, OdeBuilder};
 
 use super::flat::FlatSystem;
 use super::jacobian::JacobianProduct;
-use crate::integrate::{Form, InputSource};
+use crate::integrate::Problem;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// A builder with right-hand side F, Jacobian–vector product G and initial state H.
 pub type Builder<M, F, G, H> = OdeBuilder<M, Closure<M, F, G>, ConstantClosure<M, H>>;
 
-impl<S, F, I, J> FlatSystem<'_, S, F, I, J>
+impl<S, P, J> FlatSystem<P, J>
 where
     S: GaussSystem,
-    F: Form<S>,
-    I: InputSource<S>,
-    J: JacobianProduct<S, F, I>,
+    P: Problem<System = S>,
+    J: JacobianProduct<P>,
 {
     /// A builder of `diffsol` with these equations, from the state (q, z) at time t, for matrices M. It has no parameters.
     ///

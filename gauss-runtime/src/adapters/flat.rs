@@ -3,11 +3,9 @@
 #[cfg(feature = "alloc")]
 use alloc::{vec, vec::Vec};
 
-use super::jacobian::{Differences, Given};
+use super::ways::{Differences, Given};
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::{
-    Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, Sample, State, VelocityForm,
-};
+use crate::integrate::{Feedback, Form, InputSource, MomentumForm, Problem, Rates, Sample, State, SystemProblem};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -61,46 +59,36 @@ assert!((after.q.norm() - 1.0).abs() < 1e-15);
 ```
 "##
 )]
-#[derive(Debug)]
-pub struct FlatSystem<'k, S, F = VelocityForm, I = NoInput, J = Differences> {
-    problem: Problem<'k, S, F, I>,
+#[derive(Clone, Copy, Debug)]
+pub struct FlatSystem<P, J = Differences> {
+    problem: P,
     pub(super) jacobian: J,
 }
 
-// Written by hand: the kernel is only borrowed, and need not be `Copy`.
-impl<S, F: Copy, I: Copy, J: Copy> Copy for FlatSystem<'_, S, F, I, J> {}
-
-impl<S, F: Clone, I: Clone, J: Clone> Clone for FlatSystem<'_, S, F, I, J> {
-    fn clone(&self) -> Self {
-        Self { problem: self.problem.clone(), jacobian: self.jacobian.clone() }
-    }
-}
-
-impl<'k, S: GaussSystem> FlatSystem<'k, S> {
+impl<'k, S: GaussSystem> FlatSystem<SystemProblem<'k, S>> {
     /// The velocity form without inputs.
     #[must_use]
     pub fn new(system: &'k S) -> Self {
-        Self { problem: Problem { system, form: VelocityForm, input: NoInput }, jacobian: Differences }
+        Self { problem: SystemProblem::new(system), jacobian: Differences }
     }
 }
 
-impl<'k, S: GaussSystem, F, I, J> FlatSystem<'k, S, F, I, J> {
+impl<'k, S: GaussSystem, F, I, J> FlatSystem<SystemProblem<'k, S, F, I>, J> {
     /// Integrates the variables of the given form.
     #[must_use]
-    pub fn form<G: Form<S>>(self, form: G) -> FlatSystem<'k, S, G, I, J> {
-        let Self { problem: Problem { system, input, .. }, jacobian } = self;
-        FlatSystem { problem: Problem { system, form, input }, jacobian }
+    pub fn form<G: Form<S>>(self, form: G) -> FlatSystem<SystemProblem<'k, S, G, I>, J> {
+        FlatSystem { problem: self.problem.form(form), jacobian: self.jacobian }
     }
 
     /// Integrates momenta.
     #[must_use]
-    pub fn momentum_form(self) -> FlatSystem<'k, S, MomentumForm, I, J> {
+    pub fn momentum_form(self) -> FlatSystem<SystemProblem<'k, S, MomentumForm, I>, J> {
         self.form(MomentumForm)
     }
 
     /// Takes the input from a function of time, configuration and quasi-velocities.
     #[must_use]
-    pub fn input<G>(self, input: G) -> FlatSystem<'k, S, F, Feedback<G>, J>
+    pub fn input<G>(self, input: G) -> FlatSystem<SystemProblem<'k, S, F, Feedback<G>>, J>
     where
         G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input,
     {
@@ -109,14 +97,13 @@ impl<'k, S: GaussSystem, F, I, J> FlatSystem<'k, S, F, I, J> {
 
     /// Takes the input from a source.
     #[must_use]
-    pub fn input_from<K: InputSource<S>>(self, input: K) -> FlatSystem<'k, S, F, K, J> {
-        let Self { problem: Problem { system, form, .. }, jacobian } = self;
-        FlatSystem { problem: Problem { system, form, input }, jacobian }
+    pub fn input_from<K: InputSource<S>>(self, input: K) -> FlatSystem<SystemProblem<'k, S, F, K>, J> {
+        FlatSystem { problem: self.problem.input_from(input), jacobian: self.jacobian }
     }
 
     /// Takes `∂f/∂x · v` from `product(t, x, v, result)`, where it is known better than by [`Differences`].
     #[must_use]
-    pub fn jacobian<G>(self, product: G) -> FlatSystem<'k, S, F, I, Given<G>>
+    pub fn jacobian<G>(self, product: G) -> FlatSystem<SystemProblem<'k, S, F, I>, Given<G>>
     where
         G: Fn(S::Scalar, &[S::Scalar], &[S::Scalar], &mut [S::Scalar]),
     {
@@ -125,7 +112,7 @@ impl<'k, S: GaussSystem, F, I, J> FlatSystem<'k, S, F, I, J> {
 
     /// The same from any [`JacobianProduct`](super::jacobian::JacobianProduct).
     #[must_use]
-    pub fn jacobian_from<K>(self, jacobian: K) -> FlatSystem<'k, S, F, I, K> {
+    pub fn jacobian_from<K>(self, jacobian: K) -> FlatSystem<SystemProblem<'k, S, F, I>, K> {
         FlatSystem { problem: self.problem, jacobian }
     }
 
@@ -136,11 +123,10 @@ impl<'k, S: GaussSystem, F, I, J> FlatSystem<'k, S, F, I, J> {
     }
 }
 
-impl<S, F, I, J> FlatSystem<'_, S, F, I, J>
+impl<S, P, J> FlatSystem<P, J>
 where
     S: GaussSystem,
-    F: Form<S>,
-    I: InputSource<S>,
+    P: Problem<System = S>,
 {
     /// The length of x.
     pub const DIM: usize = Self::COMPONENTS + S::Speeds::DIM;
@@ -171,7 +157,7 @@ where
     /// # Panics
     /// When the slice is shorter.
     pub fn write(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, x: &mut [S::Scalar]) {
-        let y = self.problem.form.variables(self.problem.system, t, q, z);
+        let y = self.problem.variables(t, q, z);
         let components = q.components();
         for i in 0..Self::COMPONENTS {
             x[i] = components.component(i);
@@ -187,9 +173,7 @@ where
     /// When x is shorter than [`DIM`](Self::DIM).
     #[must_use]
     pub fn sample(&self, t: S::Scalar, x: &[S::Scalar]) -> Sample<S> {
-        let Problem { system, form, .. } = &self.problem;
-        let State { t, q, y } = Self::state(t, |i| x[i]).1;
-        Sample { t, q, z: form.speeds(system, t, &q, &y), p: form.momentum(system, t, &q, &y) }
+        self.problem.sample(&Self::state(t, |i| x[i]).1)
     }
 
     /// `f(t, x)`.

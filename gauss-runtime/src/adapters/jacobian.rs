@@ -1,40 +1,34 @@
 //! ∂f/∂x times a vector, for implicit methods.
 
 use super::flat::FlatSystem;
-use crate::integrate::{Form, InputSource};
+use super::ways::{Differences, Given};
+use crate::integrate::Problem;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
+type Scalar<P> = <<P as Problem>::System as GaussSystem>::Scalar;
+
 /// A way to find `∂f/∂x · v` of a [`FlatSystem`].
-pub trait JacobianProduct<S: GaussSystem, F, I>: Sized {
+pub trait JacobianProduct<P: Problem>: Sized {
     /// Writes `∂f/∂x · v` at (t, x) into `product`. All slices are [`FlatSystem::DIM`] long.
     fn product(
         &self,
-        system: &FlatSystem<'_, S, F, I, Self>,
-        t: S::Scalar,
-        x: &[S::Scalar],
-        v: &[S::Scalar],
-        product: &mut [S::Scalar],
+        system: &FlatSystem<P, Self>,
+        t: Scalar<P>,
+        x: &[Scalar<P>],
+        v: &[Scalar<P>],
+        product: &mut [Scalar<P>],
     );
 }
 
-/// By central differences: two evaluations a product, right to ∛ε² of the third derivative (some 1e-10 in double precision) where all
-/// components of x are of one size. Implicit methods converge with less; their accuracy does not depend on it.
-///
-/// The points are `x ± hv` with `h = ∛ε max(1, |x|)/|v|` and the largest components as norms, so that components of x should not be
-/// smaller than 1 by many orders.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Differences;
-
-impl<S, F, I> JacobianProduct<S, F, I> for Differences
+impl<S, P> JacobianProduct<P> for Differences
 where
     S: GaussSystem,
-    F: Form<S>,
-    I: InputSource<S>,
+    P: Problem<System = S>,
 {
     fn product(
         &self,
-        system: &FlatSystem<'_, S, F, I, Self>,
+        system: &FlatSystem<P, Self>,
         t: S::Scalar,
         x: &[S::Scalar],
         v: &[S::Scalar],
@@ -54,18 +48,15 @@ where
     }
 }
 
-/// By a function `(t, x, v, result)`: exact derivatives of your own.
-#[derive(Clone, Copy, Debug)]
-pub struct Given<G>(pub G);
-
-impl<S, F, I, G> JacobianProduct<S, F, I> for Given<G>
+impl<S, P, G> JacobianProduct<P> for Given<G>
 where
     S: GaussSystem,
+    P: Problem<System = S>,
     G: Fn(S::Scalar, &[S::Scalar], &[S::Scalar], &mut [S::Scalar]),
 {
     fn product(
         &self,
-        _: &FlatSystem<'_, S, F, I, Self>,
+        _: &FlatSystem<P, Self>,
         t: S::Scalar,
         x: &[S::Scalar],
         v: &[S::Scalar],

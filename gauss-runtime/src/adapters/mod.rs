@@ -14,6 +14,7 @@
 
 pub mod flat;
 pub mod jacobian;
+mod ways;
 
 #[cfg(feature = "differential-equations")]
 pub mod differential_equations;
@@ -23,7 +24,8 @@ pub mod diffsol;
 pub mod ode_solvers;
 
 pub use flat::FlatSystem;
-pub use jacobian::{Differences, Given, JacobianProduct};
+pub use jacobian::JacobianProduct;
+pub use ways::{Differences, Given};
 
 #[cfg(test)]
 mod tests;

@@ -47,16 +47,15 @@ use ::ode_solvers::dop_shared::FloatNumber;
 use ::ode_solvers::{DVector, SVector, System};
 
 use super::flat::FlatSystem;
-use crate::integrate::{Form, InputSource};
+use crate::integrate::Problem;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-impl<T, S, F, I, J, const N: usize> System<T, SVector<T, N>> for FlatSystem<'_, S, F, I, J>
+impl<T, S, P, J, const N: usize> System<T, SVector<T, N>> for FlatSystem<P, J>
 where
     T: Real + FloatNumber,
     S: GaussSystem<Scalar = T>,
-    F: Form<S>,
-    I: InputSource<S>,
+    P: Problem<System = S>,
 {
     #[inline]
     fn system(&self, t: T, x: &SVector<T, N>, slope: &mut SVector<T, N>) {
@@ -65,12 +64,11 @@ where
     }
 }
 
-impl<T, S, F, I, J> System<T, DVector<T>> for FlatSystem<'_, S, F, I, J>
+impl<T, S, P, J> System<T, DVector<T>> for FlatSystem<P, J>
 where
     T: Real + FloatNumber,
     S: GaussSystem<Scalar = T>,
-    F: Form<S>,
-    I: InputSource<S>,
+    P: Problem<System = S>,
 {
     #[inline]
     fn system(&self, t: T, x: &DVector<T>, slope: &mut DVector<T>) {

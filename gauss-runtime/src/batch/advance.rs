@@ -3,13 +3,11 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::BatchSystem;
 use super::error::StateError;
 use super::packs::{SingleConfiguration, SingleSpeeds};
+use super::system::BatchSystem;
 use crate::configuration::Configuration;
-use crate::integrate::{
-    Form, InputSource, IntegrationErrorKind, OneStep, Problem, Rates, State, accept, number_of_steps, prepare,
-};
+use crate::integrate::{IntegrationErrorKind, OneStep, Problem, Rates, State, accept, number_of_steps, prepare};
 use crate::real::Real;
 use crate::simd::Packed;
 
@@ -38,8 +36,8 @@ struct Held<S: BatchSystem> {
 }
 
 /// A block on its way. The first `states` lanes are states of the batch; those after them repeat the last one.
-struct Block<'a, 'k, S: BatchSystem, F, I, M> {
-    problem: &'a Problem<'k, S, F, I>,
+struct Block<'a, S: BatchSystem, P, M> {
+    problem: &'a P,
     method: &'a M,
     states: usize,
     held: Vec<Held<S>>,
@@ -48,8 +46,8 @@ struct Block<'a, 'k, S: BatchSystem, F, I, M> {
 
 /// Carries a block, of which the first `states` lanes count, over the interval. What stopped is returned, by lane; (q, z) then holds
 /// the last good state of that lane.
-pub(super) fn advance<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<S>>(
-    problem: &Problem<'_, S, F, I>,
+pub(super) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
+    problem: &P,
     method: &M,
     interval: &Interval,
     states: usize,
@@ -75,7 +73,7 @@ pub(super) fn advance<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<
     }
 
     let (state, _) = reached;
-    (*q, *z) = (state.q, problem.form.speeds(problem.system, state.t, &state.q, &state.y));
+    (*q, *z) = (state.q, problem.speeds(state.t, &state.q, &state.y));
     for lane in block.failures[..refused].iter().flat_map(|failure| block.lanes_of(failure.state)) {
         q.replace(lane, &given.0.extract(lane));
         z.replace(lane, &given.1.extract(lane));
@@ -83,7 +81,7 @@ pub(super) fn advance<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<
     block.failures
 }
 
-impl<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<S>> Block<'_, '_, S, F, I, M> {
+impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
     /// The lanes that hold a state.
     fn lanes_of(&self, state: usize) -> Range<usize> {
         let end = if state + 1 == self.states { S::Scalar::WIDTH } else { state + 1 };
@@ -135,9 +133,9 @@ impl<S: BatchSystem, F: Form<S>, I: InputSource<S>, M: OneStep<S>> Block<'_, '_,
         q: &S::Configuration,
         z: &S::Speeds,
     ) -> Result<(f64, Reached<S>), IntegrationErrorKind> {
-        let system = self.problem.system;
+        let system = self.problem.system();
         let (t, q) = (S::Scalar::from_f64(interval.start), q.renormalise());
-        let start = State { t, q, y: self.problem.form.variables(system, t, &q, z) };
+        let start = State { t, q, y: self.problem.variables(t, &q, z) };
         let (span, start, rates) = prepare(self.problem, &start, S::Scalar::from_f64(interval.end))?;
         let regularity = system.regularity(t, &q);
         let singular = |regularity: &f64| regularity.abs() <= Real::sqrt(S::Scalar::EPSILON);

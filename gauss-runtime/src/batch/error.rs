@@ -7,6 +7,7 @@ use crate::integrate::IntegrationErrorKind;
 
 /// A state that did not reach the end: the batch holds the last good one, at `time`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct StateError {
     /// The number of the state.
     pub state: usize,

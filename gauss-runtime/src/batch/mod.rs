@@ -12,6 +12,7 @@
     feature = "derive",
     doc = r##"
 ```
+use gauss_runtime::batch::{Batch, Packs, States};
 use gauss_runtime::prelude::*;
 
 /// A heavy top that turns about O.
@@ -68,23 +69,20 @@ assert_eq!(accelerations.len(), 1000);
 mod advance;
 mod error;
 mod packs;
+mod system;
 
 use alloc::vec::Vec;
 use core::ops::Range;
 
 pub use error::{BatchError, StateError};
 pub use packs::{Packs, SingleConfiguration, SingleSpeeds, States};
+pub use system::BatchSystem;
 
-use crate::integrate::{Feedback, Form, InputSource, MomentumForm, NoInput, OneStep, Problem, VelocityForm};
+use crate::integrate::{Feedback, Form, InputSource, MomentumForm, NoInput, OneStep, SystemProblem, VelocityForm};
 use crate::real::Real;
 use crate::simd::Packed;
 use crate::system::GaussSystem;
 use advance::Interval;
-
-/// A system whose states can be kept in blocks: every one whose scalar is a float, a pack of them or a dual number.
-pub trait BatchSystem: GaussSystem<Scalar: Packed<Single: Real>, Configuration: Packed, Speeds: Packed> {}
-
-impl<S> BatchSystem for S where S: GaussSystem<Scalar: Packed<Single: Real>, Configuration: Packed, Speeds: Packed> {}
 
 /// The kernels of a batch: one for all blocks, or a slice with one for each.
 pub trait Kernels<S> {
@@ -237,7 +235,8 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
     {
         let lanes = S::Scalar::WIDTH;
         let first = block * lanes;
-        let problem = Problem { system: self.kernels.of_block(block), form: self.form, input: Borrowed(&self.input) };
+        let problem =
+            SystemProblem { system: self.kernels.of_block(block), form: self.form, input: Borrowed(&self.input) };
         let mut failures = advance::advance(&problem, method, interval, lanes.min(count - first), state);
         failures.sort_unstable_by_key(|failure| failure.state);
         failures.iter_mut().for_each(|failure| failure.state += first);

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::BatchSystem;
+use super::system::BatchSystem;
 use crate::simd::Packed;
 use crate::system::GaussSystem;
 

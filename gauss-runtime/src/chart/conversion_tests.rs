@@ -2,13 +2,12 @@
 
 use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, UnitQuaternion};
 
-use crate::__private as private;
 use crate::chart::{Chart, ChartError, MotionRule, convert};
 use crate::configuration::Configuration;
 use crate::lie::{se3, so3};
 use crate::monitor::BodyMonitor;
-use crate::system::{Equations, GaussSystem, Operations, RigidBodySystem};
-use crate::testing::FreeTop;
+use crate::private;
+use crate::system::{GaussSystem, RigidBodySystem};
 
 type V3 = SVector<f64, 3>;
 type V6 = SVector<f64, 6>;
@@ -27,8 +26,6 @@ macro_rules! kinematic_body {
             type Input = ();
             const DOF: usize = $dof;
             const CHART: Chart = $chart;
-            const EQUATIONS: Equations = Equations { text: "", latex: "" };
-            const OPERATIONS: Operations = FreeTop::<f64>::OPERATIONS;
 
             fn kinematics(
                 &self,

@@ -5,9 +5,9 @@ use std::string::ToString;
 
 use super::rotation::{coordinates_of_rotation, rotation_from_coordinates};
 use super::*;
-use crate::__private as private;
 use crate::configuration::Configuration;
 use crate::lie::so3;
+use crate::private;
 use crate::testing::Pack;
 use core::f64::consts::{FRAC_PI_2, PI};
 

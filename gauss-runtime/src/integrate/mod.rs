@@ -1,97 +1,63 @@
-//! Integrators on groups: one file a family of methods, all written once over the two forms of the equations.
+//! Integrators on groups: a folder a family of methods, all written once over the two forms of the equations.
 //!
-//! | file | holds |
+//! | folder | files |
 //! |---|---|
-//! | [`form`] | velocity form and momentum form, inputs, and the [`Problem`] that a method sees |
-//! | [`tableau`] | coefficients of Runge–Kutta methods |
-//! | [`one_step`] | what a method of one step is and keeps |
-//! | [`runge_kutta`] | Runge–Kutta steps on the components, brought back onto the group |
-//! | [`rkmk`] | Runge–Kutta–Munthe-Kaas steps |
-//! | [`collocation`] | Gauss' implicit methods of orders 2, 4, 6, symmetric |
-//! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
-//! | [`commutator_free`] | a commutator-free method of order 4 |
-//! | [`discrete`] | exact derivatives of a step: transition matrices for filters and regulators |
-//! | [`composition`] | symmetric methods composed to higher orders |
-//! | [`control`] | fixed steps, adaptive steps |
-//! | [`compensated`] | fixed steps that carry what is rounded off, for long runs |
-//! | `step_length` | how adaptive steps grow and shrink, and what they do at kinks and jumps |
-//! | [`variational`] | a variational method in the left-invariant chart: symplectic, keeps momenta |
-//! | [`energy_momentum`] | a method that keeps energy and momenta of bodies in the left-invariant chart |
-//! | `iteration` | when the iteration of an implicit step ends |
-//! | `projection` | states of a run kept on the constraints |
-//! | [`simulation`] | [`Simulation`], the front |
-//! | [`event`] | where functions of the state pass through zero |
-//! | [`taylor`] | power series of the solution, where the derive gives them |
-//! | [`trajectory`] | [`Sample`], `Trajectory` |
+//! | [`problem`] | what is integrated. [`equations`](problem::equations): the [`Problem`] that a method sees; [`form`](problem::form): velocity form and momentum form; [`input`](problem::input): sources of inputs; [`state`](problem::state): states, rates, samples; [`error`](problem::error): [`IntegrationError`] |
+//! | [`step`] | the seam. [`one_step`](step::one_step): what a method of one step is and keeps; `iteration`: when an implicit step is solved |
+//! | [`runge_kutta`] | [`tableau`](runge_kutta::tableau): coefficients; [`components`](runge_kutta::components): steps on the components, brought back onto the group |
+//! | [`lie_group`] | [`rkmk`](lie_group::rkmk): Runge–Kutta–Munthe-Kaas steps; [`commutator_free`](lie_group::commutator_free): a method of order 4; [`discrete`](lie_group::discrete): exact derivatives of its steps, transition matrices for filters and regulators |
+//! | [`structure`] | [`collocation`](structure::collocation): Gauss' implicit methods of orders 2, 4, 6, symmetric; [`composition`](structure::composition): symmetric methods composed to higher orders; [`variational`](structure::variational): symplectic in the left-invariant chart; [`energy_momentum`](structure::energy_momentum): energy and momenta of bodies at once |
 //! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov, splitting |
-//! | `dense` | `Dense`: states between samples with the accuracy of the method |
-//! | [`method`] | methods and forms chosen at run time |
-//! | `tune` | the cheapest method for a scene, measured on it |
-//! | [`error`] | [`IntegrationError`] |
+//! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
+//! | [`taylor`] | power series of the solution, where the derive gives them |
+//! | [`drive`] | runs. [`control`](drive::control): fixed and adaptive steps; `step_length`: how these grow and shrink; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event): zeros of functions; [`trajectory`](drive::trajectory), `dense`: what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
+//! | [`tune`] | [`method`](tune::method): methods and forms chosen at run time; `measure`: the cheapest for a scene, measured on it |
 
 pub mod body;
-pub mod collocation;
-pub mod commutator_free;
-pub mod compensated;
-pub mod composition;
-pub mod control;
-#[cfg(feature = "alloc")]
-pub mod dense;
-pub mod discrete;
-pub mod energy_momentum;
-pub mod error;
-pub mod event;
-pub mod form;
-mod iteration;
-pub mod method;
-pub mod one_step;
-mod projection;
-pub mod rkmk;
+pub mod drive;
+pub mod lie_group;
+pub mod problem;
 pub mod rosenbrock;
 pub mod runge_kutta;
-pub mod simulation;
-mod step_length;
-pub mod tableau;
+pub mod step;
+pub mod structure;
 pub mod taylor;
-pub mod trajectory;
-#[cfg(feature = "alloc")]
 pub mod tune;
-pub mod variational;
 
 pub use body::{FreeFlow, MoserVeselov, Scheme, Splitting, SplittingError};
-pub use collocation::Collocation;
-pub use commutator_free::CommutatorFree4;
-pub use compensated::Compensated;
-pub use composition::{Composed, Composition};
-pub use control::{Adaptive, Control, Emit, Fixed};
+pub use drive::compensated::Compensated;
+pub use drive::control::{Adaptive, Control, Emit, Fixed};
 #[cfg(feature = "alloc")]
-pub(crate) use control::{number_of_steps, prepare};
+pub(crate) use drive::control::{number_of_steps, prepare};
 #[cfg(feature = "alloc")]
-pub use dense::Dense;
-pub use discrete::DiscreteLinearization;
-pub use energy_momentum::EnergyMomentum;
-pub use error::{IntegrationError, IntegrationErrorKind, Part};
-pub use event::Crossing;
-pub use form::{Feedback, Form, InputSource, MomentumForm, NoInput, Problem, Rates, State, VelocityForm};
-pub use method::{EitherForm, Method};
-pub use one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
+pub use drive::dense::Dense;
+pub use drive::event::Crossing;
 #[cfg(feature = "alloc")]
-pub(crate) use projection::accept;
-pub use rkmk::Rkmk;
+pub(crate) use drive::projection::accept;
+pub use drive::simulation::{Observer, Simulation};
+#[cfg(feature = "alloc")]
+pub use drive::trajectory::{EventSample, Trajectory};
+pub use lie_group::commutator_free::CommutatorFree4;
+pub use lie_group::discrete::DiscreteLinearization;
+pub use lie_group::rkmk::Rkmk;
+pub use problem::equations::{Problem, SystemProblem};
+pub use problem::error::{IntegrationError, IntegrationErrorKind, Part};
+pub use problem::form::{Form, MomentumForm, VelocityForm};
+pub use problem::input::{Feedback, InputSource, NoInput};
+pub use problem::state::{Rates, Sample, State};
 pub use rosenbrock::Rosenbrock;
-pub use runge_kutta::RungeKutta;
-pub use simulation::{Observer, Simulation};
-pub use tableau::{Classical4, Coefficients, DormandPrince5, DormandPrince8, Tableau, Verner9};
+pub use runge_kutta::components::RungeKutta;
+pub use runge_kutta::tableau::{Classical4, Coefficients, DormandPrince5, DormandPrince8, Tableau, Verner9};
+pub use step::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
+pub use structure::collocation::Collocation;
+pub use structure::composition::{Composed, Composition};
+pub use structure::energy_momentum::EnergyMomentum;
+pub use structure::variational::Variational;
 pub use taylor::Taylor;
-pub use trajectory::Sample;
 #[cfg(feature = "alloc")]
-pub use trajectory::{EventSample, Trajectory};
-#[cfg(feature = "alloc")]
-pub use tune::{Candidate, Measured, TuneError, Tuned};
-pub use variational::Variational;
+pub use tune::measure::{Candidate, Measured, TuneError, Tuned};
+pub use tune::method::{EitherForm, Method};
 
-#[cfg(all(test, feature = "alloc"))]
-mod collocation_tests;
 #[cfg(all(test, feature = "alloc"))]
 mod product_tests;
 #[cfg(test)]

@@ -3,10 +3,10 @@
 use nalgebra::{Isometry3, Quaternion, SVector, UnitQuaternion};
 
 use super::*;
-use crate::__private::product;
 use crate::configuration::{Configuration, Product, VectorSpace};
 use crate::lie::{se3, so3};
 use crate::monitor::monitor;
+use crate::private::product;
 use crate::real::Real;
 use crate::testing::Pack;
 use crate::testing::coasting::{Coasting, increment};
@@ -43,9 +43,9 @@ fn factors_run_by_themselves<T: Real>() {
         let whole = run(q, z, push, on_components);
         let pose = run(q.0, z1, f1, on_components);
         let (attitude, point) = (run(q.1.0, z2, f2, on_components), run(q.1.1, z3, f3, on_components));
-        assert_eq!(crate::__private::isometry3(&whole.q.0), crate::__private::isometry3(&pose.q));
-        assert_eq!(crate::__private::quaternion(&whole.q.1.0), crate::__private::quaternion(&attitude.q));
-        assert_eq!(crate::__private::components(&whole.q.1.1), crate::__private::components(&point.q));
+        assert_eq!(crate::private::isometry3(&whole.q.0), crate::private::isometry3(&pose.q));
+        assert_eq!(crate::private::quaternion(&whole.q.1.0), crate::private::quaternion(&attitude.q));
+        assert_eq!(crate::private::components(&whole.q.1.1), crate::private::components(&point.q));
         assert_eq!(whole.z, product(pose.z, product(attitude.z, point.z)));
     }
 }

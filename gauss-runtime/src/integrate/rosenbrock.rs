@@ -10,12 +10,13 @@
 //! Coefficients: E. Hairer & G. Wanner, *Solving Ordinary Differential Equations II*, IV.7 and IV.10, code RODAS; a test
 //! verifies the order conditions.
 
-use super::error::{IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use super::one_step::{EstimatingStep, OneStep, Properties, Step};
-use super::rkmk::{check_chart, check_increment};
-use super::step_length::power;
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::step_length::power;
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::step::checks::{check_chart, check_increment};
+use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step};
 use crate::linearize::{Factored, LinearModel, LinearizedSystem, brackets};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -114,18 +115,18 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
     /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
     /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined, as with a singular matrix
     /// ([`IntegrationErrorKind::NonFinite`]).
-    fn step<F: Form<S>, I: InputSource<S>>(
+    fn step<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
         let number = S::Scalar::from_f64;
         let one = S::Scalar::one();
-        let Problem { system, form, .. } = problem;
-        let start = Start { t: state.t, q: state.q, z: form.speeds(system, state.t, &state.q, &state.y) };
-        let input = problem.input.input(start.t, &start.q, &start.z);
+        let system = problem.system();
+        let start = Start { t: state.t, q: state.q, z: problem.speeds(state.t, &state.q, &state.y) };
+        let input = problem.input(start.t, &start.q, &start.z);
         let linear = system.linearize(start.t, &start.q, &start.z, &input);
         let mut bracket = brackets::<S>(&linear);
         let mut feedback = feedback(problem, &start, &linear);
@@ -160,11 +161,11 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
         let (configuration, error) = start.split(&stages[STAGES - 1]);
         let t = state.t + h;
         let q = q.renormalise();
-        let y = form.variables(system, t, &q, &z);
-        let embedded = form.variables(system, t, &q, &z.add_scaled(-one, &error));
+        let y = problem.variables(t, &q, &z);
+        let embedded = problem.variables(t, &q, &z.add_scaled(-one, &error));
         let error = Rates { configuration, variables: y.add_scaled(-one, &embedded) };
         let end = State { t, q, y };
-        check_chart(problem, state, &end)?;
+        check_chart(problem.system(), state, &end)?;
         if !(end.q.is_finite() && end.y.is_finite() && error.is_finite()) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
@@ -207,17 +208,17 @@ impl<S: LinearizedSystem> Start<S> {
     }
 
     /// (dexp_inv(σ, V), ż) at a state that an increment leads to.
-    fn rates<F, I: InputSource<S>>(
+    fn rates<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         increment: &Vector<S>,
         (q, z): &(S::Configuration, S::Speeds),
         t: S::Scalar,
     ) -> Vector<S> {
-        let input = problem.input.input(t, q, z);
-        let velocity = problem.system.kinematics(t, q, z);
+        let input = problem.input(t, q, z);
+        let velocity = problem.system().kinematics(t, q, z);
         let velocity = S::Configuration::dexp_inv(&self.split(increment).0, &velocity);
-        let acceleration = problem.system.acceleration(t, q, z, &input);
+        let acceleration = problem.system().acceleration(t, q, z, &input);
         let mut rates = Vector::<S>::zero();
         for i in 0..TangentOf::<S>::DIM {
             rates.set_component(i, velocity.component(i));
@@ -230,9 +231,9 @@ impl<S: LinearizedSystem> Start<S> {
 
     /// ∂(V, ż)/∂t, that through the input included: its derivative is that of the polynomial through five points of the step, so
     /// that no table is asked for times outside the run.
-    fn by_time<F, I: InputSource<S>>(
+    fn by_time<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         linear: &Model<S>,
         now: &S::Input,
         h: S::Scalar,
@@ -243,7 +244,7 @@ impl<S: LinearizedSystem> Start<S> {
         }
         let mut rate = now.scale(S::Scalar::ratio(-25, 3) / h);
         for (k, thirds) in [(1, 48), (2, -36), (3, 16), (4, -3)] {
-            let later = problem.input.input(S::Scalar::ratio(k, 4).fma(h, self.t), &self.q, &self.z);
+            let later = problem.input(S::Scalar::ratio(k, 4).fma(h, self.t), &self.q, &self.z);
             rate = rate.add_scaled(S::Scalar::ratio(thirds, 3) / h, &later);
         }
         for row in 0..Vector::<S>::DIM {
@@ -260,8 +261,8 @@ fn through_input<S: LinearizedSystem>(linear: &Model<S>, row: usize, rate: &S::I
 
 /// Entries of what an input that depends on the state adds to ∂(V, ż)/∂(σ, z), column by column: by central differences over a
 /// distance of ε^⅓, where what they neglect and what they lose by rounding are about the same.
-fn feedback<S: LinearizedSystem, F, I: InputSource<S>>(
-    problem: &Problem<'_, S, F, I>,
+fn feedback<S: LinearizedSystem, P: Problem<System = S>>(
+    problem: &P,
     start: &Start<S>,
     linear: &Model<S>,
 ) -> impl FnMut(usize, usize) -> S::Scalar {
@@ -270,7 +271,7 @@ fn feedback<S: LinearizedSystem, F, I: InputSource<S>>(
         axis.set_component(column, S::Scalar::from_f64(distance));
         let (sigma, speeds) = start.split(&axis);
         let z = start.z.add_scaled(S::Scalar::one(), &speeds);
-        problem.input.input(start.t, &start.q.retract(&sigma), &z)
+        problem.input(start.t, &start.q.retract(&sigma), &z)
     };
     let slope = move |column: usize| {
         let size = match column.checked_sub(TangentOf::<S>::DIM) {

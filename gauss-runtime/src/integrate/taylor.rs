@@ -5,13 +5,14 @@
 //! system. Order and step are those of Jorba & Zou (Experimental Mathematics 14, 2005): the last two terms of the series are to
 //! be as small as the tolerance. No step is rejected.
 
-use super::control::{Control, Emit, check_tolerances, prepare};
-use super::error::{IntegrationError, IntegrationErrorKind, Part};
-use super::form::{Form, InputSource, Problem, Rates, State};
-use super::projection::{accept, on_constraints};
-use super::rkmk::check_chart;
-use super::simulation::Simulation;
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::control::{Control, Emit, check_tolerances, prepare};
+use crate::integrate::drive::projection::{accept, on_constraints};
+use crate::integrate::drive::simulation::Simulation;
+use crate::integrate::problem::equations::{Problem, SystemProblem};
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
+use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::step::checks::check_chart;
 use crate::real::Real;
 use crate::series::{MAX_ORDER, PowerSeries, TaylorSystem, state_of};
 
@@ -147,33 +148,26 @@ impl Order {
 }
 
 /// The state a time h after the one that the series starts from.
-fn summed<S, F, I>(
-    problem: &Problem<'_, S, F, I>,
-    t: S::Scalar,
-    series: &S::Series,
-    order: usize,
-    h: S::Scalar,
-) -> State<S>
+fn summed<S, P>(problem: &P, t: S::Scalar, series: &S::Series, order: usize, h: S::Scalar) -> State<S>
 where
     S: TaylorSystem,
-    F: Form<S>,
+    P: Problem<System = S>,
 {
     let (q, z) = state_of::<S>(&series.at(order, h));
-    let q = q.renormalise();
-    State { t: t + h, q, y: problem.form.variables(problem.system, t + h, &q, &z) }
+    problem.state(t + h, q.renormalise(), &z)
 }
 
-fn expanded<S: TaylorSystem, F: Form<S>, I>(
-    problem: &Problem<'_, S, F, I>,
+fn expanded<S: TaylorSystem, P: Problem<System = S>>(
+    problem: &P,
     state: &State<S>,
     order: usize,
     series: &mut S::Series,
 ) {
     let State { t, q, y } = state;
-    problem.system.expand(*t, q, &problem.form.speeds(problem.system, *t, q, y), order, series);
+    problem.system().expand(*t, q, &problem.speeds(*t, q, y), order, series);
 }
 
-impl<'k, S: TaylorSystem, F, I, C, O, E> Simulation<'k, S, F, I, C, O, E> {
+impl<'k, S: TaylorSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
     /// Taylor's method with steps and orders as the tolerances ask: the cheapest way to a trajectory of a smooth system, from
     /// tolerances of about 1e-6 on, and further than other methods can go.
     ///
@@ -206,15 +200,15 @@ assert!((after - before).abs() < 1e-13 * before);
 ```
 "##
     )]
-    pub fn taylor(self, relative: f64, absolute: f64) -> Simulation<'k, S, F, I, Taylor, O, E> {
+    pub fn taylor(self, relative: f64, absolute: f64) -> Simulation<SystemProblem<'k, S, F, I>, Taylor, O, E> {
         self.control(Taylor::new(relative, absolute))
     }
 }
 
 impl<S: TaylorSystem> Control<S> for Taylor {
-    fn drive<F: Form<S>, I: InputSource<S>>(
+    fn drive<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
@@ -257,7 +251,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             if !(reached.q.is_finite() && reached.y.is_finite()) {
                 return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: Part::Step }));
             }
-            check_chart(problem, &state, &reached).map_err(|kind| stopped(&state, kind))?;
+            check_chart(problem.system(), &state, &reached).map_err(|kind| stopped(&state, kind))?;
             let rates: Rates<S> = accept(problem, &mut reached, None).map_err(|kind| stopped(&state, kind))?;
             state = reached;
             if emit(&state, &rates).is_break() || last {
@@ -274,9 +268,9 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }))
     }
 
-    fn within<F: Form<S>, I: InputSource<S>>(
+    fn within<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         _: &Rates<S>,
         h: S::Scalar,

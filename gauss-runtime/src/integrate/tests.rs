@@ -9,7 +9,7 @@ use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::lie::so3;
 use crate::monitor::monitor;
-use crate::system::{Equations, GaussSystem, Operations};
+use crate::system::GaussSystem;
 use crate::testing::{FreeTop, Pack};
 
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration*, fig. VII.5.3 without forces: I = (0.5, 0.85, 1),
@@ -46,7 +46,7 @@ fn quiet(_: f64, _: &UnitQuaternion<f64>, _: &SVector<f64, 3>) -> [f64; 3] {
 }
 
 /// The least-squares slope of log error against log step.
-pub(super) fn slope(points: &[(f64, f64)]) -> f64 {
+pub(in crate::integrate) fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let logs: Vec<_> = points.iter().map(|(h, e)| (h.ln(), e.ln())).collect();
     let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
@@ -83,7 +83,7 @@ fn published_free_body_to_the_published_errors() {
 /// Steps of one length by any tableau, without control, to t = 4.
 fn fixed_steps<S, const N: usize>(
     tableau: &Tableau<N>,
-    problem: &Problem<'_, S, impl Form<S>, impl InputSource<S>>,
+    problem: &impl Problem<System = S>,
     start: State<S>,
     steps: u32,
 ) -> State<S>
@@ -100,11 +100,7 @@ where
 }
 
 /// The fitted order of a tableau, against a solution with 32 times as many steps as the finest of the fit.
-fn fitted_order<S, const N: usize>(
-    tableau: &Tableau<N>,
-    problem: &Problem<'_, S, impl Form<S>, impl InputSource<S>>,
-    start: State<S>,
-) -> f64
+fn fitted_order<S, const N: usize>(tableau: &Tableau<N>, problem: &impl Problem<System = S>, start: State<S>) -> f64
 where
     S: GaussSystem<Scalar = f64>,
 {
@@ -129,9 +125,9 @@ fn orders_on_the_rotation_group_and_on_a_linear_space() {
     };
     let (q, y) = initial();
     let start = State { t: 0.0, q, y };
-    let problem = Problem { system: &TOP, form: VelocityForm, input: Feedback(torque) };
-    let momenta = Problem { system: &TOP, form: MomentumForm, input: Feedback(torque) };
-    let flat = Problem { system: &Pendulum, form: VelocityForm, input: NoInput };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: Feedback(torque) };
+    let momenta = SystemProblem { system: &TOP, form: MomentumForm, input: Feedback(torque) };
+    let flat = SystemProblem { system: &Pendulum, form: VelocityForm, input: NoInput };
     let swing = State { t: 0.0, q: SVector::from([1.0]), y: SVector::from([0.3]) };
     for (name, order, found) in [
         ("SO(3), velocities", 4.0, fitted_order(&Tableau::RK4, &problem, start)),
@@ -147,7 +143,7 @@ fn orders_on_the_rotation_group_and_on_a_linear_space() {
 #[test]
 fn first_same_as_last_holds_on_the_group() {
     let method = Rkmk::new(&Tableau::DORMAND_PRINCE_5);
-    let problem = Problem { system: &TOP, form: VelocityForm, input: Feedback(quiet) };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: Feedback(quiet) };
     let (q, y) = initial();
     let start = State { t: 0.0, q, y };
     let step = method.step(&problem, &start, &problem.rates(&start), 0.2).expect("steps");
@@ -168,8 +164,6 @@ impl GaussSystem for Pendulum {
     type Input = ();
     const DOF: usize = 1;
     const CHART: Chart = Chart::Own;
-    const EQUATIONS: Equations = Equations { text: "", latex: "" };
-    const OPERATIONS: Operations = FreeTop::<f64>::OPERATIONS;
 
     fn kinematics(&self, _: f64, _: &SVector<f64, 1>, z: &SVector<f64, 1>) -> SVector<f64, 1> {
         *z

@@ -47,7 +47,8 @@ const fn terms<T: Real>() -> (usize, usize) {
     }
 }
 
-/// `1 + x·r(0)·(1 + x·r(1)·(1 + …))`, `r(n)` the ratio of term n+1 to term n without its power of x.
+/// `1 + x·r(0)·(1 + x·r(1)·(1 + …))`, `r(n)` the ratio of term n+1 to term n without its power of x. What is left out is less
+/// than ε/64: 3.5e-18 in `f64`, 1.9e-9 in `f32`, where five terms of the cosine leave out 2.7e-10.
 #[inline(always)]
 fn nested<T: Real>(x: T, terms: usize, ratio: impl Fn(i64) -> (i64, i64)) -> T {
     let mut sum = T::one();
@@ -55,7 +56,7 @@ fn nested<T: Real>(x: T, terms: usize, ratio: impl Fn(i64) -> (i64, i64)) -> T {
         let (p, q) = ratio(n as i64);
         sum = (x * T::ratio(p, q)).fma(sum, T::one());
     }
-    sum
+    sum.omitting(T::from_f64(T::EPSILON / 64.0))
 }
 
 /// Takes `series(number of terms)` where s is below `limit`, else `closed(θ)`.

@@ -10,6 +10,7 @@ use crate::real::Real;
 
 /// Energy and work at one sample of a run, counted from the first; units of energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BalancePoint {
     /// Time.
     pub t: f64,
@@ -31,6 +32,7 @@ impl BalancePoint {
 
 /// The balance `E(t) − E(t₀) = ∫ supplied_power dt` over a run: see [`power_balance`].
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct EnergyBalance {
     points: Vec<BalancePoint>,
 }

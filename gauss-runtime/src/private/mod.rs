@@ -1,7 +1,7 @@
 //! What generated code calls, and nothing else should: no promise of stability is made here.
 //!
 //! Generated code is arithmetic on scalars; this module takes the user's containers apart and puts results together, turns
-//! poses into configurations and back, and checks parameters.
+//! poses into configurations and back, checks parameters, and has the traits and types that generated code implements and names.
 
 mod check;
 mod containers;
@@ -9,14 +9,39 @@ mod eigenvalues;
 mod poses;
 mod warnings;
 
-pub use crate::constraint::project;
-pub use crate::error::DragKind;
-pub use crate::series::Series;
+pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
+pub use crate::configuration::Configuration;
+pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};
+pub use crate::description::{Described, Equations, OperationCount, Operations};
+pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
+pub use crate::forces::{Element, ForcedSystem};
+pub use crate::identification::{InertialRegressor, ParametricSystem};
+pub use crate::linearize::{Linearization, LinearizedSystem};
+pub use crate::real::Real;
+pub use crate::series::{Series, TaylorSystem};
+pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};
 pub use check::ParameterCheck;
 pub use containers::{components, entries, isometry2, isometry3, matrix, product, quaternion, vector};
 pub(crate) use eigenvalues::eigenvalues;
+pub use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, UnitQuaternion};
 pub use poses::{
     chart_of_pose, free_pose, plane_chart_of_pose, plane_of_pose, pose_from_quaternion, pose_of_chart, pose_of_plane,
     pose_of_plane_chart, pose_of_rotation, pose_of_rotation_chart, rotation_chart_of_pose, rotation_of_pose,
 };
 pub use warnings::WarningCheck;
+
+#[cfg(test)]
+mod tests {
+    /// The derive makes the name from its own version, which is that of this crate: both are pinned to each other.
+    #[test]
+    fn the_name_carries_the_version() {
+        let version = concat!(
+            env!("CARGO_PKG_VERSION_MAJOR"),
+            "_",
+            env!("CARGO_PKG_VERSION_MINOR"),
+            "_",
+            env!("CARGO_PKG_VERSION_PATCH")
+        );
+        assert_eq!(module_path!(), std::format!("gauss_runtime::__private_{version}::tests"));
+    }
+}

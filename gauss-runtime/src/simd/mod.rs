@@ -184,6 +184,11 @@ impl<T: Real, const N: usize> Real for Lanes<T, N> {
     }
 
     #[inline(always)]
+    fn omitting(self, at_most: Self) -> Self {
+        self.zip(at_most, T::omitting)
+    }
+
+    #[inline(always)]
     fn is_finite(self) -> bool {
         // Without a branch at every lane.
         self.0.iter().fold(true, |all, x| all & x.is_finite())

@@ -3,8 +3,7 @@
 use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
-use crate::system::{Equations, GaussSystem, Operations};
-use crate::testing::FreeTop;
+use crate::system::GaussSystem;
 
 /// Speeds that push and drag alone change, each by itself, on any configuration: `V = z`, `ż = push − drag z`.
 #[derive(Clone, Copy)]
@@ -21,8 +20,6 @@ impl<C: Configuration> GaussSystem for Coasting<C> {
     type Input = ();
     const DOF: usize = <C::Tangent as VectorSpace<C::Scalar>>::DIM;
     const CHART: Chart = Chart::Own;
-    const EQUATIONS: Equations = Equations { text: "", latex: "" };
-    const OPERATIONS: Operations = FreeTop::<C::Scalar>::OPERATIONS;
 
     fn kinematics(&self, _: C::Scalar, _: &C, z: &C::Tangent) -> C::Tangent {
         *z

@@ -7,8 +7,7 @@ use crate::chart::Chart;
 use crate::configuration::VectorSpace;
 use crate::constraint::{ConstrainedSystem, ConstraintLevel, ProjectionError, project};
 use crate::real::Real;
-use crate::system::{Equations, GaussSystem, Operations};
-use crate::testing::FreeTop;
+use crate::system::GaussSystem;
 
 /// A function of time, coordinates and speeds.
 type Function<T, const N: usize, const M: usize> = fn(T, [T; N], [T; N]) -> [T; M];
@@ -137,8 +136,6 @@ impl<T: Real, const N: usize, const K: usize> GaussSystem for Hand<T, N, K> {
     type Input = ();
     const DOF: usize = N;
     const CHART: Chart = Chart::Own;
-    const EQUATIONS: Equations = Equations { text: "", latex: "" };
-    const OPERATIONS: Operations = FreeTop::<T>::OPERATIONS;
     const CONSTRAINED: bool = K > 0;
 
     fn kinematics(&self, _: T, _: &SVector<T, N>, z: &SVector<T, N>) -> SVector<T, N> {
@@ -158,7 +155,7 @@ impl<T: Real, const N: usize, const K: usize> GaussSystem for Hand<T, N, K> {
         self.momentum(t, q, &self.acceleration(t, q, &self.velocity(t, q, p), &()))
     }
     fn mass_matrix(&self, _: T, _: &SVector<T, N>) -> SMatrix<T, N, N> {
-        crate::__private::matrix(core::array::from_fn(|i| {
+        crate::private::matrix(core::array::from_fn(|i| {
             core::array::from_fn(|j| if i == j { self.mass[i] } else { T::zero() })
         }))
     }

@@ -4,7 +4,7 @@ use nalgebra::{Quaternion, SVector, UnitQuaternion};
 use std::vec::Vec;
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::{Feedback, Form, InputSource, OneStep, Problem, Rkmk, State, Tableau};
+use crate::integrate::{Feedback, OneStep, Problem, Rkmk, State, Tableau};
 use crate::system::GaussSystem;
 use crate::testing::FreeTop;
 
@@ -24,7 +24,7 @@ pub(crate) fn fitted_order(points: &[(f64, f64)], rounding: f64) -> f64 {
 /// So many steps of one length by a method, up to `span` later.
 pub(crate) fn march<S: GaussSystem<Scalar = f64>>(
     method: &impl OneStep<S>,
-    problem: &Problem<'_, S, impl Form<S>, impl InputSource<S>>,
+    problem: &impl Problem<System = S>,
     start: &State<S>,
     span: f64,
     steps: u32,
@@ -49,7 +49,7 @@ pub(crate) fn distance<S: GaussSystem<Scalar = f64>>(a: &State<S>, b: &State<S>)
 /// its own rounding grows like the root of their number.
 pub(crate) fn measured_order<S: GaussSystem<Scalar = f64>>(
     method: &impl OneStep<S>,
-    problem: &Problem<'_, S, impl Form<S>, impl InputSource<S>>,
+    problem: &impl Problem<System = S>,
     start: &State<S>,
     span: f64,
     steps: &[u32],

@@ -6,8 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::chart::Chart;
 use crate::forces::{Element, ForcedSystem};
-use crate::system::{Equations, GaussSystem, Operations, Smoothness};
-use crate::testing::FreeTop;
+use crate::system::{GaussSystem, Smoothness};
 
 type One = SVector<f64, 1>;
 
@@ -90,8 +89,6 @@ impl<L: Law> GaussSystem for Oscillator<L> {
     type Input = f64;
     const DOF: usize = 1;
     const CHART: Chart = Chart::Own;
-    const EQUATIONS: Equations = Equations { text: "", latex: "" };
-    const OPERATIONS: Operations = FreeTop::<f64>::OPERATIONS;
     const SMOOTHNESS: Smoothness = L::SMOOTHNESS;
 
     fn kinematics(&self, _: f64, _: &One, z: &One) -> One {

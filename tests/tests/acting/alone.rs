@@ -4,8 +4,8 @@
 use gauss_runtime::prelude::*;
 use proptest::test_runner::TestCaseError;
 
+use crate::common::Bounded;
 use crate::common::agreement::{Tally, explore};
-use crate::common::bounded::Bounded;
 use crate::common::dual::Dual;
 use crate::common::parameters::Parameters;
 use crate::common::states::{Motion, State};

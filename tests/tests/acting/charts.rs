@@ -6,9 +6,9 @@ use gauss_runtime::prelude::*;
 
 use proptest::test_runner::TestCaseError;
 
+use crate::common::Bounded;
 use crate::common::agreement::{equal, explore};
 use crate::common::body::{Scene as Bare, list, speeds};
-use crate::common::bounded::Bounded;
 use crate::common::dual::Dual;
 use crate::common::parameters::Parameters;
 use crate::common::states::{Motion, State};

@@ -3,9 +3,9 @@
 use gauss_runtime::prelude::*;
 use proptest::test_runner::TestCaseError;
 
+use crate::common::Bounded;
 use crate::common::agreement::{equal, largest, zero};
 use crate::common::body::{Parts, duals, list, rates, speeds};
-use crate::common::bounded::Bounded;
 use crate::common::dual::Dual;
 use crate::common::states::State;
 use crate::scenes::{Body, Inputs};

@@ -4,9 +4,9 @@ use gauss_runtime::prelude::*;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseError, TestRunner};
 
+use crate::common::Bounded;
 use crate::common::agreement::largest;
 use crate::common::body::{Parts, list};
-use crate::common::bounded::Bounded;
 use crate::common::parameters::{Parameters, parameters};
 use crate::common::states::{Motion, State, state};
 use crate::observed::{TIME, inputs};

@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use proptest::test_runner::{Config, TestCaseError, TestRunner};
 
-use super::bounded::Bounded;
+use super::Bounded;
 use super::parameters::{Parameters, parameters};
 use super::states::{Motion, State, state};
 
@@ -76,7 +76,7 @@ pub fn equal(what: &str, left: &[Bounded], right: &[Bounded]) -> Result<(), Test
 
 /// Every number is zero up to its bound.
 pub fn zero(what: &str, values: &[Bounded]) -> Result<(), TestCaseError> {
-    equal(what, values, &vec![Bounded::new(0.0, 0.0); values.len()])
+    equal(what, values, &vec![Bounded::measured(0.0, 0.0); values.len()])
 }
 
 /// The largest magnitude.

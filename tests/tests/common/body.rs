@@ -124,7 +124,7 @@ pub trait Body<T: Real>:
         Configuration: Parts<T>,
         Speeds: VectorSpace<T>,
         MassMatrix: Index<(usize, usize), Output = T>,
-    >
+    > + Described
 {
 }
 
@@ -135,7 +135,7 @@ impl<T: Real, K> Body<T> for K where
             Configuration: Parts<T>,
             Speeds: VectorSpace<T>,
             MassMatrix: Index<(usize, usize), Output = T>,
-        >
+        > + Described
 {
 }
 

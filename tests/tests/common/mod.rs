@@ -2,7 +2,6 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `bounded` | a scalar that carries a bound on its own rounding error |
 //! | `dual` | a scalar that carries its derivative |
 //! | `body` | a derived kernel of any chart and scalar; its flow in dual numbers |
 //! | `parameters` | random bodies |
@@ -15,9 +14,11 @@
 
 pub mod agreement;
 pub mod body;
-pub mod bounded;
 pub mod dual;
 pub mod parameters;
 #[macro_use]
 pub mod scenes;
 pub mod states;
+
+/// Numbers that carry a bound on their own rounding error.
+pub type Bounded = gauss_runtime::bounded::Bounded<f64>;

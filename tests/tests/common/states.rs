@@ -3,8 +3,8 @@
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;
 
+use super::Bounded;
 use super::body::{Body, Parts};
-use super::bounded::Bounded;
 
 /// Which twists and poses a motion has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,14 +71,14 @@ pub fn state(motion: Motion) -> impl Strategy<Value = State> {
 impl State {
     /// The pose; the bounds say that the quaternion is of norm 1 up to rounding only.
     pub fn pose(&self) -> Isometry3<Bounded> {
-        let rotation = self.rotation.map(|c| Bounded::new(c, 2.0 * f64::EPSILON * c.abs()));
-        let position = self.position.map(|c| Bounded::new(c, 0.0));
+        let rotation = self.rotation.map(|c| Bounded::measured(c, 2.0 * f64::EPSILON * c.abs()));
+        let position = self.position.map(|c| Bounded::measured(c, 0.0));
         Isometry3::assemble(&[&rotation[..], &position[..]].concat())
     }
 
     /// The twist.
     pub fn twist(&self) -> SVector<Bounded, 6> {
-        SVector::from(self.twist.map(|c| Bounded::new(c, 0.0)))
+        SVector::from(self.twist.map(|c| Bounded::measured(c, 0.0)))
     }
 
     /// The same state in the variables of a kernel.

@@ -1,9 +1,7 @@
 //! The same derive in double-double numbers: runs that agree with the reference solutions to 25 digits.
 
-mod double_double;
-
-use double_double::DoubleDouble;
 use gauss_runtime::prelude::*;
+use gauss_tests::double_double::DoubleDouble;
 use gauss_tests::trajectory::reference;
 use serde_json::Value;
 

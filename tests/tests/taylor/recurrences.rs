@@ -1,6 +1,6 @@
 //! The series of one state against a Runge–Kutta method that knows nothing of series, for every operation that programs have.
 
-use gauss_runtime::integrate::{NoInput, OneStep, Problem, Rkmk, State};
+use gauss_runtime::integrate::{NoInput, OneStep, Problem, Rkmk, State, SystemProblem};
 use gauss_runtime::prelude::*;
 use gauss_runtime::series::{MAX_ORDER, PowerSeries, state_of};
 
@@ -11,7 +11,7 @@ const STEPS: u32 = 100;
 /// The state a time τ after `start` by many short steps of order 8, whose local errors are (0.3/100)⁹ and less.
 fn by_short_steps<S: TaylorSystem<Scalar = f64>>(system: &S, start: &State<S>, tau: f64) -> State<S> {
     let method = Rkmk::new(&Tableau::DORMAND_PRINCE_8);
-    let problem = Problem { system, form: VelocityForm, input: NoInput };
+    let problem = SystemProblem { system, form: VelocityForm, input: NoInput };
     let h = tau / f64::from(STEPS);
     let mut state = *start;
     for n in 1..=STEPS {

@@ -23,6 +23,9 @@ pub const ALLOWED: &str = "expressions are made of numbers, names, `+ - * /`, br
      ln, sqrt, powi, atan2, dot, cross, rotation_x, rotation_y, rotation_z, inverse, twist, rate, abs, min, max, hypot, \
      signum, clamp and smooth_step";
 
+/// More factors than any law of forces has.
+const LARGEST_EXPONENT: u32 = 100;
+
 /// Reads the tokens that `owner` is said to be.
 pub fn read(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Expression> {
     convert(&parse(owner, tokens, context)?, context)
@@ -164,13 +167,12 @@ fn literal_number(literal: &Lit, context: &mut Context) -> Option<ExpressionKind
         return None;
     }
     match number::exact(digits) {
-        Some((numerator, denominator)) => Some(ExpressionKind::Number { numerator, denominator }),
+        Some(value) => Some(ExpressionKind::Number { value }),
         None => {
             context.error(
                 literal.span(),
                 format!(
-                    "`{}` is no fraction of two 64-bit integers, and numbers in expressions are exact; \
-                     write fewer digits, or make it a field of the struct",
+                    "`{}` is beyond the range of double precision, which is from 1e-308 to 1e308",
                     literal.to_token_stream()
                 ),
             );
@@ -381,6 +383,13 @@ fn apply(
                 );
                 return None;
             };
+            if power.unsigned_abs() > LARGEST_EXPONENT {
+                context.error_at(
+                    exponent,
+                    format!("powers become products, of {LARGEST_EXPONENT} factors at most; write `exp` and `ln`"),
+                );
+                return None;
+            }
             let base = values.into_iter().next()?;
             if power < 0 && base.is_zero() {
                 context.error(base.span, "division by zero");

@@ -1,65 +1,72 @@
 //! Literals as exact fractions: `0.1` is one tenth, not the nearest binary number.
 
-/// Numerator and denominator, in lowest terms, of decimal digits such as `12`, `0.5` or `1e-3`, if both fit 64 bits.
-pub fn exact(digits: &str) -> Option<(i64, i64)> {
-    let (negative, digits) = match digits.strip_prefix('-') {
-        Some(rest) => (true, rest),
-        None => (false, digits),
-    };
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use crate::algebra::Rational;
+
+/// Powers of ten beyond which no number of less than a million digits is in the range of double precision.
+const EXPONENTS: i64 = 1_000_000;
+
+/// Decimal digits such as `12`, `0.5` or `1e-3`, if double precision has a number near them.
+pub fn exact(digits: &str) -> Option<Rational> {
     let (mantissa, exponent) = digits.split_once(['e', 'E']).unwrap_or((digits, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let all = format!("{whole}{fraction}");
-    let significant = all.trim_start_matches('0').trim_end_matches('0');
-    if significant.is_empty() {
-        // Zero, whatever its exponent.
-        return Some((0, 1));
+    let mantissa: BigInt = format!("{whole}{fraction}").parse().ok()?;
+    if mantissa == BigInt::ZERO {
+        // Whatever its exponent.
+        return Some(Rational::zero());
     }
-    let trailing = all.len() - all.trim_end_matches('0').len();
-    let exponent = exponent
-        .parse::<i64>()
-        .ok()?
-        .checked_sub(i64::try_from(fraction.len()).ok()?)?
-        .checked_add(i64::try_from(trailing).ok()?)?;
-    let power = 10_i128.checked_pow(u32::try_from(exponent.unsigned_abs()).ok()?)?;
-    let mantissa: i128 = significant.parse().ok()?;
-    let (numerator, denominator) = if exponent < 0 { (mantissa, power) } else { (mantissa.checked_mul(power)?, 1) };
-    let common = greatest_common_divisor(numerator, denominator);
-    let numerator = i64::try_from(numerator / common).ok()?;
-    let denominator = i64::try_from(denominator / common).ok()?;
-    Some((if negative { -numerator } else { numerator }, denominator))
-}
-
-/// Euclid's algorithm, for positive numbers.
-fn greatest_common_divisor(a: i128, b: i128) -> i128 {
-    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
+    let exponent = exponent.parse::<i64>().ok()?.checked_sub(i64::try_from(fraction.len()).ok()?)?;
+    let power = Some(exponent.unsigned_abs() as u32).filter(|_| exponent.abs() < EXPONENTS)?;
+    let power = BigInt::from(10).pow(power);
+    let value = if exponent < 0 { BigRational::new(mantissa, power) } else { BigRational::from(mantissa * power) };
+    let value = Rational::from(value);
+    Some(value).filter(|value| value.to_f64().is_normal())
 }
 
 #[cfg(test)]
 mod tests {
     use super::exact;
+    use crate::algebra::Rational;
 
     #[test]
     fn fractions() {
-        assert_eq!(exact("0"), Some((0, 1)));
-        assert_eq!(exact("0.000e-999"), Some((0, 1)));
-        assert_eq!(exact("12"), Some((12, 1)));
-        assert_eq!(exact("-12"), Some((-12, 1)));
-        assert_eq!(exact("1200"), Some((1200, 1)));
-        assert_eq!(exact("0.5"), Some((1, 2)));
-        assert_eq!(exact("1."), Some((1, 1)));
-        assert_eq!(exact("9.80665"), Some((196_133, 20_000)));
-        assert_eq!(exact("1e-3"), Some((1, 1000)));
-        assert_eq!(exact("1.5E+3"), Some((1500, 1)));
-        assert_eq!(exact("9223372036854775807"), Some((i64::MAX, 1)));
+        let fraction = |numerator, denominator| Some(Rational::new(numerator, denominator));
+        assert_eq!(exact("0"), fraction(0, 1));
+        assert_eq!(exact("0.000e-999"), fraction(0, 1));
+        assert_eq!(exact("12"), fraction(12, 1));
+        assert_eq!(exact("-12"), fraction(-12, 1));
+        assert_eq!(exact("1200"), fraction(1200, 1));
+        assert_eq!(exact("0.5"), fraction(1, 2));
+        assert_eq!(exact("1."), fraction(1, 1));
+        assert_eq!(exact("9.80665"), fraction(196_133, 20_000));
+        assert_eq!(exact("1e-3"), fraction(1, 1000));
+        assert_eq!(exact("1.5E+3"), fraction(1500, 1));
+        assert_eq!(exact("9223372036854775807"), fraction(i64::MAX, 1));
+    }
+
+    /// As the compiler reads them.
+    #[test]
+    fn many_digits() {
+        for digits in [
+            "9223372036854775808",
+            "3.14159265358979323846264338327950288419716939937510",
+            "1e-19",
+            "6.62607015e-34",
+            "1e300",
+            "2.2250738585072014e-308",
+            "0.12345678901234567891",
+            "5.972168e24",
+        ] {
+            assert_eq!(exact(digits).map(Rational::to_f64), digits.parse().ok(), "{digits}");
+        }
     }
 
     #[test]
-    fn what_64_bits_cannot_hold() {
-        assert_eq!(exact("9223372036854775808"), None);
-        assert_eq!(exact("1e-19"), None);
-        assert_eq!(exact("1e19"), None);
-        assert_eq!(exact("1e99999999999999999999"), None);
-        assert_eq!(exact("1e-4294967296"), None);
-        assert_eq!(exact("0.12345678901234567891"), None);
+    fn what_double_precision_cannot_hold() {
+        for digits in ["1e309", "1e-309", "1e99999999999999999999", "1e-4294967296", "1e2000000"] {
+            assert_eq!(exact(digits), None, "{digits}");
+        }
     }
 }

@@ -6,6 +6,8 @@ use proc_macro2::Span;
 use syn::Ident;
 use syn::ext::IdentExt;
 
+use crate::algebra::Rational;
+
 /// A value that the equations depend on, as the user wrote it.
 #[derive(Clone, Debug)]
 pub struct Expression {
@@ -18,12 +20,10 @@ pub struct Expression {
 /// The forms of expressions.
 #[derive(Clone, Debug)]
 pub enum ExpressionKind {
-    /// A literal, exactly: a fraction in lowest terms with a positive denominator.
+    /// A literal, exactly.
     Number {
-        /// Above the line.
-        numerator: i64,
-        /// Below the line.
-        denominator: i64,
+        /// Not negative.
+        value: Rational,
     },
     /// A coordinate, a speed, an input, a field that is a scalar or a vector, a point, or `t`.
     Name(Ident),
@@ -173,10 +173,17 @@ impl Expression {
         found
     }
 
+    /// Whether it is made of literals alone.
+    pub fn is_made_of_literals(&self) -> bool {
+        let mut literals = true;
+        self.walk(&mut |part| literals &= !matches!(part.kind, ExpressionKind::Name(_)));
+        literals
+    }
+
     /// A literal with its sign, to the nearest double.
     pub fn literal(&self) -> Option<f64> {
         match &self.kind {
-            ExpressionKind::Number { numerator, denominator } => Some(*numerator as f64 / *denominator as f64),
+            ExpressionKind::Number { value } => Some(value.to_f64()),
             ExpressionKind::Negate(inner) => inner.literal().map(|value| -value),
             _ => None,
         }
@@ -184,7 +191,7 @@ impl Expression {
 
     pub fn is_zero(&self) -> bool {
         match &self.kind {
-            ExpressionKind::Number { numerator, .. } => *numerator == 0,
+            ExpressionKind::Number { value } => value.is_zero(),
             ExpressionKind::Negate(inner) => inner.is_zero(),
             _ => false,
         }

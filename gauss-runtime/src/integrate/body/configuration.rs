@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, Translation3, UnitQuaternio
 
 use super::inertia::{FreeMotion, PrincipalAxes};
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::error::IntegrationErrorKind;
+use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::lie::se3::{join, split};
 use crate::real::Real;
 use crate::triple::{axpy, compose, cross, quaternion, rotate, rotate_back, triple, unit_quaternion};
@@ -147,7 +147,7 @@ impl<T: Real> BodyConfiguration for Isometry3<T> {
 
     fn mass_and_inertia(matrix: &Self::MassMatrix) -> Result<(T, Matrix3<T>), SplittingError> {
         let entry = |i: usize, j: usize| matrix.data.0[j][i];
-        let inertia = crate::__private::matrix(core::array::from_fn(|i| core::array::from_fn(|j| entry(i + 3, j + 3))));
+        let inertia = crate::private::matrix(core::array::from_fn(|i| core::array::from_fn(|j| entry(i + 3, j + 3))));
         for lane in 0..T::LANES {
             let mass = entry(0, 0).lane(lane);
             let rounding = 16.0 * T::EPSILON;

@@ -16,7 +16,7 @@ use nalgebra::{SVector, Vector3};
 
 use super::elliptic::{Jacobi, Modulus, complete};
 use super::inertia::{FreeMotion, Turn};
-use crate::integrate::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
 use crate::lie::carried::two_sum;
 use crate::lie::so3;
 use crate::real::Real;

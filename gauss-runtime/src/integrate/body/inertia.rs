@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SVector, UnitQuaternion, Vector3};
 
-use crate::integrate::error::IntegrationErrorKind;
+use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::lie::so3;
 use crate::real::Real;
 use crate::triple::{compose, quaternion, rotate, rotate_back, triple, unit_quaternion};
@@ -167,7 +167,7 @@ mod tests {
             Matrix3::new(2.0, 0.3, 0.0, 0.3, 1.5, 0.2, 0.0, 0.2, 1.0),
             Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0)),
         ];
-        let both = crate::__private::matrix(core::array::from_fn(|i| {
+        let both = crate::private::matrix(core::array::from_fn(|i| {
             core::array::from_fn(|j| Pack([tensors[0][(i, j)], tensors[1][(i, j)]]))
         }));
         let both = PrincipalAxes::of(&both).expect("positive definite");

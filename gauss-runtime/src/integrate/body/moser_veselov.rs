@@ -10,7 +10,7 @@ use nalgebra::{SVector, Vector3};
 
 use super::corrections::Corrections;
 use super::inertia::{FreeMotion, Turn};
-use crate::integrate::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
 use crate::lie::so3;
 use crate::real::Real;
 use crate::triple::{add, cross, dot, scaled, triple, unit_quaternion};

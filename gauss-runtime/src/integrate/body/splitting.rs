@@ -10,9 +10,10 @@ use super::inertia::{FreeMotion, PrincipalAxes};
 use super::moser_veselov::MoserVeselov;
 use super::scheme::Scheme;
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::error::{IntegrationErrorKind, Part};
-use crate::integrate::form::{Form, InputSource, Problem, Rates, State, TangentOf};
-use crate::integrate::one_step::{OneStep, Properties, Step};
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -147,20 +148,20 @@ where
 
     /// Refuses what the free motion refuses, and what is infinite or undefined ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
-    fn step<F: Form<S>, I: InputSource<S>>(
+    fn step<P: Problem<System = S>>(
         &self,
-        problem: &Problem<'_, S, F, I>,
+        problem: &P,
         state: &State<S>,
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
-        let Problem { system, form, input } = problem;
+        let system = problem.system();
         let at_rest = S::Speeds::zero();
         let kick = |t, q: &S::Configuration, p: &S::Speeds, length| {
-            let input = input.input(t, q, &at_rest);
+            let input = problem.input(t, q, &at_rest);
             p.add_scaled(h * S::Scalar::from_f64(length), &system.momentum_rate(t, q, &at_rest, &input))
         };
-        let (mut q, mut p) = (state.q, form.momentum(system, state.t, &state.q, &state.y));
+        let (mut q, mut p) = (state.q, problem.momentum(state.t, &state.q, &state.y));
         let mut passed = 0.0;
         for (&push, &length) in self.scheme.kicks().iter().zip(self.scheme.drifts()) {
             p = kick(S::Scalar::from_f64(passed).fma(h, state.t), &q, &p, push);
@@ -178,7 +179,7 @@ where
         if !(q.is_finite() && p.is_finite()) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
-        let y = form.of_momentum(system, t, &q, &p);
+        let y = problem.of_momentum(t, &q, &p);
         let error = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
         Ok(Step { state: State { t, q, y }, error, rates: None })
     }

@@ -4,6 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::{FreeMotion, MoserVeselov, Scheme, Splitting};
 use crate::configuration::Configuration;
+use crate::integrate::SystemProblem;
 use crate::integrate::{
     Feedback, Fixed, IntegrationErrorKind, MomentumForm, OneStep, Part, Problem, Simulation, State, VelocityForm,
 };
@@ -25,8 +26,8 @@ const SWINGING: Feedback<Torque> = Feedback(|t, q, _| {
 fn schemes_have_their_orders() {
     let exact = |scheme| Splitting::exact(&TOP, scheme).expect("a body");
     let discrete = |scheme| Splitting::discrete(&TOP, scheme).expect("a body");
-    let velocities = Problem { system: &TOP, form: VelocityForm, input: SWINGING };
-    let momenta = Problem { system: &TOP, form: MomentumForm, input: SWINGING };
+    let velocities = SystemProblem { system: &TOP, form: VelocityForm, input: SWINGING };
+    let momenta = SystemProblem { system: &TOP, form: MomentumForm, input: SWINGING };
     // The error constant of order 4 is so small that terms of higher order rule beyond h = 0.1.
     let counts = [[40, 80, 160, 320], [60, 90, 120, 180], [20, 40, 80, 120], [14, 17, 20, 24]];
     for (scheme, counts) in SCHEMES.into_iter().zip(counts) {
@@ -58,7 +59,7 @@ fn the_lower_order_of_scheme_and_motion_is_that_of_the_method() {
 
 /// How far a run of twenty steps and twenty back ends from its start.
 fn there_and_back(method: &impl OneStep<FreeTop<f64>>) -> f64 {
-    let problem = Problem { system: &TOP, form: MomentumForm, input: SWINGING };
+    let problem = SystemProblem { system: &TOP, form: MomentumForm, input: SWINGING };
     let start = start_by_momentum();
     let there = march(method, &problem, &start, 2.0, 20);
     distance(&march(method, &problem, &there, -2.0, 20), &start)
@@ -89,7 +90,7 @@ fn symplectic_form(p: &SVector<f64, 3>) -> SMatrix<f64, 6, 6> {
 
 /// The end of a step from a start that is moved along one of the six directions.
 fn moved(method: &impl OneStep<FreeTop<f64>>, h: f64, column: usize, by: f64) -> State<FreeTop<f64>> {
-    let problem = Problem { system: &TOP, form: MomentumForm, input: WEIGHT };
+    let problem = SystemProblem { system: &TOP, form: MomentumForm, input: WEIGHT };
     let mut state = start_by_momentum();
     let mut change = SVector::<f64, 3>::zeros();
     change[column % 3] = by;
@@ -138,7 +139,7 @@ fn the_symplectic_form_is_kept_where_that_is_stated() {
 
 #[test]
 fn without_forces_energy_and_momentum_stay() {
-    let problem = Problem { system: &TOP, form: MomentumForm, input: NONE };
+    let problem = SystemProblem { system: &TOP, form: MomentumForm, input: NONE };
     let start = start_by_momentum();
     let energy = |state: &State<FreeTop<f64>>| {
         let z = TOP.velocity(0.0, &state.q, &state.y);
@@ -163,7 +164,7 @@ fn single_precision_runs() {
         .control(Fixed::by(method, 0.1))
         .run_to_end(start.q.cast(), start.y.cast(), 0.0..2.0)
         .expect("runs");
-    let problem = Problem { system: &TOP, form: MomentumForm, input: NONE };
+    let problem = SystemProblem { system: &TOP, form: MomentumForm, input: NONE };
     let exact = march(&Splitting::exact(&TOP, Scheme::STRANG).expect("a body"), &problem, &start_by_momentum(), 2.0, 1);
     // 20 steps of six drifts, each of some ten roundings.
     let error = (end.p.cast::<f64>() - exact.y).amax();
@@ -173,12 +174,12 @@ fn single_precision_runs() {
 #[test]
 fn broken_inputs_and_long_steps_are_refused() {
     let broken = Feedback(|t: f64, _: &_, _: &_| [if t > 0.05 { f64::NAN } else { 0.0 }, 0.0, 0.0]);
-    let problem = Problem { system: &TOP, form: VelocityForm, input: broken };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: broken };
     let start = start_by_velocity();
     let exact = Splitting::exact(&TOP, Scheme::STRANG).expect("a body");
     let error = exact.step(&problem, &start, &problem.rates(&start), 0.1).err();
     assert_eq!(error, Some(IntegrationErrorKind::NonFinite { part: Part::Step }));
-    let problem = Problem { system: &TOP, form: VelocityForm, input: NONE };
+    let problem = SystemProblem { system: &TOP, form: VelocityForm, input: NONE };
     let discrete = Splitting::discrete(&TOP, Scheme::STRANG).expect("a body");
     let error = discrete.step(&problem, &start, &problem.rates(&start), 20.0).err();
     assert!(matches!(error, Some(IntegrationErrorKind::NotConverged { .. })), "{error:?}");

@@ -34,14 +34,10 @@ fn forms() {
 
 #[test]
 fn numbers() {
-    let exact = |number: &str| {
-        format!(
-            "`{number}` is no fraction of two 64-bit integers, and numbers in expressions are exact; \
-             write fewer digits, or make it a field of the struct"
-        )
-    };
-    check_potential("9223372036854775808 * x", &[("9223372036854775808", &exact("9223372036854775808"))]);
-    check_potential("1e-30", &[("1e-30", &exact("1e-30"))]);
+    let beyond =
+        |number: &str| format!("`{number}` is beyond the range of double precision, which is from 1e-308 to 1e308");
+    check_potential("1e309 * x", &[("1e309", &beyond("1e309"))]);
+    check_potential("1e-330", &[("1e-330", &beyond("1e-330"))]);
     check_potential("2u8", &[("2u8", "`2u8` counts in `u8`, but expressions are real numbers; write `2`")]);
     check_potential("x / 0", &[("0", "division by zero")]);
     check_potential("x / 0.0 + 0.powi(-1)", &[("0.0", "division by zero"), ("0", "division by zero")]);

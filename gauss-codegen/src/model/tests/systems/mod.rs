@@ -47,8 +47,7 @@ fn check_potential(value: &str, expected: &[Mistake<'_>]) {
 /// An expression with all its brackets.
 pub(super) fn show(expression: &Expression) -> String {
     match &expression.kind {
-        ExpressionKind::Number { numerator, denominator: 1 } => numerator.to_string(),
-        ExpressionKind::Number { numerator, denominator } => format!("{numerator}/{denominator}"),
+        ExpressionKind::Number { value } => format!("{value:?}"),
         ExpressionKind::Name(name) => name.to_string(),
         ExpressionKind::Component(base, index) => format!("{}[{index}]", show(base)),
         ExpressionKind::Property(base, property) => format!("{}.{property:?}", show(base)),

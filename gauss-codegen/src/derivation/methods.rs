@@ -1,0 +1,138 @@
+//! The programs of a kernel, method by method: arguments, code, what the outputs are.
+
+use crate::emit::{Derived, method_name};
+use crate::kernel;
+use crate::mechanics::Method;
+use crate::program::{ArgumentKind, Function, Instruction, Operand, Program, Results};
+
+use super::signature::{Signature, Unbound};
+
+/// Every method, then what is computed together, and the derivatives.
+pub fn programs<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Vec<Program>, Unbound> {
+    let formulas = derived.formulas.iter().zip(&derived.kernel.functions);
+    let methods = formulas.map(|(formula, code)| of_method(derived, signature, formula.method, code));
+    let mut programs = methods.collect::<Result<Vec<_>, _>>()?;
+    programs.push(evaluate(derived, signature)?);
+    programs.extend(linearize(derived, signature).transpose()?);
+    programs.extend(by_parameters(derived, signature).transpose()?);
+    programs.extend(regressor(derived, signature).transpose()?);
+    Ok(programs)
+}
+
+/// Arguments of every method.
+const ALWAYS: [ArgumentKind; 3] = [ArgumentKind::Constants, ArgumentKind::Time, ArgumentKind::Configuration];
+
+fn with(further: &[ArgumentKind]) -> Vec<ArgumentKind> {
+    [ALWAYS.as_slice(), further].concat()
+}
+
+/// The arguments of a method after those that every method has.
+fn further_arguments(method: Method) -> &'static [ArgumentKind] {
+    use ArgumentKind::{Accelerations, Inputs, Momenta, Residuals, Speeds, Twist};
+    match method {
+        Method::Acceleration | Method::Multipliers | Method::Powers | Method::ElementForces | Method::SuppliedPower => {
+            &[Speeds, Inputs]
+        }
+        Method::Kinematics
+        | Method::Momentum
+        | Method::KineticEnergy
+        | Method::BodyTwist
+        | Method::BodyMomentum
+        | Method::VelocityResidual
+        | Method::ComponentRates => &[Speeds],
+        Method::Velocity => &[Momenta],
+        Method::MomentumRate => &[Momenta, Inputs],
+        Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces => &[Speeds, Accelerations, Inputs],
+        Method::Speeds => &[Twist],
+        Method::PositionCorrection => &[Residuals],
+        Method::VelocityCorrection => &[Speeds, Residuals],
+        Method::MassMatrix
+        | Method::PotentialEnergy
+        | Method::Regularity
+        | Method::PositionResidual
+        | Method::InertialParameters => &[],
+    }
+}
+
+fn of_method<'g>(
+    derived: &Derived<'_, 'g>,
+    signature: &Signature<'g>,
+    method: Method,
+    code: &kernel::Program<'g>,
+) -> Result<Program, Unbound> {
+    // `expand` makes the series, this the rates that they are made from.
+    let name = if method == Method::ComponentRates { "component_rates" } else { method_name(method) };
+    let (rows, arguments) = (derived.degrees_of_freedom(), with(further_arguments(method)));
+    let results = |rows: usize, columns: usize| vec![Results::new(name, rows, columns)];
+    let count = code.outputs.len();
+    match method {
+        Method::MassMatrix | Method::ElementForces => {
+            signature.program(name, &arguments, code, results(rows, count / rows))
+        }
+        Method::Regularity => signature.program(name, &arguments, &regularity(code), results(1, 1)),
+        _ => signature.program(name, &arguments, code, results(count, 1)),
+    }
+}
+
+/// The volume over the product of the lengths.
+fn regularity<'g>(code: &kernel::Program<'g>) -> kernel::Program<'g> {
+    let mut code = code.clone();
+    let (volume, squares) = (code.outputs[0], code.outputs[1]);
+    let root = Operand::Value(code.instructions.len());
+    code.instructions.push(Instruction::Call(Function::Sqrt, squares));
+    code.instructions.push(Instruction::Divide(volume, root));
+    code.outputs = vec![Operand::Value(code.instructions.len() - 1)];
+    code
+}
+
+fn evaluate<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Program, Unbound> {
+    let (increments, speeds) = (derived.program(Method::Kinematics).outputs.len(), derived.degrees_of_freedom());
+    let results = vec![
+        Results::new("velocity", increments, 1),
+        Results::new("acceleration", speeds, 1),
+        Results::new("kinetic_energy", 1, 1),
+        Results::new("potential_energy", 1, 1),
+    ];
+    let arguments = with(&[ArgumentKind::Speeds, ArgumentKind::Inputs]);
+    signature.program("evaluate", &arguments, &derived.kernel.joined, results)
+}
+
+fn linearize<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
+    let (linearization, code) = derived.linearization.zip(derived.kernel.tangents.as_ref())?;
+    let (states, inputs) = (linearization.increments + linearization.speeds, linearization.inputs);
+    let results = vec![
+        Results::new("rate", states, 1),
+        Results::new("by_state", states, states),
+        Results::new("by_time", states, 1),
+        Results::new("by_input", states, inputs),
+    ];
+    let arguments = with(&[ArgumentKind::Speeds, ArgumentKind::Inputs]);
+    Some(signature.program("linearize", &arguments, &by_rows(code, &results), results))
+}
+
+fn by_parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
+    let (linearization, code) = derived.linearization.zip(derived.kernel.by_parameters.as_ref())?;
+    let states = linearization.increments + linearization.speeds;
+    let results = vec![Results::new("by_parameters", states, derived.parameters.len())];
+    let arguments = with(&[ArgumentKind::Speeds, ArgumentKind::Inputs]);
+    Some(signature.program("by_parameters", &arguments, &by_rows(code, &results), results))
+}
+
+fn regressor<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
+    let (regressor, code) = derived.regressor.zip(derived.kernel.regressor.as_ref())?;
+    let results = vec![Results::new("regressor", derived.degrees_of_freedom(), regressor.parameters.len())];
+    let arguments = with(&[ArgumentKind::Speeds, ArgumentKind::Accelerations]);
+    Some(signature.program("regressor", &arguments, &by_rows(code, &results), results))
+}
+
+/// Derivatives are computed column by column; results are written row by row.
+fn by_rows<'g>(code: &kernel::Program<'g>, results: &[Results]) -> kernel::Program<'g> {
+    let mut outputs = Vec::with_capacity(code.outputs.len());
+    let mut start = 0;
+    for result in results {
+        let entries = (0..result.rows).flat_map(|i| (0..result.columns).map(move |j| result.rows * j + i));
+        outputs.extend(entries.map(|k| code.outputs[start + k]));
+        start += result.len();
+    }
+    kernel::Program { instructions: code.instructions.clone(), outputs }
+}

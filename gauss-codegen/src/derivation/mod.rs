@@ -1,0 +1,105 @@
+//! The public face of the pipeline: a struct in; programs, equations and Rust out.
+
+mod methods;
+mod signature;
+
+use std::fmt;
+
+use proc_macro2::TokenStream;
+use syn::DeriveInput;
+use syn::ext::IdentExt;
+
+use crate::algebra::Notation;
+use crate::emit::{Derived, Equations, emit};
+use crate::expand::derive;
+use crate::mistakes::bug;
+use crate::program::Program;
+
+use methods::programs;
+use signature::Signature;
+
+/// Everything that is derived from one struct. It stands alone: nothing in it refers to the scene or to expressions.
+#[derive(Clone, Debug)]
+pub struct Derivation {
+    name: String,
+    constants: Program,
+    programs: Vec<Program>,
+    equations: Equations,
+    rust: TokenStream,
+}
+
+impl Derivation {
+    /// Derives the equations of motion of a struct with `#[gauss(…)]` attributes.
+    ///
+    /// # Errors
+    /// Every mistake of the struct, each at the token that is wrong.
+    pub fn new(input: &DeriveInput) -> syn::Result<Self> {
+        derive(input, Self::of)
+    }
+
+    /// The same of the struct of that name in the text of a Rust file, wherever in its modules it is.
+    ///
+    /// # Errors
+    /// What is no Rust; the name, if there is no such struct; every mistake of the struct.
+    pub fn of_source(source: &str, name: &str) -> syn::Result<Self> {
+        let file = syn::parse_file(source)?;
+        let Some(item) = find(&file.items, name) else {
+            let message = format!("there is no struct `{name}` in this file");
+            return Err(syn::Error::new(proc_macro2::Span::call_site(), message));
+        };
+        Self::new(&item.clone().into())
+    }
+
+    fn of(derived: &Derived<'_, '_>) -> syn::Result<Self> {
+        let ident = derived.item().ident;
+        let signature = Signature::new(derived);
+        let refused = |malformed: &dyn fmt::Display| bug(ident, &malformed);
+        let constants = signature.constants(derived).map_err(|malformed| refused(&malformed))?;
+        let programs = programs(derived, &signature).map_err(|malformed| refused(&malformed))?;
+        let equations = Equations::of(derived);
+        let rust = emit(derived, &equations);
+        Ok(Self { name: ident.unraw().to_string(), constants, programs, equations, rust })
+    }
+
+    /// The name of the struct.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What `kernel()` computes: the constants, from the numbers of the fields.
+    pub fn constants(&self) -> &Program {
+        &self.constants
+    }
+
+    /// One program a method of the kernel, then `evaluate`, and `linearize`, `by_parameters` and `regressor` where they are asked for.
+    /// Arguments are those of the method: constants, time and configuration first.
+    pub fn programs(&self) -> &[Program] {
+        &self.programs
+    }
+
+    /// The program of one method.
+    pub fn program(&self, method: &str) -> Option<&Program> {
+        self.programs.iter().find(|program| program.name == method)
+    }
+
+    /// The equations of motion: a page of plain text, or one LaTeX environment.
+    pub fn equations(&self, notation: Notation) -> &str {
+        match notation {
+            Notation::Text => &self.equations.text,
+            Notation::Latex => &self.equations.latex,
+        }
+    }
+
+    /// The kernel in Rust: what `#[derive(GaussDynamics)]` puts beside the struct.
+    pub fn rust(&self) -> &TokenStream {
+        &self.rust
+    }
+}
+
+fn find<'a>(items: &'a [syn::Item], name: &str) -> Option<&'a syn::ItemStruct> {
+    items.iter().find_map(|item| match item {
+        syn::Item::Struct(item) if item.ident.unraw() == name => Some(item),
+        syn::Item::Mod(module) => find(&module.content.as_ref()?.1, name),
+        _ => None,
+    })
+}

@@ -1,0 +1,103 @@
+//! Symbols become components of arguments: where the inputs of programs are found.
+
+use std::fmt;
+
+use crate::algebra::{Expr, Map, Notation, Rational, print};
+use crate::emit::Derived;
+use crate::kernel;
+use crate::program::{Argument, ArgumentKind, Input, Malformed, Operand, Program, Results};
+
+/// All arguments that methods of a kernel have, and the symbols of their components.
+pub struct Signature<'g> {
+    arguments: Vec<(Argument, Vec<Expr<'g>>)>,
+    /// Symbols of literals, and of what literals determine.
+    literals: Map<u32, Rational>,
+    known: Map<u32, f64>,
+}
+
+/// An error of this crate.
+pub enum Unbound {
+    /// A symbol that is no component of the arguments.
+    Symbol(String),
+    Malformed(Malformed),
+}
+
+impl fmt::Display for Unbound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unbound::Symbol(name) => write!(f, "the symbol `{name}` is no component of the arguments"),
+            Unbound::Malformed(malformed) => malformed.fmt(f),
+        }
+    }
+}
+
+impl<'g> Signature<'g> {
+    pub fn new(derived: &Derived<'_, 'g>) -> Self {
+        let formal = derived.formal();
+        let configuration: Vec<Expr<'g>> =
+            derived.configuration_arguments().into_iter().flat_map(|argument| argument.symbols).collect();
+        let parameters = derived.parameters.iter();
+        let (names, symbols) = parameters.map(|parameter| (parameter.name.clone(), parameter.symbol)).unzip();
+        let constants = &derived.kernel.constant_symbols;
+        let arguments = vec![
+            (Argument::new(ArgumentKind::Parameters, "parameters", names), symbols),
+            argument(ArgumentKind::Constants, "k", constants),
+            (Argument::new(ArgumentKind::Time, "t", vec!["t".to_owned()]), derived.time().into_iter().collect()),
+            argument(ArgumentKind::Configuration, "q", &configuration),
+            argument(ArgumentKind::Speeds, "z", formal.speeds),
+            argument(ArgumentKind::Momenta, "p", formal.momenta),
+            argument(ArgumentKind::Accelerations, "acceleration", formal.speed_rates),
+            argument(ArgumentKind::Twist, "twist", formal.twist),
+            argument(ArgumentKind::Residuals, "residual", formal.residuals),
+            argument(ArgumentKind::Inputs, "input", formal.inputs),
+        ];
+        let known = derived.kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), *value));
+        let literals = derived.literals().iter().map(|(value, symbol)| (symbol.key(), *value));
+        Self { arguments, literals: literals.collect(), known: known.collect() }
+    }
+
+    /// A program with arguments of these kinds.
+    pub fn program(
+        &self,
+        name: &str,
+        kinds: &[ArgumentKind],
+        code: &kernel::Program<'g>,
+        results: Vec<Results>,
+    ) -> Result<Program, Unbound> {
+        let taken: Vec<_> = kinds
+            .iter()
+            .filter_map(|kind| self.arguments.iter().find(|(argument, _)| argument.kind == *kind))
+            .collect();
+        let mut inputs: Map<u32, Operand> =
+            self.literals.iter().map(|(&symbol, &value)| (symbol, Operand::Number(value))).collect();
+        for (argument, (_, symbols)) in taken.iter().enumerate() {
+            let component = |(component, symbol): (usize, &Expr<'g>)| {
+                (symbol.key(), Operand::Input(Input::Component { argument, component }))
+            };
+            inputs.extend(symbols.iter().enumerate().map(component));
+        }
+        let mut numbers = Vec::new();
+        for symbol in code.symbols() {
+            if let Some(&value) = self.known.get(&symbol.key()) {
+                inputs.insert(symbol.key(), Operand::Input(Input::Number(numbers.len())));
+                numbers.push(value);
+            }
+        }
+        let bound = |symbol: Expr<'g>| {
+            inputs.get(&symbol.key()).copied().ok_or_else(|| Unbound::Symbol(print(symbol, Notation::Text)))
+        };
+        let arguments = taken.into_iter().map(|(argument, _)| argument.clone()).collect();
+        Program::new(name, arguments, numbers, code.with_inputs(bound)?, results).map_err(Unbound::Malformed)
+    }
+
+    /// What computes the constants from the parameters.
+    pub fn constants(&self, derived: &Derived<'_, 'g>) -> Result<Program, Unbound> {
+        let code = &derived.kernel.constants;
+        self.program("kernel", &[ArgumentKind::Parameters], code, vec![Results::new("k", code.outputs.len(), 1)])
+    }
+}
+
+fn argument<'g>(kind: ArgumentKind, name: &str, symbols: &[Expr<'g>]) -> (Argument, Vec<Expr<'g>>) {
+    let components = symbols.iter().map(|symbol| print(*symbol, Notation::Text)).collect();
+    (Argument::new(kind, name, components), symbols.to_vec())
+}

@@ -1,0 +1,32 @@
+//! `ConstrainedSystem`: multipliers, residuals and corrections; and `project` of `GaussSystem`, which needs them.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::derived::{Derived, Subject};
+use super::system::SystemSubject;
+
+/// The system, where there are constraints.
+fn constrained<'a, 'g>(derived: &Derived<'a, 'g>) -> Option<SystemSubject<'a, 'g>> {
+    match derived.subject {
+        Subject::System(subject) if !subject.constraints.is_empty() => Some(subject),
+        _ => None,
+    }
+}
+
+pub fn constrained_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let subject = constrained(derived)?;
+    let (private, ty, count) = (derived.private(), derived.scalar().ty(), subject.constraints.count());
+    let methods = subject.constraint_methods(derived.item().runtime).into_iter();
+    let methods = methods.map(|(method, arguments, result)| derived.function(method, arguments, result));
+    let items = quote! {
+        type Multipliers = #private::SVector<#ty, #count>;
+        #(#methods)*
+    };
+    Some(derived.implementation(quote!(ConstrainedSystem), items))
+}
+
+/// `project` of `GaussSystem`, where a run can drift away from constraints.
+pub fn projection(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    constrained(derived).map(|subject| subject.projection(derived))
+}

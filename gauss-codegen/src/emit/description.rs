@@ -1,0 +1,40 @@
+//! `Described`: equations as text and LaTeX, the operations of the methods.
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+
+use crate::kernel::Counts;
+use crate::mechanics::Method;
+
+use super::derived::Derived;
+use super::documentation::{DERIVATIVES, Equations, method_name};
+
+pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
+    let private = derived.private();
+    let (Equations { text, latex }, operations) = (equations, operations(derived));
+    let items = quote! {
+        const EQUATIONS: #private::Equations = #private::Equations::new(#text, #latex);
+        const OPERATIONS: #private::Operations = {
+            let mut __operations = #private::Operations::NONE;
+            #(__operations.#operations;)*
+            __operations
+        };
+    };
+    derived.implementation(quote!(Described), items)
+}
+
+/// `method = count`, for every method.
+fn operations(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
+    let count = |name: &str, counts: Counts| {
+        let (field, count) = (Ident::new(name, Span::call_site()), derived.count(counts));
+        quote!(#field = #count)
+    };
+    let kernel = &derived.kernel;
+    let methods = derived.formulas.iter().zip(&kernel.functions).filter(|(f, _)| f.method <= Method::Powers);
+    let methods = methods.map(|(f, program)| count(method_name(f.method), program.counts()));
+    let whole = [("kernel", &kernel.constants), ("evaluate", &kernel.joined)].into_iter();
+    let whole = whole.map(|(name, program)| count(name, program.counts()));
+    let derivatives = DERIVATIVES.into_iter().zip(kernel.derivatives());
+    let derivatives = derivatives.filter_map(|(name, program)| Some(count(name, program?.counts())));
+    whole.chain(methods).chain(derivatives).collect()
+}

@@ -1,0 +1,40 @@
+//! What is emitted of a struct with mistakes: the mistakes, and what other code names of the kernel.
+//!
+//! The type of a kernel depends on clauses that may be the ones that are wrong, so no implementation of a trait would fit the
+//! code that uses it. `NameKernel` is a type that contains the first mistake instead, as the length of an array: the compiler
+//! reports that one and is silent about whatever depends on it.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use syn::{DeriveInput, Error};
+
+/// The mistakes, each at its token, and stand-ins for `NameKernel` and `Name::kernel()`, so that one mistake is one message.
+pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
+    let DeriveInput { ident, vis, generics, .. } = input;
+    let mut mistakes = mistakes.into_iter().map(|mistake| mistake.into_compile_error());
+    let first = mistakes.next();
+    let name = format_ident!("{}Kernel", ident);
+    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
+    // A generic kernel has one type parameter: its scalar.
+    let mut parameters = generics.type_params().map(|parameter| &parameter.ident);
+    let scalar = parameters.next().filter(|_| parameters.next().is_none());
+    let (declared, element) = match scalar {
+        Some(scalar) => (quote!(<#scalar>), quote!(#scalar)),
+        None => (quote!(), quote!(())),
+    };
+    quote! {
+        #[allow(non_camel_case_types, dead_code)]
+        #vis type #name #declared = [#element; #first];
+        #(#mistakes)*
+
+        const _: () = {
+            #[automatically_derived]
+            #[allow(dead_code)]
+            impl #impl_generics #ident #type_generics #where_clause {
+                #vis fn kernel(&self) -> #name #declared {
+                    loop {}
+                }
+            }
+        };
+    }
+}

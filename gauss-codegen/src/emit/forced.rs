@@ -1,0 +1,34 @@
+//! `ForcedSystem`: power and generalised forces of what acts, element by element.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::mechanics::Method;
+
+use super::derived::Derived;
+
+pub fn forced_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    if !derived.has(Method::Powers) {
+        return None;
+    }
+    let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
+    let accounts = derived.accounts();
+    let count = accounts.len();
+    let elements = accounts.iter().map(|account| {
+        let (name, conservative) = (&account.name, account.conservative);
+        quote!(#private::Element::new(#name, #conservative))
+    });
+    let arguments = quote!(z: &Self::Speeds, input: &Self::Input);
+    let powers = derived.function(Method::Powers, arguments.clone(), quote!(Self::Powers));
+    let forces = derived.function(Method::ElementForces, arguments.clone(), quote!(Self::ElementForces));
+    let supplied = derived.function(Method::SuppliedPower, arguments, quote!(Self::Scalar));
+    let items = quote! {
+        type Powers = #private::SVector<#ty, #count>;
+        type ElementForces = #private::SMatrix<#ty, #n, #count>;
+        const ELEMENTS: &'static [#private::Element] = &[#(#elements),*];
+        #powers
+        #forces
+        #supplied
+    };
+    Some(derived.implementation(quote!(ForcedSystem), items))
+}

@@ -1,0 +1,105 @@
+//! `GaussSystem`: the equations of motion.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::kernel::Smoothness;
+use crate::mechanics::Method;
+
+use super::constrained::projection;
+use super::derived::{Derived, Subject};
+
+pub fn gauss_system(derived: &Derived<'_, '_>) -> TokenStream {
+    let (types, smoothness) = (types(derived), smoothness(derived));
+    let (methods, evaluate, projection) = (methods(derived), evaluate(derived), projection(derived));
+    let items = quote! {
+        #types
+        #smoothness
+        #methods
+        #evaluate
+        #projection
+    };
+    derived.implementation(quote!(GaussSystem), items)
+}
+
+/// Associated types, degrees of freedom, chart.
+fn types(derived: &Derived<'_, '_>) -> TokenStream {
+    let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
+    let (configuration, chart) = match derived.subject {
+        Subject::Body { .. } => {
+            derived.body().map(|body| (body.configuration_type(), body.chart_tokens())).unwrap_or_default()
+        }
+        Subject::System(subject) => (subject.configuration_type(derived), quote!(#private::Chart::Own)),
+    };
+    let input = match derived.formal().inputs.len() {
+        0 => quote!(()),
+        count => quote!(#private::SVector<#ty, #count>),
+    };
+    quote! {
+        type Scalar = #ty;
+        type Configuration = #configuration;
+        type Speeds = #private::SVector<#ty, #n>;
+        type MassMatrix = #private::SMatrix<#ty, #n, #n>;
+        type Input = #input;
+        const DOF: ::core::primitive::usize = #n;
+        const CHART: #private::Chart = #chart;
+    }
+}
+
+/// Of what acts alone: kinematics are smooth where they are regular.
+fn smoothness(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let word = match derived.smoothness() {
+        Smoothness::Smooth => return None,
+        Smoothness::Kinks => quote!(Kinks),
+        Smoothness::Jumps => quote!(Jumps),
+    };
+    let private = derived.private();
+    let smoothness = quote!(#private::Smoothness);
+    Some(quote!(const SMOOTHNESS: #smoothness = #smoothness::#word;))
+}
+
+fn methods(derived: &Derived<'_, '_>) -> TokenStream {
+    let private = derived.private();
+    let [z, p, input] = [quote!(z: &Self::Speeds), quote!(p: &Self::Speeds), quote!(input: &Self::Input)];
+    let acceleration = quote!(z: &Self::Speeds, acceleration: &Self::Speeds, input: &Self::Input);
+    let [speeds, matrix, scalar] = [quote!(Self::Speeds), quote!(Self::MassMatrix), quote!(Self::Scalar)];
+    let tangent = quote!(<Self::Configuration as #private::Configuration>::Tangent);
+    let methods = [
+        (Method::Acceleration, quote!(#z, #input), &speeds),
+        (Method::Momentum, z.clone(), &speeds),
+        (Method::Velocity, p.clone(), &speeds),
+        (Method::MomentumRate, quote!(#p, #input), &speeds),
+        (Method::MassMatrix, quote!(), &matrix),
+        (Method::KineticEnergy, z.clone(), &scalar),
+        (Method::PotentialEnergy, quote!(), &scalar),
+        (Method::GaussResidual, acceleration.clone(), &speeds),
+        (Method::ConstraintFunction, acceleration, &scalar),
+        (Method::Kinematics, z, &tangent),
+        (Method::Regularity, quote!(), &scalar),
+    ];
+    let written = methods.into_iter().filter(|(method, ..)| derived.has(*method));
+    written.map(|(method, arguments, result)| derived.function(method, arguments, result.clone())).collect()
+}
+
+/// `evaluate`: q̇, ż and the energies at once.
+fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
+    let private = derived.private();
+    let (instructions, outputs) = derived.computed(&derived.kernel.joined);
+    let (configuration, rest) = outputs.split_at(derived.program(Method::Kinematics).outputs.len());
+    let (speeds, energies) = rest.split_at(derived.degrees_of_freedom());
+    let velocity = derived.tangent(configuration);
+    quote! {
+        #[inline]
+        fn evaluate(
+            &self,
+            t: Self::Scalar,
+            q: &Self::Configuration,
+            z: &Self::Speeds,
+            input: &Self::Input,
+        ) -> #private::Evaluated<Self> {
+            #instructions
+            let [__kinetic, __potential] = [#(#energies),*];
+            #private::Evaluated::new(#velocity, #private::vector([#(#speeds),*]), __kinetic, __potential)
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! `InertialRegressor`: the forces of inertia as a linear function of inertial parameters.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::mechanics::Method;
+
+use super::derived::Derived;
+use super::linearized::{pattern, rows};
+
+/// The regressor, where it is asked for.
+pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let (regressor, program) = derived.regressor.zip(derived.kernel.regressor.as_ref())?;
+    let (private, ty) = (derived.private(), derived.scalar().ty());
+    let (rates, count) = (derived.degrees_of_freedom(), regressor.parameters.len());
+    let names = regressor.parameters.iter().map(|parameter| &parameter.name);
+    let (instructions, outputs) = derived.computed(program);
+    let (matrix, pattern) = (rows(&outputs, rates, 0..count), pattern(program, rates, 0..count));
+    let (parameters, forces) =
+        (derived.method_body(Method::InertialParameters), derived.method_body(Method::OtherForces));
+    let items = quote! {
+            type Regressor = #private::SMatrix<#ty, #rates, #count>;
+            type InertialParameters = #private::SVector<#ty, #count>;
+            const INERTIAL_PARAMETERS: &'static [&'static ::core::primitive::str] = &[#(#names),*];
+            const REGRESSOR_PATTERN: &'static [&'static [::core::primitive::bool]] = &[#(#pattern),*];
+            fn regressor(
+                &self,
+                t: Self::Scalar,
+                q: &Self::Configuration,
+                z: &Self::Speeds,
+                acceleration: &Self::Speeds,
+            ) -> Self::Regressor {
+                #instructions
+                #private::matrix([#(#matrix),*])
+            }
+            fn inertial_parameters(&self) -> Self::InertialParameters {
+                #parameters
+            }
+            fn other_forces(
+                &self,
+                t: Self::Scalar,
+                q: &Self::Configuration,
+                z: &Self::Speeds,
+                acceleration: &Self::Speeds,
+                input: &Self::Input,
+            ) -> Self::Speeds {
+                #forces
+            }
+    };
+    Some(derived.implementation(quote!(InertialRegressor), items))
+}

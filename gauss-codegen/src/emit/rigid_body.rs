@@ -1,0 +1,34 @@
+//! `RigidBodySystem`: the configuration as a pose, twist and momentum in body axes; of one body in a chart.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::mechanics::Method;
+
+use super::derived::Derived;
+
+pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let (pose, configuration_of_pose) = derived.body()?.pose_bodies();
+    let private = derived.private();
+    let six = quote!(#private::SVector<Self::Scalar, 6>);
+    let twist = derived.function(Method::BodyTwist, quote!(z: &Self::Speeds), six.clone());
+    let speeds = derived.function(Method::Speeds, quote!(twist: &#six), quote!(Self::Speeds));
+    let momentum = derived.function(Method::BodyMomentum, quote!(z: &Self::Speeds), six);
+    let items = quote! {
+        #[inline]
+        fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> #private::Isometry3<Self::Scalar> {
+            #pose
+        }
+        #[inline]
+        fn configuration(
+            &self,
+            pose: &#private::Isometry3<Self::Scalar>,
+        ) -> ::core::result::Result<Self::Configuration, #private::ChartError> {
+            #configuration_of_pose
+        }
+        #twist
+        #speeds
+        #momentum
+    };
+    Some(derived.implementation(quote!(RigidBodySystem), items))
+}

@@ -1,0 +1,170 @@
+//! The functions of a kernel, lowered together: shared constants, the cheapest arrangement of each.
+
+use crate::algebra::{Evaluation, Expr, Graph, Map, Rational};
+
+use super::check::{Checked, Miscompiled, Sample};
+use super::derivatives::{Constants, Derivatives, Expected, Kept};
+use super::hoist::Hoister;
+use super::write::Program;
+
+/// Programs of a set of functions that share their constants.
+pub struct Kernel<'g> {
+    /// Computes the constants from the parameters; its outputs are the constants in order.
+    pub constants: Program<'g>,
+    /// One program a function, in the order given; the symbols of constants among their inputs are listed below.
+    pub functions: Vec<Program<'g>>,
+    /// The outputs of several functions, one after the other, what they have in common computed once.
+    pub joined: Program<'g>,
+    /// The outputs of what is differentiated, then all their derivatives along the first direction, and so on.
+    pub tangents: Option<Program<'g>>,
+    /// The derivatives of the same outputs by the first parameter, and so on.
+    pub by_parameters: Option<Program<'g>>,
+    /// The coefficients of the first parameter in outputs that are affine in them, and so on.
+    pub regressor: Option<Program<'g>>,
+    /// The constants as symbols, in the order of the outputs of `constants`.
+    pub constant_symbols: Vec<Expr<'g>>,
+    /// Constants that literal numbers alone determine, with their values.
+    pub known_constants: Vec<(Expr<'g>, f64)>,
+}
+
+/// Symbols that stand for literal numbers. Where the scalar is not known before run time, there is no value to fold.
+pub type Literals<'a, 'g> = Option<&'a [(Rational, Expr<'g>)]>;
+
+/// A function to be lowered: lists of outputs that are equal, of which the cheapest is taken.
+pub struct Candidates<'g> {
+    pub arrangements: Vec<Vec<Expr<'g>>>,
+    pub aim: Aim,
+}
+
+/// What a function is to be cheap for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// Its values.
+    Values,
+    /// The power series of its values.
+    Series,
+}
+
+impl<'g> Candidates<'g> {
+    /// Arrangements of which values are wanted.
+    #[cfg(test)]
+    pub fn of_values(arrangements: Vec<Vec<Expr<'g>>>) -> Self {
+        Self { arrangements, aim: Aim::Values }
+    }
+
+    /// The cheapest arrangement as a program, and its outputs.
+    fn cheapest(&self, hoister: &mut Hoister<'_, 'g>) -> (Program<'g>, &[Expr<'g>]) {
+        let lower = |outputs: &'_ Vec<Expr<'g>>| Program::lower(&hoister.hoist(outputs));
+        let programs: Vec<Program<'g>> = self.arrangements.iter().map(lower).collect();
+        let cost_of = |program: &Program<'g>| match self.aim {
+            Aim::Values => program.cost().total(),
+            Aim::Series => program.series_cost(|symbol| hoister.is_hoisted(symbol)),
+        };
+        let lowered = programs.into_iter().zip(&self.arrangements);
+        let cheapest = lowered.min_by_key(|(program, _)| cost_of(program));
+        let (program, outputs) = cheapest.expect("a function has at least one arrangement");
+        // A power series takes a negation of an addend for an instruction like any other.
+        (if self.aim == Aim::Values { program.with_signs_led_back() } else { program }, outputs)
+    }
+}
+
+impl<'g> Kernel<'g> {
+    /// Lowers functions, each of which has an arrangement; those that are `joined` also together. `definitions` are symbols that stand
+    /// for expressions of the arguments. Every program is then run at a pseudo-random point and compared with its expressions.
+    pub fn lower(
+        graph: &'g Graph,
+        functions: &[Candidates<'g>],
+        joined: &[usize],
+        definitions: &Map<u32, Expr<'g>>,
+        wanted: &Derivatives<'_, 'g>,
+        literals: Literals<'_, 'g>,
+    ) -> Result<Self, Miscompiled> {
+        let mut hoister = Hoister::new(graph, definitions);
+        let (functions, chosen): (Vec<_>, Vec<_>) =
+            functions.iter().map(|candidates| candidates.cheapest(&mut hoister)).unzip();
+        let of_joined: Vec<Expr<'g>> = joined.iter().flat_map(|&k| chosen[k]).copied().collect();
+        let joined = Program::lower(&hoister.hoist(&of_joined)).with_signs_led_back();
+        let (tangents, expected_tangents) =
+            wanted.by_state.map(|wanted| wanted.lower(&mut hoister, Kept::ValuesToo)).unzip();
+        let (regressor, expected_regressor) =
+            wanted.regressor.map(|wanted| wanted.lower(&mut hoister, Kept::DerivativesAlone)).unzip();
+        let read: Vec<Expr<'g>> =
+            functions.iter().chain([&joined]).chain(&tangents).chain(&regressor).flat_map(Program::symbols).collect();
+        let numbers: Map<u32, f64> =
+            literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
+        let (mut constants, known_constants, folded) = constants(hoister, &read, literals.map(|_| &numbers));
+        let by_parameters = wanted.by_parameters.map(|by| by.lower(graph, (&functions, &chosen), &mut constants));
+        let (by_parameters, expected_by_parameters) = by_parameters.unzip();
+        let Constants { program, symbols: constant_symbols } = constants;
+        let kernel = Self {
+            constants: program,
+            functions,
+            joined,
+            tangents,
+            by_parameters,
+            regressor,
+            constant_symbols,
+            known_constants,
+        };
+        let outputs = chosen.into_iter().chain([of_joined.as_slice()]).map(Expected::of);
+        let derived = [expected_tangents, expected_by_parameters, expected_regressor];
+        let sample = Sample { definitions, units: wanted.units, literals: &numbers, folded: &folded };
+        kernel.checked(outputs, derived).check(graph, &sample)?;
+        Ok(kernel)
+    }
+
+    /// With what the functions, then those joined, and the derivatives should compute.
+    pub(super) fn checked<'a>(
+        &'a self,
+        functions: impl Iterator<Item = Expected<'a, 'g>>,
+        derivatives: impl IntoIterator<Item = Option<Expected<'a, 'g>>>,
+    ) -> Checked<'a, 'g> {
+        let derivatives = self.derivatives().zip(derivatives);
+        Checked {
+            constants: &self.constants,
+            constant_symbols: &self.constant_symbols,
+            functions: self.functions.iter().chain([&self.joined]).zip(functions).collect(),
+            derivatives: derivatives.filter_map(|(program, expected)| program.zip(expected)).collect(),
+        }
+    }
+
+    /// The programs of derivatives, in the order in which their values are expected.
+    pub fn derivatives(&self) -> impl Iterator<Item = Option<&Program<'g>>> {
+        [&self.tangents, &self.by_parameters, &self.regressor].into_iter().map(Option::as_ref)
+    }
+}
+
+/// Symbols of constants and what they stand for.
+type Definitions<'g> = Vec<(Expr<'g>, Expr<'g>)>;
+
+/// The constants that are read, and of these those that `literals` alone determine, with their values and with their
+/// definitions. Constants that only a dearer arrangement wanted are dropped.
+fn constants<'g>(
+    hoister: Hoister<'_, 'g>,
+    read: &[Expr<'g>],
+    literals: Option<&Map<u32, f64>>,
+) -> (Constants<'g>, Vec<(Expr<'g>, f64)>, Definitions<'g>) {
+    let known = |definition: Expr<'g>| {
+        let literals = literals?;
+        let value = Evaluation::new(literals).value(definition);
+        let made_of_literals =
+            Program::lower(&[definition]).symbols().iter().all(|symbol| literals.contains_key(&symbol.key()));
+        // What has no value is left to `kernel()`, which refuses it.
+        Some(value).filter(|value| made_of_literals && value.is_finite())
+    };
+    let (mut symbols, mut values) = (Vec::new(), Vec::new());
+    let (mut known_constants, mut folded) = (Vec::new(), Vec::new());
+    for (symbol, definition) in hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(symbol)) {
+        match known(definition) {
+            Some(value) => {
+                known_constants.push((symbol, value));
+                folded.push((symbol, definition));
+            }
+            None => {
+                symbols.push(symbol);
+                values.push(definition);
+            }
+        }
+    }
+    (Constants { program: Program::lower(&values), symbols }, known_constants, folded)
+}

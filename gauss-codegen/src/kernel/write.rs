@@ -1,0 +1,234 @@
+//! From a network to straight-line code.
+
+use crate::algebra::{Expr, Function, Map, Number, Rational};
+use crate::program::{Code, Instruction};
+
+use super::factor::Factoring;
+use super::network::{Network, Node, Place};
+
+/// Straight-line code whose inputs are symbols.
+pub type Program<'g> = Code<Expr<'g>>;
+/// What it works on.
+pub type Operand<'g> = crate::program::Operand<Expr<'g>>;
+/// One step of it.
+pub type Operation<'g> = Instruction<Expr<'g>>;
+
+impl<'g> Program<'g> {
+    /// Factors, shares, and writes out.
+    pub fn lower(outputs: &[Expr<'g>]) -> Self {
+        let mut factoring = Factoring::default();
+        let outputs: Vec<_> = outputs.iter().map(|&e| factoring.rewrite(e)).collect();
+        Writer::new(Network::new(&outputs)).write().verified()
+    }
+
+    /// The symbols that the program reads.
+    pub fn symbols(&self) -> Vec<Expr<'g>> {
+        self.inputs()
+    }
+
+    /// Runs the program in double precision, with values of symbols by their keys.
+    pub fn run<N: Number>(&self, symbols: &Map<u32, N>) -> Vec<N> {
+        self.evaluate(|symbol| symbols.get(&symbol.key()).copied().unwrap_or(N::number(f64::NAN)))
+    }
+}
+
+/// Writes a network as instructions, each node where it is first needed: values are short-lived that way.
+struct Writer<'g> {
+    network: Network<'g>,
+    /// How many nodes and outputs use each node.
+    uses: Vec<usize>,
+    written: Map<Place, Operand<'g>>,
+    negated: Map<usize, Operand<'g>>,
+    instructions: Vec<Operation<'g>>,
+}
+
+impl<'g> Writer<'g> {
+    fn new(network: Network<'g>) -> Self {
+        let mut uses = vec![0; network.nodes.len()];
+        let mut reached = vec![false; network.nodes.len()];
+        let mut open: Vec<Place> = network.outputs.iter().map(|&(_, place)| place).collect();
+        while let Some(place) = open.pop() {
+            uses[place] += 1;
+            if std::mem::replace(&mut reached[place], true) {
+                continue;
+            }
+            match &network.nodes[place] {
+                Node::Number(_) | Node::Leaf(_) => {}
+                Node::Sum(terms) => open.extend(terms.iter().map(|t| t.1)),
+                Node::Product(factors) => open.extend(factors),
+                Node::Reciprocal(a) => open.push(*a),
+                Node::Call(_, a) => open.push(*a),
+                Node::Binary(_, a, b) => open.extend([*a, *b]),
+            }
+        }
+        Self { network, uses, written: Map::default(), negated: Map::default(), instructions: Vec::new() }
+    }
+
+    fn write(mut self) -> Program<'g> {
+        let outputs = self.network.outputs.clone();
+        let outputs = outputs
+            .into_iter()
+            .map(|(c, place)| {
+                let value = self.operand(place);
+                self.scaled(c, value)
+            })
+            .collect();
+        Program { instructions: self.instructions, outputs }
+    }
+
+    fn push(&mut self, instruction: Operation<'g>) -> Operand<'g> {
+        self.instructions.push(instruction);
+        Operand::Value(self.instructions.len() - 1)
+    }
+
+    fn operand(&mut self, place: Place) -> Operand<'g> {
+        if let Some(&done) = self.written.get(&place) {
+            return done;
+        }
+        let result = match self.network.nodes[place].clone() {
+            Node::Number(value) => Operand::Number(value),
+            Node::Leaf(e) => Operand::Input(e),
+            Node::Product(factors) => self.product(&factors),
+            Node::Reciprocal(a) => {
+                let a = self.operand(a);
+                self.push(Instruction::Divide(Operand::Number(Rational::one()), a))
+            }
+            Node::Call(
+                function @ (Function::Exp | Function::Ln | Function::Sqrt | Function::Abs | Function::Signum),
+                a,
+            ) => {
+                let a = self.operand(a);
+                self.push(Instruction::Call(function, a))
+            }
+            Node::Call(function, a) => {
+                let a = self.operand(a);
+                let pair = Instruction::SineCosine(a);
+                let index = match self.instructions.iter().position(|i| *i == pair) {
+                    Some(index) => index,
+                    None => {
+                        self.push(pair);
+                        self.instructions.len() - 1
+                    }
+                };
+                match function {
+                    Function::Sin => Operand::Sine(index),
+                    _ => Operand::Cosine(index),
+                }
+            }
+            Node::Binary(function, a, b) => {
+                let (a, b) = (self.operand(a), self.operand(b));
+                self.push(Instruction::Binary(function, a, b))
+            }
+            Node::Sum(terms) => self.sum(&terms),
+        };
+        self.written.insert(place, result);
+        result
+    }
+
+    /// A product; reciprocals that nobody else needs become one division.
+    fn product(&mut self, factors: &[Place]) -> Operand<'g> {
+        let (below, above): (Vec<Place>, Vec<Place>) = factors.iter().partition(|&&f| {
+            matches!(self.network.nodes[f], Node::Reciprocal(_)) && self.uses[f] == 1 && !self.written.contains_key(&f)
+        });
+        if below.is_empty() || above.is_empty() {
+            return self.multiply(factors);
+        }
+        let below: Vec<Place> = below
+            .into_iter()
+            .filter_map(|f| if let Node::Reciprocal(a) = self.network.nodes[f] { Some(a) } else { None })
+            .collect();
+        let (above, below) = (self.multiply(&above), self.multiply(&below));
+        self.push(Instruction::Divide(above, below))
+    }
+
+    fn multiply(&mut self, factors: &[Place]) -> Operand<'g> {
+        let mut product = self.operand(factors[0]);
+        for &factor in &factors[1..] {
+            let factor = self.operand(factor);
+            product = self.push(Instruction::Multiply(product, factor));
+        }
+        product
+    }
+
+    /// c · value.
+    fn scaled(&mut self, c: Rational, value: Operand<'g>) -> Operand<'g> {
+        if c.is_one() {
+            return value;
+        }
+        if let Operand::Number(n) = value {
+            return Operand::Number(c * n);
+        }
+        if (-c).is_one() {
+            if let Operand::Value(k) = value
+                && let Some(&done) = self.negated.get(&k)
+            {
+                return done;
+            }
+            let result = self.push(Instruction::Negate(value));
+            if let Operand::Value(k) = value {
+                self.negated.insert(k, result);
+            }
+            return result;
+        }
+        if c == Rational::from_integer(2) {
+            return self.push(Instruction::Add(value, value));
+        }
+        self.push(Instruction::Multiply(Operand::Number(c), value))
+    }
+
+    /// The two sides of a product that nobody else needs, so that it can be fused with an addition.
+    fn fusible(&mut self, place: Place) -> Option<(Operand<'g>, Operand<'g>)> {
+        if self.uses[place] != 1 || self.written.contains_key(&place) {
+            return None;
+        }
+        let Node::Product(factors) = self.network.nodes[place].clone() else { return None };
+        if factors.iter().any(|&f| matches!(self.network.nodes[f], Node::Reciprocal(_)) && self.uses[f] == 1) {
+            return None;
+        }
+        let (last, rest) = factors.split_last()?;
+        Some((self.multiply(rest), self.operand(*last)))
+    }
+
+    fn sum(&mut self, terms: &[(Rational, Place)]) -> Operand<'g> {
+        // Terms that are only added come first, a positive one at the head; products are fused onto them.
+        let mut order: Vec<usize> = (0..terms.len()).collect();
+        let plain = |k: &usize| {
+            let (c, place) = terms[*k];
+            let fusible = self.uses[place] == 1 && matches!(self.network.nodes[place], Node::Product(_));
+            let scaled = !c.abs().is_one() && !matches!(self.network.nodes[place], Node::Number(_));
+            (fusible || scaled, c.is_negative(), *k)
+        };
+        order.sort_by_key(plain);
+        let (c, place) = terms[order[0]];
+        let first = self.operand(place);
+        let mut sum = self.scaled(c, first);
+        for &k in &order[1..] {
+            let (c, place) = terms[k];
+            if c.abs().is_one()
+                && let Some((a, b)) = self.fusible(place)
+            {
+                sum = self.push(if c.is_negative() {
+                    Instruction::MultiplySubtract(a, b, sum)
+                } else {
+                    Instruction::MultiplyAdd(a, b, sum)
+                });
+                continue;
+            }
+            let value = self.operand(place);
+            sum = match (c.abs().is_one(), c.is_negative(), value) {
+                (_, _, Operand::Number(n)) => self.push(Instruction::Add(sum, Operand::Number(c * n))),
+                (true, false, _) => self.push(Instruction::Add(sum, value)),
+                (true, true, _) => self.push(Instruction::Subtract(sum, value)),
+                (false, negative, _) => {
+                    let factor = Operand::Number(c.abs());
+                    self.push(if negative {
+                        Instruction::MultiplySubtract(factor, value, sum)
+                    } else {
+                        Instruction::MultiplyAdd(factor, value, sum)
+                    })
+                }
+            };
+        }
+        sum
+    }
+}

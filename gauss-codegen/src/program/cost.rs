@@ -1,0 +1,139 @@
+//! How much a program computes, how long its chains are, how smooth its outputs.
+
+use std::fmt;
+
+use crate::algebra::{BinaryFunction, Function};
+
+use super::code::Code;
+use super::instruction::{Instruction, Operand};
+
+/// Operations by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Counts {
+    /// Additions, subtractions, comparisons; one in each multiply-add.
+    pub additions: u32,
+    /// Multiplications; one in each multiply-add.
+    pub multiplications: u32,
+    /// Divisions.
+    pub divisions: u32,
+    /// Square roots.
+    pub roots: u32,
+    /// Sines and cosines, two for a pair; exponentials, logarithms, arcus tangents.
+    pub transcendentals: u32,
+}
+
+impl Counts {
+    /// A single figure to compare arrangements by, in units of one addition. A division or a root keeps its unit busy as long as eight
+    /// additions (Fog, Instruction tables: four cycles where two additions start in each), and everything else waits for it.
+    pub fn weighted(&self) -> u32 {
+        self.additions + self.multiplications + 8 * (self.divisions + self.roots) + 15 * self.transcendentals
+    }
+}
+
+/// `12 add, 3 mul, 1 div`; `none`.
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts = [
+            (self.additions, "add"),
+            (self.multiplications, "mul"),
+            (self.divisions, "div"),
+            (self.roots, "sqrt"),
+            (self.transcendentals, "transcendental"),
+        ];
+        let parts: Vec<String> =
+            parts.into_iter().filter(|(n, _)| *n > 0).map(|(n, name)| format!("{n} {name}")).collect();
+        f.write_str(&if parts.is_empty() { "none".to_owned() } else { parts.join(", ") })
+    }
+}
+
+/// What a call costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cost {
+    /// All instructions, in units of one addition: [`Counts::weighted`].
+    pub operations: u32,
+    /// Cycles of the longest chain of instructions that wait for one another.
+    pub chain: u32,
+}
+
+impl Cost {
+    /// A single figure to compare arrangements by, in units of one addition of which two start in a cycle: all instructions, and the
+    /// longest chain. Of the chain a quarter counts: a call alone would wait for all of it, calls that overlap for none.
+    pub fn total(self) -> u32 {
+        self.operations + self.chain / 2
+    }
+}
+
+/// How smooth the outputs of a program are, away from singularities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Smoothness {
+    /// All derivatives exist.
+    Smooth,
+    /// Derivatives jump.
+    Kinks,
+    /// Values jump.
+    Jumps,
+}
+
+impl<S: Copy> Code<S> {
+    /// Its operations by kind.
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        for instruction in &self.instructions {
+            match instruction {
+                Instruction::Add(..) | Instruction::Subtract(..) => counts.additions += 1,
+                Instruction::Multiply(..) => counts.multiplications += 1,
+                Instruction::MultiplyAdd(..) | Instruction::MultiplySubtract(..) => {
+                    counts.additions += 1;
+                    counts.multiplications += 1;
+                }
+                Instruction::Divide(..) => counts.divisions += 1,
+                Instruction::Negate(_) => {}
+                Instruction::SineCosine(_) => counts.transcendentals += 2,
+                Instruction::Call(Function::Sqrt, _) => counts.roots += 1,
+                // A comparison costs what an addition costs.
+                Instruction::Call(Function::Abs | Function::Signum, _)
+                | Instruction::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => counts.additions += 1,
+                Instruction::Call(..) | Instruction::Binary(..) => counts.transcendentals += 1,
+            }
+        }
+        counts
+    }
+
+    /// What it costs to call it.
+    pub fn cost(&self) -> Cost {
+        Cost { operations: self.counts().weighted(), chain: self.chain() }
+    }
+
+    /// Cycles from the arguments to the last output, were there no limit to what runs at once (Fog, Instruction tables: four for
+    /// additions and products, fifteen for divisions and roots; forty for inlined sines and cosines).
+    fn chain(&self) -> u32 {
+        let mut ready: Vec<u32> = Vec::with_capacity(self.instructions.len());
+        let of = |operand: &Operand<S>, ready: &[u32]| operand.instruction().map_or(0, |k| ready[k]);
+        for instruction in &self.instructions {
+            let own = match instruction {
+                Instruction::Negate(_) => 1,
+                Instruction::Divide(..) | Instruction::Call(Function::Sqrt, _) => 15,
+                Instruction::SineCosine(_) => 40,
+                Instruction::Call(Function::Abs | Function::Signum, _)
+                | Instruction::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => 4,
+                Instruction::Call(..) | Instruction::Binary(..) => 60,
+                _ => 4,
+            };
+            let start = instruction.operands().map(|operand| of(&operand, &ready)).max().unwrap_or(0);
+            ready.push(start + own);
+        }
+        self.outputs.iter().map(|output| of(output, &ready)).max().unwrap_or(0)
+    }
+
+    /// That of its roughest instruction.
+    pub fn smoothness(&self) -> Smoothness {
+        let of = |instruction: &Instruction<S>| match instruction {
+            Instruction::Call(Function::Signum, _) => Smoothness::Jumps,
+            Instruction::Call(Function::Abs, _)
+            | Instruction::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => Smoothness::Kinks,
+            _ => Smoothness::Smooth,
+        };
+        self.instructions.iter().map(of).max().unwrap_or(Smoothness::Smooth)
+    }
+}

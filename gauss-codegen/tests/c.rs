@@ -1,0 +1,110 @@
+//! Programs in C, compiled and run beside the interpreter. Where there is no C compiler there is nothing to test.
+
+mod common;
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use common::{Random, SCENES, close, derivation, random_arguments};
+use gauss_codegen::program::{ArgumentKind, Program};
+use gauss_codegen::{Derivation, targets};
+
+/// States at which every function is called.
+const STATES: usize = 6;
+
+fn compiler() -> Option<&'static str> {
+    ["cc", "gcc", "clang"].into_iter().find(|name| Command::new(name).arg("--version").output().is_ok())
+}
+
+/// One call: a block that prints the results of the function, digits enough to read back the same numbers.
+fn call(derivation: &Derivation, program: &Program, arguments: &[Vec<f64>]) -> String {
+    let mut out = String::from("    {\n");
+    let mut names = Vec::new();
+    for (argument, values) in program.arguments.iter().zip(arguments).filter(|(_, values)| !values.is_empty()) {
+        let list: Vec<String> = values.iter().map(|value| format!("{value:?}")).collect();
+        if argument.kind == ArgumentKind::Time {
+            names.push(list[0].clone());
+        } else {
+            writeln!(out, "        const double {}[] = {{{}}};", argument.name, list.join(", ")).expect("a string");
+            names.push(argument.name.clone());
+        }
+    }
+    let function = format!("{}_{}", derivation.name().to_lowercase(), program.name);
+    if matches!(program.results.as_slice(), [result] if result.is_scalar()) {
+        writeln!(out, "        printf(\"%.17g\\n\", {function}({}));\n    }}", names.join(", ")).expect("a string");
+        return out;
+    }
+    for (k, result) in program.results.iter().enumerate().filter(|(_, result)| result.len() > 0) {
+        writeln!(out, "        double out{k}[{}];", result.len()).expect("a string");
+        names.push(format!("out{k}"));
+    }
+    writeln!(out, "        {function}({});", names.join(", ")).expect("a string");
+    for (k, result) in program.results.iter().enumerate().filter(|(_, result)| result.len() > 0) {
+        let count = result.len();
+        writeln!(out, "        for (int i = 0; i < {count}; i++) printf(\"%.17g\\n\", out{k}[i]);").expect("a string");
+    }
+    out.push_str("    }\n");
+    out
+}
+
+/// The functions of the scene called at random states, and what the interpreter says.
+fn calls(derivation: &Derivation) -> (String, Vec<(String, f64)>) {
+    let mut random = Random(11);
+    let (mut main, mut expected) = (String::from("#include <stdio.h>\n\nint main(void)\n{\n"), Vec::new());
+    for program in std::iter::once(derivation.constants()).chain(derivation.programs()) {
+        for _ in 0..STATES {
+            let arguments = random_arguments(derivation, program, &mut random);
+            main.push_str(&call(derivation, program, &arguments));
+            let lists: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
+            let outputs = program.run(&lists).expect("its arguments");
+            expected.extend(outputs.into_iter().map(|value| (program.name.clone(), value)));
+        }
+    }
+    main.push_str("    return 0;\n}\n");
+    (main, expected)
+}
+
+fn compiled(compiler: &str, directory: &Path, name: &str, source: &str) -> PathBuf {
+    let (file, binary) = (directory.join(format!("{name}.c")), directory.join(name));
+    std::fs::write(&file, source).expect("a file of the test");
+    // All warnings are errors: users have stricter settings than the default.
+    let strict = ["-std=c99", "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror"];
+    let output = Command::new(compiler).args(strict).args([&file, Path::new("-o"), &binary]).arg("-lm").output();
+    let output = output.expect("the compiler runs");
+    assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+    binary
+}
+
+#[test]
+fn functions_in_c_compute_what_the_programs_say() {
+    let Some(compiler) = compiler() else {
+        println!("no C compiler: nothing tested");
+        return;
+    };
+    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    for (name, _) in SCENES {
+        let derivation = derivation(name);
+        let (main, expected) = calls(&derivation);
+        let source = format!("{}\n{main}", targets::c::source(&derivation));
+        let output = Command::new(compiled(compiler, &directory, name, &source)).output().expect("it runs");
+        let found: Vec<f64> =
+            String::from_utf8_lossy(&output.stdout).lines().map(|line| line.parse().expect("a number")).collect();
+        assert_eq!(found.len(), expected.len(), "{name}");
+        for (found, (method, expected)) in found.iter().zip(&expected) {
+            let same = close(*found, *expected) || (found.is_nan() && expected.is_nan());
+            assert!(same, "{name}, {method}: {found} in C, {expected} here");
+        }
+        assert!(expected.iter().filter(|(_, value)| value.is_finite()).count() * 10 > expected.len() * 9, "{name}");
+    }
+}
+
+#[test]
+fn a_function_in_c() {
+    insta::assert_snapshot!(targets::c::source(&derivation("Top")));
+}
+
+#[test]
+fn a_header_in_c() {
+    insta::assert_snapshot!(targets::c::declarations(&derivation("Rod")));
+}

@@ -1,0 +1,66 @@
+//! What the code of a file names.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::Item;
+
+use crate::modules::{Modules, leaves};
+
+/// For each pair of files, the names that the first takes from the second.
+pub type Imports = BTreeMap<(String, String), BTreeSet<String>>;
+
+pub fn imports(modules: &Modules) -> Imports {
+    let mut imports = Imports::new();
+    for (path, module) in modules.iter() {
+        let mut paths: Vec<Vec<String>> = module.imports().into_iter().map(|import| import.path).collect();
+        for item in module.items.iter().filter(|item| !matches!(item, Item::Use(_))) {
+            named(item.to_token_stream(), &mut paths);
+        }
+        for named in paths {
+            for file in modules.files(path, &named) {
+                if file != module.file {
+                    let name = named.last().cloned().unwrap_or_default();
+                    imports.entry((module.file.clone(), file)).or_default().insert(name);
+                }
+            }
+        }
+    }
+    imports
+}
+
+/// All paths of some code, names alone among them, and those of `use` declarations within functions.
+fn named(code: TokenStream, found: &mut Vec<Vec<String>>) {
+    let tokens: Vec<TokenTree> = code.into_iter().collect();
+    let is = |k: usize, sign: char| matches!(tokens.get(k), Some(TokenTree::Punct(p)) if p.as_char() == sign);
+    let mut k = 0;
+    while k < tokens.len() {
+        match &tokens[k] {
+            TokenTree::Group(group) => named(group.stream(), found),
+            TokenTree::Ident(word) if word == "use" && !is(k + 1, '<') => {
+                let end = (k..tokens.len()).find(|&end| is(end, ';')).unwrap_or(tokens.len() - 1);
+                let declaration: TokenStream = tokens[k..=end].iter().cloned().collect();
+                if let Ok(item) = syn::parse2::<syn::ItemUse>(declaration) {
+                    let mut inside = Vec::new();
+                    leaves(&item.tree, &[], &mut inside);
+                    found.extend(inside.into_iter().map(|(path, _)| path));
+                }
+                k = end;
+            }
+            // Fields and methods are no names of items.
+            TokenTree::Ident(_) if k > 0 && is(k - 1, '.') && !(k > 1 && is(k - 2, '.')) => {}
+            TokenTree::Ident(word) => {
+                let mut path = vec![word.to_string()];
+                while is(k + 1, ':') && is(k + 2, ':') {
+                    let Some(TokenTree::Ident(next)) = tokens.get(k + 3) else { break };
+                    path.push(next.to_string());
+                    k += 3;
+                }
+                found.push(path);
+            }
+            _ => {}
+        }
+        k += 1;
+    }
+}

@@ -1,0 +1,93 @@
+//! Expressions that have no value, whatever the state and the parameters are: mistakes of the user, each at its token and all at once, and
+//! never called a bug.
+
+/// A mistake: the text pointed at and the message.
+type Mistake<'a> = (&'a str, &'a str);
+
+#[track_caller]
+fn check(source: &str, expected: &[Mistake<'_>]) {
+    let input: syn::DeriveInput = syn::parse_str(source).expect("the source is a struct");
+    let Err(error) = gauss_codegen::expand(&input) else { panic!("accepted: {source}") };
+    let found: Vec<(String, String)> =
+        error.into_iter().map(|error| (error.span().source_text().unwrap_or_default(), error.to_string())).collect();
+    let found: Vec<Mistake<'_>> = found.iter().map(|(token, message)| (token.as_str(), message.as_str())).collect();
+    assert_eq!(found, expected, "\nin {source}");
+}
+
+/// A particle in the plane with more clauses.
+fn scene(clauses: &str) -> String {
+    format!(
+        "#[gauss(coordinates(x, y), particle(mass = m, position = [x, y, 0]), {clauses})] \
+         struct Scene {{ m: f64, h: f64, k: f64 }}"
+    )
+}
+
+const ZERO: &str = "division by zero: this is always zero";
+const RANGE: &str = "this number is beyond the range of double precision";
+
+#[test]
+fn divisors_that_vanish() {
+    check(&scene("potential = h / (x - x)"), &[("-", ZERO)]);
+    check(&scene("potential = h / ((x + 1) * (x - 1) - x * x + 1)"), &[("+", ZERO)]);
+    check(&scene("potential = h / (sin(x).powi(2) + cos(x).powi(2) - 1)"), &[("-", ZERO)]);
+    check(&scene("potential = (x * 0).powi(-2) * h"), &[("*", ZERO)]);
+    check(&scene("force(push, at = [x, y, 0], value = [h / (1.5 - 3 / 2), 0, 0])"), &[("-", ZERO)]);
+    check(&scene("force(push, at = [x, y, 0], value = [h / (12345.5 - 24691 / 2), 0, 0])"), &[("-", ZERO)]);
+    check(&scene("force(push, at = [x, y, 0], value = [h / sin(0), 0, 0])"), &[("sin", ZERO)]);
+    check(&scene("drive(x = 1 / (t - t))"), &[("-", ZERO)]);
+}
+
+#[test]
+fn roots_and_logarithms() {
+    let positive = |found: &str| format!("the argument of `ln` must be positive, found {found}");
+    let root = |found: &str| format!("the argument of `sqrt` must be zero or more, found {found}");
+    check(&scene("potential = x * ln(0)"), &[("0", &positive("0"))]);
+    check(&scene("potential = x * ln(-h + h)"), &[("+", &positive("0"))]);
+    check(&scene("potential = x * ln(2 - 12345)"), &[("-", &positive("-12343"))]);
+    check(&scene("potential = x * sqrt(-1)"), &[("-", &root("-1"))]);
+    check(&scene("potential = x * sqrt(cos(3) - 0.5)"), &[("-", &root("-1.4899924966004454"))]);
+    check(&scene("drive(x = ln(0))"), &[("0", &positive("0"))]);
+    check(
+        &scene("potential = x * atan2(x - x, 0)"),
+        &[("atan2", "both arguments of `atan2` are always zero, and that point has no angle")],
+    );
+}
+
+#[test]
+fn steps_without_width() {
+    let ends = "a smooth step has two ends, and these are the same; write different numbers";
+    check(&scene("force(push, at = [x, y, 0], value = [smooth_step(x, h, h), 0, 0])"), &[("h", ends)]);
+    check(&scene("force(push, at = [x, y, 0], value = [smooth_step(x, h + k, k + h), 0, 0])"), &[("+", ends)]);
+}
+
+#[test]
+fn beyond_double_precision() {
+    check(&scene("potential = x * powi(10, 99).powi(99)"), &[("powi", RANGE)]);
+    check(&scene("potential = x * 1e200.powi(-2).powi(-1)"), &[("powi", RANGE)]);
+    check(&scene("potential = x * exp(1000)"), &[("exp", RANGE)]);
+    check(&scene("potential = x * (1e200 * 1e200)"), &[("*", RANGE)]);
+}
+
+#[test]
+fn powers_of_many_factors() {
+    let factors = "powers become products, of 100 factors at most; write `exp` and `ln`";
+    check(&scene("potential = h * powi(x, 2147483647)"), &[("2147483647", factors)]);
+}
+
+/// In charts, in mass data, in constraints, where a name is used twice, and all of them together.
+#[test]
+fn everywhere_and_all_at_once() {
+    check("#[gauss(mass = 1, inertia = [k, k, 1 / (2 - 2)])] struct Body { k: f64 }", &[("-", ZERO)]);
+    check(
+        "#[gauss(mass = 1, inertia = k, force(push, at = [0, 0, 0], value = [ln(0), k / (k - k), 0]))] \
+           struct Body { k: f64 }",
+        &[("0", "the argument of `ln` must be positive, found 0"), ("-", ZERO)],
+    );
+    check(
+        &scene(
+            "define(r = h / (k - k)), potential = r * x, constraint(position = x - 1 / (y - y)), \
+                force(push, at = [x, r, 0], value = [h, 0, 0])",
+        ),
+        &[("-", ZERO), ("-", ZERO)],
+    );
+}

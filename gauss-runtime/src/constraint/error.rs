@@ -1,0 +1,73 @@
+//! Why a state cannot be brought onto the constraints.
+
+use core::fmt;
+
+/// Which of a system's constraints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ConstraintLevel {
+    /// φ(t, q) = 0.
+    Position,
+    /// φ(t, q, z) = 0, and dφ/dt = 0 of position constraints.
+    Velocity,
+}
+
+impl fmt::Display for ConstraintLevel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Position => "position",
+            Self::Velocity => "velocity",
+        })
+    }
+}
+
+/// Why a state cannot be brought back onto the constraints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ProjectionFailure {
+    /// A residual or a correction is infinite or undefined: the state was, or constraints depend on one another there.
+    NonFinite,
+    /// Corrections do not settle: the state is too far from the constraints, or they contradict each other.
+    NotConverged,
+}
+
+/// A state that could not be brought onto the constraints: see [`GaussSystem::project`](crate::system::GaussSystem::project).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ProjectionError {
+    /// Positions come first, velocities after them.
+    pub level: ConstraintLevel,
+    /// What happened.
+    pub failure: ProjectionFailure,
+    /// The largest component of the residual where the search was given up, in the unit of that constraint; NaN where it is
+    /// undefined.
+    pub residual: f64,
+}
+
+impl ProjectionError {
+    /// From its parts, in the order of the fields: for projections that are written by hand.
+    #[must_use]
+    pub const fn new(level: ConstraintLevel, failure: ProjectionFailure, residual: f64) -> Self {
+        Self { level, failure, residual }
+    }
+}
+
+impl fmt::Display for ProjectionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { level, failure, residual } = self;
+        write!(f, "no state that satisfies the constraints was found: ")?;
+        match failure {
+            ProjectionFailure::NonFinite => write!(
+                f,
+                "the correction of the {level} is infinite or undefined (residual {residual:e}); the state is, or \
+                 constraints depend on one another there"
+            ),
+            ProjectionFailure::NotConverged => write!(
+                f,
+                "corrections of the {level} do not settle (residual {residual:e}); the state is too far from the \
+                 constraints, or they contradict each other"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for ProjectionError {}

@@ -1,0 +1,482 @@
+//! The front of the integrators: say what, in which form and how accurately, then run.
+
+use core::ops::{ControlFlow, Range};
+
+use crate::configuration::Configuration;
+use crate::integrate::drive::control::{Adaptive, Control, Fixed};
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::dense::Dense;
+use crate::integrate::drive::event::{Crossing, Events, NoEvents, Watch, Watched};
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::trajectory::Trajectory;
+use crate::integrate::problem::equations::{Problem, SystemProblem};
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::form::{Form, MomentumForm};
+use crate::integrate::problem::input::{Feedback, InputSource};
+use crate::integrate::problem::state::{Rates, Sample, State};
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// Nothing is chosen yet; [`Simulation::fixed_step`] or [`Simulation::adaptive`] comes next.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Undecided;
+
+/// Sees the samples of a run as they come.
+pub trait Observer<S: GaussSystem> {
+    /// One sample, in the order of integration.
+    fn see(&mut self, sample: &Sample<S>);
+
+    /// An event, by its number, before the sample that ends its step.
+    fn event(&mut self, number: usize, sample: &Sample<S>) {
+        let _ = (number, sample);
+    }
+}
+
+/// Nobody looks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Unobserved;
+
+impl<S: GaussSystem> Observer<S> for Unobserved {
+    fn see(&mut self, _: &Sample<S>) {}
+}
+
+/// A function that is called with every sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Callback<G>(G);
+
+impl<S: GaussSystem, G: FnMut(&Sample<S>)> Observer<S> for Callback<G> {
+    fn see(&mut self, sample: &Sample<S>) {
+        (self.0)(sample);
+    }
+}
+
+/// A run in preparation.
+///
+#[cfg_attr(
+    feature = "derive",
+    doc = r##"
+```
+use gauss_runtime::prelude::*;
+
+/// A heavy top that turns about O.
+#[derive(GaussDynamics)]
+#[gauss(motion = fixed_point)]
+struct Top {
+    #[gauss(mass)]           mass: f64,
+    #[gauss(center_of_mass)] center: Vector3<f64>,
+    #[gauss(inertia)]        inertia: Vector3<f64>,
+    #[gauss(gravity)]        g: f64,
+}
+
+# fn main() -> Result<(), Box<dyn std::error::Error>> {
+let top = Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.4), inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 };
+let kernel = top.kernel()?;
+let tilted = UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0);
+let spinning = Vector3::new(0.0, 0.0, 40.0);
+let trajectory = Simulation::new(&kernel).adaptive(1e-10, 1e-12).run(tilted, spinning, 0.0..2.0)?;
+let end = trajectory.last();
+let before = kernel.energy(0.0, &tilted, &spinning);
+assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
+# Ok(())
+# }
+```
+"##
+)]
+///
+/// Initial values are always quasi-velocities z, and samples hold both z and p.
+///
+/// Constraints that coordinates and speeds do not solve by themselves hold up to rounding in every sample, because each step
+/// ends with a projection ([`GaussSystem::project`]). Initial values must satisfy them as well, up to the rounding
+/// of what was typed.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "a simulation does nothing before `run`"]
+pub struct Simulation<P, C = Undecided, O = Unobserved, E = NoEvents> {
+    pub(in crate::integrate) problem: P,
+    control: C,
+    observer: O,
+    events: E,
+    every: u64,
+    pub(in crate::integrate) limit: u64,
+}
+
+impl<'k, S: GaussSystem> Simulation<SystemProblem<'k, S>> {
+    /// A run of a kernel, in velocity form and without inputs unless said otherwise.
+    pub fn new(system: &'k S) -> Self {
+        Self::of(SystemProblem::new(system))
+    }
+}
+
+impl<P> Simulation<P> {
+    /// A run of any [`Problem`](crate::integrate::Problem).
+    pub fn of(problem: P) -> Self {
+        Self { problem, control: Undecided, observer: Unobserved, events: NoEvents, every: 1, limit: u64::MAX }
+    }
+}
+
+impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
+    /// Which variables are integrated: [`VelocityForm`] or [`MomentumForm`].
+    pub fn form<G: Form<S>>(self, form: G) -> Simulation<SystemProblem<'k, S, G, I>, C, O, E> {
+        self.with_problem(|problem| problem.form(form))
+    }
+
+    /// Integrates momenta instead of quasi-velocities.
+    pub fn momentum_form(self) -> Simulation<SystemProblem<'k, S, MomentumForm, I>, C, O, E> {
+        self.form(MomentumForm)
+    }
+
+    /// The input as a function of time and state. It is called at every stage of every step: it should depend on its
+    /// arguments only, and smoothly.
+    pub fn input<G>(self, input: G) -> Simulation<SystemProblem<'k, S, F, Feedback<G>>, C, O, E>
+    where
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input,
+    {
+        self.input_from(Feedback(input))
+    }
+
+    /// The input from a type that implements [`InputSource`]: a controller with parameters of its own, or a table.
+    pub fn input_from<J: InputSource<S>>(self, input: J) -> Simulation<SystemProblem<'k, S, F, J>, C, O, E> {
+        self.with_problem(|problem| problem.input_from(input))
+    }
+
+    /// Calls a function with every sample as it comes.
+    pub fn observe<G: FnMut(&Sample<S>)>(
+        self,
+        observer: G,
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, Callback<G>, E> {
+        self.observe_by(Callback(observer))
+    }
+
+    /// Finds the states in which a function of time and state, of its first lane where numbers are packs, passes through
+    /// zero. They are numbered in the order of these calls and of [`until`](Self::until), from 0, and are found in
+    /// [`Trajectory::events`], and by an [`Observer`]. How, and what is not seen: [`event`](crate::integrate::drive::event).
+    ///
+    #[cfg_attr(
+        feature = "derive",
+        doc = r##"
+The turning points of a pendulum, whose period 4 K(sin ½α) √(ℓ/g) is 2π/agm(1, cos ½α) √(ℓ/g) (Gauss):
+
+```
+use gauss_runtime::prelude::*;
+
+/// A pendulum: a point on a rod, `angle` from the vertical.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(angle),
+    particle(mass = mass, position = [length * sin(angle), 0, -length * cos(angle)]),
+)]
+struct Pendulum {
+    mass: f64,
+    length: f64,
+    #[gauss(gravity)] g: f64,
+}
+
+# fn main() -> Result<(), Box<dyn std::error::Error>> {
+let kernel = Pendulum { mass: 0.3, length: 0.5, g: 9.81 }.kernel()?;
+let (amplitude, at_rest) = (2.0_f64, SVector::from([0.0]));
+let run = Simulation::new(&kernel)
+    .event(Crossing::Any, |_t, _q, z| z[0]) // where it turns back
+    .adaptive(1e-12, 1e-12)
+    .run(SVector::from([amplitude]), at_rest, 0.0..10.0)?;
+
+let (mut a, mut b) = (1.0, (0.5 * amplitude).cos());
+for _ in 0..5 {
+    (a, b) = (0.5 * (a + b), (a * b).sqrt());
+}
+let period = std::f64::consts::TAU / a * (0.5_f64 / 9.81).sqrt();
+for (n, event) in run.events().iter().enumerate() {
+    let turn = &event.sample;
+    assert!((turn.t - 0.5 * period * (n + 1) as f64).abs() < 1e-9);
+    assert!((turn.q[0].abs() - amplitude).abs() < 1e-9 && turn.z[0].abs() < 1e-12);
+}
+assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
+# Ok(())
+# }
+```
+"##
+    )]
+    pub fn event<G>(
+        self,
+        crossing: Crossing,
+        function: G,
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G>>
+    where
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
+    {
+        self.watch(crossing, false, function)
+    }
+
+    /// Ends the run at the first such state, which is then the last sample; it is an [`event`](Self::event) as well.
+    ///
+    /// The state is at zero or beyond it, by rounding. To go on from there with another velocity, as after an impact, ask for
+    /// the one direction in which the function is to pass.
+    pub fn until<G>(
+        self,
+        crossing: Crossing,
+        function: G,
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G>>
+    where
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
+    {
+        self.watch(crossing, true, function)
+    }
+}
+
+impl<P, C, O, E> Simulation<P, C, O, E> {
+    /// Steps of one length, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince); the last step is shortened to end
+    /// in time.
+    pub fn fixed_step<T: Real>(self, step: T) -> Simulation<P, Fixed<T>, O, E> {
+        self.control(Fixed::new(step))
+    }
+
+    /// Steps as long as the tolerances allow, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince): see
+    /// [`Adaptive::new`].
+    pub fn adaptive(self, relative: f64, absolute: f64) -> Simulation<P, Adaptive, O, E> {
+        self.control(Adaptive::new(relative, absolute))
+    }
+
+    /// Any method with its choice of steps: a [`Control`].
+    pub fn control<D>(self, control: D) -> Simulation<P, D, O, E> {
+        let Self { problem, observer, events, every, limit, .. } = self;
+        Simulation { problem, control, observer, events, every, limit }
+    }
+
+    /// Shows every sample, and every event, to a type that implements [`Observer`].
+    pub fn observe_by<Q>(self, observer: Q) -> Simulation<P, C, Q, E> {
+        let Self { problem, control, events, every, limit, .. } = self;
+        Simulation { problem, control, observer, events, every, limit }
+    }
+
+    /// Hands out the first, the last, and every n-th state only (0 counts as 1).
+    pub fn every(mut self, n: u64) -> Self {
+        self.every = n.max(1);
+        self
+    }
+
+    /// The most steps (rejected ones included) before the run is given up.
+    pub fn max_steps(mut self, limit: u64) -> Self {
+        self.limit = limit;
+        self
+    }
+
+    fn with_problem<Q>(self, change: impl FnOnce(P) -> Q) -> Simulation<Q, C, O, E> {
+        let Self { problem, control, observer, events, every, limit } = self;
+        Simulation { problem: change(problem), control, observer, events, every, limit }
+    }
+
+    fn watch<G>(self, crossing: Crossing, terminal: bool, function: G) -> Simulation<P, C, O, Watched<E, G>> {
+        let Self { problem, control, observer, events, every, limit } = self;
+        let events = Watched::after(events, crossing, terminal, function);
+        Simulation { problem, control, observer, events, every, limit }
+    }
+}
+
+impl<P, O, E, M> Simulation<P, Adaptive<M>, O, E> {
+    /// The length of the first step, instead of an estimate.
+    pub fn first_step(mut self, length: f64) -> Self {
+        self.control.first_step = Some(length);
+        self
+    }
+
+    /// The longest step.
+    pub fn largest_step(mut self, length: f64) -> Self {
+        self.control.largest_step = length;
+        self
+    }
+}
+
+impl<S, P, C, O, E> Simulation<P, C, O, E>
+where
+    S: GaussSystem,
+    P: Problem<System = S>,
+    C: Control<S>,
+    O: Observer<S>,
+    E: Events<S>,
+{
+    /// Integrates from (q₀, z₀) over the interval, which may run backwards, and keeps every sample.
+    ///
+    /// # Errors
+    /// When the run does not reach the end; [`attempt`](Self::attempt) then gives what there is.
+    #[cfg(feature = "alloc")]
+    pub fn run(
+        self,
+        q0: S::Configuration,
+        z0: S::Speeds,
+        interval: Range<S::Scalar>,
+    ) -> Result<Trajectory<S>, IntegrationError> {
+        match self.attempt(q0, z0, interval) {
+            (trajectory, None) => Ok(trajectory),
+            (_, Some(error)) => Err(error),
+        }
+    }
+
+    /// Like [`run`](Self::run), but gives the trajectory up to the last good state when the end is not reached, with the
+    /// reason.
+    #[cfg(feature = "alloc")]
+    pub fn attempt(
+        self,
+        q0: S::Configuration,
+        z0: S::Speeds,
+        interval: Range<S::Scalar>,
+    ) -> (Trajectory<S>, Option<IntegrationError>) {
+        let start = self.start(q0, &z0, interval.start);
+        let Self { problem, control, observer, events, every, limit } = self;
+        Run { control: &control, problem: &problem, every, limit }.keep(events, observer, start, interval.end)
+    }
+
+    /// Like [`run`](Self::run), but keeps the method too, so that between samples [`Dense::at`] has the accuracy of the method and
+    /// not that of an interpolation.
+    ///
+    /// # Errors
+    /// When the run does not reach the end.
+    #[cfg(feature = "alloc")]
+    pub fn run_dense(
+        self,
+        q0: S::Configuration,
+        z0: S::Speeds,
+        interval: Range<S::Scalar>,
+    ) -> Result<Dense<P, C>, IntegrationError> {
+        let start = self.start(q0, &z0, interval.start);
+        let Self { problem, control, observer, events, every, limit } = self;
+        let run = Run { control: &control, problem: &problem, every, limit };
+        match run.keep(events, observer, start, interval.end) {
+            (trajectory, None) => Ok(Dense::new(trajectory, problem, control, every == 1)),
+            (_, Some(error)) => Err(error),
+        }
+    }
+
+    /// Integrates without keeping anything, and gives the final state; an observer sees the others. Needs no memory.
+    ///
+    /// # Errors
+    /// When the run does not reach the end.
+    pub fn run_to_end(
+        self,
+        q0: S::Configuration,
+        z0: S::Speeds,
+        interval: Range<S::Scalar>,
+    ) -> Result<Sample<S>, IntegrationError> {
+        let start = self.start(q0, &z0, interval.start);
+        let problem = &self.problem;
+        let mut observer = self.observer;
+        let end = Run { control: &self.control, problem, every: self.every, limit: self.limit }.drive(
+            self.events,
+            start,
+            interval.end,
+            &mut |seen| match seen {
+                Seen::Sample(state, _) => observer.see(&problem.sample(state)),
+                Seen::Event(number, state) => observer.event(number, &problem.sample(state)),
+            },
+        )?;
+        Ok(problem.sample(&end))
+    }
+
+    fn start(&self, q0: S::Configuration, z0: &S::Speeds, t: S::Scalar) -> State<S> {
+        self.problem.state(t, q0.renormalise(), z0)
+    }
+}
+
+/// What a run passes on.
+enum Seen<'a, S: GaussSystem> {
+    // Derivatives are for trajectories.
+    #[cfg_attr(not(feature = "alloc"), allow(dead_code))]
+    Sample(&'a State<S>, &'a Rates<S>),
+    Event(usize, &'a State<S>),
+}
+
+/// What stays the same during a run.
+struct Run<'a, P, C> {
+    control: &'a C,
+    problem: &'a P,
+    every: u64,
+    limit: u64,
+}
+
+impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
+    /// Keeps every sample and event.
+    #[cfg(feature = "alloc")]
+    fn keep<O: Observer<S>, E: Events<S>>(
+        &self,
+        events: E,
+        mut observer: O,
+        start: State<S>,
+        end: S::Scalar,
+    ) -> (Trajectory<S>, Option<IntegrationError>) {
+        let problem = self.problem;
+        let mut trajectory = Trajectory::starting_with(problem.sample(&start));
+        let mut first = true;
+        let outcome = self.drive(events, start, end, &mut |seen| match seen {
+            Seen::Sample(state, rates) => {
+                let sample = problem.sample(state);
+                trajectory.record(first, problem, &sample, state, rates);
+                observer.see(&sample);
+                first = false;
+            }
+            Seen::Event(number, state) => {
+                let sample = problem.sample(state);
+                trajectory.record_event(number, sample);
+                observer.event(number, &sample);
+            }
+        });
+        (trajectory, outcome.err())
+    }
+
+    /// Runs the method and passes on the first, every n-th and the last state reached, and the events between them.
+    fn drive<E: Events<S>>(
+        &self,
+        events: E,
+        start: State<S>,
+        end: S::Scalar,
+        pass: &mut dyn FnMut(Seen<'_, S>),
+    ) -> Result<State<S>, IntegrationError> {
+        let mut watch = Watch { control: self.control, problem: self.problem, events };
+        let mut count = 0_u64;
+        // The state before, for events; and whether it is still to be passed on: it is, at the end or at an error.
+        let mut before: Option<(State<S>, Rates<S>)> = None;
+        let mut held = false;
+        let mut stopped: Option<State<S>> = None;
+        let mut failure: Option<IntegrationErrorKind> = None;
+        let outcome = self.control.drive(self.problem, start, end, self.limit, &mut |state, rates| {
+            if E::COUNT > 0 {
+                let found = match &before {
+                    None => watch.begin(state).map(ControlFlow::Continue),
+                    Some((from, slopes)) => {
+                        watch.step(from, slopes, state, &mut |number, state| pass(Seen::Event(number, state)))
+                    }
+                };
+                match found {
+                    Ok(ControlFlow::Continue(())) => {}
+                    Ok(ControlFlow::Break(last)) => {
+                        stopped = Some(last);
+                        return ControlFlow::Break(());
+                    }
+                    Err(kind) => {
+                        failure = Some(kind);
+                        return ControlFlow::Break(());
+                    }
+                }
+            }
+            held = !count.is_multiple_of(self.every);
+            if !held {
+                pass(Seen::Sample(state, rates));
+            }
+            if held || E::COUNT > 0 {
+                before = Some((*state, *rates));
+            }
+            count += 1;
+            ControlFlow::Continue(())
+        });
+        if let Some(last) = stopped {
+            pass(Seen::Sample(&last, &self.problem.rates(&last)));
+            return Ok(last);
+        }
+        if let (true, Some((state, rates))) = (held, &before) {
+            pass(Seen::Sample(state, rates));
+        }
+        match failure {
+            Some(kind) => {
+                let last = before.map_or(start, |(state, _)| state);
+                Err(IntegrationError::at(self.problem, &last, kind))
+            }
+            None => outcome,
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! What a method integrates, whatever the form and the input: `q̇ = q·V(t, q, y)`, `ẏ = f(t, q, y)`.
+
+use super::form::{Form, VelocityForm};
+use super::input::{InputSource, NoInput};
+use super::state::{Rates, Sample, State};
+use crate::system::GaussSystem;
+
+type Scalar<P> = <<P as Problem>::System as GaussSystem>::Scalar;
+type Configuration<P> = <<P as Problem>::System as GaussSystem>::Configuration;
+type Speeds<P> = <<P as Problem>::System as GaussSystem>::Speeds;
+type Input<P> = <<P as Problem>::System as GaussSystem>::Input;
+
+/// The equations of motion as a method sees them: those of a system, in the variables y of one form, under an input.
+pub trait Problem {
+    /// What moves.
+    type System: GaussSystem;
+
+    /// The system.
+    fn system(&self) -> &Self::System;
+
+    /// The input at time t in the state (q, z).
+    fn input(&self, t: Scalar<Self>, q: &Configuration<Self>, z: &Speeds<Self>) -> Input<Self>;
+
+    /// y of a state given by its quasi-velocities.
+    fn variables(&self, t: Scalar<Self>, q: &Configuration<Self>, z: &Speeds<Self>) -> Speeds<Self>;
+
+    /// y of a state given by its momenta.
+    fn of_momentum(&self, t: Scalar<Self>, q: &Configuration<Self>, p: &Speeds<Self>) -> Speeds<Self>;
+
+    /// The quasi-velocities z of y.
+    fn speeds(&self, t: Scalar<Self>, q: &Configuration<Self>, y: &Speeds<Self>) -> Speeds<Self>;
+
+    /// The momenta p of y.
+    fn momentum(&self, t: Scalar<Self>, q: &Configuration<Self>, y: &Speeds<Self>) -> Speeds<Self>;
+
+    /// V and ẏ at a state.
+    fn rates(&self, state: &State<Self::System>) -> Rates<Self::System>;
+
+    /// (ż, ṗ) at a state, one of which is the known ẏ.
+    fn both_rates(&self, state: &State<Self::System>, known: &Speeds<Self>) -> (Speeds<Self>, Speeds<Self>);
+
+    /// The state at time t with the quasi-velocities z.
+    #[inline(always)]
+    fn state(&self, t: Scalar<Self>, q: Configuration<Self>, z: &Speeds<Self>) -> State<Self::System> {
+        State { t, q, y: self.variables(t, &q, z) }
+    }
+
+    /// Both velocities and momenta of a state.
+    #[inline(always)]
+    fn sample(&self, state: &State<Self::System>) -> Sample<Self::System> {
+        let State { t, q, y } = *state;
+        Sample { t, q, z: self.speeds(t, &q, &y), p: self.momentum(t, &q, &y) }
+    }
+}
+
+/// The problem of a kernel: its equations in a form, with what its input is.
+#[derive(Debug)]
+pub struct SystemProblem<'k, S, F = VelocityForm, I = NoInput> {
+    /// The kernel.
+    pub system: &'k S,
+    /// Velocity or momentum form.
+    pub form: F,
+    /// Where inputs come from.
+    pub input: I,
+}
+
+// Written by hand: the system is only borrowed, and need not be `Copy`.
+impl<S, F: Copy, I: Copy> Copy for SystemProblem<'_, S, F, I> {}
+
+impl<S, F: Clone, I: Clone> Clone for SystemProblem<'_, S, F, I> {
+    fn clone(&self) -> Self {
+        Self { system: self.system, form: self.form.clone(), input: self.input.clone() }
+    }
+}
+
+impl<'k, S> SystemProblem<'k, S> {
+    /// In velocity form and without inputs.
+    pub fn new(system: &'k S) -> Self {
+        Self { system, form: VelocityForm, input: NoInput }
+    }
+}
+
+impl<'k, S, F, I> SystemProblem<'k, S, F, I> {
+    /// The same in another form.
+    pub fn form<G>(self, form: G) -> SystemProblem<'k, S, G, I> {
+        SystemProblem { system: self.system, form, input: self.input }
+    }
+
+    /// The same under another input.
+    pub fn input_from<J>(self, input: J) -> SystemProblem<'k, S, F, J> {
+        SystemProblem { system: self.system, form: self.form, input }
+    }
+}
+
+impl<S: GaussSystem, F: Form<S>, I: InputSource<S>> Problem for SystemProblem<'_, S, F, I> {
+    type System = S;
+
+    #[inline(always)]
+    fn system(&self) -> &S {
+        self.system
+    }
+    #[inline(always)]
+    fn input(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input {
+        self.input.input(t, q, z)
+    }
+    #[inline(always)]
+    fn variables(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
+        self.form.variables(self.system, t, q, z)
+    }
+    #[inline(always)]
+    fn of_momentum(&self, t: S::Scalar, q: &S::Configuration, p: &S::Speeds) -> S::Speeds {
+        self.form.of_momentum(self.system, t, q, p)
+    }
+    #[inline(always)]
+    fn speeds(&self, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        self.form.speeds(self.system, t, q, y)
+    }
+    #[inline(always)]
+    fn momentum(&self, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        self.form.momentum(self.system, t, q, y)
+    }
+    #[inline(always)]
+    fn rates(&self, state: &State<S>) -> Rates<S> {
+        self.form.rates(self.system, &self.input, state)
+    }
+    #[inline(always)]
+    fn both_rates(&self, state: &State<S>, known: &S::Speeds) -> (S::Speeds, S::Speeds) {
+        self.form.both_rates(self.system, &self.input, state, known)
+    }
+}

@@ -1,0 +1,129 @@
+//! The two forms of the equations of motion, seen by an integrator as one: `q̇ = q·V(t, q, y)`, `ẏ = f(t, q, y)`.
+//!
+//! The velocity form takes y = z; the momentum form takes y = p, and keeps what the momenta keep (in the right-invariant
+//! chart without forces ṗ is zero, so every integrator keeps the momentum to the last bit).
+
+use super::input::InputSource;
+use super::state::{Rates, State};
+use crate::system::GaussSystem;
+
+/// Which variables y are integrated beside the configuration.
+pub trait Form<S: GaussSystem>: Copy {
+    /// y of a state given by its quasi-velocities.
+    fn variables(self, system: &S, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds;
+
+    /// The quasi-velocities z of y.
+    fn speeds(self, system: &S, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds;
+
+    /// The momenta p of y.
+    fn momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds;
+
+    /// y of a state given by its momenta.
+    fn of_momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, p: &S::Speeds) -> S::Speeds;
+
+    /// V and ẏ.
+    fn rates<I: InputSource<S>>(self, system: &S, input: &I, state: &State<S>) -> Rates<S>;
+
+    /// (ż, ṗ), one of which is the known ẏ.
+    fn both_rates<I: InputSource<S>>(
+        self,
+        system: &S,
+        input: &I,
+        state: &State<S>,
+        known: &S::Speeds,
+    ) -> (S::Speeds, S::Speeds);
+}
+
+/// y = z: integrate the quasi-velocities by `acceleration`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct VelocityForm;
+
+/// y = p: integrate the momenta by `momentum_rate`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MomentumForm;
+
+impl<S: GaussSystem> Form<S> for VelocityForm {
+    #[inline(always)]
+    fn variables(self, _: &S, _: S::Scalar, _: &S::Configuration, z: &S::Speeds) -> S::Speeds {
+        *z
+    }
+
+    #[inline(always)]
+    fn speeds(self, _: &S, _: S::Scalar, _: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        *y
+    }
+
+    #[inline(always)]
+    fn momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        system.momentum(t, q, y)
+    }
+
+    #[inline(always)]
+    fn of_momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, p: &S::Speeds) -> S::Speeds {
+        system.velocity(t, q, p)
+    }
+
+    #[inline(always)]
+    fn rates<I: InputSource<S>>(self, system: &S, input: &I, state: &State<S>) -> Rates<S> {
+        let State { t, q, y } = state;
+        let input = input.input(*t, q, y);
+        Rates { configuration: system.kinematics(*t, q, y), variables: system.acceleration(*t, q, y, &input) }
+    }
+
+    #[inline(always)]
+    fn both_rates<I: InputSource<S>>(
+        self,
+        system: &S,
+        input: &I,
+        state: &State<S>,
+        known: &S::Speeds,
+    ) -> (S::Speeds, S::Speeds) {
+        let State { t, q, y } = state;
+        let (input, p) = (input.input(*t, q, y), system.momentum(*t, q, y));
+        (*known, system.momentum_rate(*t, q, &p, &input))
+    }
+}
+
+impl<S: GaussSystem> Form<S> for MomentumForm {
+    #[inline(always)]
+    fn variables(self, system: &S, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
+        system.momentum(t, q, z)
+    }
+
+    #[inline(always)]
+    fn speeds(self, system: &S, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        system.velocity(t, q, y)
+    }
+
+    #[inline(always)]
+    fn momentum(self, _: &S, _: S::Scalar, _: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        *y
+    }
+
+    #[inline(always)]
+    fn of_momentum(self, _: &S, _: S::Scalar, _: &S::Configuration, p: &S::Speeds) -> S::Speeds {
+        *p
+    }
+
+    #[inline(always)]
+    fn rates<I: InputSource<S>>(self, system: &S, input: &I, state: &State<S>) -> Rates<S> {
+        let State { t, q, y } = state;
+        let z = system.velocity(*t, q, y);
+        let input = input.input(*t, q, &z);
+        Rates { configuration: system.kinematics(*t, q, &z), variables: system.momentum_rate(*t, q, y, &input) }
+    }
+
+    #[inline(always)]
+    fn both_rates<I: InputSource<S>>(
+        self,
+        system: &S,
+        input: &I,
+        state: &State<S>,
+        known: &S::Speeds,
+    ) -> (S::Speeds, S::Speeds) {
+        let State { t, q, y } = state;
+        let z = system.velocity(*t, q, y);
+        let input = input.input(*t, q, &z);
+        (system.acceleration(*t, q, &z, &input), *known)
+    }
+}

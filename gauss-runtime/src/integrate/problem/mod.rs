@@ -1,0 +1,7 @@
+//! What is integrated: a system in one of two forms, under an input; states, their derivatives, and what can go wrong.
+
+pub mod equations;
+pub mod error;
+pub mod form;
+pub mod input;
+pub mod state;

@@ -1,0 +1,44 @@
+//! What no step may do: pass over a singularity of the coordinates, or turn so far that the increment is ambiguous.
+
+use crate::configuration::Configuration;
+use crate::integrate::problem::error::IntegrationErrorKind;
+use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// Refuses steps that touch a singularity of the coordinates or pass over one: they would go on with numbers that mean
+/// nothing. At a regularity of √ε velocities have lost half of their digits.
+#[inline(always)]
+pub(in crate::integrate) fn check_chart<S: GaussSystem>(
+    system: &S,
+    start: &State<S>,
+    end: &State<S>,
+) -> Result<(), IntegrationErrorKind> {
+    let before = system.regularity(start.t, &start.q);
+    let after = system.regularity(end.t, &end.q);
+    for lane in 0..S::Scalar::LANES {
+        let (before, after) = (before.lane(lane), after.lane(lane));
+        // A NaN passes here and is caught at the end of the step.
+        if before.abs().min(after.abs()) <= Real::sqrt(S::Scalar::EPSILON) || (before < 0.0) != (after < 0.0) {
+            return Err(IntegrationErrorKind::SingularChart { regularity: after });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses rotations beyond half a turn. A NaN passes here and is caught at the end of the step.
+#[inline(always)]
+pub(in crate::integrate) fn check_increment<S: GaussSystem>(increment: &Rates<S>) -> Result<(), IntegrationErrorKind> {
+    check_turn::<S>(&increment.configuration)
+}
+
+/// [`check_increment`] of the increment of a configuration.
+#[inline(always)]
+pub(in crate::integrate) fn check_turn<S: GaussSystem>(increment: &TangentOf<S>) -> Result<(), IntegrationErrorKind> {
+    let angle = S::Configuration::increment_angle(increment);
+    if angle > core::f64::consts::PI && angle.is_finite() {
+        Err(IntegrationErrorKind::IncrementTooLarge { angle })
+    } else {
+        Ok(())
+    }
+}
