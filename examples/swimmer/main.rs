@@ -31,7 +31,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let impulse = path.iter().map(|s| kernel.momentum(s.t, &s.q, &s.z).amax()).fold(0.0, f64::max);
     println!("                the impulse that the kernel keeps: {impulse:.1e}");
     let per_stroke = end.q.translation.vector.norm() / f64::from(STROKES);
-    println!("one stroke      {per_stroke:.4} semi-axes; ending where its shape began, it is elsewhere: a geometric phase");
+    println!(
+        "one stroke      {per_stroke:.4} semi-axes; ending where its shape began, it is elsewhere: a geometric phase"
+    );
 
     // A phase knows no time: twice as fast it goes as far. Back and forth on one way through the shapes it goes nowhere.
     let idle = Fish::new(AMPLITUDE, 0.0);
@@ -41,14 +43,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     write("swimmer", &draw(&fish, &path)?)
 }
 
-/// Sixteen states a stroke.
+/// States that are kept of a stroke.
+const STATES: u32 = 64;
+
 fn swim(fish: &Fish, strokes: u32) -> Result<Vec<Sample<FishKernel>>, Box<dyn Error>> {
     let kernel = fish.kernel()?;
     let (q, z) = start(fish);
     let mut samples = vec![Sample { t: 0.0, q, z, p: kernel.momentum(0.0, &q, &z) }];
-    for n in 0..16 * strokes {
+    for n in 0..STATES * strokes {
         let last = samples[samples.len() - 1];
-        let interval = TAU / 16.0 * f64::from(n)..TAU / 16.0 * f64::from(n + 1);
+        let part = TAU / f64::from(STATES);
+        let interval = part * f64::from(n)..part * f64::from(n + 1);
         samples.push(Simulation::new(&kernel).adaptive(1e-12, 1e-13).run_to_end(last.q, last.z, interval)?);
     }
     Ok(samples)
@@ -69,7 +74,7 @@ fn draw(fish: &Fish, path: &[Sample<FishKernel>]) -> Result<String, Box<dyn Erro
     // One stroke, a fish below the other.
     let shapes: Vec<Line> = (0..=4)
         .flat_map(|quarter| {
-            let sample = &path[4 * quarter];
+            let sample = &path[STATES as usize / 4 * quarter];
             let down = 2.6 * quarter as f64;
             fish.poses(sample.t, &sample.q).into_iter().enumerate().map(move |(part, pose)| {
                 let colour = if part == 1 { blue } else { INK };
@@ -92,12 +97,17 @@ fn draw(fish: &Fish, path: &[Sample<FishKernel>]) -> Result<String, Box<dyn Erro
         low - air..high + air
     };
     let way = Plot {
-        title: "the middle of the fish over three strokes",
+        title: "its middle over three strokes",
         x: ("x, semi-axes", range(&|p| p.0)),
         y: ("y, semi-axes", range(&|p| p.1)),
         equal: true,
         lines: vec![Line::new("kernel", blue, track.iter().copied())],
-        marks: (0..=STROKES).map(|n| (track[16 * n as usize].0, track[16 * n as usize].1, format!("{n}"))).collect(),
+        marks: (0..=STROKES)
+            .map(|n| {
+                let (x, y) = track[(STATES * n) as usize];
+                (x, y, format!("{n}"))
+            })
+            .collect(),
     };
     let lags: Vec<f64> = (0..=24).map(|k| TAU * f64::from(k) / 24.0 / 2.0).collect();
     let gain = |amplitude: f64| -> Vec<(f64, f64)> {
@@ -105,9 +115,9 @@ fn draw(fish: &Fish, path: &[Sample<FishKernel>]) -> Result<String, Box<dyn Erro
         lags.iter().map(|&lag| (lag.to_degrees(), far(lag))).collect()
     };
     let phases = Plot {
-        title: "how far one stroke goes, by the lag of the rear hinge",
+        title: "one stroke, by the lag of the rear hinge",
         x: ("lag, °", 0.0..180.0),
-        y: ("semi-axes", 0.0..1.2),
+        y: ("distance, semi-axes", 0.0..2.4),
         equal: false,
         lines: vec![
             Line::new("1.25 rad", orange, gain(1.25)),

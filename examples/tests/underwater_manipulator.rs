@@ -3,6 +3,7 @@
 use gauss_runtime::prelude::*;
 
 #[path = "../underwater_manipulator/by_hand.rs"]
+#[expect(dead_code, reason = "the example runs it")]
 mod by_hand;
 #[path = "../underwater_manipulator/vehicle.rs"]
 mod vehicle;

@@ -18,7 +18,13 @@ struct Link {
 impl Link {
     /// A body whose axes are turned about `axis` by `angle` against its parent's, O at `offset` from the parent's O in the parent's
     /// axes and at `arm` from there in its own.
-    fn child(&self, offset: Vector3<f64>, axis: Vector3<f64>, [angle, rate, rate_rate]: [f64; 3], arm: Vector3<f64>) -> Self {
+    fn child(
+        &self,
+        offset: Vector3<f64>,
+        axis: Vector3<f64>,
+        [angle, rate, rate_rate]: [f64; 3],
+        arm: Vector3<f64>,
+    ) -> Self {
         let turn = UnitQuaternion::from_scaled_axis(axis * angle).to_rotation_matrix().into_inner();
         let back = turn.transpose();
         let at_joint = self.velocity + self.spin.cross(&offset);
@@ -133,16 +139,21 @@ fn residual(vehicle: &Vehicle, q: &Place, z: &Speeds, rates: &Speeds) -> Speeds 
 /// When the matrix is singular, which it is not for bodies with mass.
 pub fn acceleration(vehicle: &Vehicle, q: &Place, z: &Speeds, torques: &SVector<f64, 2>) -> Speeds {
     let still = residual(vehicle, q, z, &Speeds::zeros());
-    let columns: [Speeds; 8] = std::array::from_fn(|k| {
-        residual(vehicle, q, z, &Speeds::from_fn(|i, _| f64::from(u8::from(i == k)))) - still
-    });
+    let columns: [Speeds; 8] =
+        std::array::from_fn(|k| residual(vehicle, q, z, &Speeds::from_fn(|i, _| f64::from(u8::from(i == k)))) - still);
     let matrix = SMatrix::<f64, 8, 8>::from_columns(&columns);
     let given = Speeds::from_fn(|k, _| if k < 6 { 0.0 } else { torques[k - 6] });
     matrix.lu().solve(&(given - still)).expect("bodies have mass")
 }
 
 /// The motion by the classical Runge–Kutta method on (R as a quaternion, b, angles, z), at every whole tenth of a second.
-pub fn run(vehicle: &Vehicle, start: (Place, Speeds), tenths: u32, steps: u32, torques: impl Fn(f64, &Place, &Speeds) -> SVector<f64, 2>) -> Vec<(Place, Speeds)> {
+pub fn run(
+    vehicle: &Vehicle,
+    start: (Place, Speeds),
+    tenths: u32,
+    steps: u32,
+    torques: impl Fn(f64, &Place, &Speeds) -> SVector<f64, 2>,
+) -> Vec<(Place, Speeds)> {
     type State = (UnitQuaternion<f64>, Vector3<f64>, SVector<f64, 2>, Speeds);
     // Rotations by increments in the body's axes: q exp(φ), φ̇ = dexp⁻¹ ω to the order of the method.
     let rates = |t: f64, base: &State, phi: &Vector3<f64>, rest: &(Vector3<f64>, SVector<f64, 2>, Speeds)| {

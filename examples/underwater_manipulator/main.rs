@@ -5,7 +5,7 @@
 
 use std::error::Error;
 
-use gauss_examples::figure::COLOURS;
+use gauss_examples::figure::{COLOURS, PALE};
 use gauss_examples::plots::{Line, Plot, sheet, write};
 use gauss_runtime::prelude::*;
 
@@ -34,7 +34,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let wet = run(&river, start(&river))?;
     let hand = by_hand::run(&river, start(&river), TENTHS, 200, reach);
-    let apart = wet.iter().zip(&hand).map(|(s, (place, _))| (s.q.0.translation.vector - place.0.translation.vector).norm());
+    let apart =
+        wet.iter().zip(&hand).map(|(s, (place, _))| (s.q.0.translation.vector - place.0.translation.vector).norm());
     let apart = apart.fold(0.0, f64::max);
     println!("\nby hand         Newton and Euler, body by body: paths are {apart:.1e} m apart after {} s", TENTHS / 10);
 
@@ -82,25 +83,24 @@ fn run(vehicle: &Vehicle, (q, z): (Place, Speeds)) -> Result<Vec<Sample<VehicleK
 }
 
 /// The state a little later or earlier.
-fn step(
-    vehicle: &Vehicle,
-    from: &Sample<VehicleKernel>,
-    h: f64,
-) -> Result<Sample<VehicleKernel>, Box<dyn Error>> {
+fn step(vehicle: &Vehicle, from: &Sample<VehicleKernel>, h: f64) -> Result<Sample<VehicleKernel>, Box<dyn Error>> {
     let kernel = vehicle.kernel()?;
     Ok(Simulation::new(&kernel).input(reach).adaptive(1e-12, 1e-14).run_to_end(from.q, from.z, from.t..from.t + h)?)
 }
 
-/// The tip of the arm, m, observer's axes.
-fn tip(q: &Place) -> Vector3<f64> {
-    let [shoulder, elbow] = [q.1[0], q.1[1]];
-    let (yaw, pitch) = (
-        UnitQuaternion::from_axis_angle(&Vector3::z_axis(), shoulder),
-        UnitQuaternion::from_axis_angle(&Vector3::y_axis(), elbow),
-    );
-    let along = Vector3::new(LINK, 0.0, 0.0);
-    let point = Vector3::from(vehicle::SHOULDER) + yaw * (along + pitch * along);
-    q.0.translation.vector + q.0.rotation * point
+/// Shoulder, elbow and tip of the arm, m, observer's axes.
+fn arm(q: &Place) -> [Vector3<f64>; 3] {
+    let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), q.1[0]);
+    let pitch = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), q.1[1]);
+    let (shoulder, along) = (Vector3::from(vehicle::SHOULDER), Vector3::new(LINK, 0.0, 0.0));
+    let points = [shoulder, shoulder + yaw * along, shoulder + yaw * (along + pitch * along)];
+    points.map(|point| q.0.translation.vector + q.0.rotation * point)
+}
+
+/// The outline of the hull from above, 0.46 by 0.58 m.
+fn hull(q: &Place) -> impl Iterator<Item = Vector3<f64>> {
+    let corners = [(0.23, 0.29), (-0.23, 0.29), (-0.23, -0.29), (0.23, -0.29), (0.23, 0.29)];
+    corners.map(|(x, y)| q.0.translation.vector + q.0.rotation * Vector3::new(x, y, 0.0)).into_iter()
 }
 
 fn draw(
@@ -120,14 +120,21 @@ fn draw(
     let angles = |s: &Sample<VehicleKernel>| s.q.0.rotation.euler_angles();
     let plan = Plot {
         title: "from above, carried along by the current",
-        x: ("east, m", -0.2..0.8),
-        y: ("north, m", -0.2..0.95),
+        x: ("east, m", -0.4..0.6),
+        y: ("north, m", -0.4..0.95),
         equal: true,
-        lines: vec![
-            Line::new("tip of the arm", blue, path(wet, &|s| tip(&s.q))),
-            Line::new("with a dry arm", orange, path(dry, &|s| tip(&s.q))).dashed(),
-            Line::new("hull", green, path(wet, &|s| s.q.0.translation.vector)),
-        ],
+        lines: {
+            let [first, last] = [&wet[0], &wet[wet.len() - 1]];
+            let outline = |s: &Sample<VehicleKernel>, colour| {
+                let links = Line::new("", colour, arm(&s.q).map(|p| east(s, p))).wide(7);
+                [Line::new("", colour, hull(&s.q).map(|p| east(s, p))), links]
+            };
+            let tip = |s: &Sample<VehicleKernel>| arm(&s.q)[2];
+            let mut lines: Vec<Line> = outline(first, PALE).into_iter().chain(outline(last, green)).collect();
+            lines.push(Line::new("tip of the arm", blue, path(wet, &tip)));
+            lines.push(Line::new("with a dry arm", orange, path(dry, &tip)).dashed());
+            lines
+        },
         marks: vec![],
     };
     let lowest = |line: &[(f64, f64)]| line.iter().map(|p| p.1).fold(0.0, f64::min);
