@@ -1,6 +1,6 @@
 //! The programs of a kernel, method by method: arguments, code, what the outputs are.
 
-use crate::emit::{Derived, method_name};
+use crate::emit::Derived;
 use crate::kernel;
 use crate::mechanics::Method;
 use crate::program::{ArgumentKind, Function, Instruction, Operand, Program, Results};
@@ -61,7 +61,7 @@ fn of_method<'g>(
     code: &kernel::Program<'g>,
 ) -> Result<Program, Unbound> {
     // `expand` makes the series, this the rates that they are made from.
-    let name = if method == Method::ComponentRates { "component_rates" } else { method_name(method) };
+    let name = if method == Method::ComponentRates { "component_rates" } else { method.name() };
     let (rows, arguments) = (derived.degrees_of_freedom(), with(further_arguments(method)));
     let results = |rows: usize, columns: usize| vec![Results::new(name, rows, columns)];
     let count = code.outputs.len();

@@ -36,7 +36,7 @@ impl<'g> Signature<'g> {
         let formal = derived.formal();
         let configuration: Vec<Expr<'g>> = derived
             .subject
-            .configuration_arguments(derived)
+            .configuration_arguments(&derived.private())
             .into_iter()
             .flat_map(|argument| argument.symbols)
             .collect();

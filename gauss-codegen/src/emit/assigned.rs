@@ -10,7 +10,7 @@ use crate::mechanics::{Assigned, KineticMatrix};
 use crate::model::{Motion, Role, Shape};
 
 use super::derived::Derived;
-use super::parameters::{in_plane, inertia_rows};
+use super::inertia::{in_plane, inertia_rows};
 use super::program::statements;
 
 /// `let name = …;`: the value, or the array of components.

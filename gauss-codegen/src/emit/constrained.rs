@@ -25,5 +25,5 @@ pub fn constrained_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 
 /// `project` of `GaussSystem`, where a run can drift away from constraints.
 pub fn projection(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    constrained(derived).map(|subject| subject.projection(derived))
+    constrained(derived).map(|subject| subject.projection(&derived.private()))
 }

@@ -12,7 +12,6 @@ use crate::translate::{DragMatrix, Parameter, Translator};
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
-use super::documentation::method_name;
 use super::program::{ScalarTokens, statements};
 use super::subject::Subject;
 
@@ -195,7 +194,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         let Formal { speeds, speed_rates, momenta, twist, residuals, inputs } = self.formal();
         let mut names = self.constant_names();
         names.insert(self.subject.system.scene.time.key(), quote!(t));
-        let mut arguments = self.subject.configuration_arguments(self);
+        let mut arguments = self.subject.configuration_arguments(&self.private());
         let vector = |name: TokenStream, symbols: &[Expr<'g>]| self.vector_argument(name, symbols);
         arguments.push(vector(quote!(z), speeds));
         arguments.push(vector(quote!(p), momenta));
@@ -227,7 +226,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 let (volume, squares, real) = (&outputs[0], &outputs[1], self.scalar().real);
                 quote!(#volume / #real::sqrt(#squares))
             }
-            Method::Kinematics | Method::PositionCorrection => self.subject.tangent(self, &outputs),
+            Method::Kinematics | Method::PositionCorrection => self.subject.tangent(&self.private(), &outputs),
             _ => quote!(#private::vector([#(#outputs),*])),
         };
         quote!(#instructions #result)
@@ -239,7 +238,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// A method of a trait: its arguments after `t` and `q`, its result.
     pub fn function(&self, method: Method, arguments: TokenStream, result: TokenStream) -> TokenStream {
-        let (function, body) = (Ident::new(method_name(method), Span::call_site()), self.method_body(method));
+        let (function, body) = (Ident::new(method.name(), Span::call_site()), self.method_body(method));
         quote! {
             #[inline]
             fn #function(&self, t: Self::Scalar, q: &Self::Configuration, #arguments) -> #result { #body }

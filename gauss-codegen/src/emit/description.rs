@@ -7,7 +7,7 @@ use crate::kernel::Counts;
 use crate::mechanics::Method;
 
 use super::derived::Derived;
-use super::documentation::{DERIVATIVES, Equations, method_name};
+use super::documentation::{DERIVATIVES, Equations};
 
 pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let private = derived.private();
@@ -31,7 +31,7 @@ fn operations(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
     };
     let kernel = &derived.kernel;
     let methods = derived.formulas.iter().zip(&kernel.functions).filter(|(f, _)| f.method <= Method::Powers);
-    let methods = methods.map(|(f, program)| count(method_name(f.method), program.counts()));
+    let methods = methods.map(|(f, program)| count(f.method.name(), program.counts()));
     let whole = [("kernel", &kernel.constants), ("evaluate", &kernel.joined)].into_iter();
     let whole = whole.map(|(name, program)| count(name, program.counts()));
     let derivatives = DERIVATIVES.into_iter().zip(kernel.derivatives());

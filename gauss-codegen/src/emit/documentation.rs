@@ -3,10 +3,10 @@
 use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
-use crate::mechanics::{Method, Section};
+use crate::mechanics::Section;
 use crate::model::{InChart, InputKind, Role};
 
-use super::body::{chart_name, motion_name};
+use super::chart::{chart_name, motion_name};
 use super::derived::Derived;
 
 /// The equations as plain text and as one LaTeX environment.
@@ -123,7 +123,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     out.push_str(&acting(derived));
     out.push_str("\n# Cost\n\n| method | operations |\n|---|---|\n");
     for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
-        out.push_str(&format!("| `{}` | {} |\n", method_name(formula.method), program.counts()));
+        out.push_str(&format!("| `{}` | {} |\n", formula.method.name(), program.counts()));
     }
     out.push_str(&format!("| `evaluate` | {} |\n", derived.kernel.joined.counts()));
     for (name, program) in DERIVATIVES.into_iter().zip(derived.kernel.derivatives()) {
@@ -161,35 +161,4 @@ fn acting(derived: &Derived<'_, '_>) -> String {
         out.push_str(&format!("| {} | {kind} |\n", account.name));
     }
     out
-}
-
-/// Name of the generated method.
-pub fn method_name(method: Method) -> &'static str {
-    match method {
-        Method::Kinematics => "kinematics",
-        Method::Acceleration => "acceleration",
-        Method::Momentum => "momentum",
-        Method::Velocity => "velocity",
-        Method::MomentumRate => "momentum_rate",
-        Method::MassMatrix => "mass_matrix",
-        Method::KineticEnergy => "kinetic_energy",
-        Method::PotentialEnergy => "potential_energy",
-        Method::GaussResidual => "gauss_residual",
-        Method::ConstraintFunction => "constraint_function",
-        Method::BodyTwist => "body_twist",
-        Method::Speeds => "speeds",
-        Method::BodyMomentum => "body_momentum",
-        Method::Regularity => "regularity",
-        Method::Multipliers => "multipliers",
-        Method::PositionResidual => "position_residual",
-        Method::VelocityResidual => "velocity_residual",
-        Method::PositionCorrection => "position_correction",
-        Method::VelocityCorrection => "velocity_correction",
-        Method::ComponentRates => "expand",
-        Method::Powers => "powers",
-        Method::ElementForces => "element_forces",
-        Method::SuppliedPower => "supplied_power",
-        Method::InertialParameters => "inertial_parameters",
-        Method::OtherForces => "other_forces",
-    }
 }

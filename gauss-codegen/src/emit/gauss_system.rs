@@ -25,7 +25,8 @@ pub fn gauss_system(derived: &Derived<'_, '_>) -> TokenStream {
 /// Associated types, degrees of freedom, chart.
 fn types(derived: &Derived<'_, '_>) -> TokenStream {
     let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
-    let (configuration, chart) = (derived.subject.configuration_type(derived), derived.subject.chart_tokens(derived));
+    let (configuration, chart) =
+        (derived.subject.configuration_type(&private, &ty), derived.subject.chart_tokens(&derived.private()));
     let input = match derived.formal().inputs.len() {
         0 => quote!(()),
         count => quote!(#private::SVector<#ty, #count>),
@@ -82,7 +83,7 @@ fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
     let (instructions, outputs) = derived.computed(&derived.kernel.joined);
     let (configuration, rest) = outputs.split_at(derived.program(Method::Kinematics).outputs.len());
     let (speeds, energies) = rest.split_at(derived.degrees_of_freedom());
-    let velocity = derived.subject.tangent(derived, configuration);
+    let velocity = derived.subject.tangent(&derived.private(), configuration);
     quote! {
         #[inline]
         fn evaluate(

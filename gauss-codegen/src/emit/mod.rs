@@ -4,8 +4,8 @@
 //! |---|---|
 //! | `program` | instructions as `let` statements |
 //! | `arguments` | where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel |
-//! | `parameters`, `assigned` | the parameters read, checked, and turned into constants |
-//! | `subject`, `body` | what is derived: its configuration, its constraints; the names of charts and poses |
+//! | `parameters`, `assigned`, `inertia` | the parameters read, checked, and turned into constants |
+//! | `subject`, `chart`, `pose` | what is derived: its configuration, its constraints; charts by name; configurations as poses |
 //! | `documentation` | equations and costs as text, LaTeX and rustdoc |
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
@@ -18,7 +18,7 @@ use quote::quote;
 
 mod arguments;
 mod assigned;
-mod body;
+mod chart;
 mod constrained;
 mod derived;
 mod description;
@@ -26,10 +26,12 @@ mod documentation;
 mod fallback;
 mod forced;
 mod gauss_system;
+mod inertia;
 mod kernel;
 mod linearized;
 mod parameters;
 mod parametric;
+mod pose;
 mod program;
 mod regressor;
 mod rigid_body;
@@ -43,7 +45,7 @@ mod taylor;
 mod tests;
 
 pub use derived::Derived;
-pub use documentation::{Equations, method_name};
+pub use documentation::Equations;
 pub use fallback::fallback;
 
 /// The whole output of the derive.

@@ -5,8 +5,8 @@ use quote::quote;
 
 use crate::mechanics::Method;
 
-use super::body::pose_bodies;
 use super::derived::Derived;
+use super::pose::pose_bodies;
 
 pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     derived.subject.system.rigid_body()?;

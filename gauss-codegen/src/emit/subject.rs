@@ -10,8 +10,7 @@ use crate::model::Model;
 use crate::translate::Source;
 
 use super::arguments::Argument;
-use super::body::chart_tokens;
-use super::derived::Derived;
+use super::chart::chart_tokens;
 
 /// What is derived.
 pub struct Subject<'a, 'g> {
@@ -60,8 +59,7 @@ impl<'g> Subject<'_, 'g> {
     }
 
     /// `A`, `(A, B)`, `(A, (B, C))`…
-    pub fn configuration_type(&self, derived: &Derived<'_, '_>) -> TokenStream {
-        let (private, ty) = (derived.private(), derived.scalar().ty());
+    pub fn configuration_type(&self, private: &TokenStream, ty: &TokenStream) -> TokenStream {
         let types = self.factors().into_iter().map(|factor| match factor {
             Factor::Scalars { symbols } => {
                 let n = symbols.len();
@@ -77,8 +75,7 @@ impl<'g> Subject<'_, 'g> {
     }
 
     /// The configuration taken apart.
-    pub fn configuration_arguments(&self, derived: &Derived<'_, '_>) -> Vec<Argument<'g>> {
-        let private = derived.private();
+    pub fn configuration_arguments(&self, private: &TokenStream) -> Vec<Argument<'g>> {
         let factors = self.factors();
         let last = factors.len() - 1;
         let mut arguments = Vec::new();
@@ -116,8 +113,7 @@ impl<'g> Subject<'_, 'g> {
     }
 
     /// The components of an increment of the configuration, in the order of the coordinates, as its type.
-    pub fn tangent(&self, derived: &Derived<'_, '_>, outputs: &[TokenStream]) -> TokenStream {
-        let private = derived.private();
+    pub fn tangent(&self, private: &TokenStream, outputs: &[TokenStream]) -> TokenStream {
         let mut groups = Vec::new();
         let mut scalars = Vec::new();
         let mut rest = outputs;
@@ -136,10 +132,9 @@ impl<'g> Subject<'_, 'g> {
     }
 
     /// The chart that the speeds belong to.
-    pub fn chart_tokens(&self, derived: &Derived<'_, '_>) -> TokenStream {
-        let private = derived.private();
+    pub fn chart_tokens(&self, private: &TokenStream) -> TokenStream {
         match self.model.one_body() {
-            Some(own) => chart_tokens(&private, own.chart),
+            Some(own) => chart_tokens(private, own.chart),
             None => quote!(#private::Chart::Own),
         }
     }
@@ -151,8 +146,7 @@ impl<'g> Subject<'_, 'g> {
     }
 
     /// `project` of the kernel's [`GaussSystem`], where there is something to project to.
-    pub fn projection(&self, derived: &Derived<'_, '_>) -> TokenStream {
-        let private = derived.private();
+    pub fn projection(&self, private: &TokenStream) -> TokenStream {
         if !self.can_drift {
             return TokenStream::new();
         }

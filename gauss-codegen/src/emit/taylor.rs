@@ -314,7 +314,7 @@ impl Variables {
         let time = derived.subject.system.scene.time;
         first.insert(time.key(), quote!(t));
         coefficients.insert(time.key(), quote!(__time));
-        let mut arguments = derived.subject.configuration_arguments(derived);
+        let mut arguments = derived.subject.configuration_arguments(&derived.private());
         arguments.push(derived.vector_argument(quote!(z), derived.speeds()));
         let (mut declarations, mut names) = (TokenStream::new(), Vec::new());
         for argument in &arguments {

@@ -41,6 +41,37 @@ pub enum Method {
 impl Method {
     /// What callers want at once.
     pub const EVALUATED: [Self; 4] = [Self::Kinematics, Self::Acceleration, Self::KineticEnergy, Self::PotentialEnergy];
+
+    /// What the generated method is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Kinematics => "kinematics",
+            Method::Acceleration => "acceleration",
+            Method::Momentum => "momentum",
+            Method::Velocity => "velocity",
+            Method::MomentumRate => "momentum_rate",
+            Method::MassMatrix => "mass_matrix",
+            Method::KineticEnergy => "kinetic_energy",
+            Method::PotentialEnergy => "potential_energy",
+            Method::GaussResidual => "gauss_residual",
+            Method::ConstraintFunction => "constraint_function",
+            Method::BodyTwist => "body_twist",
+            Method::Speeds => "speeds",
+            Method::BodyMomentum => "body_momentum",
+            Method::Regularity => "regularity",
+            Method::Multipliers => "multipliers",
+            Method::PositionResidual => "position_residual",
+            Method::VelocityResidual => "velocity_residual",
+            Method::PositionCorrection => "position_correction",
+            Method::VelocityCorrection => "velocity_correction",
+            Method::ComponentRates => "expand",
+            Method::Powers => "powers",
+            Method::ElementForces => "element_forces",
+            Method::SuppliedPower => "supplied_power",
+            Method::InertialParameters => "inertial_parameters",
+            Method::OtherForces => "other_forces",
+        }
+    }
 }
 
 /// The outputs of one method. Where the same result can be arranged in several ways, all are given, and the kernel

@@ -9,7 +9,7 @@ use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, add, dot};
 use crate::mechanics::links::tree::Inertia;
 use crate::mechanics::loads::forces::{Action, Element, Force};
-use crate::mechanics::loads::wrench::Observed;
+use crate::mechanics::loads::observed::Observed;
 use crate::mechanics::proof::{GENERAL, relations};
 use crate::mechanics::tests::{Charted, scenes};
 

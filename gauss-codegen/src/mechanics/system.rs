@@ -5,13 +5,13 @@ use crate::algebra::{Expr, Map, solve_pairs, solve_symmetric};
 
 use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::arrangements::free_link::FreeLink;
-use crate::mechanics::constraints::constraint::Constraints;
+use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::links::tree::Inertia;
-use crate::mechanics::loads::accounts::account_formulas;
+use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, forces_of, potential_of};
 use crate::mechanics::scene::{Lettering, SystemScene};
-use crate::mechanics::tidy::tidy;
+use crate::mechanics::tidy::{sums, tidy};
 
 /// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of links
 /// that do not, where a free body must be among them.
@@ -469,10 +469,6 @@ impl<'g> System<'g> {
         };
         self.scene.kinematics.iter().map(row).collect()
     }
-}
-
-pub(in crate::mechanics) fn sums<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Vec<Expr<'g>> {
-    a.iter().zip(b).map(|(a, b)| *a + *b).collect()
 }
 
 fn tidied<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {

@@ -16,3 +16,8 @@ pub fn readable<'g>(e: Expr<'g>) -> Option<Polynomial<'g>> {
 pub fn tidy(e: Expr<'_>) -> Expr<'_> {
     readable(e).map_or(e, |p| p.collect())
 }
+
+/// Row by row.
+pub fn sums<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    a.iter().zip(b).map(|(a, b)| *a + *b).collect()
+}

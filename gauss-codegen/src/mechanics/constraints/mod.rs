@@ -2,3 +2,4 @@
 
 pub mod constraint;
 pub mod elimination;
+pub mod multipliers;

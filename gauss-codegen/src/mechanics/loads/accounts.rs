@@ -3,38 +3,14 @@
 use crate::algebra::Expr;
 
 use crate::mechanics::arrangements::free_link::FreeLink;
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::loads::forces::{Action, Force};
 use crate::mechanics::loads::wrench::Wrench;
-use crate::mechanics::system::{System, sums};
+use crate::mechanics::system::System;
+use crate::mechanics::tidy::sums;
 
-/// One element in the accounts.
-pub struct Account<'g> {
-    pub name: String,
-    /// It is part of the potential energy.
-    pub conservative: bool,
-    /// `∫∂v_P/∂z^α·dF`, one for each speed.
-    pub forces: Vec<Expr<'g>>,
-    pub power: Expr<'g>,
-}
-
-/// What weight and buoyancy are called.
-pub const GRAVITY: &str = "gravity";
 /// What is called that moves coordinates or constraints as a function of time.
 const GUIDES: &str = "guides";
-
-/// Powers, generalised forces (speeds by elements, row by row), and dE/dt: the powers of what is not in the energy, and ∂U/∂t.
-pub fn account_formulas<'g>(accounts: &[Account<'g>], explicit_power: Expr<'g>) -> Vec<Formula<'g>> {
-    let Some(first) = accounts.first() else { return Vec::new() };
-    let single = |method, outputs| Formula { method, arrangements: vec![outputs] };
-    let rows = (0..first.forces.len()).flat_map(|row| accounts.iter().map(move |account| account.forces[row]));
-    let outside = accounts.iter().filter(|account| !account.conservative).map(|account| account.power);
-    vec![
-        single(Method::Powers, accounts.iter().map(|account| account.power).collect()),
-        single(Method::ElementForces, rows.collect()),
-        single(Method::SuppliedPower, vec![outside.fold(explicit_power, |sum, power| sum + power)]),
-    ]
-}
 
 /// The elements in the order of the accounts: those of the energy first.
 fn sorted(mut accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {

@@ -1,6 +1,8 @@
-//! What acts beside weight and buoyancy.
+//! Loads beside weight and buoyancy.
 
+pub mod account;
 pub mod accounts;
 pub mod fields;
 pub mod forces;
+pub mod observed;
 pub mod wrench;

@@ -4,7 +4,7 @@ use crate::algebra::{Expr, Map, Notation, print};
 use crate::mechanics::tidy::{LIMIT, readable, tidy};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
-use crate::mechanics::loads::accounts::{Account, GRAVITY};
+use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::print::names::Name;
 use crate::mechanics::scene::Lettering;
 use crate::mechanics::system::System;
