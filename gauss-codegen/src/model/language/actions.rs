@@ -10,23 +10,79 @@ use crate::model::scene::clauses::{Attraction, Coefficients, Extent, ForceAxes, 
 use crate::model::scene::expression::Expression;
 use proc_macro2::{Ident, Span};
 
-const FORCE: &Table<()> = &[("at", ()), ("value", ()), ("body", ()), ("axes", ())];
-const TORQUE: &Table<()> = &[("body", ()), ("value", ()), ("axes", ()), ("reaction", ())];
-const WRENCH: &Table<()> = &[("body", ()), ("at", ()), ("force", ()), ("torque", ()), ("axes", ())];
-const DRAG: &Table<()> = &[("body", ()), ("linear", ()), ("quadratic", ())];
-const SPRING: &Table<()> =
-    &[("from", ()), ("to", ()), ("along", ()), ("stiffness", ()), ("length", ()), ("damping", ())];
-const STOP: &Table<()> = &[
-    ("from", ()),
-    ("to", ()),
-    ("along", ()),
-    ("least", ()),
-    ("most", ()),
-    ("stiffness", ()),
-    ("width", ()),
-    ("damping", ()),
-];
-const ATTRACTION: &Table<()> = &[("mu", ()), ("center", ())];
+/// How an element of what acts is written.
+struct Form {
+    /// What it is called in messages.
+    noun: &'static str,
+    /// What its clause begins with.
+    word: &'static str,
+    arguments: &'static Table<()>,
+    /// All that stands in its brackets.
+    example: &'static str,
+    /// One argument, for messages.
+    argument: &'static str,
+}
+
+const FORCE: Form = Form {
+    noun: "force",
+    word: "force",
+    arguments: &[("at", ()), ("value", ()), ("body", ()), ("axes", ())],
+    example: "at = …, value = [fx, fy, fz]",
+    argument: "an argument such as `value = [0, 0, f]`",
+};
+const TORQUE: Form = Form {
+    noun: "torque",
+    word: "torque",
+    arguments: &[("body", ()), ("value", ()), ("axes", ()), ("reaction", ())],
+    example: "body = …, value = [mx, my, mz]",
+    argument: "an argument such as `value = [0, 0, f]`",
+};
+const WRENCH: Form = Form {
+    noun: "wrench",
+    word: "wrench",
+    arguments: &[("body", ()), ("at", ()), ("force", ()), ("torque", ()), ("axes", ())],
+    example: "body = …, force = [fx, fy, fz], torque = [mx, my, mz]",
+    argument: "an argument such as `force = [0, 0, f]`",
+};
+const DRAG: Form = Form {
+    noun: "drag",
+    word: "drag",
+    arguments: &[("body", ()), ("linear", ()), ("quadratic", ())],
+    example: "body = …, linear = …, quadratic = …",
+    argument: "an argument such as `linear = d`",
+};
+const SPRING: Form = Form {
+    noun: "spring",
+    word: "spring",
+    arguments: &[("from", ()), ("to", ()), ("along", ()), ("stiffness", ()), ("length", ()), ("damping", ())],
+    example: "from = …, to = …, stiffness = k",
+    argument: "an argument such as `stiffness = k`",
+};
+const STOP: Form = Form {
+    noun: "stop",
+    word: "stop",
+    arguments: &[
+        ("from", ()),
+        ("to", ()),
+        ("along", ()),
+        ("least", ()),
+        ("most", ()),
+        ("stiffness", ()),
+        ("width", ()),
+        ("damping", ()),
+    ],
+    example: "along = …, least = a, most = b, stiffness = k, width = e",
+    argument: "an argument such as `stiffness = k`",
+};
+const ATTRACTION: Form = Form {
+    noun: "attraction",
+    word: "central_gravity",
+    arguments: &[("mu", ()), ("center", ())],
+    example: "mu = gm",
+    argument: "an argument such as `mu = gm`",
+};
+const IN_MEDIUM: Owner = Owner::Action { word: "medium", example: "an argument such as `velocity = [c, 0, 0]`" };
+const IN_DRIVE: Owner = Owner::Action { word: "drive", example: "a generalised force such as `theta = -k * theta`" };
 const MEDIUM: &Table<()> = &[("velocity", ())];
 const AXES: &Table<ForceAxes> = &[("body", ForceAxes::Body), ("observer", ForceAxes::Observer)];
 
@@ -44,15 +100,10 @@ struct Element {
 
 impl Element {
     /// `None` if there is nothing in brackets, which is noted.
-    fn read(
-        clause: &Clause,
-        noun: &'static str,
-        place: Owner,
-        table: &Table<()>,
-        example: &str,
-        context: &mut Context,
-    ) -> Option<Element> {
-        let group = brackets(clause, example, context)?;
+    fn read(clause: &Clause, form: &Form, context: &mut Context) -> Option<Element> {
+        let (noun, table) = (form.noun, form.arguments);
+        let group = brackets(clause, form.example, context)?;
+        let place = Owner::Action { word: form.word, example: form.argument };
         let (written, complete) = arguments::arguments(group, place, context);
         let mut element = Element {
             noun,
@@ -73,7 +124,7 @@ impl Element {
                     argument.name.span(),
                     "a torque has no point: it does the same wherever it acts on its body; remove `at`",
                 );
-            } else if known(&argument, place.owner(), table, &mut given, context) {
+            } else if known(&argument, form.word, table, &mut given, context) {
                 element.arguments.push(argument);
             } else {
                 element.misspelt.extend(words::nearest(&argument.word(), table).map(|(name, ())| name));
@@ -190,7 +241,7 @@ fn optional<T>(given: Option<&Clause>, read: Option<T>) -> Option<Option<T>> {
 
 /// `force(…)`; `None` if something is missing or wrong, which is noted. In a chart it always acts on the one body.
 pub fn read_force(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
-    let element = Element::read(clause, "force", Owner::Force, FORCE, "at = …, value = [fx, fy, fz]", context)?;
+    let element = Element::read(clause, &FORCE, context)?;
     let at = element.expression("at", "[l, 0, 0]", context);
     let body = element.body(in_chart, context);
     let value = element.expression("value", "[fx, fy, fz]", context);
@@ -223,7 +274,7 @@ pub fn read_force(clause: &Clause, in_chart: bool, context: &mut Context) -> Opt
 
 /// `torque(…)`; `None` if something is missing or wrong, which is noted. In a chart it always acts on the one body.
 pub fn read_torque(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
-    let element = Element::read(clause, "torque", Owner::Torque, TORQUE, "body = …, value = [mx, my, mz]", context)?;
+    let element = Element::read(clause, &TORQUE, context)?;
     let body = element.body(in_chart, context);
     let value = element.expression("value", "[mx, my, mz]", context);
     let axes = element.axes(context);
@@ -237,8 +288,7 @@ pub fn read_torque(clause: &Clause, in_chart: bool, context: &mut Context) -> Op
 
 /// `wrench(…)`; `None` if something is missing or wrong, which is noted. In a chart it always acts on the one body.
 pub fn read_wrench(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
-    let example = "body = …, force = [fx, fy, fz], torque = [mx, my, mz]";
-    let element = Element::read(clause, "wrench", Owner::Wrench, WRENCH, example, context)?;
+    let element = Element::read(clause, &WRENCH, context)?;
     let body = element.body(in_chart, context);
     let at = element.expression("at", "[l, 0, 0]", context);
     let force = element.expression("force", "[fx, fy, fz]", context);
@@ -268,7 +318,7 @@ pub fn read_wrench(clause: &Clause, in_chart: bool, context: &mut Context) -> Op
 
 /// `drag(…)`; `None` if something is missing or wrong, which is noted. In a chart it always acts on the one body.
 pub fn read_drag(clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
-    let element = Element::read(clause, "drag", Owner::Drag, DRAG, "body = …, linear = …, quadratic = …", context)?;
+    let element = Element::read(clause, &DRAG, context)?;
     let body = element.body(in_chart, context);
     let linear = element.coefficients("linear", context);
     let quadratic = element.coefficients("quadratic", context);
@@ -283,7 +333,7 @@ pub fn read_drag(clause: &Clause, in_chart: bool, context: &mut Context) -> Opti
 
 /// `spring(…)`; `None` if something is missing or wrong, which is noted.
 pub fn read_spring(clause: &Clause, context: &mut Context) -> Option<ForceClause> {
-    let element = Element::read(clause, "spring", Owner::Spring, SPRING, "from = …, to = …, stiffness = k", context)?;
+    let element = Element::read(clause, &SPRING, context)?;
     let extent = element.extent(context);
     let stiffness = element.expression("stiffness", "k", context);
     let length = element.expression("length", "l", context);
@@ -296,8 +346,7 @@ pub fn read_spring(clause: &Clause, context: &mut Context) -> Option<ForceClause
 
 /// `stop(…)`; `None` if something is missing or wrong, which is noted.
 pub fn read_stop(clause: &Clause, context: &mut Context) -> Option<ForceClause> {
-    let example = "along = …, least = a, most = b, stiffness = k, width = e";
-    let element = Element::read(clause, "stop", Owner::Stop, STOP, example, context)?;
+    let element = Element::read(clause, &STOP, context)?;
     let extent = element.extent(context);
     let least = element.expression("least", "a", context);
     let most = element.expression("most", "b", context);
@@ -317,7 +366,7 @@ pub fn read_stop(clause: &Clause, context: &mut Context) -> Option<ForceClause> 
 
 /// `central_gravity(…)`; `None` if something is missing or wrong, which is noted.
 pub fn read_attraction(clause: &Clause, context: &mut Context) -> Option<Attraction> {
-    let element = Element::read(clause, "attraction", Owner::CentralGravity, ATTRACTION, "mu = gm", context)?;
+    let element = Element::read(clause, &ATTRACTION, context)?;
     let mu = element.expression("mu", "gm", context);
     let center = element.expression("center", "[x, y, z]", context);
     element.require("mu", "its gravitational parameter", "gm", context);
@@ -328,7 +377,7 @@ pub fn read_attraction(clause: &Clause, context: &mut Context) -> Option<Attract
 /// The velocity of `medium(velocity = …)`; `None` if it is missing or wrong, which is noted.
 pub fn read_medium(clause: &Clause, context: &mut Context) -> Option<Expression> {
     let group = brackets(clause, "velocity = [cx, cy, cz]", context)?;
-    let (arguments, complete) = arguments::arguments(group, Owner::Medium, context);
+    let (arguments, complete) = arguments::arguments(group, IN_MEDIUM, context);
     let (mut velocity, mut given, mut misspelt) = (None, Vec::new(), false);
     for argument in &arguments {
         if known(argument, "medium", MEDIUM, &mut given, context) {
@@ -346,7 +395,7 @@ pub fn read_medium(clause: &Clause, context: &mut Context) -> Option<Expression>
 /// `drive(…)`; `None` if nothing is driven or something is wrong, which is noted.
 pub fn read_drive(clause: &Clause, context: &mut Context) -> Option<ForceClause> {
     let group = brackets(clause, "theta = …", context)?;
-    let (arguments, complete) = arguments::arguments(group, Owner::Drive, context);
+    let (arguments, complete) = arguments::arguments(group, IN_DRIVE, context);
     let (mut name, mut rates) = (None, Vec::new());
     let mut certain = complete;
     for (index, argument) in arguments.iter().enumerate() {

@@ -26,26 +26,13 @@ pub enum Owner {
     Point,
     /// In the brackets of `constraint(…)`.
     Constraint,
-    /// In the brackets of `force(…)`.
-    Force,
-    /// In the brackets of `torque(…)`.
-    Torque,
-    /// In the brackets of `drive(…)`.
-    Drive,
-    /// In the brackets of `spring(…)`.
-    Spring,
-    /// In the brackets of `stop(…)`.
-    Stop,
-    /// In the brackets of `drag(…)`.
-    Drag,
-    /// In the brackets of `wrench(…)`.
-    Wrench,
     /// In the brackets of `define(…)`.
     Define,
-    /// In the brackets of `medium(…)`.
-    Medium,
-    /// In the brackets of `central_gravity(…)`.
-    CentralGravity,
+    /// In the brackets of a clause of what acts, which begins with this word.
+    Action {
+        word: &'static str,
+        example: &'static str,
+    },
 }
 
 impl Owner {
@@ -57,19 +44,13 @@ impl Owner {
             Owner::Body | Owner::Frame | Owner::Particle => "an argument such as `position = [x, y, 0]`",
             Owner::Point => "an argument such as `at = [l, 0, 0]`",
             Owner::Constraint => "`position = …` or `velocity = …`",
-            Owner::Force | Owner::Torque => "an argument such as `value = [0, 0, f]`",
-            Owner::Drive => "a generalised force such as `theta = -k * theta`",
-            Owner::Spring | Owner::Stop => "an argument such as `stiffness = k`",
-            Owner::Drag => "an argument such as `linear = d`",
-            Owner::Wrench => "an argument such as `force = [0, 0, f]`",
             Owner::Define => "a definition such as `u = body.relative_velocity`",
-            Owner::Medium => "an argument such as `velocity = [c, 0, 0]`",
-            Owner::CentralGravity => "an argument such as `mu = gm`",
+            Owner::Action { example, .. } => example,
         }
     }
 
     /// Whose words these are.
-    pub fn owner(self) -> &'static str {
+    fn owner(self) -> &'static str {
         match self {
             Owner::Struct | Owner::Field => "gauss",
             Owner::Kinematics => "kinematics",
@@ -78,16 +59,8 @@ impl Owner {
             Owner::Particle => "particle",
             Owner::Point => "point",
             Owner::Constraint => "constraint",
-            Owner::Force => "force",
-            Owner::Torque => "torque",
-            Owner::Drive => "drive",
-            Owner::Spring => "spring",
-            Owner::Stop => "stop",
-            Owner::Drag => "drag",
-            Owner::Wrench => "wrench",
             Owner::Define => "define",
-            Owner::Medium => "medium",
-            Owner::CentralGravity => "central_gravity",
+            Owner::Action { word, .. } => word,
         }
     }
 }

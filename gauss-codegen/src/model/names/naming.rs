@@ -24,6 +24,10 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     // A named body is its field.
     let bodies = statements.massive().filter_map(|body| body.name.as_ref());
     let bodies = bodies.filter(|name| !fields.iter().any(|field| same(field.ident, name)));
+    let forces = statements.forces.iter().filter_map(|clause| Some((clause.name.as_ref()?, clause.noun())));
+    let attractions = statements.attractions.iter().filter_map(|clause| Some((clause.name.as_ref()?, "attraction")));
+    let acting: Vec<(&Ident, &str)> = forces.chain(attractions).collect();
+    let is_element = |noun: &str| acting.iter().any(|(_, known)| *known == noun);
     let all = fields
         .iter()
         .map(|field| (field.ident, "field"))
@@ -34,8 +38,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
         .chain(bodies.map(|name| (name, "body")))
         .chain(statements.frames().map(|name| (name, "frame")))
         .chain(statements.points.iter().map(|point| (&point.name, "point")))
-        .chain(statements.forces.iter().filter_map(|clause| Some((clause.name.as_ref()?, clause.noun()))))
-        .chain(statements.attractions.iter().filter_map(|clause| Some((clause.name.as_ref()?, "attraction"))));
+        .chain(acting.iter().copied());
     for (name, noun) in all {
         let word = name.unraw().to_string();
         // A field that nothing names confuses nothing.
@@ -97,11 +100,6 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
         }
         taken.push((name, noun));
     }
-}
-
-/// It is what acts.
-fn is_element(noun: &str) -> bool {
-    matches!(noun, "force" | "torque" | "wrench" | "drive" | "spring" | "stop" | "drag" | "attraction")
 }
 
 /// Whether expressions use the word already.
