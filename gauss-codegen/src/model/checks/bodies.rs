@@ -149,15 +149,9 @@ fn check_references(statements: &Statements, context: &mut Context) {
     }
     references.extend(statements.points.iter().map(|point| (&point.body, None, None)));
     for clause in &statements.forces {
-        match &clause.kind {
-            ForceKind::OnBody { body, .. } | ForceKind::Wrench { body, .. } | ForceKind::Drag { body, .. } => {
-                references.push((body, None, None));
-            }
-            ForceKind::Torque { body, reaction, .. } => {
-                references.push((body, None, None));
-                references.extend(reaction.as_ref().map(|reaction| (reaction, Some(body), Some("reaction"))));
-            }
-            _ => {}
+        references.extend(clause.kind.body().map(|body| (body, None, None)));
+        if let ForceKind::Torque { body, reaction: Some(reaction), .. } = &clause.kind {
+            references.push((reaction, Some(body), Some("reaction")));
         }
     }
     for (written, other, optional) in references {

@@ -96,15 +96,12 @@ pub fn check_effect(statements: &Statements, context: &mut Context) {
                  that moves; add `body = …` if it is meant in the axes of a body"
                     .into()
             }
-            ForceKind::OnBody { body, .. } if !moving.moves(body) => at_rest("force", body),
-            ForceKind::Torque { body, reaction: None, .. } if !moving.moves(body) => at_rest("torque", body),
-            ForceKind::Torque { body, reaction: Some(reaction), .. }
-                if !moving.moves(body) && !moving.moves(reaction) =>
-            {
+            ForceKind::Torque { body, reaction: Some(reaction), .. } => {
+                if moving.moves(body) || moving.moves(reaction) {
+                    continue;
+                }
                 format!("neither `{body}` nor `{reaction}` moves, so the torque does nothing; remove it")
             }
-            ForceKind::Wrench { body, .. } if !moving.moves(body) => at_rest("wrench", body),
-            ForceKind::Drag { body, .. } if !moving.moves(body) => at_rest("drag", body),
             ForceKind::Spring { extent, .. } | ForceKind::Stop { extent, .. } if !extent.varies(&moving) => {
                 let noun = clause.noun();
                 match extent {
@@ -121,7 +118,12 @@ pub fn check_effect(statements: &Statements, context: &mut Context) {
                  speed, or a velocity such as `rate(…)`"
                     .into()
             }
-            _ => continue,
+            kind => match kind.body() {
+                Some(body) if !moving.moves(body) => {
+                    format!("`{body}` does not move, so the {} does nothing; name a body that moves", clause.noun())
+                }
+                _ => continue,
+            },
         };
         context.error(clause.span, message);
     }
@@ -154,10 +156,6 @@ pub fn check_medium(statements: &Statements, fluid: bool, context: &mut Context)
              the body a field with the role `added_mass`, or remove `medium`",
         );
     }
-}
-
-fn at_rest(noun: &str, body: &Ident) -> String {
-    format!("`{body}` does not move, so the {noun} does nothing; name a body that moves")
 }
 
 impl Extent {

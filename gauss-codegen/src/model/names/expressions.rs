@@ -37,7 +37,7 @@ pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {
         all.extend(clause.center.as_ref().map(|center| (Place::Center, center)));
     }
     for clause in &statements.forces {
-        let on = clause.kind.body_with_place();
+        let on = clause.kind.body();
         for (place, expression) in clause.expressions() {
             match place {
                 // What a point of the body itself is called says where that is in the body.
@@ -88,7 +88,7 @@ impl Statements {
     pub fn place_at_points(&mut self) {
         let mut forces = std::mem::take(&mut self.forces);
         for clause in &mut forces {
-            let Some(body) = clause.kind.body_with_place().cloned() else { continue };
+            let Some(body) = clause.kind.body().cloned() else { continue };
             if let ForceKind::OnBody { at: Some(at), .. } | ForceKind::Wrench { at: Some(at), .. } = &mut clause.kind
                 && let Some(point) = self.own_point(&body, at)
             {
@@ -160,11 +160,18 @@ impl ForceClause {
 }
 
 impl ForceKind {
-    /// The body that its place is in, if its place is in the axes of a body.
-    pub fn body_with_place(&self) -> Option<&Ident> {
+    /// The body or frame that it acts on, if it names one.
+    pub fn body(&self) -> Option<&Ident> {
         match self {
-            ForceKind::OnBody { body, .. } | ForceKind::Wrench { body, .. } => Some(body),
-            _ => None,
+            ForceKind::OnBody { body, .. }
+            | ForceKind::Torque { body, .. }
+            | ForceKind::Wrench { body, .. }
+            | ForceKind::Drag { body, .. } => Some(body),
+            ForceKind::AtPoint { .. }
+            | ForceKind::Drive { .. }
+            | ForceKind::Spring { .. }
+            | ForceKind::Stop { .. }
+            | ForceKind::Dissipation(_) => None,
         }
     }
 
