@@ -8,7 +8,7 @@ use gauss_runtime::prelude::*;
     speeds(v, w),
     kinematics(x = if x == 0 { v } else { w }, y = v ^ 2),
     particle(mass = m as f64, position = [x, y..1, (x, y)]),
-    potential = 9223372036854775808 * x,
+    potential = 1e999 * x,
 )]
 struct Scene {
     m: f64,

@@ -4,18 +4,19 @@
 
 use std::cmp::Ordering;
 
+mod loads;
+mod momenta;
+
 use crate::algebra::{Expr, Map, Solver};
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
 use crate::mechanics::links::link::{Link, Matter};
-use crate::mechanics::loads::forces::{Action, Element, Force};
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::print::names::Name;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 
-use super::balance::{
+use crate::mechanics::arrangements::balance::{
     ARRANGEMENTS, Arrangement, Balance, Formal, KineticMatrix, LinearAcceleration, Weight, solve_balance,
-    twist_of_momentum,
 };
 
 /// Terms that a volume of partial angular velocities may have on the way to its normal form.
@@ -198,73 +199,6 @@ impl<'g> FreeLink<'g> {
         Some(free)
     }
 
-    /// The wrench of an element on this link: by what is known of it, by the derivatives of a potential along the pose, else as the dual
-    /// of its generalised forces.
-    pub fn wrench_of(&self, scene: &SystemScene<'g>, element: &Element<'g>) -> Wrench<'g> {
-        let nothing = Wrench::zero(scene.graph);
-        if let Some((link, wrench)) = &element.on_link {
-            return if *link == self.link { *wrench } else { nothing };
-        }
-        match &element.action {
-            Action::Potential(potential) => self.along_pose(scene, *potential).unwrap_or_else(|| {
-                let power = potential.derivative(&scene.rates);
-                self.dual(self.kinematics.speeds.iter().map(|&z| -power.partial(z)).collect())
-            }),
-            Action::Forces(forces) => {
-                let wrenches = forces.iter().map(|force| match force {
-                    Force::OnLink { link, .. } if *link == self.link => {
-                        force.wrench(&self.kinematics.frame).unwrap_or(nothing)
-                    }
-                    Force::OnLink { .. } => self.dual(self.of_block(&scene.tree.loads(&[*force]))),
-                    _ => match force.generalised(&scene.speeds, &scene.rates) {
-                        Some(rows) => self.dual(self.of_block(&rows)),
-                        None => nothing,
-                    },
-                });
-                wrenches.fold(nothing, |sum, wrench| sum.plus(&wrench))
-            }
-        }
-    }
-
-    fn of_block(&self, rows: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        self.block.iter().map(|&z| rows[z]).collect()
-    }
-
-    /// The wrench with the given generalised forces.
-    fn dual(&self, forces: Vec<Expr<'g>>) -> Wrench<'g> {
-        if forces.iter().all(|e| e.is_zero()) {
-            return Wrench::zero(self.kinematics.frame.graph);
-        }
-        let pair = self.momentum_pair(&forces);
-        Wrench { force: self.vector(self.linear_in, pair.linear), torque: self.vector(self.angular_in, pair.angular) }
-    }
-
-    /// Whether the coordinate is its pose.
-    pub fn is_placed_by(&self, coordinate: &Coordinate<'g>) -> bool {
-        let (rotation, position) = (&self.kinematics.frame.rotation, &self.kinematics.position);
-        match coordinate {
-            Coordinate::Pose(own, b) => own == rotation && b == position,
-            Coordinate::Rotation(own) => own == rotation && is_zero(position),
-            _ => false,
-        }
-    }
-
-    /// The wrench of a potential, where the pose of the link is a coordinate: `−∂U/∂b`, and −∂U along the turns about the body's axes.
-    fn along_pose(&self, scene: &SystemScene<'g>, potential: Expr<'g>) -> Option<Wrench<'g>> {
-        let frame = &self.kinematics.frame;
-        scene.coordinates.iter().find(|coordinate| self.is_placed_by(coordinate))?;
-        let zero = scene.graph.zero();
-        let moved = self.kinematics.position.map(|b| if b.is_zero() { zero } else { -potential.partial(b) });
-        let by_entries = frame.rotation.map(|row| row.map(|entry| potential.partial(entry)));
-        let turned = std::array::from_fn(|axis| {
-            let unit: Triple<'g> = std::array::from_fn(|i| if i == axis { scene.graph.one() } else { zero });
-            let rates = frame.rotation.map(|row| cross(&row, &unit));
-            let terms = by_entries.iter().flatten().zip(rates.iter().flatten()).map(|(d, rate)| *d * *rate);
-            -terms.sum::<Expr<'g>>()
-        });
-        Some(Wrench { force: frame.space_vector(moved), torque: frame.body_vector(turned) })
-    }
-
     /// Whether the speeds are components of the twist about O, in body or in observer's axes.
     pub fn has_constant_rows(&self) -> bool {
         self.linear_rows.iter().chain(&self.angular_rows).flatten().all(|e| e.as_number().is_some())
@@ -365,151 +299,6 @@ impl<'g> FreeLink<'g> {
     fn resolve(&self, linear: &Vector<'g>, angular: &Vector<'g>) -> Pair<'g> {
         let frame = &self.kinematics.frame;
         Pair { linear: frame.resolve(linear, self.linear_in), angular: frame.resolve(angular, self.angular_in) }
-    }
-
-    /// z from (u, ω).
-    pub fn speeds_of_twist(&self) -> Vec<Expr<'g>> {
-        let [u1, u2, u3, w1, w2, w3] = self.twist;
-        let frame = &self.kinematics.frame;
-        self.lift(self.resolve(&frame.body_vector([u1, u2, u3]), &frame.body_vector([w1, w2, w3])))
-    }
-
-    /// (Q, Γ_O) of body and fluid, body axes: all six components, also those that the motion's guide takes up.
-    pub fn body_momentum(&self) -> Vec<Expr<'g>> {
-        let (u, omega) = (self.in_body(&self.kinematics.velocity), self.in_body(&self.kinematics.angular_velocity));
-        let q = add(&self.matrix.block(0, 0, &u), &self.matrix.block(0, 3, &omega));
-        let gamma = self.matrix.angular_momentum(&u, &omega);
-        q.into_iter().chain(gamma).collect()
-    }
-
-    /// (Q, Γ_O) in the axes of the rows.
-    fn momentum_of_speeds(&self) -> Pair<'g> {
-        let frame = &self.kinematics.frame;
-        let (u, omega) = (self.in_body(&self.kinematics.velocity), self.in_body(&self.kinematics.angular_velocity));
-        let q = self.matrix.linear_momentum(frame, &self.kinematics.velocity, &omega);
-        let spin = &self.kinematics.angular_velocity;
-        let gamma = self.matrix.angular_momentum_vector(frame, &u, spin, &omega).map(Expr::group);
-        let pair = self.resolve(&q, &gamma);
-        Pair { linear: pair.linear.map(Expr::group), angular: pair.angular.map(Expr::group) }
-    }
-
-    /// p_α = Q·a_α + Γ_O·o_α.
-    pub fn momentum(&self) -> Vec<Expr<'g>> {
-        self.project(self.momentum_of_speeds())
-    }
-
-    /// `Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α` as a function of (q, z).
-    pub fn bracket_in_speeds(&self) -> Vec<Expr<'g>> {
-        self.bracket(self.momentum_of_speeds())
-    }
-
-    /// From (q, p): (Q, Γ) by duality, the twist by M⁻¹, z by the kinematics.
-    fn state_of_momentum(&self, arrangement: Arrangement) -> (Pair<'g>, Vec<Expr<'g>>) {
-        let pair = self.momentum_pair(&self.momenta);
-        let linear = self.vector(self.linear_in, pair.linear.map(Expr::group));
-        let gamma = self.vector(self.angular_in, pair.angular.map(Expr::group));
-        let (velocity, omega) = twist_of_momentum(&self.kinematics, &self.matrix, &linear, &gamma, arrangement);
-        (pair, self.lift(self.resolve(&velocity, &omega)))
-    }
-
-    /// z from (q, p), in the ways that are worth trying.
-    pub fn velocities_of_momentum(&self) -> Vec<Vec<Expr<'g>>> {
-        self.solutions().map(|arrangement| self.state_of_momentum(arrangement).1).collect()
-    }
-
-    /// How (u, ω) is found from (Q, Γ).
-    fn solutions(&self) -> impl Iterator<Item = Arrangement> {
-        let coupled = self.matrix.is_coupled(&self.kinematics.active);
-        [Arrangement::Structured].into_iter().chain(coupled.then_some(Arrangement::Eliminated))
-    }
-
-    /// ṗ_α = Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α + R·a_α + M_O·o_α, a function of (q, p), in the ways that are worth trying: `others` are the
-    /// other speeds of the system in terms of their momenta.
-    pub fn momentum_rates(&self, others: &Map<u32, Expr<'g>>) -> Vec<Vec<Expr<'g>>> {
-        // The bracket is formed with formal Q, Γ and z, which are then replaced by what they are in terms of p.
-        let graph = self.kinematics.frame.graph;
-        let formal = |a: &Triple<'g>| a.map(|e| if e.is_zero() { e } else { graph.symbol("P", "P", false) });
-        let rate = |arrangement| {
-            let (pair, speeds) = self.state_of_momentum(arrangement);
-            let symbols = Pair { linear: formal(&pair.linear), angular: formal(&pair.angular) };
-            let mut replacement = others.clone();
-            for (symbols, values) in [(symbols.linear, pair.linear), (symbols.angular, pair.angular)] {
-                replacement.extend(symbols.iter().zip(values).map(|(s, v)| (s.key(), v.group())));
-            }
-            replacement.extend(self.kinematics.speeds.iter().zip(&speeds).map(|(z, value)| (z.key(), value.group())));
-            let rows = self.bracket(symbols).into_iter().zip(self.generalised_forces());
-            rows.map(|(bracket, force)| (bracket + force).substitute(&replacement)).collect()
-        };
-        self.solutions().map(rate).collect()
-    }
-
-    /// `Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α` along the flow with ż = 0; Q and Γ_O in the axes of the rows. Where a_α or o_α
-    /// turns with the body, `Q·(ω × a_α) = (Q × ω)·a_α`: one cross product serves all α.
-    fn bracket(&self, momentum: Pair<'g>) -> Vec<Expr<'g>> {
-        let kinematics = &self.kinematics;
-        let frame = &kinematics.frame;
-        let q = self.vector(self.linear_in, momentum.linear);
-        let gamma = self.vector(self.angular_in, momentum.angular);
-        let turning = |a: &Vector<'g>, axes: Axes| match axes {
-            Axes::Body => frame.resolve(&frame.cross(a, &kinematics.angular_velocity), Axes::Body),
-            Axes::Space => self.zero(),
-        };
-        let linear_dual = turning(&q, self.linear_in);
-        let moved = frame.resolve(&frame.cross(&q, &kinematics.velocity), self.angular_in);
-        let angular_dual = add(&moved, &turning(&gamma, self.angular_in));
-        let constant = self.project(Pair { linear: linear_dual, angular: angular_dual });
-        let rate = |row: &Triple<'g>| row.map(|e| e.derivative(&kinematics.rates));
-        self.linear_rows
-            .iter()
-            .zip(&self.angular_rows)
-            .zip(constant)
-            .map(|((a, o), turned)| turned + dot(&momentum.linear, &rate(a)) + dot(&momentum.angular, &rate(o)))
-            .collect()
-    }
-
-    /// The bracket for a reader: in terms of p where (Q, Γ) follow from p without division, else of Γ_O too.
-    pub fn printed_bracket(&self) -> Vec<Expr<'g>> {
-        if !self.in_coordinates {
-            return self.bracket(self.momentum_pair(&self.momenta));
-        }
-        let uncoupled = (0..3).all(|i| (3..6).all(|j| self.matrix.entries[i][j].is_zero()));
-        // Q = μ v_O needs no name: v_O × Q is then seen to vanish. Else its components are the momenta of b.
-        let mut q = self.zero();
-        self.kinematics.linear_axes().into_iter().zip(&self.momenta).for_each(|(k, p)| q[k] = *p);
-        let linear = match self.matrix.isotropic {
-            Some(mu) if uncoupled => self.kinematics.frame.resolve(&self.kinematics.velocity.times(mu), self.linear_in),
-            _ => q,
-        };
-        let mut gamma = self.zero();
-        for i in self.kinematics.angular_axes() {
-            let name = Name::new("Γ", "\\Gamma").index(i);
-            gamma[i] = self.kinematics.frame.graph.symbol(name.text, name.latex, false);
-        }
-        self.bracket(Pair { linear, angular: gamma })
-    }
-
-    /// p in terms of names for Q and Γ_O, and their components in body axes in terms of the twist: for readers of
-    /// scenes whose p would be too long in terms of z.
-    pub fn printed_momenta(&self) -> PrintedMomenta<'g> {
-        let frame = &self.kinematics.frame;
-        let symbol = |name: Name| frame.graph.symbol(name.text, name.latex, false);
-        let triple = |name: Name, axes: &[usize]| -> Triple<'g> {
-            std::array::from_fn(|i| if axes.contains(&i) { symbol(name.index(i)) } else { frame.graph.zero() })
-        };
-        let on = |first: usize| -> Triple<'g> {
-            let kept = |i: usize| self.kinematics.active.contains(&(first + i));
-            std::array::from_fn(|i| if kept(i) { self.twist[first + i] } else { frame.graph.zero() })
-        };
-        let (u, omega) = (on(0), on(3));
-        let linear = add(&self.matrix.block(0, 0, &u), &self.matrix.block(0, 3, &omega));
-        let q = triple(Name::new("Q", "Q"), &self.kinematics.linear_axes());
-        let gamma = triple(Name::new("Γ", "\\Gamma"), &self.kinematics.angular_axes());
-        PrintedMomenta {
-            twist: self.kinematics.body_twist(),
-            linear,
-            angular: self.matrix.angular_momentum(&u, &omega),
-            conjugate: self.project(self.resolve(&frame.body_vector(q), &frame.body_vector(gamma))),
-        }
     }
 
     /// ∂C/∂ż with what cancels gone.
