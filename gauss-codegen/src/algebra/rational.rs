@@ -12,7 +12,7 @@ use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed, ToPrimitive, Zero};
 use super::large;
 
 /// A fraction. Arithmetic never panics and never overflows; it rounds nothing up to a thousand bits, and by 2⁻²⁵⁶ beyond (see
-/// [`large`]). What has no value, as a quotient by zero, becomes `0/0`, which stays `0/0` and is noticed by the graph (see
+/// `large.rs`). What has no value, as a quotient by zero, becomes `0/0`, which stays `0/0` and is noticed by the graph (see
 /// `Graph::is_undefined`).
 ///
 /// Nearly all coefficients are small integers, so those take a short way past the greatest common divisors of

@@ -61,7 +61,7 @@ where
 {
     /// A builder of `diffsol` with these equations, from the state (q, z) at time t, for matrices M. It has no parameters.
     ///
-    /// ∂f/∂x is that of the system: [`Differences`](super::jacobian::Differences) where nothing better was given.
+    /// ∂f/∂x is that of the system: [`Differences`](super::ways::Differences) where nothing better was given.
     #[expect(clippy::type_complexity, reason = "closures have no names")]
     pub fn diffsol<M: Matrix<T = S::Scalar>>(
         &self,

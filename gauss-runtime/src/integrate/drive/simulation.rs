@@ -107,14 +107,14 @@ impl<'k, S: GaussSystem> Simulation<SystemProblem<'k, S>> {
 }
 
 impl<P> Simulation<P> {
-    /// A run of any [`Problem`](crate::integrate::Problem).
+    /// A run of any [`Problem`].
     pub fn of(problem: P) -> Self {
         Self { problem, control: Undecided, observer: Unobserved, events: NoEvents, every: 1, limit: u64::MAX }
     }
 }
 
 impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
-    /// Which variables are integrated: [`VelocityForm`] or [`MomentumForm`].
+    /// Which variables are integrated: [`VelocityForm`](crate::integrate::VelocityForm) or [`MomentumForm`].
     pub fn form<G: Form<S>>(self, form: G) -> Simulation<SystemProblem<'k, S, G, I>, C, O, E> {
         self.with_problem(|problem| problem.form(form))
     }
