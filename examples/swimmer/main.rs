@@ -115,9 +115,9 @@ fn draw(fish: &Fish, path: &[Sample<FishKernel>]) -> Result<String, Box<dyn Erro
         lags.iter().map(|&lag| (lag.to_degrees(), far(lag))).collect()
     };
     let phases = Plot {
-        title: "one stroke, by the lag of the rear hinge",
+        title: "one stroke, by the hinges' lag",
         x: ("lag, °", 0.0..180.0),
-        y: ("distance, semi-axes", 0.0..2.4),
+        y: ("distance, semi-axes", 0.0..3.2),
         equal: false,
         lines: vec![
             Line::new("1.25 rad", orange, gain(1.25)),
