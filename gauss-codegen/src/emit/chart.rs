@@ -36,7 +36,10 @@ pub fn rotation_chart_tokens(private: &TokenStream, chart: Chart) -> TokenStream
         }
         Chart::Jet(RotationChart::Rodrigues) => quote!(#path::Rodrigues),
         Chart::Jet(RotationChart::ModifiedRodrigues) => quote!(#path::ModifiedRodrigues),
-        _ => quote!(#path::Angle),
+        // The last three have no coordinates of the rotation, and nobody reads the value.
+        Chart::Jet(RotationChart::Angle) | Chart::LeftInvariant | Chart::RightInvariant | Chart::Hybrid => {
+            quote!(#path::Angle)
+        }
     }
 }
 
