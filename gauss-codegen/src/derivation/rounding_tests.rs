@@ -149,3 +149,31 @@ fn a_fast_base_leaves_no_rounding_in_the_hinge() {
         assert!(loss.worst() < HARMLESS, "{}: {:?} {:?}", base.clauses, loss.errors, loss.excused);
     }
 }
+
+/// One body in every chart, with its centre of mass c off O.
+fn far_from_o() -> Vec<(String, bool)> {
+    let roles = "#[gauss(mass)] m: f64, #[gauss(center_of_mass)] c: Vector3<f64>,
+        #[gauss(inertia_about_center_of_mass)] i: Matrix3<f64>, #[gauss(gravity)] g: f64";
+    let charts = ["left_invariant", "hybrid", "right_invariant", "jet(euler_zyx)"];
+    charts
+        .into_iter()
+        .map(|chart| (format!("#[gauss(chart = {chart})] struct Scene {{ {roles} }}"), chart.starts_with("jet")))
+        .collect()
+}
+
+#[test]
+fn inertia_about_the_centre_of_mass_is_not_carried_through_o() {
+    for (source, in_coordinates) in far_from_o() {
+        let scene = derived(&source);
+        let parameters = vec![3.0, 400.0, -700.0, 500.0, 0.3, 0.01, -0.02, 0.4, 0.015, 0.5, 9.81];
+        let configuration = match in_coordinates {
+            true => vec![1.0, -2.0, 0.5, 0.3, -0.4, 1.1],
+            false => [quaternion().as_slice(), &[1.0, -2.0, 0.5]].concat(),
+        };
+        let state = State { parameters, configuration, speeds: vec![0.3, -0.7, 1.1, 0.6, -1.3, 0.4] };
+        for method in ["acceleration", "velocity", "momentum_rate"] {
+            let loss = Loss::of(&scene, method, &state);
+            assert!(loss.worst() < HARMLESS, "{method} {:?} {:?}\n{source}", loss.errors, loss.excused);
+        }
+    }
+}

@@ -5,6 +5,7 @@ use crate::algebra::{Expr, Map, solve_pairs, solve_symmetric};
 
 use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::arrangements::free_link::FreeLink;
+use crate::mechanics::arrangements::orthogonal::Elements;
 use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::links::tree::Inertia;
@@ -13,8 +14,8 @@ use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, pot
 use crate::mechanics::scene::{Lettering, SystemScene};
 use crate::mechanics::tidy::{sums, tidy};
 
-/// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of
-/// links that do not, where a free body must be among them.
+/// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of links
+/// that do not, where a free body must be among them.
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 const DENSE: usize = 10;
@@ -144,8 +145,8 @@ impl<'g> System<'g> {
         }
     }
 
-    /// The body that is all of the system, where the configuration is known to be its pose: in a chart, or with the
-    /// pose or the rotation for its only coordinate.
+    /// The body that is all of the system, where the configuration is known to be its pose: in a chart, or with the pose or the rotation for
+    /// its only coordinate.
     pub fn rigid_body(&self) -> Option<&FreeLink<'g>> {
         let body = self.only_body().filter(|_| self.constraints.is_empty())?;
         let placed = match self.scene.coordinates.as_slice() {
@@ -417,7 +418,15 @@ impl<'g> System<'g> {
             let solutions = self.solutions(&a.matrix, &right).into_iter();
             solutions.map(|rates| sums(&rates, taken)).collect::<Vec<_>>()
         };
-        arrangements.iter().flat_map(solve).collect()
+        let orthogonal = self.elements();
+        let orthogonal = orthogonal.iter().map(|elements| elements.accelerations(&self.loads, &self.other_forces()));
+        arrangements.iter().flat_map(solve).chain(orthogonal).collect()
+    }
+
+    /// C as a sum of squares, where several speeds share it.
+    fn elements(&self) -> Option<Elements<'_, 'g>> {
+        let few = (2..=DENSE).contains(&self.scene.speeds.len()) && self.only_body().is_none();
+        few.then(|| Elements::new(&self.scene.tree)).flatten()
     }
 
     /// z from p = A z + p(z = 0).
@@ -428,7 +437,9 @@ impl<'g> System<'g> {
             if self.is_long() { value } else { tidy(value) }
         });
         let right: Vec<Expr<'g>> = self.scene.momenta.iter().zip(beside).map(|(symbol, p)| *symbol - p).collect();
-        self.solutions(&self.matrix, &right)
+        let mut solutions = self.solutions(&self.matrix, &right);
+        solutions.extend(self.elements().map(|elements| elements.solve(&right)));
+        solutions
     }
 
     /// z = 0.

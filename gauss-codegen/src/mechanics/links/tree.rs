@@ -1,5 +1,5 @@
-//! Sums over links by recursion: velocities and accelerations outward from the roots, momenta and forces inward, so
-//! that what moves together is summed before it is projected. Every sum over bodies of (3.3) and (3.4) is one of these.
+//! Sums over links by recursion: velocities and accelerations outward from the roots, momenta and forces inward, so that
+//! what moves together is summed before it is projected. Every sum over bodies of (3.3) and (3.4) is one of these.
 
 use crate::algebra::{Expr, Graph, Map};
 
@@ -39,8 +39,8 @@ pub struct Tree<'g> {
 }
 
 impl<'g> Tree<'g> {
-    /// Components are taken in k where every turn is about one and the same axis, else in body axes, in which the added
-    /// mass of a fluid is constant.
+    /// Components are taken in k where every turn is about one and the same axis, else in body axes, in which the added mass
+    /// of a fluid is constant.
     pub fn new(
         graph: &'g Graph,
         placements: Vec<Placement<'g>>,
@@ -90,8 +90,8 @@ impl<'g> Tree<'g> {
         self.speeds.len()
     }
 
-    /// The ways to form the rates of angular momenta that are worth trying: about a single axis the tensor is a number,
-    /// and particles have none.
+    /// The ways to form the rates of angular momenta that are worth trying: about a single axis the tensor is a number, and
+    /// particles have none.
     pub fn inertias(&self, long: bool) -> &'static [Inertia] {
         let particles = self.links.iter().all(|link| link.body().is_none());
         match (self.planar.is_some() || particles, long) {
@@ -146,8 +146,8 @@ impl<'g> Tree<'g> {
         self.projected(&self.gathered(self.momenta()))
     }
 
-    /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of
-    /// the links on the way to the root.
+    /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of the
+    /// links on the way to the root.
     pub fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
         let n = self.speeds.len();
         let mut matrix = vec![vec![self.graph.zero(); n]; n];
@@ -190,8 +190,8 @@ impl<'g> Tree<'g> {
         matrix
     }
 
-    /// What the fluid around a link adds to A through the motion of its ancestors alone: it is no moment, so it is not
-    /// in what moves together with them.
+    /// What the fluid around a link adds to A through the motion of its ancestors alone: it is no moment, so it is not in
+    /// what moves together with them.
     fn add_carried_fluid(&self, matrix: &mut [Vec<Expr<'g>>]) {
         for (k, link) in self.links.iter().enumerate() {
             let added = link.body().and_then(|body| body.added_mass.as_ref());
@@ -275,6 +275,18 @@ impl<'g> Tree<'g> {
             *angular = add(angular, &torque);
         }
         self.projected(&self.gathered(pairs))
+    }
+
+    /// The axis that every turn is about, if components are taken in k for that.
+    pub fn planar_axis(&self) -> Option<usize> {
+        self.planar
+    }
+
+    /// ∂v_O/∂z^α and ∂ω/∂z^α of a link, in its working axes.
+    pub fn motion(&self, k: usize, speed: usize) -> (Triple<'g>, Triple<'g>) {
+        let (linear, angular) = self.carried_motion(k, speed);
+        let own = self.links[k].frame.resolve(&self.links[k].linear_rows[speed], Axes::Body);
+        (add(&linear, &own).map(Expr::group), add(&angular, &self.links[k].angular_rows[speed]).map(Expr::group))
     }
 
     /// The root that a link hangs on.
@@ -461,8 +473,8 @@ impl<'g> Tree<'g> {
         terms.fold(self.graph.zero(), |sum, e| sum + e)
     }
 
-    /// Of weight and buoyancy: `−ĝ·Σ∫x̂ dm`, the first moments gathered at the roots. All matter counts, also what
-    /// keeps still.
+    /// Of weight and buoyancy: `−ĝ·Σ∫x̂ dm`, the first moments gathered at the roots. All matter counts, also what keeps
+    /// still.
     pub fn potential_energy(&self) -> Expr<'g> {
         let Some(gravity) = self.gravity else { return self.graph.zero() };
         let mut gathered: Vec<(Expr<'g>, Triple<'g>)> = Vec::with_capacity(self.links.len());
