@@ -658,6 +658,24 @@ impl<'g> Expr<'g> {
     }
 }
 
+/// Symbols to be replaced in many expressions, with what has been rebuilt so far.
+pub struct Substitution<'g> {
+    replacement: Map<u32, Expr<'g>>,
+    rebuilt: RefCell<Map<Id, Expr<'g>>>,
+}
+
+impl<'g> Substitution<'g> {
+    /// By the keys of the symbols.
+    pub fn new(replacement: Map<u32, Expr<'g>>) -> Self {
+        Self { replacement, rebuilt: RefCell::default() }
+    }
+
+    /// The expression with the symbols replaced. Groups stay groups.
+    pub fn of(&self, e: Expr<'g>) -> Expr<'g> {
+        e.rebuild(&mut self.rebuilt.borrow_mut(), &|symbol| self.replacement.get(&symbol.id).copied())
+    }
+}
+
 impl PartialEq for Expr<'_> {
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id

@@ -24,7 +24,7 @@ mod rational;
 mod tests;
 
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
-pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView};
+pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView, Substitution};
 pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
 pub use map::{Map, Set};
 pub use polynomial::{Expander, Polynomial};

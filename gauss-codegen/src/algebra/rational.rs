@@ -282,8 +282,11 @@ impl MulAssign for Rational {
 impl Div for Rational {
     type Output = Self;
     fn div(self, other: Self) -> Self {
-        if other.is_zero() {
-            return Self::UNDEFINED;
+        match (other.numerator, other.denominator) {
+            (0, 1) => return Self::UNDEFINED,
+            (1, 1) => return self,
+            (-1, 1) => return -self,
+            _ => {}
         }
         self.general(other, |a, b| a.checked_div(b), |a, b| a / b)
     }
