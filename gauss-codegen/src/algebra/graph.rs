@@ -707,15 +707,16 @@ impl<'g> Sub for Expr<'g> {
 impl<'g> Mul for Expr<'g> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
+        // Most products of mechanics are with zeros and ones of rotations and unit vectors.
+        match (self.id, other.id) {
+            (ZERO, _) | (_, ONE) => return self,
+            (_, ZERO) | (ONE, _) => return other,
+            _ => {}
+        }
         let (mut coefficient, mut factors) = (Rational::one(), Vec::with_capacity(4));
         self.graph.push_factor(&mut coefficient, &mut factors, self.id, 1);
         self.graph.push_factor(&mut coefficient, &mut factors, other.id, 1);
-        // Most products of mechanics are with zeros and ones of rotations and unit vectors.
-        match (self.id, other.id) {
-            (ZERO, _) | (_, ONE) => self,
-            (_, ZERO) | (ONE, _) => other,
-            _ => self.graph.collected_product(coefficient, factors),
-        }
+        self.graph.collected_product(coefficient, factors)
     }
 }
 
