@@ -127,11 +127,11 @@ impl<'g> Body<'g> {
         };
         let given: [Triple<'g>; 3] = std::array::from_fn(|i| std::array::from_fn(|j| inertia[i][j]));
         let central = shape.central.then_some(given);
-        let lever = lever(mass, &center_of_mass);
-        let inertia = match central {
-            Some(central) => std::array::from_fn(|i| std::array::from_fn(|j| central[i][j] + lever[i][j])),
-            None => given,
+        let about_o = |central: [Triple<'g>; 3]| {
+            let lever = lever(mass, &center_of_mass);
+            std::array::from_fn(|i| std::array::from_fn(|j| central[i][j] + lever[i][j]))
         };
+        let inertia = central.map_or(given, about_o);
         let added_mass = shape.added_mass.map(|shape| match shape {
             Shape::Vector6 => diagonal(graph, &symbols.vector::<6>("X", Role::AddedMass)),
             _ => symbols.symmetric(6, "X", Role::AddedMass),
