@@ -130,6 +130,13 @@ impl<'a, N: Number> Evaluation<'a, N> {
 
     /// The value of an expression; NaN where a symbol has none.
     pub fn value(&mut self, e: Expr<'_>) -> N {
+        for part in e.stages(|key| self.values.contains_key(&key)) {
+            self.visit(part);
+        }
+        self.visit(e)
+    }
+
+    fn visit(&mut self, e: Expr<'_>) -> N {
         if let Some(&known) = self.values.get(&e.key()) {
             return known;
         }
@@ -137,14 +144,14 @@ impl<'a, N: Number> Evaluation<'a, N> {
             NodeView::Number(value) => N::fraction(value),
             NodeView::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(N::number(f64::NAN)),
             NodeView::Sum(terms) => {
-                terms.into_iter().fold(N::number(0.0), |sum, (c, e)| sum + N::fraction(c) * self.value(e))
+                terms.into_iter().fold(N::number(0.0), |sum, (c, e)| sum + N::fraction(c) * self.visit(e))
             }
             NodeView::Product(factors) => {
-                factors.into_iter().fold(N::number(1.0), |product, (e, n)| product * self.value(e).powi(n))
+                factors.into_iter().fold(N::number(1.0), |product, (e, n)| product * self.visit(e).powi(n))
             }
-            NodeView::Call(function, e) => self.value(e).call(function),
-            NodeView::Binary(function, a, b) => self.value(a).call_with(function, self.value(b)),
-            NodeView::Group(e) | NodeView::Opaque(e) => self.value(e),
+            NodeView::Call(function, e) => self.visit(e).call(function),
+            NodeView::Binary(function, a, b) => self.visit(a).call_with(function, self.visit(b)),
+            NodeView::Group(e) | NodeView::Opaque(e) => self.visit(e),
         };
         self.values.insert(e.key(), value);
         value
@@ -168,6 +175,13 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
 
     /// The derivative of an expression along the direction.
     pub fn along(&mut self, e: Expr<'_>) -> N {
+        for part in e.stages(|key| self.known.contains_key(&key)) {
+            self.visit(part);
+        }
+        self.visit(e)
+    }
+
+    fn visit(&mut self, e: Expr<'_>) -> N {
         if let Some(&known) = self.known.get(&e.key()) {
             return known;
         }
@@ -175,31 +189,31 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
         let rate = match e.view() {
             NodeView::Number(_) => zero,
             NodeView::Symbol(_) => self.direction.get(&e.key()).copied().unwrap_or(zero),
-            NodeView::Sum(terms) => terms.into_iter().fold(zero, |sum, (c, e)| sum + N::fraction(c) * self.along(e)),
+            NodeView::Sum(terms) => terms.into_iter().fold(zero, |sum, (c, e)| sum + N::fraction(c) * self.visit(e)),
             NodeView::Product(factors) => {
                 // (Π fᵢ^nᵢ)˙ by the product rule on (value, rate) pairs.
                 let (mut value, mut rate) = (N::number(1.0), zero);
                 for (e, n) in factors {
-                    let (x, slope) = (self.values.value(e), self.along(e));
+                    let (x, slope) = (self.values.value(e), self.visit(e));
                     let power = x.powi(n);
                     rate = rate * power + value * N::number(n.into()) * x.powi(n - 1) * slope;
                     value = value * power;
                 }
                 rate
             }
-            NodeView::Call(function, e) => match self.along(e) {
+            NodeView::Call(function, e) => match self.visit(e) {
                 still if still == zero => zero,
                 rate => function.slope(self.values.value(e)) * rate,
             },
             NodeView::Binary(BinaryFunction::Atan2, y, x) => {
                 let (b, a) = (self.values.value(y), self.values.value(x));
-                (a * self.along(y) - b * self.along(x)) / (a * a + b * b)
+                (a * self.visit(y) - b * self.visit(x)) / (a * a + b * b)
             }
             NodeView::Binary(function, a, b) => {
                 let first = self.values.value(a).call_with(function, self.values.value(b)) == self.values.value(a);
-                if first { self.along(a) } else { self.along(b) }
+                if first { self.visit(a) } else { self.visit(b) }
             }
-            NodeView::Group(e) | NodeView::Opaque(e) => self.along(e),
+            NodeView::Group(e) | NodeView::Opaque(e) => self.visit(e),
         };
         self.known.insert(e.key(), rate);
         rate

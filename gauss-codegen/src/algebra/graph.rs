@@ -98,6 +98,15 @@ pub(super) enum Node {
 }
 
 impl Node {
+    /// How many parts it has.
+    fn edges(&self) -> usize {
+        match self {
+            Node::Sum(terms) => terms.len(),
+            Node::Product(factors) => factors.len(),
+            _ => 1,
+        }
+    }
+
     /// What it is made of.
     pub(super) fn children(&self) -> Vec<Id> {
         match self {
@@ -122,9 +131,34 @@ pub enum NodeView<'g> {
     Opaque(Expr<'g>),
 }
 
+/// What is known of a node as soon as it is made.
+#[derive(Clone, Copy)]
+struct Traits {
+    /// Every symbol in it is constant.
+    constant: bool,
+    /// The longest way down to a symbol or a number.
+    depth: u32,
+}
+
+/// Levels that recursions go down at once, see [`Graph::stages`].
+const BAND: u32 = 400;
+
+/// Nodes and edges that a derivation may have for each operation that its code may have, and at least: several times as many
+/// as any scene that is known needs. What is made of more would take gigabytes and minutes.
+const SIZE: [usize; 2] = [60, 3_000_000];
+
+/// Products of terms that may be formed while a derivation multiplies out: three times as many as any scene that is known
+/// needs. What would take more stays as it is.
+const TERMS: u64 = 1_000_000;
+
 /// The arena of all expressions of one derivation.
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
+    traits: RefCell<Vec<Traits>>,
+    /// Nodes and edges, and how many there may be.
+    size: Cell<usize>,
+    most: Cell<usize>,
+    terms: Cell<u64>,
     index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
     undefined: Cell<bool>,
@@ -139,8 +173,9 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        let (nodes, index, symbols, undefined) = Default::default();
-        let graph = Self { nodes, index, symbols, undefined };
+        let (nodes, traits, index, symbols, undefined) = Default::default();
+        let (size, most, terms) = (Cell::new(0), Cell::new(SIZE[1]), Cell::new(TERMS));
+        let graph = Self { nodes, traits, size, most, terms, index, symbols, undefined };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
@@ -150,6 +185,30 @@ impl Graph {
     /// True once something was divided by zero, or by a number beyond any use in double precision; every result is then meaningless.
     pub fn is_undefined(&self) -> bool {
         self.undefined.get()
+    }
+
+    /// Lets code of so many operations be derived.
+    pub fn allow(&self, operations: usize) {
+        self.most.set(SIZE[1].max(operations.saturating_mul(SIZE[0])));
+    }
+
+    /// Lets no more than so many nodes and edges be made.
+    #[cfg(test)]
+    pub fn restrict(&self, size: usize) {
+        self.most.set(size);
+    }
+
+    /// True once there is more than a derivation may have; everything that is made afterwards is zero, so that
+    /// whatever is going on soon ends, and every result is meaningless.
+    pub fn is_exhausted(&self) -> bool {
+        self.size.get() >= self.most.get()
+    }
+
+    /// Takes the work of multiplying two terms from what is left; false when nothing is left.
+    pub(super) fn may_multiply(&self, work: u64) -> bool {
+        let left = self.terms.get();
+        self.terms.set(left.saturating_sub(work));
+        left > work
     }
 
     /// A new symbol; two calls give two different symbols even when the names agree.
@@ -228,10 +287,49 @@ impl Graph {
             return Expr { graph: self, id };
         }
         let mut nodes = self.nodes.borrow_mut();
+        if self.is_exhausted() && !matches!(node, Node::Symbol(_)) {
+            return Expr { graph: self, id: 0 };
+        }
+        self.size.set(self.size.get() + 1 + node.edges());
+        let traits = self.traits_of(&node);
+        self.traits.borrow_mut().push(traits);
         let id = nodes.len() as Id;
         nodes.push(node.clone());
         index.insert(node, id);
         Expr { graph: self, id }
+    }
+
+    fn traits_of(&self, node: &Node) -> Traits {
+        if let Node::Symbol(symbol) = node {
+            return Traits { constant: self.with_symbol(*symbol, |symbol| symbol.constant), depth: 0 };
+        }
+        let known = self.traits.borrow();
+        let parts = node.children().into_iter().map(|id| known[id as usize]);
+        parts.fold(Traits { constant: true, depth: 0 }, |all, part| Traits {
+            constant: all.constant && part.constant,
+            depth: all.depth.max(part.depth + 1),
+        })
+    }
+
+    /// What recursions over deep expressions visit first, parts before what is made of them, so that none goes down more
+    /// than some levels at once and overflows the stack; nothing of what is `known`. Empty for what is not deep.
+    pub(super) fn stages(&self, roots: &[Id], known: impl Fn(Id) -> bool) -> Vec<Id> {
+        let band = |id: Id| self.traits.borrow()[id as usize].depth / BAND;
+        if roots.iter().all(|&root| band(root) == 0 || known(root)) {
+            return Vec::new();
+        }
+        let stages = RefCell::new(Map::default());
+        self.reached(roots, |graph, id| {
+            if known(id) {
+                return Vec::new();
+            }
+            let parts = graph.node(id).children();
+            stages.borrow_mut().extend(parts.iter().filter(|&&part| band(part) < band(id)).map(|&part| (part, ())));
+            parts
+        });
+        let mut stages: Vec<Id> = stages.into_inner().into_keys().filter(|&id| !known(id)).collect();
+        stages.sort_unstable();
+        stages
     }
 
     pub(super) fn node(&self, id: Id) -> Node {
@@ -301,7 +399,7 @@ impl Graph {
         let mut collected: Vec<(Id, i32)> = Vec::with_capacity(flat.len());
         for (id, exponent) in flat {
             match collected.last_mut() {
-                Some(last) if last.0 == id => last.1 += exponent,
+                Some(last) if last.0 == id => last.1 = last.1.saturating_add(exponent),
                 _ => collected.push((id, exponent)),
             }
         }
@@ -319,7 +417,7 @@ impl Graph {
             Node::Number(value) => {
                 *coefficient *= value.pow(exponent);
             }
-            Node::Product(inner) => flat.extend(inner.iter().map(|&(id, n)| (id, n * exponent))),
+            Node::Product(inner) => flat.extend(inner.iter().map(|&(id, n)| (id, n.saturating_mul(exponent)))),
             Node::Sum(terms) => {
                 let content = self.content(&terms);
                 *coefficient *= content.pow(exponent);
@@ -503,6 +601,14 @@ impl<'g> Expr<'g> {
         }
     }
 
+    /// The largest power, of either sign, among the factors of a product.
+    pub fn largest_exponent(self) -> u32 {
+        match self.graph.node(self.split_coefficient().1.id) {
+            Node::Product(factors) => factors.iter().map(|(_, n)| n.unsigned_abs()).max().unwrap_or(0),
+            _ => 1,
+        }
+    }
+
     /// A number times something without one: `6·a·b` is 6 and `a·b`.
     pub fn split_coefficient(self) -> (Rational, Self) {
         match self.graph.node(self.id) {
@@ -522,10 +628,15 @@ impl<'g> Expr<'g> {
 
     /// Rebuilds the expression with some symbols replaced. Groups stay groups.
     pub fn substitute(self, replacement: &Map<u32, Expr<'g>>) -> Self {
-        self.rebuild(&mut Map::default(), &|symbol| replacement.get(&symbol.id).copied())
+        let mut memo = Map::default();
+        let leaf = |symbol: Self| replacement.get(&symbol.id).copied();
+        for part in self.stages(|_| false) {
+            part.rebuild(&mut memo, &leaf);
+        }
+        self.rebuild(&mut memo, &leaf)
     }
 
-    pub(super) fn rebuild(self, memo: &mut Map<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
+    fn rebuild(self, memo: &mut Map<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
         if let Some(&done) = memo.get(&self.id) {
             return done;
         }
@@ -549,21 +660,19 @@ impl<'g> Expr<'g> {
         result
     }
 
+    /// True of symbols and numbers.
+    pub fn is_leaf(self) -> bool {
+        matches!(self.graph.nodes.borrow()[self.id as usize], Node::Symbol(_) | Node::Number(_))
+    }
+
     /// True when every symbol in it is constant.
-    pub fn is_constant(self, memo: &mut Map<u32, bool>) -> bool {
-        if let Some(&known) = memo.get(&self.id) {
-            return known;
-        }
-        let result = match self.view() {
-            NodeView::Number(_) => true,
-            NodeView::Symbol(symbol) => self.graph.with_symbol(symbol, |s| s.constant),
-            NodeView::Sum(terms) => terms.into_iter().all(|(_, e)| e.is_constant(memo)),
-            NodeView::Product(factors) => factors.into_iter().all(|(e, _)| e.is_constant(memo)),
-            NodeView::Call(_, e) | NodeView::Group(e) | NodeView::Opaque(e) => e.is_constant(memo),
-            NodeView::Binary(_, a, b) => a.is_constant(memo) && b.is_constant(memo),
-        };
-        memo.insert(self.id, result);
-        result
+    pub fn is_constant(self) -> bool {
+        self.graph.traits.borrow()[self.id as usize].constant
+    }
+
+    /// Deep parts of it that are not `known`, for recursions to visit first.
+    pub fn stages(self, known: impl Fn(u32) -> bool) -> Vec<Self> {
+        self.graph.stages(&[self.id], known).into_iter().map(|id| self.graph.expr(id)).collect()
     }
 }
 

@@ -120,6 +120,9 @@ impl<'g> Expr<'g> {
     /// The normal form, or `None` when more than `limit` terms would be needed on the way.
     pub fn expand(self, limit: usize) -> Option<Polynomial<'g>> {
         let mut expander = Expander { graph: self.graph, limit, memo: Map::default(), denominators: Map::default() };
+        for part in self.stages(|_| false) {
+            expander.expand(part);
+        }
         expander.expand(self).map(|p| (*p).clone())
     }
 
@@ -190,7 +193,7 @@ impl<'g> Expander<'g> {
     ) -> Option<Polynomial<'g>> {
         // A single monomial has every power, also the negative ones.
         if let Some((monomial, coefficient)) = factor.as_single_term() {
-            let power = Monomial(monomial.0.iter().map(|&(a, n)| (a, n * exponent)).collect());
+            let power = Monomial(monomial.0.iter().map(|&(a, n)| (a, n.saturating_mul(exponent))).collect());
             let single = Polynomial::term(self.graph, power, coefficient.pow(exponent));
             return self.multiply(&base, &single);
         }
@@ -224,6 +227,11 @@ impl<'g> Expander<'g> {
     fn multiply(&mut self, a: &Polynomial<'g>, b: &Polynomial<'g>) -> Option<Polynomial<'g>> {
         let mut result = Polynomial::zero(self.graph);
         for (m, c) in &a.terms {
+            // Long monomials and coefficients take their time.
+            let length = 1 + m.0.len() as u64 / 4 + if c.parts().is_some() { 0 } else { 40 };
+            if !self.graph.may_multiply(length * b.terms.len() as u64) {
+                return None;
+            }
             for (n, d) in &b.terms {
                 self.add_reduced(&mut result, m.times(n), *c * *d);
             }
@@ -374,11 +382,10 @@ impl<'g> Polynomial<'g> {
 
     /// Splits off the constants: a list of (coefficient made of constants, monomial of what varies), highest first.
     pub fn by_variable_monomials(&self) -> Vec<(Polynomial<'g>, Expr<'g>)> {
-        let mut memo = Map::default();
         let mut groups: BTreeMap<Monomial, Polynomial<'g>> = BTreeMap::new();
         for (monomial, c) in &self.terms {
             let (constant, variable): (Vec<_>, Vec<_>) =
-                monomial.0.iter().partition(|(id, _)| self.graph.expr(*id).is_constant(&mut memo));
+                monomial.0.iter().partition(|(id, _)| self.graph.expr(*id).is_constant());
             groups.entry(Monomial(variable)).or_insert_with(|| Self::zero(self.graph)).add_term(Monomial(constant), *c);
         }
         groups.into_iter().rev().map(|(m, p)| (p, self.monomial_expr(&m))).collect()

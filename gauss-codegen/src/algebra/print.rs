@@ -1,10 +1,8 @@
 //! Expressions for people: plain text and LaTeX.
 
-use std::cell::RefCell;
 use std::fmt;
 
 use super::graph::{BinaryFunction, Expr, Function, NodeView};
-use super::map::Map;
 use super::parts::Parts;
 use super::rational::Rational;
 
@@ -67,7 +65,6 @@ pub fn decimal(value: Rational, notation: Notation) -> String {
 struct Printer<'a, 'g> {
     notation: Notation,
     parts: &'a Parts<'g>,
-    constants: RefCell<Map<u32, bool>>,
 }
 
 /// One printed term: its sign and its unsigned text.
@@ -93,7 +90,7 @@ fn joined(terms: Vec<Term>) -> String {
 
 impl<'a, 'g> Printer<'a, 'g> {
     fn new(notation: Notation, parts: &'a Parts<'g>) -> Self {
-        Self { notation, parts, constants: RefCell::default() }
+        Self { notation, parts }
     }
 
     fn latex(&self) -> bool {
@@ -158,8 +155,7 @@ impl<'a, 'g> Printer<'a, 'g> {
             return Term { negative: negative != value.is_negative(), text };
         }
         // Constants first, as in a textbook: (I2 - I3)*w2*w3.
-        let constant = |e: Expr<'g>| e.is_constant(&mut self.constants.borrow_mut());
-        let (mut factors, varying): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| constant(*e));
+        let (mut factors, varying): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| e.is_constant());
         factors.extend(varying);
         // A difference takes the sign of its term in: (I3 - I1)*w1*w3 rather than -(I1 - I3)*w1*w3.
         let mut negative = negative;

@@ -9,7 +9,6 @@ const LIMIT: usize = 64;
 pub struct Hoister<'a, 'g> {
     graph: &'g Graph,
     memo: Map<u32, Expr<'g>>,
-    constant: Map<u32, bool>,
     /// (symbol, definition), in order of creation.
     constants: Vec<(Expr<'g>, Expr<'g>)>,
     /// Normal form of a definition → its symbol.
@@ -23,7 +22,6 @@ impl<'a, 'g> Hoister<'a, 'g> {
         Self {
             graph,
             memo: Map::default(),
-            constant: Map::default(),
             constants: Vec::new(),
             known: Map::default(),
             definitions: Some(definitions),
@@ -31,7 +29,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
     }
 
     pub fn hoist(&mut self, outputs: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        outputs.iter().map(|&e| self.visit(e)).collect()
+        outputs.iter().map(|&e| self.visit_deep(e)).collect()
     }
 
     /// The same with the symbols that stand for expressions of the arguments left as they are.
@@ -52,8 +50,14 @@ impl<'a, 'g> Hoister<'a, 'g> {
         self.constants.iter().any(|(constant, _)| *constant == symbol)
     }
 
-    fn is_constant(&mut self, e: Expr<'g>) -> bool {
-        e.is_constant(&mut self.constant)
+    fn visit_deep(&mut self, e: Expr<'g>) -> Expr<'g> {
+        for part in e.stages(|key| self.memo.contains_key(&key)) {
+            // A constant is a quantity as a whole.
+            if !part.is_constant() {
+                self.visit(part);
+            }
+        }
+        self.visit(e)
     }
 
     fn visit(&mut self, e: Expr<'g>) -> Expr<'g> {
@@ -66,7 +70,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
     }
 
     fn visit_new(&mut self, e: Expr<'g>) -> Expr<'g> {
-        if self.is_constant(e) {
+        if e.is_constant() {
             return self.constant(e);
         }
         match e.view() {
@@ -83,7 +87,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
             NodeView::Group(inner) => self.visit(inner).group_as_is(),
             NodeView::Product(_) => self.term(Rational::one(), e),
             NodeView::Sum(terms) => {
-                let (constant, variable): (Vec<_>, Vec<_>) = terms.into_iter().partition(|(_, e)| self.is_constant(*e));
+                let (constant, variable): (Vec<_>, Vec<_>) = terms.into_iter().partition(|(_, e)| e.is_constant());
                 let mut parts: Vec<Expr<'g>> = variable.into_iter().map(|(c, e)| self.term(c, e)).collect();
                 if !constant.is_empty() {
                     let constant = self.graph.sum(constant);
@@ -99,7 +103,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
         let NodeView::Product(factors) = e.view() else {
             return self.visit(e).scale(c);
         };
-        let (constant, variable): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| self.is_constant(*e));
+        let (constant, variable): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| e.is_constant());
         // A rational content that a visited factor gives up belongs to the constant too, so visit first.
         let variable: Vec<_> = variable.into_iter().map(|(e, n)| (self.visit(e), n)).collect();
         let variable = self.graph.product(c, variable);
