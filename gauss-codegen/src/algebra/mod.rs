@@ -25,11 +25,11 @@ mod rational;
 mod tests;
 
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
-pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView};
+pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView, Substitution};
 pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
-pub use map::Map;
+pub use map::{Map, Set};
 pub use parts::Parts;
-pub use polynomial::Polynomial;
+pub use polynomial::{Expander, Polynomial};
 pub use precise::Precise;
 pub use print::{Notation, decimal, print, print_definition, print_parts, print_with};
 pub use rational::Rational;

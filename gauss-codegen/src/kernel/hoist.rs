@@ -1,6 +1,6 @@
 //! Hoisting: every part that depends on parameters alone is replaced by a constant.
 
-use crate::algebra::{Expr, Graph, Map, NodeView, Rational};
+use crate::algebra::{Expander, Expr, Graph, Map, NodeView, Rational};
 
 /// Terms up to which two definitions are compared in normal form.
 const LIMIT: usize = 64;
@@ -8,6 +8,7 @@ const LIMIT: usize = 64;
 /// Rewrites expressions and gathers the constants they need.
 pub struct Hoister<'a, 'g> {
     graph: &'g Graph,
+    expander: Expander<'g>,
     memo: Map<u32, Expr<'g>>,
     /// (symbol, definition), in order of creation.
     constants: Vec<(Expr<'g>, Expr<'g>)>,
@@ -21,6 +22,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
     pub fn new(graph: &'g Graph, definitions: &'a Map<u32, Expr<'g>>) -> Self {
         Self {
             graph,
+            expander: Expander::new(graph, LIMIT),
             memo: Map::default(),
             constants: Vec::new(),
             known: Map::default(),
@@ -120,7 +122,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
         if e.as_number().is_some() {
             return e;
         }
-        let normal = if e.is_normal() { e } else { e.expand(LIMIT).map_or(e, |p| p.to_expr()) };
+        let normal = if e.is_normal() { e } else { self.expander.expand(e).map_or(e, |p| p.to_expr()) };
         if normal.as_number().is_some() {
             return normal;
         }

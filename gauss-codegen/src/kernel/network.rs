@@ -63,8 +63,9 @@ impl<'g> Network<'g> {
             network.outputs.push(output);
         }
         for kind in [Kind::Products, Kind::Sums] {
-            network.share(kind);
-            network.merge_duplicates();
+            if network.share(kind) {
+                network.merge_duplicates();
+            }
         }
         network
     }
@@ -179,19 +180,22 @@ impl<'g> Network<'g> {
     }
 
     /// Splits pairs of parts that several sums (or several products) contain off as nodes of their own, the most
-    /// frequent first, until no pair occurs twice. Terms of sums are alike up to a common factor.
-    fn share(&mut self, kind: Kind) {
+    /// frequent first, until no pair occurs twice. Terms of sums are alike up to a common factor. Whether there was any.
+    fn share(&mut self, kind: Kind) -> bool {
+        let mut shared = false;
         let mut left = PAIRS[0] + PAIRS[1] * self.nodes.len();
         loop {
-            let lengths = self.nodes.iter().map(|node| kind.parts(node).len().min(PAIRED));
-            let pairs: usize = lengths.map(|length| length * length / 2).sum();
-            if pairs > left {
-                return;
-            }
-            left -= pairs;
+            let repeated = self.repeated(kind);
             let mut holders: Map<(Place, Place, Rational), Vec<Place>> = Map::default();
             for (place, node) in self.nodes.iter().enumerate() {
-                for parts in kind.parts(node).chunks(PAIRED) {
+                let mut parts = kind.parts(node);
+                parts.retain(|part| repeated[part.1]);
+                for parts in parts.chunks(PAIRED) {
+                    let pairs = parts.len() * parts.len() / 2;
+                    if pairs > left {
+                        return shared;
+                    }
+                    left -= pairs;
                     for (i, &(c, a)) in parts.iter().enumerate() {
                         for &(d, b) in &parts[i + 1..] {
                             let places = holders.entry((a, b, d / c)).or_default();
@@ -230,9 +234,25 @@ impl<'g> Network<'g> {
                 }
             }
             if !progress {
-                return;
+                return shared;
+            }
+            shared = true;
+        }
+    }
+
+    /// The nodes that are parts of several others: only pairs of these can be.
+    fn repeated(&self, kind: Kind) -> Vec<bool> {
+        let mut last = vec![usize::MAX; self.nodes.len()];
+        let mut repeated = vec![false; self.nodes.len()];
+        for (place, node) in self.nodes.iter().enumerate() {
+            for (_, part) in kind.parts(node) {
+                if last[part] != usize::MAX && last[part] != place {
+                    repeated[part] = true;
+                }
+                last[part] = place;
             }
         }
+        repeated
     }
 
     /// Splitting parts off can make two nodes alike: everything that refers to the later one is led to the first, and
