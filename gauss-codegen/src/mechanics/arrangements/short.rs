@@ -104,7 +104,7 @@ fn divides_by_sum(e: &Expr<'_>) -> bool {
     fn is_sum(e: &Expr<'_>) -> bool {
         match e.view() {
             NodeView::Group(inner) => is_sum(&inner),
-            NodeView::Sum(_) => !e.is_constant(&mut Map::default()),
+            NodeView::Sum(_) => !e.is_constant(),
             _ => false,
         }
     }
