@@ -3,70 +3,12 @@
 use std::cell::{Cell, RefCell};
 use std::collections::hash_map::Entry;
 use std::hash::{Hash, Hasher};
-use std::iter::Sum;
-use std::ops::{Add, Mul, Neg, Sub};
 use std::rc::Rc;
 
+use super::budget::Budget;
 use super::map::Map;
+use super::node::{BinaryFunction, Function, Id, Node};
 use super::rational::Rational;
-
-/// A function of one argument that the language knows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Function {
-    /// Sine of an angle in radians.
-    Sin,
-    /// Cosine of an angle in radians.
-    Cos,
-    /// Exponential.
-    Exp,
-    /// Natural logarithm.
-    Ln,
-    /// Square root.
-    Sqrt,
-    /// Absolute value.
-    Abs,
-    /// −1, 0 or 1.
-    Signum,
-}
-
-/// A function of two arguments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum BinaryFunction {
-    /// Angle of the point (x, y), given as y and x.
-    Atan2,
-    /// The smaller one.
-    Min,
-    /// The larger one.
-    Max,
-}
-
-impl Function {
-    /// What users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Function::Sin => "sin",
-            Function::Cos => "cos",
-            Function::Exp => "exp",
-            Function::Ln => "ln",
-            Function::Sqrt => "sqrt",
-            Function::Abs => "abs",
-            Function::Signum => "signum",
-        }
-    }
-}
-
-impl BinaryFunction {
-    /// What users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            BinaryFunction::Atan2 => "atan2",
-            BinaryFunction::Min => "min",
-            BinaryFunction::Max => "max",
-        }
-    }
-}
 
 /// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
 #[derive(Clone, Debug)]
@@ -79,78 +21,9 @@ pub struct Symbol {
     pub constant: bool,
 }
 
-/// Index of a node in its graph. Children always have smaller indices than their parents.
-pub(super) type Id = u32;
 /// The numbers 0 and 1, which every graph begins with.
-const ZERO: Id = 0;
-const ONE: Id = 1;
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Node {
-    Number(Rational),
-    Symbol(u32),
-    /// Σ cᵢ eᵢ, sorted by index, coefficients nonzero; a constant term is a multiple of the number one.
-    Sum(Rc<[(Rational, Id)]>),
-    /// Π eᵢ^nᵢ, sorted by index, exponents nonzero; no numbers and no products among the factors.
-    Product(Rc<[(Id, i32)]>),
-    Call(Function, Id),
-    Binary(BinaryFunction, Id, Id),
-    /// A sum that is to be computed once under a name: transparent for mathematics, a barrier for flattening.
-    Group(Id),
-    /// A constant that is to be computed once and never looked into again, not even by the normal form.
-    Opaque(Id),
-}
-
-impl Node {
-    /// How many parts it has.
-    fn edges(&self) -> usize {
-        match self {
-            Node::Sum(terms) => terms.len(),
-            Node::Product(factors) => factors.len(),
-            _ => 1,
-        }
-    }
-
-    /// What it is made of.
-    pub(super) fn children(&self) -> Vec<Id> {
-        match self {
-            Node::Number(_) | Node::Symbol(_) => Vec::new(),
-            Node::Sum(terms) => terms.iter().map(|&(_, id)| id).collect(),
-            Node::Product(factors) => factors.iter().map(|&(id, _)| id).collect(),
-            Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => vec![*id],
-            Node::Binary(_, a, b) => vec![*a, *b],
-        }
-    }
-}
-
-/// In one word: hashing piece by piece is most of a look-up in unoptimised code.
-impl Hash for Node {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        /// Any odd number whose digits look random.
-        const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
-        let mut word = match self {
-            Node::Number(value) => value.hash_word(),
-            Node::Symbol(symbol) => 1 << 32 | u64::from(*symbol),
-            Node::Sum(_) => 2,
-            Node::Product(_) => 3,
-            Node::Call(function, id) => (4 + *function as u64) << 32 | u64::from(*id),
-            Node::Binary(function, a, b) => (64 + *function as u64) << 48 | u64::from(*a) << 24 ^ u64::from(*b),
-            Node::Group(id) => 128 << 32 | u64::from(*id),
-            Node::Opaque(id) => 129 << 32 | u64::from(*id),
-        };
-        if let Node::Sum(terms) = self {
-            for (c, id) in terms.iter() {
-                word = (word.rotate_left(5) ^ c.hash_word() ^ (*id as u64) << 32).wrapping_mul(SPREAD);
-            }
-        }
-        if let Node::Product(factors) = self {
-            for (id, n) in factors.iter() {
-                word = (word.rotate_left(5) ^ *n as u64 ^ (*id as u64) << 32).wrapping_mul(SPREAD);
-            }
-        }
-        state.write_u64(word);
-    }
-}
+pub(super) const ZERO: Id = 0;
+pub(super) const ONE: Id = 1;
 
 /// What a node is, with its children as expressions.
 pub enum NodeView<'g> {
@@ -173,25 +46,12 @@ struct Traits {
     depth: u32,
 }
 
-/// Levels that recursions go down at once, see [`Graph::stages`].
-const BAND: u32 = 400;
-
-/// Nodes and edges that a derivation may have for each operation that its code may have, and at least: several times as many
-/// as any scene that is known needs. What is made of more would take gigabytes and minutes.
-const SIZE: [usize; 2] = [60, 3_000_000];
-
-/// Products of terms that may be formed while a derivation multiplies out: three times as many as any scene that is known
-/// needs. What would take more stays as it is.
-const TERMS: u64 = 1_000_000;
-
 /// The arena of all expressions of one derivation.
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
     traits: RefCell<Vec<Traits>>,
-    /// Nodes and edges, and how many there may be.
-    size: Cell<usize>,
-    most: Cell<usize>,
-    terms: Cell<u64>,
+    /// How much more may be made of it.
+    pub(super) budget: Budget,
     index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
     undefined: Cell<bool>,
@@ -207,8 +67,7 @@ pub struct Expr<'g> {
 impl Graph {
     pub fn new() -> Self {
         let (nodes, traits, index, symbols, undefined) = Default::default();
-        let (size, most, terms) = (Cell::new(0), Cell::new(SIZE[1]), Cell::new(TERMS));
-        let graph = Self { nodes, traits, size, most, terms, index, symbols, undefined };
+        let graph = Self { nodes, traits, budget: Budget::default(), index, symbols, undefined };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
@@ -218,30 +77,6 @@ impl Graph {
     /// True once something was divided by zero, or by a number beyond any use in double precision; every result is then meaningless.
     pub fn is_undefined(&self) -> bool {
         self.undefined.get()
-    }
-
-    /// Lets code of so many operations be derived.
-    pub fn allow(&self, operations: usize) {
-        self.most.set(SIZE[1].max(operations.saturating_mul(SIZE[0])));
-    }
-
-    /// Lets no more than so many nodes and edges be made.
-    #[cfg(test)]
-    pub fn restrict(&self, size: usize) {
-        self.most.set(size);
-    }
-
-    /// True once there is more than a derivation may have; everything that is made afterwards is zero, so that
-    /// whatever is going on soon ends, and every result is meaningless.
-    pub fn is_exhausted(&self) -> bool {
-        self.size.get() >= self.most.get()
-    }
-
-    /// Takes the work of multiplying two terms from what is left; false when nothing is left.
-    pub(super) fn may_multiply(&self, work: u64) -> bool {
-        let left = self.terms.get();
-        self.terms.set(left.saturating_sub(work));
-        left > work
     }
 
     /// A new symbol; two calls give two different symbols even when the names agree.
@@ -265,26 +100,6 @@ impl Graph {
 
     pub(super) fn any_symbol(&self, holds: impl FnMut(&Symbol) -> bool) -> bool {
         self.symbols.borrow().iter().any(holds)
-    }
-
-    /// All that expressions are made of, they too; parts come before what is made of them.
-    pub(super) fn reached(&self, roots: &[Id], parts: impl Fn(&Self, Id) -> Vec<Id>) -> Vec<Id> {
-        let (mut found, mut open) = (Map::default(), roots.to_vec());
-        while let Some(id) = open.pop() {
-            if found.insert(id, ()).is_none() {
-                open.extend(parts(self, id));
-            }
-        }
-        let mut found: Vec<Id> = found.into_keys().collect();
-        found.sort_unstable();
-        found
-    }
-
-    /// About how many operations expressions take together, each part computed once.
-    pub fn operations(&self, outputs: &[Expr<'_>]) -> usize {
-        let roots: Vec<Id> = outputs.iter().map(|e| e.id).collect();
-        let children = |graph: &Self, id: Id| graph.node(id).children();
-        self.reached(&roots, children).into_iter().map(|id| children(self, id).len()).sum()
     }
 
     /// What a group is a group of.
@@ -317,11 +132,11 @@ impl Graph {
     pub(super) fn intern(&self, node: Node) -> Expr<'_> {
         let id = match self.index.borrow_mut().entry(node) {
             Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(place) if self.is_exhausted() && !matches!(place.key(), Node::Symbol(_)) => 0,
+            Entry::Vacant(place) if self.budget.is_exhausted() && !matches!(place.key(), Node::Symbol(_)) => 0,
             Entry::Vacant(place) => {
                 let mut nodes = self.nodes.borrow_mut();
                 let id = nodes.len() as Id;
-                self.size.set(self.size.get() + 1 + place.key().edges());
+                self.budget.count(1 + place.key().edges());
                 let traits = self.traits_of(place.key());
                 self.traits.borrow_mut().push(traits);
                 nodes.push(place.key().clone());
@@ -350,25 +165,9 @@ impl Graph {
         Traits { depth: parts.depth + 1, ..parts }
     }
 
-    /// What recursions over deep expressions visit first, parts before what is made of them, so that none goes down more
-    /// than some levels at once and overflows the stack; nothing of what is `known`. Empty for what is not deep.
-    pub(super) fn stages(&self, roots: &[Id], known: impl Fn(Id) -> bool) -> Vec<Id> {
-        let band = |id: Id| self.traits.borrow()[id as usize].depth / BAND;
-        if roots.iter().all(|&root| band(root) == 0 || known(root)) {
-            return Vec::new();
-        }
-        let stages = RefCell::new(Map::default());
-        self.reached(roots, |graph, id| {
-            if known(id) {
-                return Vec::new();
-            }
-            let parts = graph.node(id).children();
-            stages.borrow_mut().extend(parts.iter().filter(|&&part| band(part) < band(id)).map(|&part| (part, ())));
-            parts
-        });
-        let mut stages: Vec<Id> = stages.into_inner().into_keys().filter(|&id| !known(id)).collect();
-        stages.sort_unstable();
-        stages
+    /// The longest way from a node down to a symbol or a number.
+    pub(super) fn depth(&self, id: Id) -> u32 {
+        self.traits.borrow()[id as usize].depth
     }
 
     pub(super) fn node(&self, id: Id) -> Node {
@@ -388,7 +187,7 @@ impl Graph {
         self.collected_sum(flat)
     }
 
-    fn push_term(&self, flat: &mut Vec<(Rational, Id)>, coefficient: Rational, id: Id) {
+    pub(super) fn push_term(&self, flat: &mut Vec<(Rational, Id)>, coefficient: Rational, id: Id) {
         if coefficient.is_zero() {
             return;
         }
@@ -404,7 +203,7 @@ impl Graph {
         }
     }
 
-    fn collected_sum(&self, mut terms: Vec<(Rational, Id)>) -> Expr<'_> {
+    pub(super) fn collected_sum(&self, mut terms: Vec<(Rational, Id)>) -> Expr<'_> {
         sort_by_id(&mut terms, |&(_, id)| id);
         let mut count = 0;
         for k in 0..terms.len() {
@@ -460,7 +259,7 @@ impl Graph {
         self.collected_product(coefficient, flat)
     }
 
-    fn collected_product(&self, coefficient: Rational, mut factors: Vec<(Id, i32)>) -> Expr<'_> {
+    pub(super) fn collected_product(&self, coefficient: Rational, mut factors: Vec<(Id, i32)>) -> Expr<'_> {
         sort_by_id(&mut factors, |&(id, _)| id);
         let mut count = 0;
         for k in 0..factors.len() {
@@ -487,7 +286,7 @@ impl Graph {
         if coefficient.is_one() { base } else { base.scale(coefficient) }
     }
 
-    fn push_factor(&self, coefficient: &mut Rational, flat: &mut Vec<(Id, i32)>, id: Id, exponent: i32) {
+    pub(super) fn push_factor(&self, coefficient: &mut Rational, flat: &mut Vec<(Id, i32)>, id: Id, exponent: i32) {
         let terms = match &self.nodes.borrow()[id as usize] {
             Node::Number(value) => {
                 *coefficient *= value.pow(exponent);
@@ -637,7 +436,7 @@ impl<'g> Expr<'g> {
     }
 
     /// self + factor · other.
-    fn plus_multiple(self, factor: Rational, other: Self) -> Self {
+    pub(super) fn plus_multiple(self, factor: Rational, other: Self) -> Self {
         if other.id == ZERO {
             return self;
         }
@@ -748,55 +547,6 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// Rebuilds the expression with some symbols replaced. Groups stay groups.
-    pub fn substitute(self, replacement: &Map<u32, Expr<'g>>) -> Self {
-        let mut memo = Map::default();
-        let leaf = |symbol: Self| replacement.get(&symbol.id).copied();
-        for part in self.stages(|_| false) {
-            part.rebuild(&mut memo, &leaf);
-        }
-        self.rebuild(&mut memo, &leaf)
-    }
-
-    fn rebuild(self, memo: &mut Map<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
-        if let Some(&done) = memo.get(&self.id) {
-            return done;
-        }
-        let graph = self.graph;
-        let at = |id: Id| graph.expr(id);
-        // What holds nothing that is replaced stays as it is.
-        let result = match graph.node(self.id) {
-            Node::Number(_) => self,
-            Node::Symbol(_) => leaf(self).unwrap_or(self),
-            Node::Sum(terms) => {
-                let mut flat = Vec::with_capacity(terms.len());
-                let mut changed = false;
-                for &(c, id) in terms.iter() {
-                    let term = at(id).rebuild(memo, leaf).id;
-                    changed |= term != id;
-                    graph.push_term(&mut flat, c, term);
-                }
-                if changed { graph.collected_sum(flat) } else { self }
-            }
-            Node::Product(factors) => {
-                let (mut coefficient, mut flat) = (Rational::one(), Vec::with_capacity(factors.len()));
-                let mut changed = false;
-                for &(id, n) in factors.iter() {
-                    let factor = at(id).rebuild(memo, leaf).id;
-                    changed |= factor != id;
-                    graph.push_factor(&mut coefficient, &mut flat, factor, n);
-                }
-                if changed { graph.collected_product(coefficient, flat) } else { self }
-            }
-            Node::Call(function, argument) => graph.call(function, at(argument).rebuild(memo, leaf)),
-            Node::Binary(function, a, b) => at(a).rebuild(memo, leaf).binary(function, at(b).rebuild(memo, leaf)),
-            Node::Group(inner) => at(inner).rebuild(memo, leaf).group(),
-            Node::Opaque(inner) => at(inner).rebuild(memo, leaf).opaque(),
-        };
-        memo.insert(self.id, result);
-        result
-    }
-
     /// True of symbols and numbers.
     pub fn is_leaf(self) -> bool {
         matches!(self.graph.nodes.borrow()[self.id as usize], Node::Symbol(_) | Node::Number(_))
@@ -805,34 +555,6 @@ impl<'g> Expr<'g> {
     /// True when every symbol in it is constant.
     pub fn is_constant(self) -> bool {
         self.graph.traits.borrow()[self.id as usize].constant
-    }
-
-    /// Deep parts of it that are not `known`, for recursions to visit first.
-    pub fn stages(self, known: impl Fn(u32) -> bool) -> Vec<Self> {
-        self.graph.stages(&[self.id], known).into_iter().map(|id| self.graph.expr(id)).collect()
-    }
-}
-
-/// Symbols to be replaced in many expressions, with what has been rebuilt so far.
-pub struct Substitution<'g> {
-    replacement: Map<u32, Expr<'g>>,
-    rebuilt: RefCell<Map<Id, Expr<'g>>>,
-}
-
-impl<'g> Substitution<'g> {
-    /// By the keys of the symbols.
-    pub fn new(replacement: Map<u32, Expr<'g>>) -> Self {
-        Self { replacement, rebuilt: RefCell::default() }
-    }
-
-    /// The expression with the symbols replaced. Groups stay groups.
-    pub fn of(&self, e: Expr<'g>) -> Expr<'g> {
-        let mut rebuilt = self.rebuilt.borrow_mut();
-        let leaf = |symbol: Expr<'g>| self.replacement.get(&symbol.id).copied();
-        for part in e.stages(|key| rebuilt.contains_key(&key)) {
-            part.rebuild(&mut rebuilt, &leaf);
-        }
-        e.rebuild(&mut rebuilt, &leaf)
     }
 }
 
@@ -847,56 +569,6 @@ impl Eq for Expr<'_> {}
 impl Hash for Expr<'_> {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.id.hash(state);
-    }
-}
-
-impl<'g> Add for Expr<'g> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        self.plus_multiple(Rational::one(), other)
-    }
-}
-
-impl<'g> Sub for Expr<'g> {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self.plus_multiple(Rational::from_integer(-1), other)
-    }
-}
-
-impl<'g> Mul for Expr<'g> {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        // Most products of mechanics are with zeros and ones of rotations and unit vectors.
-        match (self.id, other.id) {
-            (ZERO, _) | (_, ONE) => return self,
-            (_, ZERO) | (ONE, _) => return other,
-            _ => {}
-        }
-        let (mut coefficient, mut factors) = (Rational::one(), Vec::with_capacity(4));
-        self.graph.push_factor(&mut coefficient, &mut factors, self.id, 1);
-        self.graph.push_factor(&mut coefficient, &mut factors, other.id, 1);
-        self.graph.collected_product(coefficient, factors)
-    }
-}
-
-impl Neg for Expr<'_> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        self.scale(Rational::from_integer(-1))
-    }
-}
-
-/// Sum of a non-empty sequence; an empty one has no graph to live in.
-impl<'g> Sum for Expr<'g> {
-    fn sum<I: Iterator<Item = Self>>(mut terms: I) -> Self {
-        let first = terms.next().expect("a sum of expressions has at least one term");
-        let mut flat = Vec::new();
-        first.graph.push_term(&mut flat, Rational::one(), first.id);
-        for term in terms {
-            first.graph.push_term(&mut flat, Rational::one(), term.id);
-        }
-        first.graph.collected_sum(flat)
     }
 }
 
