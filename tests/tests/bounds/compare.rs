@@ -1,5 +1,6 @@
 //! Bounds against errors.
 
+use gauss_runtime::integrate::Control;
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
 
@@ -145,14 +146,19 @@ fn values_are_those_of_the_plain_scalar<K: Any<f64>, B: Any<Bounded>>(
     }
 }
 
-/// Five steps. Published states are on constraints as well as numbers of double precision can be, which is not
+/// Five steps of some method. Published states are on constraints as well as numbers of double precision can be, which is not
 /// enough for the wider ones.
-fn run<T: Real, K: Any<T>>(kernel: &K, q: &[f64], z: &[f64], step: f64) -> Vec<T> {
+pub fn run<T: Real, K: Any<T>, C: Control<K>>(
+    kernel: &K,
+    (q, z): (&[f64], &[f64]),
+    step: f64,
+    control: impl FnOnce(T) -> C,
+) -> Vec<T> {
     let (q, z) = state::<T, K>(kernel, q, z);
     let (q, z) = kernel.project(T::zero(), &q, &z).expect("constraints");
     let h = T::from_f64(step);
     let end = T::from_f64(5.0) * h;
-    let reached = Simulation::new(kernel).fixed_step(h).run_to_end(q, z, T::zero()..end).expect("runs");
+    let reached = Simulation::new(kernel).control(control(h)).run_to_end(q, z, T::zero()..end).expect("runs");
     [list(&reached.q.components()), list(&reached.z)].concat()
 }
 
@@ -164,7 +170,7 @@ fn run_holds<B: Any<Bounded>, D: Any<DoubleDouble>>(
     step: f64,
     excess: &mut Excess,
 ) {
-    let (found, exact) = (run(bounded, q, z, step), run(wide, q, z, step));
+    let (found, exact) = (run(bounded, (q, z), step, Fixed::new), run(wide, (q, z), step, Fixed::new));
     excess.check(&format!("{what}: run"), &found, &exact);
 }
 

@@ -10,6 +10,7 @@ mod common;
 
 mod bodies;
 mod compare;
+mod methods;
 mod operations;
 mod random;
 mod references;
