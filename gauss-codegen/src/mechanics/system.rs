@@ -287,7 +287,10 @@ impl<'g> System<'g> {
         for &inertia in self.scene.tree.inertias(self.is_long()) {
             let residual = self.residual(&self.along, inertia);
             let still = self.residual(&self.scene.rates, inertia);
-            let floating = self.floating(inertia);
+            let floating = match self.scene.tree.floats() {
+                true => self.floating(inertia),
+                false => [still.clone(), vec![self.scene.graph.zero(); still.len()]],
+            };
             if !self.is_long() {
                 let (matrix, floating) =
                     (tidied(&self.matrix), [&floating[0], &floating[1]].map(|rows| tidy_all(rows)));
