@@ -141,6 +141,9 @@
 /// gives no further errors.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
-    let input = syn::parse_macro_input!(input as syn::DeriveInput);
+    let input = match gauss_codegen::item(input.into()) {
+        Ok(input) => input,
+        Err(mistake) => return mistake.into_compile_error().into(),
+    };
     gauss_codegen::expand(&input).unwrap_or_else(|mistakes| gauss_codegen::fallback(&input, &mistakes)).into()
 }
