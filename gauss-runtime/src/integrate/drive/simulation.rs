@@ -5,9 +5,10 @@ use core::ops::Range;
 use crate::configuration::Configuration;
 use crate::integrate::drive::adaptive::Adaptive;
 use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
-use crate::integrate::drive::event::{Crossing, Events, NoEvents, Then, Watched};
+use crate::integrate::drive::event::{Events, NoEvents, Then, Watched};
 use crate::integrate::drive::fixed::Fixed;
 use crate::integrate::drive::run::{Run, Seen};
+use crate::integrate::drive::search::Crossing;
 use crate::integrate::drive::summary::End;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::trajectory::Trajectory;
