@@ -11,6 +11,7 @@ pub mod functions;
 pub mod given;
 pub mod kind;
 pub mod number;
+pub mod own_functions;
 pub mod placements;
 pub mod role_words;
 pub mod shapes;

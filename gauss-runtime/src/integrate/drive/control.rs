@@ -19,6 +19,11 @@ use crate::system::GaussSystem;
 pub type Emit<'a, S> = dyn FnMut(&State<S>, &Rates<S>) -> ControlFlow<()> + 'a;
 
 /// A method with its choice of steps, which carries a state to the end of an interval.
+#[diagnostic::on_unimplemented(
+    message = "it is not said how the simulation steps",
+    label = "`{Self}` chooses no steps",
+    note = "add `.adaptive(1e-9, 1e-9)`, `.fixed_step(1e-3)` or `.control(…)` before the run"
+)]
 pub trait Control<S: GaussSystem> {
     /// Integrates from `start` to the time `end` (before or after it), in at most `limit` steps. `emit` gets every state
     /// reached with the derivatives there, the first and the last included. With constraints, all of them satisfy these up

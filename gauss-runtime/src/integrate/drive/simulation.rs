@@ -288,7 +288,6 @@ impl<S, P, C, O, E> Simulation<P, C, O, E>
 where
     S: GaussSystem,
     P: Problem<System = S>,
-    C: Control<S>,
     O: Observer<S>,
     E: Events<S>,
 {
@@ -302,7 +301,10 @@ where
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
-    ) -> Result<Trajectory<S>, IntegrationError> {
+    ) -> Result<Trajectory<S>, IntegrationError>
+    where
+        C: Control<S>,
+    {
         match self.attempt(q0, z0, interval) {
             (trajectory, None) => Ok(trajectory),
             (_, Some(error)) => Err(error),
@@ -317,7 +319,10 @@ where
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
-    ) -> (Trajectory<S>, Option<IntegrationError>) {
+    ) -> (Trajectory<S>, Option<IntegrationError>)
+    where
+        C: Control<S>,
+    {
         let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, observer, events, every, limit } = self;
         Run { control: &control, problem: &problem, every, limit }.keep(events, observer, start, interval.end)
@@ -334,7 +339,10 @@ where
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
-    ) -> Result<Dense<P, C>, IntegrationError> {
+    ) -> Result<Dense<P, C>, IntegrationError>
+    where
+        C: Control<S>,
+    {
         let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, observer, events, every, limit } = self;
         let run = Run { control: &control, problem: &problem, every, limit };
@@ -353,7 +361,10 @@ where
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
-    ) -> Result<Sample<S>, IntegrationError> {
+    ) -> Result<Sample<S>, IntegrationError>
+    where
+        C: Control<S>,
+    {
         let start = self.start(q0, &z0, interval.start);
         let problem = &self.problem;
         let mut observer = self.observer;
