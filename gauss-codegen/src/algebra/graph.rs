@@ -37,11 +37,34 @@ pub enum NodeView<'g> {
     Opaque(Expr<'g>),
 }
 
+/// What is known of a node as soon as it is made.
+#[derive(Clone, Copy)]
+struct Traits {
+    /// Every symbol in it is constant.
+    constant: bool,
+    /// The longest way down to a symbol or a number.
+    depth: u32,
+}
+
+/// Levels that recursions go down at once, see [`Graph::stages`].
+const BAND: u32 = 400;
+
+/// Nodes and edges that a derivation may have for each operation that its code may have, and at least: several times as many
+/// as any scene that is known needs. What is made of more would take gigabytes and minutes.
+const SIZE: [usize; 2] = [60, 3_000_000];
+
+/// Products of terms that may be formed while a derivation multiplies out: three times as many as any scene that is known
+/// needs. What would take more stays as it is.
+const TERMS: u64 = 1_000_000;
+
 /// The arena of all expressions of one derivation.
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
-    /// Whether every symbol in a node is constant.
-    constant: RefCell<Vec<bool>>,
+    traits: RefCell<Vec<Traits>>,
+    /// Nodes and edges, and how many there may be.
+    size: Cell<usize>,
+    most: Cell<usize>,
+    terms: Cell<u64>,
     index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
     /// Names of functions of the user's own.
@@ -58,8 +81,9 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        let (nodes, constant, index, symbols, functions, undefined) = Default::default();
-        let graph = Self { nodes, constant, index, symbols, functions, undefined };
+        let (nodes, traits, index, symbols, functions, undefined) = Default::default();
+        let (size, most, terms) = (Cell::new(0), Cell::new(SIZE[1]), Cell::new(TERMS));
+        let graph = Self { nodes, traits, size, most, terms, index, symbols, functions, undefined };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
@@ -69,6 +93,30 @@ impl Graph {
     /// True once something was divided by zero, or by a number beyond any use in double precision; every result is then meaningless.
     pub fn is_undefined(&self) -> bool {
         self.undefined.get()
+    }
+
+    /// Lets code of so many operations be derived.
+    pub fn allow(&self, operations: usize) {
+        self.most.set(SIZE[1].max(operations.saturating_mul(SIZE[0])));
+    }
+
+    /// Lets no more than so many nodes and edges be made.
+    #[cfg(test)]
+    pub fn restrict(&self, size: usize) {
+        self.most.set(size);
+    }
+
+    /// True once there is more than a derivation may have; everything that is made afterwards is zero, so that
+    /// whatever is going on soon ends, and every result is meaningless.
+    pub fn is_exhausted(&self) -> bool {
+        self.size.get() >= self.most.get()
+    }
+
+    /// Takes the work of multiplying two terms from what is left; false when nothing is left.
+    pub(super) fn may_multiply(&self, work: u64) -> bool {
+        let left = self.terms.get();
+        self.terms.set(left.saturating_sub(work));
+        left > work
     }
 
     /// A new symbol; two calls give two different symbols even when the names agree.
@@ -157,11 +205,13 @@ impl Graph {
     pub(super) fn intern(&self, node: Node) -> Expr<'_> {
         let id = match self.index.borrow_mut().entry(node) {
             Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(place) if self.is_exhausted() && !matches!(place.key(), Node::Symbol(_)) => 0,
             Entry::Vacant(place) => {
                 let mut nodes = self.nodes.borrow_mut();
                 let id = nodes.len() as Id;
-                let constant = self.is_made_of_constants(place.key());
-                self.constant.borrow_mut().push(constant);
+                self.size.set(self.size.get() + 1 + place.key().edges());
+                let traits = self.traits_of(place.key());
+                self.traits.borrow_mut().push(traits);
                 nodes.push(place.key().clone());
                 *place.insert(id)
             }
@@ -169,16 +219,44 @@ impl Graph {
         Expr { graph: self, id }
     }
 
-    fn is_made_of_constants(&self, node: &Node) -> bool {
-        let known = self.constant.borrow();
-        match node {
-            Node::Number(_) => true,
-            Node::Symbol(symbol) => self.with_symbol(*symbol, |s| s.constant),
-            Node::Sum(terms) => terms.iter().all(|&(_, id)| known[id as usize]),
-            Node::Product(factors) => factors.iter().all(|&(id, _)| known[id as usize]),
-            Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => known[*id as usize],
-            Node::Binary(_, a, b) => known[*a as usize] && known[*b as usize],
+    fn traits_of(&self, node: &Node) -> Traits {
+        let known = self.traits.borrow();
+        let part = |id: Id| known[id as usize];
+        let with = |all: Traits, id: Id| Traits {
+            constant: all.constant && part(id).constant,
+            depth: all.depth.max(part(id).depth),
+        };
+        let leaf = Traits { constant: true, depth: 0 };
+        let parts = match node {
+            Node::Number(_) => return leaf,
+            Node::Symbol(symbol) => return Traits { constant: self.with_symbol(*symbol, |s| s.constant), depth: 0 },
+            Node::Sum(terms) => terms.iter().fold(leaf, |all, &(_, id)| with(all, id)),
+            Node::Product(factors) => factors.iter().fold(leaf, |all, &(id, _)| with(all, id)),
+            Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => part(*id),
+            Node::Binary(_, a, b) => with(part(*a), *b),
+        };
+        Traits { depth: parts.depth + 1, ..parts }
+    }
+
+    /// What recursions over deep expressions visit first, parts before what is made of them, so that none goes down more
+    /// than some levels at once and overflows the stack; nothing of what is `known`. Empty for what is not deep.
+    pub(super) fn stages(&self, roots: &[Id], known: impl Fn(Id) -> bool) -> Vec<Id> {
+        let band = |id: Id| self.traits.borrow()[id as usize].depth / BAND;
+        if roots.iter().all(|&root| band(root) == 0 || known(root)) {
+            return Vec::new();
         }
+        let stages = RefCell::new(Map::default());
+        self.reached(roots, |graph, id| {
+            if known(id) {
+                return Vec::new();
+            }
+            let parts = graph.node(id).children();
+            stages.borrow_mut().extend(parts.iter().filter(|&&part| band(part) < band(id)).map(|&part| (part, ())));
+            parts
+        });
+        let mut stages: Vec<Id> = stages.into_inner().into_keys().filter(|&id| !known(id)).collect();
+        stages.sort_unstable();
+        stages
     }
 
     pub(super) fn node(&self, id: Id) -> Node {
@@ -276,7 +354,7 @@ impl Graph {
         for k in 0..factors.len() {
             let (id, n) = factors[k];
             if count > 0 && factors[count - 1].0 == id {
-                factors[count - 1].1 += n;
+                factors[count - 1].1 = factors[count - 1].1.saturating_add(n);
                 continue;
             }
             if count > 0 && factors[count - 1].1 == 0 {
@@ -305,7 +383,7 @@ impl Graph {
             }
             Node::Product(inner) => {
                 for &(id, n) in inner.iter() {
-                    flat.push((id, n * exponent));
+                    flat.push((id, n.saturating_mul(exponent)));
                 }
                 return;
             }
@@ -541,6 +619,14 @@ impl<'g> Expr<'g> {
         }
     }
 
+    /// The largest power, of either sign, among the factors of a product.
+    pub fn largest_exponent(self) -> u32 {
+        match self.graph.node(self.split_coefficient().1.id) {
+            Node::Product(factors) => factors.iter().map(|(_, n)| n.unsigned_abs()).max().unwrap_or(0),
+            _ => 1,
+        }
+    }
+
     /// A number times something without one: `6·a·b` is 6 and `a·b`.
     pub fn split_coefficient(self) -> (Rational, Self) {
         match self.graph.node(self.id) {
@@ -558,9 +644,19 @@ impl<'g> Expr<'g> {
         }
     }
 
+    /// True of symbols and numbers.
+    pub fn is_leaf(self) -> bool {
+        matches!(self.graph.nodes.borrow()[self.id as usize], Node::Symbol(_) | Node::Number(_))
+    }
+
     /// True when every symbol in it is constant.
     pub fn is_constant(self) -> bool {
-        self.graph.constant.borrow()[self.id as usize]
+        self.graph.traits.borrow()[self.id as usize].constant
+    }
+
+    /// Deep parts of it that are not `known`, for recursions to visit first.
+    pub fn stages(self, known: impl Fn(u32) -> bool) -> Vec<Self> {
+        self.graph.stages(&[self.id], known).into_iter().map(|id| self.graph.expr(id)).collect()
     }
 }
 

@@ -55,6 +55,15 @@ impl Hash for Node {
 }
 
 impl Node {
+    /// How many parts it has.
+    pub(super) fn edges(&self) -> usize {
+        match self {
+            Node::Sum(terms) => terms.len(),
+            Node::Product(factors) => factors.len(),
+            _ => 1,
+        }
+    }
+
     /// What it is made of.
     pub(super) fn children(&self) -> Vec<Id> {
         match self {

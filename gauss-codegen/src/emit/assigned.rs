@@ -86,7 +86,9 @@ pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream
         let Some(name) = &body.name else { continue };
         let own = &subject.assigned_to_bodies[clause];
         let value_of = |quantity: Role| own.iter().find(|assigned| assigned.quantity == quantity);
-        let (Some(mass), Some(inertia)) = (value_of(Role::Mass), value_of(Role::Inertia)) else { continue };
+        let central = value_of(Role::CentralInertia);
+        let inertia = central.or_else(|| value_of(Role::Inertia));
+        let (Some(mass), Some(inertia)) = (value_of(Role::Mass), inertia) else { continue };
         let local = |part: &str| format_ident!("__b{}", part, span = Span::mixed_site());
         let [m, c, moments, tensor] = ["mass", "center", "moments", "inertia"].map(local);
         let zero = quote!(<#ty as #real>::zero());
@@ -99,7 +101,7 @@ pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream
         let shape = if inertia.values.len() == 1 { Shape::Scalar } else { Shape::Vector3 };
         let rows = inertia_rows(&ty, derived, shape, &moments);
         read.extend(quote!(let #tensor = #rows;));
-        let check = named_body(derived, name, [&m, &c, &tensor]);
+        let check = named_body(derived, name, inertia.quantity.word(), [&m, &c, &tensor], central.is_some());
         checks.extend(quote!({
             #read
             #check

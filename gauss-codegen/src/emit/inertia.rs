@@ -8,11 +8,21 @@ use crate::model::Shape;
 
 use super::derived::Derived;
 
-/// What must hold of the mass data of a body with a name: mass, centre of mass from O, rows of the inertia about O.
-pub fn named_body(derived: &Derived<'_, '_>, body: &Ident, [mass, center, inertia]: [&Ident; 3]) -> TokenStream {
+/// What must hold of the mass data of a body with a name: mass, centre of mass from O, rows of the inertia about O, or about the
+/// centre of mass (`central`), which is called `word`.
+pub fn named_body(
+    derived: &Derived<'_, '_>,
+    body: &Ident,
+    word: &str,
+    [mass, center, inertia]: [&Ident; 3],
+    central: bool,
+) -> TokenStream {
     let [said_mass, said_center, said_inertia] =
-        ["mass", "center_of_mass", "inertia"].map(|part| format!("{}.{part}", body.unraw()));
-    let of_inertia = in_sum(derived, Some(body), &said_inertia, [&quote!(#mass), &quote!(#center), &quote!(#inertia)]);
+        ["mass", "center_of_mass", word].map(|part| format!("{}.{part}", body.unraw()));
+    let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
+    // About the centre of mass there is no lever.
+    let arm = if central { quote!([<#ty as #real>::zero(); 3]) } else { quote!(#center) };
+    let of_inertia = in_sum(derived, Some(body), &said_inertia, [&quote!(#mass), &arm, &quote!(#inertia)]);
     quote! {
         __check.mass_in_sum(#said_mass, #mass);
         __check.finite(#said_center, &#center);

@@ -78,12 +78,13 @@ fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream
         Shape::Scalar => quote!(let #name = self.#ident;),
         Shape::Vector3 | Shape::Vector6 => quote!(let #name = #private::components(&self.#ident);),
         Shape::Matrix3 | Shape::Matrix6 => quote!(let #name = #private::entries(&self.#ident);),
-        Shape::RigidBody => {
+        Shape::RigidBody | Shape::CentralBody => {
             let [mass, center, inertia] = ["mass", "center_of_mass", "inertia"].map(|part| local(k, part));
+            let tensor = if field.shape == Shape::CentralBody { quote!(inertia.0) } else { quote!(inertia) };
             quote! {
                 let #mass = self.#ident.mass;
                 let #center = #private::components(&self.#ident.center_of_mass);
-                let #inertia = #private::entries(&self.#ident.inertia);
+                let #inertia = #private::entries(&self.#ident.#tensor);
             }
         }
         Shape::Other => TokenStream::new(),

@@ -50,9 +50,10 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
 fn field_check(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream {
     match (field.role, field.shape) {
         (_, Shape::Other) => TokenStream::new(),
-        (_, Shape::RigidBody) => {
+        (_, Shape::RigidBody | Shape::CentralBody) => {
             let [mass, center, inertia] = ["mass", "center_of_mass", "inertia"].map(|part| local(k, part));
-            named_body(derived, &field.ident, [&mass, &center, &inertia])
+            let central = field.shape == Shape::CentralBody;
+            named_body(derived, &field.ident, "inertia", [&mass, &center, &inertia], central)
         }
         (Some(role), shape) => {
             role_check(derived, derived.subject.model, role, shape, &field.ident.unraw().to_string(), &local(k, ""))
@@ -124,9 +125,9 @@ fn role_check(
         (Role::Mass, _) if model.one_body().is_some() => quote!(__check.mass(#said, #name);),
         (Role::Mass, _) => quote!(__check.mass_in_sum(#said, #name);),
         (Role::DisplacedMass, _) => quote!(__check.non_negative(#said, #name);),
-        (Role::Inertia, shape) => {
+        (Role::Inertia | Role::CentralInertia, shape) => {
             let rows = inertia_rows(&derived.scalar().ty(), derived, shape, name);
-            let checks = inertia_check(derived, model, said);
+            let checks = inertia_check(derived, model, role, said);
             quote!({
                 let __inertia = #rows;
                 #checks
@@ -138,7 +139,7 @@ fn role_check(
 }
 
 /// What must hold of the inertia of the body without a name, which is `__inertia`.
-fn inertia_check(derived: &Derived<'_, '_>, model: &Model, said: &str) -> TokenStream {
+fn inertia_check(derived: &Derived<'_, '_>, model: &Model, role: Role, said: &str) -> TokenStream {
     let zero = derived.scalar().number(&Rational::zero());
     let local = |role: Role| local_of(model, role).map(|name| quote!(#name));
     let motion = model.in_chart.map(|own| own.motion);
@@ -149,7 +150,8 @@ fn inertia_check(derived: &Derived<'_, '_>, model: &Model, said: &str) -> TokenS
         None => model.bodies.iter().any(placed),
     };
     let mass = local(Role::Mass).filter(|_| !held).unwrap_or_else(|| zero.clone());
-    let center = local(Role::CenterOfMass).filter(|_| !held).unwrap_or_else(|| quote!([#zero; 3]));
+    let central = role == Role::CentralInertia;
+    let center = local(Role::CenterOfMass).filter(|_| !held && !central).unwrap_or_else(|| quote!([#zero; 3]));
     if model.one_body().is_none() {
         return in_sum(derived, None, said, [&mass, &center, &quote!(__inertia)]);
     }
@@ -160,6 +162,10 @@ fn inertia_check(derived: &Derived<'_, '_>, model: &Model, said: &str) -> TokenS
             __check.inertia(#said, &[[__moment, #zero, #zero], [#zero, __moment, #zero], [#zero, #zero, __moment]]);
             __check.inertia_about_axis(#said, 2usize, (#mass, #center), &__inertia);
         },
+        _ if central => {
+            let mass = local(Role::Mass);
+            quote!(__check.central_inertia(#said, #mass, [#zero; 3], &__inertia);)
+        }
         Some(Motion::Free) if local(Role::CenterOfMass).is_some() => quote! {
             __check.inertia(#said, &__inertia);
             __check.central_inertia(#said, #mass, #center, &__inertia);
@@ -199,7 +205,9 @@ fn kinetic_matrix(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) ->
     let free = system.free.iter().find(|free| free.link == links[clause])?;
     let active = &free.kinematics.active;
     let fluid = system.scene.tree.links[free.link].body()?.added_mass.is_some();
-    if fluid || active.iter().all(|&k| k >= 3) || model.shape(Role::CenterOfMass).is_none() {
+    // About the centre of mass no part speaks against another.
+    let alone = model.shape(Role::CenterOfMass).is_none() || model.shape(Role::CentralInertia).is_some();
+    if fluid || active.iter().all(|&k| k >= 3) || alone {
         return None;
     }
     let role = Role::Inertia;

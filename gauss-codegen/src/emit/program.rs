@@ -134,22 +134,22 @@ pub fn statements_kept<'g>(
     scalar: &ScalarTokens<'_>,
     kept: Kept,
 ) -> (TokenStream, Vec<TokenStream>) {
+    let read = pairs_read(program, kept);
     let instructions = program.instructions.iter().enumerate();
-    let written = instructions.map(|(k, instruction)| statement(program, k, instruction, symbols, scalar, kept));
+    let written = instructions.map(|(k, instruction)| statement(k, instruction, read[k], symbols, scalar));
     (
         in_blocks(handed_on(program, kept).into_iter().zip(written).collect()),
         program.outputs.iter().map(|output| operand(output, symbols, scalar)).collect(),
     )
 }
 
-/// One instruction.
-fn statement<'g>(
-    program: &Program<'g>,
+/// One instruction; of a sine and a cosine what is read.
+fn statement(
     k: usize,
-    instruction: &Operation<'g>,
+    instruction: &Operation<'_>,
+    [sine_read, cosine_read]: [bool; 2],
     symbols: &Map<u32, TokenStream>,
     scalar: &ScalarTokens<'_>,
-    kept: Kept,
 ) -> TokenStream {
     let real = &scalar.real;
     let write = |o: &Operand<'_>| operand(o, symbols, scalar);
@@ -191,12 +191,24 @@ fn statement<'g>(
         }
         Operation::SineCosine(a) => {
             let (a, s, c) = (write(a), sine(k), cosine(k));
-            let read = |o: Operand<'_>| kept == Kept::Everything || program.operands().any(|other| other == o);
-            let s = if read(Operand::Sine(k)) { quote!(#s) } else { quote!(_) };
-            let c = if read(Operand::Cosine(k)) { quote!(#c) } else { quote!(_) };
+            let s = if sine_read { quote!(#s) } else { quote!(_) };
+            let c = if cosine_read { quote!(#c) } else { quote!(_) };
             quote!(let (#s, #c) = #real::sin_cos(#a);)
         }
     }
+}
+
+/// Whether the sine and the cosine of each instruction are read.
+fn pairs_read(program: &Program<'_>, kept: Kept) -> Vec<[bool; 2]> {
+    let mut read = vec![[kept == Kept::Everything; 2]; program.instructions.len()];
+    for operand in program.operands() {
+        match operand {
+            Operand::Sine(k) => read[k][0] = true,
+            Operand::Cosine(k) => read[k][1] = true,
+            _ => {}
+        }
+    }
+    read
 }
 
 /// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.

@@ -14,6 +14,9 @@ pub fn readable<'g>(e: Expr<'g>) -> Option<Polynomial<'g>> {
 
 /// An expression as a reader wants it.
 pub fn tidy(e: Expr<'_>) -> Expr<'_> {
+    if e.is_leaf() {
+        return e;
+    }
     readable(e).map_or(e, |p| p.collect())
 }
 

@@ -24,8 +24,9 @@ mod scene;
 mod tests;
 mod units;
 
+pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
 pub use language::number::exact as literal;
-pub use parse::parse;
+pub use parse::{item, parse};
 pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceAxes, ForceClause, ForceKind,

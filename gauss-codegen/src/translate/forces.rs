@@ -8,7 +8,7 @@ use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
-use crate::mechanics::{Action, Axes, Element, Force, Matter, Tree, attraction, entrained};
+use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Tree, entrained};
 use crate::model::{Coefficients, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Property};
 
 use super::drag::DragMatrix;
@@ -50,8 +50,10 @@ impl<'g> Translator<'_, 'g> {
             let center = clause.center.as_ref().map(|e| self.vector(e, tree)).transpose()?;
             let name = names.of(clause.name.as_ref(), "central gravity");
             self.note(LawKind::Attraction, (&name, "mu"), &clause.mu, vec![mu]);
-            let potential = self.attraction(mu, center, clause.mu.span, tree);
-            elements.push(Element::new(name, Action::Potential(potential)));
+            let field = CentralField { mu, center: center.unwrap_or([self.graph.zero(); 3]) };
+            if !self.is_infinite(&field, clause.mu.span, tree) {
+                elements.push(Element::new(name, field.action(tree)));
+            }
         }
         let entrained = self.medium(tree)?;
         if !entrained.is_empty() {
@@ -266,24 +268,13 @@ impl<'g> Translator<'_, 'g> {
         }
     }
 
-    /// Potential energy of everything with mass in the field of a centre.
-    fn attraction(&self, mu: Expr<'g>, center: Option<Triple<'g>>, span: Span, tree: &Tree<'g>) -> Expr<'g> {
-        let zero = self.graph.zero();
-        let center = center.unwrap_or([zero; 3]);
-        let links = tree.links.iter().filter(|link| !matches!(link.matter, Matter::Nothing));
-        let energies = links.map(|link| {
-            let arm: Triple<'g> = std::array::from_fn(|i| (link.position[i] - center[i]).group());
-            if self.stays_at(&arm, span) {
-                return zero;
-            }
-            // The field looks the same from all sides: of a particle no axes are needed.
-            let arm = match link.matter {
-                Matter::Body(_) => link.axes().to_body(&arm).map(Expr::group),
-                _ => arm,
-            };
-            attraction(mu, &link.moments, &arm)
-        });
-        energies.fold(zero, |sum, energy| sum + energy)
+    /// Whether something with mass stays at the center of a field, which is noted.
+    fn is_infinite(&self, field: &CentralField<'g>, span: Span, tree: &Tree<'g>) -> bool {
+        let mut massive = tree.links.iter().filter(|link| !matches!(link.matter, Matter::Nothing));
+        massive.any(|link| {
+            let arm = std::array::from_fn(|i| link.position[i] - field.center[i]);
+            self.stays_at(&arm, span)
+        })
     }
 
     /// What the velocity of the medium changes beside drag.
