@@ -137,7 +137,8 @@
 ///
 /// # Errors
 ///
-/// Every mistake is a compile error at the token that is wrong, all of them at once. What uses the kernel of such a struct
+/// Every mistake is a compile error at the token that is wrong, all of them at once. What is too long, too deep or too large to
+/// be derived within 10 s and 1 GB is a mistake like others; powers have at most 100 factors. What uses the kernel of such a struct
 /// gives no further errors.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {

@@ -269,7 +269,7 @@ impl<'g> Expander<'g> {
         for (m, c) in &a.terms {
             // Long monomials and coefficients take their time.
             let length = 1 + m.factors.len() as u64 / 4 + if c.parts().is_some() { 0 } else { 40 };
-            if !self.graph.may_multiply(length * b.terms.len() as u64) {
+            if !self.graph.budget.may_multiply(length * b.terms.len() as u64) {
                 return None;
             }
             for (n, d) in &b.terms {

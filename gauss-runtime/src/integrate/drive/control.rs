@@ -106,8 +106,7 @@ pub(in crate::integrate) fn check_tolerances(relative: f64, absolute: f64) -> Re
 /// refused before the first step.
 pub(in crate::integrate) fn longest(asked: Option<f64>, span: f64, limit: u64) -> Result<f64, IntegrationErrorKind> {
     let length = asked.unwrap_or(span.abs());
-    // A NaN is not above zero.
-    if !(length > 0.0) {
+    if length.is_nan() || length <= 0.0 {
         return Err(IntegrationErrorKind::InvalidStep { step: length });
     }
     if span.abs() / length > limit as f64 {

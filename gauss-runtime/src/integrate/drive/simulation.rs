@@ -263,6 +263,7 @@ assert!(run.iter().all(|state| state.q[0] > -1e-15));
 ```
 "##
     )]
+    #[expect(clippy::type_complexity, reason = "a builder, whose type nobody writes")]
     pub fn then<J: FnMut(&mut Sample<S>)>(
         self,
         jump: J,
