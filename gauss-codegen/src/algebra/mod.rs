@@ -9,6 +9,7 @@
 //!   identities, cancels what can cancel, and is what a reader wants to see printed.
 
 mod differentiate;
+mod doubled;
 mod evaluate;
 mod graph;
 #[cfg(test)]
@@ -23,6 +24,7 @@ mod rational;
 #[cfg(test)]
 mod tests;
 
+pub use doubled::Doubled;
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView};
 pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};

@@ -1,6 +1,7 @@
 //! Every system against the definition, before code is written: C of (3.1) over all bodies and particles must be
 //! stationary, with positions as they were given and all further differentiation by dual numbers, at a pseudo-random state.
 
+use std::cell::OnceCell;
 use std::fmt;
 
 use crate::algebra::{Evaluation, Expr, Map, Number, Precise, Rational, Tangents};
@@ -51,6 +52,8 @@ struct Witness<'a, 'g, N> {
     state: Map<u32, N>,
     /// v_P of every link: symbols of t, q and z.
     velocities: Vec<[[Expr<'g>; 3]; 4]>,
+    /// Their derivatives with respect to every speed, at the state.
+    partial_velocities: OnceCell<Vec<Vec<N>>>,
 }
 
 impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
@@ -61,7 +64,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
             [link.position.map(|e| e.derivative(rates)), axis(0), axis(1), axis(2)]
         };
         let velocities = system.scene.tree.links.iter().map(velocity).collect();
-        Self { system, state, velocities }
+        Self { system, state, velocities, partial_velocities: OnceCell::new() }
     }
 
     fn values<'e>(&self, outputs: impl IntoIterator<Item = &'e Expr<'g>>) -> Vec<N>
@@ -100,7 +103,8 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
         let flow = self.flow(rates);
         let fields: Vec<Expr<'g>> = self.velocities.iter().flatten().flatten().copied().collect();
         let accelerations = self.along(&flow, &fields);
-        let partials = self.partials(&fields);
+        // They do not depend on z, in which velocities are affine.
+        let partials = self.partial_velocities.get_or_init(|| self.partials(&fields));
         let mut evaluation = Evaluation::new(&self.state);
         let mut rows = vec![N::number(0.0); scene.speeds.len()];
         let zeros = [N::number(0.0); 3];
@@ -109,7 +113,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
             let moments = Distribution::of(link, &mut evaluation);
             let (mut a, lift) = (field(&accelerations, k), moments.buoyancy);
             (0..3).for_each(|i| a[0][i] = a[0][i] - gravity[i]);
-            for (row, partial) in rows.iter_mut().zip(&partials) {
+            for (row, partial) in rows.iter_mut().zip(partials) {
                 let w = field(partial, k);
                 *row = *row + moments.integral(&a, &w);
                 if let Some((mass, center)) = lift {
@@ -125,7 +129,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
         for (row, fluid) in rows.iter_mut().zip(self.fluid(&flow)) {
             *row = *row + fluid;
         }
-        for (row, force) in rows.iter_mut().zip(self.forces(&partials)) {
+        for (row, force) in rows.iter_mut().zip(self.forces(partials)) {
             *row = *row - force;
         }
         rows
@@ -248,6 +252,57 @@ impl<N: Number> Distribution<N> {
         let square = sum((0..9).map(|n| self.second[n / 3][n % 3] * dot(n / 3 + 1, n % 3 + 1)));
         self.mass * dot(0, 0) + linear + square
     }
+}
+
+/// ż of (3.1) at a state: C is made stationary, under the constraints.
+#[cfg(test)]
+pub fn acceleration_by_definition<N: Number>(system: &System<'_>, state: Map<u32, N>) -> Vec<N> {
+    let n = system.scene.speeds.len();
+    let witness = Witness::new(system, state);
+    let (zero, one) = (N::number(0.0), N::number(1.0));
+    let still = vec![zero; n];
+    let at_rest = witness.stationarity(&still);
+    let columns: Vec<Vec<N>> = (0..n)
+        .map(|k| {
+            let unit: Vec<N> = (0..n).map(|j| if j == k { one } else { zero }).collect();
+            witness.stationarity(&unit).into_iter().zip(&at_rest).map(|(moved, still)| moved - *still).collect()
+        })
+        .collect();
+    // One row a speed, then one a constraint.
+    let jacobian = witness.partials(&system.constraints.on_velocities);
+    let bias = witness.along(&witness.flow(&still), &system.constraints.on_velocities);
+    let m = bias.len();
+    let mut rows: Vec<Vec<N>> = (0..n)
+        .map(|i| {
+            let matrix = columns.iter().map(|column| column[i]);
+            matrix.chain(jacobian[i].iter().copied()).chain([-at_rest[i]]).collect()
+        })
+        .collect();
+    rows.extend((0..m).map(|k| {
+        let of_constraint = jacobian.iter().map(|row| row[k]);
+        of_constraint.chain((0..m).map(|_| zero)).chain([-bias[k]]).collect()
+    }));
+    eliminated(rows).into_iter().take(n).collect()
+}
+
+/// The unknowns of linear equations with their right-hand sides in the last column, by elimination with the largest pivots.
+#[cfg(test)]
+fn eliminated<N: Number>(mut rows: Vec<Vec<N>>) -> Vec<N> {
+    let n = rows.len();
+    let size = |x: &N| x.to_f64().abs();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&i, &j| size(&rows[i][k]).total_cmp(&size(&rows[j][k]))).unwrap_or(k);
+        rows.swap(k, pivot);
+        for i in 0..n {
+            if i != k {
+                let factor = rows[i][k] / rows[k][k];
+                for j in k..=n {
+                    rows[i][j] = rows[i][j] - factor * rows[k][j];
+                }
+            }
+        }
+    }
+    (0..n).map(|k| rows[k][n] / rows[k][k]).collect()
 }
 
 /// Evaluates the condition at one state, with the residual at any ż and with every arrangement's acceleration.

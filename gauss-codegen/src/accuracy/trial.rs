@@ -1,0 +1,176 @@
+//! The loss of programs at sample states: their error beside results in 106 binary digits, in units of what a change of every input and
+//! parameter in its last place does to these.
+
+use crate::algebra::{Doubled, Evaluation, Expr, Function, Map, Number, Scalar};
+use crate::program::Code;
+
+use super::tape::Tape;
+
+/// By how much inputs are changed, relatively: far above 2⁻¹⁰⁴, and so little that results change in proportion.
+const CHANGE: f64 = 1.0 / (1_u64 << 44) as f64;
+/// Changes of all inputs at once, with signs of their own each time.
+const CHANGES: u64 = 3;
+
+/// One state: what a kernel is given, the same without its rounding, and with every number changed a little.
+pub struct Point {
+    given: Map<u32, f64>,
+    exact: Map<u32, Doubled>,
+    changed: Vec<Map<u32, Doubled>>,
+}
+
+impl Point {
+    /// Symbols with their values. Those of each of `units` are scaled to have the norm 1; `definitions` are symbols that stand for
+    /// expressions of the others.
+    pub fn new<'g>(values: &[(u32, f64)], units: &[Vec<Expr<'g>>], definitions: &Map<u32, Expr<'g>>) -> Self {
+        let whole = |mut point: Map<u32, Doubled>| {
+            for unit in units {
+                let norm = norm(unit, &point);
+                for symbol in unit {
+                    point.entry(symbol.key()).and_modify(|value| *value = *value / norm);
+                }
+            }
+            let mut evaluation = Evaluation::new(&point);
+            let defined: Vec<_> = definitions.iter().map(|(&key, e)| (key, evaluation.value(*e))).collect();
+            point.extend(defined);
+            point
+        };
+        let exact = whole(values.iter().map(|&(key, value)| (key, Doubled::number(value))).collect());
+        let change = |n: u64| {
+            let value = |(k, &(key, _)): (usize, &(u32, f64))| (key, exact[&key] * factor(k as u64, n));
+            whole(values.iter().enumerate().map(value).collect())
+        };
+        Self {
+            given: exact.iter().map(|(&key, value)| (key, value.to_f64())).collect(),
+            changed: (0..CHANGES).map(change).collect(),
+            exact,
+        }
+    }
+}
+
+fn norm(unit: &[Expr<'_>], point: &Map<u32, Doubled>) -> Doubled {
+    let squares = unit.iter().map(|symbol| point[&symbol.key()] * point[&symbol.key()]);
+    squares.fold(Doubled::number(0.0), |sum, square| sum + square).call(Function::Sqrt)
+}
+
+/// 1 ± the change, with a sign that depends on the place and on the number of the change.
+fn factor(place: u64, n: u64) -> Doubled {
+    let mixed = (place * CHANGES + n + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    Doubled::number(1.0) + Doubled::number(if mixed >> 63 == 0 { CHANGE } else { -CHANGE })
+}
+
+/// What a function should give at one state, and what a change of everything in its last place does to it.
+struct Reference {
+    values: Vec<Doubled>,
+    units: Vec<f64>,
+}
+
+/// Losses of one function at all states where it has a value.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Loss(pub Vec<f64>);
+
+impl Loss {
+    /// The largest; zero of none.
+    pub fn worst(&self) -> f64 {
+        self.0.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The one in the middle; zero of none.
+    pub fn median(&self) -> f64 {
+        let mut sorted = self.0.clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    }
+}
+
+/// Sample states at which programs are tried.
+#[derive(Default)]
+pub struct Trial {
+    points: Vec<Point>,
+}
+
+impl Trial {
+    pub fn new(points: Vec<Point>) -> Self {
+        Self { points }
+    }
+
+    /// Computes constants: symbols and what they stand for.
+    pub fn define<'g>(&mut self, constants: &[(Expr<'g>, Expr<'g>)]) {
+        for point in &mut self.points {
+            define_in(&mut point.given, constants);
+            define_in(&mut point.exact, constants);
+            point.changed.iter_mut().for_each(|changed| define_in(changed, constants));
+        }
+    }
+
+    /// The losses of programs that should compute the same, beside the best of them in 106 binary digits: what it loses of 53 it has to
+    /// spare there, unless that is nearly all.
+    pub fn losses(&self, programs: &[&Code<Expr<'_>>]) -> Vec<Loss> {
+        let tapes: Vec<Tape> = programs.iter().map(|program| Tape::new(program)).collect();
+        let mut best = 0;
+        let mut losses = self.losses_beside(&tapes, best);
+        // Of a form that loses nearly everything the longer numbers are not sure either.
+        for _ in 1..tapes.len() {
+            let least = (0..tapes.len()).min_by(|&a, &b| losses[a].worst().total_cmp(&losses[b].worst()));
+            let Some(least) = least.filter(|&least| least != best && losses[best].worst() > UNSURE) else { break };
+            best = least;
+            losses = self.losses_beside(&tapes, best);
+        }
+        losses
+    }
+
+    fn losses_beside(&self, tapes: &[Tape], reference: usize) -> Vec<Loss> {
+        let mut losses = vec![Loss::default(); tapes.len()];
+        for point in &self.points {
+            let Some(expected) = point.reference(&tapes[reference]) else { continue };
+            for (loss, tape) in losses.iter_mut().zip(tapes) {
+                loss.0.push(expected.loss_of(&tape.run(&point.given, |_| None)));
+            }
+        }
+        losses
+    }
+}
+
+/// The loss from which on a form is no reference.
+const UNSURE: f64 = (1_u64 << 30) as f64;
+
+fn define_in<'g, N: Number>(values: &mut Map<u32, N>, constants: &[(Expr<'g>, Expr<'g>)]) {
+    let mut evaluation = Evaluation::new(values);
+    let known: Vec<_> = constants.iter().map(|(symbol, e)| (symbol.key(), evaluation.value(*e))).collect();
+    values.extend(known);
+}
+
+impl Point {
+    /// `None` where the function has no value.
+    fn reference(&self, tape: &Tape) -> Option<Reference> {
+        let values = tape.run(&self.exact, |_| None);
+        let mut squares = vec![0.0; values.len()];
+        for (n, changed) in self.changed.iter().enumerate() {
+            let moved = tape.run(changed, |place| Some(factor(place as u64, n as u64 + CHANGES)));
+            for (square, (moved, value)) in squares.iter_mut().zip(moved.iter().zip(&values)) {
+                let change = (*moved - *value).to_f64() / CHANGE;
+                *square += change * change / CHANGES as f64;
+            }
+        }
+        let unit = |(square, value): (f64, &Doubled)| f64::EPSILON * (value.to_f64().abs() + square.sqrt());
+        let units: Vec<f64> = squares.into_iter().zip(&values).map(unit).collect();
+        let there = values.iter().all(|value| value.is_finite()) && units.iter().all(|unit| unit.is_finite());
+        there.then_some(Reference { values, units })
+    }
+}
+
+impl Reference {
+    fn loss_of(&self, found: &[f64]) -> f64 {
+        let loss = |((found, value), unit): ((&f64, &Doubled), &f64)| {
+            let error = (Doubled::number(*found) - *value).to_f64().abs();
+            if error.is_nan() {
+                f64::INFINITY
+            } else if error == 0.0 {
+                0.0
+            } else {
+                error / unit
+            }
+        };
+        found.iter().zip(&self.values).zip(&self.units).map(loss).fold(0.0, f64::max)
+    }
+}
