@@ -1,8 +1,9 @@
-//! The functions of a kernel, lowered together: shared constants, the cheapest arrangement of each.
+//! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
 use crate::algebra::{Evaluation, Expr, Graph, Map, Rational};
 
 use super::check::{Checked, Miscompiled, Sample};
+use super::choice::{Candidates, Lowered};
 use super::derivatives::{Constants, Derivatives, Expected, Kept};
 use super::hoist::Hoister;
 use super::write::Program;
@@ -30,44 +31,6 @@ pub struct Kernel<'g> {
 /// Symbols that stand for literal numbers. Where the scalar is not known before run time, there is no value to fold.
 pub type Literals<'a, 'g> = Option<&'a [(Rational, Expr<'g>)]>;
 
-/// A function to be lowered: lists of outputs that are equal, of which the cheapest is taken.
-pub struct Candidates<'g> {
-    pub arrangements: Vec<Vec<Expr<'g>>>,
-    pub aim: Aim,
-}
-
-/// What a function is to be cheap for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Aim {
-    /// Its values.
-    Values,
-    /// The power series of its values.
-    Series,
-}
-
-impl<'g> Candidates<'g> {
-    /// Arrangements of which values are wanted.
-    #[cfg(test)]
-    pub fn of_values(arrangements: Vec<Vec<Expr<'g>>>) -> Self {
-        Self { arrangements, aim: Aim::Values }
-    }
-
-    /// The cheapest arrangement as a program, and its outputs.
-    fn cheapest(&self, hoister: &mut Hoister<'_, 'g>) -> (Program<'g>, &[Expr<'g>]) {
-        let lower = |outputs: &'_ Vec<Expr<'g>>| Program::lower(&hoister.hoist(outputs));
-        let programs: Vec<Program<'g>> = self.arrangements.iter().map(lower).collect();
-        let cost_of = |program: &Program<'g>| match self.aim {
-            Aim::Values => program.cost().total(),
-            Aim::Series => program.series_cost(|symbol| hoister.is_hoisted(symbol)),
-        };
-        let lowered = programs.into_iter().zip(&self.arrangements);
-        let cheapest = lowered.min_by_key(|(program, _)| cost_of(program));
-        let (program, outputs) = cheapest.expect("a function has at least one arrangement");
-        // A power series takes a negation of an addend for an instruction like any other.
-        (if self.aim == Aim::Values { program.with_signs_led_back() } else { program }, outputs)
-    }
-}
-
 impl<'g> Kernel<'g> {
     /// Lowers functions, each of which has an arrangement; those that are `joined` also together. `definitions` are symbols that stand
     /// for expressions of the arguments. Every program is then run at a pseudo-random point and compared with its expressions.
@@ -81,8 +44,11 @@ impl<'g> Kernel<'g> {
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
         let candidates = functions;
-        let (functions, chosen): (Vec<_>, Vec<_>) =
-            candidates.iter().map(|candidates| candidates.cheapest(&mut hoister)).unzip();
+        let (functions, chosen): (Vec<_>, Vec<_>) = candidates
+            .iter()
+            .map(|candidates| candidates.chosen(&mut hoister))
+            .map(|Lowered { program, outputs }| (program, outputs))
+            .unzip();
         let (joined, of_joined) = lower_together(&mut hoister, candidates, &chosen, joined);
         let (tangents, expected_tangents) =
             wanted.by_state.map(|wanted| wanted.lower(&mut hoister, Kept::ValuesToo)).unzip();

@@ -1,7 +1,8 @@
 //! From expressions to straight-line programs: constants hoisted, common factors pulled out, common parts shared,
 //! multiply-adds fused, everything counted.
 //!
-//! - `lower`: the functions of a kernel together; of several arrangements the cheapest.
+//! - `lower`: the functions of a kernel together.
+//! - `choice`: of several arrangements of a function, the one that is taken.
 //! - `hoist`: what depends on parameters alone becomes a constant, computed once.
 //! - `factor`: common factors of the terms of a sum are pulled out.
 //! - `network`: sums and products of many terms; parts that occur more than once are split off.
@@ -14,6 +15,7 @@
 //! after every pass in debug builds. Here the inputs of code are symbols; [`crate::program`] says what code is.
 
 mod check;
+mod choice;
 mod derivatives;
 mod factor;
 mod hoist;
@@ -25,7 +27,8 @@ mod tests;
 mod write;
 
 pub use crate::program::{Counts, Smoothness};
+pub use choice::{Aim, Candidates};
 pub use derivatives::{ByParameters, Derivatives, Differentiated, Equation};
-pub use lower::{Aim, Candidates, Kernel, Literals};
+pub use lower::{Kernel, Literals};
 pub use tangent::Direction;
 pub use write::{Operand, Operation, Program};

@@ -1,0 +1,69 @@
+//! The arrangements of one function, and which of them is taken.
+
+use crate::algebra::Expr;
+
+use super::hoist::Hoister;
+use super::write::Program;
+
+/// A function to be lowered: lists of outputs that are equal, of which one is taken.
+pub struct Candidates<'g> {
+    pub arrangements: Vec<Vec<Expr<'g>>>,
+    pub aim: Aim,
+}
+
+/// What a function is to be cheap for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// Its values.
+    Values,
+    /// The power series of its values.
+    Series,
+}
+
+/// An arrangement with its program.
+pub(super) struct Lowered<'a, 'g> {
+    pub outputs: &'a [Expr<'g>],
+    pub program: Program<'g>,
+}
+
+impl<'g> Candidates<'g> {
+    /// Arrangements of which values are wanted.
+    #[cfg(test)]
+    pub fn of_values(arrangements: Vec<Vec<Expr<'g>>>) -> Self {
+        Self { arrangements, aim: Aim::Values }
+    }
+
+    /// The arrangement that is taken.
+    pub(super) fn chosen(&self, hoister: &mut Hoister<'_, 'g>) -> Lowered<'_, 'g> {
+        let mut lowered = self.lowered(hoister);
+        let best = self.best(&lowered, hoister);
+        let Lowered { outputs, program } = lowered.swap_remove(best);
+        // A power series takes a negation of an addend for an instruction like any other.
+        let program = if self.aim == Aim::Values { program.with_signs_led_back() } else { program };
+        Lowered { outputs, program }
+    }
+
+    /// The arrangements as programs, in their order; those that are the same once constants are hoisted, once.
+    fn lowered(&self, hoister: &mut Hoister<'_, 'g>) -> Vec<Lowered<'_, 'g>> {
+        let (mut seen, mut lowered) = (Vec::new(), Vec::new());
+        for outputs in &self.arrangements {
+            let hoisted = hoister.hoist(outputs);
+            if !seen.contains(&hoisted) {
+                lowered.push(Lowered { outputs, program: Program::lower(&hoisted) });
+                seen.push(hoisted);
+            }
+        }
+        lowered
+    }
+
+    /// Which of the arrangements is taken, of one at least: the one that costs least, the first of several. Here candidates are weighed,
+    /// whatever counts.
+    fn best(&self, candidates: &[Lowered<'_, 'g>], hoister: &Hoister<'_, 'g>) -> usize {
+        let cost = |candidate: &Lowered<'_, 'g>| match self.aim {
+            Aim::Values => candidate.program.cost().total(),
+            Aim::Series => candidate.program.series_cost(|symbol| hoister.is_hoisted(symbol)),
+        };
+        let costs = candidates.iter().map(cost);
+        costs.enumerate().min_by_key(|(_, cost)| *cost).expect("a function has at least one arrangement").0
+    }
+}
