@@ -115,7 +115,7 @@ impl<'g> States<'_, 'g> {
         }
         for difference in &seen.differences {
             if random.fraction() < profile.near {
-                bring_together(difference, self, &mut values, &mut random, profile);
+                self.bring_together(difference, &mut values, &mut random, profile);
             }
         }
         // What was chosen for a difference must not undo the masses.
@@ -185,38 +185,47 @@ impl<'g> States<'_, 'g> {
     }
 }
 
-/// Makes the terms of a sum cancel but for a small part, by one of its symbols.
-fn bring_together<'g>(
-    difference: &[(Rational, Expr<'g>)],
-    states: &States<'_, 'g>,
-    values: &mut Values,
-    random: &mut Random,
-    profile: &Profile,
-) {
-    let literal = |e: Expr<'g>| states.literals.iter().any(|(_, symbol)| *symbol == e);
-    let unit = |e: Expr<'g>| states.units.iter().flatten().any(|symbol| *symbol == e);
-    let free: Vec<usize> = (0..difference.len())
-        .filter(|&k| matches!(difference[k].1.view(), NodeView::Symbol(_)))
-        .filter(|&k| !literal(difference[k].1) && !unit(difference[k].1))
-        .filter(|&k| {
-            values.map.contains_key(&difference[k].1.key()) && !states.definitions.contains_key(&difference[k].1.key())
-        })
-        .collect();
-    if free.is_empty() {
-        return;
-    }
-    let chosen = free[random.below(free.len())];
-    let rest: f64 = (0..difference.len())
-        .filter(|&k| k != chosen)
-        .map(|k| difference[k].0.to_f64() * values.of(difference[k].1))
-        .sum();
-    let (coefficient, symbol) = difference[chosen];
-    let apart = random.sign() * 10.0_f64.powf(-1.0 - random.fraction() * (profile.closest - 1.0).max(0.0));
-    let value = -rest / coefficient.to_f64() * (1.0 + apart);
-    let parameter = states.parameters.iter().find(|(own, _)| *own == symbol);
-    let allowed = parameter.is_none_or(|(_, component)| *component || value > 0.0);
-    if value.is_finite() && value != 0.0 && allowed {
-        values.put(symbol, value);
+impl<'g> States<'_, 'g> {
+    /// Makes the terms of a sum cancel but for a small part, by one of its symbols: as they are, or with what else is in it far away.
+    fn bring_together(
+        &self,
+        difference: &[(Rational, Expr<'g>)],
+        values: &mut Values,
+        random: &mut Random,
+        profile: &Profile,
+    ) {
+        let free = |values: &Values, e: Expr<'g>| {
+            let literal = self.literals.iter().any(|(_, symbol)| *symbol == e);
+            let unit = self.units.iter().flatten().any(|symbol| *symbol == e);
+            let given = values.map.contains_key(&e.key()) && !self.definitions.contains_key(&e.key());
+            matches!(e.view(), NodeView::Symbol(_)) && given && !literal && !unit
+        };
+        let parameter = |e: Expr<'g>| self.parameters.iter().find(|(own, _)| *own == e);
+        let mut symbols: Vec<(Rational, Expr<'g>)> =
+            difference.iter().copied().filter(|(_, e)| free(values, *e)).collect();
+        let far = random.below(2) == 0;
+        if far && symbols.iter().any(|(_, e)| parameter(*e).is_none()) {
+            for (_, e) in symbols.iter().filter(|(_, e)| parameter(*e).is_some()) {
+                values.put(*e, values.map[&e.key()] * random.size(1.0) * 1e3);
+            }
+            symbols.retain(|(_, e)| parameter(*e).is_none());
+        }
+        if symbols.is_empty() {
+            return;
+        }
+        let (coefficient, symbol) = symbols[random.below(symbols.len())];
+        let others = difference.iter().filter(|(_, e)| *e != symbol);
+        let rest: f64 = others.map(|(c, e)| c.to_f64() * values.of(*e)).sum();
+        let left = if far {
+            random.signed(0.5)
+        } else {
+            -rest * random.sign() * 10.0_f64.powf(-1.0 - random.fraction() * (profile.closest - 1.0).max(0.0))
+        };
+        let value = (left - rest) / coefficient.to_f64();
+        let allowed = parameter(symbol).is_none_or(|(_, component)| *component || value > 0.0);
+        if value.is_finite() && value != 0.0 && allowed {
+            values.put(symbol, value);
+        }
     }
 }
 

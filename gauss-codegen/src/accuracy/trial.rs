@@ -87,19 +87,26 @@ impl Loss {
 #[derive(Default)]
 pub struct Trial {
     points: Vec<Point>,
+    /// How many constants have their values.
+    defined: usize,
 }
 
 impl Trial {
     pub fn new(points: Vec<Point>) -> Self {
-        Self { points }
+        Self { points, defined: 0 }
     }
 
-    /// Computes constants: symbols and what they stand for.
+    /// Computes constants, symbols and what they stand for, beyond those that are known.
     pub fn define<'g>(&mut self, constants: &[(Expr<'g>, Expr<'g>)]) {
+        let fresh = &constants[self.defined..];
+        self.defined = constants.len();
+        if fresh.is_empty() {
+            return;
+        }
         for point in &mut self.points {
-            define_in(&mut point.given, constants);
-            define_in(&mut point.exact, constants);
-            point.changed.iter_mut().for_each(|changed| define_in(changed, constants));
+            define_in(&mut point.given, fresh);
+            define_in(&mut point.exact, fresh);
+            point.changed.iter_mut().for_each(|changed| define_in(changed, fresh));
         }
     }
 
@@ -129,6 +136,24 @@ impl Trial {
         }
         losses
     }
+}
+
+/// Losses up to which there is nothing to choose: of a few dozen operations each of which rounds by half a unit, one can have that, and the
+/// next state gives another order.
+const NOTHING: f64 = 16.0;
+/// How many times the loss of the best a program may have at a state: one decimal place.
+const FACTOR: f64 = 10.0;
+
+/// Which programs keep the digits: at every state not much more is lost than by the best there. Where each of them loses somewhere what another
+/// keeps, those that come closest.
+pub fn accurate(losses: &[Loss]) -> Vec<bool> {
+    let states = losses.first().map_or(0, |loss| loss.0.len());
+    let least = |state: usize| losses.iter().map(|loss| loss.0[state]).fold(f64::INFINITY, f64::min);
+    let allowed: Vec<f64> = (0..states).map(|state| FACTOR * least(state).max(NOTHING / FACTOR)).collect();
+    let excess = |loss: &Loss| loss.0.iter().zip(&allowed).map(|(loss, allowed)| loss / allowed).fold(0.0, f64::max);
+    let excesses: Vec<f64> = losses.iter().map(excess).collect();
+    let limit = excesses.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
+    excesses.into_iter().map(|excess| excess <= limit).collect()
 }
 
 /// The loss from which on a form is no reference.

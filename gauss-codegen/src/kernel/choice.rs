@@ -1,5 +1,6 @@
 //! The arrangements of one function, and which of them is taken.
 
+use crate::accuracy::{Loss, Trial, accurate};
 use crate::algebra::Expr;
 
 use super::hoist::Hoister;
@@ -24,6 +25,7 @@ pub enum Aim {
 pub(super) struct Lowered<'a, 'g> {
     pub outputs: &'a [Expr<'g>],
     pub program: Program<'g>,
+    pub loss: Loss,
 }
 
 impl<'g> Candidates<'g> {
@@ -34,13 +36,16 @@ impl<'g> Candidates<'g> {
     }
 
     /// The arrangement that is taken.
-    pub(super) fn chosen(&self, hoister: &mut Hoister<'_, 'g>) -> Lowered<'_, 'g> {
+    pub(super) fn chosen(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Lowered<'_, 'g> {
         let mut lowered = self.lowered(hoister);
-        let best = self.best(&lowered, hoister);
-        let Lowered { outputs, program } = lowered.swap_remove(best);
+        trial.define(hoister.constants());
+        let programs: Vec<&Program<'g>> = lowered.iter().map(|candidate| &candidate.program).collect();
+        let losses = trial.losses(&programs);
+        let best = self.best(&lowered, &losses, hoister);
+        let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         // A power series takes a negation of an addend for an instruction like any other.
         let program = if self.aim == Aim::Values { program.with_signs_led_back() } else { program };
-        Lowered { outputs, program }
+        Lowered { outputs, program, loss: losses.into_iter().nth(best).unwrap_or_default() }
     }
 
     /// The arrangements as programs, in their order; those that are the same once constants are hoisted, once.
@@ -49,21 +54,33 @@ impl<'g> Candidates<'g> {
         for outputs in &self.arrangements {
             let hoisted = hoister.hoist(outputs);
             if !seen.contains(&hoisted) {
-                lowered.push(Lowered { outputs, program: Program::lower(&hoisted) });
+                lowered.push(Lowered { outputs, program: Program::lower(&hoisted), loss: Loss::default() });
                 seen.push(hoisted);
             }
         }
         lowered
     }
 
-    /// Which of the arrangements is taken, of one at least: the one that costs least, the first of several. Here candidates are weighed,
-    /// whatever counts.
-    fn best(&self, candidates: &[Lowered<'_, 'g>], hoister: &Hoister<'_, 'g>) -> usize {
+    /// Which of the arrangements is taken, of one at least: of those that keep the digits the one that costs least, the first of several.
+    fn best(&self, candidates: &[Lowered<'_, 'g>], losses: &[Loss], hoister: &Hoister<'_, 'g>) -> usize {
         let cost = |candidate: &Lowered<'_, 'g>| match self.aim {
             Aim::Values => candidate.program.cost().total(),
             Aim::Series => candidate.program.series_cost(|symbol| hoister.is_hoisted(symbol)),
         };
-        let costs = candidates.iter().map(cost);
-        costs.enumerate().min_by_key(|(_, cost)| *cost).expect("a function has at least one arrangement").0
+        let accurate = accurate(losses);
+        if std::env::var("GAUSS_LOSS").is_ok() && candidates.len() > 1 {
+            for (k, c) in candidates.iter().enumerate() {
+                eprintln!(
+                    "   {k} cost {} acc {} {:?}",
+                    cost(c),
+                    accurate[k],
+                    losses[k].0.iter().map(|x| format!("{x:.2e}")).collect::<Vec<_>>()
+                );
+            }
+            eprintln!();
+        }
+        let costs =
+            candidates.iter().enumerate().filter(|(k, _)| accurate[*k]).map(|(k, candidate)| (k, cost(candidate)));
+        costs.min_by_key(|(_, cost)| *cost).expect("a function has at least one arrangement").0
     }
 }

@@ -1,5 +1,6 @@
 //! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
+use crate::accuracy::{Loss, Trial};
 use crate::algebra::{Evaluation, Expr, Graph, Map, Rational};
 
 use super::check::{Checked, Miscompiled, Sample};
@@ -14,6 +15,8 @@ pub struct Kernel<'g> {
     pub constants: Program<'g>,
     /// One program a function, in the order given; the symbols of constants among their inputs are listed below.
     pub functions: Vec<Program<'g>>,
+    /// What each of them loses at sample states.
+    pub losses: Vec<Loss>,
     /// The outputs of several functions, one after the other, what they have in common computed once.
     pub joined: Program<'g>,
     /// The outputs of what is differentiated, then all their derivatives along the first direction, and so on.
@@ -41,14 +44,17 @@ impl<'g> Kernel<'g> {
         definitions: &Map<u32, Expr<'g>>,
         wanted: &Derivatives<'_, 'g>,
         literals: Literals<'_, 'g>,
+        trial: &mut Trial,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
         let candidates = functions;
-        let (functions, chosen): (Vec<_>, Vec<_>) = candidates
-            .iter()
-            .map(|candidates| candidates.chosen(&mut hoister))
-            .map(|Lowered { program, outputs }| (program, outputs))
-            .unzip();
+        let (mut functions, mut chosen, mut losses) = (Vec::new(), Vec::new(), Vec::new());
+        for candidates in candidates {
+            let Lowered { program, outputs, loss } = candidates.chosen(&mut hoister, trial);
+            functions.push(program);
+            chosen.push(outputs);
+            losses.push(loss);
+        }
         let (joined, of_joined) = lower_together(&mut hoister, candidates, &chosen, joined);
         let (tangents, expected_tangents) =
             wanted.by_state.map(|wanted| wanted.lower(&mut hoister, Kept::ValuesToo)).unzip();
@@ -65,6 +71,7 @@ impl<'g> Kernel<'g> {
         let kernel = Self {
             constants: program,
             functions,
+            losses,
             joined,
             tangents,
             by_parameters,

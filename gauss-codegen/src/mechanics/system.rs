@@ -125,9 +125,7 @@ impl<'g> System<'g> {
             let entries = body.mass_matrix(&body.momentum());
             return entries.chunks(self.scene.speeds.len()).map(<[Expr<'g>]>::to_vec).collect();
         }
-        let matrix = self.scene.tree.mass_matrix();
-        // Where links hang on one another entries are short as they are, and long multiplied out.
-        if self.scene.tree.is_chained() { grouped(&matrix) } else { tidied(&matrix) }
+        grouped(&self.scene.tree.mass_matrix())
     }
 
     /// The free link that is all of the system.
@@ -200,9 +198,9 @@ impl<'g> System<'g> {
         Arranged {
             acceleration: self.accelerations(&arrangements),
             momentum: self.with_tidied(momentum),
-            momentum_rate: velocity.iter().map(|z| self.momentum_rate(z, &arrangements[0])).collect(),
+            momentum_rate: velocity.iter().flat_map(|z| self.momentum_rates(z, &arrangements[0])).collect(),
             velocity,
-            mass_matrix: vec![self.matrix.concat()],
+            mass_matrix: self.with_tidied(self.matrix.concat()),
             kinetic_energy: self.kinetic_energies(),
             potential_energy: self.with_tidied(vec![self.potential_energy()]),
             constraint: arrangements.iter().map(|a| vec![self.constraint_function(a)]).collect(),
@@ -407,19 +405,19 @@ impl<'g> System<'g> {
         self.scene.tree.bracket()
     }
 
-    /// ṗ as a function of (t, q, p).
-    fn momentum_rate(&self, velocity: &[Expr<'g>], arrangement: &Arrangement<'g>) -> Vec<Expr<'g>> {
-        let mut bracket = self.bracket();
-        if !self.is_long() {
-            bracket.iter_mut().for_each(|e| *e = tidy(*e));
-        }
-        if !self.constraints.is_empty() {
-            bracket = sums(&bracket, &self.constraints.forces(&self.acceleration(arrangement).1));
-        }
+    /// ṗ as a function of (t, q, p), with the bracket multiplied out and as it is.
+    fn momentum_rates(&self, velocity: &[Expr<'g>], arrangement: &Arrangement<'g>) -> Vec<Vec<Expr<'g>>> {
         let of_momenta: Map<u32, Expr<'g>> =
             self.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
-        let rows = bracket.into_iter().zip(self.generalised_forces());
-        rows.map(|(bracket, force)| bracket.substitute(&of_momenta) + force.substitute(&of_momenta)).collect()
+        let constraints =
+            (!self.constraints.is_empty()).then(|| self.constraints.forces(&self.acceleration(arrangement).1));
+        let forces = self.generalised_forces();
+        let rate = |bracket: Vec<Expr<'g>>| -> Vec<Expr<'g>> {
+            let bracket = constraints.iter().fold(bracket, |bracket, forces| sums(&bracket, forces));
+            let rows = bracket.into_iter().zip(&forces);
+            rows.map(|(bracket, force)| bracket.substitute(&of_momenta) + force.substitute(&of_momenta)).collect()
+        };
+        self.with_tidied(self.bracket()).into_iter().map(rate).collect()
     }
 
     /// T, link by link and, where velocities are homogeneous in z, as ½ p·z.
