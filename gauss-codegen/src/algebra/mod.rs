@@ -8,6 +8,7 @@
 //!   and in proofs the relations of a rotation matrix). Equal expressions have equal normal forms, so this one decides
 //!   identities, cancels what can cancel, and is what a reader wants to see printed.
 
+mod cosines;
 mod differentiate;
 mod doubled;
 mod evaluate;

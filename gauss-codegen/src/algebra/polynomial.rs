@@ -92,8 +92,8 @@ impl PartialOrd for Monomial {
 /// Σ cᵢ · monomialᵢ in normal form.
 #[derive(Clone)]
 pub struct Polynomial<'g> {
-    graph: &'g Graph,
-    terms: BTreeMap<Monomial, Rational>,
+    pub(super) graph: &'g Graph,
+    pub(super) terms: BTreeMap<Monomial, Rational>,
 }
 
 impl PartialEq for Polynomial<'_> {
@@ -106,6 +106,8 @@ impl PartialEq for Polynomial<'_> {
 struct Expander<'g> {
     graph: &'g Graph,
     limit: usize,
+    /// Whether sums of moving symbols that are factors stay as they are written.
+    whole: bool,
     memo: Map<Id, Option<Rc<Polynomial<'g>>>>,
     denominators: Map<Id, Denominator<'g>>,
 }
@@ -119,7 +121,18 @@ struct Denominator<'g> {
 impl<'g> Expr<'g> {
     /// The normal form, or `None` when more than `limit` terms would be needed on the way.
     pub fn expand(self, limit: usize) -> Option<Polynomial<'g>> {
-        let mut expander = Expander { graph: self.graph, limit, memo: Map::default(), denominators: Map::default() };
+        self.multiplied_out(limit, false)
+    }
+
+    /// The same with sums of moving symbols and constants, such as `x − c`, as atoms where they are factors: what is multiplied out there
+    /// loses the digits of the difference.
+    pub fn expand_around_sums(self, limit: usize) -> Option<Polynomial<'g>> {
+        self.multiplied_out(limit, true)
+    }
+
+    fn multiplied_out(self, limit: usize, whole: bool) -> Option<Polynomial<'g>> {
+        let (memo, denominators) = Default::default();
+        let mut expander = Expander { graph: self.graph, limit, whole, memo, denominators };
         expander.expand(self).map(|p| (*p).clone())
     }
 
@@ -128,6 +141,15 @@ impl<'g> Expr<'g> {
     pub fn collected(self, limit: usize) -> Self {
         self.expand(limit).map_or(self, |p| p.collect())
     }
+}
+
+/// Σ cᵢ sᵢ of symbols of which one moves at least, with constants of any kind.
+fn is_written_sum(e: Expr<'_>) -> bool {
+    let NodeView::Sum(terms) = e.view() else { return false };
+    let mut memo = Map::default();
+    let (fixed, moving): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, e)| e.is_constant(&mut memo));
+    let symbols = moving.iter().all(|(_, e)| matches!(e.view(), NodeView::Symbol(_)));
+    symbols && !moving.is_empty() && fixed.len() + moving.len() > 1
 }
 
 impl<'g> Expander<'g> {
@@ -162,6 +184,10 @@ impl<'g> Expander<'g> {
                 let mut result = Polynomial::constant(self.graph, Rational::one());
                 // Powers of atoms first: cheap, and denominators then cancel as early as possible.
                 for (factor, exponent) in factors {
+                    if self.whole && is_written_sum(factor) {
+                        result = self.multiply(&result, &Polynomial::atom(factor, exponent))?;
+                        continue;
+                    }
                     let factor = self.expand(factor)?;
                     result = self.multiply_power(result, &factor, exponent)?;
                 }
@@ -363,7 +389,7 @@ impl<'g> Polynomial<'g> {
         self.terms.keys().max_by_key(|m| parts(m)).expect("a denominator has terms")
     }
 
-    fn monomial_expr(&self, monomial: &Monomial) -> Expr<'g> {
+    pub(super) fn monomial_expr(&self, monomial: &Monomial) -> Expr<'g> {
         self.graph.product(Rational::one(), monomial.0.iter().map(|&(id, n)| (self.graph.expr(id), n)))
     }
 

@@ -11,7 +11,7 @@ use crate::mechanics::links::tree::Inertia;
 use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, forces_of, potential_of};
 use crate::mechanics::scene::{Lettering, SystemScene};
-use crate::mechanics::tidy::{sums, tidy};
+use crate::mechanics::tidy::{compact, sums, tidy};
 
 /// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of links
 /// that do not, where a free body must be among them.
@@ -255,7 +255,7 @@ impl<'g> System<'g> {
 
     /// Multiplied out, where that is not long.
     fn tidied_too(&self, outputs: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
-        (!self.is_long()).then(|| outputs.iter().map(|e| tidy(*e)).collect())
+        (!self.is_long()).then(|| outputs.iter().map(|e| compact(*e)).collect())
     }
 
     /// Multiplied out as well, where that is not long.
@@ -263,7 +263,7 @@ impl<'g> System<'g> {
         if self.is_long() {
             return vec![outputs];
         }
-        vec![outputs.iter().map(|e| tidy(*e)).collect(), outputs]
+        vec![outputs.iter().map(|e| compact(*e)).collect(), outputs]
     }
 
     /// Whether multiplying out would be slow and of no use.
@@ -274,7 +274,7 @@ impl<'g> System<'g> {
 
     fn arrangements(&self) -> Vec<Arrangement<'g>> {
         let mut arrangements = Vec::new();
-        let tidy_all = |rows: &[Expr<'g>]| -> Vec<Expr<'g>> { rows.iter().map(|e| tidy(*e)).collect() };
+        let tidy_all = |rows: &[Expr<'g>]| -> Vec<Expr<'g>> { rows.iter().map(|e| compact(*e)).collect() };
         for &inertia in self.scene.tree.inertias(self.is_long()) {
             let residual = self.residual(&self.along, inertia);
             let still = self.residual(&self.scene.rates, inertia);
@@ -470,7 +470,7 @@ impl<'g> System<'g> {
 }
 
 fn tidied<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
-    matrix.iter().map(|row| row.iter().map(|e| tidy(*e)).collect()).collect()
+    matrix.iter().map(|row| row.iter().map(|e| compact(*e)).collect()).collect()
 }
 
 fn grouped<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
