@@ -392,7 +392,9 @@ impl<'g> System<'g> {
             if self.is_long() { value } else { tidy(value) }
         });
         let right: Vec<Expr<'g>> = self.scene.momenta.iter().zip(beside).map(|(symbol, p)| *symbol - p).collect();
-        self.solutions(&self.matrix, &right)
+        let compact = (!self.is_long()).then(|| tidied(&self.matrix));
+        let matrices = compact.iter().chain([&self.matrix]);
+        matrices.flat_map(|matrix| self.solutions(matrix, &right)).collect()
     }
 
     /// z = 0.
