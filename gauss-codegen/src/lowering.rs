@@ -60,7 +60,8 @@ fn states<'g>(translator: &Translator<'_, 'g>, formulation: &Formulation<'g>) ->
         units,
         definitions,
     };
-    sample_states(&states, STATES)
+    let count = std::env::var("GAUSS_STATES").ok().and_then(|x| x.parse().ok()).unwrap_or(STATES);
+    sample_states(&states, count)
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.

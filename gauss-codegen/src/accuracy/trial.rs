@@ -69,6 +69,27 @@ struct Reference {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loss(pub Vec<f64>);
 
+/// Round bounds of losses.
+const ROUND: [f64; 37] = {
+    let mut bounds = [0.0; 37];
+    let (mut k, mut power) = (0, 0.1);
+    while k < bounds.len() {
+        bounds[k] = power
+            * if k % 3 == 0 {
+                1.0
+            } else if k % 3 == 1 {
+                2.0
+            } else {
+                5.0
+            };
+        k += 1;
+        if k % 3 == 0 {
+            power *= 10.0;
+        }
+    }
+    bounds
+};
+
 impl Loss {
     /// The largest; zero of none.
     pub fn worst(&self) -> f64 {
@@ -80,6 +101,14 @@ impl Loss {
         let mut sorted = self.0.clone();
         sorted.sort_unstable_by(f64::total_cmp);
         sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// Worst and median, up to the next of 1, 2 and 5 times a power of ten: nothing at all where nothing was tried.
+    pub fn rounded(&self) -> [f64; 2] {
+        [self.worst(), self.median()].map(|loss| {
+            let round = ROUND.iter().copied().find(|round| loss <= *round).unwrap_or(f64::INFINITY);
+            if self.0.is_empty() { 0.0 } else { round }
+        })
     }
 }
 
@@ -138,18 +167,19 @@ impl Trial {
     }
 }
 
-/// Losses up to which there is nothing to choose: of a few dozen operations each of which rounds by half a unit, one can have that, and the
-/// next state gives another order.
-const NOTHING: f64 = 16.0;
-/// How many times the loss of the best a program may have at a state: one decimal place.
-const FACTOR: f64 = 10.0;
+/// How many times the loss of the best a program may have at a state, and what loss may be had anyhow. The errors of n roundings that do not
+/// amplify each other add up to some √n, and now and then to the one or to n: of programs of up to a thousand operations two that are equally
+/// good differ by that much, and at the next state the other way round.
+const FACTOR: f64 = 32.0;
+/// Results below this share of the largest vanish identically.
+const VANISHING: f64 = 1.0 / (1_u64 << 60) as f64;
 
 /// Which programs keep the digits: at every state not much more is lost than by the best there. Where each of them loses somewhere what another
 /// keeps, those that come closest.
 pub fn accurate(losses: &[Loss]) -> Vec<bool> {
     let states = losses.first().map_or(0, |loss| loss.0.len());
     let least = |state: usize| losses.iter().map(|loss| loss.0[state]).fold(f64::INFINITY, f64::min);
-    let allowed: Vec<f64> = (0..states).map(|state| FACTOR * least(state).max(NOTHING / FACTOR)).collect();
+    let allowed: Vec<f64> = (0..states).map(|state| FACTOR * least(state).max(1.0)).collect();
     let excess = |loss: &Loss| loss.0.iter().zip(&allowed).map(|(loss, allowed)| loss / allowed).fold(0.0, f64::max);
     let excesses: Vec<f64> = losses.iter().map(excess).collect();
     let limit = excesses.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
@@ -177,9 +207,14 @@ impl Point {
                 *square += change * change / CHANGES as f64;
             }
         }
-        let unit = |(square, value): (f64, &Doubled)| f64::EPSILON * (value.to_f64().abs() + square.sqrt());
-        let units: Vec<f64> = squares.into_iter().zip(&values).map(unit).collect();
-        let there = values.iter().all(|value| value.is_finite()) && units.iter().all(|unit| unit.is_finite());
+        let sizes = squares.into_iter().zip(&values).map(|(square, value)| value.to_f64().abs() + square.sqrt());
+        let mut sizes: Vec<f64> = sizes.collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        // What vanishes whatever the numbers are has no size of its own: it is as small as the roundings of the longer numbers.
+        sizes.iter_mut().filter(|size| **size <= VANISHING * largest).for_each(|size| *size = largest);
+        let units: Vec<f64> = sizes.into_iter().map(|size| f64::EPSILON * size).collect();
+        let there =
+            values.iter().all(|value| value.is_finite()) && units.iter().all(|unit| unit.is_finite() && *unit > 0.0);
         there.then_some(Reference { values, units })
     }
 }

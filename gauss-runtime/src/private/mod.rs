@@ -9,6 +9,7 @@ mod eigenvalues;
 mod poses;
 mod warnings;
 
+pub use crate::accuracy::{Accuracy, Loss};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
 pub use crate::configuration::Configuration;
 pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};

@@ -3,6 +3,7 @@
 //!
 //! `SCENES=2000 cargo test --release -p gauss-codegen accuracy` tries more of them than every run does.
 
+mod formulas;
 mod scenes;
 
 use crate::algebra::{Doubled, Evaluation, Expr, Function, Map, Number, Precise, Scalar};
