@@ -12,7 +12,7 @@ impl<'g> Polynomial<'g> {
         terms.restore_cosines();
         let mut denominators = Map::default();
         for (monomial, _) in &terms.terms {
-            for &(atom, _) in monomial.0.iter().filter(|&&(_, exponent)| exponent < 0) {
+            for &(atom, _) in monomial.factors.iter().filter(|&&(_, exponent)| exponent < 0) {
                 denominators.entry(atom).or_insert_with(|| restored(self.graph, atom));
             }
         }
@@ -34,7 +34,7 @@ impl<'g> Polynomial<'g> {
             self.terms.remove(&without);
             let NodeView::Call(_, argument) = self.graph.expr(sine).view() else { return };
             let cosine = self.graph.call(Function::Cos, argument);
-            self.add_term(without.times(&Monomial(vec![(cosine.id, 2)])), coefficient);
+            self.add_term(without.times(&Monomial::new(vec![(cosine.id, 2)])), coefficient);
         }
     }
 
@@ -42,8 +42,8 @@ impl<'g> Polynomial<'g> {
     fn pair(&self) -> Option<(Monomial, Monomial, Id)> {
         let is_sine = |id: Id| matches!(self.graph.node(id), Node::Call(Function::Sin, _));
         self.terms.iter().rev().find_map(|(monomial, coefficient)| {
-            monomial.0.iter().filter(|&&(atom, n)| n >= 2 && is_sine(atom)).find_map(|&(sine, _)| {
-                let without = monomial.over(&Monomial(vec![(sine, 2)]))?;
+            monomial.factors.iter().filter(|&&(atom, n)| n >= 2 && is_sine(atom)).find_map(|&(sine, _)| {
+                let without = monomial.over(&Monomial::new(vec![(sine, 2)]))?;
                 let other = self.terms.get(&without)?;
                 (*other == -*coefficient).then(|| (monomial.clone(), without, sine))
             })

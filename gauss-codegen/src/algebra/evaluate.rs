@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::graph::{BinaryFunction, Expr, Function, NodeView};
+use super::graph::{BinaryFunction, Expr, Function, Node, NodeView};
 use super::map::Map;
 use super::rational::Rational;
 
@@ -133,18 +133,27 @@ impl<'a, N: Number> Evaluation<'a, N> {
         if let Some(&known) = self.values.get(&e.key()) {
             return known;
         }
-        let value = match e.view() {
-            NodeView::Number(value) => N::fraction(value),
-            NodeView::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(N::number(f64::NAN)),
-            NodeView::Sum(terms) => {
-                terms.into_iter().fold(N::number(0.0), |sum, (c, e)| sum + N::fraction(c) * self.value(e))
+        let graph = e.graph();
+        let value = match graph.node(e.key()) {
+            Node::Number(value) => N::fraction(value),
+            Node::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(N::number(f64::NAN)),
+            Node::Sum(terms) => {
+                let mut sum = N::number(0.0);
+                for &(c, id) in terms.iter() {
+                    sum = sum + N::fraction(c) * self.value(graph.expr(id));
+                }
+                sum
             }
-            NodeView::Product(factors) => {
-                factors.into_iter().fold(N::number(1.0), |product, (e, n)| product * self.value(e).powi(n))
+            Node::Product(factors) => {
+                let mut product = N::number(1.0);
+                for &(id, n) in factors.iter() {
+                    product = product * self.value(graph.expr(id)).powi(n);
+                }
+                product
             }
-            NodeView::Call(function, e) => self.value(e).call(function),
-            NodeView::Binary(function, a, b) => self.value(a).call_with(function, self.value(b)),
-            NodeView::Group(e) | NodeView::Opaque(e) => self.value(e),
+            Node::Call(function, id) => self.value(graph.expr(id)).call(function),
+            Node::Binary(function, a, b) => self.value(graph.expr(a)).call_with(function, self.value(graph.expr(b))),
+            Node::Group(id) | Node::Opaque(id) => self.value(graph.expr(id)),
         };
         self.values.insert(e.key(), value);
         value
@@ -175,12 +184,22 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
         let rate = match e.view() {
             NodeView::Number(_) => zero,
             NodeView::Symbol(_) => self.direction.get(&e.key()).copied().unwrap_or(zero),
-            NodeView::Sum(terms) => terms.into_iter().fold(zero, |sum, (c, e)| sum + N::fraction(c) * self.along(e)),
+            NodeView::Sum(terms) => {
+                let mut sum = zero;
+                for (c, e) in terms {
+                    sum = sum + N::fraction(c) * self.along(e);
+                }
+                sum
+            }
             NodeView::Product(factors) => {
                 // (Π fᵢ^nᵢ)˙ by the product rule on (value, rate) pairs.
                 let (mut value, mut rate) = (N::number(1.0), zero);
                 for (e, n) in factors {
                     let (x, slope) = (self.values.value(e), self.along(e));
+                    if n == 1 {
+                        (value, rate) = (value * x, rate * x + value * slope);
+                        continue;
+                    }
                     let power = x.powi(n);
                     rate = rate * power + value * N::number(n.into()) * x.powi(n - 1) * slope;
                     value = value * power;

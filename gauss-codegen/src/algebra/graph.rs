@@ -1,6 +1,7 @@
 //! The expression graph: every distinct expression exists once, so equality is equality of indices and sharing is free.
 
 use std::cell::{Cell, RefCell};
+use std::collections::hash_map::Entry;
 use std::hash::{Hash, Hasher};
 use std::iter::Sum;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -80,8 +81,11 @@ pub struct Symbol {
 
 /// Index of a node in its graph. Children always have smaller indices than their parents.
 pub(super) type Id = u32;
+/// The numbers 0 and 1, which every graph begins with.
+const ZERO: Id = 0;
+const ONE: Id = 1;
 
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Node {
     Number(Rational),
     Symbol(u32),
@@ -95,6 +99,35 @@ pub(super) enum Node {
     Group(Id),
     /// A constant that is to be computed once and never looked into again, not even by the normal form.
     Opaque(Id),
+}
+
+/// In one word: hashing piece by piece is most of a look-up in unoptimised code.
+impl Hash for Node {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        /// Any odd number whose digits look random.
+        const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
+        let mut word = match self {
+            Node::Number(value) => value.hash_word(),
+            Node::Symbol(symbol) => 1 << 32 | u64::from(*symbol),
+            Node::Sum(_) => 2,
+            Node::Product(_) => 3,
+            Node::Call(function, id) => (4 + *function as u64) << 32 | u64::from(*id),
+            Node::Binary(function, a, b) => (64 + *function as u64) << 48 | u64::from(*a) << 24 ^ u64::from(*b),
+            Node::Group(id) => 128 << 32 | u64::from(*id),
+            Node::Opaque(id) => 129 << 32 | u64::from(*id),
+        };
+        if let Node::Sum(terms) = self {
+            for (c, id) in terms.iter() {
+                word = (word.rotate_left(5) ^ c.hash_word() ^ (*id as u64) << 32).wrapping_mul(SPREAD);
+            }
+        }
+        if let Node::Product(factors) = self {
+            for (id, n) in factors.iter() {
+                word = (word.rotate_left(5) ^ *n as u64 ^ (*id as u64) << 32).wrapping_mul(SPREAD);
+            }
+        }
+        state.write_u64(word);
+    }
 }
 
 /// What a node is, with its children as expressions.
@@ -112,6 +145,8 @@ pub enum NodeView<'g> {
 /// The arena of all expressions of one derivation.
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
+    /// Whether every symbol in a node is constant.
+    constant: RefCell<Vec<bool>>,
     index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
     undefined: Cell<bool>,
@@ -126,8 +161,8 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        let (nodes, index, symbols, undefined) = Default::default();
-        let graph = Self { nodes, index, symbols, undefined };
+        let (nodes, constant, index, symbols, undefined) = Default::default();
+        let graph = Self { nodes, constant, index, symbols, undefined };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
@@ -159,11 +194,11 @@ impl Graph {
     }
 
     pub fn zero(&self) -> Expr<'_> {
-        self.expr(0)
+        self.expr(ZERO)
     }
 
     pub fn one(&self) -> Expr<'_> {
-        self.expr(1)
+        self.expr(ONE)
     }
 
     pub fn integer(&self, value: i64) -> Expr<'_> {
@@ -178,15 +213,30 @@ impl Graph {
     }
 
     pub(super) fn intern(&self, node: Node) -> Expr<'_> {
-        let mut index = self.index.borrow_mut();
-        if let Some(&id) = index.get(&node) {
-            return Expr { graph: self, id };
-        }
-        let mut nodes = self.nodes.borrow_mut();
-        let id = nodes.len() as Id;
-        nodes.push(node.clone());
-        index.insert(node, id);
+        let id = match self.index.borrow_mut().entry(node) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(place) => {
+                let mut nodes = self.nodes.borrow_mut();
+                let id = nodes.len() as Id;
+                let constant = self.is_made_of_constants(place.key());
+                self.constant.borrow_mut().push(constant);
+                nodes.push(place.key().clone());
+                *place.insert(id)
+            }
+        };
         Expr { graph: self, id }
+    }
+
+    fn is_made_of_constants(&self, node: &Node) -> bool {
+        let known = self.constant.borrow();
+        match node {
+            Node::Number(_) => true,
+            Node::Symbol(symbol) => self.with_symbol(*symbol, |s| s.constant),
+            Node::Sum(terms) => terms.iter().all(|&(_, id)| known[id as usize]),
+            Node::Product(factors) => factors.iter().all(|&(id, _)| known[id as usize]),
+            Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => known[*id as usize],
+            Node::Binary(_, a, b) => known[*a as usize] && known[*b as usize],
+        }
     }
 
     pub(super) fn node(&self, id: Id) -> Node {
@@ -201,42 +251,65 @@ impl Graph {
     pub fn sum<'g>(&'g self, terms: impl IntoIterator<Item = (Rational, Expr<'g>)>) -> Expr<'g> {
         let mut flat: Vec<(Rational, Id)> = Vec::new();
         for (coefficient, term) in terms {
-            if coefficient.is_zero() {
+            self.push_term(&mut flat, coefficient, term.id);
+        }
+        self.collected_sum(flat)
+    }
+
+    fn push_term(&self, flat: &mut Vec<(Rational, Id)>, coefficient: Rational, id: Id) {
+        if coefficient.is_zero() {
+            return;
+        }
+        match &self.nodes.borrow()[id as usize] {
+            Node::Number(value) => flat.push((coefficient * *value, ONE)),
+            Node::Sum(inner) if coefficient.is_one() => flat.extend_from_slice(inner),
+            Node::Sum(inner) => {
+                for &(c, id) in inner.iter() {
+                    flat.push((coefficient * c, id));
+                }
+            }
+            _ => flat.push((coefficient, id)),
+        }
+    }
+
+    fn collected_sum(&self, mut terms: Vec<(Rational, Id)>) -> Expr<'_> {
+        sort_by_id(&mut terms, |&(_, id)| id);
+        let mut count = 0;
+        for k in 0..terms.len() {
+            let (c, id) = terms[k];
+            if count > 0 && terms[count - 1].1 == id {
+                terms[count - 1].0 = terms[count - 1].0.plus(c);
                 continue;
             }
-            match self.node(term.id) {
-                Node::Number(value) => flat.push((coefficient * value, self.one().id)),
-                Node::Sum(inner) => {
-                    flat.extend(inner.iter().map(|(c, id)| (coefficient * *c, *id)));
-                }
-                _ => flat.push((coefficient, term.id)),
+            // What has cancelled gives up its place.
+            if count > 0 && terms[count - 1].0.is_zero() {
+                count -= 1;
+            }
+            terms[count] = (c, id);
+            count += 1;
+        }
+        if count > 0 && terms[count - 1].0.is_zero() {
+            count -= 1;
+        }
+        terms.truncate(count);
+        for (c, _) in &terms {
+            if c.is_undefined() {
+                self.undefined.set(true);
             }
         }
-        flat.sort_by_key(|&(_, id)| id);
-        let mut collected: Vec<(Rational, Id)> = Vec::with_capacity(flat.len());
-        for (coefficient, id) in flat {
-            match collected.last_mut() {
-                Some(last) if last.1 == id => last.0 = last.0.plus(coefficient),
-                _ => collected.push((coefficient, id)),
-            }
-        }
-        collected.retain(|(c, _)| !c.is_zero());
-        if collected.iter().any(|(c, _)| c.is_undefined()) {
-            self.undefined.set(true);
-        }
-        match collected.as_slice() {
+        match terms[..] {
             [] => self.zero(),
-            [(c, id)] if *id == self.one().id => self.number(*c),
-            [(c, id)] if c.is_one() => self.expr(*id),
+            [(c, ONE)] => self.number(c),
+            [(c, id)] if c.is_one() => self.expr(id),
             // A multiple of a sum distributes, so that `2·(a + b)` and `2·a + 2·b` are one node.
-            [(c, id)] => match self.node(*id) {
+            [(c, id)] => match self.node(id) {
                 Node::Sum(inner) => {
-                    let terms = inner.iter().map(|&(d, id)| (*c * d, id)).collect();
+                    let terms = inner.iter().map(|&(d, id)| (c * d, id)).collect();
                     self.intern(Node::Sum(terms))
                 }
-                _ => self.intern(Node::Sum(collected.into())),
+                _ => self.intern(Node::Sum(terms.into())),
             },
-            _ => self.intern(Node::Sum(collected.into())),
+            _ => self.intern(Node::Sum(terms.into())),
         }
     }
 
@@ -252,48 +325,100 @@ impl Graph {
         for (factor, exponent) in factors {
             self.push_factor(&mut coefficient, &mut flat, factor.id, exponent);
         }
-        flat.sort_by_key(|&(id, _)| id);
-        let mut collected: Vec<(Id, i32)> = Vec::with_capacity(flat.len());
-        for (id, exponent) in flat {
-            match collected.last_mut() {
-                Some(last) if last.0 == id => last.1 += exponent,
-                _ => collected.push((id, exponent)),
+        self.collected_product(coefficient, flat)
+    }
+
+    fn collected_product(&self, coefficient: Rational, mut factors: Vec<(Id, i32)>) -> Expr<'_> {
+        sort_by_id(&mut factors, |&(id, _)| id);
+        let mut count = 0;
+        for k in 0..factors.len() {
+            let (id, n) = factors[k];
+            if count > 0 && factors[count - 1].0 == id {
+                factors[count - 1].1 += n;
+                continue;
             }
+            if count > 0 && factors[count - 1].1 == 0 {
+                count -= 1;
+            }
+            factors[count] = (id, n);
+            count += 1;
         }
-        collected.retain(|&(_, n)| n != 0);
-        let base = match collected.as_slice() {
+        if count > 0 && factors[count - 1].1 == 0 {
+            count -= 1;
+        }
+        factors.truncate(count);
+        let base = match factors[..] {
             [] => return self.number(coefficient),
-            [(id, 1)] => self.expr(*id),
-            _ => self.intern(Node::Product(collected.into())),
+            [(id, 1)] => self.expr(id),
+            _ => self.intern(Node::Product(factors.into())),
         };
-        self.sum([(coefficient, base)])
+        if coefficient.is_one() { base } else { base.scale(coefficient) }
     }
 
     fn push_factor(&self, coefficient: &mut Rational, flat: &mut Vec<(Id, i32)>, id: Id, exponent: i32) {
-        match self.node(id) {
+        let terms = match &self.nodes.borrow()[id as usize] {
             Node::Number(value) => {
                 *coefficient *= value.pow(exponent);
+                return;
             }
-            Node::Product(inner) => flat.extend(inner.iter().map(|&(id, n)| (id, n * exponent))),
-            Node::Sum(terms) => {
-                let content = self.content(&terms);
-                *coefficient *= content.pow(exponent);
-                if let [(_, only)] = terms.as_ref() {
-                    self.push_factor(coefficient, flat, *only, exponent);
-                } else {
-                    let scale = content.recip();
-                    let primitive = terms.iter().map(|&(c, id)| (scale * c, id)).collect();
-                    flat.push((self.intern(Node::Sum(primitive)).id, exponent));
+            Node::Product(inner) => {
+                for &(id, n) in inner.iter() {
+                    flat.push((id, n * exponent));
                 }
+                return;
             }
-            _ => flat.push((id, exponent)),
+            Node::Sum(terms) => Rc::clone(terms),
+            _ => {
+                flat.push((id, exponent));
+                return;
+            }
+        };
+        let content = self.content(&terms);
+        *coefficient *= content.pow(exponent);
+        if let [(_, only)] = terms.as_ref() {
+            self.push_factor(coefficient, flat, *only, exponent);
+        } else if content.is_one() {
+            flat.push((id, exponent));
+        } else {
+            let scale = content.recip();
+            let primitive = terms.iter().map(|&(c, id)| (scale * c, id)).collect();
+            flat.push((self.intern(Node::Sum(primitive)).id, exponent));
         }
     }
 
     /// The rational content of a sum: greatest common divisor of the coefficients, with the sign of the first.
     fn content(&self, terms: &[(Rational, Id)]) -> Rational {
-        let content = terms.iter().fold(Rational::zero(), |content, (c, _)| content.common_divisor(*c));
+        let mut content = Rational::zero();
+        for &(c, _) in terms {
+            content = content.common_divisor(c);
+        }
         if terms[0].0.is_negative() { -content } else { content }
+    }
+
+    /// Powers that all terms have in common.
+    fn common_factors(&self, terms: &[(Rational, Id)]) -> Vec<(Id, i32)> {
+        let nodes = self.nodes.borrow();
+        let mut common = match &nodes[terms[0].1 as usize] {
+            Node::Product(factors) => factors.to_vec(),
+            _ => vec![(terms[0].1, 1)],
+        };
+        for &(_, id) in &terms[1..] {
+            let single = [(id, 1)];
+            let factors = match &nodes[id as usize] {
+                Node::Product(factors) => factors.as_ref(),
+                _ => single.as_slice(),
+            };
+            common.retain_mut(|(f, n)| {
+                let Some(&(_, m)) = factors.iter().find(|(g, _)| g == f) else { return false };
+                let shared = n.signum() == m.signum();
+                *n = if *n > 0 { (*n).min(m) } else { (*n).max(m) };
+                shared
+            });
+            if common.is_empty() {
+                break;
+            }
+        }
+        common
     }
 
     /// A function of an expression, with the values at zero and one and the parity of sine and cosine taken care of.
@@ -352,14 +477,14 @@ impl<'g> Expr<'g> {
     }
 
     pub fn as_number(self) -> Option<Rational> {
-        match self.graph.node(self.id) {
-            Node::Number(value) => Some(value),
+        match &self.graph.nodes.borrow()[self.id as usize] {
+            Node::Number(value) => Some(*value),
             _ => None,
         }
     }
 
     pub fn is_zero(self) -> bool {
-        self.as_number().is_some_and(|value| value.is_zero())
+        self.id == ZERO
     }
 
     pub fn powi(self, exponent: i32) -> Self {
@@ -371,7 +496,26 @@ impl<'g> Expr<'g> {
     }
 
     pub fn scale(self, factor: Rational) -> Self {
-        self.graph.sum([(factor, self)])
+        if self.id == ZERO || factor.is_one() {
+            return self;
+        }
+        let mut terms = Vec::new();
+        self.graph.push_term(&mut terms, factor, self.id);
+        self.graph.collected_sum(terms)
+    }
+
+    /// self + factor · other.
+    fn plus_multiple(self, factor: Rational, other: Self) -> Self {
+        if other.id == ZERO {
+            return self;
+        }
+        if self.id == ZERO {
+            return other.scale(factor);
+        }
+        let mut terms = Vec::with_capacity(4);
+        self.graph.push_term(&mut terms, Rational::one(), self.id);
+        self.graph.push_term(&mut terms, factor, other.id);
+        self.graph.collected_sum(terms)
     }
 
     pub fn half(self) -> Self {
@@ -413,23 +557,12 @@ impl<'g> Expr<'g> {
         if terms.len() < 2 {
             return self;
         }
-        let factors_of = |id: Id| match self.graph.node(id) {
-            Node::Product(factors) => factors.to_vec(),
-            _ => vec![(id, 1)],
-        };
-        let mut common = factors_of(terms[0].1);
-        for (_, id) in &terms[1..] {
-            let factors = factors_of(*id);
-            common = common
-                .into_iter()
-                .filter_map(|(f, n)| {
-                    let m = factors.iter().find(|(g, _)| *g == f)?.1;
-                    (n.signum() == m.signum()).then(|| (f, if n > 0 { n.min(m) } else { n.max(m) }))
-                })
-                .collect();
+        let common = self.graph.common_factors(&terms);
+        let content = self.graph.content(&terms);
+        if common.is_empty() && content.is_one() {
+            return self.graph.intern(Node::Group(self.id));
         }
         let common: Vec<_> = common.into_iter().map(|(id, n)| (self.graph.expr(id), n)).collect();
-        let content = self.graph.content(&terms);
         let divisor = self.graph.product(content, common.iter().copied());
         let inverse = divisor.recip();
         let primitive = self.graph.sum(terms.iter().map(|&(c, id)| (c, self.graph.expr(id) * inverse)));
@@ -484,41 +617,62 @@ impl<'g> Expr<'g> {
         if let Some(&done) = memo.get(&self.id) {
             return done;
         }
-        let result = match self.view() {
-            NodeView::Number(_) => self,
-            NodeView::Symbol(_) => leaf(self).unwrap_or(self),
-            NodeView::Sum(terms) => {
-                let terms: Vec<_> = terms.into_iter().map(|(c, e)| (c, e.rebuild(memo, leaf))).collect();
-                self.graph.sum(terms)
+        let graph = self.graph;
+        let at = |id: Id| graph.expr(id);
+        // What holds nothing that is replaced stays as it is.
+        let result = match graph.node(self.id) {
+            Node::Number(_) => self,
+            Node::Symbol(_) => leaf(self).unwrap_or(self),
+            Node::Sum(terms) => {
+                let mut flat = Vec::with_capacity(terms.len());
+                let mut changed = false;
+                for &(c, id) in terms.iter() {
+                    let term = at(id).rebuild(memo, leaf).id;
+                    changed |= term != id;
+                    graph.push_term(&mut flat, c, term);
+                }
+                if changed { graph.collected_sum(flat) } else { self }
             }
-            NodeView::Product(factors) => {
-                let factors: Vec<_> = factors.into_iter().map(|(e, n)| (e.rebuild(memo, leaf), n)).collect();
-                self.graph.product(Rational::one(), factors)
+            Node::Product(factors) => {
+                let (mut coefficient, mut flat) = (Rational::one(), Vec::with_capacity(factors.len()));
+                let mut changed = false;
+                for &(id, n) in factors.iter() {
+                    let factor = at(id).rebuild(memo, leaf).id;
+                    changed |= factor != id;
+                    graph.push_factor(&mut coefficient, &mut flat, factor, n);
+                }
+                if changed { graph.collected_product(coefficient, flat) } else { self }
             }
-            NodeView::Call(function, argument) => self.graph.call(function, argument.rebuild(memo, leaf)),
-            NodeView::Binary(function, a, b) => a.rebuild(memo, leaf).binary(function, b.rebuild(memo, leaf)),
-            NodeView::Group(inner) => inner.rebuild(memo, leaf).group(),
-            NodeView::Opaque(inner) => inner.rebuild(memo, leaf).opaque(),
+            Node::Call(function, argument) => graph.call(function, at(argument).rebuild(memo, leaf)),
+            Node::Binary(function, a, b) => at(a).rebuild(memo, leaf).binary(function, at(b).rebuild(memo, leaf)),
+            Node::Group(inner) => at(inner).rebuild(memo, leaf).group(),
+            Node::Opaque(inner) => at(inner).rebuild(memo, leaf).opaque(),
         };
         memo.insert(self.id, result);
         result
     }
 
     /// True when every symbol in it is constant.
-    pub fn is_constant(self, memo: &mut Map<u32, bool>) -> bool {
-        if let Some(&known) = memo.get(&self.id) {
-            return known;
-        }
-        let result = match self.view() {
-            NodeView::Number(_) => true,
-            NodeView::Symbol(symbol) => self.graph.with_symbol(symbol, |s| s.constant),
-            NodeView::Sum(terms) => terms.into_iter().all(|(_, e)| e.is_constant(memo)),
-            NodeView::Product(factors) => factors.into_iter().all(|(e, _)| e.is_constant(memo)),
-            NodeView::Call(_, e) | NodeView::Group(e) | NodeView::Opaque(e) => e.is_constant(memo),
-            NodeView::Binary(_, a, b) => a.is_constant(memo) && b.is_constant(memo),
-        };
-        memo.insert(self.id, result);
-        result
+    pub fn is_constant(self) -> bool {
+        self.graph.constant.borrow()[self.id as usize]
+    }
+}
+
+/// Symbols to be replaced in many expressions, with what has been rebuilt so far.
+pub struct Substitution<'g> {
+    replacement: Map<u32, Expr<'g>>,
+    rebuilt: RefCell<Map<Id, Expr<'g>>>,
+}
+
+impl<'g> Substitution<'g> {
+    /// By the keys of the symbols.
+    pub fn new(replacement: Map<u32, Expr<'g>>) -> Self {
+        Self { replacement, rebuilt: RefCell::default() }
+    }
+
+    /// The expression with the symbols replaced. Groups stay groups.
+    pub fn of(&self, e: Expr<'g>) -> Expr<'g> {
+        e.rebuild(&mut self.rebuilt.borrow_mut(), &|symbol| self.replacement.get(&symbol.id).copied())
     }
 }
 
@@ -539,28 +693,37 @@ impl Hash for Expr<'_> {
 impl<'g> Add for Expr<'g> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        self.graph.sum([(Rational::one(), self), (Rational::one(), other)])
+        self.plus_multiple(Rational::one(), other)
     }
 }
 
 impl<'g> Sub for Expr<'g> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        self.graph.sum([(Rational::one(), self), (-Rational::one(), other)])
+        self.plus_multiple(Rational::from_integer(-1), other)
     }
 }
 
 impl<'g> Mul for Expr<'g> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        self.graph.product(Rational::one(), [(self, 1), (other, 1)])
+        // Most products of mechanics are with zeros and ones of rotations and unit vectors.
+        match (self.id, other.id) {
+            (ZERO, _) | (_, ONE) => return self,
+            (_, ZERO) | (ONE, _) => return other,
+            _ => {}
+        }
+        let (mut coefficient, mut factors) = (Rational::one(), Vec::with_capacity(4));
+        self.graph.push_factor(&mut coefficient, &mut factors, self.id, 1);
+        self.graph.push_factor(&mut coefficient, &mut factors, other.id, 1);
+        self.graph.collected_product(coefficient, factors)
     }
 }
 
 impl Neg for Expr<'_> {
     type Output = Self;
     fn neg(self) -> Self {
-        self.scale(-Rational::one())
+        self.scale(Rational::from_integer(-1))
     }
 }
 
@@ -568,7 +731,29 @@ impl Neg for Expr<'_> {
 impl<'g> Sum for Expr<'g> {
     fn sum<I: Iterator<Item = Self>>(mut terms: I) -> Self {
         let first = terms.next().expect("a sum of expressions has at least one term");
-        let graph = first.graph;
-        graph.sum(std::iter::once(first).chain(terms).map(|e| (Rational::one(), e)))
+        let mut flat = Vec::new();
+        first.graph.push_term(&mut flat, Rational::one(), first.id);
+        for term in terms {
+            first.graph.push_term(&mut flat, Rational::one(), term.id);
+        }
+        first.graph.collected_sum(flat)
+    }
+}
+
+/// Sorts terms or factors by what they are: short lists, and nearly in order.
+fn sort_by_id<T: Copy>(list: &mut [T], id: impl Fn(&T) -> Id) {
+    /// Beyond, insertion takes longer than merging.
+    const SHORT: usize = 24;
+    if list.len() > SHORT {
+        list.sort_by_key(id);
+        return;
+    }
+    for k in 1..list.len() {
+        let (moved, mut place) = (list[k], k);
+        while place > 0 && id(&list[place - 1]) > id(&moved) {
+            list[place] = list[place - 1];
+            place -= 1;
+        }
+        list[place] = moved;
     }
 }

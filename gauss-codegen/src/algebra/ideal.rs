@@ -93,10 +93,13 @@ fn subtract<'g>(from: &mut Polynomial<'g>, g: &Polynomial<'g>, monomial: &Monomi
 /// The combination in which the leading terms cancel; `None` when they are coprime and it reduces to zero anyway.
 fn s_polynomial<'g>(a: &Polynomial<'g>, b: &Polynomial<'g>) -> Option<Polynomial<'g>> {
     let ((la, ca), (lb, cb)) = (leading(a), leading(b));
-    let shared = Monomial(
-        la.0.iter().filter_map(|&(atom, n)| lb.0.iter().find(|f| f.0 == atom).map(|f| (atom, n.min(f.1)))).collect(),
+    let shared = Monomial::new(
+        la.factors
+            .iter()
+            .filter_map(|&(atom, n)| lb.factors.iter().find(|f| f.0 == atom).map(|f| (atom, n.min(f.1))))
+            .collect(),
     );
-    if shared.0.is_empty() {
+    if shared.factors.is_empty() {
         return None;
     }
     let (fa, fb) = (lb.over(&shared)?, la.over(&shared)?);

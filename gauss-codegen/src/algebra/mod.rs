@@ -27,10 +27,10 @@ mod tests;
 
 pub use doubled::Doubled;
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
-pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView};
+pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView, Substitution};
 pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
-pub use map::Map;
-pub use polynomial::Polynomial;
+pub use map::{Map, Set};
+pub use polynomial::{Expander, Polynomial};
 pub use precise::Precise;
 pub use print::{Notation, decimal, print};
 pub use rational::Rational;

@@ -5,23 +5,40 @@
 //! with leading monomial lm(S) (graded order, cosines before all else); both lower the order of the monomial, so they
 //! terminate.
 
-use super::map::Map;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::graph::{Expr, Function, Graph, Id, Node, NodeView};
+use super::map::Map;
 use super::rational::Rational;
 
 /// Π atomᵢ^nᵢ, sorted by atom, exponents nonzero.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
-pub struct Monomial(pub(super) Vec<(Id, i32)>);
+pub struct Monomial {
+    /// Σ nᵢ.
+    degree: i32,
+    pub(super) factors: Vec<(Id, i32)>,
+}
 
 impl Monomial {
+    pub(super) fn new(factors: Vec<(Id, i32)>) -> Self {
+        let mut degree = 0;
+        for &(_, n) in &factors {
+            degree += n;
+        }
+        Self { degree, factors }
+    }
+
     pub(super) fn times(&self, other: &Self) -> Self {
+        if other.factors.is_empty() {
+            return self.clone();
+        }
+        let (own, others) = (self.factors.as_slice(), other.factors.as_slice());
         let (mut i, mut j) = (0, 0);
-        let mut factors = Vec::with_capacity(self.0.len() + other.0.len());
-        while i < self.0.len() && j < other.0.len() {
-            let (a, b) = (self.0[i], other.0[j]);
+        let mut factors = Vec::with_capacity(own.len() + others.len());
+        while i < own.len() && j < others.len() {
+            let (a, b) = (own[i], others[j]);
             if a.0 < b.0 {
                 factors.push(a);
                 i += 1;
@@ -36,19 +53,19 @@ impl Monomial {
                 j += 1;
             }
         }
-        factors.extend_from_slice(&self.0[i..]);
-        factors.extend_from_slice(&other.0[j..]);
-        Self(factors)
+        factors.extend_from_slice(&own[i..]);
+        factors.extend_from_slice(&others[j..]);
+        Self { degree: self.degree + other.degree, factors }
     }
 
     pub(super) fn degree(&self) -> i32 {
-        self.0.iter().map(|&(_, n)| n).sum()
+        self.degree
     }
 
     /// `self / divisor` when the exponents of the divisor's atoms allow it.
     pub(super) fn over(&self, divisor: &Self) -> Option<Self> {
-        let mut factors = self.0.clone();
-        for &(atom, n) in &divisor.0 {
+        let mut factors = self.factors.clone();
+        for &(atom, n) in &divisor.factors {
             let factor = factors.iter_mut().find(|f| f.0 == atom)?;
             if factor.1 < n {
                 return None;
@@ -56,35 +73,39 @@ impl Monomial {
             factor.1 -= n;
         }
         factors.retain(|&(_, n)| n != 0);
-        Some(Self(factors))
+        Some(Self { degree: self.degree - divisor.degree, factors })
     }
 }
 
 /// Graded lexicographic order; an earlier atom counts as larger.
 impl Ord for Monomial {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.degree().cmp(&other.degree()).then_with(|| {
-            for (a, b) in self.0.iter().zip(&other.0) {
-                if a.0 != b.0 {
-                    // The one whose first differing atom comes earlier has it to a positive power, the other to none.
-                    return if a.0 < b.0 { a.1.cmp(&0) } else { 0.cmp(&b.1) };
-                }
-                if a.1 != b.1 {
-                    return a.1.cmp(&b.1);
-                }
+    fn cmp(&self, other: &Self) -> Ordering {
+        if self.degree != other.degree {
+            return self.degree.cmp(&other.degree);
+        }
+        let (own, others) = (self.factors.as_slice(), other.factors.as_slice());
+        let mut k = 0;
+        while k < own.len() && k < others.len() {
+            let (a, b) = (own[k], others[k]);
+            if a.0 != b.0 {
+                // The one whose first differing atom comes earlier has it to a positive power, the other to none.
+                return if a.0 < b.0 { a.1.cmp(&0) } else { 0.cmp(&b.1) };
             }
-            let (n, m) = (self.0.len(), other.0.len());
-            match n.cmp(&m) {
-                std::cmp::Ordering::Equal => std::cmp::Ordering::Equal,
-                std::cmp::Ordering::Greater => self.0[m].1.cmp(&0),
-                std::cmp::Ordering::Less => 0.cmp(&other.0[n].1),
+            if a.1 != b.1 {
+                return a.1.cmp(&b.1);
             }
-        })
+            k += 1;
+        }
+        match own.len().cmp(&others.len()) {
+            Ordering::Equal => Ordering::Equal,
+            Ordering::Greater => own[k].1.cmp(&0),
+            Ordering::Less => 0.cmp(&others[k].1),
+        }
     }
 }
 
 impl PartialOrd for Monomial {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
@@ -103,7 +124,7 @@ impl PartialEq for Polynomial<'_> {
 }
 
 /// Multiplies expressions out, remembering what it has seen.
-struct Expander<'g> {
+pub struct Expander<'g> {
     graph: &'g Graph,
     limit: usize,
     /// Whether sums of moving symbols that are factors stay as they are written.
@@ -121,19 +142,19 @@ struct Denominator<'g> {
 impl<'g> Expr<'g> {
     /// The normal form, or `None` when more than `limit` terms would be needed on the way.
     pub fn expand(self, limit: usize) -> Option<Polynomial<'g>> {
-        self.multiplied_out(limit, false)
+        let mut expander = Expander::new(self.graph, limit);
+        let polynomial = expander.expand(self)?;
+        drop(expander);
+        Some(Rc::unwrap_or_clone(polynomial))
     }
 
     /// The same with sums of moving symbols and constants, such as `x − c`, as atoms where they are factors: what is multiplied out there
     /// loses the digits of the difference.
     pub fn expand_around_sums(self, limit: usize) -> Option<Polynomial<'g>> {
-        self.multiplied_out(limit, true)
-    }
-
-    fn multiplied_out(self, limit: usize, whole: bool) -> Option<Polynomial<'g>> {
-        let (memo, denominators) = Default::default();
-        let mut expander = Expander { graph: self.graph, limit, whole, memo, denominators };
-        expander.expand(self).map(|p| (*p).clone())
+        let mut expander = Expander { whole: true, ..Expander::new(self.graph, limit) };
+        let polynomial = expander.expand(self)?;
+        drop(expander);
+        Some(Rc::unwrap_or_clone(polynomial))
     }
 
     /// The normal form written back as an expression: constants gathered in front of each monomial of what varies.
@@ -146,66 +167,78 @@ impl<'g> Expr<'g> {
 /// Σ cᵢ sᵢ of symbols of which one moves at least, with constants of any kind.
 fn is_written_sum(e: Expr<'_>) -> bool {
     let NodeView::Sum(terms) = e.view() else { return false };
-    let mut memo = Map::default();
-    let (fixed, moving): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, e)| e.is_constant(&mut memo));
+    let (fixed, moving): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, e)| e.is_constant());
     let symbols = moving.iter().all(|(_, e)| matches!(e.view(), NodeView::Symbol(_)));
     symbols && !moving.is_empty() && fixed.len() + moving.len() > 1
 }
 
 impl<'g> Expander<'g> {
-    fn expand(&mut self, e: Expr<'g>) -> Option<Rc<Polynomial<'g>>> {
+    /// `limit` is the number of terms that may be needed on the way.
+    pub fn new(graph: &'g Graph, limit: usize) -> Self {
+        Self { graph, limit, whole: false, memo: Map::default(), denominators: Map::default() }
+    }
+
+    /// The normal form, or `None` when more terms would be needed on the way.
+    pub fn expand(&mut self, e: Expr<'g>) -> Option<Rc<Polynomial<'g>>> {
         if let Some(done) = self.memo.get(&e.id) {
             return done.clone();
         }
-        let result = self.expand_new(e).map(Rc::new);
+        let result = self.expand_new(e);
         self.memo.insert(e.id, result.clone());
         result
     }
 
-    fn expand_new(&mut self, e: Expr<'g>) -> Option<Polynomial<'g>> {
-        match e.view() {
-            NodeView::Number(value) => Some(Polynomial::constant(self.graph, value)),
-            NodeView::Symbol(_) | NodeView::Opaque(_) => Some(Polynomial::atom(e, 1)),
-            NodeView::Group(inner) => self.expand(inner).map(|p| (*p).clone()),
-            NodeView::Sum(terms) => {
-                let mut result = Polynomial::zero(self.graph);
-                for (c, term) in terms {
-                    let term = self.expand(term)?;
-                    for (m, d) in &term.terms {
-                        result.add_term(m.clone(), c * *d);
-                    }
-                    if result.terms.len() > self.limit {
-                        return None;
-                    }
-                }
-                Some(result)
-            }
-            NodeView::Product(factors) => {
-                let mut result = Polynomial::constant(self.graph, Rational::one());
-                // Powers of atoms first: cheap, and denominators then cancel as early as possible.
-                for (factor, exponent) in factors {
-                    if self.whole && is_written_sum(factor) {
-                        result = self.multiply(&result, &Polynomial::atom(factor, exponent))?;
-                        continue;
-                    }
-                    let factor = self.expand(factor)?;
-                    result = self.multiply_power(result, &factor, exponent)?;
-                }
-                Some(result)
-            }
-            NodeView::Call(function, argument) => {
-                let argument = self.expand(argument)?.to_expr();
+    fn expand_new(&mut self, e: Expr<'g>) -> Option<Rc<Polynomial<'g>>> {
+        let polynomial = match self.graph.node(e.id) {
+            Node::Number(value) => Polynomial::constant(self.graph, value),
+            Node::Symbol(_) | Node::Opaque(_) => Polynomial::atom(e, 1),
+            Node::Group(inner) => return self.expand(self.graph.expr(inner)),
+            Node::Sum(terms) => self.expand_sum(&terms)?,
+            Node::Product(factors) => self.expand_product(&factors)?,
+            Node::Call(function, argument) => {
+                let argument = self.expand(self.graph.expr(argument))?.to_expr();
                 let call = self.graph.call(function, argument);
                 match call.view() {
-                    NodeView::Call(..) => Some(Polynomial::atom(call, 1)),
-                    _ => self.expand(call).map(|p| (*p).clone()),
+                    NodeView::Call(..) => Polynomial::atom(call, 1),
+                    _ => return self.expand(call),
                 }
             }
-            NodeView::Binary(function, a, b) => {
+            Node::Binary(function, a, b) => {
+                let [a, b] = [a, b].map(|id| self.graph.expr(id));
                 let (a, b) = (self.expand(a)?.to_expr(), self.expand(b)?.to_expr());
-                Some(Polynomial::atom(a.binary(function, b), 1))
+                Polynomial::atom(a.binary(function, b), 1)
+            }
+        };
+        Some(Rc::new(polynomial))
+    }
+
+    fn expand_sum(&mut self, terms: &[(Rational, Id)]) -> Option<Polynomial<'g>> {
+        let mut result = Polynomial::zero(self.graph);
+        for &(c, term) in terms {
+            let term = self.expand(self.graph.expr(term))?;
+            for (m, d) in &term.terms {
+                result.add_term(m.clone(), c * *d);
+            }
+            if result.terms.len() > self.limit {
+                return None;
             }
         }
+        Some(result)
+    }
+
+    fn expand_product(&mut self, factors: &[(Id, i32)]) -> Option<Polynomial<'g>> {
+        let mut result = Polynomial::constant(self.graph, Rational::one());
+        // Powers of atoms first: cheap, and denominators then cancel as early as possible.
+        for &(factor, exponent) in factors {
+            let factor = self.graph.expr(factor);
+            if self.whole && is_written_sum(factor) {
+                result = self.multiply(&result, &Polynomial::atom(factor, exponent))?;
+                continue;
+            }
+            let factor = self.expand(factor)?;
+            result = self.multiply_power(result, &factor, exponent)?;
+        }
+        Some(result)
     }
 
     fn multiply_power(
@@ -216,7 +249,7 @@ impl<'g> Expander<'g> {
     ) -> Option<Polynomial<'g>> {
         // A single monomial has every power, also the negative ones.
         if let Some((monomial, coefficient)) = factor.as_single_term() {
-            let power = Monomial(monomial.0.iter().map(|&(a, n)| (a, n * exponent)).collect());
+            let power = Monomial::new(monomial.factors.iter().map(|&(a, n)| (a, n * exponent)).collect());
             let single = Polynomial::term(self.graph, power, coefficient.pow(exponent));
             return self.multiply(&base, &single);
         }
@@ -239,11 +272,11 @@ impl<'g> Expander<'g> {
         let primitive = factor.scaled_to(self.graph.expr(atom));
         let content = factor.ratio_to(&primitive);
         // The order is a well-order on proper monomials only: a denominator with denominators inside stays an atom.
-        if primitive.terms.keys().all(|m| m.0.iter().all(|&(_, n)| n > 0)) {
+        if primitive.terms.keys().all(|m| m.factors.iter().all(|&(_, n)| n > 0)) {
             let leading = primitive.leading_monomial().clone();
             self.denominators.insert(atom, Denominator { sum: primitive, leading });
         }
-        let single = Polynomial::term(self.graph, Monomial(vec![(atom, exponent)]), content.pow(exponent));
+        let single = Polynomial::term(self.graph, Monomial::new(vec![(atom, exponent)]), content.pow(exponent));
         self.multiply(&base, &single)
     }
 
@@ -262,16 +295,16 @@ impl<'g> Expander<'g> {
 
     /// Adds a term after rewriting it by the rules of its atoms.
     fn add_reduced(&self, result: &mut Polynomial<'g>, monomial: Monomial, coefficient: Rational) {
-        for (k, &(atom, n)) in monomial.0.iter().enumerate() {
+        for (k, &(atom, n)) in monomial.factors.iter().enumerate() {
             if n >= 2
                 && let Node::Call(Function::Cos, argument) = self.graph.node(atom)
             {
                 let sine = self.graph.call(Function::Sin, self.graph.expr(argument));
-                let mut rest = monomial.0.clone();
+                let mut rest = monomial.factors.clone();
                 rest[k].1 -= 2;
                 rest.retain(|&(_, n)| n != 0);
-                let rest = Monomial(rest);
-                self.add_reduced(result, rest.times(&Monomial(vec![(sine.id, 2)])), -coefficient);
+                let rest = Monomial::new(rest);
+                self.add_reduced(result, rest.times(&Monomial::new(vec![(sine.id, 2)])), -coefficient);
                 self.add_reduced(result, rest, coefficient);
                 return;
             }
@@ -281,7 +314,7 @@ impl<'g> Expander<'g> {
                 let Denominator { sum, leading } = denominator;
                 if let Some(rest) = monomial.over(leading) {
                     let coefficient = coefficient * sum.terms[leading].recip();
-                    self.add_reduced(result, rest.times(&Monomial(vec![(atom, 1)])), coefficient);
+                    self.add_reduced(result, rest.times(&Monomial::new(vec![(atom, 1)])), coefficient);
                     for (m, c) in &sum.terms {
                         if m != leading {
                             let c = -(coefficient * *c);
@@ -306,7 +339,7 @@ impl<'g> Polynomial<'g> {
     }
 
     fn atom(e: Expr<'g>, exponent: i32) -> Self {
-        Self::term(e.graph, Monomial(vec![(e.id, exponent)]), Rational::one())
+        Self::term(e.graph, Monomial::new(vec![(e.id, exponent)]), Rational::one())
     }
 
     fn term(graph: &'g Graph, monomial: Monomial, coefficient: Rational) -> Self {
@@ -364,8 +397,8 @@ impl<'g> Polynomial<'g> {
         let (c, e) = terms[0];
         let monomial = match e.view() {
             NodeView::Number(_) => Monomial::default(),
-            NodeView::Product(factors) => Monomial(factors.into_iter().map(|(f, n)| (f.id, n)).collect()),
-            _ => Monomial(vec![(e.id, 1)]),
+            NodeView::Product(factors) => Monomial::new(factors.into_iter().map(|(f, n)| (f.id, n)).collect()),
+            _ => Monomial::new(vec![(e.id, 1)]),
         };
         let Some(own) = self.terms.get(&monomial) else { return self.clone() };
         let scale = c * own.recip();
@@ -383,14 +416,14 @@ impl<'g> Polynomial<'g> {
     fn leading_monomial(&self) -> &Monomial {
         let is_cosine = |id: Id| matches!(self.graph.node(id), Node::Call(Function::Cos, _));
         let parts = |m: &Monomial| -> (i32, Monomial, Monomial) {
-            let (cosines, rest) = m.0.iter().partition(|(id, _)| is_cosine(*id));
-            (m.degree(), Monomial(cosines), Monomial(rest))
+            let (cosines, rest) = m.factors.iter().partition(|(id, _)| is_cosine(*id));
+            (m.degree(), Monomial::new(cosines), Monomial::new(rest))
         };
         self.terms.keys().max_by_key(|m| parts(m)).expect("a denominator has terms")
     }
 
     pub(super) fn monomial_expr(&self, monomial: &Monomial) -> Expr<'g> {
-        self.graph.product(Rational::one(), monomial.0.iter().map(|&(id, n)| (self.graph.expr(id), n)))
+        self.graph.product(Rational::one(), monomial.factors.iter().map(|&(id, n)| (self.graph.expr(id), n)))
     }
 
     /// Back to an expression, one term a monomial.
@@ -400,12 +433,14 @@ impl<'g> Polynomial<'g> {
 
     /// Splits off the constants: a list of (coefficient made of constants, monomial of what varies), highest first.
     pub fn by_variable_monomials(&self) -> Vec<(Polynomial<'g>, Expr<'g>)> {
-        let mut memo = Map::default();
         let mut groups: BTreeMap<Monomial, Polynomial<'g>> = BTreeMap::new();
         for (monomial, c) in &self.terms {
             let (constant, variable): (Vec<_>, Vec<_>) =
-                monomial.0.iter().partition(|(id, _)| self.graph.expr(*id).is_constant(&mut memo));
-            groups.entry(Monomial(variable)).or_insert_with(|| Self::zero(self.graph)).add_term(Monomial(constant), *c);
+                monomial.factors.iter().partition(|(id, _)| self.graph.expr(*id).is_constant());
+            groups
+                .entry(Monomial::new(variable))
+                .or_insert_with(|| Self::zero(self.graph))
+                .add_term(Monomial::new(constant), *c);
         }
         groups.into_iter().rev().map(|(m, p)| (p, self.monomial_expr(&m))).collect()
     }

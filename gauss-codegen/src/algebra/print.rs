@@ -3,7 +3,6 @@
 use std::fmt;
 
 use super::graph::{BinaryFunction, Expr, Function, NodeView};
-use super::map::Map;
 use super::rational::Rational;
 
 /// How to write.
@@ -101,8 +100,7 @@ impl Printer {
             _ => vec![(e, 1)],
         };
         // Constants first, as in a textbook: (I2 - I3)*w2*w3.
-        let mut memo = Map::default();
-        let (mut factors, varying): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| e.is_constant(&mut memo));
+        let (mut factors, varying): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| e.is_constant());
         factors.extend(varying);
         // A difference takes the sign of its term in: (I3 - I1)*w1*w3 rather than -(I1 - I3)*w1*w3.
         let mut negative = negative;

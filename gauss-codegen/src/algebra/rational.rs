@@ -180,6 +180,14 @@ impl Rational {
         }
     }
 
+    /// Equal ones have the same.
+    pub(super) fn hash_word(self) -> u64 {
+        match self.denominator {
+            LARGE => self.to_f64().to_bits(),
+            denominator => (self.numerator as u64) ^ (denominator as u64).rotate_left(32),
+        }
+    }
+
     /// As a fraction of integers of any length.
     pub fn exact(self) -> Option<BigRational> {
         match self.denominator {
@@ -274,8 +282,11 @@ impl MulAssign for Rational {
 impl Div for Rational {
     type Output = Self;
     fn div(self, other: Self) -> Self {
-        if other.is_zero() {
-            return Self::UNDEFINED;
+        match (other.numerator, other.denominator) {
+            (0, 1) => return Self::UNDEFINED,
+            (1, 1) => return self,
+            (-1, 1) => return -self,
+            _ => {}
         }
         self.general(other, |a, b| a.checked_div(b), |a, b| a / b)
     }
@@ -301,12 +312,7 @@ impl Sub for Rational {
 /// By value, whatever the index of a large one; so is the order of what is kept in maps.
 impl Hash for Rational {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        if self.denominator == LARGE {
-            self.to_f64().to_bits().hash(state);
-        } else {
-            self.numerator.hash(state);
-            self.denominator.hash(state);
-        }
+        state.write_u64(self.hash_word());
     }
 }
 

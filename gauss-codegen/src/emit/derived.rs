@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::{Expr, Map, Rational};
+use crate::algebra::{Expr, Map, Rational, Set};
 use crate::formulation::Formulation;
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, Formula, Linearization, Method, Regressor};
@@ -163,11 +163,16 @@ impl<'a, 'g> Derived<'a, 'g> {
         quote!(#runtime::#module)
     }
 
-    /// How constants are written in methods.
-    pub fn constant_names(&self) -> Map<u32, TokenStream> {
-        let symbols = self.kernel.constant_symbols.iter().zip(self.constant_fields());
-        let mut names: Map<u32, TokenStream> =
-            symbols.map(|(symbol, field)| (symbol.key(), quote!(self.#field))).collect();
+    /// How the constants that a program reads are written in methods.
+    pub fn constant_names(&self, program: &Program<'g>) -> Map<u32, TokenStream> {
+        let read: Set<u32> = program.symbols().iter().map(|symbol| symbol.key()).collect();
+        let mut names = Map::default();
+        for (k, symbol) in self.kernel.constant_symbols.iter().enumerate() {
+            if read.contains(&symbol.key()) {
+                let field = format_ident!("k{}", k);
+                names.insert(symbol.key(), quote!(self.#field));
+            }
+        }
         let scalar = self.scalar();
         names.extend(self.kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), scalar.literal(*value))));
         names
@@ -192,7 +197,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     /// Arguments taken apart and the instructions of a program; its outputs.
     pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
         let Formal { speeds, speed_rates, momenta, twist, residuals, inputs } = self.formal();
-        let mut names = self.constant_names();
+        let mut names = self.constant_names(program);
         names.insert(self.subject.system.scene.time.key(), quote!(t));
         let mut arguments = self.subject.configuration_arguments(&self.private());
         let vector = |name: TokenStream, symbols: &[Expr<'g>]| self.vector_argument(name, symbols);
@@ -204,9 +209,10 @@ impl<'a, 'g> Derived<'a, 'g> {
         }
         arguments.push(vector(quote!(residual), residuals));
         arguments.push(vector(quote!(input), inputs));
-        let declarations = declare(program, &arguments, &mut names);
+        let mut written = declare(program, &arguments, &mut names);
         let (instructions, outputs) = statements(program, &names, &self.scalar());
-        (quote!(#declarations #instructions), outputs)
+        written.extend(instructions);
+        (written, outputs)
     }
 
     /// The body of a method: arguments taken apart, instructions, result.

@@ -178,7 +178,7 @@ pub fn statements_kept<'g>(
         written.push(statement);
     }
     (
-        in_blocks(&handed_on(program, kept).into_iter().zip(written).collect::<Vec<_>>()),
+        in_blocks(handed_on(program, kept).into_iter().zip(written).collect()),
         program.outputs.iter().map(write).collect(),
     )
 }
@@ -221,17 +221,14 @@ fn handed_on(program: &Program<'_>, kept: Kept) -> Vec<Vec<TokenStream>> {
 }
 
 /// Statements, each with the names that are read behind its block: one after the other, or block by block where there are many.
-pub fn in_blocks(statements: &[(Vec<TokenStream>, TokenStream)]) -> TokenStream {
-    let written = |block: &[(Vec<TokenStream>, TokenStream)]| -> TokenStream {
-        block.iter().map(|(_, statement)| statement.clone()).collect()
-    };
+pub fn in_blocks(statements: Vec<(Vec<TokenStream>, TokenStream)>) -> TokenStream {
     if statements.len() <= BLOCK {
-        return written(statements);
+        return statements.into_iter().map(|(_, statement)| statement).collect();
     }
     let blocks = statements.chunks(BLOCK).map(|block| {
         let names: Vec<_> = block.iter().flat_map(|(names, _)| names).collect();
-        let statements = written(block);
-        quote!(let (#(#names,)*) = { #statements (#(#names,)*) };)
+        let statements = block.iter().map(|(_, statement)| statement);
+        quote!(let (#(#names,)*) = { #(#statements)* (#(#names,)*) };)
     });
     blocks.collect()
 }

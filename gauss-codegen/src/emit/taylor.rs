@@ -76,7 +76,7 @@ impl<'a, 'g> Order<'a, 'g> {
                 lines.push((names, self.statement(k, instruction)));
             }
         }
-        in_blocks(&lines)
+        in_blocks(lines)
     }
 
     /// Order 0.
@@ -309,8 +309,8 @@ struct Variables {
 }
 
 impl Variables {
-    fn of(derived: &Derived<'_, '_>) -> Self {
-        let (mut first, mut coefficients) = (derived.constant_names(), Map::default());
+    fn of<'g>(derived: &Derived<'_, 'g>, program: &Program<'g>) -> Self {
+        let (mut first, mut coefficients) = (derived.constant_names(program), Map::default());
         let time = derived.subject.system.scene.time;
         first.insert(time.key(), quote!(t));
         coefficients.insert(time.key(), quote!(__time));
@@ -340,7 +340,7 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (private, scalar) = (derived.private(), derived.scalar());
     let (ty, real, zero) = (scalar.ty(), &scalar.real, quote!(__zero));
     let program = derived.program(Method::ComponentRates);
-    let variables = Variables::of(derived);
+    let variables = Variables::of(derived, program);
     let (instructions, rates) = statements_kept(program, &variables.first, &scalar, Kept::Everything);
     let mut order = Order::new(program, &variables, &scalar);
     let line = order.line();

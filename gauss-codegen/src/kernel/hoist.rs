@@ -1,6 +1,6 @@
 //! Hoisting: every part that depends on parameters alone is replaced by a constant.
 
-use crate::algebra::{Expr, Graph, Map, NodeView, Rational};
+use crate::algebra::{Expander, Expr, Graph, Map, NodeView, Rational};
 
 /// Terms up to which two definitions are compared in normal form.
 const LIMIT: usize = 64;
@@ -8,8 +8,8 @@ const LIMIT: usize = 64;
 /// Rewrites expressions and gathers the constants they need.
 pub struct Hoister<'a, 'g> {
     graph: &'g Graph,
+    expander: Expander<'g>,
     memo: Map<u32, Expr<'g>>,
-    constant: Map<u32, bool>,
     /// (symbol, definition), in order of creation.
     constants: Vec<(Expr<'g>, Expr<'g>)>,
     /// Normal form of a definition → its symbol.
@@ -22,8 +22,8 @@ impl<'a, 'g> Hoister<'a, 'g> {
     pub fn new(graph: &'g Graph, definitions: &'a Map<u32, Expr<'g>>) -> Self {
         Self {
             graph,
+            expander: Expander::new(graph, LIMIT),
             memo: Map::default(),
-            constant: Map::default(),
             constants: Vec::new(),
             known: Map::default(),
             definitions: Some(definitions),
@@ -57,10 +57,6 @@ impl<'a, 'g> Hoister<'a, 'g> {
         self.constants.iter().any(|(constant, _)| *constant == symbol)
     }
 
-    fn is_constant(&mut self, e: Expr<'g>) -> bool {
-        e.is_constant(&mut self.constant)
-    }
-
     fn visit(&mut self, e: Expr<'g>) -> Expr<'g> {
         if let Some(&done) = self.memo.get(&e.key()) {
             return done;
@@ -71,7 +67,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
     }
 
     fn visit_new(&mut self, e: Expr<'g>) -> Expr<'g> {
-        if self.is_constant(e) {
+        if e.is_constant() {
             return self.constant(e);
         }
         match e.view() {
@@ -88,7 +84,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
             NodeView::Group(inner) => self.visit(inner).group_as_is(),
             NodeView::Product(_) => self.term(Rational::one(), e),
             NodeView::Sum(terms) => {
-                let (constant, variable): (Vec<_>, Vec<_>) = terms.into_iter().partition(|(_, e)| self.is_constant(*e));
+                let (constant, variable): (Vec<_>, Vec<_>) = terms.into_iter().partition(|(_, e)| e.is_constant());
                 let mut parts: Vec<Expr<'g>> = variable.into_iter().map(|(c, e)| self.term(c, e)).collect();
                 if !constant.is_empty() {
                     let constant = self.graph.sum(constant);
@@ -104,7 +100,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
         let NodeView::Product(factors) = e.view() else {
             return self.visit(e).scale(c);
         };
-        let (constant, variable): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| self.is_constant(*e));
+        let (constant, variable): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| e.is_constant());
         // A rational content that a visited factor gives up belongs to the constant too, so visit first.
         let variable: Vec<_> = variable.into_iter().map(|(e, n)| (self.visit(e), n)).collect();
         let variable = self.graph.product(c, variable);
@@ -121,7 +117,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
         if e.as_number().is_some() {
             return e;
         }
-        let normal = if e.is_normal() { e } else { e.expand(LIMIT).map_or(e, |p| p.to_expr()) };
+        let normal = if e.is_normal() { e } else { self.expander.expand(e).map_or(e, |p| p.to_expr()) };
         if normal.as_number().is_some() {
             return normal;
         }

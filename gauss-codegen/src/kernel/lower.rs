@@ -1,7 +1,7 @@
 //! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
 use crate::accuracy::{Loss, Trial};
-use crate::algebra::{Evaluation, Expr, Graph, Map, Rational};
+use crate::algebra::{Evaluation, Expr, Graph, Map, Rational, Set};
 
 use super::check::{Checked, Miscompiled, Sample};
 use super::choice::{Candidates, Lowered};
@@ -150,14 +150,16 @@ fn constants<'g>(
     let known = |definition: Expr<'g>| {
         let literals = literals?;
         let value = Evaluation::new(literals).value(definition);
-        let made_of_literals =
-            Program::lower(&[definition]).symbols().iter().all(|symbol| literals.contains_key(&symbol.key()));
-        // What has no value is left to `kernel()`, which refuses it.
-        Some(value).filter(|value| made_of_literals && value.is_finite())
+        let is_made_of_literals =
+            || Program::lower(&[definition]).symbols().iter().all(|symbol| literals.contains_key(&symbol.key()));
+        // What has no value is left to `kernel()`, which refuses it; nearly all that is made of parameters has none here.
+        Some(value).filter(|value| value.is_finite() && is_made_of_literals())
     };
+    let read: Set<u32> = read.iter().map(|symbol| symbol.key()).collect();
     let (mut symbols, mut values) = (Vec::new(), Vec::new());
     let (mut known_constants, mut folded) = (Vec::new(), Vec::new());
-    for (symbol, definition) in hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(symbol)) {
+    for (symbol, definition) in hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(&symbol.key()))
+    {
         match known(definition) {
             Some(value) => {
                 known_constants.push((symbol, value));

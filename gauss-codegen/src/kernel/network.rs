@@ -34,8 +34,9 @@ impl<'g> Network<'g> {
         let mut network = Self { nodes: Vec::new(), outputs: Vec::new(), index: Map::default(), memo: Map::default() };
         network.outputs = outputs.iter().map(|&e| network.visit(e)).collect();
         for kind in [Kind::Products, Kind::Sums] {
-            network.share(kind);
-            network.merge_duplicates();
+            if network.share(kind) {
+                network.merge_duplicates();
+            }
         }
         network
     }
@@ -125,12 +126,15 @@ impl<'g> Network<'g> {
     }
 
     /// Splits pairs of parts that several sums (or several products) contain off as nodes of their own, the most
-    /// frequent first, until no pair occurs twice. Terms of sums are alike up to a common factor.
-    fn share(&mut self, kind: Kind) {
+    /// frequent first, until no pair occurs twice. Terms of sums are alike up to a common factor. Whether there was any.
+    fn share(&mut self, kind: Kind) -> bool {
+        let mut shared = false;
         loop {
+            let repeated = self.repeated(kind);
             let mut holders: Map<(Place, Place, Rational), Vec<Place>> = Map::default();
             for (place, node) in self.nodes.iter().enumerate() {
-                let parts = kind.parts(node);
+                let mut parts = kind.parts(node);
+                parts.retain(|part| repeated[part.1]);
                 for (i, &(c, a)) in parts.iter().enumerate() {
                     for &(d, b) in &parts[i + 1..] {
                         let places = holders.entry((a, b, d / c)).or_default();
@@ -168,9 +172,25 @@ impl<'g> Network<'g> {
                 }
             }
             if !progress {
-                return;
+                return shared;
+            }
+            shared = true;
+        }
+    }
+
+    /// The nodes that are parts of several others: only pairs of these can be.
+    fn repeated(&self, kind: Kind) -> Vec<bool> {
+        let mut last = vec![usize::MAX; self.nodes.len()];
+        let mut repeated = vec![false; self.nodes.len()];
+        for (place, node) in self.nodes.iter().enumerate() {
+            for (_, part) in kind.parts(node) {
+                if last[part] != usize::MAX && last[part] != place {
+                    repeated[part] = true;
+                }
+                last[part] = place;
             }
         }
+        repeated
     }
 
     /// Splitting parts off can make two nodes alike: everything that refers to the later one is led to the first, and

@@ -66,7 +66,7 @@ impl<'g> Arranged<'g> {
             ways.extend(short);
             ways
         };
-        let residual = and(balances[..2].iter().map(|b| body.residual(b)).collect(), short.residual);
+        let residual = and(body.residuals().into(), short.residual);
         let for_constraint = residual.iter().chain(&short.collected);
         let momentum = body.momentum();
         let potential = body.potential_energy();
@@ -215,7 +215,7 @@ impl<'g> System<'g> {
             self.free.iter().map(f).collect()
         };
         let accelerations = balances.iter().map(|(free, b)| b.iter().map(|b| free.acceleration(b)).collect()).collect();
-        let residuals = balances.iter().map(|(free, b)| b[..2].iter().map(|b| free.residual(b)).collect()).collect();
+        let residuals = self.free.iter().map(|free| free.residuals().into()).collect();
         self.put(&mut arranged.acceleration, accelerations);
         self.put(&mut arranged.residual, residuals);
         self.put(&mut arranged.momentum, of_all(&|free| vec![free.momentum()]));

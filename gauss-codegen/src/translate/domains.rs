@@ -106,7 +106,7 @@ impl<'g> Translator<'_, 'g> {
 
     /// The value of what literals alone determine.
     fn known(&self, value: Expr<'g>) -> Option<Precise> {
-        if value.as_number().is_none() && !value.is_constant(&mut Map::default()) {
+        if value.as_number().is_none() && !value.is_constant() {
             return None;
         }
         let literals = self.literals.borrow();

@@ -42,7 +42,7 @@ fn a_particle_on_a_power_of_a_difference() {
             "coordinates(x), particle(mass = 1, position = [x, (x - {c:?}).powi({n}), 0]), gravity = [0, -9, 0]"
         );
         let (x, speed) = (c + 0.3, 1.3);
-        let (d, power) = (x - c, f64::from(n));
+        let (d, power): (f64, f64) = (x - c, f64::from(n));
         let (slope, curvature) = (power * d.powi(n - 1), power * (power - 1.0) * d.powi(n - 2));
         let expected = -slope * (curvature * speed * speed + 9.0) / (1.0 + slope * slope);
         let found = computed(&clauses, Method::Acceleration, &[x], &[speed]);
@@ -60,7 +60,7 @@ fn a_particle_in_a_bowl() {
              gravity = 9"
         );
         let (x, y, speed) = (c + 0.3, 0.4, [1.3, 0.7]);
-        let d = x - c;
+        let d: f64 = x - c;
         let s = d * d + y * y;
         let gradient = [2.0 * s * d, 2.0 * s * y];
         let along = d * speed[0] + y * speed[1];

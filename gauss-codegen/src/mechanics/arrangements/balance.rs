@@ -1,6 +1,6 @@
 //! Momentum of body and fluid, the forces that act, and the balance in body axes solved for the accelerations.
 
-use crate::algebra::{Expr, Graph, Map, inverse_of_symmetric, solve_symmetric};
+use crate::algebra::{Expr, Graph, Map, Substitution, inverse_of_symmetric, solve_symmetric};
 
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{
@@ -191,7 +191,7 @@ impl<'g> Formal<'g> {
         kinematics: &Kinematics<'g>,
         weight: Option<&Weight<'g>>,
         load: &Wrench<'g>,
-    ) -> Map<u32, Expr<'g>> {
+    ) -> Substitution<'g> {
         let frame = &kinematics.frame;
         let u = frame.resolve(&kinematics.velocity, Axes::Body);
         let omega = frame.resolve(&kinematics.angular_velocity, Axes::Body);
@@ -211,7 +211,7 @@ impl<'g> Formal<'g> {
         for (formal, real) in pairs {
             map.extend(formal.iter().zip(real).filter(|(f, _)| !f.is_zero()).map(|(f, r)| (f.key(), r.group())));
         }
-        map
+        Substitution::new(map)
     }
 }
 

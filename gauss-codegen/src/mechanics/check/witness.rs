@@ -52,8 +52,17 @@ struct Witness<'a, 'g, N> {
     state: Map<u32, N>,
     /// v_P of every link: symbols of t, q and z.
     velocities: Vec<[[Expr<'g>; 3]; 4]>,
-    /// Their derivatives with respect to every speed, at the state.
-    partial_velocities: OnceCell<Vec<Vec<N>>>,
+    still: OnceCell<Still<N>>,
+}
+
+/// What the condition at one state has whatever the accelerations are.
+struct Still<N> {
+    /// Derivatives of the fields of all links with respect to every speed.
+    partials: Vec<Vec<N>>,
+    gravity: [N; 3],
+    links: Vec<Distribution<N>>,
+    /// Buoyancy, the potential and forces: one row a speed.
+    acting: Vec<N>,
 }
 
 impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
@@ -64,7 +73,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
             [link.position.map(|e| e.derivative(rates)), axis(0), axis(1), axis(2)]
         };
         let velocities = system.scene.tree.links.iter().map(velocity).collect();
-        Self { system, state, velocities, partial_velocities: OnceCell::new() }
+        Self { system, state, velocities, still: OnceCell::new() }
     }
 
     fn values<'e>(&self, outputs: impl IntoIterator<Item = &'e Expr<'g>>) -> Vec<N>
@@ -99,40 +108,51 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
 
     /// `Σ ∫(a_P − g)·w_α dm + ∂(dU/dt)/∂z^α` at the given ż, with what the impulse of the fluid adds: one row a speed.
     fn stationarity(&self, rates: &[N]) -> Vec<N> {
-        let scene = &self.system.scene;
         let flow = self.flow(rates);
-        let fields: Vec<Expr<'g>> = self.velocities.iter().flatten().flatten().copied().collect();
-        let accelerations = self.along(&flow, &fields);
-        // They do not depend on z, in which velocities are affine.
-        let partials = self.partial_velocities.get_or_init(|| self.partials(&fields));
-        let mut evaluation = Evaluation::new(&self.state);
-        let mut rows = vec![N::number(0.0); scene.speeds.len()];
-        let zeros = [N::number(0.0); 3];
-        let gravity = scene.tree.gravity.map_or(zeros, |g| g.map(|e| evaluation.value(e)));
-        for (k, link) in scene.tree.links.iter().enumerate() {
-            let moments = Distribution::of(link, &mut evaluation);
-            let (mut a, lift) = (field(&accelerations, k), moments.buoyancy);
+        let accelerations = self.along(&flow, &self.fields());
+        let Still { partials, gravity, links, acting } = self.still.get_or_init(|| self.still());
+        let mut rows = acting.clone();
+        for (k, moments) in links.iter().enumerate() {
+            let mut a = field(&accelerations, k);
             (0..3).for_each(|i| a[0][i] = a[0][i] - gravity[i]);
             for (row, partial) in rows.iter_mut().zip(partials) {
-                let w = field(partial, k);
-                *row = *row + moments.integral(&a, &w);
-                if let Some((mass, center)) = lift {
-                    let at = |i: usize| w[0][i] + sum((0..3).map(|j| center[j] * w[j + 1][i]));
-                    *row = *row + mass * sum((0..3).map(|i| gravity[i] * at(i)));
-                }
+                *row = *row + moments.integral(&a, &field(partial, k));
             }
-        }
-        if let Some(potential) = self.system.potential {
-            let power = [potential.derivative(&scene.rates)];
-            rows.iter_mut().zip(self.partials(&power)).for_each(|(row, partial)| *row = *row + partial[0]);
         }
         for (row, fluid) in rows.iter_mut().zip(self.fluid(&flow)) {
             *row = *row + fluid;
         }
-        for (row, force) in rows.iter_mut().zip(self.forces(partials)) {
+        rows
+    }
+
+    /// The fields of all links, component by component.
+    fn fields(&self) -> Vec<Expr<'g>> {
+        self.velocities.iter().flatten().flatten().copied().collect()
+    }
+
+    fn still(&self) -> Still<N> {
+        let scene = &self.system.scene;
+        let partials = self.partials(&self.fields());
+        let mut evaluation = Evaluation::new(&self.state);
+        let zeros = [N::number(0.0); 3];
+        let gravity = scene.tree.gravity.map_or(zeros, |g| g.map(|e| evaluation.value(e)));
+        let links: Vec<_> = scene.tree.links.iter().map(|link| Distribution::of(link, &mut evaluation)).collect();
+        let mut acting = vec![N::number(0.0); scene.speeds.len()];
+        for (k, (mass, center)) in links.iter().enumerate().filter_map(|(k, link)| Some((k, link.buoyancy?))) {
+            for (row, partial) in acting.iter_mut().zip(&partials) {
+                let w = field(partial, k);
+                let at = |i: usize| w[0][i] + sum((0..3).map(|j| center[j] * w[j + 1][i]));
+                *row = *row + mass * sum((0..3).map(|i| gravity[i] * at(i)));
+            }
+        }
+        if let Some(potential) = self.system.potential {
+            let power = [potential.derivative(&scene.rates)];
+            acting.iter_mut().zip(self.partials(&power)).for_each(|(row, partial)| *row = *row + partial[0]);
+        }
+        for (row, force) in acting.iter_mut().zip(self.forces(&partials)) {
             *row = *row - force;
         }
-        rows
+        Still { partials, gravity, links, acting }
     }
 
     /// `Σ F·∂v/∂z^α` over what acts, with velocities differentiated from positions. `partials` are those of the links.
@@ -371,12 +391,14 @@ fn compare<'g, N: Number>(
     };
     witness.state.extend(system.scene.speed_rates.iter().zip(arbitrary).map(|(s, x)| (s.key(), *x)));
     let expected = with_forces(&witness, unconstrained);
+    let mut evaluation = Evaluation::new(&witness.state);
+    let mut values = |outputs: &[Expr<'g>]| -> Vec<N> { outputs.iter().map(|e| evaluation.value(*e)).collect() };
     for arrangement in arrangements(Method::GaussResidual) {
-        agree(Method::GaussResidual, &witness.values(arrangement), &expected)?;
+        agree(Method::GaussResidual, &values(arrangement), &expected)?;
     }
     let scale = largest(expected.iter().copied()).max(1.0);
     for arrangement in arrangements(Method::Acceleration) {
-        let rates = witness.values(arrangement);
+        let rates = values(arrangement);
         let found = with_forces(&witness, witness.stationarity(&rates));
         let relative: Vec<N> = found.iter().map(|x| *x / N::number(scale)).collect();
         agree(Method::Acceleration, &relative, &vec![N::number(0.0); relative.len()])?;

@@ -1,7 +1,7 @@
 //! What moves with the parent just as well is given to the parent: the base parameters of identification theory, found
 //! from the velocities alone.
 
-use crate::algebra::{Expr, Graph, Map};
+use crate::algebra::{Expr, Graph};
 
 use crate::mechanics::kinematics::vector::{Triple, cross, dot};
 use crate::mechanics::links::link::Link;
@@ -31,9 +31,8 @@ pub fn regroup<'g>(graph: &'g Graph, links: &mut [Link<'g>]) {
                 continue;
             }
             let unit = received(link, &part_of_one(graph, monomial));
-            let mut known = Map::default();
             let mut all = unit.first.iter().chain(unit.second.iter().flatten());
-            if link.parent.is_none() || all.all(|e| e.is_constant(&mut known)) {
+            if link.parent.is_none() || all.all(|e| e.is_constant()) {
                 moved = moved.plus(&part);
             }
         }

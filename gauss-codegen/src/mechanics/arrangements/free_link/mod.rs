@@ -2,12 +2,13 @@
 //! With V = W z, `A = Wᵀ M W`, so that `A⁻¹ = W⁻¹ M⁻¹ W⁻ᵀ`: the balance is solved in body axes and the accelerations are carried
 //! back by the rate of the kinematics, ż = W⁻¹(V̇ − Ẇ z). One body in a chart is the plainest case.
 
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 mod loads;
 mod momenta;
 
-use crate::algebra::{Expr, Map, Solver};
+use crate::algebra::{Expr, Map, Solver, Substitution};
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
 use crate::mechanics::links::link::{Link, Matter};
@@ -56,6 +57,17 @@ pub struct FreeLink<'g> {
     /// z from the twist, and (Q, Γ) from p: the rows and their transpose, on the motion's axes.
     from_twist: Solver<'g>,
     from_momenta: Solver<'g>,
+    formed: Formed<'g>,
+}
+
+/// What several equations are made of, formed once it is asked for.
+#[derive(Default)]
+struct Formed<'g> {
+    /// What the formal components of the balance are.
+    realisation: OnceCell<Substitution<'g>>,
+    balances: OnceCell<Vec<Balance<'g>>>,
+    collected_residual: OnceCell<Vec<Expr<'g>>>,
+    momentum: OnceCell<Vec<Expr<'g>>>,
 }
 
 /// What the balance of a body is made of.
@@ -64,7 +76,8 @@ struct Terms<'a, 'g> {
     matrix: &'a KineticMatrix<'g>,
     weight: Option<&'a Weight<'g>>,
     load: &'a Wrench<'g>,
-    formal: &'a Formal<'g>,
+    /// What the formal components of the balance are.
+    realisation: &'a Substitution<'g>,
 }
 
 /// The chain z → (u, ω) → (Q, Γ_O) → p, each link in terms of the names of the one before; body axes.
@@ -190,6 +203,7 @@ impl<'g> FreeLink<'g> {
             angular_in,
             linear_rows,
             angular_rows,
+            formed: Formed::default(),
         };
         if !scene.elements.is_empty() {
             let wrenches = scene.elements.iter().map(|element| free.wrench_of(scene, element));
@@ -205,25 +219,29 @@ impl<'g> FreeLink<'g> {
     }
 
     /// The balance in all the ways that are worth trying.
-    pub fn balances(&self) -> Vec<Balance<'g>> {
-        let mut balances = Vec::from(ARRANGEMENTS.map(|arrangement| self.balance(arrangement)));
-        if self.adds_momentum() {
-            balances.push(self.balance(Arrangement::Whole));
-        }
-        if self.matrix.is_coupled(&self.kinematics.active) {
-            balances.push(self.balance(Arrangement::Eliminated));
-        }
-        balances
+    pub fn balances(&self) -> &[Balance<'g>] {
+        self.formed.balances.get_or_init(|| {
+            let mut balances = Vec::from(ARRANGEMENTS.map(|arrangement| self.balance(arrangement)));
+            if self.adds_momentum() {
+                balances.push(self.balance(Arrangement::Whole));
+            }
+            if self.matrix.is_coupled(&self.kinematics.active) {
+                balances.push(self.balance(Arrangement::Eliminated));
+            }
+            balances
+        })
     }
 
     /// ∂C/∂ż without what acts beside weight and buoyancy, arranged in two ways.
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
         let load = Wrench::zero(self.kinematics.frame.graph);
         let formal = Formal::new(&self.kinematics, &load);
-        let terms = Terms { load: &load, formal: &formal, ..self.terms() };
+        let (matrix, weight) = (&self.matrix, self.weight.as_ref());
+        let realisation = OnceCell::new();
         let residual = |arrangement| {
-            let Terms { matrix, weight, load, formal } = terms;
-            self.residual_of(&terms, &solve_balance(&self.kinematics, matrix, weight, load, formal, arrangement))
+            let balance = solve_balance(&self.kinematics, matrix, weight, &load, &formal, arrangement);
+            let realisation = realisation.get_or_init(|| formal.realisation(&self.kinematics, weight, &load));
+            self.residual_of(&Terms { matrix, weight, load: &load, realisation }, &balance)
         };
         [Arrangement::Structured, Arrangement::Collected].map(residual).into()
     }
@@ -301,9 +319,15 @@ impl<'g> FreeLink<'g> {
         Pair { linear: frame.resolve(linear, self.linear_in), angular: frame.resolve(angular, self.angular_in) }
     }
 
+    /// ∂C/∂ż in the two ways that are worth trying.
+    pub fn residuals(&self) -> [Vec<Expr<'g>>; 2] {
+        [self.residual(&self.balances()[0]), self.collected_residual()]
+    }
+
     /// ∂C/∂ż with what cancels gone.
     pub fn collected_residual(&self) -> Vec<Expr<'g>> {
-        self.residual(&self.balance(Arrangement::Collected))
+        let collected = || self.residual(&self.balances()[1]);
+        self.formed.collected_residual.get_or_init(collected).clone()
     }
 
     /// R·a_α + M_O·o_α.
@@ -329,8 +353,8 @@ impl<'g> FreeLink<'g> {
     pub fn acceleration(&self, balance: &Balance<'g>) -> Vec<Expr<'g>> {
         let kinematics = &self.kinematics;
         let frame = &kinematics.frame;
-        let real = self.formal.realisation(kinematics, self.weight.as_ref(), &self.load);
-        let realise = |e: Expr<'g>| e.substitute(&real);
+        let real = self.realisation();
+        let realise = |e: Expr<'g>| real.of(e);
         let angular = frame.body_vector(balance.angular.map(realise).map(Expr::group));
         let velocity = frame.resolve(&kinematics.velocity, self.linear_in);
         let omega = frame.resolve(&kinematics.angular_velocity, self.angular_in);
@@ -413,14 +437,19 @@ impl<'g> FreeLink<'g> {
     }
 
     fn terms(&self) -> Terms<'_, 'g> {
-        Terms { matrix: &self.matrix, weight: self.weight.as_ref(), load: &self.load, formal: &self.formal }
+        let (weight, realisation) = (self.weight.as_ref(), self.realisation());
+        Terms { matrix: &self.matrix, weight, load: &self.load, realisation }
+    }
+
+    fn realisation(&self) -> &Substitution<'g> {
+        let real = || self.formal.realisation(&self.kinematics, self.weight.as_ref(), &self.load);
+        self.formed.realisation.get_or_init(real)
     }
 
     fn residual_of(&self, terms: &Terms<'_, 'g>, balance: &Balance<'g>) -> Vec<Expr<'g>> {
         let kinematics = &self.kinematics;
         let frame = &kinematics.frame;
-        let real = terms.formal.realisation(kinematics, terms.weight, terms.load);
-        let bias = |a: Triple<'g>| a.map(|e| e.substitute(&real));
+        let bias = |a: Triple<'g>| a.map(|e| terms.realisation.of(e));
         let along = kinematics.rates_with_accelerations();
         let omega = &kinematics.angular_velocity;
         let a = frame.derivative(&kinematics.velocity, &along, omega).map(Expr::group);

@@ -36,7 +36,7 @@ impl<'g> FreeLink<'g> {
 
     /// p_α = Q·a_α + Γ_O·o_α.
     pub fn momentum(&self) -> Vec<Expr<'g>> {
-        self.project(self.momentum_of_speeds())
+        self.formed.momentum.get_or_init(|| self.project(self.momentum_of_speeds())).clone()
     }
 
     /// `Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α` as a function of (q, z).
