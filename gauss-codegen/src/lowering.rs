@@ -60,8 +60,7 @@ fn states<'g>(translator: &Translator<'_, 'g>, formulation: &Formulation<'g>) ->
         units,
         definitions,
     };
-    let count = std::env::var("GAUSS_STATES").ok().and_then(|x| x.parse().ok()).unwrap_or(STATES);
-    sample_states(&states, count)
+    sample_states(&states, STATES)
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.

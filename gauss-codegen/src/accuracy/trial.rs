@@ -9,7 +9,7 @@ use super::tape::Tape;
 /// By how much inputs are changed, relatively: far above 2⁻¹⁰⁴, and so little that results change in proportion.
 const CHANGE: f64 = 1.0 / (1_u64 << 44) as f64;
 /// Changes of all inputs at once, with signs of their own each time.
-const CHANGES: u64 = 3;
+const CHANGES: u64 = 2;
 
 /// One state: what a kernel is given, the same without its rounding, and with every number changed a little.
 pub struct Point {

@@ -35,17 +35,23 @@ impl<'g> Candidates<'g> {
         Self { arrangements, aim: Aim::Values }
     }
 
-    /// The arrangement that is taken.
-    pub(super) fn chosen(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Lowered<'_, 'g> {
+    /// The arrangement that is taken, and the outputs of the first one where that keeps the digits, too.
+    pub(super) fn chosen(
+        &self,
+        hoister: &mut Hoister<'_, 'g>,
+        trial: &mut Trial,
+    ) -> (Lowered<'_, 'g>, Option<&[Expr<'g>]>) {
         let mut lowered = self.lowered(hoister);
         trial.define(hoister.constants());
         let programs: Vec<&Program<'g>> = lowered.iter().map(|candidate| &candidate.program).collect();
         let losses = trial.losses(&programs);
-        let best = self.best(&lowered, &losses, hoister);
+        let accurate = accurate(&losses);
+        let best = self.best(&lowered, &accurate, hoister);
+        let first = Some(lowered[0].outputs).filter(|_| accurate[0]);
         let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         // A power series takes a negation of an addend for an instruction like any other.
         let program = if self.aim == Aim::Values { program.with_signs_led_back() } else { program };
-        Lowered { outputs, program, loss: losses.into_iter().nth(best).unwrap_or_default() }
+        (Lowered { outputs, program, loss: losses.into_iter().nth(best).unwrap_or_default() }, first)
     }
 
     /// The arrangements as programs, in their order; those that are the same once constants are hoisted, once.
@@ -62,25 +68,13 @@ impl<'g> Candidates<'g> {
     }
 
     /// Which of the arrangements is taken, of one at least: of those that keep the digits the one that costs least, the first of several.
-    fn best(&self, candidates: &[Lowered<'_, 'g>], losses: &[Loss], hoister: &Hoister<'_, 'g>) -> usize {
+    fn best(&self, candidates: &[Lowered<'_, 'g>], accurate: &[bool], hoister: &Hoister<'_, 'g>) -> usize {
         let cost = |candidate: &Lowered<'_, 'g>| match self.aim {
             Aim::Values => candidate.program.cost().total(),
             Aim::Series => candidate.program.series_cost(|symbol| hoister.is_hoisted(symbol)),
         };
-        let accurate = accurate(losses);
-        if std::env::var("GAUSS_LOSS").is_ok() && candidates.len() > 1 {
-            for (k, c) in candidates.iter().enumerate() {
-                eprintln!(
-                    "   {k} cost {} acc {} {:?}",
-                    cost(c),
-                    accurate[k],
-                    losses[k].0.iter().map(|x| format!("{x:.2e}")).collect::<Vec<_>>()
-                );
-            }
-            eprintln!();
-        }
-        let costs =
-            candidates.iter().enumerate().filter(|(k, _)| accurate[*k]).map(|(k, candidate)| (k, cost(candidate)));
+        let costs = candidates.iter().enumerate().filter(|(k, _)| accurate[*k]);
+        let costs = costs.map(|(k, candidate)| (k, cost(candidate)));
         costs.min_by_key(|(_, cost)| *cost).expect("a function has at least one arrangement").0
     }
 }

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::accuracy::{Trial, accurate};
 use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Tangents};
 
 use super::hoist::Hoister;
@@ -80,12 +81,17 @@ pub(super) struct Constants<'g> {
 impl<'g> Differentiated<'g> {
     /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple where
     /// those of its definition are not: R σ̂ beside what a quaternion makes of it.
-    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, kept: Kept) -> Lowered<'_, 'g> {
+    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, kept: Kept, trial: &mut Trial) -> Lowered<'_, 'g> {
         let definitions = Program::lower(&hoister.hoist(&self.defined));
         let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
-        let lowered = self.arrangements.iter().map(|outputs| {
-            let program = Program::lower(&hoister.hoist_undefined(outputs));
-            (differentiate(&program, (&self.defined, &definitions), &self.directions), outputs)
+        let lower = |outputs: &'_ Vec<Expr<'g>>| Program::lower(&hoister.hoist_undefined(outputs));
+        let programs: Vec<Program<'g>> = self.arrangements.iter().map(lower).collect();
+        trial.define(hoister.constants());
+        // What loses digits loses them in its derivatives, too.
+        let accurate = accurate(&trial.losses(&programs.iter().collect::<Vec<_>>()));
+        let kept_ones = programs.iter().zip(&self.arrangements).zip(accurate).filter(|(_, accurate)| *accurate);
+        let lowered = kept_ones.map(|((program, outputs), _)| {
+            (differentiate(program, (&self.defined, &definitions), &self.directions), outputs)
         });
         let (program, outputs) =
             lowered.min_by_key(|(program, _)| program.cost().total()).expect("a function has at least one arrangement");

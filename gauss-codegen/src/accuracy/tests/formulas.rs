@@ -115,3 +115,14 @@ fn a_sphere_near_gimbal_lock() {
         agree(&format!("{near}"), found[0], expected, expected.abs());
     }
 }
+
+/// A body that slides along the axis that it turns about, and nowhere else: `I q̈ = −m g l cos q`, I about O.
+#[test]
+fn a_body_that_slides_along_its_axis() {
+    let clauses = "coordinates(q, x), gravity = 9, body(b, position = [x - 300, 2, 1], rotation = rotation_x(q), mass = 2, \
+                   inertia = [4, 5, 6], center_of_mass = [0.1, 0.3, 0])";
+    let found = computed(clauses, Method::Acceleration, &[0.4, 300.2], &[1.5, 0.7]);
+    let expected = -2.0 * 9.0 * 0.3 * 0.4_f64.cos() / 4.0;
+    agree("turning", found[0], expected, expected.abs());
+    agree("sliding", found[1], 0.0, 1.0);
+}

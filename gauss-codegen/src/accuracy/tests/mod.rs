@@ -20,6 +20,12 @@ const SCENES: u64 = 104;
 const CHANGES: u64 = 4;
 const CHANGE: f64 = 1.0 / (1_u64 << 44) as f64;
 
+/// Kinds of scenes whose forces are formed about Ω, or whose links differ too much for an elimination in any order: what they lose is printed.
+const LOSING: [&str; 2] = ["orbit", "free mass ratios"];
+/// Results below this share of the largest vanish identically; the largest is not below this.
+const VANISHING: f64 = 1.0 / (1_u64 << 60) as f64;
+const TINY: f64 = 1e-30;
+
 /// Accelerations at one state: the largest error of a component in units of its conditioning; `None` where they have no value.
 fn loss(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Option<f64> {
     let system = derived.subject.system;
@@ -36,10 +42,13 @@ fn loss(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Option<f64> {
         }
     }
     let found = computed(derived, &values);
-    let scale = |value: Precise, square: f64| f64::EPSILON * (value.to_f64().abs() + square.sqrt());
-    let losses = found.iter().zip(&exact).zip(squares).map(|((found, exact), square)| {
+    let sizes: Vec<f64> =
+        exact.iter().zip(squares).map(|(value, square)| value.to_f64().abs() + square.sqrt()).collect();
+    let largest = sizes.iter().copied().fold(TINY, f64::max);
+    let losses = found.iter().zip(&exact).zip(sizes).map(|((found, exact), size)| {
         let error = (Precise::number(*found) - *exact).to_f64().abs();
-        if error == 0.0 { 0.0 } else { error / scale(*exact, square) }
+        // What vanishes whatever the numbers are is measured by what does not.
+        error / (f64::EPSILON * if size <= VANISHING * largest { largest } else { size })
     });
     let worst = losses.fold(0.0, |a: f64, b| if b.is_nan() { b } else { a.max(b) });
     assert_eq!(found.len(), system.scene.speeds.len());
@@ -165,7 +174,12 @@ fn kernels_of_random_scenes_lose_what_their_conditioning_excuses() {
             above(1e3)
         );
     }
-    for (loss, text) in losses.iter().take(12) {
+    for (loss, text) in losses.iter().take(8) {
         println!("{loss:9.3e}  {text}");
     }
+    let kept: Vec<&(f64, String)> =
+        losses.iter().filter(|(_, text)| !LOSING.iter().any(|kind| text.starts_with(kind))).collect();
+    let share = |limit: f64| kept.iter().filter(|(loss, _)| *loss > limit).count();
+    assert!(share(1e3) == 0, "{} scenes lose more than three digits", share(1e3));
+    assert!(100 * share(30.0) <= kept.len(), "{} of {} scenes lose more than 30 units", share(30.0), kept.len());
 }

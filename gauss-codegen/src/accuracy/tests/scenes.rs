@@ -21,8 +21,8 @@ pub fn scene(seed: u64) -> Scene {
     match seed % 8 {
         0 => scene.tree(r, "offsets", 5.0, 0.0, false),
         1 => scene.tree(r, "far base", 1.0, 0.0, true),
-        2 => scene.tree(r, "mass ratios", 1.0, 6.0, false),
-        3 => scene.tree(r, "free mass ratios", 1.0, 6.0, true),
+        2 => scene.tree(r, "mass ratios", 1.0, 3.0, false),
+        3 => scene.tree(r, "free mass ratios", 1.0, 3.0, true),
         4 => scene.orbit(r),
         5 => scene.curve(r),
         6 => scene.pole(r),
