@@ -38,7 +38,7 @@ impl<S: GaussSystem> OneStep<S> for Heun {
     ) -> Result<Step<S>, IntegrationErrorKind> {
         let moved = |rates: &Rates<S>| State {
             t: state.t + h,
-            q: state.q.retract(&rates.configuration.scale(h)).renormalise(),
+            q: state.q.advance(&rates.configuration.scale(h)),
             y: state.y.add_scaled(h, &rates.variables),
         };
         let ahead = problem.rates(&moved(rates));

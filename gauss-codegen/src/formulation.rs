@@ -2,7 +2,7 @@
 
 use crate::algebra::{Expr, Graph, Map};
 use crate::mechanics::{
-    Constraints, Coordinate, Elimination, Formula, InertialParameters, Linearization, Regressor, System,
+    Constraints, Coordinate, Elimination, Formula, InertialParameters, Linearization, Method, Regressor, System,
     check_system_against_definition, rotation_of_quaternion,
 };
 use crate::mistakes::{eliminate, refuse_curved_kinematics, refuse_idle_speeds, system_faults};
@@ -36,7 +36,11 @@ impl<'g> Formulation<'g> {
         let mut formulas = system.formulas();
         check_system_against_definition(&system, &formulas)
             .map_err(|faults| system_faults(model, translator, &system, &faults))?;
-        formulas.extend(elimination.iter().flat_map(Elimination::formulas));
+        if let Some(elimination) = &elimination {
+            let accelerations = formulas.iter_mut().find(|formula| formula.method == Method::Acceleration);
+            accelerations.into_iter().for_each(|formula| formula.arrangements.extend(elimination.accelerations()));
+            formulas.extend(elimination.formulas());
+        }
         let (quaternions, definitions) = system_rotations(system.scene.graph, &system);
         let linearization = model.wanted.linearize.then(|| Linearization::new(&system, &formulas));
         let parameters = parameters(&model.fields, translator.sources());

@@ -39,12 +39,18 @@ pub trait Configuration: Copy + Debug {
     /// `self ∘ exp(tangent)`.
     fn retract(&self, tangent: &Self::Tangent) -> Self;
 
+    /// `self ∘ exp(tangent)`, held at norm 1: the end of a step. What holds the norm is added before the sum is rounded, so that
+    /// it does no harm over long runs (see [`lie::so3::advance`](crate::lie::so3::advance)).
+    fn advance(&self, tangent: &Self::Tangent) -> Self {
+        self.retract(tangent).renormalise()
+    }
+
     /// `meant ∘ exp(tangent)`, brought back to norm 1, where `meant = self ∘ exp(carried)` is known beyond the precision of
     /// `self`; `carried` becomes that of the result: see [`lie::carried`](crate::lie::carried). Where this is not written, nothing
     /// is carried.
     fn retract_carrying(&self, tangent: &Self::Tangent, carried: &mut Self::Tangent) -> Self {
         let _ = carried;
-        self.retract(tangent).renormalise()
+        self.advance(tangent)
     }
 
     /// The shortest increment from `self` to `other`: `self.retract(&self.difference(other))` is `other`.
@@ -107,8 +113,14 @@ pub trait Configuration: Copy + Debug {
     /// Whether every component is finite.
     fn is_finite(&self) -> bool;
 
-    /// The nearest valid configuration: a unit quaternion is brought back to norm 1 without bias. The identity where
-    /// there is nothing to keep.
+    /// The change of the components that brings norms back to 1, to first order: what a method that works on components adds
+    /// to the change of a step before it is rounded, as [`advance`](Self::advance) does. Zero where there is nothing to keep.
+    fn norm_correction(&self) -> Self::Components {
+        Self::Components::zero()
+    }
+
+    /// The nearest valid configuration: a unit quaternion is brought back to norm 1 without bias, and left alone where its norm
+    /// is 1 up to rounding. The identity where there is nothing to keep.
     fn renormalise(&self) -> Self {
         *self
     }
@@ -134,6 +146,11 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
     #[inline(always)]
     fn retract(&self, tangent: &Self::Tangent) -> Self {
         so3::retract(self, tangent)
+    }
+
+    #[inline(always)]
+    fn advance(&self, tangent: &Self::Tangent) -> Self {
+        so3::advance(self, tangent)
     }
 
     #[inline(always)]
@@ -188,6 +205,11 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
     }
 
     #[inline(always)]
+    fn norm_correction(&self) -> Self::Components {
+        SVector::from(so3::norm_correction(quaternion(self)))
+    }
+
+    #[inline(always)]
     fn renormalise(&self) -> Self {
         so3::renormalise(self)
     }
@@ -211,6 +233,11 @@ impl<T: Real> Configuration for Isometry3<T> {
     #[inline(always)]
     fn retract(&self, tangent: &Self::Tangent) -> Self {
         se3::retract(self, tangent)
+    }
+
+    #[inline(always)]
+    fn advance(&self, tangent: &Self::Tangent) -> Self {
+        se3::advance(self, tangent)
     }
 
     #[inline(always)]
@@ -270,6 +297,12 @@ impl<T: Real> Configuration for Isometry3<T> {
     }
 
     #[inline(always)]
+    fn norm_correction(&self) -> Self::Components {
+        let ([x, y, z, w], zero) = (so3::norm_correction(quaternion(&self.rotation)), T::zero());
+        SVector::from([x, y, z, w, zero, zero, zero])
+    }
+
+    #[inline(always)]
     fn renormalise(&self) -> Self {
         Self { rotation: so3::renormalise(&self.rotation), translation: self.translation }
     }
@@ -293,6 +326,11 @@ impl<T: Real> Configuration for Isometry2<T> {
     #[inline(always)]
     fn retract(&self, tangent: &Self::Tangent) -> Self {
         se2::retract(self, tangent)
+    }
+
+    #[inline(always)]
+    fn advance(&self, tangent: &Self::Tangent) -> Self {
+        se2::advance(self, tangent)
     }
 
     #[inline(always)]
@@ -350,6 +388,13 @@ impl<T: Real> Configuration for Isometry2<T> {
     fn is_finite(&self) -> bool {
         let rotation = self.rotation.as_ref();
         rotation.re.is_finite() && rotation.im.is_finite() && VectorSpace::is_finite(&self.translation.vector)
+    }
+
+    #[inline(always)]
+    fn norm_correction(&self) -> Self::Components {
+        let (turn, zero) = (self.rotation.as_ref(), T::zero());
+        let [re, im] = se2::norm_correction([turn.re, turn.im]);
+        SVector::from([re, im, zero, zero])
     }
 
     #[inline(always)]
@@ -447,6 +492,11 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
     }
 
     #[inline(always)]
+    fn advance(&self, tangent: &Self::Tangent) -> Self {
+        (self.0.advance(&tangent.first), self.1.advance(&tangent.second))
+    }
+
+    #[inline(always)]
     fn retract_carrying(&self, tangent: &Self::Tangent, low: &mut Self::Tangent) -> Self {
         (
             self.0.retract_carrying(&tangent.first, &mut low.first),
@@ -498,6 +548,11 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
     #[inline]
     fn is_finite(&self) -> bool {
         self.0.is_finite() && self.1.is_finite()
+    }
+
+    #[inline(always)]
+    fn norm_correction(&self) -> Self::Components {
+        Product { first: self.0.norm_correction(), second: self.1.norm_correction() }
     }
 
     #[inline(always)]

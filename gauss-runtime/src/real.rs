@@ -319,9 +319,46 @@ pub(crate) const fn rounded_ratio(p: i64, q: i64, digits: u32) -> f64 {
     if (p < 0) == (q < 0) { magnitude } else { -magnitude }
 }
 
+/// `p/q` less [`rounded_ratio`] of it with 53 digits, rounded: the next 53 digits.
+#[cold]
+pub(crate) const fn ratio_rest(p: i64, q: i64) -> f64 {
+    let rounded = rounded_ratio(p, q, f64::MANTISSA_DIGITS);
+    if rounded == 0.0 || !rounded.is_finite() {
+        return 0.0;
+    }
+    let (bits, hidden) = (rounded.abs().to_bits(), 1_u64 << 52);
+    let mantissa = ((bits & (hidden - 1)) | hidden) as i128;
+    let mantissa = if rounded < 0.0 { -mantissa } else { mantissa };
+    // rounded = mantissa·2^exponent, and |p|/2^exponent is about 2⁵³|q|: no product leaves 128 digits.
+    let exponent = (bits >> 52) as i32 - 1075;
+    let (p, q) = (p as i128, q as i128);
+    if exponent < 0 {
+        let power = f64::from_bits(((1023 + exponent) as u64) << 52);
+        ((p << -exponent) - mantissa * q) as f64 / q as f64 * power
+    } else {
+        (p - (mantissa << exponent) * q) as f64 / q as f64
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_ratio_and_its_rest_are_exact() {
+        // 1/3 − fl(1/3) = 1/(3·2⁵⁴); what f64 holds leaves nothing.
+        assert_eq!(ratio_rest(1, 3), 2.0_f64.powi(-54) / 3.0);
+        assert_eq!(ratio_rest(3, 4), 0.0);
+        assert_eq!(ratio_rest((1 << 53) + 1, 1), 1.0);
+        // By fractions of whole numbers (Python).
+        for (p, q, rest) in [
+            (-22, 7, -6.344131569286608e-17),
+            (4_450_312_892_752_408_881, 1_000_000_000_000_000_000, -2.741504170638509e-16),
+            (43_867, 5_109_094_217_170_944_000, -6.05252374381974e-31),
+        ] {
+            assert!((ratio_rest(p, q) - rest).abs() <= 2.0 * f64::EPSILON * rest.abs(), "{p}/{q}");
+        }
+    }
 
     #[test]
     fn ratios_are_rounded_once() {

@@ -101,6 +101,19 @@ pub(super) enum Node {
     Opaque(Id),
 }
 
+impl Node {
+    /// What it is made of.
+    pub(super) fn children(&self) -> Vec<Id> {
+        match self {
+            Node::Number(_) | Node::Symbol(_) => Vec::new(),
+            Node::Sum(terms) => terms.iter().map(|&(_, id)| id).collect(),
+            Node::Product(factors) => factors.iter().map(|&(id, _)| id).collect(),
+            Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => vec![*id],
+            Node::Binary(_, a, b) => vec![*a, *b],
+        }
+    }
+}
+
 /// In one word: hashing piece by piece is most of a look-up in unoptimised code.
 impl Hash for Node {
     fn hash<H: Hasher>(&self, state: &mut H) {
@@ -191,6 +204,38 @@ impl Graph {
 
     pub(super) fn with_symbol<R>(&self, symbol: u32, read: impl FnOnce(&Symbol) -> R) -> R {
         read(&self.symbols.borrow()[symbol as usize])
+    }
+
+    pub(super) fn any_symbol(&self, holds: impl FnMut(&Symbol) -> bool) -> bool {
+        self.symbols.borrow().iter().any(holds)
+    }
+
+    /// All that expressions are made of, they too; parts come before what is made of them.
+    pub(super) fn reached(&self, roots: &[Id], parts: impl Fn(&Self, Id) -> Vec<Id>) -> Vec<Id> {
+        let (mut found, mut open) = (Map::default(), roots.to_vec());
+        while let Some(id) = open.pop() {
+            if found.insert(id, ()).is_none() {
+                open.extend(parts(self, id));
+            }
+        }
+        let mut found: Vec<Id> = found.into_keys().collect();
+        found.sort_unstable();
+        found
+    }
+
+    /// About how many operations expressions take together, each part computed once.
+    pub fn operations(&self, outputs: &[Expr<'_>]) -> usize {
+        let roots: Vec<Id> = outputs.iter().map(|e| e.id).collect();
+        let children = |graph: &Self, id: Id| graph.node(id).children();
+        self.reached(&roots, children).into_iter().map(|id| children(self, id).len()).sum()
+    }
+
+    /// What a group is a group of.
+    pub(super) fn ungrouped(&self, mut id: Id) -> Id {
+        while let Node::Group(inner) | Node::Opaque(inner) = self.node(id) {
+            id = inner;
+        }
+        id
     }
 
     pub fn zero(&self) -> Expr<'_> {

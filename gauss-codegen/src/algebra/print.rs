@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::graph::{BinaryFunction, Expr, Function, NodeView};
+use super::parts::Parts;
 use super::rational::Rational;
 
 /// How to write.
@@ -22,7 +23,30 @@ impl fmt::Debug for Expr<'_> {
 
 /// An expression on one line. Groups are written out.
 pub fn print(e: Expr<'_>, notation: Notation) -> String {
-    Printer { notation }.sum(e)
+    Printer::new(notation, &Parts::default()).sum(e)
+}
+
+/// The same; what is long, with names in the place of parts.
+pub fn print_with<'g>(e: Expr<'g>, notation: Notation, parts: &Parts<'g>) -> String {
+    if !parts.is_long(e) {
+        return print(e, notation);
+    }
+    Printer::new(notation, parts).sum(e)
+}
+
+/// What is defined, in terms of other parts.
+pub fn print_definition<'g>(e: Expr<'g>, notation: Notation, parts: &Parts<'g>) -> String {
+    if !parts.is_long(e) {
+        return print(e, notation);
+    }
+    joined(Printer::new(notation, parts).terms_of(e))
+}
+
+/// What each numbered name stands for, in an order in which every one is made of those before it.
+pub fn print_parts(notation: Notation, parts: &Parts<'_>) -> Vec<(String, String)> {
+    let printer = Printer::new(notation, parts);
+    let printed = |e: &Expr<'_>| Some((printer.name_of(*e)?, joined(printer.terms_of(*e))));
+    parts.values().iter().filter_map(printed).collect()
 }
 
 /// To double precision, with a power of ten where many zeros would stand otherwise.
@@ -38,8 +62,9 @@ pub fn decimal(value: Rational, notation: Notation) -> String {
     }
 }
 
-struct Printer {
+struct Printer<'a, 'g> {
     notation: Notation,
+    parts: &'a Parts<'g>,
 }
 
 /// One printed term: its sign and its unsigned text.
@@ -48,30 +73,51 @@ struct Term {
     text: String,
 }
 
-impl Printer {
+/// Terms with their signs between them.
+fn joined(terms: Vec<Term>) -> String {
+    let mut out = String::new();
+    for (k, term) in terms.into_iter().enumerate() {
+        match (k, term.negative) {
+            (0, true) => out.push('-'),
+            (0, false) => {}
+            (_, true) => out.push_str(" - "),
+            (_, false) => out.push_str(" + "),
+        }
+        out.push_str(&term.text);
+    }
+    out
+}
+
+impl<'a, 'g> Printer<'a, 'g> {
+    fn new(notation: Notation, parts: &'a Parts<'g>) -> Self {
+        Self { notation, parts }
+    }
+
     fn latex(&self) -> bool {
         self.notation == Notation::Latex
     }
 
-    fn sum(&self, e: Expr<'_>) -> String {
-        let mut out = String::new();
-        for (k, term) in self.terms(e).into_iter().enumerate() {
-            match (k, term.negative) {
-                (0, true) => out.push('-'),
-                (0, false) => {}
-                (_, true) => out.push_str(" - "),
-                (_, false) => out.push_str(" + "),
-            }
-            out.push_str(&term.text);
-        }
-        out
+    fn name_of(&self, e: Expr<'g>) -> Option<String> {
+        self.parts.name(e).map(|[text, latex]| if self.latex() { latex } else { text }.clone())
     }
 
-    fn terms(&self, e: Expr<'_>) -> Vec<Term> {
+    fn sum(&self, e: Expr<'g>) -> String {
+        joined(self.terms(e))
+    }
+
+    fn terms(&self, e: Expr<'g>) -> Vec<Term> {
+        match self.name_of(e) {
+            Some(text) => vec![Term { negative: false, text }],
+            None => self.terms_of(e),
+        }
+    }
+
+    /// Of an expression itself, whatever its name.
+    fn terms_of(&self, e: Expr<'g>) -> Vec<Term> {
         match e.view() {
-            NodeView::Group(inner) | NodeView::Opaque(inner) => self.terms(inner),
+            NodeView::Group(inner) | NodeView::Opaque(inner) => self.terms_of(inner),
             NodeView::Sum(terms) => {
-                let mut printed: Vec<Term> = terms.into_iter().map(|(c, e)| self.term(c, e)).collect();
+                let mut printed: Vec<Term> = terms.into_iter().map(|(c, e)| self.term(c, self.factors(e))).collect();
                 // A positive term first where there is one: `a - b` rather than `-b + a`.
                 if printed[0].negative
                     && let Some(k) = printed.iter().position(|t| !t.negative)
@@ -81,30 +127,40 @@ impl Printer {
                 }
                 printed
             }
-            _ => vec![self.term(Rational::one(), e)],
+            NodeView::Product(factors) => vec![self.term(Rational::one(), factors)],
+            // Its name, if it has one, is what it is printed for.
+            NodeView::Call(..) | NodeView::Binary(..) => {
+                vec![Term { negative: false, text: self.unnamed_factor(e, true) }]
+            }
+            _ => vec![self.term(Rational::one(), vec![(e, 1)])],
         }
     }
 
-    fn term(&self, coefficient: Rational, e: Expr<'_>) -> Term {
+    /// What a term is a product of.
+    fn factors(&self, e: Expr<'g>) -> Vec<(Expr<'g>, i32)> {
+        match e.view() {
+            NodeView::Product(factors) if self.parts.name(e).is_none() => factors,
+            _ => vec![(e, 1)],
+        }
+    }
+
+    fn term(&self, coefficient: Rational, factors: Vec<(Expr<'g>, i32)>) -> Term {
         let negative = coefficient.is_negative();
         let coefficient = coefficient.abs();
         let (mut above, mut below) = (Vec::new(), Vec::new());
-        let factors = match e.view() {
-            NodeView::Product(factors) => factors,
-            NodeView::Number(value) => {
-                return Term {
-                    negative: negative != value.is_negative(),
-                    text: self.number(&(value.abs() * coefficient)),
-                };
-            }
-            _ => vec![(e, 1)],
-        };
+        if let [(e, 1)] = factors.as_slice()
+            && let Some(value) = e.as_number()
+        {
+            let text = self.number(&(value.abs() * coefficient));
+            return Term { negative: negative != value.is_negative(), text };
+        }
         // Constants first, as in a textbook: (I2 - I3)*w2*w3.
         let (mut factors, varying): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| e.is_constant());
         factors.extend(varying);
         // A difference takes the sign of its term in: (I3 - I1)*w1*w3 rather than -(I1 - I3)*w1*w3.
         let mut negative = negative;
-        if negative && let Some(factor) = factors.iter_mut().find(|(e, n)| *n == 1 && is_difference(*e)) {
+        let turned = |(e, n): &(Expr<'g>, i32)| *n == 1 && self.parts.name(*e).is_none() && is_difference(*e);
+        if negative && let Some(factor) = factors.iter_mut().find(|factor| turned(factor)) {
             factor.0 = -ungrouped(factor.0);
             negative = false;
         }
@@ -133,7 +189,14 @@ impl Printer {
         Term { negative, text }
     }
 
-    fn factor(&self, e: Expr<'_>, alone: bool) -> String {
+    fn factor(&self, e: Expr<'g>, alone: bool) -> String {
+        if let Some(name) = self.name_of(e) {
+            return name;
+        }
+        self.unnamed_factor(e, alone)
+    }
+
+    fn unnamed_factor(&self, e: Expr<'g>, alone: bool) -> String {
         match e.view() {
             NodeView::Symbol(symbol) => {
                 e.graph().with_symbol(symbol, |s| if self.latex() { s.latex.clone() } else { s.text.clone() })

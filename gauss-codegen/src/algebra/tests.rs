@@ -2,7 +2,9 @@
 
 use super::Map;
 use super::ideal::Ideal;
-use super::{Evaluation, Expr, Graph, Notation, Rational, Solver, inverse_of_symmetric, print};
+use super::{
+    Evaluation, Expr, Graph, Notation, Parts, Rational, Solver, inverse_of_symmetric, print, print_parts, print_with,
+};
 
 fn symbols<'g, const N: usize>(graph: &'g Graph, names: [&str; N]) -> [Expr<'g>; N] {
     names.map(|name| graph.symbol(name, name, false))
@@ -221,4 +223,24 @@ fn printing_reads_like_a_textbook() {
     assert_eq!(text((w1 + w3).recip()), "1/(w1 + w3)");
     assert_eq!(print((w1 * w3.recip()).half(), Notation::Latex), "\\frac{w1}{2 \\, w3}");
     assert_eq!(print((w1 + w3).sin(), Notation::Latex), "\\sin\\left(w1 + w3\\right)");
+}
+
+#[test]
+fn common_parts_have_names_where_rows_are_long() {
+    let graph = Graph::new();
+    let [x, y] = ["x", "y"].map(|name| graph.symbol(name, name, false));
+    let mut part = x * y + x + y;
+    for _ in 0..40 {
+        part = part.sin() * part.group() + x;
+    }
+    let short = (x + y).sin();
+    let parts = Parts::of(&[(None, part), (Some(["v".into(), "v".into()]), short), (None, (x + y).group() * part)]);
+    // As a tree it has 2⁴⁰ terms.
+    assert!(print_with(part, Notation::Text, &parts).len() < 10);
+    assert!(print_parts(Notation::Text, &parts).iter().all(|(_, value)| value.len() < 30));
+    assert_eq!(
+        print_parts(Notation::Latex, &parts)[1],
+        ("s_{2}".into(), "x + \\sin\\left(s_{1}\\right) \\, s_{1}".into())
+    );
+    assert_eq!(print_with(short, Notation::Text, &parts), "sin(x + y)");
 }

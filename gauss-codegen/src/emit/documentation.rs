@@ -3,7 +3,7 @@
 use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
-use crate::mechanics::Section;
+use crate::mechanics::Page;
 use crate::model::{InChart, InputKind, Role};
 
 use super::chart::{chart_name, motion_name};
@@ -19,12 +19,12 @@ pub struct Equations {
 impl Equations {
     /// Printed once for all that is said of them: a second time the terms of a sum can come in another order.
     pub fn of(derived: &Derived<'_, '_>) -> Self {
-        let sections = derived.subject.system.equations();
-        Equations { text: text(derived, &sections), latex: latex(&sections) }
+        let page = derived.subject.system.equations();
+        Equations { text: text(derived, &page), latex: latex(&page) }
     }
 }
 
-fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
+fn text(derived: &Derived<'_, '_>, page: &Page<'_>) -> String {
     let mut out = format!(
         "{}: {}
 ",
@@ -40,22 +40,18 @@ fn text(derived: &Derived<'_, '_>, sections: &[Section<'_>]) -> String {
             if derived.subject.model.one_body().is_some() { "; x̂ = R x + b" } else { "" }
         ));
     }
-    for section in sections {
-        out.push_str(&format!("\n{}\n", section.title.text));
-        for row in &section.rows {
-            out.push_str(&format!("  {}\n", row.print(Notation::Text)));
-        }
+    for (title, lines) in page.print(Notation::Text) {
+        out.push_str(&format!("\n{title}\n"));
+        lines.iter().for_each(|line| out.push_str(&format!("  {line}\n")));
     }
     out
 }
 
-fn latex(sections: &[Section<'_>]) -> String {
+fn latex(page: &Page<'_>) -> String {
     let mut out = String::from("\\begin{align*}\n");
-    for section in sections {
-        out.push_str(&format!("&\\text{{{}}} \\\\\n", section.title.latex));
-        for row in &section.rows {
-            out.push_str(&format!("{} \\\\\n", row.print(Notation::Latex).replacen(" = ", " &= ", 1)));
-        }
+    for (title, lines) in page.print(Notation::Latex) {
+        out.push_str(&format!("&\\text{{{title}}} \\\\\n"));
+        lines.iter().for_each(|line| out.push_str(&format!("{} \\\\\n", line.replacen(" = ", " &= ", 1))));
     }
     out.push_str("\\end{align*}\n");
     out

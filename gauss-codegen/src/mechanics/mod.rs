@@ -60,7 +60,7 @@ pub use loads::fields::{attraction, entrained};
 pub use loads::forces::{Action, Element, Force};
 pub use loads::observed::Observed;
 pub use matter::body::{Assigned, Body, BodyShape, ParameterSymbol};
-pub use print::equations::Section;
+pub use print::equations::Page;
 pub use print::names::Name;
 pub use scene::{Coordinate, Lettering, SystemScene};
 pub use system::System;

@@ -30,12 +30,9 @@ fn equations(motion: Motion, chart: Chart, notation: Notation) -> String {
     for (title, shape) in bodies() {
         let graph = Graph::new();
         out.push_str(&format!("=== {title}\n"));
-        for section in Charted::new(&graph, motion, chart, shape).system.equations() {
-            let title = if notation == Notation::Latex { section.title.latex } else { section.title.text };
+        for (title, lines) in Charted::new(&graph, motion, chart, shape).system.equations().print(notation) {
             out.push_str(&format!("\n{title}\n"));
-            for row in section.rows {
-                out.push_str(&format!("  {}\n", row.print(notation)));
-            }
+            lines.iter().for_each(|line| out.push_str(&format!("  {line}\n")));
         }
         out.push('\n');
     }

@@ -356,6 +356,11 @@ impl<'g> System<'g> {
         arrangement.residual.iter().zip(forces).map(|(r, f)| *r - f).collect()
     }
 
+    /// ż in all of the ways in which it is formed.
+    pub(in crate::mechanics) fn ways_to_accelerations(&self) -> Vec<Vec<Expr<'g>>> {
+        self.accelerations(&self.arrangements())
+    }
+
     /// ż in one of the ways in which it is formed.
     pub(in crate::mechanics) fn any_acceleration(&self) -> Vec<Expr<'g>> {
         let arrangements = self.arrangements();

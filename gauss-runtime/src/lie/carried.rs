@@ -11,11 +11,10 @@
 
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
+use super::so3::{less_one, norm_correction};
 use super::{coefficients, se2, se3};
 use crate::real::Real;
-use crate::triple::{
-    add, compose, conjugate, cross, dot, quaternion, rotate, rotate_back, scaled, triple, unit_quaternion,
-};
+use crate::triple::{add, compose, conjugate, cross, quaternion, rotate, rotate_back, scaled, triple, unit_quaternion};
 
 /// a + b to nearest, and exactly what is missing there (Knuth).
 #[inline(always)]
@@ -40,16 +39,13 @@ pub(crate) fn two_sums<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> ([T; N]
 #[inline(always)]
 fn turn<T: Real>(q: [T; 4], sigma: [T; 3], carried: [T; 3]) -> ([T; 4], [T; 3]) {
     let half = T::ratio(1, 2);
-    let s = T::ratio(1, 4) * dot(sigma, sigma);
-    // exp(σ) − 1, whose scalar part cos(θ/2) − 1 must not be computed by that difference.
-    let [x, y, z] = scaled(half * coefficients::sinc(s), sigma);
-    let step = [x, y, z, -(s * coefficients::versine(s))];
+    let step = less_one(sigma);
     let [a, b, c] = scaled(half, carried);
     let low = [a, b, c, T::zero()];
     let both = compose(low, step);
     let change = compose(q, core::array::from_fn(|i| step[i] + (low[i] + both[i])));
-    let defect = half * (T::one() - q.iter().fold(T::zero(), |sum, &c| c.fma(c, sum)));
-    let (sum, rest) = two_sums(q, core::array::from_fn(|i| defect.fma(q[i], change[i])));
+    let correction = norm_correction(q);
+    let (sum, rest) = two_sums(q, core::array::from_fn(|i| correction[i] + change[i]));
     let [a, b, c, _] = compose(conjugate(sum), rest);
     (sum, [a + a, b + b, c + c])
 }

@@ -6,7 +6,7 @@
 use nalgebra::{Complex, Isometry2, SVector, Translation, Unit, UnitComplex};
 
 use super::coefficients;
-use super::so3::norm_correction;
+use super::so3::norm_factor;
 use crate::real::Real;
 
 #[inline(always)]
@@ -118,6 +118,29 @@ pub fn retract<T: Real>(pose: &Isometry2<T>, sigma: &SVector<T, 3>) -> Isometry2
     )
 }
 
+/// `q ∘ exp(σ)`, held at norm 1 (see [`so3::advance`](super::so3::advance)).
+#[inline]
+pub fn advance<T: Real>(pose: &Isometry2<T>, sigma: &SVector<T, 3>) -> Isometry2<T> {
+    let turn = pose.rotation.as_ref();
+    let [_, _, omega] = sigma.data.0[0];
+    let s = omega * omega;
+    // exp(iω) − 1.
+    let (re, im) = (-(s * coefficients::versine(s)), omega * coefficients::sinc(s));
+    let [dx, dy] = displacement(sigma);
+    let ([x, y], [c_re, c_im]) = (pose.translation.vector.data.0[0], norm_correction([turn.re, turn.im]));
+    isometry(
+        rotation(turn.re + (turn.re * re - turn.im * im + c_re), turn.im + (turn.re * im + turn.im * re + c_im)),
+        [x + (turn.re * dx - turn.im * dy), y + (turn.im * dx + turn.re * dy)],
+    )
+}
+
+/// The change that brings the norm of a complex number back to 1, to first order.
+#[inline(always)]
+pub(crate) fn norm_correction<T: Real>([re, im]: [T; 2]) -> [T; 2] {
+    let half = T::ratio(1, 2) * (T::one() - re.fma(re, im * im));
+    [half * re, half * im]
+}
+
 /// `log(p⁻¹ ∘ q)`.
 #[inline]
 pub fn difference<T: Real>(from: &Isometry2<T>, to: &Isometry2<T>) -> SVector<T, 3> {
@@ -131,7 +154,7 @@ pub fn difference<T: Real>(from: &Isometry2<T>, to: &Isometry2<T>) -> SVector<T,
 #[inline]
 pub fn renormalise<T: Real>(pose: &Isometry2<T>) -> Isometry2<T> {
     let turn = pose.rotation.as_ref();
-    let factor = norm_correction(T::one() - turn.re.fma(turn.re, turn.im * turn.im));
+    let factor = norm_factor(T::one() - turn.re.fma(turn.re, turn.im * turn.im));
     Isometry2 {
         rotation: rotation(turn.re.fma(factor, turn.re), turn.im.fma(factor, turn.im)),
         translation: pose.translation,

@@ -7,7 +7,7 @@
 use nalgebra::{Isometry3, SVector, Translation, UnitQuaternion};
 
 use super::coefficients;
-use super::so3::{exp_components, log_components};
+use super::so3::{exp_components, less_one, log_components, turned};
 use crate::real::Real;
 use crate::triple::{
     add, axpy, compose, conjugate, cross, dot, quaternion, rotate, rotate_back, sub, triple, unit_quaternion,
@@ -136,6 +136,15 @@ pub fn retract<T: Real>(pose: &Isometry3<T>, sigma: &SVector<T, 6>) -> Isometry3
     let rotation = quaternion(&pose.rotation);
     let shift = rotate(rotation, displacement(u, omega));
     isometry(unit_quaternion(compose(rotation, exp_components(omega))), add(triple(&pose.translation.vector), shift))
+}
+
+/// `q ∘ exp(σ)` with its rotation held at norm 1 (see [`so3::advance`](super::so3::advance)).
+#[inline]
+pub fn advance<T: Real>(pose: &Isometry3<T>, sigma: &SVector<T, 6>) -> Isometry3<T> {
+    let (u, omega) = split(sigma);
+    let rotation = quaternion(&pose.rotation);
+    let shift = rotate(rotation, displacement(u, omega));
+    isometry(unit_quaternion(turned(rotation, less_one(omega))), add(triple(&pose.translation.vector), shift))
 }
 
 /// `log(p⁻¹ ∘ q)`.

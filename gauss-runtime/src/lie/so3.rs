@@ -87,6 +87,43 @@ pub fn retract<T: Real>(rotation: &UnitQuaternion<T>, sigma: &SVector<T, 3>) -> 
     unit_quaternion(compose(quaternion(rotation), exp_components(triple(sigma))))
 }
 
+/// `q ∘ exp(σ)`, held at norm 1: the end of a step.
+///
+/// The change `q ∘ (exp(σ) − 1)` and what brings the norm of q back are summed before they are rounded. A correction that is
+/// rounded on its own is a few units in the last place, the same ones whenever the motion comes by: momenta in space
+/// would drift in proportion to time.
+#[inline]
+pub fn advance<T: Real>(rotation: &UnitQuaternion<T>, sigma: &SVector<T, 3>) -> UnitQuaternion<T> {
+    unit_quaternion(turned(quaternion(rotation), less_one(triple(sigma))))
+}
+
+/// `exp(σ) − 1`. The scalar part cos(θ/2) − 1 must not be formed by that difference.
+#[inline(always)]
+pub(super) fn less_one<T: Real>(sigma: [T; 3]) -> [T; 4] {
+    let s = T::ratio(1, 4) * dot(sigma, sigma);
+    let [x, y, z] = scaled(T::ratio(1, 2) * coefficients::sinc(s), sigma);
+    [x, y, z, -(s * coefficients::versine(s))]
+}
+
+/// `q ∘ (1 + step)`, held at norm 1.
+#[inline(always)]
+pub(crate) fn turned<T: Real>(q: [T; 4], step: [T; 4]) -> [T; 4] {
+    let (change, correction) = (compose(q, step), norm_correction(q));
+    core::array::from_fn(|i| q[i] + (change[i] + correction[i]))
+}
+
+/// The change that brings the norm of q back to 1, to first order: `½(1 − |q|²) q`.
+#[inline(always)]
+pub(crate) fn norm_correction<T: Real>(q: [T; 4]) -> [T; 4] {
+    let half = T::ratio(1, 2) * defect(q);
+    q.map(|c| half * c)
+}
+
+#[inline(always)]
+fn defect<T: Real>(q: [T; 4]) -> T {
+    T::one() - q.iter().fold(T::zero(), |sum, &c| c.fma(c, sum))
+}
+
 /// `log(p⁻¹ ∘ q)`.
 #[inline]
 pub fn difference<T: Real>(from: &UnitQuaternion<T>, to: &UnitQuaternion<T>) -> SVector<T, 3> {
@@ -111,20 +148,23 @@ pub(crate) fn tangent<T: Real>(q: [T; 4], change: [T; 4]) -> [T; 3] {
 
 /// Brings the norm back to 1.
 ///
-/// Near norm 1 each component gets the correction `q·½(1 − |q|²)` *added*, so that it is rounded to nearest and a norm
-/// that is right up to rounding is left alone: dividing by a rounded norm shrinks on average, because floating-point
-/// numbers lie twice as densely below 1 as above.
+/// Near norm 1 each component gets the correction `q·½(1 − |q|²)` *added*, so that it is rounded to nearest: dividing by a
+/// rounded norm shrinks on average, because floating-point numbers lie twice as densely below 1 as above. A norm
+/// that is right up to rounding is left alone, because so small a correction, rounded, would turn as much as it mends:
+/// steps hold the norm before they round ([`advance`]).
 #[inline]
 pub fn renormalise<T: Real>(rotation: &UnitQuaternion<T>) -> UnitQuaternion<T> {
     let q = quaternion(rotation);
-    let defect = T::one() - q.iter().fold(T::zero(), |sum, &c| c.fma(c, sum));
-    let factor = norm_correction(defect);
+    let factor = norm_factor(defect(q));
     unit_quaternion(q.map(|c| c.fma(factor, c)))
 }
 
-/// `1/√(1 − defect) − 1`; to first order where the second order is below rounding.
+/// `1/√(1 − defect) − 1`; to first order where the second order is below rounding, and 0 where the defect is the rounding of four
+/// components and of the sum of their squares.
 #[inline(always)]
-pub(super) fn norm_correction<T: Real>(defect: T) -> T {
+pub(super) fn norm_factor<T: Real>(defect: T) -> T {
+    let rounding = T::from_f64(4.0 * T::EPSILON);
+    let defect = T::select_lt(defect * defect, rounding * rounding, T::zero(), defect);
     let half = T::ratio(1, 2) * defect;
     // Σ from the second order on: 3/8 d² + 5/16 d³ + …
     let near = half.omitting(half * defect / (T::one() - defect));

@@ -17,6 +17,8 @@ pub struct Elimination<'g> {
     pub whole: System<'g>,
     /// All speeds, in terms of t, q and the independent ones.
     pub values: Vec<Expr<'g>>,
+    /// The speeds that stay.
+    kept: Vec<usize>,
 }
 
 /// Why speeds cannot be eliminated.
@@ -53,10 +55,27 @@ impl<'g> Elimination<'g> {
             .map(|(e, row)| kept.iter().fold(-e.substitute(&still), |sum, &k| sum - row[k] * speeds[k]))
             .collect();
         let mut values = speeds.clone();
-        for (&k, value) in dependent.iter().zip(solver.solve(&right)) {
-            values[k] = value.collected(LIMIT).group();
+        let solved = solver.solve(&right);
+        let collected: Vec<Expr<'g>> = solved.iter().map(|value| value.collected(LIMIT)).collect();
+        let graph = whole.scene.graph;
+        let shorter = if graph.operations(&collected) < graph.operations(&solved) { collected } else { solved };
+        for (&k, value) in dependent.iter().zip(shorter) {
+            values[k] = value.group();
         }
-        Ok(Self { whole, values })
+        Ok(Self { whole, values, kept: kept.to_vec() })
+    }
+
+    /// ż of the speeds that stay, from the whole system with its multipliers: at times the cheaper way.
+    pub fn accelerations(&self) -> Vec<Vec<Expr<'g>>> {
+        let replacement = self.replacement();
+        let kept = |rates: Vec<Expr<'g>>| self.kept.iter().map(|&k| rates[k].substitute(&replacement)).collect();
+        self.whole.ways_to_accelerations().into_iter().map(kept).collect()
+    }
+
+    /// What the dependent speeds are.
+    fn replacement(&self) -> Map<u32, Expr<'g>> {
+        let symbols = self.whole.scene.speeds.iter().zip(&self.values).filter(|(z, value)| z != value);
+        symbols.map(|(z, value)| (z.key(), *value)).collect()
     }
 
     /// Whether rounding and discretisation can lead away from the constraints: velocities satisfy them by construction.
@@ -66,8 +85,7 @@ impl<'g> Elimination<'g> {
 
     /// What the reduced system's kernel says of the constraints.
     pub fn formulas(&self) -> Vec<Formula<'g>> {
-        let symbols = self.whole.scene.speeds.iter().zip(&self.values).filter(|(z, value)| z != value);
-        let replacement: Map<u32, Expr<'g>> = symbols.map(|(z, value)| (z.key(), *value)).collect();
+        let replacement = self.replacement();
         let zero = self.whole.scene.graph.zero();
         let independent = self.values.len() - self.whole.constraints.count();
         self.whole

@@ -1,6 +1,6 @@
 //! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is short.
 
-use crate::algebra::{Expr, Map, Notation, print};
+use crate::algebra::{Expr, Map, Notation, Parts, print, print_definition, print_parts, print_with};
 use crate::mechanics::tidy::{LIMIT, readable, tidy};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
@@ -17,25 +17,32 @@ pub enum Row<'g> {
     Balance { momentum: Name, bracket: Expr<'g>, force: Option<Name> },
     /// left = right.
     Equation(Expr<'g>, Expr<'g>),
-    /// Words instead of an equation.
-    Remark(Name),
 }
 
-impl Row<'_> {
-    pub fn print(&self, notation: Notation) -> String {
-        let name = |name: &Name| if notation == Notation::Latex { name.latex.clone() } else { name.text.clone() };
+impl<'g> Row<'g> {
+    fn print(&self, notation: Notation, parts: &Parts<'g>) -> String {
+        let name = |name: &Name| name.print(notation).to_owned();
+        let print = |e: &Expr<'g>| print_with(*e, notation, parts);
         match self {
-            Row::Definition(left, right) => format!("{} = {}", name(left), print(*right, notation)),
+            Row::Definition(left, right) => format!("{} = {}", name(left), print_definition(*right, notation, parts)),
             Row::Balance { momentum, bracket, force } => {
                 let mut terms = Vec::new();
                 if !bracket.is_zero() {
-                    terms.push(print(*bracket, notation));
+                    terms.push(print(bracket));
                 }
                 terms.extend(force.as_ref().map(name));
                 format!("{} = {}", name(&momentum.time_derivative()), terms.join(" + "))
             }
-            Row::Remark(words) => name(words),
-            Row::Equation(left, right) => format!("{} = {}", print(*left, notation), print(*right, notation)),
+            Row::Equation(left, right) => format!("{} = {}", print(left), print(right)),
+        }
+    }
+
+    /// What is printed of it, with the name of what it defines.
+    fn expressions(&self) -> Vec<(Option<[String; 2]>, Expr<'g>)> {
+        match self {
+            Row::Definition(Name { text, latex }, e) => vec![(Some([text.clone(), latex.clone()]), *e)],
+            Row::Balance { bracket: e, .. } => vec![(None, *e)],
+            Row::Equation(left, right) => vec![(None, *left), (None, *right)],
         }
     }
 }
@@ -44,6 +51,27 @@ impl Row<'_> {
 pub struct Section<'g> {
     pub title: Name,
     pub rows: Vec<Row<'g>>,
+}
+
+/// All sections, with names for what long rows have in common.
+pub struct Page<'g> {
+    sections: Vec<Section<'g>>,
+    parts: Parts<'g>,
+}
+
+impl Page<'_> {
+    /// Headings, each with its lines.
+    pub fn print(&self, notation: Notation) -> Vec<(String, Vec<String>)> {
+        let lines = |section: &Section<'_>| section.rows.iter().map(|row| row.print(notation, &self.parts)).collect();
+        let mut printed: Vec<(String, Vec<String>)> =
+            self.sections.iter().map(|section| (section.title.print(notation).to_owned(), lines(section))).collect();
+        let named = print_parts(notation, &self.parts).into_iter().map(|(name, value)| format!("{name} = {value}"));
+        let named: Vec<String> = named.collect();
+        if !named.is_empty() {
+            printed.push(("where".to_owned(), named));
+        }
+        printed
+    }
 }
 
 /// Generalised forces for a reader.
@@ -83,26 +111,23 @@ fn element_name(account: &Account<'_>) -> Name {
 fn element_section<'g>(account: &Account<'g>, names: &[Name]) -> Option<Section<'g>> {
     let title = Name::new(&format!("of {}", account.name), &format!("of {}", account.name.replace('_', "\\_")));
     let there = account.forces.iter().zip(names).filter(|(force, _)| !tidy(**force).is_zero());
-    let rows: Option<Vec<Row<'g>>> = there
-        .map(|(force, name)| Some(Row::Definition(name.of(&element_name(account)), readable(*force)?.collect())))
-        .collect();
-    let rows = rows.unwrap_or_else(|| {
-        let words = "too long to print";
-        vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))]
-    });
+    let rows: Vec<Row<'g>> =
+        there.map(|(force, name)| Row::Definition(name.of(&element_name(account)), tidy(*force))).collect();
     (!rows.is_empty()).then_some(Section { title, rows })
 }
 
 impl<'g> System<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
-    pub fn equations(&self) -> Vec<Section<'g>> {
+    pub fn equations(&self) -> Page<'g> {
         let textbook = self.scene.lettering == Lettering::Textbook;
         let mut sections = match self.only_body().filter(|_| textbook) {
             Some(body) => Textbook { system: self, body }.sections(),
             None => self.sections(),
         };
         sections.retain(|section| !section.rows.is_empty());
-        sections
+        let rows = sections.iter().flat_map(|section| &section.rows);
+        let parts = Parts::of(&rows.flat_map(Row::expressions).collect::<Vec<_>>());
+        Page { sections, parts }
     }
 }
 
@@ -135,10 +160,7 @@ impl<'g> Textbook<'_, 'g> {
         sections.extend(forces.sections);
         sections.extend([Section {
             title: Name::new("velocity form A dz/dt = r", "velocity form $A \\dot z = r$"),
-            rows: self.velocity_form_rows().unwrap_or_else(|| {
-                let words = "too long to print: see the balance above";
-                vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))]
-            }),
+            rows: self.velocity_form_rows(),
         }]);
         sections
     }
@@ -229,19 +251,22 @@ impl<'g> Textbook<'_, 'g> {
         named.map(|(name, (_, value))| Row::Definition(name, *value)).collect()
     }
 
-    /// The rows with everything multiplied out; `None` when one would be too long to read.
-    fn velocity_form_rows(&self) -> Option<Vec<Row<'g>>> {
+    /// The rows, multiplied out where that is short.
+    fn velocity_form_rows(&self) -> Vec<Row<'g>> {
         let kinematics = &self.body.kinematics;
         let zero = kinematics.frame.graph.zero();
         let at_rest: Map<u32, Expr<'g>> = kinematics.speed_rates.iter().map(|dz| (dz.key(), zero)).collect();
-        self.body
-            .collected_residual()
-            .into_iter()
-            .map(|row| {
-                let whole = readable(row)?.collect();
+        let row = |row: Expr<'g>| match readable(row) {
+            Some(whole) => {
+                let whole = whole.collect();
                 let still = whole.substitute(&at_rest);
-                Some(Row::Equation((whole - still).collected(LIMIT), (-still).collected(LIMIT)))
-            })
-            .collect()
+                Row::Equation((whole - still).collected(LIMIT), (-still).collected(LIMIT))
+            }
+            None => {
+                let inertia = kinematics.speed_rates.iter().map(|&dz| tidy(row.partial(dz)).group_as_is() * dz);
+                Row::Equation(inertia.sum(), tidy(-row.substitute(&at_rest)))
+            }
+        };
+        self.body.collected_residual().into_iter().map(row).collect()
     }
 }

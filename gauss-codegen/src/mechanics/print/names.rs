@@ -1,5 +1,7 @@
 //! Names of quantities in text and LaTeX: hats for observer's components, dots for rates.
 
+use crate::algebra::Notation;
+
 /// A name in both notations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
@@ -14,6 +16,13 @@ const TWO_DOTS: char = '\u{308}';
 impl Name {
     pub fn new(text: &str, latex: &str) -> Self {
         Self { text: text.to_owned(), latex: latex.to_owned() }
+    }
+
+    pub fn print(&self, notation: Notation) -> &str {
+        match notation {
+            Notation::Text => &self.text,
+            Notation::Latex => &self.latex,
+        }
     }
 
     /// Q → Q̂: components in the observer's axes.

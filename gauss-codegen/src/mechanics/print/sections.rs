@@ -13,37 +13,30 @@ impl<'g> System<'g> {
     pub(in crate::mechanics) fn sections(&self) -> Vec<Section<'g>> {
         let scene = &self.scene;
         let titled = |text: &str, latex: &str, rows: Vec<Row<'g>>| Section { title: Name::new(text, latex), rows };
-        let remark = |words: &str| vec![Row::Remark(Name::new(words, &format!("\\text{{{words}}}")))];
         let kinematics = titled(
             "kinematics dq/dt = ψ(t, q, z) (3.2)",
             "kinematics $\\dot q = \\psi(t, q, z)$ (3.2)",
             self.kinematic_rows(),
         );
         let mut sections = vec![kinematics];
-        if self.is_long() {
-            let words = "too long to print";
-            sections.push(titled("Gauss condition (3.4)", "Gauss condition (3.4)", remark(words)));
-        } else {
-            let momenta = scene.momentum_names.iter().zip(self.momentum());
-            let momenta = momenta.map(|(name, e)| Row::Definition(name.clone(), tidy(e))).collect();
-            let names = scene.momentum_names.iter().zip(&scene.force_names);
-            let balance = names.zip(self.bracket());
-            let row = |((momentum, force), bracket): ((&Name, &Name), Expr<'g>)| Row::Balance {
-                momentum: momentum.clone(),
-                bracket: tidy(bracket),
-                force: Some(force.clone()),
-            };
-            let balance = balance.map(row).collect();
-            let printed = PrintedForces::new(self.generalised_forces(), &self.accounts(), &scene.force_names);
-            let forces = scene.force_names.iter().zip(printed.rows);
-            let forces = forces.map(|(name, e)| Row::Definition(name.clone(), e)).collect();
-            sections.extend([
-                titled("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$", momenta),
-                titled("Gauss condition (3.4)", "Gauss condition (3.4)", balance),
-                titled("active forces (generalised)", "active forces (generalised)", forces),
-            ]);
-            sections.extend(printed.sections);
-        }
+        let momenta = scene.momentum_names.iter().zip(self.momentum());
+        let momenta = momenta.map(|(name, e)| Row::Definition(name.clone(), tidy(e))).collect();
+        let names = scene.momentum_names.iter().zip(&scene.force_names);
+        let row = |((momentum, force), bracket): ((&Name, &Name), Expr<'g>)| Row::Balance {
+            momentum: momentum.clone(),
+            bracket: tidy(bracket),
+            force: Some(force.clone()),
+        };
+        let balance = names.zip(self.bracket()).map(row).collect();
+        let printed = PrintedForces::new(self.generalised_forces(), &self.accounts(), &scene.force_names);
+        let forces = scene.force_names.iter().zip(printed.rows);
+        let forces = forces.map(|(name, e)| Row::Definition(name.clone(), e)).collect();
+        sections.extend([
+            titled("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$", momenta),
+            titled("Gauss condition (3.4)", "Gauss condition (3.4)", balance),
+            titled("active forces (generalised)", "active forces (generalised)", forces),
+        ]);
+        sections.extend(printed.sections);
         let constraints = self.constraints.on_velocities.iter();
         let constraints = constraints.map(|e| Row::Equation(tidy(*e), scene.graph.zero())).collect();
         sections.push(titled(

@@ -8,8 +8,9 @@ use super::inertia::{FreeMotion, PrincipalAxes};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::lie::se3::{join, split};
+use crate::lie::so3;
 use crate::real::Real;
-use crate::triple::{axpy, compose, cross, quaternion, rotate, rotate_back, triple, unit_quaternion};
+use crate::triple::{axpy, cross, quaternion, rotate, rotate_back, triple, unit_quaternion};
 
 /// A system that cannot be split into free motion of one body and forces that depend on time and configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,6 +110,13 @@ pub trait BodyConfiguration: Configuration {
     fn samples() -> [Self; 3];
 }
 
+/// A quaternion turned on, held at norm 1.
+#[inline(always)]
+fn turned<T: Real>(q: [T; 4], turn: &UnitQuaternion<T>) -> [T; 4] {
+    let [x, y, z, w] = quaternion(turn);
+    so3::turned(q, [x, y, z, w - T::one()])
+}
+
 fn attitudes<T: Real>() -> [UnitQuaternion<T>; 3] {
     let of = |components: [(i64, i64); 4]| unit_quaternion(components.map(|(p, q)| T::ratio(p, q)));
     [of([(0, 1), (0, 1), (0, 1), (1, 1)]), of([(1, 5), (2, 5), (4, 5), (2, 5)]), of([(-2, 7), (3, 7), (-6, 7), (0, 1)])]
@@ -129,8 +137,7 @@ impl<T: Real> BodyConfiguration for UnitQuaternion<T> {
         h: T,
     ) -> Result<(Self, SVector<T, 3>), IntegrationErrorKind> {
         let turn = body.axes.turn(&body.motion, p, h)?;
-        let q = compose(quaternion(self), quaternion(&turn.rotation));
-        Ok((unit_quaternion(q), p.add_scaled(T::one(), &turn.change)))
+        Ok((unit_quaternion(turned(quaternion(self), &turn.rotation)), p.add_scaled(T::one(), &turn.change)))
     }
 
     fn inertial_rate(p: &SVector<T, 3>, z: &SVector<T, 3>) -> SVector<T, 3> {
@@ -183,7 +190,7 @@ impl<T: Real> BodyConfiguration for Isometry3<T> {
         // A straight line in space, seen from a body that turns.
         let position = axpy(h / body.mass, rotate(rotation, linear), triple(&self.translation.vector));
         let pose = Self {
-            rotation: unit_quaternion(compose(rotation, delta)),
+            rotation: unit_quaternion(turned(rotation, &turn.rotation)),
             translation: Translation3 { vector: SVector::from(position) },
         };
         let angular = axpy(T::one(), triple(&turn.change), angular);

@@ -172,7 +172,6 @@ where
             passed += length;
         }
         let t = state.t + h;
-        q = q.renormalise();
         if let Some(&push) = self.scheme.kicks().last() {
             p = kick(t, &q, &p, push);
         }

@@ -5,7 +5,8 @@
 //! configuration ([`Configuration::retract_carrying`]): after n steps the error of rounding is about √n h ε instead of √n ε.
 //!
 //! That it grows like √n asks that no step makes the same error again. Explicit methods sum their stages relative to the first
-//! one, so that weights that do not add up to 1 by a rounding do no harm ([`IncrementStep`]).
+//! one, so that weights that do not add up to 1 by a rounding do no harm, and have their coefficients in two parts
+//! ([`IncrementStep`]); attitudes are held at norm 1 within the same sum. The example `long_runs` measures it.
 
 use crate::configuration::{Configuration, VectorSpace, add_carrying};
 use crate::integrate::drive::control::{Control, Emit, one_step, steps_of_one_length};

@@ -63,7 +63,7 @@ fn rounding(n: u32) -> [f64; 2] {
         let (q, z, end) = (SVector::from([x]), SVector::from([v]), f64::from(n) * STEP);
         let run = Simulation::new(&SPRING).input(undriven);
         let carried = run.control(Compensated::with(&Tableau::RK4, STEP)).run_to_end(q, z, 0.0..end).expect("runs");
-        let plain = run.control(Fixed::new(STEP)).run_to_end(q, z, 0.0..end).expect("runs");
+        let plain = run.control(Fixed::with(&Tableau::RK4, STEP)).run_to_end(q, z, 0.0..end).expect("runs");
         for (square, end) in squares.iter_mut().zip([carried, plain]) {
             *square += (end.q[0] - exact[0]).powi(2) + (end.z[0] - exact[1]).powi(2);
         }
@@ -102,6 +102,35 @@ fn quadratic_integrals_are_kept_to_rounding() {
     assert!(errors.iter().all(|error| error.abs() < 2.0 * expected(n)), "{errors:?}");
     let norm: f64 = quaternion(&end.q).iter().map(|c| c * c).sum();
     assert!((norm - 1.0).abs() <= 4.0 * f64::EPSILON, "{norm}");
+}
+
+/// Coefficients of many digits and a step that is not a power of two: each product would be rounded the same way in every step.
+#[test]
+fn rounded_coefficients_do_not_add_up() {
+    let start = start_by_velocity();
+    let energy = TOP.kinetic_energy(0.0, &start.q, &start.y);
+    let n = 1 << 19;
+    let run = Simulation::new(&TOP).input_from(NONE).control(Compensated::with(&Tableau::DORMAND_PRINCE_8, 1.0 / 60.0));
+    let end = run.run_to_end(start.q, start.y, 0.0..f64::from(n) / 60.0).expect("runs");
+    let error = TOP.kinetic_energy(0.0, &end.q, &end.z) / energy - 1.0;
+    // As above, the increment's rounding as often as it has stages.
+    let rounding = f64::EPSILON * (1.0 + (12.0 * f64::from(n)).sqrt() / 60.0);
+    assert!(error.abs() < rounding, "{error:e} {rounding:e}");
+}
+
+/// What holds the norm of an attitude is rounded with the step and not after it: momentum in space walks, and does not drift.
+#[test]
+fn attitudes_do_not_drift() {
+    let start = start_by_velocity();
+    let momentum = start.q * TOP.momentum(0.0, &start.q, &start.y);
+    let n = 1 << 18;
+    let run = Simulation::new(&TOP).input_from(NONE).momentum_form();
+    let run = run.control(Fixed::by(Collocation::order_6(), STEP));
+    let end = run.run_to_end(start.q, start.y, 0.0..f64::from(n) * STEP).expect("runs");
+    let error = (end.q * end.p - momentum).norm() / momentum.norm();
+    // A step rounds four components by ε/4 or less each, in ways that do not repeat.
+    let rounding = f64::EPSILON * f64::from(n).sqrt();
+    assert!(error < rounding, "{error:e} {rounding:e}");
 }
 
 #[test]

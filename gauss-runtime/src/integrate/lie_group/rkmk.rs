@@ -11,7 +11,7 @@ use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::{Rational, Tableau, estimate_order};
 use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
-use crate::real::Real;
+use crate::real::{Real, ratio_rest, rounded_ratio};
 use crate::system::GaussSystem;
 
 /// An explicit Runge–Kutta–Munthe-Kaas method of S stages, its coefficients in the scalar T.
@@ -21,8 +21,9 @@ use crate::system::GaussSystem;
 pub struct Rkmk<T, const S: usize> {
     a: [[T; S]; S],
     b: [T; S],
-    /// Numerators and denominators of b.
-    fractions: [(T, T); S],
+    /// a and b beyond the precision of T: heads of half its digits and what is left.
+    a_parts: [[[T; S]; 2]; S],
+    b_parts: [[T; S]; 2],
     c: [T; S],
     error: [T; S],
     coarse_error: [T; S],
@@ -38,10 +39,12 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
     #[must_use]
     pub fn new(tableau: &Tableau<S>) -> Self {
         let row = |row: &[Rational; S]| row.map(|(p, q)| T::ratio(p, q));
+        let parts = |row: &[Rational; S]| [row.map(|fraction| head(fraction)), row.map(|fraction| tail(fraction))];
         Self {
             a: tableau.a.each_ref().map(row),
             b: row(&tableau.b),
-            fractions: tableau.b.map(|(p, q)| (T::from_f64(p as f64), T::from_f64(q as f64))),
+            a_parts: tableau.a.each_ref().map(parts),
+            b_parts: parts(&tableau.b),
             c: row(&tableau.c),
             error: row(&tableau.error),
             coarse_error: row(&tableau.coarse_error),
@@ -59,7 +62,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         self.order
     }
 
-    /// The derivatives at the stages in the algebra, and those of the last stage as they are.
+    /// The derivatives at the stages in the algebra, and those of the last stage as they are. `increment` says where stage i is.
     #[inline(always)]
     fn stages<Sys: GaussSystem<Scalar = T>, P: Problem<System = Sys>>(
         &self,
@@ -67,13 +70,14 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         state: &State<Sys>,
         rates: &Rates<Sys>,
         h: T,
+        increment: impl Fn(usize, &[Rates<Sys>; S]) -> Rates<Sys>,
     ) -> Result<([Rates<Sys>; S], Rates<Sys>), IntegrationErrorKind> {
         let one = <Sys::Scalar as Real>::one();
         // Derivatives in the algebra: dexp_inv(σ, V) and ẏ. At σ = 0 the former is V.
         let mut stages = [*rates; S];
         let mut last = *rates;
         for i in 1..S {
-            let sigma = combination(h, &self.a[i][..i], &stages);
+            let sigma = increment(i, &stages);
             check_increment::<Sys>(&sigma)?;
             let stage: State<Sys> = State {
                 t: self.c[i].fma(h, state.t),
@@ -98,12 +102,13 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         h: T,
     ) -> Result<(Step<Sys>, Option<Rates<Sys>>), IntegrationErrorKind> {
         let one = <Sys::Scalar as Real>::one();
-        let (stages, last) = self.stages(problem, state, rates, h)?;
+        let (stages, last) =
+            self.stages(problem, state, rates, h, |i, stages| combination(h, &self.a[i][..i], stages))?;
         let sigma = combination(h, &self.b, &stages);
         check_increment::<Sys>(&sigma)?;
         let end: State<Sys> = State {
             t: state.t + h,
-            q: state.q.retract(&sigma.configuration).renormalise(),
+            q: state.q.advance(&sigma.configuration),
             y: state.y.add_scaled(one, &sigma.variables),
         };
         check_chart(problem.system(), state, &end)?;
@@ -168,42 +173,62 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Rkmk<Sys::Scalar, 
         rates: &Rates<Sys>,
         h: Sys::Scalar,
     ) -> Result<Rates<Sys>, IntegrationErrorKind> {
-        let (stages, _) = self.stages(problem, state, rates, h)?;
-        // Rounded weights would make the same error in every step, which adds up like n and not like √n: of the size of a rounding
-        // of h k where their sum is not 1, and h times that elsewhere. So Σ b k is k₁ + Σ b (k − k₁), and the fractions are
-        // divided anew each time, with a rounding that varies.
-        let mut sum: Rates<Sys> = Rates { configuration: TangentOf::<Sys>::zero(), variables: Sys::Speeds::zero() };
-        for (&(p, q), stage) in self.fractions.iter().zip(&stages).skip(1) {
-            let factor = h * p;
-            add_quotient(&mut sum.configuration, factor, q, &stage.configuration, &rates.configuration);
-            add_quotient(&mut sum.variables, factor, q, &stage.variables, &rates.variables);
-        }
-        sum.configuration = sum.configuration.add_scaled(h, &rates.configuration);
-        sum.variables = sum.variables.add_scaled(h, &rates.variables);
+        let one = <Sys::Scalar as Real>::one();
+        // Rounded coefficients, and rounded products of h with them, would make the same error in every step, which adds up like n
+        // and not like √n. So coefficients come in two parts, h comes last, and Σ b k is k₁ + Σ b (k − k₁). What is left of a
+        // rounded coefficient would be lost in sums that are rounded already; what is left of its first half is not.
+        let precise = |[head, tail]: [&[Sys::Scalar]; 2], stages: &[Rates<Sys>; S]| {
+            let mut sum = combination(one, tail, stages);
+            accumulate(&mut sum, one, head, stages);
+            Rates { configuration: sum.configuration.scale(h), variables: sum.variables.scale(h) }
+        };
+        let (stages, _) = self.stages(problem, state, rates, h, |i, stages| {
+            precise(self.a_parts[i].each_ref().map(|part| &part[..i]), stages)
+        })?;
+        let less_first = stages.map(|stage| Rates {
+            configuration: stage.configuration.add_scaled(-one, &rates.configuration),
+            variables: stage.variables.add_scaled(-one, &rates.variables),
+        });
+        let mut sum = precise(self.b_parts.each_ref().map(|part| &part[..]), &less_first);
+        accumulate(&mut sum, h, &[one], &[*rates]);
         check_increment::<Sys>(&sum)?;
         Ok(sum)
     }
+}
+
+/// The first half of the digits of a coefficient; all of them for a scalar with more digits than `f64`.
+fn head<T: Real>((p, q): Rational) -> T {
+    if T::EPSILON < f64::EPSILON {
+        return T::ratio(p, q);
+    }
+    let digits = if T::EPSILON > f64::EPSILON { f32::MANTISSA_DIGITS } else { f64::MANTISSA_DIGITS } / 2;
+    T::from_f64(rounded_ratio(p, q, digits))
+}
+
+/// What [`head`] leaves out.
+fn tail<T: Real>((p, q): Rational) -> T {
+    if T::EPSILON < f64::EPSILON {
+        return T::zero();
+    }
+    T::from_f64(f64::ratio(p, q) - head::<T>((p, q)).lane(0) + ratio_rest(p, q))
 }
 
 /// `h Σ wᵢ·stageᵢ`; null weights are passed over.
 #[inline(always)]
 fn combination<S: GaussSystem>(h: S::Scalar, weights: &[S::Scalar], stages: &[Rates<S>]) -> Rates<S> {
     let mut sum: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+    accumulate(&mut sum, h, weights, stages);
+    sum
+}
+
+/// Adds `h Σ wᵢ·stageᵢ`.
+#[inline(always)]
+fn accumulate<S: GaussSystem>(sum: &mut Rates<S>, h: S::Scalar, weights: &[S::Scalar], stages: &[Rates<S>]) {
     for (&weight, stage) in weights.iter().zip(stages) {
         if weight != S::Scalar::zero() {
             let factor = h * weight;
             sum.configuration = sum.configuration.add_scaled(factor, &stage.configuration);
             sum.variables = sum.variables.add_scaled(factor, &stage.variables);
         }
-    }
-    sum
-}
-
-/// Adds `factor·(x − origin)/divisor`.
-#[inline(always)]
-fn add_quotient<T: Real, V: VectorSpace<T>>(sum: &mut V, factor: T, divisor: T, x: &V, origin: &V) {
-    for i in 0..V::DIM {
-        let part = factor * (x.component(i) - origin.component(i)) / divisor;
-        sum.set_component(i, sum.component(i) + part);
     }
 }

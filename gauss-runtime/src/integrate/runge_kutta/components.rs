@@ -163,7 +163,10 @@ impl<C: Coefficients<S>, const S: usize> RungeKutta<C, S> {
         let turn = rates.configuration.add_scaled(Sys::Scalar::one(), &late);
         check_turn::<Sys>(&turn.scale(Sys::Scalar::ratio(1, 2) * h))?;
         let point = start.add_scaled(h, &sum);
-        let q = Sys::Configuration::from_components(&point.components).renormalise();
+        // What the rounding of the step before left of norms goes away with the rounding of this one.
+        let change = state.q.norm_correction().add_scaled(h, &sum.components);
+        let components = start.components.add_scaled(Sys::Scalar::one(), &change);
+        let q = Sys::Configuration::from_components(&components).renormalise();
         let end = State { t: state.t + h, q, y: point.variables };
         check_chart(problem.system(), state, &end)?;
         let tangent = |sum: &Point<ComponentsOf<Sys>, Sys::Speeds>| Rates::<Sys> {

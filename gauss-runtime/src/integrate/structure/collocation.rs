@@ -157,7 +157,7 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Collocation<Sys::Scalar,
         let sum = self.increment(problem, state, rates, h)?;
         let end: State<Sys> = State {
             t: state.t + h,
-            q: state.q.retract(&sum.configuration).renormalise(),
+            q: state.q.advance(&sum.configuration),
             y: state.y.add_scaled(one, &sum.variables),
         };
         check_chart(problem.system(), state, &end)?;

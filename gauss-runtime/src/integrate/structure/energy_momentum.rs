@@ -314,7 +314,7 @@ where
         let increment = self.increment(problem, state, rates, h)?;
         let end: State<S> = State {
             t: state.t + h,
-            q: state.q.retract(&increment.configuration).renormalise(),
+            q: state.q.advance(&increment.configuration),
             y: state.y.add_scaled(S::Scalar::one(), &increment.variables),
         };
         check_chart(problem.system(), state, &end)?;

@@ -69,7 +69,7 @@ where
         let increment = xi.scale(h);
         check_increment::<S>(&Rates { configuration: increment, variables: S::Speeds::zero() })?;
 
-        let (t, q) = (*t + h, q.retract(&increment).renormalise());
+        let (t, q) = (*t + h, q.advance(&increment));
         let carried = transposed::<S>(&increment, &momentum);
         let mut end = carried;
         let mut progress = Progress::new();

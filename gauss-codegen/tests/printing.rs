@@ -1,0 +1,107 @@
+//! Equations for people are no longer than the graph that they are printed from: what long rows have in common has a name.
+
+#[allow(dead_code)]
+mod common;
+
+use std::time::{Duration, Instant};
+
+use gauss_codegen::{Derivation, Notation};
+
+/// The bicycle of Whipple: a frame with its rider, a fork, two wheels that roll without slipping. Without `independent` its
+/// contacts have multipliers; with it three of eight speeds stay.
+fn bicycle(independent: &str) -> Derivation {
+    let source = format!(
+        "#[gauss(
+            coordinates(x, y, yaw, lean, pitch, steer, rear_angle, front_angle),
+            speeds(vx, vy, turning, leaning, pitching, steering, rolling, spinning),
+            kinematics(
+                x = vx, y = vy, yaw = turning, lean = leaning, pitch = pitching, steer = steering, rear_angle = rolling,
+                front_angle = spinning,
+            ),
+            frame(heading, position = [x, y, 0], rotation = rotation_z(yaw) * rotation_x(lean)),
+            body(rear, parent = heading, position = [0, 0, a], rotation = rotation_y(rear_angle)),
+            body(rider, parent = heading, position = [0, 0, a], rotation = rotation_y(pitch)),
+            body(fork, parent = rider, position = [c, 0, 0], rotation = rotation_z(steer)),
+            body(front, parent = fork, position = [e, 0, -f], rotation = rotation_y(front_angle)),
+            define(
+                axle = fork.rotation * [0, 1, 0],
+                down = (axle.z * axle - [0, 0, 1]) / sqrt(1 - axle.z * axle.z),
+            ),
+            constraint(velocity = rear.velocity.x - a * cross(rear.angular_velocity, heading.rotation * [0, 0, 1]).x),
+            constraint(velocity = rear.velocity.y - a * cross(rear.angular_velocity, heading.rotation * [0, 0, 1]).y),
+            constraint(velocity = front.velocity + cross(front.angular_velocity, b * down)),
+            {independent}
+        )]
+        struct Bicycle {{
+            #[gauss(body)] rear: RigidBody<f64>, #[gauss(body)] rider: RigidBody<f64>,
+            #[gauss(body)] fork: RigidBody<f64>, #[gauss(body)] front: RigidBody<f64>,
+            a: f64, b: f64, c: f64, e: f64, f: f64, #[gauss(gravity)] g: f64,
+        }}"
+    );
+    Derivation::of_source(&source, "Bicycle").expect("a valid scene")
+}
+
+fn operations(derivation: &Derivation, method: &str) -> u32 {
+    derivation.program(method).expect("a method of every kernel").code.cost().total()
+}
+
+/// It took forever as trees of 10⁸ terms.
+#[test]
+fn the_equations_of_a_bicycle_are_printed() {
+    let begun = Instant::now();
+    let derivation = bicycle("independent(leaning, steering, rolling)");
+    assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
+    for notation in [Notation::Text, Notation::Latex] {
+        let printed = derivation.equations(notation);
+        assert!(printed.contains("where"));
+        // Some ten characters for each of its ten thousand operations.
+        assert!(printed.len() < 200_000, "{} bytes", printed.len());
+    }
+}
+
+/// A name is explained once, in terms of those before it.
+#[test]
+fn names_are_explained_in_order() {
+    let derivation = bicycle("independent(leaning, steering, rolling)");
+    let (_, explained) = derivation.equations(Notation::Text).split_once("\nwhere\n").expect("long rows");
+    let number = |name: &str| -> usize {
+        let digits = name.chars().map_while(|c| (c as u32).checked_sub('₀' as u32).filter(|digit| *digit < 10));
+        digits.fold(0, |number, digit| 10 * number + digit as usize)
+    };
+    for (k, line) in explained.lines().enumerate() {
+        let (name, value) = line.trim().split_once(" = ").expect("a definition");
+        assert_eq!(number(name.strip_prefix('s').expect("the letter of parts")), k + 1);
+        assert!(value.split('s').skip(1).map(number).all(|part| part <= k), "{line}");
+    }
+}
+
+/// What is solved by hand of `independent` costs no more than multipliers do: both ways are derived.
+#[test]
+fn solving_for_speeds_is_not_dearer_than_multipliers() {
+    let [solved, kept] = ["independent(leaning, steering, rolling)", ""].map(bicycle);
+    assert!(operations(&solved, "acceleration") <= operations(&kept, "acceleration"));
+}
+
+/// A quantity that is squared again and again has a short graph and a tree of 2⁶ times the length.
+#[test]
+fn what_is_shared_is_printed_once() {
+    let squares: String = (1..7).map(|k| format!(", d{k} = sin(d{0}) * d{0} + x", k - 1)).collect();
+    let source = format!(
+        "#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), define(d0 = cos(x) + k * x{squares}), \
+         potential = d6)] struct Scene {{ m: f64, k: f64 }}"
+    );
+    let derivation = Derivation::of_source(&source, "Scene").expect("a valid scene");
+    assert!(derivation.equations(Notation::Text).len() < 4000, "{}", derivation.equations(Notation::Text));
+}
+
+/// Whatever was derived before in the same process.
+#[test]
+fn a_scene_is_printed_as_it_was_before() {
+    let of_scenes = || common::SCENES.map(|(name, source)| Derivation::of_source(source, name).expect("a valid scene"));
+    for (first, second) in of_scenes().iter().zip(&of_scenes()) {
+        for notation in [Notation::Text, Notation::Latex] {
+            assert_eq!(first.equations(notation), second.equations(notation));
+        }
+        assert_eq!(first.rust().to_string(), second.rust().to_string());
+    }
+}
