@@ -1,7 +1,7 @@
 //! States of a scene that reach what makes digits cancel: numbers of many sizes, both sides of differences close to each other, angles near
 //! quarter turns and far outside, bodies far from Ω, fast spins. All are physical, and the same in every run.
 
-use crate::algebra::{Evaluation, Expr, Function, Map, NodeView, Rational};
+use crate::algebra::{Evaluation, Expr, Function, Map, NodeView, Notation, Rational, print};
 use crate::mechanics::{Action, Body, Coordinate, Force, Matter, System};
 use crate::model::Role;
 
@@ -72,61 +72,75 @@ impl Values {
 impl<'g> States<'_, 'g> {
     fn state(&self, seen: &Seen<'g>, profile: &Profile, seed: u64) -> Point {
         let scene = &self.system.scene;
-        let mut random = Random::new(seed);
         let mut values = Values::default();
+        self.give_parameters(&mut values, profile, seed);
+        self.give_motion(&mut values, seen, profile, seed);
+        self.define(&mut values);
+        self.give_masses(&mut values, profile, seed);
+        for (k, difference) in seen.differences.iter().enumerate() {
+            let mut random = Random::new(seed ^ ((k as u64 + 1) << 32));
+            if random.fraction() < profile.near {
+                self.bring_together(difference, &mut values, &mut random, profile);
+            }
+        }
+        // What was chosen for a difference must not undo the masses.
+        self.give_masses(&mut values, profile, seed);
+        self.define(&mut values);
+        let momenta: Vec<f64> = self.momentum.iter().map(|e| values.of(*e)).collect();
+        scene.momenta.iter().zip(momenta).for_each(|(p, value)| values.put(*p, value));
+        let list: Vec<(u32, f64)> = values.list.iter().map(|key| (*key, values.map[key])).collect();
+        Point::new(&list, self.units, self.definitions)
+    }
+
+    fn give_parameters(&self, values: &mut Values, profile: &Profile, seed: u64) {
         for &(symbol, component) in &self.parameters {
+            let mut random = random_of(symbol, seed);
             let size = random.size(profile.decades);
             values.put(symbol, if component { random.sign() * size } else { size });
         }
         for (value, symbol) in &self.literals {
             values.put(*symbol, value.to_f64());
         }
-        values.put(scene.time, random.size(profile.decades));
-        for symbol in self.units.iter().flatten() {
+    }
+
+    /// Time, configuration, speeds and what else is handed over.
+    fn give_motion(&self, values: &mut Values, seen: &Seen<'g>, profile: &Profile, seed: u64) {
+        let scene = &self.system.scene;
+        values.put(scene.time, random_of(scene.time, seed).size(profile.decades));
+        for (k, symbol) in self.units.iter().flatten().enumerate() {
+            // The components of all quaternions have the same names.
+            let mut random = random_of(*symbol, seed ^ ((k as u64 + 1) << 40));
             values.put(*symbol, random.sign() * (0.1 + random.fraction()));
         }
         for coordinate in &scene.coordinates {
-            match coordinate {
-                Coordinate::Scalar(q) if seen.angles.contains(&q.key()) => values.put(*q, angle(&mut random, profile)),
-                Coordinate::Scalar(q) => values.put(*q, random.signed(profile.decades)),
-                Coordinate::Rotation(_) => {}
-                Coordinate::Pose(_, b) => b.iter().for_each(|b| {
-                    values.put(*b, random.signed(2.0 * profile.decades));
-                }),
-                Coordinate::Plane { position, .. } => position.iter().for_each(|b| {
-                    values.put(*b, random.signed(2.0 * profile.decades));
-                }),
-            }
+            let position: &[Expr<'g>] = match coordinate {
+                Coordinate::Scalar(q) if seen.angles.contains(&q.key()) => {
+                    values.put(*q, angle(&mut random_of(*q, seed), profile));
+                    &[]
+                }
+                Coordinate::Scalar(q) => {
+                    values.put(*q, random_of(*q, seed).signed(profile.decades));
+                    &[]
+                }
+                Coordinate::Rotation(_) => &[],
+                Coordinate::Pose(_, position) => position,
+                Coordinate::Plane { position, .. } => position,
+            };
+            // Bodies are far from Ω more often than they are large.
+            position.iter().for_each(|b| values.put(*b, random_of(*b, seed).signed(2.0 * profile.decades)));
         }
-        for symbols in [&scene.speeds, &scene.speed_rates, &scene.inputs] {
-            for symbol in symbols {
-                values.put(*symbol, random.signed(profile.decades));
-            }
+        let twist = self.system.rigid_body().map_or(&[][..], |body| &body.twist);
+        let residuals = &self.system.constraints.residuals;
+        for symbol in [&scene.speeds, &scene.speed_rates, &scene.inputs, residuals].into_iter().flatten().chain(twist) {
+            values.put(*symbol, random_of(*symbol, seed).signed(profile.decades));
         }
-        for residual in &self.system.constraints.residuals {
-            values.put(*residual, random.signed(profile.decades));
+    }
+
+    fn give_masses(&self, values: &mut Values, profile: &Profile, seed: u64) {
+        for body in self.system.scene.tree.links.iter().filter_map(|link| link.body()) {
+            let Some(parameter) = body.parameters.first() else { continue };
+            self.give_mass(body, values, &mut random_of(parameter.symbol, seed ^ 1 << 50), profile);
         }
-        for twist in self.system.rigid_body().iter().flat_map(|body| &body.twist) {
-            values.put(*twist, random.signed(profile.decades));
-        }
-        self.define(&mut values);
-        for body in scene.tree.links.iter().filter_map(|link| link.body()) {
-            self.give_mass(body, &mut values, &mut random, profile);
-        }
-        for difference in &seen.differences {
-            if random.fraction() < profile.near {
-                self.bring_together(difference, &mut values, &mut random, profile);
-            }
-        }
-        // What was chosen for a difference must not undo the masses.
-        for body in scene.tree.links.iter().filter_map(|link| link.body()) {
-            self.give_mass(body, &mut values, &mut random, profile);
-        }
-        self.define(&mut values);
-        let momenta: Vec<f64> = self.momentum.iter().map(|e| values.of(*e)).collect();
-        scene.momenta.iter().zip(momenta).for_each(|(p, value)| values.put(*p, value));
-        let list: Vec<(u32, f64)> = values.list.iter().map(|key| (*key, values.map[key])).collect();
-        Point::new(&list, self.units, self.definitions)
     }
 
     /// Scales units, and computes what stands for expressions of the others.
@@ -320,6 +334,16 @@ impl<'g> Seen<'g> {
             _ => {}
         }
     }
+}
+
+/// Choices for a symbol that depend on its name alone, so that what else a scene has does not change them.
+fn random_of(symbol: Expr<'_>, seed: u64) -> Random {
+    let name = print(symbol, Notation::Text);
+    // Fowler, Noll & Vo.
+    let hash = name
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+    Random::new(hash.wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
 }
 
 /// An angle: ordinary, near a multiple of a quarter turn, or far outside.

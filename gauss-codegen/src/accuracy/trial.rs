@@ -4,11 +4,12 @@
 use crate::algebra::{Doubled, Evaluation, Expr, Function, Map, Number, Scalar};
 use crate::program::Code;
 
+use super::random::Random;
 use super::tape::Tape;
 
 /// By how much inputs are changed, relatively: far above 2⁻¹⁰⁴, and so little that results change in proportion.
-const CHANGE: f64 = 1.0 / (1_u64 << 44) as f64;
-/// Changes of all inputs at once, with signs of their own each time.
+const CHANGE: f64 = 1.0 / (1_u64 << 30) as f64;
+/// Changes of all inputs at once, each by something else.
 const CHANGES: u64 = 2;
 
 /// One state: what a kernel is given, the same without its rounding, and with every number changed a little.
@@ -52,11 +53,11 @@ fn norm(unit: &[Expr<'_>], point: &Map<u32, Doubled>) -> Doubled {
     squares.fold(Doubled::number(0.0), |sum, square| sum + square).call(Function::Sqrt)
 }
 
-/// 1 ± the change, with a sign that depends on the place and on the number of the change.
+/// 1 and a change of the mean square one, which depends on the place and on the number of the change. Changes of one size would leave out
+/// what two of them cancel in.
 fn factor(place: u64, n: u64) -> Doubled {
-    let mixed = (place * CHANGES + n + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    Doubled::number(1.0) + Doubled::number(if mixed >> 63 == 0 { CHANGE } else { -CHANGE })
+    let share = 2.0 * Random::new(place * CHANGES + n).fraction() - 1.0;
+    Doubled::number(1.0) + Doubled::number(CHANGE * 3.0_f64.sqrt() * share)
 }
 
 /// What a function should give at one state, and what a change of everything in its last place does to it.
@@ -69,9 +70,11 @@ struct Reference {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loss(pub Vec<f64>);
 
-/// Round bounds of losses.
-const ROUND: [f64; 37] = {
-    let mut bounds = [0.0; 37];
+/// A loss of which no digit is left.
+const NO_DIGIT: f64 = 1e16;
+/// Round bounds of losses up to that.
+const ROUND: [f64; 52] = {
+    let mut bounds = [0.0; 52];
     let (mut k, mut power) = (0, 0.1);
     while k < bounds.len() {
         bounds[k] = power
@@ -106,7 +109,7 @@ impl Loss {
     /// Worst and median, up to the next of 1, 2 and 5 times a power of ten: nothing at all where nothing was tried.
     pub fn rounded(&self) -> [f64; 2] {
         [self.worst(), self.median()].map(|loss| {
-            let round = ROUND.iter().copied().find(|round| loss <= *round).unwrap_or(f64::INFINITY);
+            let round = ROUND.iter().copied().find(|round| loss <= *round).unwrap_or(NO_DIGIT);
             if self.0.is_empty() { 0.0 } else { round }
         })
     }
@@ -158,10 +161,9 @@ impl Trial {
     fn losses_beside(&self, tapes: &[Tape], reference: usize) -> Vec<Loss> {
         let mut losses = vec![Loss::default(); tapes.len()];
         for point in &self.points {
-            let Some(expected) = point.reference(&tapes[reference]) else { continue };
-            for (loss, tape) in losses.iter_mut().zip(tapes) {
-                loss.0.push(expected.loss_of(&tape.run(&point.given, |_| None)));
-            }
+            let found: Vec<Vec<f64>> = tapes.iter().map(|tape| tape.run(&point.given, |_| None)).collect();
+            let Some(expected) = point.reference(&tapes[reference], &found) else { continue };
+            losses.iter_mut().zip(&found).for_each(|(loss, found)| loss.0.push(expected.loss_of(found)));
         }
         losses
     }
@@ -171,8 +173,9 @@ impl Trial {
 /// amplify each other add up to some √n, and now and then to the one or to n: of programs of up to a thousand operations two that are equally
 /// good differ by that much, and at the next state the other way round.
 const FACTOR: f64 = 32.0;
-/// Results below this share of the largest vanish identically.
-const VANISHING: f64 = 1.0 / (1_u64 << 60) as f64;
+/// Results below this share of the error of double precision vanish identically: of terms whose roundings are 2⁻⁵³, those of 106 digits are 2⁻⁷⁴
+/// of a change, and some of either are small by chance.
+const VANISHING: f64 = 1.0 / 1024.0;
 
 /// Which programs keep the digits: at every state not much more is lost than by the best there. Where each of them loses somewhere what another
 /// keeps, those that come closest.
@@ -196,8 +199,8 @@ fn define_in<'g, N: Number>(values: &mut Map<u32, N>, constants: &[(Expr<'g>, Ex
 }
 
 impl Point {
-    /// `None` where the function has no value.
-    fn reference(&self, tape: &Tape) -> Option<Reference> {
+    /// By one program, beside what it and others found in double precision; `None` where the function has no value.
+    fn reference(&self, tape: &Tape, found: &[Vec<f64>]) -> Option<Reference> {
         let values = tape.run(&self.exact, |_| None);
         let mut squares = vec![0.0; values.len()];
         for (n, changed) in self.changed.iter().enumerate() {
@@ -210,8 +213,14 @@ impl Point {
         let sizes = squares.into_iter().zip(&values).map(|(square, value)| value.to_f64().abs() + square.sqrt());
         let mut sizes: Vec<f64> = sizes.collect();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
-        // What vanishes whatever the numbers are has no size of its own: it is as small as the roundings of the longer numbers.
-        sizes.iter_mut().filter(|size| **size <= VANISHING * largest).for_each(|size| *size = largest);
+        // What vanishes whatever the numbers are has no size of its own, but that of the roundings of the longer numbers.
+        for (k, size) in sizes.iter_mut().enumerate() {
+            let error =
+                found.iter().map(|found| (Doubled::number(found[k]) - values[k]).to_f64().abs()).fold(0.0, f64::max);
+            if *size <= VANISHING * error || *size == 0.0 {
+                *size = largest;
+            }
+        }
         let units: Vec<f64> = sizes.into_iter().map(|size| f64::EPSILON * size).collect();
         let there =
             values.iter().all(|value| value.is_finite()) && units.iter().all(|unit| unit.is_finite() && *unit > 0.0);

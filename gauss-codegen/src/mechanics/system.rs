@@ -69,10 +69,11 @@ impl<'g> Arranged<'g> {
         let residual = and(body.residuals().into(), short.residual);
         let for_constraint = residual.iter().chain(&short.collected);
         let momentum = body.momentum();
+        let dense = system.dense_accelerations(body, &residual);
         let potential = body.potential_energy();
         let potential = system.potential.map_or(potential, |other| potential + other);
         Self {
-            acceleration: and(balances.iter().map(|b| body.acceleration(b)).collect(), short.acceleration),
+            acceleration: and(balances.iter().map(|b| body.acceleration(b)).chain(dense).collect(), short.acceleration),
             momentum_rate: and(body.momentum_rates(&Map::default()), short.momentum_rate),
             velocity: and(body.velocities_of_momentum(), short.velocity),
             mass_matrix: and(vec![body.mass_matrix(&momentum)], short.matrix),
@@ -206,6 +207,18 @@ impl<'g> System<'g> {
             constraint: arrangements.iter().map(|a| vec![self.constraint_function(a)]).collect(),
             residual: arrangements.iter().map(|a| self.gauss_residual(a)).collect(),
         }
+    }
+
+    /// By a factorisation of A, where speeds are rates of coordinates.
+    fn dense_accelerations(&self, body: &FreeLink<'g>, residuals: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
+        if !body.in_coordinates || !self.constraints.is_empty() {
+            return Vec::new();
+        }
+        let zero = self.scene.graph.zero();
+        let still: Map<u32, Expr<'g>> = self.scene.speed_rates.iter().map(|dz| (dz.key(), zero)).collect();
+        let right: Vec<Expr<'g>> = residuals[0].iter().map(|row| -row.substitute(&still)).collect();
+        let compact = (!self.is_long()).then(|| tidied(&self.matrix));
+        compact.iter().chain([&self.matrix]).flat_map(|matrix| self.solutions(matrix, &right)).collect()
     }
 
     /// In the place of the rows of free links what they are in their arrangements.
