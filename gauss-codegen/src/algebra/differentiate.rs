@@ -1,7 +1,8 @@
 //! Derivatives: one recursion serves partial derivatives and derivatives along a flow alike.
 
-use super::graph::{BinaryFunction, Expr, Function, NodeView};
+use super::graph::{Expr, NodeView};
 use super::map::Map;
+use super::node::{BinaryFunction, Function};
 use super::rational::Rational;
 
 impl<'g> Expr<'g> {

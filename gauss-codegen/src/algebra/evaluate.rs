@@ -2,8 +2,9 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::graph::{BinaryFunction, Expr, Function, Node, NodeView};
+use super::graph::{Expr, NodeView};
 use super::map::Map;
+use super::node::{BinaryFunction, Function, Node};
 use super::rational::Rational;
 
 /// What expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual numbers, intervals or numbers of more digits.

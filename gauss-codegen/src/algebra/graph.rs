@@ -3,70 +3,11 @@
 use std::cell::{Cell, RefCell};
 use std::collections::hash_map::Entry;
 use std::hash::{Hash, Hasher};
-use std::iter::Sum;
-use std::ops::{Add, Mul, Neg, Sub};
 use std::rc::Rc;
 
 use super::map::Map;
+use super::node::{BinaryFunction, Function, Id, Node};
 use super::rational::Rational;
-
-/// A function of one argument that the language knows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Function {
-    /// Sine of an angle in radians.
-    Sin,
-    /// Cosine of an angle in radians.
-    Cos,
-    /// Exponential.
-    Exp,
-    /// Natural logarithm.
-    Ln,
-    /// Square root.
-    Sqrt,
-    /// Absolute value.
-    Abs,
-    /// −1, 0 or 1.
-    Signum,
-}
-
-/// A function of two arguments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum BinaryFunction {
-    /// Angle of the point (x, y), given as y and x.
-    Atan2,
-    /// The smaller one.
-    Min,
-    /// The larger one.
-    Max,
-}
-
-impl Function {
-    /// What users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Function::Sin => "sin",
-            Function::Cos => "cos",
-            Function::Exp => "exp",
-            Function::Ln => "ln",
-            Function::Sqrt => "sqrt",
-            Function::Abs => "abs",
-            Function::Signum => "signum",
-        }
-    }
-}
-
-impl BinaryFunction {
-    /// What users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            BinaryFunction::Atan2 => "atan2",
-            BinaryFunction::Min => "min",
-            BinaryFunction::Max => "max",
-        }
-    }
-}
 
 /// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
 #[derive(Clone, Debug)]
@@ -79,69 +20,9 @@ pub struct Symbol {
     pub constant: bool,
 }
 
-/// Index of a node in its graph. Children always have smaller indices than their parents.
-pub(super) type Id = u32;
 /// The numbers 0 and 1, which every graph begins with.
-const ZERO: Id = 0;
-const ONE: Id = 1;
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Node {
-    Number(Rational),
-    Symbol(u32),
-    /// Σ cᵢ eᵢ, sorted by index, coefficients nonzero; a constant term is a multiple of the number one.
-    Sum(Rc<[(Rational, Id)]>),
-    /// Π eᵢ^nᵢ, sorted by index, exponents nonzero; no numbers and no products among the factors.
-    Product(Rc<[(Id, i32)]>),
-    Call(Function, Id),
-    Binary(BinaryFunction, Id, Id),
-    /// A sum that is to be computed once under a name: transparent for mathematics, a barrier for flattening.
-    Group(Id),
-    /// A constant that is to be computed once and never looked into again, not even by the normal form.
-    Opaque(Id),
-}
-
-impl Node {
-    /// What it is made of.
-    pub(super) fn children(&self) -> Vec<Id> {
-        match self {
-            Node::Number(_) | Node::Symbol(_) => Vec::new(),
-            Node::Sum(terms) => terms.iter().map(|&(_, id)| id).collect(),
-            Node::Product(factors) => factors.iter().map(|&(id, _)| id).collect(),
-            Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => vec![*id],
-            Node::Binary(_, a, b) => vec![*a, *b],
-        }
-    }
-}
-
-/// In one word: hashing piece by piece is most of a look-up in unoptimised code.
-impl Hash for Node {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        /// Any odd number whose digits look random.
-        const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
-        let mut word = match self {
-            Node::Number(value) => value.hash_word(),
-            Node::Symbol(symbol) => 1 << 32 | u64::from(*symbol),
-            Node::Sum(_) => 2,
-            Node::Product(_) => 3,
-            Node::Call(function, id) => (4 + *function as u64) << 32 | u64::from(*id),
-            Node::Binary(function, a, b) => (64 + *function as u64) << 48 | u64::from(*a) << 24 ^ u64::from(*b),
-            Node::Group(id) => 128 << 32 | u64::from(*id),
-            Node::Opaque(id) => 129 << 32 | u64::from(*id),
-        };
-        if let Node::Sum(terms) = self {
-            for (c, id) in terms.iter() {
-                word = (word.rotate_left(5) ^ c.hash_word() ^ (*id as u64) << 32).wrapping_mul(SPREAD);
-            }
-        }
-        if let Node::Product(factors) = self {
-            for (id, n) in factors.iter() {
-                word = (word.rotate_left(5) ^ *n as u64 ^ (*id as u64) << 32).wrapping_mul(SPREAD);
-            }
-        }
-        state.write_u64(word);
-    }
-}
+pub(super) const ZERO: Id = 0;
+pub(super) const ONE: Id = 1;
 
 /// What a node is, with its children as expressions.
 pub enum NodeView<'g> {
@@ -301,7 +182,7 @@ impl Graph {
         self.collected_sum(flat)
     }
 
-    fn push_term(&self, flat: &mut Vec<(Rational, Id)>, coefficient: Rational, id: Id) {
+    pub(super) fn push_term(&self, flat: &mut Vec<(Rational, Id)>, coefficient: Rational, id: Id) {
         if coefficient.is_zero() {
             return;
         }
@@ -317,7 +198,7 @@ impl Graph {
         }
     }
 
-    fn collected_sum(&self, mut terms: Vec<(Rational, Id)>) -> Expr<'_> {
+    pub(super) fn collected_sum(&self, mut terms: Vec<(Rational, Id)>) -> Expr<'_> {
         sort_by_id(&mut terms, |&(_, id)| id);
         let mut count = 0;
         for k in 0..terms.len() {
@@ -373,7 +254,7 @@ impl Graph {
         self.collected_product(coefficient, flat)
     }
 
-    fn collected_product(&self, coefficient: Rational, mut factors: Vec<(Id, i32)>) -> Expr<'_> {
+    pub(super) fn collected_product(&self, coefficient: Rational, mut factors: Vec<(Id, i32)>) -> Expr<'_> {
         sort_by_id(&mut factors, |&(id, _)| id);
         let mut count = 0;
         for k in 0..factors.len() {
@@ -400,7 +281,7 @@ impl Graph {
         if coefficient.is_one() { base } else { base.scale(coefficient) }
     }
 
-    fn push_factor(&self, coefficient: &mut Rational, flat: &mut Vec<(Id, i32)>, id: Id, exponent: i32) {
+    pub(super) fn push_factor(&self, coefficient: &mut Rational, flat: &mut Vec<(Id, i32)>, id: Id, exponent: i32) {
         let terms = match &self.nodes.borrow()[id as usize] {
             Node::Number(value) => {
                 *coefficient *= value.pow(exponent);
@@ -550,7 +431,7 @@ impl<'g> Expr<'g> {
     }
 
     /// self + factor · other.
-    fn plus_multiple(self, factor: Rational, other: Self) -> Self {
+    pub(super) fn plus_multiple(self, factor: Rational, other: Self) -> Self {
         if other.id == ZERO {
             return self;
         }
@@ -653,71 +534,9 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// Rebuilds the expression with some symbols replaced. Groups stay groups.
-    pub fn substitute(self, replacement: &Map<u32, Expr<'g>>) -> Self {
-        self.rebuild(&mut Map::default(), &|symbol| replacement.get(&symbol.id).copied())
-    }
-
-    pub(super) fn rebuild(self, memo: &mut Map<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
-        if let Some(&done) = memo.get(&self.id) {
-            return done;
-        }
-        let graph = self.graph;
-        let at = |id: Id| graph.expr(id);
-        // What holds nothing that is replaced stays as it is.
-        let result = match graph.node(self.id) {
-            Node::Number(_) => self,
-            Node::Symbol(_) => leaf(self).unwrap_or(self),
-            Node::Sum(terms) => {
-                let mut flat = Vec::with_capacity(terms.len());
-                let mut changed = false;
-                for &(c, id) in terms.iter() {
-                    let term = at(id).rebuild(memo, leaf).id;
-                    changed |= term != id;
-                    graph.push_term(&mut flat, c, term);
-                }
-                if changed { graph.collected_sum(flat) } else { self }
-            }
-            Node::Product(factors) => {
-                let (mut coefficient, mut flat) = (Rational::one(), Vec::with_capacity(factors.len()));
-                let mut changed = false;
-                for &(id, n) in factors.iter() {
-                    let factor = at(id).rebuild(memo, leaf).id;
-                    changed |= factor != id;
-                    graph.push_factor(&mut coefficient, &mut flat, factor, n);
-                }
-                if changed { graph.collected_product(coefficient, flat) } else { self }
-            }
-            Node::Call(function, argument) => graph.call(function, at(argument).rebuild(memo, leaf)),
-            Node::Binary(function, a, b) => at(a).rebuild(memo, leaf).binary(function, at(b).rebuild(memo, leaf)),
-            Node::Group(inner) => at(inner).rebuild(memo, leaf).group(),
-            Node::Opaque(inner) => at(inner).rebuild(memo, leaf).opaque(),
-        };
-        memo.insert(self.id, result);
-        result
-    }
-
     /// True when every symbol in it is constant.
     pub fn is_constant(self) -> bool {
         self.graph.constant.borrow()[self.id as usize]
-    }
-}
-
-/// Symbols to be replaced in many expressions, with what has been rebuilt so far.
-pub struct Substitution<'g> {
-    replacement: Map<u32, Expr<'g>>,
-    rebuilt: RefCell<Map<Id, Expr<'g>>>,
-}
-
-impl<'g> Substitution<'g> {
-    /// By the keys of the symbols.
-    pub fn new(replacement: Map<u32, Expr<'g>>) -> Self {
-        Self { replacement, rebuilt: RefCell::default() }
-    }
-
-    /// The expression with the symbols replaced. Groups stay groups.
-    pub fn of(&self, e: Expr<'g>) -> Expr<'g> {
-        e.rebuild(&mut self.rebuilt.borrow_mut(), &|symbol| self.replacement.get(&symbol.id).copied())
     }
 }
 
@@ -732,56 +551,6 @@ impl Eq for Expr<'_> {}
 impl Hash for Expr<'_> {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.id.hash(state);
-    }
-}
-
-impl<'g> Add for Expr<'g> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        self.plus_multiple(Rational::one(), other)
-    }
-}
-
-impl<'g> Sub for Expr<'g> {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self.plus_multiple(Rational::from_integer(-1), other)
-    }
-}
-
-impl<'g> Mul for Expr<'g> {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        // Most products of mechanics are with zeros and ones of rotations and unit vectors.
-        match (self.id, other.id) {
-            (ZERO, _) | (_, ONE) => return self,
-            (_, ZERO) | (ONE, _) => return other,
-            _ => {}
-        }
-        let (mut coefficient, mut factors) = (Rational::one(), Vec::with_capacity(4));
-        self.graph.push_factor(&mut coefficient, &mut factors, self.id, 1);
-        self.graph.push_factor(&mut coefficient, &mut factors, other.id, 1);
-        self.graph.collected_product(coefficient, factors)
-    }
-}
-
-impl Neg for Expr<'_> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        self.scale(Rational::from_integer(-1))
-    }
-}
-
-/// Sum of a non-empty sequence; an empty one has no graph to live in.
-impl<'g> Sum for Expr<'g> {
-    fn sum<I: Iterator<Item = Self>>(mut terms: I) -> Self {
-        let first = terms.next().expect("a sum of expressions has at least one term");
-        let mut flat = Vec::new();
-        first.graph.push_term(&mut flat, Rational::one(), first.id);
-        for term in terms {
-            first.graph.push_term(&mut flat, Rational::one(), term.id);
-        }
-        first.graph.collected_sum(flat)
     }
 }
 

@@ -18,21 +18,26 @@ pub mod ideal;
 mod large;
 mod linear;
 mod map;
+mod node;
+mod operators;
 mod parts;
 mod polynomial;
 mod precise;
 mod print;
 mod rational;
+mod substitute;
 #[cfg(test)]
 mod tests;
 
 pub use doubled::Doubled;
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
-pub use graph::{BinaryFunction, Expr, Function, Graph, NodeView, Substitution};
+pub use graph::{Expr, Graph, NodeView};
 pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
 pub use map::{Map, Set};
+pub use node::{BinaryFunction, Function};
 pub use parts::Parts;
 pub use polynomial::{Expander, Polynomial};
 pub use precise::Precise;
 pub use print::{Notation, decimal, print, print_definition, print_parts, print_with};
 pub use rational::Rational;
+pub use substitute::Substitution;

@@ -1,7 +1,8 @@
 //! Common parts of long expressions, under names, so that what is printed is no longer than the graph.
 
-use super::graph::{Expr, Graph, Id, Node};
+use super::graph::{Expr, Graph};
 use super::map::Map;
+use super::node::{Id, Node};
 
 /// Leaves up to which an expression is printed as it is.
 const LONG: u64 = 200;

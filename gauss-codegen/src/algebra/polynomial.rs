@@ -9,8 +9,9 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::graph::{Expr, Function, Graph, Id, Node, NodeView};
+use super::graph::{Expr, Graph, NodeView};
 use super::map::Map;
+use super::node::{Function, Id, Node};
 use super::rational::Rational;
 
 /// Π atomᵢ^nᵢ, sorted by atom, exponents nonzero.

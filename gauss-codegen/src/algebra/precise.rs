@@ -7,7 +7,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use num_bigint::{BigInt, BigUint, Sign};
 
 use super::evaluate::{Number, Scalar};
-use super::graph::{BinaryFunction, Function};
+use super::node::{BinaryFunction, Function};
 use super::rational::Rational;
 
 /// Binary digits of a number.

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::graph::{BinaryFunction, Expr, Function, NodeView};
+use super::graph::{Expr, NodeView};
+use super::node::{BinaryFunction, Function};
 use super::parts::Parts;
 use super::rational::Rational;
 

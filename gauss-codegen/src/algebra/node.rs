@@ -1,0 +1,124 @@
+//! What expressions are made of: functions, and nodes with their children by index.
+
+use std::hash::{Hash, Hasher};
+use std::rc::Rc;
+
+use super::rational::Rational;
+
+/// A function of one argument that the language knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Function {
+    /// Sine of an angle in radians.
+    Sin,
+    /// Cosine of an angle in radians.
+    Cos,
+    /// Exponential.
+    Exp,
+    /// Natural logarithm.
+    Ln,
+    /// Square root.
+    Sqrt,
+    /// Absolute value.
+    Abs,
+    /// −1, 0 or 1.
+    Signum,
+}
+
+/// A function of two arguments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum BinaryFunction {
+    /// Angle of the point (x, y), given as y and x.
+    Atan2,
+    /// The smaller one.
+    Min,
+    /// The larger one.
+    Max,
+}
+
+impl Function {
+    /// What users write.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Function::Sin => "sin",
+            Function::Cos => "cos",
+            Function::Exp => "exp",
+            Function::Ln => "ln",
+            Function::Sqrt => "sqrt",
+            Function::Abs => "abs",
+            Function::Signum => "signum",
+        }
+    }
+}
+
+impl BinaryFunction {
+    /// What users write.
+    pub const fn name(self) -> &'static str {
+        match self {
+            BinaryFunction::Atan2 => "atan2",
+            BinaryFunction::Min => "min",
+            BinaryFunction::Max => "max",
+        }
+    }
+}
+
+/// Index of a node in its graph. Children always have smaller indices than their parents.
+pub(super) type Id = u32;
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Node {
+    Number(Rational),
+    Symbol(u32),
+    /// Σ cᵢ eᵢ, sorted by index, coefficients nonzero; a constant term is a multiple of the number one.
+    Sum(Rc<[(Rational, Id)]>),
+    /// Π eᵢ^nᵢ, sorted by index, exponents nonzero; no numbers and no products among the factors.
+    Product(Rc<[(Id, i32)]>),
+    Call(Function, Id),
+    Binary(BinaryFunction, Id, Id),
+    /// A sum that is to be computed once under a name: transparent for mathematics, a barrier for flattening.
+    Group(Id),
+    /// A constant that is to be computed once and never looked into again, not even by the normal form.
+    Opaque(Id),
+}
+
+/// In one word: hashing piece by piece is most of a look-up in unoptimised code.
+impl Hash for Node {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        /// Any odd number whose digits look random.
+        const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
+        let mut word = match self {
+            Node::Number(value) => value.hash_word(),
+            Node::Symbol(symbol) => 1 << 32 | u64::from(*symbol),
+            Node::Sum(_) => 2,
+            Node::Product(_) => 3,
+            Node::Call(function, id) => (4 + *function as u64) << 32 | u64::from(*id),
+            Node::Binary(function, a, b) => (64 + *function as u64) << 48 | u64::from(*a) << 24 ^ u64::from(*b),
+            Node::Group(id) => 128 << 32 | u64::from(*id),
+            Node::Opaque(id) => 129 << 32 | u64::from(*id),
+        };
+        if let Node::Sum(terms) = self {
+            for (c, id) in terms.iter() {
+                word = (word.rotate_left(5) ^ c.hash_word() ^ (*id as u64) << 32).wrapping_mul(SPREAD);
+            }
+        }
+        if let Node::Product(factors) = self {
+            for (id, n) in factors.iter() {
+                word = (word.rotate_left(5) ^ *n as u64 ^ (*id as u64) << 32).wrapping_mul(SPREAD);
+            }
+        }
+        state.write_u64(word);
+    }
+}
+
+impl Node {
+    /// What it is made of.
+    pub(super) fn children(&self) -> Vec<Id> {
+        match self {
+            Node::Number(_) | Node::Symbol(_) => Vec::new(),
+            Node::Sum(terms) => terms.iter().map(|&(_, id)| id).collect(),
+            Node::Product(factors) => factors.iter().map(|&(id, _)| id).collect(),
+            Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => vec![*id],
+            Node::Binary(_, a, b) => vec![*a, *b],
+        }
+    }
+}
