@@ -50,17 +50,17 @@ pub fn sample_states(states: &States<'_, '_>, count: usize) -> Vec<Point> {
     (0..count).map(|k| states.state(&seen, &PROFILES[k % PROFILES.len()], k as u64)).collect()
 }
 
-/// Symbols and their values, in the order in which they are chosen.
+/// Symbols and their values, in the order in which they are chosen, with what their names amount to.
 #[derive(Default)]
 struct Values {
-    list: Vec<u32>,
+    list: Vec<(u32, u64)>,
     map: Map<u32, f64>,
 }
 
 impl Values {
     fn put(&mut self, symbol: Expr<'_>, value: f64) {
         if self.map.insert(symbol.key(), value).is_none() {
-            self.list.push(symbol.key());
+            self.list.push((symbol.key(), hash_of_name(symbol)));
         }
     }
 
@@ -88,7 +88,7 @@ impl<'g> States<'_, 'g> {
         self.define(&mut values);
         let momenta: Vec<f64> = self.momentum.iter().map(|e| values.of(*e)).collect();
         scene.momenta.iter().zip(momenta).for_each(|(p, value)| values.put(*p, value));
-        let list: Vec<(u32, f64)> = values.list.iter().map(|key| (*key, values.map[key])).collect();
+        let list: Vec<_> = values.list.iter().map(|&(key, name)| (key, name, values.map[&key])).collect();
         Point::new(&list, self.units, self.definitions)
     }
 
@@ -338,12 +338,13 @@ impl<'g> Seen<'g> {
 
 /// Choices for a symbol that depend on its name alone, so that what else a scene has does not change them.
 fn random_of(symbol: Expr<'_>, seed: u64) -> Random {
+    Random::new(hash_of_name(symbol).wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+}
+
+/// After Fowler, Noll & Vo.
+fn hash_of_name(symbol: Expr<'_>) -> u64 {
     let name = print(symbol, Notation::Text);
-    // Fowler, Noll & Vo.
-    let hash = name
-        .bytes()
-        .fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-    Random::new(hash.wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+    name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// An angle: ordinary, near a multiple of a quarter turn, or far outside.

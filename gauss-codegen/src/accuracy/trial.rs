@@ -20,9 +20,9 @@ pub struct Point {
 }
 
 impl Point {
-    /// Symbols with their values. Those of each of `units` are scaled to have the norm 1; `definitions` are symbols that stand for
-    /// expressions of the others.
-    pub fn new<'g>(values: &[(u32, f64)], units: &[Vec<Expr<'g>>], definitions: &Map<u32, Expr<'g>>) -> Self {
+    /// Symbols, numbers that tell how they are changed, and their values. Those of each of `units` are scaled to have the norm 1;
+    /// `definitions` are symbols that stand for expressions of the others.
+    pub fn new<'g>(values: &[(u32, u64, f64)], units: &[Vec<Expr<'g>>], definitions: &Map<u32, Expr<'g>>) -> Self {
         let whole = |mut point: Map<u32, Doubled>| {
             for unit in units {
                 let norm = norm(unit, &point);
@@ -35,11 +35,9 @@ impl Point {
             point.extend(defined);
             point
         };
-        let exact = whole(values.iter().map(|&(key, value)| (key, Doubled::number(value))).collect());
-        let change = |n: u64| {
-            let value = |(k, &(key, _)): (usize, &(u32, f64))| (key, exact[&key] * factor(k as u64, n));
-            whole(values.iter().enumerate().map(value).collect())
-        };
+        let exact = whole(values.iter().map(|&(key, _, value)| (key, Doubled::number(value))).collect());
+        let change =
+            |n: u64| whole(values.iter().map(|&(key, name, _)| (key, exact[&key] * factor(name, n))).collect());
         Self {
             given: exact.iter().map(|(&key, value)| (key, value.to_f64())).collect(),
             changed: (0..CHANGES).map(change).collect(),
@@ -53,10 +51,10 @@ fn norm(unit: &[Expr<'_>], point: &Map<u32, Doubled>) -> Doubled {
     squares.fold(Doubled::number(0.0), |sum, square| sum + square).call(Function::Sqrt)
 }
 
-/// 1 and a change of the mean square one, which depends on the place and on the number of the change. Changes of one size would leave out
+/// 1 and a change of the mean square one, which depends on the name or the place and on the number of the change. Changes of one size would leave out
 /// what two of them cancel in.
 fn factor(place: u64, n: u64) -> Doubled {
-    let share = 2.0 * Random::new(place * CHANGES + n).fraction() - 1.0;
+    let share = 2.0 * Random::new(place.wrapping_mul(CHANGES).wrapping_add(n)).fraction() - 1.0;
     Doubled::number(1.0) + Doubled::number(CHANGE * 3.0_f64.sqrt() * share)
 }
 

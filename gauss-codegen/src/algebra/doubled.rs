@@ -7,7 +7,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::evaluate::{Number, Scalar};
-use super::graph::{BinaryFunction, Function};
+use super::node::{BinaryFunction, Function};
 use super::precise::Precise;
 use super::rational::Rational;
 
