@@ -10,11 +10,11 @@
 
 mod picture;
 mod report;
-mod suite;
 
 use std::path::Path;
 use std::{env, fs};
 
+use gauss_comparisons::suite;
 use gauss_examples::figure::png;
 use suite::{CASES, Effort, Verdict};
 

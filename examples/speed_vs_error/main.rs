@@ -12,10 +12,10 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::{env, fs};
 
+use gauss_comparisons::measure;
 use gauss_examples::figure;
 use indicatif::{ProgressBar, ProgressStyle};
 
-mod measure;
 mod report;
 
 use measure::scene::{Scene, scenes};

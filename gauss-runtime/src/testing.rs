@@ -1,8 +1,6 @@
-//! What tests of several modules share: packs and dual numbers, a free rigid body and constrained systems typed by hand.
+//! What tests of several modules share: dual numbers, a free rigid body and constrained systems typed by hand.
 //!
 //! The hand-typed Euler equations are an independent check of the integrators; kernels proper are derived.
-
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use nalgebra::{SMatrix, SVector, UnitQuaternion};
 
@@ -16,80 +14,6 @@ pub(crate) mod constrained;
 pub(crate) mod dual;
 pub(crate) mod order;
 pub(crate) mod oscillator;
-
-/// Two numbers in lockstep: the smallest SIMD pack.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Pack(pub(crate) [f64; 2]);
-
-macro_rules! lanewise {
-    ($($trait:ident $method:ident $assign_trait:ident $assign:ident;)+) => {$(
-        impl $trait for Pack {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                Self([self.0[0].$method(other.0[0]), self.0[1].$method(other.0[1])])
-            }
-        }
-        impl $assign_trait for Pack {
-            fn $assign(&mut self, other: Self) {
-                *self = self.$method(other);
-            }
-        }
-    )+};
-}
-
-lanewise! {
-    Add add AddAssign add_assign;
-    Sub sub SubAssign sub_assign;
-    Mul mul MulAssign mul_assign;
-    Div div DivAssign div_assign;
-}
-
-impl Neg for Pack {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
-    }
-}
-
-macro_rules! functions {
-    ($($name:ident)+) => {$(
-        fn $name(self) -> Self {
-            Self(self.0.map(Real::$name))
-        }
-    )+};
-}
-
-impl Real for Pack {
-    const LANES: usize = 2;
-    fn lane(self, i: usize) -> f64 {
-        self.0[i]
-    }
-    fn zero() -> Self {
-        Self([0.0; 2])
-    }
-    fn one() -> Self {
-        Self([1.0; 2])
-    }
-    fn from_f64(value: f64) -> Self {
-        Self([value; 2])
-    }
-    fn ratio(p: i64, q: i64) -> Self {
-        Self([f64::ratio(p, q); 2])
-    }
-    functions!(sqrt asin acos atan sinh cosh tanh exp ln abs);
-    fn sin_cos(self) -> (Self, Self) {
-        (Self(self.0.map(f64::sin)), Self(self.0.map(f64::cos)))
-    }
-    fn atan2(self, x: Self) -> Self {
-        Self([self.0[0].atan2(x.0[0]), self.0[1].atan2(x.0[1])])
-    }
-    fn is_finite(self) -> bool {
-        self.0.into_iter().all(f64::is_finite)
-    }
-    fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
-        Self(core::array::from_fn(|i| if a.0[i] < b.0[i] { x.0[i] } else { y.0[i] }))
-    }
-}
 
 /// A body that turns freely about its centre of mass, principal axes: `I ω̇ = Iω × ω + M`, z = ω in the body frame.
 #[derive(Clone, Copy)]

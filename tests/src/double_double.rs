@@ -39,10 +39,21 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
     (product, a.mul_add(b, -product))
 }
 
+impl From<f64> for DoubleDouble {
+    fn from(value: f64) -> Self {
+        Self::new(value)
+    }
+}
+
 impl DoubleDouble {
+    /// Nothing.
+    pub const ZERO: Self = Self::new(0.0);
+    /// One.
+    pub const ONE: Self = Self::new(1.0);
+
     /// A double.
     #[must_use]
-    pub fn new(value: f64) -> Self {
+    pub const fn new(value: f64) -> Self {
         Self { high: value, low: 0.0 }
     }
 
@@ -152,10 +163,10 @@ impl Real for DoubleDouble {
         self.high
     }
     fn zero() -> Self {
-        Self::new(0.0)
+        Self::ZERO
     }
     fn one() -> Self {
-        Self::new(1.0)
+        Self::ONE
     }
     fn from_f64(value: f64) -> Self {
         Self::new(value)

@@ -1,10 +1,8 @@
-//! Generated kernels run on any `Real`: SIMD-like packs give each lane's own bits, single precision agrees with double,
+//! Generated kernels run on any `Real`: packs give each lane's own bits, single precision agrees with double,
 //! and dual numbers give exact derivatives with respect to parameters and states.
 
 #[macro_use]
 mod common;
-
-use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use common::Bounded;
 use common::agreement::{equal, explore, largest};
@@ -15,85 +13,6 @@ use common::states::{Motion, State, state};
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
-
-/// Two numbers in lockstep.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Pack([f64; 2]);
-
-macro_rules! lanewise {
-    ($($trait:ident $method:ident $assign_trait:ident $assign:ident;)+) => {$(
-        impl $trait for Pack {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                Self(std::array::from_fn(|i| self.0[i].$method(other.0[i])))
-            }
-        }
-        impl $assign_trait for Pack {
-            fn $assign(&mut self, other: Self) {
-                *self = self.$method(other);
-            }
-        }
-    )+};
-}
-
-lanewise! {
-    Add add AddAssign add_assign;
-    Sub sub SubAssign sub_assign;
-    Mul mul MulAssign mul_assign;
-    Div div DivAssign div_assign;
-}
-
-impl Neg for Pack {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
-    }
-}
-
-macro_rules! functions {
-    ($($name:ident)+) => {$(
-        fn $name(self) -> Self {
-            Self(self.0.map(Real::$name))
-        }
-    )+};
-}
-
-impl Real for Pack {
-    const LANES: usize = 2;
-    fn lane(self, i: usize) -> f64 {
-        self.0[i]
-    }
-    fn zero() -> Self {
-        Self([0.0; 2])
-    }
-    fn one() -> Self {
-        Self([1.0; 2])
-    }
-    fn from_f64(value: f64) -> Self {
-        Self([value; 2])
-    }
-    fn ratio(p: i64, q: i64) -> Self {
-        Self([f64::ratio(p, q); 2])
-    }
-    fn fma(self, b: Self, c: Self) -> Self {
-        // As f64 does it, fused where the machine can.
-        Self(std::array::from_fn(|i| Real::fma(self.0[i], b.0[i], c.0[i])))
-    }
-    functions!(sqrt asin acos atan sinh cosh tanh exp ln abs);
-    fn sin_cos(self) -> (Self, Self) {
-        let pairs = self.0.map(Real::sin_cos);
-        (Self(pairs.map(|pair| pair.0)), Self(pairs.map(|pair| pair.1)))
-    }
-    fn atan2(self, x: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i].atan2(x.0[i])))
-    }
-    fn is_finite(self) -> bool {
-        self.0.into_iter().all(f64::is_finite)
-    }
-    fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
-        Self(std::array::from_fn(|i| if a.0[i] < b.0[i] { x.0[i] } else { y.0[i] }))
-    }
-}
 
 mod free {
     usual_charts!(everything, free);
@@ -155,8 +74,8 @@ fn lanes_are_independent<S: Scene>(p: &Parameters, states: &[State; 2]) -> Resul
         let Ok((q, z)) = at(&kernel, |kind, i| pick(state, kind, i)) else { return Ok(()) };
         alone.push(everything_of(&kernel, &q, &z));
     }
-    let packed = S::kernel::<Pack>(p);
-    let (q, z) = at(&packed, |kind, i| Pack([pick(&states[0], kind, i), pick(&states[1], kind, i)]))
+    let packed = S::kernel::<Lanes<f64, 2>>(p);
+    let (q, z) = at(&packed, |kind, i| Lanes([pick(&states[0], kind, i), pick(&states[1], kind, i)]))
         .map_err(|error| TestCaseError::fail(error.to_string()))?;
     for (i, both) in everything_of(&packed, &q, &z).into_iter().enumerate() {
         for (lane, (packed, alone)) in both.0.iter().zip(&alone).enumerate() {

@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use gauss_runtime::lie::coefficients;
 use gauss_runtime::lie::so3;
 use gauss_runtime::prelude::*;
+use gauss_tests::double_double::DoubleDouble;
 
-use super::double_double::{ONE, Twofold, ZERO};
 use super::measure::worse;
 use super::methods::{end, order_8};
 use super::scenes::Scene;
@@ -24,19 +24,19 @@ fn angles(effort: Effort) -> Vec<f64> {
 }
 
 /// Σ xⁿ·c(n), c(0) = first, c(n+1)/c(n) = p/q of the ratio.
-fn sum(x: Twofold, first: Twofold, ratio: impl Fn(f64) -> (f64, f64)) -> Twofold {
-    let (mut total, mut term) = (ZERO, first);
+fn sum(x: DoubleDouble, first: DoubleDouble, ratio: impl Fn(f64) -> (f64, f64)) -> DoubleDouble {
+    let (mut total, mut term) = (DoubleDouble::ZERO, first);
     for n in 0..40 {
         total = total + term;
         let (p, q) = ratio(f64::from(n));
-        term = term * x * Twofold::from(p) / Twofold::from(q);
+        term = term * x * DoubleDouble::from(p) / DoubleDouble::from(q);
     }
     total
 }
 
 /// (1 − cos θ)/θ², (θ − sin θ)/θ³ and (1 − (θ/2) cot(θ/2))/θ² at −θ², to 30 digits.
-fn exact(minus_square: Twofold) -> [Twofold; 3] {
-    let part = |p: f64, q: f64| Twofold::from(p) / Twofold::from(q);
+fn exact(minus_square: DoubleDouble) -> [DoubleDouble; 3] {
+    let part = |p: f64, q: f64| DoubleDouble::from(p) / DoubleDouble::from(q);
     let versine = sum(minus_square, part(1.0, 2.0), |n| (1.0, (2.0 * n + 3.0) * (2.0 * n + 4.0)));
     let cubic = sum(minus_square, part(1.0, 6.0), |n| (1.0, (2.0 * n + 4.0) * (2.0 * n + 5.0)));
     // (2·versine − sinc)/θ² over 2·versine.
@@ -44,27 +44,27 @@ fn exact(minus_square: Twofold) -> [Twofold; 3] {
     [versine, cubic, difference / (versine + versine)]
 }
 
-fn relative(found: f64, exact: Twofold) -> f64 {
-    ((Twofold::from(found) - exact) / exact).value().abs()
+fn relative(found: f64, exact: DoubleDouble) -> f64 {
+    ((DoubleDouble::from(found) - exact) / exact).high.abs()
 }
 
 /// The quaternion of a rotation vector, to 30 digits.
-fn exact_exp(sigma: &Vector3<f64>) -> [Twofold; 4] {
-    let components = [sigma.x, sigma.y, sigma.z].map(Twofold::from);
-    let square = components.into_iter().fold(ZERO, |sum, c| sum + c * c);
-    let x = -(square * Twofold::from(0.25));
-    let sinc = sum(x, ONE, |n| (1.0, (2.0 * n + 2.0) * (2.0 * n + 3.0)));
-    let cosine = sum(x, ONE, |n| (1.0, (2.0 * n + 1.0) * (2.0 * n + 2.0)));
-    let half = Twofold::from(0.5) * sinc;
+fn exact_exp(sigma: &Vector3<f64>) -> [DoubleDouble; 4] {
+    let components = [sigma.x, sigma.y, sigma.z].map(DoubleDouble::from);
+    let square = components.into_iter().fold(DoubleDouble::ZERO, |sum, c| sum + c * c);
+    let x = -(square * DoubleDouble::from(0.25));
+    let sinc = sum(x, DoubleDouble::ONE, |n| (1.0, (2.0 * n + 2.0) * (2.0 * n + 3.0)));
+    let cosine = sum(x, DoubleDouble::ONE, |n| (1.0, (2.0 * n + 1.0) * (2.0 * n + 2.0)));
+    let half = DoubleDouble::from(0.5) * sinc;
     let [x, y, z] = components.map(|c| half * c);
     [x, y, z, cosine]
 }
 
 /// The error of a quaternion: of its vector relative to the vector, of the scalar relative to 1. What is less than the
 /// smallest double does not count.
-fn quaternion_error(found: [f64; 4], exact: [Twofold; 4]) -> f64 {
-    let errors: [f64; 4] = std::array::from_fn(|i| (Twofold::from(found[i]) - exact[i]).value().abs());
-    let size = exact[..3].iter().fold(0.0_f64, |m, v| m.max(v.value().abs()));
+fn quaternion_error(found: [f64; 4], exact: [DoubleDouble; 4]) -> f64 {
+    let errors: [f64; 4] = std::array::from_fn(|i| (DoubleDouble::from(found[i]) - exact[i]).high.abs());
+    let size = exact[..3].iter().fold(0.0_f64, |m, v| m.max(v.high.abs()));
     let vector = errors[..3].iter().fold(0.0_f64, |m, &e| worse(m, e));
     let counted = if vector <= 5e-324 { 0.0 } else { vector / size };
     worse(counted, errors[3])
@@ -78,8 +78,8 @@ pub fn small_angles(effort: Effort) -> Measures {
     for theta in angles(effort) {
         let square = theta * theta;
         // What a function of θ² is given is the rounded square; what one of θ is given is θ.
-        let at_square = exact(-Twofold::from(square));
-        let at_angle = exact(-(Twofold::from(theta) * Twofold::from(theta)));
+        let at_square = exact(-DoubleDouble::from(square));
+        let at_angle = exact(-(DoubleDouble::from(theta) * DoubleDouble::from(theta)));
         let found = [coefficients::versine(square), coefficients::cubic(square), coefficients::dexp_inv(square)];
         let naive = [naive::versine(theta), naive::cubic(theta), naive::dexp_inv(theta)];
         for i in 0..3 {

@@ -4,8 +4,8 @@ use std::error::Error;
 
 use gauss_runtime::integrate::{Control, Form};
 use gauss_runtime::prelude::*;
+use gauss_tests::double_double::DoubleDouble;
 
-use super::double_double::{ONE, Twofold, ZERO};
 use super::measure::worse;
 use super::methods::{carrying_8, gauss_6, order_8, splitting};
 use super::scenes::{FreeTop, FreeTopFromSpace, FreeTopFromSpaceKernel, FreeTopKernel, RollingDisk};
@@ -35,8 +35,8 @@ fn steps(effort: Effort) -> u64 {
 
 /// ‖q‖ − 1, of components taken as they are.
 fn excess(q: [f64; 4]) -> f64 {
-    let square = q.into_iter().map(Twofold::from).fold(ZERO, |sum, c| sum + c * c);
-    0.5 * (square - ONE).value()
+    let square = q.into_iter().map(DoubleDouble::from).fold(DoubleDouble::ZERO, |sum, c| sum + c * c);
+    0.5 * (square - DoubleDouble::ONE).high
 }
 
 /// Quaternion and ω, as [`naive::top`] has them.

@@ -1,7 +1,6 @@
 //! The suite of hard cases: what is measured, what a naive program gets, the target, and the figure reached.
 
 mod bodies;
-mod double_double;
 mod groups;
 mod long_runs;
 mod measure;

@@ -11,12 +11,12 @@
 //! Right-hand sides are products of two factors, so each coefficient of the series follows from those before it.
 
 use gauss_runtime::prelude::*;
+use gauss_tests::double_double::DoubleDouble;
 
-use super::double_double::{ONE, Twofold, ZERO};
 use super::scenes::State;
 
-type Triple = [Twofold; 3];
-type Six = [Twofold; 6];
+type Triple = [DoubleDouble; 3];
+type Six = [DoubleDouble; 6];
 
 /// Terms of a series. Steps are as long as the last ones allow for 1e-33.
 const ORDER: usize = 36;
@@ -26,7 +26,7 @@ pub struct Body {
     kinetic: [Six; 6],
     inverse: [Six; 6],
     center: Triple,
-    weight: Twofold,
+    weight: DoubleDouble,
     /// O rests at Ω.
     held: bool,
 }
@@ -46,14 +46,14 @@ pub struct MassData {
 }
 
 fn triple(v: &Vector3<f64>) -> Triple {
-    [v.x, v.y, v.z].map(Twofold::from)
+    [v.x, v.y, v.z].map(DoubleDouble::from)
 }
 
-fn plus<const N: usize>(a: [Twofold; N], b: [Twofold; N]) -> [Twofold; N] {
+fn plus<const N: usize>(a: [DoubleDouble; N], b: [DoubleDouble; N]) -> [DoubleDouble; N] {
     std::array::from_fn(|i| a[i] + b[i])
 }
 
-fn scaled<const N: usize>(factor: Twofold, a: [Twofold; N]) -> [Twofold; N] {
+fn scaled<const N: usize>(factor: DoubleDouble, a: [DoubleDouble; N]) -> [DoubleDouble; N] {
     a.map(|x| factor * x)
 }
 
@@ -61,8 +61,8 @@ fn cross(a: Triple, b: Triple) -> Triple {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn dot<const N: usize>(a: [Twofold; N], b: [Twofold; N]) -> Twofold {
-    (0..N).fold(ZERO, |sum, i| sum + a[i] * b[i])
+fn dot<const N: usize>(a: [DoubleDouble; N], b: [DoubleDouble; N]) -> DoubleDouble {
+    (0..N).fold(DoubleDouble::ZERO, |sum, i| sum + a[i] * b[i])
 }
 
 fn halves(v: Six) -> (Triple, Triple) {
@@ -72,13 +72,14 @@ fn halves(v: Six) -> (Triple, Triple) {
 /// Gauss–Jordan elimination with the largest pivot.
 fn inverse(matrix: &[Six; 6]) -> [Six; 6] {
     let mut left = *matrix;
-    let mut right: [Six; 6] = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { ONE } else { ZERO }));
+    let mut right: [Six; 6] =
+        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { DoubleDouble::ONE } else { DoubleDouble::ZERO }));
     for column in 0..6 {
-        let size = |row: usize| left[row][column].value().abs();
+        let size = |row: usize| left[row][column].high.abs();
         let pivot = (column..6).fold(column, |best, row| if size(row) > size(best) { row } else { best });
         left.swap(column, pivot);
         right.swap(column, pivot);
-        let reciprocal = ONE / left[column][column];
+        let reciprocal = DoubleDouble::ONE / left[column][column];
         left[column] = scaled(reciprocal, left[column]);
         right[column] = scaled(reciprocal, right[column]);
         for row in (0..6).filter(|&row| row != column) {
@@ -102,14 +103,18 @@ struct Coefficient {
 impl Body {
     /// A free body.
     pub fn free(data: &MassData) -> Self {
-        let (mass, center) = (Twofold::from(data.mass), triple(&data.center));
+        let (mass, center) = (DoubleDouble::from(data.mass), triple(&data.center));
         let first = scaled(mass, center);
-        let lever = [[ZERO, -first[2], first[1]], [first[2], ZERO, -first[0]], [-first[1], first[0], ZERO]];
+        let lever = [
+            [DoubleDouble::ZERO, -first[2], first[1]],
+            [first[2], DoubleDouble::ZERO, -first[0]],
+            [-first[1], first[0], DoubleDouble::ZERO],
+        ];
         let kinetic: [Six; 6] = std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 let rigid = match (i < 3, j < 3) {
                     (true, true) if i == j => mass,
-                    (true, true) => ZERO,
+                    (true, true) => DoubleDouble::ZERO,
                     (true, false) => -lever[i][j - 3],
                     (false, true) => lever[i - 3][j],
                     (false, false) => data.inertia[(i - 3, j - 3)].into(),
@@ -124,7 +129,7 @@ impl Body {
     /// A body that turns about O: the momentum is Γ alone, and u vanishes.
     pub fn held(data: &MassData) -> Self {
         let mut body = Self { held: true, ..Self::free(data) };
-        let unit = |i: usize, j: usize| if i == j { ONE } else { ZERO };
+        let unit = |i: usize, j: usize| if i == j { DoubleDouble::ONE } else { DoubleDouble::ZERO };
         body.kinetic = std::array::from_fn(|i| {
             std::array::from_fn(|j| if i < 3 || j < 3 { unit(i, j) } else { body.kinetic[i][j] })
         });
@@ -149,11 +154,11 @@ impl Body {
     }
 
     fn advance(&self, mut now: Coefficient, duration: f64) -> Coefficient {
-        let mut left = Twofold::from(duration);
-        while left.value() > 0.0 {
+        let mut left = DoubleDouble::from(duration);
+        while left.high > 0.0 {
             let series = self.series(&now);
             let h = radius(&series) * 1e-33_f64.powf(1.0 / ORDER as f64);
-            let h = if h < left.value() { Twofold::from(h) } else { left };
+            let h = if h < left.high { DoubleDouble::from(h) } else { left };
             now = series.iter().rev().skip(1).fold(series[ORDER], |sum, c| Coefficient {
                 momentum: plus(c.momentum, scaled(h, sum.momentum)),
                 twist: c.twist,
@@ -167,8 +172,8 @@ impl Body {
 
     fn state(&self, now: &Coefficient) -> State {
         let (u, omega) = halves(self.twist(&now.momentum));
-        let value = |v: Triple| Vector3::from(v.map(Twofold::value));
-        let rotation = Matrix3::from_fn(|i, j| now.rows[i][j].value());
+        let value = |v: Triple| Vector3::from(v.map(|x| x.high));
+        let rotation = Matrix3::from_fn(|i, j| now.rows[i][j].high);
         State { rotation, b: value(now.place), u: value(u), omega: value(omega) }
     }
 
@@ -177,20 +182,20 @@ impl Body {
     }
 
     fn start(&self, pose: &Isometry3<f64>, twist: &Vector6<f64>) -> Coefficient {
-        let [x, y, z, w] = [0, 1, 2, 3].map(|i| Twofold::from(pose.rotation.coords[i]));
+        let [x, y, z, w] = [0, 1, 2, 3].map(|i| DoubleDouble::from(pose.rotation.coords[i]));
         let norm = dot([x, y, z, w], [x, y, z, w]);
-        let two = Twofold::from(2.0);
+        let two = DoubleDouble::from(2.0);
         let [xx, yy, zz, ww] = [x * x, y * y, z * z, w * w];
         let rows = [
             [ww + xx - yy - zz, two * (x * y - w * z), two * (x * z + w * y)],
             [two * (x * y + w * z), ww - xx + yy - zz, two * (y * z - w * x)],
             [two * (x * z - w * y), two * (y * z + w * x), ww - xx - yy + zz],
         ];
-        let twist: Six = std::array::from_fn(|i| if self.held && i < 3 { ZERO } else { twist[i].into() });
+        let twist: Six = std::array::from_fn(|i| if self.held && i < 3 { DoubleDouble::ZERO } else { twist[i].into() });
         Coefficient {
             momentum: self.kinetic.map(|row| dot(row, twist)),
             twist,
-            rows: rows.map(|row| scaled(ONE / norm, row)),
+            rows: rows.map(|row| scaled(DoubleDouble::ONE / norm, row)),
             place: triple(&pose.translation.vector),
         }
     }
@@ -200,9 +205,9 @@ impl Body {
         for k in 0..ORDER {
             series[k].twist = self.twist(&series[k].momentum);
             let force = scaled(-self.weight, series[k].rows[2]);
-            let mut linear = if self.held { [ZERO; 3] } else { force };
+            let mut linear = if self.held { [DoubleDouble::ZERO; 3] } else { force };
             let mut angular = cross(self.center, force);
-            let (mut rows, mut place) = ([[ZERO; 3]; 3], [ZERO; 3]);
+            let (mut rows, mut place) = ([[DoubleDouble::ZERO; 3]; 3], [DoubleDouble::ZERO; 3]);
             for i in 0..=k {
                 let ((q, gamma), (u, omega)) = (halves(series[i].momentum), halves(series[k - i].twist));
                 angular = plus(angular, cross(gamma, omega));
@@ -215,7 +220,7 @@ impl Body {
                     place[n] = place[n] + dot(row, u);
                 }
             }
-            let share = ONE / Twofold::from((k + 1) as f64);
+            let share = DoubleDouble::ONE / DoubleDouble::from((k + 1) as f64);
             let both: Six = std::array::from_fn(|i| if i < 3 { linear[i] } else { angular[i - 3] });
             series[k + 1].momentum = scaled(share, both);
             series[k + 1].rows = rows.map(|row| scaled(share, row));
@@ -228,8 +233,8 @@ impl Body {
 /// How far the series converge, from their last two terms: the shortest of linear momentum, angular momentum and
 /// rotation.
 fn radius(series: &[Coefficient; ORDER + 1]) -> f64 {
-    let largest = |values: &[Twofold]| values.iter().fold(0.0_f64, |m, v| m.max(v.value().abs()));
-    let parts: [fn(&Coefficient) -> Vec<Twofold>; 3] =
+    let largest = |values: &[DoubleDouble]| values.iter().fold(0.0_f64, |m, v| m.max(v.high.abs()));
+    let parts: [fn(&Coefficient) -> Vec<DoubleDouble>; 3] =
         [|c| c.momentum[..3].to_vec(), |c| c.momentum[3..].to_vec(), |c| c.rows.as_flattened().to_vec()];
     let mut least = f64::INFINITY;
     for part in parts {

@@ -8,7 +8,7 @@ use super::*;
 use crate::configuration::Configuration;
 use crate::lie::so3;
 use crate::private;
-use crate::testing::Pack;
+use crate::simd::Lanes;
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// The angle between two rotations.
@@ -137,10 +137,10 @@ fn rodrigues_vectors() {
 #[test]
 fn packs_fail_when_a_lane_does() {
     let chart = RotationChart::Euler(EulerSequence::ZYX);
-    let regular = rotation_from_coordinates(chart, [Pack([0.1, 0.2]), Pack([0.3, 0.4]), Pack([0.5, -0.6])]);
+    let regular = rotation_from_coordinates(chart, [Lanes([0.1, 0.2]), Lanes([0.3, 0.4]), Lanes([0.5, -0.6])]);
     let back = coordinates_of_rotation(chart, &regular).expect("regular");
-    assert!((back[2].0[1] + 0.6).abs() < 1e-15);
-    let locked = rotation_from_coordinates(chart, [Pack([0.1, 0.2]), Pack([0.3, FRAC_PI_2]), Pack([0.5, -0.6])]);
+    assert!((back[2].0[1] + 0.6_f64).abs() < 1e-15);
+    let locked = rotation_from_coordinates(chart, [Lanes([0.1, 0.2]), Lanes([0.3, FRAC_PI_2]), Lanes([0.5, -0.6])]);
     assert!(coordinates_of_rotation(chart, &locked).is_err());
 }
 

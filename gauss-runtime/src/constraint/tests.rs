@@ -4,7 +4,7 @@ use nalgebra::SVector;
 use std::string::ToString;
 
 use super::*;
-use crate::testing::Pack;
+use crate::simd::Lanes;
 use crate::testing::constrained::{Constraint, Hand, circle, line, on_both, pendulum, skate};
 use crate::testing::dual::dual;
 
@@ -72,9 +72,9 @@ fn every_scalar_is_projected_in_its_own_precision() {
     assert!(pendulum::<f32>(2.0).velocity_residual(0.0, &q, &z).amax() <= 8.0 * f32::EPSILON);
 
     // One lane is there already, the other is far.
-    let (x, y) = (Pack([0.0, 3.0]), Pack([-1.0, 4.0]));
-    let zero = Pack([0.0; 2]);
-    let (q, _) = pendulum::<Pack>(2.0)
+    let (x, y) = (Lanes([0.0, 3.0]), Lanes([-1.0, 4.0]));
+    let zero = Lanes([0.0; 2]);
+    let (q, _) = pendulum::<Lanes<f64, 2>>(2.0)
         .project(zero, &SVector::from([x, y]), &SVector::from([zero, zero]))
         .expect("each lane by itself");
     assert_eq!([q[0].0[0], q[1].0[0]], [0.0, -1.0]);

@@ -8,7 +8,7 @@ use crate::lie::{se3, so3};
 use crate::monitor::monitor;
 use crate::private::product;
 use crate::real::Real;
-use crate::testing::Pack;
+use crate::simd::Lanes;
 use crate::testing::coasting::{Coasting, increment};
 
 /// What systems with coordinates `pose: Pose, attitude: Rotation, x, y` have.
@@ -54,7 +54,7 @@ fn factors_run_by_themselves<T: Real>() {
 fn a_product_runs_as_its_factors_do_in_every_scalar() {
     factors_run_by_themselves::<f64>();
     factors_run_by_themselves::<f32>();
-    factors_run_by_themselves::<Pack>();
+    factors_run_by_themselves::<Lanes<f64, 2>>();
 }
 
 #[test]

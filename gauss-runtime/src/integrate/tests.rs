@@ -9,8 +9,9 @@ use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::lie::so3;
 use crate::monitor::monitor;
+use crate::simd::Lanes;
 use crate::system::GaussSystem;
-use crate::testing::{FreeTop, Pack};
+use crate::testing::FreeTop;
 
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration*, fig. VII.5.3 without forces: I = (0.5, 0.85, 1),
 /// body angular momentum (0.2, 1, 0.4), quaternion w + xi + yj + zk = (0.4, 0.2, 0.4, 0.8).
@@ -448,11 +449,11 @@ fn single_precision_and_packs_run_too() {
         .expect("runs");
     assert!((adaptive.z.cast::<f64>() - exact.z).amax() < 1e-4);
 
-    let both = |x: f64| Pack([x, x]);
-    let pack = FreeTop { inertia: [Pack([0.5, 0.6]), both(0.85), both(1.0)] };
+    let both = |x: f64| Lanes([x, x]);
+    let pack = FreeTop { inertia: [Lanes([0.5, 0.6]), both(0.85), both(1.0)] };
     let attitude = crate::triple::unit_quaternion(crate::triple::quaternion(&q0).map(both));
     let end = Simulation::new(&pack)
-        .input(|_, _: &UnitQuaternion<Pack>, _: &SVector<Pack, 3>| [both(0.0); 3])
+        .input(|_, _: &_, _: &_| [both(0.0); 3])
         .fixed_step(both(0.05))
         .run_to_end(attitude, SVector::from(z0.data.0[0].map(both)), both(0.0)..both(3.0))
         .expect("runs");

@@ -10,7 +10,7 @@ use super::coefficients::{
 use super::{se2, se3, so3};
 use crate::configuration::{Configuration, Product, VectorSpace};
 use crate::real::Real;
-use crate::testing::Pack;
+use crate::simd::Lanes;
 
 /// θ, then sinc, versine, cubic, dexp⁻¹ and its derivative: computed with mpmath from the closed forms.
 // Angles near 2π are angles near 2π, not attempts at it.
@@ -109,7 +109,7 @@ fn coefficients_at_every_angle() {
 #[test]
 fn packs_take_both_branches_lane_by_lane() {
     for pair in [[1e-3, 1.0], [0.1, 3.9], [2.5, 5.0], [0.0, 6.0], [4.5, 5.5]] {
-        let s = Pack(pair.map(|theta: f64| theta * theta));
+        let s = Lanes(pair.map(|theta: f64| theta * theta));
         for (lane, s1) in s.0.into_iter().enumerate() {
             near(sinc(s).lane(lane), sinc(s1), 3e-16, "sinc");
             near(versine(s).lane(lane), versine(s1), 3e-16, "versine");

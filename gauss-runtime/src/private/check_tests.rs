@@ -4,7 +4,7 @@ use std::string::{String, ToString};
 use std::vec::Vec;
 
 use super::*;
-use crate::testing::Pack;
+use crate::simd::Lanes;
 
 fn diagonal(moments: [f64; 3]) -> [[f64; 3]; 3] {
     core::array::from_fn(|i| core::array::from_fn(|j| if i == j { moments[i] } else { 0.0 }))
@@ -145,7 +145,7 @@ fn one_report_for_each_field_and_no_consequences() {
 #[test]
 fn all_lanes_count_and_the_list_is_bounded() {
     let mut check = ParameterCheck::new();
-    check.mass("mass", Pack([1.0, -2.0]));
+    check.mass("mass", Lanes([1.0, -2.0]));
     let error = check.finish().unwrap_err();
     assert_eq!(error.violations()[0].value, -2.0);
 

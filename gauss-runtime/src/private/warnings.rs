@@ -93,7 +93,7 @@ fn least<const N: usize>(values: &[f64; N]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::Pack;
+    use crate::simd::Lanes;
     use std::string::ToString;
 
     fn diagonal(entries: [f64; 6]) -> [[f64; 6]; 6] {
@@ -181,7 +181,7 @@ mod tests {
     #[test]
     fn every_lane_counts() {
         let mut check = WarningCheck::new();
-        let matrix = diagonal([1.0; 6]).map(|row| row.map(|entry| Pack([entry, -entry])));
+        let matrix = diagonal([1.0; 6]).map(|row| row.map(|entry| Lanes([entry, -entry])));
         check.drag("d", DragKind::Linear, &matrix);
         assert_eq!(check.finish().as_slice()[0].value, -1.0);
     }

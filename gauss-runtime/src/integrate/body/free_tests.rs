@@ -9,7 +9,7 @@ use super::{FreeFlow, FreeMotion, MoserVeselov};
 use crate::integrate::IntegrationErrorKind;
 use crate::lie::so3;
 use crate::real::Real;
-use crate::testing::Pack;
+use crate::simd::Lanes;
 use crate::triple::{quaternion, rotate, unit_quaternion};
 
 type State = (UnitQuaternion<f64>, Vector3<f64>);
@@ -274,8 +274,8 @@ fn long_runs_do_not_drift() {
 #[test]
 fn lanes_move_by_themselves() {
     let (i, y) = ([[0.5, 0.85, 1.0], [3.0, 1.5, 2.0]], [[0.2, 1.0, 0.4], [1.8, -0.4, -0.9]]);
-    let pack = |v: [[f64; 3]; 2]| core::array::from_fn(|k| Pack([v[0][k], v[1][k]]));
-    let both = MoserVeselov::new(pack(i)).turn(&SVector::from(pack(y)), Pack::from_f64(0.1)).expect("regular");
+    let pack = |v: [[f64; 3]; 2]| core::array::from_fn(|k| Lanes([v[0][k], v[1][k]]));
+    let both = MoserVeselov::new(pack(i)).turn(&SVector::from(pack(y)), Lanes::from_f64(0.1)).expect("regular");
     for lane in 0..2 {
         let one = MoserVeselov::new(i[lane]).turn(&Vector3::from(y[lane]), 0.1).expect("regular");
         // The slower lane decides on the number of iterations: the other one may be nearer to its root.

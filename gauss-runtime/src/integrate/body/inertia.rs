@@ -127,7 +127,7 @@ fn annihilate<T: Real>(a: &mut [[T; 3]; 3], turned: &mut [T; 4], p: usize, q: us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::Pack;
+    use crate::simd::Lanes;
 
     /// Products of a rotation and its moments, put together again.
     #[test]
@@ -168,7 +168,7 @@ mod tests {
             Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0)),
         ];
         let both = crate::private::matrix(core::array::from_fn(|i| {
-            core::array::from_fn(|j| Pack([tensors[0][(i, j)], tensors[1][(i, j)]]))
+            core::array::from_fn(|j| Lanes([tensors[0][(i, j)], tensors[1][(i, j)]]))
         }));
         let both = PrincipalAxes::of(&both).expect("positive definite");
         for lane in 0..2 {

@@ -120,9 +120,10 @@ mod tests {
     use super::*;
     use crate::integrate::SystemProblem;
     use crate::integrate::{Fixed, MomentumForm, NoInput, Rkmk, Simulation, Tableau, VelocityForm};
+    use crate::simd::Lanes;
+    use crate::testing::FreeTop;
     use crate::testing::constrained::{pendulum, pendulum_by_angle};
     use crate::testing::order::{TOP, TORQUE, distance, march, measured_order, start_by_momentum, start_by_velocity};
-    use crate::testing::{FreeTop, Pack};
 
     #[test]
     fn order_4_in_both_forms() {
@@ -192,7 +193,7 @@ mod tests {
             .expect("runs");
         // 40 steps of some ten roundings.
         assert!((end.p.cast::<f64>() - exact.y).amax() < 400.0 * f64::from(f32::EPSILON));
-        let both = |x: f64| Pack([x, x]);
+        let both = |x: f64| Lanes([x, x]);
         let pack = FreeTop { inertia: [0.5, 0.85, 1.0].map(both) };
         let q = crate::triple::unit_quaternion(crate::triple::quaternion(&start.q).map(both));
         let end = Simulation::new(&pack)

@@ -11,10 +11,11 @@ use crate::integrate::{
     Verner9,
 };
 use crate::lie::{se2, se3, so3};
+use crate::simd::Lanes;
+use crate::testing::FreeTop;
 use crate::testing::coasting::{Coasting, increment};
 use crate::testing::dual::{Dual, dual};
 use crate::testing::order::{NONE, TOP, TORQUE, distance, march, measured_order, start_by_momentum, start_by_velocity};
-use crate::testing::{FreeTop, Pack};
 
 /// Numbers of steps whose errors are above rounding, for a span of 4.
 const FEW: [u32; 4] = [8, 11, 16, 22];
@@ -185,11 +186,11 @@ fn other_scalars_run_too() {
     // Sixty steps of roundings of numbers up to 2, through sixteen stages with weights up to 30.
     assert!((end.z.cast::<f64>() - exact.z).amax() < 60.0 * 2.0 * f64::from(f32::EPSILON));
 
-    let both = |x: f64| Pack([x, x]);
-    let pack = FreeTop { inertia: [Pack([0.5, 0.6]), both(0.85), both(1.0)] };
+    let both = |x: f64| Lanes([x, x]);
+    let pack = FreeTop { inertia: [Lanes([0.5, 0.6]), both(0.85), both(1.0)] };
     let attitude = UnitQuaternion::from_components(&SVector::from(start.q.components().data.0[0].map(both)));
     let end = Simulation::new(&pack)
-        .input(|_, _: &UnitQuaternion<Pack>, _: &SVector<Pack, 3>| [both(0.0); 3])
+        .input(|_, _: &_, _: &_| [both(0.0); 3])
         .fixed_step(both(0.05))
         .run_to_end(attitude, SVector::from(start.y.data.0[0].map(both)), both(0.0)..both(3.0))
         .expect("runs");

@@ -7,13 +7,14 @@ use std::string::ToString;
 use std::vec::Vec;
 
 use crate::integrate::*;
+use crate::simd::Lanes;
 use crate::system::GaussSystem;
+use crate::testing::FreeTop;
 use crate::testing::constrained::{GRAVITY, pendulum, pendulum_by_angle};
 use crate::testing::order::{
     NONE, TOP, TORQUE, WEIGHT, distance, march, measured_order, start_by_momentum, start_by_velocity,
 };
 use crate::testing::oscillator::{Oscillator, Viscous};
-use crate::testing::{FreeTop, Pack};
 
 type Top = FreeTop<f64>;
 
@@ -261,8 +262,8 @@ fn runs_in_single_precision_and_in_packs() {
         .expect("runs");
     // 20 steps, some thirty roundings each.
     assert!((end.z.cast::<f64>() - exact.y).amax() < 600.0 * f64::from(f32::EPSILON));
-    let both = |x: f64| Pack([x, x]);
-    let pack = FreeTop { inertia: [Pack([0.5, 0.9]), both(0.85), both(1.0)] };
+    let both = |x: f64| Lanes([x, x]);
+    let pack = FreeTop { inertia: [Lanes([0.5, 0.9]), both(0.85), both(1.0)] };
     let q = crate::triple::unit_quaternion(crate::triple::quaternion(&start.q).map(both));
     let end = Simulation::new(&pack)
         .input(|_, _: &_, _: &_| [both(0.0); 3])

@@ -1,14 +1,9 @@
 //! The suite of hard cases in its quick form, and its source of truth against published numbers.
 
-#[allow(dead_code)] // The program runs longer ones too.
-#[path = "../hard_cases/suite/mod.rs"]
-mod suite;
-
+use gauss_comparisons::suite::scenes::Scene;
+use gauss_comparisons::suite::truth::Body;
+use gauss_comparisons::suite::{CASES, Effort, Verdict};
 use gauss_runtime::prelude::*;
-
-use suite::scenes::Scene;
-use suite::truth::Body;
-use suite::{CASES, Effort, Verdict};
 
 /// What is short of its target: case, figure (its beginning), method (its beginning), and why. Whoever mends one
 /// takes it off.

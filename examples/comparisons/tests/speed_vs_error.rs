@@ -1,16 +1,12 @@
 //! The computing part of the example `speed_vs_error`: errors against the references, orders, evaluations, fronts. No
 //! times are asserted.
 
-#[allow(dead_code)] // The program times and shows more.
-#[path = "../speed_vs_error/measure/mod.rs"]
-mod measure;
-
 use std::time::Duration;
 
-use measure::comparison::{LEVELS, Total, Verdict};
-use measure::entry::{Entry, Setting, Side};
-use measure::scene::{Scene, Target, scenes};
-use measure::study::{Effort, study};
+use gauss_comparisons::measure::comparison::{LEVELS, Total, Verdict};
+use gauss_comparisons::measure::entry::{Entry, Setting, Side};
+use gauss_comparisons::measure::scene::{Scene, Target, scenes};
+use gauss_comparisons::measure::study::{Effort, study};
 
 fn scene(name: &str) -> Scene {
     scenes().unwrap().into_iter().find(|scene| scene.about.name == name).unwrap()

@@ -1,7 +1,7 @@
 //! Reference solutions of one rigid body reproduced by derived kernels: every scene in every chart that can express it, in
 //! velocity form and in momentum form, and the errors reached as a table.
 //!
-//! `cargo test -p gauss-tests --test reference -- --nocapture` prints the table; it is also written to
+//! `cargo test -p gauss-long-runs --test reference -- --nocapture` prints the table; it is also written to
 //! `reference_errors.md` among the temporary files of the build.
 
 mod bodies;

@@ -1,0 +1,1 @@
+//! Tests that run for long: optimised, where those of `gauss-tests` are not.
