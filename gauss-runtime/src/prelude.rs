@@ -26,7 +26,7 @@ pub use crate::monitor::{monitor, monitor_body, power_balance};
 pub use crate::real::Real;
 pub use crate::series::TaylorSystem;
 pub use crate::simd::Lanes;
-pub use crate::system::{GaussSystem, RigidBody, RigidBodySystem, Smoothness};
+pub use crate::system::{AboutCenterOfMass, GaussSystem, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
     UnitQuaternion, Vector3, Vector6,

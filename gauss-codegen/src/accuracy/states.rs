@@ -161,27 +161,14 @@ impl<'g> States<'_, 'g> {
         let of = |role: Role| -> Vec<Expr<'g>> {
             body.parameters.iter().filter(|p| p.quantity == role).map(|p| p.symbol).collect()
         };
-        let (mass, c) = (values.of(body.mass), body.center_of_mass.map(|e| values.of(e)));
         let second: [f64; 3] = std::array::from_fn(|_| random.size(profile.decades));
         let principal: [f64; 3] = std::array::from_fn(|i| second[(i + 1) % 3] + second[(i + 2) % 3]);
-        let square: f64 = c.iter().map(|c| c * c).sum();
-        match of(Role::Inertia).as_slice() {
-            [] => {}
-            [only] => {
-                // Particles at the mass centre have none there; a sphere has more than they have about O.
-                values.put(*only, second[0] + 2.0 * mass * square);
-            }
-            diagonal @ [_, _, _] => {
-                // Without products of inertia the mass centre is off O only as far as the rest makes up for it.
-                (0..3).for_each(|i| values.put(diagonal[i], principal[i] + 2.0 * mass * square));
-            }
-            whole => {
-                let pairs = (0..3).flat_map(|i| (i..3).map(move |j| (i, j)));
-                for ((i, j), symbol) in pairs.zip(whole) {
-                    let own = if i == j { principal[i] + mass * square } else { 0.0 };
-                    values.put(*symbol, own - mass * c[i] * c[j]);
-                }
-            }
+        let central = of(Role::CentralInertia);
+        if central.is_empty() {
+            let (mass, c) = (values.of(body.mass), body.center_of_mass.map(|e| values.of(e)));
+            put_inertia(values, &of(Role::Inertia), principal, mass, c);
+        } else {
+            put_inertia(values, &central, principal, 0.0, [0.0; 3]);
         }
         let added = of(Role::AddedMass);
         let sizes: [f64; 6] = std::array::from_fn(|_| random.size(profile.decades));
@@ -243,6 +230,26 @@ impl<'g> States<'_, 'g> {
     }
 }
 
+/// The inertia of a body about O, from its principal moments about G.
+fn put_inertia(values: &mut Values, symbols: &[Expr<'_>], principal: [f64; 3], mass: f64, c: [f64; 3]) {
+    let square: f64 = c.iter().map(|c| c * c).sum();
+    match symbols {
+        [] => {}
+        [only] => values.put(*only, principal[0] + 2.0 * mass * square),
+        diagonal @ [_, _, _] => {
+            // Without products of inertia the mass centre is off O only as far as the rest makes up for it.
+            (0..3).for_each(|i| values.put(diagonal[i], principal[i] + 2.0 * mass * square));
+        }
+        whole => {
+            let pairs = (0..3).flat_map(|i| (i..3).map(move |j| (i, j)));
+            for ((i, j), symbol) in pairs.zip(whole) {
+                let own = if i == j { principal[i] + mass * square } else { 0.0 };
+                values.put(*symbol, own - mass * c[i] * c[j]);
+            }
+        }
+    }
+}
+
 /// What a scene is written with.
 #[derive(Default)]
 struct Seen<'g> {
@@ -277,6 +284,7 @@ impl<'g> Seen<'g> {
         for element in &scene.elements {
             match &element.action {
                 Action::Potential(potential) => seen.look([potential]),
+                Action::Field(field) => seen.look([&field.potential]),
                 Action::Forces(forces) => forces.iter().for_each(|force| match force {
                     Force::AtPoint { at, force } => seen.look(at.iter().chain(force)),
                     Force::OnLink { at, force, torque, .. } => seen.look(at.iter().chain(force).chain(torque)),
