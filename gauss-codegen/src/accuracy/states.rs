@@ -32,16 +32,20 @@ struct Profile {
     closest: f64,
     /// The share of angles that are near a multiple of a quarter turn.
     quarters: f64,
+    /// Powers of ten by which bodies are farther from Ω than they are large.
+    far: f64,
+    /// Powers of ten by which everything is slower.
+    slow: f64,
 }
 
 /// From the ordinary to the extreme; few are enough, because each puts every number on its own.
 const PROFILES: [Profile; 6] = [
-    Profile { decades: 0.5, near: 0.0, closest: 0.0, quarters: 0.0 },
-    Profile { decades: 1.5, near: 1.0, closest: 3.0, quarters: 0.3 },
-    Profile { decades: 3.0, near: 0.3, closest: 6.0, quarters: 0.3 },
-    Profile { decades: 1.0, near: 0.7, closest: 5.0, quarters: 0.7 },
-    Profile { decades: 3.0, near: 0.0, closest: 0.0, quarters: 0.0 },
-    Profile { decades: 2.0, near: 0.9, closest: 4.0, quarters: 0.5 },
+    Profile { decades: 0.5, near: 0.0, closest: 0.0, quarters: 0.0, far: 0.0, slow: 0.0 },
+    Profile { decades: 1.5, near: 1.0, closest: 3.0, quarters: 0.3, far: 2.0, slow: 0.0 },
+    Profile { decades: 3.0, near: 0.3, closest: 6.0, quarters: 0.3, far: 0.0, slow: 0.0 },
+    Profile { decades: 0.5, near: 0.7, closest: 5.0, quarters: 0.7, far: 6.0, slow: 0.0 },
+    Profile { decades: 0.3, near: 0.0, closest: 0.0, quarters: 0.0, far: 6.5, slow: 3.0 },
+    Profile { decades: 2.0, near: 0.9, closest: 4.0, quarters: 0.5, far: 3.0, slow: 0.0 },
 ];
 
 /// As many states as are worth their time.
@@ -126,13 +130,19 @@ impl<'g> States<'_, 'g> {
                 Coordinate::Pose(_, position) => position,
                 Coordinate::Plane { position, .. } => position,
             };
-            // Bodies are far from Ω more often than they are large.
-            position.iter().for_each(|b| values.put(*b, random_of(*b, seed).signed(2.0 * profile.decades)));
+            for b in position {
+                let mut random = random_of(*b, seed);
+                values.put(*b, random.signed(profile.decades) * 10.0_f64.powf(profile.far));
+            }
         }
         let twist = self.system.rigid_body().map_or(&[][..], |body| &body.twist);
         let residuals = &self.system.constraints.residuals;
-        for symbol in [&scene.speeds, &scene.speed_rates, &scene.inputs, residuals].into_iter().flatten().chain(twist) {
+        for symbol in [&scene.speed_rates, &scene.inputs, residuals].into_iter().flatten() {
             values.put(*symbol, random_of(*symbol, seed).signed(profile.decades));
+        }
+        for symbol in scene.speeds.iter().chain(twist) {
+            let mut random = random_of(*symbol, seed);
+            values.put(*symbol, random.signed(profile.decades) * 10.0_f64.powf(-profile.slow));
         }
     }
 

@@ -176,14 +176,17 @@ const FACTOR: f64 = 32.0;
 const VANISHING: f64 = 1.0 / 1024.0;
 
 /// Which programs keep the digits: at every state not much more is lost than by the best there. Where each of them loses somewhere what another
-/// keeps, those that come closest.
+/// keeps, those that come closest, within the same factor.
 pub fn accurate(losses: &[Loss]) -> Vec<bool> {
     let states = losses.first().map_or(0, |loss| loss.0.len());
     let least = |state: usize| losses.iter().map(|loss| loss.0[state]).fold(f64::INFINITY, f64::min);
     let allowed: Vec<f64> = (0..states).map(|state| FACTOR * least(state).max(1.0)).collect();
     let excess = |loss: &Loss| loss.0.iter().zip(&allowed).map(|(loss, allowed)| loss / allowed).fold(0.0, f64::max);
     let excesses: Vec<f64> = losses.iter().map(excess).collect();
-    let limit = excesses.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
+    let limit = match excesses.iter().copied().fold(f64::INFINITY, f64::min) {
+        least if least <= 1.0 => 1.0,
+        least => FACTOR * least,
+    };
     excesses.into_iter().map(|excess| excess <= limit).collect()
 }
 

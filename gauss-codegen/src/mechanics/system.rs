@@ -8,9 +8,11 @@ use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::arrangements::orthogonal::Elements;
 use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::kinematics::vector::{Vector, is_zero};
+use crate::mechanics::links::link::Link;
 use crate::mechanics::links::tree::Inertia;
 use crate::mechanics::loads::account::account_formulas;
-use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
+use crate::mechanics::loads::forces::{Action, Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Lettering, SystemScene};
 use crate::mechanics::tidy::{compact, sums, tidy};
 
@@ -185,8 +187,15 @@ impl<'g> System<'g> {
             }
             return general;
         };
-        let of_body = Arranged::of_body(self, body);
+        let mut of_body = Arranged::of_body(self, body);
         if self.constraints.is_empty() {
+            // The wrench of a field about O is a difference of large terms far from its centre: the tide is not.
+            if self.scene.elements.iter().any(|element| matches!(element.action, Action::Field(_))) {
+                let general = self.arranged_in_general();
+                of_body.acceleration.extend(general.acceleration);
+                of_body.residual.extend(general.residual);
+                of_body.momentum_rate.extend(general.momentum_rate);
+            }
             return of_body;
         }
         // Multipliers are found together with the accelerations.
@@ -434,10 +443,17 @@ impl<'g> System<'g> {
         arrangements.iter().flat_map(solve).chain(orthogonal).collect()
     }
 
-    /// C as a sum of squares, where several speeds share it.
+    /// C as a sum of squares, where several speeds share it. Where a speed turns a root and moves its O as well, as those of
+    /// twists about Ω do, the squares are not of what is relative.
     fn elements(&self) -> Option<Elements<'_, 'g>> {
         let few = (2..=DENSE).contains(&self.scene.speeds.len()) && self.only_body().is_none();
-        few.then(|| Elements::new(&self.scene.tree)).flatten()
+        let still = |a: &Vector<'g>| is_zero(&a.body) && is_zero(&a.space);
+        let about_far_pole = |link: &Link<'g>| {
+            let rows = link.linear_rows.iter().zip(&link.angular_rows);
+            link.parent.is_none() && rows.into_iter().any(|(a, o)| !still(a) && !is_zero(o))
+        };
+        let relative = !self.scene.tree.links.iter().any(about_far_pole);
+        (few && relative).then(|| Elements::new(&self.scene.tree)).flatten()
     }
 
     /// z from p = A z + p(z = 0).
