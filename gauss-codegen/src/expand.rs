@@ -7,7 +7,8 @@ use crate::algebra::Graph;
 use crate::emit::{Derived, Equations, emit};
 use crate::formulation::Formulation;
 use crate::lowering::lower;
-use crate::model;
+use crate::mistakes::{most_operations, refuse_exhausted};
+use crate::model::{self, Model};
 use crate::translate::Translator;
 
 /// Expands one struct.
@@ -22,8 +23,57 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
 pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
     let model = model::parse(input)?;
     let graph = Graph::new();
-    let mut translator = Translator::new(&graph, &model)?;
-    let formulation = Formulation::of(&model, &mut translator)?;
-    let kernel = lower(&graph, &model, &translator, &formulation)?;
-    write(&Derived::new(&model, &translator, &formulation, &kernel)?)
+    graph.allow(most_operations(&model));
+    let derived = derive_model(&graph, &model, write);
+    // Whatever else was found then means nothing.
+    refuse_exhausted(&model, &graph)?;
+    derived
+}
+
+fn derive_model<R>(
+    graph: &Graph,
+    model: &Model,
+    write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>,
+) -> syn::Result<R> {
+    let mut translator = Translator::new(graph, model)?;
+    let formulation = Formulation::of(model, &mut translator)?;
+    let kernel = lower(graph, model, &translator, &formulation)?;
+    write(&Derived::new(model, &translator, &formulation, &kernel)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENES: [&str; 4] = [
+        "#[gauss(chart = jet(euler_zyx), linearize(parameters), regressor, force(at = c, value = [m * c.x, 0, 0]))]
+         struct Body { #[gauss(mass)] m: f64, #[gauss(center_of_mass)] c: Vector3<f64>, #[gauss(inertia)] i: Matrix3<f64>,
+             #[gauss(added_mass)] x: Matrix6<f64>, #[gauss(gravity)] g: f64 }",
+        "#[gauss(coordinates(a, b), taylor, linearize, body(one, rotation = rotation_y(a)),
+             body(two, parent = one, position = [l, 0, 0], rotation = rotation_y(b)), stop(along = b, least = 0.1, stiffness = l,
+             width = 0.1))]
+         struct Arms { #[gauss(body)] one: RigidBody<f64>, #[gauss(body)] two: RigidBody<f64>, l: f64, #[gauss(gravity)] g: f64 }",
+        "#[gauss(coordinates(x, y, s), speeds(v, w, u), kinematics(x = v, y = w, s = u),
+             body(sleigh, position = [x, y, 0], rotation = rotation_z(s)), independent(v, u),
+             constraint(velocity = dot(sleigh.velocity, sleigh.rotation * [0, 1, 0])))]
+         struct Sleigh { #[gauss(body)] sleigh: RigidBody<f64> }",
+        "#[gauss(coordinates(x, y, z), particle(mass = m, position = [x, y, z]), constraint(position = x * x + y * y - z),
+             potential = ln(1 + x * x) / (2 + sin(y)), central_gravity(mu = m))]
+         struct Bowl { m: f64 }",
+    ];
+
+    /// Wherever the last node is made, the derivation ends with one message and without a panic.
+    #[test]
+    fn what_is_too_large_is_refused_wherever_that_is_found() {
+        for source in SCENES {
+            let input: DeriveInput = syn::parse_str(source).expect("a struct");
+            let model = model::parse(&input).expect("a valid scene");
+            for size in (2..14).map(|power| 1 << power).chain([700, 1400, 3000, 6000, 12_000]) {
+                let graph = Graph::new();
+                graph.restrict(size);
+                let derived = derive_model(&graph, &model, |derived| Ok(emit(derived, &Equations::of(derived))));
+                assert!(refuse_exhausted(&model, &graph).is_err() || derived.is_ok(), "{size}: {source}");
+            }
+        }
+    }
 }

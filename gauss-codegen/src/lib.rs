@@ -21,3 +21,4 @@ pub use algebra::Notation;
 pub use derivation::Derivation;
 pub use emit::fallback;
 pub use expand::expand;
+pub use model::item;

@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use proc_macro2::{Ident, Span};
 
+use crate::algebra::Graph;
 use crate::kernel::Kernel;
 use crate::mechanics::{
     Coordinate, Elimination, Formula, Method, Obstacle, Regressor, System, SystemFault, SystemScene,
@@ -78,6 +79,26 @@ pub fn refuse_idle_speeds(model: &Model, translator: &Translator<'_, '_>, system
     mistakes.finish()
 }
 
+/// Operations that the code of a struct may have.
+pub fn most_operations(model: &Model) -> usize {
+    model.limit.unwrap_or(LIMIT)
+}
+
+/// Equations of more expressions than memory and patience are enough for.
+pub fn refuse_exhausted(model: &Model, graph: &Graph) -> syn::Result<()> {
+    if !graph.is_exhausted() {
+        return Ok(());
+    }
+    Err(syn::Error::new(
+        model.ident.span(),
+        format!(
+            "the equations are made of more expressions than {} operations can come of; model less: fewer bodies, shorter \
+             expressions, coordinates relative to a parent; or write a larger `limit`",
+            most_operations(model)
+        ),
+    ))
+}
+
 /// More code than the compiler should be given without being asked.
 pub fn refuse_too_much(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
     let operations = kernel
@@ -87,7 +108,7 @@ pub fn refuse_too_much(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
         .chain([&kernel.constants])
         .map(|p| p.instructions.len())
         .sum::<usize>();
-    let limit = model.limit.unwrap_or(LIMIT);
+    let limit = most_operations(model);
     if operations <= limit {
         return Ok(());
     }

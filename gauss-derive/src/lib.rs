@@ -137,10 +137,14 @@
 ///
 /// # Errors
 ///
-/// Every mistake is a compile error at the token that is wrong, all of them at once. What uses the kernel of such a struct
+/// Every mistake is a compile error at the token that is wrong, all of them at once. What is too long, too deep or too large to
+/// be derived within 10 s and 1 GB is a mistake like others; powers have at most 100 factors. What uses the kernel of such a struct
 /// gives no further errors.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
-    let input = syn::parse_macro_input!(input as syn::DeriveInput);
+    let input = match gauss_codegen::item(input.into()) {
+        Ok(input) => input,
+        Err(mistake) => return mistake.into_compile_error().into(),
+    };
     gauss_codegen::expand(&input).unwrap_or_else(|mistakes| gauss_codegen::fallback(&input, &mistakes)).into()
 }

@@ -13,13 +13,13 @@ pub use crate::description::{Described, Equations, OperationCount, Operations};
 pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
-pub use crate::integrate::{
-    Adaptive, Classical4, Collocation, CommutatorFree4, Crossing, DormandPrince5, DormandPrince8, Fixed, InputSource,
-    IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta, Sample, Simulation, Tableau, Taylor,
-    VelocityForm, Verner9,
-};
 #[cfg(feature = "alloc")]
-pub use crate::integrate::{Dense, Trajectory};
+pub use crate::integrate::Trajectory;
+pub use crate::integrate::{
+    Adaptive, Classical4, Collocation, CommutatorFree4, Crossing, DormandPrince5, DormandPrince8, End, Fixed,
+    InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta, Sample, Simulation,
+    Tableau, Taylor, VelocityForm, Verner9,
+};
 pub use crate::linearize::{Linearization, LinearizedSystem};
 #[cfg(feature = "alloc")]
 pub use crate::monitor::{monitor, monitor_body, power_balance};

@@ -175,9 +175,31 @@ const FACTOR: f64 = 32.0;
 /// of a change, and some of either are small by chance.
 const VANISHING: f64 = 1.0 / 1024.0;
 
+/// Three decimal places may go where keeping them costs a quarter more: nobody pays for them who has ordinary numbers.
+const TOLERABLE: f64 = 1e3;
+
+/// Of programs with their costs the one that is taken: the cheapest that keeps the digits; or, where that is dear, the cheapest that loses no
+/// more than three decimal places anywhere.
+pub fn taken(losses: &[Loss], costs: &[u32]) -> usize {
+    let cheapest = |flags: Vec<bool>| {
+        let allowed = costs.iter().zip(flags).enumerate().filter(|(_, (_, allowed))| *allowed);
+        allowed.map(|(k, (cost, _))| (k, *cost)).min_by_key(|(_, cost)| *cost)
+    };
+    let (best, cost) = cheapest(accurate(losses)).expect("a function has at least one arrangement");
+    match cheapest(losses.iter().map(|loss| loss.worst() <= TOLERABLE).collect()) {
+        Some((other, less)) if 5 * less < 4 * cost => other,
+        _ => best,
+    }
+}
+
+/// Which programs may be taken.
+pub fn usable(losses: &[Loss]) -> Vec<bool> {
+    accurate(losses).into_iter().zip(losses).map(|(accurate, loss)| accurate || loss.worst() <= TOLERABLE).collect()
+}
+
 /// Which programs keep the digits: at every state not much more is lost than by the best there. Where each of them loses somewhere what another
 /// keeps, those that come closest, within the same factor.
-pub fn accurate(losses: &[Loss]) -> Vec<bool> {
+fn accurate(losses: &[Loss]) -> Vec<bool> {
     let states = losses.first().map_or(0, |loss| loss.0.len());
     let least = |state: usize| losses.iter().map(|loss| loss.0[state]).fold(f64::INFINITY, f64::min);
     let allowed: Vec<f64> = (0..states).map(|state| FACTOR * least(state).max(1.0)).collect();

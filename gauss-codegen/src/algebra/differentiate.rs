@@ -8,13 +8,20 @@ use super::rational::Rational;
 impl<'g> Expr<'g> {
     /// ∂self/∂symbol.
     pub fn partial(self, symbol: Expr<'g>) -> Self {
-        let one = self.graph.one();
+        let (zero, one) = (self.graph.zero(), self.graph.one());
+        if self.is_leaf() {
+            return if self == symbol { one } else { zero };
+        }
         self.derivative(&Map::from_iter([(symbol.id, one)]))
     }
 
     /// Derivative along a flow: `rates` maps each moving symbol (by key) to its rate; all others stand still.
     pub fn derivative(self, rates: &Map<u32, Expr<'g>>) -> Self {
-        self.differentiate(rates, &mut Map::default())
+        let mut memo = Map::default();
+        for part in self.stages(|_| false) {
+            part.differentiate(rates, &mut memo);
+        }
+        self.differentiate(rates, &mut memo)
     }
 
     fn differentiate(self, rates: &Map<u32, Expr<'g>>, memo: &mut Map<u32, Expr<'g>>) -> Self {

@@ -131,6 +131,13 @@ impl<'a, N: Number> Evaluation<'a, N> {
 
     /// The value of an expression; NaN where a symbol has none.
     pub fn value(&mut self, e: Expr<'_>) -> N {
+        for part in e.stages(|key| self.values.contains_key(&key)) {
+            self.visit(part);
+        }
+        self.visit(e)
+    }
+
+    fn visit(&mut self, e: Expr<'_>) -> N {
         if let Some(&known) = self.values.get(&e.key()) {
             return known;
         }
@@ -141,20 +148,20 @@ impl<'a, N: Number> Evaluation<'a, N> {
             Node::Sum(terms) => {
                 let mut sum = N::number(0.0);
                 for &(c, id) in terms.iter() {
-                    sum = sum + N::fraction(c) * self.value(graph.expr(id));
+                    sum = sum + N::fraction(c) * self.visit(graph.expr(id));
                 }
                 sum
             }
             Node::Product(factors) => {
                 let mut product = N::number(1.0);
                 for &(id, n) in factors.iter() {
-                    product = product * self.value(graph.expr(id)).powi(n);
+                    product = product * self.visit(graph.expr(id)).powi(n);
                 }
                 product
             }
-            Node::Call(function, id) => self.value(graph.expr(id)).call(function),
-            Node::Binary(function, a, b) => self.value(graph.expr(a)).call_with(function, self.value(graph.expr(b))),
-            Node::Group(id) | Node::Opaque(id) => self.value(graph.expr(id)),
+            Node::Call(function, id) => self.visit(graph.expr(id)).call(function),
+            Node::Binary(function, a, b) => self.visit(graph.expr(a)).call_with(function, self.visit(graph.expr(b))),
+            Node::Group(id) | Node::Opaque(id) => self.visit(graph.expr(id)),
         };
         self.values.insert(e.key(), value);
         value
@@ -178,6 +185,13 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
 
     /// The derivative of an expression along the direction.
     pub fn along(&mut self, e: Expr<'_>) -> N {
+        for part in e.stages(|key| self.known.contains_key(&key)) {
+            self.visit(part);
+        }
+        self.visit(e)
+    }
+
+    fn visit(&mut self, e: Expr<'_>) -> N {
         if let Some(&known) = self.known.get(&e.key()) {
             return known;
         }
@@ -188,7 +202,7 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
             NodeView::Sum(terms) => {
                 let mut sum = zero;
                 for (c, e) in terms {
-                    sum = sum + N::fraction(c) * self.along(e);
+                    sum = sum + N::fraction(c) * self.visit(e);
                 }
                 sum
             }
@@ -196,7 +210,7 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
                 // (Π fᵢ^nᵢ)˙ by the product rule on (value, rate) pairs.
                 let (mut value, mut rate) = (N::number(1.0), zero);
                 for (e, n) in factors {
-                    let (x, slope) = (self.values.value(e), self.along(e));
+                    let (x, slope) = (self.values.value(e), self.visit(e));
                     if n == 1 {
                         (value, rate) = (value * x, rate * x + value * slope);
                         continue;
@@ -207,19 +221,19 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
                 }
                 rate
             }
-            NodeView::Call(function, e) => match self.along(e) {
+            NodeView::Call(function, e) => match self.visit(e) {
                 still if still == zero => zero,
                 rate => function.slope(self.values.value(e)) * rate,
             },
             NodeView::Binary(BinaryFunction::Atan2, y, x) => {
                 let (b, a) = (self.values.value(y), self.values.value(x));
-                (a * self.along(y) - b * self.along(x)) / (a * a + b * b)
+                (a * self.visit(y) - b * self.visit(x)) / (a * a + b * b)
             }
             NodeView::Binary(function, a, b) => {
                 let first = self.values.value(a).call_with(function, self.values.value(b)) == self.values.value(a);
-                if first { self.along(a) } else { self.along(b) }
+                if first { self.visit(a) } else { self.visit(b) }
             }
-            NodeView::Group(e) | NodeView::Opaque(e) => self.along(e),
+            NodeView::Group(e) | NodeView::Opaque(e) => self.visit(e),
         };
         self.known.insert(e.key(), rate);
         rate

@@ -5,6 +5,7 @@ use std::collections::hash_map::Entry;
 use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 
+use super::budget::Budget;
 use super::map::Map;
 use super::node::{BinaryFunction, Function, Id, Node};
 use super::rational::Rational;
@@ -36,11 +37,21 @@ pub enum NodeView<'g> {
     Opaque(Expr<'g>),
 }
 
+/// What is known of a node as soon as it is made.
+#[derive(Clone, Copy)]
+struct Traits {
+    /// Every symbol in it is constant.
+    constant: bool,
+    /// The longest way down to a symbol or a number.
+    depth: u32,
+}
+
 /// The arena of all expressions of one derivation.
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
-    /// Whether every symbol in a node is constant.
-    constant: RefCell<Vec<bool>>,
+    traits: RefCell<Vec<Traits>>,
+    /// How much more may be made of it.
+    pub(super) budget: Budget,
     index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
     undefined: Cell<bool>,
@@ -55,8 +66,8 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        let (nodes, constant, index, symbols, undefined) = Default::default();
-        let graph = Self { nodes, constant, index, symbols, undefined };
+        let (nodes, traits, index, symbols, undefined) = Default::default();
+        let graph = Self { nodes, traits, budget: Budget::default(), index, symbols, undefined };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
@@ -91,26 +102,6 @@ impl Graph {
         self.symbols.borrow().iter().any(holds)
     }
 
-    /// All that expressions are made of, they too; parts come before what is made of them.
-    pub(super) fn reached(&self, roots: &[Id], parts: impl Fn(&Self, Id) -> Vec<Id>) -> Vec<Id> {
-        let (mut found, mut open) = (Map::default(), roots.to_vec());
-        while let Some(id) = open.pop() {
-            if found.insert(id, ()).is_none() {
-                open.extend(parts(self, id));
-            }
-        }
-        let mut found: Vec<Id> = found.into_keys().collect();
-        found.sort_unstable();
-        found
-    }
-
-    /// About how many operations expressions take together, each part computed once.
-    pub fn operations(&self, outputs: &[Expr<'_>]) -> usize {
-        let roots: Vec<Id> = outputs.iter().map(|e| e.id).collect();
-        let children = |graph: &Self, id: Id| graph.node(id).children();
-        self.reached(&roots, children).into_iter().map(|id| children(self, id).len()).sum()
-    }
-
     /// What a group is a group of.
     pub(super) fn ungrouped(&self, mut id: Id) -> Id {
         while let Node::Group(inner) | Node::Opaque(inner) = self.node(id) {
@@ -141,11 +132,13 @@ impl Graph {
     pub(super) fn intern(&self, node: Node) -> Expr<'_> {
         let id = match self.index.borrow_mut().entry(node) {
             Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(place) if self.budget.is_exhausted() && !matches!(place.key(), Node::Symbol(_)) => 0,
             Entry::Vacant(place) => {
                 let mut nodes = self.nodes.borrow_mut();
                 let id = nodes.len() as Id;
-                let constant = self.is_made_of_constants(place.key());
-                self.constant.borrow_mut().push(constant);
+                self.budget.count(1 + place.key().edges());
+                let traits = self.traits_of(place.key());
+                self.traits.borrow_mut().push(traits);
                 nodes.push(place.key().clone());
                 *place.insert(id)
             }
@@ -153,16 +146,28 @@ impl Graph {
         Expr { graph: self, id }
     }
 
-    fn is_made_of_constants(&self, node: &Node) -> bool {
-        let known = self.constant.borrow();
-        match node {
-            Node::Number(_) => true,
-            Node::Symbol(symbol) => self.with_symbol(*symbol, |s| s.constant),
-            Node::Sum(terms) => terms.iter().all(|&(_, id)| known[id as usize]),
-            Node::Product(factors) => factors.iter().all(|&(id, _)| known[id as usize]),
-            Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => known[*id as usize],
-            Node::Binary(_, a, b) => known[*a as usize] && known[*b as usize],
-        }
+    fn traits_of(&self, node: &Node) -> Traits {
+        let known = self.traits.borrow();
+        let part = |id: Id| known[id as usize];
+        let with = |all: Traits, id: Id| Traits {
+            constant: all.constant && part(id).constant,
+            depth: all.depth.max(part(id).depth),
+        };
+        let leaf = Traits { constant: true, depth: 0 };
+        let parts = match node {
+            Node::Number(_) => return leaf,
+            Node::Symbol(symbol) => return Traits { constant: self.with_symbol(*symbol, |s| s.constant), depth: 0 },
+            Node::Sum(terms) => terms.iter().fold(leaf, |all, &(_, id)| with(all, id)),
+            Node::Product(factors) => factors.iter().fold(leaf, |all, &(id, _)| with(all, id)),
+            Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => part(*id),
+            Node::Binary(_, a, b) => with(part(*a), *b),
+        };
+        Traits { depth: parts.depth + 1, ..parts }
+    }
+
+    /// The longest way from a node down to a symbol or a number.
+    pub(super) fn depth(&self, id: Id) -> u32 {
+        self.traits.borrow()[id as usize].depth
     }
 
     pub(super) fn node(&self, id: Id) -> Node {
@@ -260,7 +265,7 @@ impl Graph {
         for k in 0..factors.len() {
             let (id, n) = factors[k];
             if count > 0 && factors[count - 1].0 == id {
-                factors[count - 1].1 += n;
+                factors[count - 1].1 = factors[count - 1].1.saturating_add(n);
                 continue;
             }
             if count > 0 && factors[count - 1].1 == 0 {
@@ -289,7 +294,7 @@ impl Graph {
             }
             Node::Product(inner) => {
                 for &(id, n) in inner.iter() {
-                    flat.push((id, n * exponent));
+                    flat.push((id, n.saturating_mul(exponent)));
                 }
                 return;
             }
@@ -517,6 +522,14 @@ impl<'g> Expr<'g> {
         }
     }
 
+    /// The largest power, of either sign, among the factors of a product.
+    pub fn largest_exponent(self) -> u32 {
+        match self.graph.node(self.split_coefficient().1.id) {
+            Node::Product(factors) => factors.iter().map(|(_, n)| n.unsigned_abs()).max().unwrap_or(0),
+            _ => 1,
+        }
+    }
+
     /// A number times something without one: `6·a·b` is 6 and `a·b`.
     pub fn split_coefficient(self) -> (Rational, Self) {
         match self.graph.node(self.id) {
@@ -534,9 +547,14 @@ impl<'g> Expr<'g> {
         }
     }
 
+    /// True of symbols and numbers.
+    pub fn is_leaf(self) -> bool {
+        matches!(self.graph.nodes.borrow()[self.id as usize], Node::Symbol(_) | Node::Number(_))
+    }
+
     /// True when every symbol in it is constant.
     pub fn is_constant(self) -> bool {
-        self.graph.constant.borrow()[self.id as usize]
+        self.graph.traits.borrow()[self.id as usize].constant
     }
 }
 

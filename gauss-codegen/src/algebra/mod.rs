@@ -8,6 +8,7 @@
 //!   and in proofs the relations of a rotation matrix). Equal expressions have equal normal forms, so this one decides
 //!   identities, cancels what can cancel, and is what a reader wants to see printed.
 
+mod budget;
 mod cosines;
 mod differentiate;
 mod doubled;
@@ -26,6 +27,7 @@ mod polynomial;
 mod precise;
 mod print;
 mod rational;
+mod stages;
 mod substitute;
 #[cfg(test)]
 mod tests;

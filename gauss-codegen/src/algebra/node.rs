@@ -65,6 +65,7 @@ impl BinaryFunction {
 
 /// Index of a node in its graph. Children always have smaller indices than their parents.
 pub(super) type Id = u32;
+
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Node {
     Number(Rational),
@@ -79,6 +80,17 @@ pub(super) enum Node {
     Group(Id),
     /// A constant that is to be computed once and never looked into again, not even by the normal form.
     Opaque(Id),
+}
+
+impl Node {
+    /// How many parts it has.
+    pub(super) fn edges(&self) -> usize {
+        match self {
+            Node::Sum(terms) => terms.len(),
+            Node::Product(factors) => factors.len(),
+            _ => 1,
+        }
+    }
 }
 
 /// In one word: hashing piece by piece is most of a look-up in unoptimised code.

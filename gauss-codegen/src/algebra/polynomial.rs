@@ -181,6 +181,13 @@ impl<'g> Expander<'g> {
 
     /// The normal form, or `None` when more terms would be needed on the way.
     pub fn expand(&mut self, e: Expr<'g>) -> Option<Rc<Polynomial<'g>>> {
+        for part in e.stages(|key| self.memo.contains_key(&key)) {
+            self.visit(part);
+        }
+        self.visit(e)
+    }
+
+    fn visit(&mut self, e: Expr<'g>) -> Option<Rc<Polynomial<'g>>> {
         if let Some(done) = self.memo.get(&e.id) {
             return done.clone();
         }
@@ -193,20 +200,20 @@ impl<'g> Expander<'g> {
         let polynomial = match self.graph.node(e.id) {
             Node::Number(value) => Polynomial::constant(self.graph, value),
             Node::Symbol(_) | Node::Opaque(_) => Polynomial::atom(e, 1),
-            Node::Group(inner) => return self.expand(self.graph.expr(inner)),
+            Node::Group(inner) => return self.visit(self.graph.expr(inner)),
             Node::Sum(terms) => self.expand_sum(&terms)?,
             Node::Product(factors) => self.expand_product(&factors)?,
             Node::Call(function, argument) => {
-                let argument = self.expand(self.graph.expr(argument))?.to_expr();
+                let argument = self.visit(self.graph.expr(argument))?.to_expr();
                 let call = self.graph.call(function, argument);
                 match call.view() {
                     NodeView::Call(..) => Polynomial::atom(call, 1),
-                    _ => return self.expand(call),
+                    _ => return self.visit(call),
                 }
             }
             Node::Binary(function, a, b) => {
                 let [a, b] = [a, b].map(|id| self.graph.expr(id));
-                let (a, b) = (self.expand(a)?.to_expr(), self.expand(b)?.to_expr());
+                let (a, b) = (self.visit(a)?.to_expr(), self.visit(b)?.to_expr());
                 Polynomial::atom(a.binary(function, b), 1)
             }
         };
@@ -216,7 +223,7 @@ impl<'g> Expander<'g> {
     fn expand_sum(&mut self, terms: &[(Rational, Id)]) -> Option<Polynomial<'g>> {
         let mut result = Polynomial::zero(self.graph);
         for &(c, term) in terms {
-            let term = self.expand(self.graph.expr(term))?;
+            let term = self.visit(self.graph.expr(term))?;
             for (m, d) in &term.terms {
                 result.add_term(m.clone(), c * *d);
             }
@@ -236,7 +243,7 @@ impl<'g> Expander<'g> {
                 result = self.multiply(&result, &Polynomial::atom(factor, exponent))?;
                 continue;
             }
-            let factor = self.expand(factor)?;
+            let factor = self.visit(factor)?;
             result = self.multiply_power(result, &factor, exponent)?;
         }
         Some(result)
@@ -250,7 +257,7 @@ impl<'g> Expander<'g> {
     ) -> Option<Polynomial<'g>> {
         // A single monomial has every power, also the negative ones.
         if let Some((monomial, coefficient)) = factor.as_single_term() {
-            let power = Monomial::new(monomial.factors.iter().map(|&(a, n)| (a, n * exponent)).collect());
+            let power = Monomial::new(monomial.factors.iter().map(|&(a, n)| (a, n.saturating_mul(exponent))).collect());
             let single = Polynomial::term(self.graph, power, coefficient.pow(exponent));
             return self.multiply(&base, &single);
         }
@@ -284,6 +291,11 @@ impl<'g> Expander<'g> {
     fn multiply(&mut self, a: &Polynomial<'g>, b: &Polynomial<'g>) -> Option<Polynomial<'g>> {
         let mut result = Polynomial::zero(self.graph);
         for (m, c) in &a.terms {
+            // Long monomials and coefficients take their time.
+            let length = 1 + m.factors.len() as u64 / 4 + if c.parts().is_some() { 0 } else { 40 };
+            if !self.graph.budget.may_multiply(length * b.terms.len() as u64) {
+                return None;
+            }
             for (n, d) in &b.terms {
                 self.add_reduced(&mut result, m.times(n), *c * *d);
             }

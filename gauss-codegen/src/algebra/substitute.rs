@@ -10,10 +10,15 @@ use super::rational::Rational;
 impl<'g> Expr<'g> {
     /// Rebuilds the expression with some symbols replaced. Groups stay groups.
     pub fn substitute(self, replacement: &Map<u32, Expr<'g>>) -> Self {
-        self.rebuild(&mut Map::default(), &|symbol| replacement.get(&symbol.id).copied())
+        let mut memo = Map::default();
+        let leaf = |symbol: Self| replacement.get(&symbol.id).copied();
+        for part in self.stages(|_| false) {
+            part.rebuild(&mut memo, &leaf);
+        }
+        self.rebuild(&mut memo, &leaf)
     }
 
-    pub(super) fn rebuild(self, memo: &mut Map<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
+    fn rebuild(self, memo: &mut Map<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
         if let Some(&done) = memo.get(&self.id) {
             return done;
         }
@@ -67,6 +72,11 @@ impl<'g> Substitution<'g> {
 
     /// The expression with the symbols replaced. Groups stay groups.
     pub fn of(&self, e: Expr<'g>) -> Expr<'g> {
-        e.rebuild(&mut self.rebuilt.borrow_mut(), &|symbol| self.replacement.get(&symbol.id).copied())
+        let mut rebuilt = self.rebuilt.borrow_mut();
+        let leaf = |symbol: Expr<'g>| self.replacement.get(&symbol.id).copied();
+        for part in e.stages(|key| rebuilt.contains_key(&key)) {
+            part.rebuild(&mut rebuilt, &leaf);
+        }
+        e.rebuild(&mut rebuilt, &leaf)
     }
 }

@@ -198,17 +198,17 @@ impl<'a, 'g> Derived<'a, 'g> {
     pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
         let Formal { speeds, speed_rates, momenta, twist, residuals, inputs } = self.formal();
         let mut names = self.constant_names(program);
-        names.insert(self.subject.system.scene.time.key(), quote!(t));
+        names.insert(self.subject.system.scene.time.key(), quote!(__t));
         let mut arguments = self.subject.configuration_arguments(&self.private());
         let vector = |name: TokenStream, symbols: &[Expr<'g>]| self.vector_argument(name, symbols);
-        arguments.push(vector(quote!(z), speeds));
-        arguments.push(vector(quote!(p), momenta));
-        arguments.push(vector(quote!(acceleration), speed_rates));
+        arguments.push(vector(quote!(__z), speeds));
+        arguments.push(vector(quote!(__p), momenta));
+        arguments.push(vector(quote!(__acceleration), speed_rates));
         if !twist.is_empty() {
-            arguments.push(vector(quote!(twist), twist));
+            arguments.push(vector(quote!(__twist), twist));
         }
-        arguments.push(vector(quote!(residual), residuals));
-        arguments.push(vector(quote!(input), inputs));
+        arguments.push(vector(quote!(__residual), residuals));
+        arguments.push(vector(quote!(__input), inputs));
         let mut written = declare(program, &arguments, &mut names);
         let (instructions, outputs) = statements(program, &names, &self.scalar());
         written.extend(instructions);
@@ -247,7 +247,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         let (function, body) = (Ident::new(method.name(), Span::call_site()), self.method_body(method));
         quote! {
             #[inline]
-            fn #function(&self, t: Self::Scalar, q: &Self::Configuration, #arguments) -> #result { #body }
+            fn #function(&self, __t: Self::Scalar, __q: &Self::Configuration, #arguments) -> #result { #body }
         }
     }
 

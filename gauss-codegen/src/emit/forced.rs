@@ -18,7 +18,7 @@ pub fn forced_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         let (name, conservative) = (&account.name, account.conservative);
         quote!(#private::Element::new(#name, #conservative))
     });
-    let arguments = quote!(z: &Self::Speeds, input: &Self::Input);
+    let arguments = quote!(__z: &Self::Speeds, __input: &Self::Input);
     let powers = derived.function(Method::Powers, arguments.clone(), quote!(Self::Powers));
     let forces = derived.function(Method::ElementForces, arguments.clone(), quote!(Self::ElementForces));
     let supplied = derived.function(Method::SuppliedPower, arguments, quote!(Self::Scalar));

@@ -135,6 +135,7 @@ pub fn statements_kept<'g>(
     let real = &scalar.real;
     let write = |o: &Operand<'_>| operand(o, symbols, scalar);
     let mut written = Vec::with_capacity(program.instructions.len());
+    let read = pairs_read(program, kept);
     for (k, instruction) in program.instructions.iter().enumerate() {
         let name = value(k);
         let statement = match instruction {
@@ -169,9 +170,9 @@ pub fn statements_kept<'g>(
             }
             Operation::SineCosine(a) => {
                 let (a, s, c) = (write(a), sine(k), cosine(k));
-                let read = |o: Operand<'_>| kept == Kept::Everything || program.operands().any(|other| other == o);
-                let s = if read(Operand::Sine(k)) { quote!(#s) } else { quote!(_) };
-                let c = if read(Operand::Cosine(k)) { quote!(#c) } else { quote!(_) };
+                let [sine, cosine] = read[k];
+                let s = if sine { quote!(#s) } else { quote!(_) };
+                let c = if cosine { quote!(#c) } else { quote!(_) };
                 quote!(let (#s, #c) = #real::sin_cos(#a);)
             }
         };
@@ -181,6 +182,19 @@ pub fn statements_kept<'g>(
         in_blocks(handed_on(program, kept).into_iter().zip(written).collect()),
         program.outputs.iter().map(write).collect(),
     )
+}
+
+/// Whether the sine and the cosine of each instruction are read.
+fn pairs_read(program: &Program<'_>, kept: Kept) -> Vec<[bool; 2]> {
+    let mut read = vec![[kept == Kept::Everything; 2]; program.instructions.len()];
+    for operand in program.operands() {
+        match operand {
+            Operand::Sine(k) => read[k][0] = true,
+            Operand::Cosine(k) => read[k][1] = true,
+            _ => {}
+        }
+    }
+    read
 }
 
 /// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.

@@ -80,11 +80,11 @@ impl<'g> Subject<'_, 'g> {
         let last = factors.len() - 1;
         let mut arguments = Vec::new();
         for (k, factor) in factors.into_iter().enumerate() {
-            let mut place = quote!(q);
+            let mut place = quote!(__q);
             if last > 0 {
                 let deeper = (0..k).map(|_| quote!(.1));
                 let own = if k < last { quote!(.0) } else { quote!() };
-                place = quote!((&q #(#deeper)* #own));
+                place = quote!((&__q #(#deeper)* #own));
             }
             match factor {
                 Factor::Scalars { symbols } => {
@@ -155,11 +155,11 @@ impl<'g> Subject<'_, 'g> {
             #[inline]
             fn project(
                 &self,
-                t: Self::Scalar,
-                q: &Self::Configuration,
-                z: &Self::Speeds,
+                __t: Self::Scalar,
+                __q: &Self::Configuration,
+                __z: &Self::Speeds,
             ) -> ::core::result::Result<(Self::Configuration, Self::Speeds), #private::ProjectionError> {
-                #private::project(self, t, q, z)
+                #private::project(self, __t, __q, __z)
             }
         }
     }
@@ -168,11 +168,15 @@ impl<'g> Subject<'_, 'g> {
     pub fn constraint_methods(&self, private: &TokenStream) -> Vec<(Method, TokenStream, TokenStream)> {
         let tangent = quote!(<Self::Configuration as #private::Configuration>::Tangent);
         vec![
-            (Method::Multipliers, quote!(z: &Self::Speeds, input: &Self::Input), quote!(Self::Multipliers)),
+            (Method::Multipliers, quote!(__z: &Self::Speeds, __input: &Self::Input), quote!(Self::Multipliers)),
             (Method::PositionResidual, quote!(), quote!(Self::Multipliers)),
-            (Method::VelocityResidual, quote!(z: &Self::Speeds), quote!(Self::Multipliers)),
-            (Method::PositionCorrection, quote!(residual: &Self::Multipliers), tangent),
-            (Method::VelocityCorrection, quote!(z: &Self::Speeds, residual: &Self::Multipliers), quote!(Self::Speeds)),
+            (Method::VelocityResidual, quote!(__z: &Self::Speeds), quote!(Self::Multipliers)),
+            (Method::PositionCorrection, quote!(__residual: &Self::Multipliers), tangent),
+            (
+                Method::VelocityCorrection,
+                quote!(__z: &Self::Speeds, __residual: &Self::Multipliers),
+                quote!(Self::Speeds),
+            ),
         ]
     }
 }

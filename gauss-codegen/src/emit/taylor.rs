@@ -312,10 +312,10 @@ impl Variables {
     fn of<'g>(derived: &Derived<'_, 'g>, program: &Program<'g>) -> Self {
         let (mut first, mut coefficients) = (derived.constant_names(program), Map::default());
         let time = derived.subject.system.scene.time;
-        first.insert(time.key(), quote!(t));
+        first.insert(time.key(), quote!(__t));
         coefficients.insert(time.key(), quote!(__time));
         let mut arguments = derived.subject.configuration_arguments(&derived.private());
-        arguments.push(derived.vector_argument(quote!(z), derived.speeds()));
+        arguments.push(derived.vector_argument(quote!(__z), derived.speeds()));
         let (mut declarations, mut names) = (TokenStream::new(), Vec::new());
         for argument in &arguments {
             let start = names.len();
@@ -356,30 +356,30 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         const GROUPS: &'static [::core::primitive::usize] = &[#(#groups),*];
         fn expand(
             &self,
-            t: Self::Scalar,
-            q: &Self::Configuration,
-            z: &Self::Speeds,
-            order: ::core::primitive::usize,
-            series: &mut Self::Series,
+            __t: Self::Scalar,
+            __q: &Self::Configuration,
+            __z: &Self::Speeds,
+            __orders: ::core::primitive::usize,
+            __series: &mut Self::Series,
         ) {
             let __zero = <#ty as #real>::zero();
             let __one = <#ty as #real>::one();
             #declarations
             #instructions
             #once
-            series.set_variables(0, [#(#names),*]);
-            series.set_variables(1, [#(#rates),*]);
+            __series.set_variables(0, [#(#names),*]);
+            __series.set_variables(1, [#(#rates),*]);
             let mut __order = __zero;
             let mut __time = __one;
-            for __k in 1..order {
+            for __k in 1..__orders {
                 __order = __order + __one;
                 let __over = #real::recip(__order);
                 let __next = #real::recip(__order + __one);
-                let __x = series.variables(__k);
-                let __sums = series.convolution(__k);
+                let __x = __series.variables(__k);
+                let __sums = __series.convolution(__k);
                 #line
-                series.set_factors(__k, [#(#left),*], [#(#right),*]);
-                series.set_variables(__k + 1, [#(#of_order * __next),*]);
+                __series.set_factors(__k, [#(#left),*], [#(#right),*]);
+                __series.set_variables(__k + 1, [#(#of_order * __next),*]);
                 __time = __zero;
             }
         }

@@ -1,6 +1,6 @@
 //! The arrangements of one function, and which of them is taken.
 
-use crate::accuracy::{Loss, Trial, accurate};
+use crate::accuracy::{Loss, Trial, taken, usable};
 use crate::algebra::Expr;
 
 use super::hoist::Hoister;
@@ -45,9 +45,8 @@ impl<'g> Candidates<'g> {
         trial.define(hoister.constants());
         let programs: Vec<&Program<'g>> = lowered.iter().map(|candidate| &candidate.program).collect();
         let losses = trial.losses(&programs);
-        let accurate = accurate(&losses);
-        let best = self.best(&lowered, &accurate, hoister);
-        let first = Some(lowered[0].outputs).filter(|_| accurate[0]);
+        let best = taken(&losses, &self.costs(&lowered, hoister));
+        let first = Some(lowered[0].outputs).filter(|_| usable(&losses)[0]);
         let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         // A power series takes a negation of an addend for an instruction like any other.
         let program = if self.aim == Aim::Values { program.with_signs_led_back() } else { program };
@@ -67,14 +66,11 @@ impl<'g> Candidates<'g> {
         lowered
     }
 
-    /// Which of the arrangements is taken, of one at least: of those that keep the digits the one that costs least, the first of several.
-    fn best(&self, candidates: &[Lowered<'_, 'g>], accurate: &[bool], hoister: &Hoister<'_, 'g>) -> usize {
+    fn costs(&self, candidates: &[Lowered<'_, 'g>], hoister: &Hoister<'_, 'g>) -> Vec<u32> {
         let cost = |candidate: &Lowered<'_, 'g>| match self.aim {
             Aim::Values => candidate.program.cost().total(),
             Aim::Series => candidate.program.series_cost(|symbol| hoister.is_hoisted(symbol)),
         };
-        let costs = candidates.iter().enumerate().filter(|(k, _)| accurate[*k]);
-        let costs = costs.map(|(k, candidate)| (k, cost(candidate)));
-        costs.min_by_key(|(_, cost)| *cost).expect("a function has at least one arrangement").0
+        candidates.iter().map(cost).collect()
     }
 }

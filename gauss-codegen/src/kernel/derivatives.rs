@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::accuracy::{Trial, accurate};
+use crate::accuracy::{Loss, Trial, taken, usable};
 use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Tangents};
 
 use super::hoist::Hoister;
@@ -88,13 +88,16 @@ impl<'g> Differentiated<'g> {
         let programs: Vec<Program<'g>> = self.arrangements.iter().map(lower).collect();
         trial.define(hoister.constants());
         // What loses digits loses them in its derivatives, too.
-        let accurate = accurate(&trial.losses(&programs.iter().collect::<Vec<_>>()));
-        let kept_ones = programs.iter().zip(&self.arrangements).zip(accurate).filter(|(_, accurate)| *accurate);
-        let lowered = kept_ones.map(|((program, outputs), _)| {
-            (differentiate(program, (&self.defined, &definitions), &self.directions), outputs)
+        let losses = trial.losses(&programs.iter().collect::<Vec<_>>());
+        let usable = usable(&losses);
+        let of_usable = (0..programs.len()).filter(|&k| usable[k]).map(|k| {
+            let program = differentiate(&programs[k], (&self.defined, &definitions), &self.directions);
+            (program, losses[k].clone(), &self.arrangements[k])
         });
-        let (program, outputs) =
-            lowered.min_by_key(|(program, _)| program.cost().total()).expect("a function has at least one arrangement");
+        let mut of_usable: Vec<_> = of_usable.collect();
+        let losses: Vec<Loss> = of_usable.iter().map(|(_, loss, _)| loss.clone()).collect();
+        let costs: Vec<u32> = of_usable.iter().map(|(program, ..)| program.cost().total()).collect();
+        let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
         (program, Expected { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&self.directions), kept })
     }
 }

@@ -36,6 +36,13 @@ impl<'g> Term<'g> {
 
 impl<'g> Factoring<'g> {
     pub fn rewrite(&mut self, e: Expr<'g>) -> Expr<'g> {
+        for part in e.stages(|key| self.memo.contains_key(&key)) {
+            self.visit(part);
+        }
+        self.visit(e)
+    }
+
+    fn visit(&mut self, e: Expr<'g>) -> Expr<'g> {
         if let Some(&done) = self.memo.get(&e.key()) {
             return done;
         }
@@ -43,20 +50,20 @@ impl<'g> Factoring<'g> {
         let result = match e.view() {
             NodeView::Number(_) | NodeView::Symbol(_) => e,
             NodeView::Call(function, argument) => {
-                let argument = self.rewrite(argument);
+                let argument = self.visit(argument);
                 graph.call(function, argument)
             }
-            NodeView::Binary(function, a, b) => self.rewrite(a).binary(function, self.rewrite(b)),
-            NodeView::Group(inner) | NodeView::Opaque(inner) => self.rewrite(inner).group_as_is(),
+            NodeView::Binary(function, a, b) => self.visit(a).binary(function, self.visit(b)),
+            NodeView::Group(inner) | NodeView::Opaque(inner) => self.visit(inner).group_as_is(),
             NodeView::Product(factors) => {
-                let factors: Vec<_> = factors.into_iter().map(|(f, n)| (self.rewrite(f), n)).collect();
+                let factors: Vec<_> = factors.into_iter().map(|(f, n)| (self.visit(f), n)).collect();
                 graph.product(Rational::one(), factors)
             }
             NodeView::Sum(terms) => {
                 let terms = terms
                     .into_iter()
                     .map(|(c, term)| {
-                        let (content, rest) = self.rewrite(term).split_coefficient();
+                        let (content, rest) = self.visit(term).split_coefficient();
                         let factors = match rest.view() {
                             NodeView::Product(factors) => factors,
                             NodeView::Number(_) => Vec::new(),
@@ -74,28 +81,35 @@ impl<'g> Factoring<'g> {
 }
 
 /// The sum of the terms with common factors pulled out.
-fn factor<'g>(like: Expr<'g>, terms: Vec<Term<'g>>) -> Expr<'g> {
+fn factor<'g>(like: Expr<'g>, mut terms: Vec<Term<'g>>) -> Expr<'g> {
     let graph = like.graph();
+    // Products must not be taken for sums again, so they join the rest as terms.
+    let mut products = Vec::new();
+    let rest = loop {
+        let Some((shared, sign)) = most_frequent(&terms) else { break Some(shared_number(like, &terms)) };
+        let (inside, outside): (Vec<_>, Vec<_>) = terms.into_iter().partition(|t| t.exponent(shared).signum() == sign);
+        let inside: Vec<_> = inside.iter().map(|t| t.without(shared, sign)).collect();
+        let inner = factor(like, inside).group_as_is();
+        products.push(graph.product(Rational::one(), [(shared, sign), (inner, 1)]));
+        if outside.is_empty() {
+            break None;
+        }
+        terms = outside;
+    };
+    let sum = |rest: Option<Expr<'g>>, product| Some(rest.map_or(product, |rest| product + rest));
+    products.into_iter().rev().fold(rest, sum).unwrap_or_else(|| graph.zero())
+}
+
+/// The factor that most terms share, and the sign of its exponents.
+fn most_frequent<'g>(terms: &[Term<'g>]) -> Option<(Expr<'g>, i32)> {
     let mut count: Map<(u32, i32), (usize, Expr<'g>)> = Map::default();
-    for term in &terms {
+    for term in terms {
         for &(f, n) in &term.factors {
             count.entry((f.key(), n.signum())).or_insert((0, f)).0 += 1;
         }
     }
     let best = count.iter().filter(|(_, (n, _))| *n >= 2).max_by_key(|((key, sign), (n, _))| (*n, *sign, *key));
-    let Some((&(_, sign), &(_, shared))) = best else {
-        return shared_number(like, &terms);
-    };
-    let (inside, outside): (Vec<_>, Vec<_>) = terms.into_iter().partition(|t| t.exponent(shared).signum() == sign);
-    let inside: Vec<_> = inside.iter().map(|t| t.without(shared, sign)).collect();
-    let inner = factor(like, inside).group_as_is();
-    let product = graph.product(Rational::one(), [(shared, sign), (inner, 1)]);
-    if outside.is_empty() {
-        return product;
-    }
-    // The product must not be taken for a sum again, so it joins the rest as one term.
-    let rest = factor(like, outside);
-    product + rest
+    best.map(|(&(_, sign), &(_, shared))| (shared, sign))
 }
 
 /// Pulls out a number that several terms have in front: `1 − 2a − 2b` becomes `1 − 2(a + b)`.

@@ -31,7 +31,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
     }
 
     pub fn hoist(&mut self, outputs: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        outputs.iter().map(|&e| self.visit(e)).collect()
+        outputs.iter().map(|&e| self.visit_deep(e)).collect()
     }
 
     /// The same with the symbols that stand for expressions of the arguments left as they are.
@@ -55,6 +55,16 @@ impl<'a, 'g> Hoister<'a, 'g> {
     /// Whether a symbol is that of a constant.
     pub fn is_hoisted(&self, symbol: Expr<'g>) -> bool {
         self.constants.iter().any(|(constant, _)| *constant == symbol)
+    }
+
+    fn visit_deep(&mut self, e: Expr<'g>) -> Expr<'g> {
+        for part in e.stages(|key| self.memo.contains_key(&key)) {
+            // A constant is a quantity as a whole.
+            if !part.is_constant() {
+                self.visit(part);
+            }
+        }
+        self.visit(e)
     }
 
     fn visit(&mut self, e: Expr<'g>) -> Expr<'g> {

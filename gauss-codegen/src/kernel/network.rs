@@ -2,6 +2,16 @@
 
 use crate::algebra::{BinaryFunction, Expr, Function, Map, NodeView, Rational};
 
+/// Parts of one sum or product that are paired with one another: the number of pairs goes with its square.
+const PAIRED: usize = 200;
+
+/// Pairs that are looked at before a program is left as it is: at least, and for each of its nodes. All scenes that are known
+/// need a tenth.
+const PAIRS: [usize; 2] = [500_000, 500];
+
+/// Levels that are written at once: a chain of more, each part the part of one other, would overflow the stack.
+const LEVELS: u32 = 400;
+
 /// Index of a node of a network.
 pub type Place = usize;
 
@@ -20,6 +30,19 @@ pub enum Node<'g> {
     Binary(BinaryFunction, Place, Place),
 }
 
+impl Node<'_> {
+    /// What it is made of.
+    pub fn parts(&self) -> Vec<Place> {
+        match self {
+            Node::Number(_) | Node::Leaf(_) => Vec::new(),
+            Node::Sum(terms) => terms.iter().map(|term| term.1).collect(),
+            Node::Product(factors) => factors.clone(),
+            Node::Reciprocal(a) | Node::Call(_, a) => vec![*a],
+            Node::Binary(_, a, b) => vec![*a, *b],
+        }
+    }
+}
+
 /// The nodes of one function, each once; children may follow their parents.
 pub struct Network<'g> {
     pub nodes: Vec<Node<'g>>,
@@ -32,13 +55,44 @@ pub struct Network<'g> {
 impl<'g> Network<'g> {
     pub fn new(outputs: &[Expr<'g>]) -> Self {
         let mut network = Self { nodes: Vec::new(), outputs: Vec::new(), index: Map::default(), memo: Map::default() };
-        network.outputs = outputs.iter().map(|&e| network.visit(e)).collect();
+        for &e in outputs {
+            for part in e.stages(|key| network.memo.contains_key(&key)) {
+                network.visit(part);
+            }
+            let output = network.visit(e);
+            network.outputs.push(output);
+        }
         for kind in [Kind::Products, Kind::Sums] {
             if network.share(kind) {
                 network.merge_duplicates();
             }
         }
         network
+    }
+
+    /// Nodes that are written first, parts before what is made of them, so that no more than some levels are written at once.
+    pub fn stages(&self) -> Vec<Place> {
+        let mut depth: Vec<Option<u32>> = vec![None; self.nodes.len()];
+        let mut stages = Vec::new();
+        let mut open: Vec<Place> = self.outputs.iter().rev().map(|&(_, place)| place).collect();
+        while let Some(&place) = open.last() {
+            if depth[place].is_some() {
+                open.pop();
+                continue;
+            }
+            let parts = self.nodes[place].parts();
+            let unknown: Vec<Place> = parts.iter().copied().filter(|&part| depth[part].is_none()).collect();
+            if !unknown.is_empty() {
+                open.extend(unknown);
+                continue;
+            }
+            let own = parts.iter().filter_map(|&part| depth[part]).max().map_or(0, |deepest| deepest + 1);
+            let lower = |part: &&Place| depth[**part].is_some_and(|depth| depth / LEVELS < own / LEVELS);
+            stages.extend(parts.iter().filter(lower));
+            depth[place] = Some(own);
+            open.pop();
+        }
+        stages
     }
 
     fn place(&mut self, node: Node<'g>) -> Place {
@@ -129,17 +183,25 @@ impl<'g> Network<'g> {
     /// frequent first, until no pair occurs twice. Terms of sums are alike up to a common factor. Whether there was any.
     fn share(&mut self, kind: Kind) -> bool {
         let mut shared = false;
+        let mut left = PAIRS[0] + PAIRS[1] * self.nodes.len();
         loop {
             let repeated = self.repeated(kind);
             let mut holders: Map<(Place, Place, Rational), Vec<Place>> = Map::default();
             for (place, node) in self.nodes.iter().enumerate() {
                 let mut parts = kind.parts(node);
                 parts.retain(|part| repeated[part.1]);
-                for (i, &(c, a)) in parts.iter().enumerate() {
-                    for &(d, b) in &parts[i + 1..] {
-                        let places = holders.entry((a, b, d / c)).or_default();
-                        if places.last() != Some(&place) {
-                            places.push(place);
+                for parts in parts.chunks(PAIRED) {
+                    let pairs = parts.len() * parts.len() / 2;
+                    if pairs > left {
+                        return shared;
+                    }
+                    left -= pairs;
+                    for (i, &(c, a)) in parts.iter().enumerate() {
+                        for &(d, b) in &parts[i + 1..] {
+                            let places = holders.entry((a, b, d / c)).or_default();
+                            if places.last() != Some(&place) {
+                                places.push(place);
+                            }
                         }
                     }
                 }

@@ -39,6 +39,8 @@ struct Writer<'g> {
     uses: Vec<usize>,
     written: Map<Place, Operand<'g>>,
     negated: Map<usize, Operand<'g>>,
+    /// Where sines and cosines are computed.
+    pairs: Vec<usize>,
     instructions: Vec<Operation<'g>>,
 }
 
@@ -52,19 +54,22 @@ impl<'g> Writer<'g> {
             if std::mem::replace(&mut reached[place], true) {
                 continue;
             }
-            match &network.nodes[place] {
-                Node::Number(_) | Node::Leaf(_) => {}
-                Node::Sum(terms) => open.extend(terms.iter().map(|t| t.1)),
-                Node::Product(factors) => open.extend(factors),
-                Node::Reciprocal(a) => open.push(*a),
-                Node::Call(_, a) => open.push(*a),
-                Node::Binary(_, a, b) => open.extend([*a, *b]),
-            }
+            open.extend(network.nodes[place].parts());
         }
-        Self { network, uses, written: Map::default(), negated: Map::default(), instructions: Vec::new() }
+        Self {
+            network,
+            uses,
+            written: Map::default(),
+            negated: Map::default(),
+            pairs: Vec::new(),
+            instructions: Vec::new(),
+        }
     }
 
     fn write(mut self) -> Program<'g> {
+        for place in self.network.stages() {
+            self.operand(place);
+        }
         let outputs = self.network.outputs.clone();
         let outputs = outputs
             .into_iter()
@@ -103,13 +108,12 @@ impl<'g> Writer<'g> {
             Node::Call(function, a) => {
                 let a = self.operand(a);
                 let pair = Instruction::SineCosine(a);
-                let index = match self.instructions.iter().position(|i| *i == pair) {
-                    Some(index) => index,
-                    None => {
-                        self.push(pair);
-                        self.instructions.len() - 1
-                    }
-                };
+                let known = self.pairs.iter().copied().find(|&k| self.instructions[k] == pair);
+                let index = known.unwrap_or_else(|| {
+                    self.push(pair);
+                    self.pairs.push(self.instructions.len() - 1);
+                    self.instructions.len() - 1
+                });
                 match function {
                     Function::Sin => Operand::Sine(index),
                     _ => Operand::Cosine(index),

@@ -93,7 +93,7 @@ impl<'g> SystemScene<'g> {
         let affine = |rate: &Expr<'g>| {
             self.speeds.iter().all(|&z| {
                 let partial = rate.partial(z);
-                self.speeds.iter().all(|&w| tidy(partial.partial(w)).is_zero())
+                partial.as_number().is_some() || self.speeds.iter().all(|&w| tidy(partial.partial(w)).is_zero())
             })
         };
         (0..self.kinematics.len()).filter(|&k| !affine(&self.kinematics[k])).collect()

@@ -26,6 +26,9 @@ pub fn short(e: Expr<'_>) -> Option<Expr<'_>> {
 
 /// An expression as a reader wants it.
 pub fn tidy(e: Expr<'_>) -> Expr<'_> {
+    if e.is_leaf() {
+        return e;
+    }
     readable(e).map_or(e, |p| p.collect())
 }
 

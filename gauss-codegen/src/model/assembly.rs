@@ -80,6 +80,9 @@ fn check_expressions(
     context: &mut Context,
 ) -> Vec<Ident> {
     let earlier = context.count();
+    if !definitions::check_sizes(statements, context) {
+        return Vec::new();
+    }
     let mut scope = declared::scope(statements, &reader.fields, shapes, scalar, uncertain);
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions::all(statements) {

@@ -24,7 +24,8 @@ mod scene;
 mod tests;
 mod units;
 
-pub use parse::parse;
+pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
+pub use parse::{item, parse};
 pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceAxes, ForceClause, ForceKind,

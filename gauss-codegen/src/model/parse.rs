@@ -2,9 +2,21 @@
 
 use crate::model::assembly;
 use crate::model::language::context::Context;
-use crate::model::language::{fields, struct_clauses};
+use crate::model::language::{fields, nesting, struct_clauses};
 use crate::model::scene::model::Model;
+use proc_macro2::TokenStream;
 use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics};
+
+/// The item of a derive, if it is not nested deeper than can be read.
+///
+/// # Errors
+/// The token that is too deep; what is no item.
+pub fn item(tokens: TokenStream) -> Result<DeriveInput, Error> {
+    match nesting::item_too_deep(tokens.clone()) {
+        Some(span) => Err(Error::new(span, format!("nested more than {} levels deep", nesting::DEEPEST))),
+        None => syn::parse2(tokens),
+    }
+}
 
 /// Reads and checks a struct.
 ///

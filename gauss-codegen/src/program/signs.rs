@@ -7,6 +7,9 @@
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
 
+/// Instructions, each the operand of the next, that a sign is led back through.
+const LEVELS: usize = 500;
+
 /// A program whose signs are being moved.
 struct Signs<S> {
     instructions: Vec<Instruction<S>>,
@@ -30,7 +33,7 @@ impl<S: Copy> Code<S> {
         };
         for k in 0..count {
             if let Instruction::Negate(Operand::Value(negated)) = signs.instructions[k]
-                && signs.flip(negated)
+                && signs.flip(negated, LEVELS)
             {
                 signs.replaced[k] = Some(negated);
             }
@@ -41,25 +44,30 @@ impl<S: Copy> Code<S> {
 
 impl<S: Copy> Signs<S> {
     /// Makes an instruction that is read once compute the negative, if that costs nothing.
-    fn flip(&mut self, k: usize) -> bool {
-        if self.uses[k] != 1 {
+    fn flip(&mut self, k: usize, levels: usize) -> bool {
+        if self.uses[k] != 1 || levels == 0 {
             return false;
         }
+        let levels = levels - 1;
         let instruction = self.instructions[k];
         let flipped = match instruction {
             Instruction::Subtract(a, b) => Instruction::Subtract(b, a),
-            Instruction::Add(a, b) if self.flip_operand(a) => Instruction::Subtract(a, b),
-            Instruction::Add(a, b) if self.flip_operand(b) => Instruction::Subtract(b, a),
+            Instruction::Add(a, b) if self.flip_operand(a, levels) => Instruction::Subtract(a, b),
+            Instruction::Add(a, b) if self.flip_operand(b, levels) => Instruction::Subtract(b, a),
             Instruction::MultiplyAdd(a, b, c) => {
-                self.negated_addend[k] ^= !self.flip_operand(c);
+                self.negated_addend[k] ^= !self.flip_operand(c, levels);
                 Instruction::MultiplySubtract(a, b, c)
             }
             Instruction::MultiplySubtract(a, b, c) => {
-                self.negated_addend[k] ^= !self.flip_operand(c);
+                self.negated_addend[k] ^= !self.flip_operand(c, levels);
                 Instruction::MultiplyAdd(a, b, c)
             }
-            Instruction::Multiply(a, b) if self.flip_operand(a) || self.flip_operand(b) => Instruction::Multiply(a, b),
-            Instruction::Divide(a, b) if self.flip_operand(a) || self.flip_operand(b) => Instruction::Divide(a, b),
+            Instruction::Multiply(a, b) if self.flip_operand(a, levels) || self.flip_operand(b, levels) => {
+                Instruction::Multiply(a, b)
+            }
+            Instruction::Divide(a, b) if self.flip_operand(a, levels) || self.flip_operand(b, levels) => {
+                Instruction::Divide(a, b)
+            }
             Instruction::Multiply(Operand::Number(n), b) => Instruction::Multiply(Operand::Number(-n), b),
             Instruction::Divide(Operand::Number(n), b) => Instruction::Divide(Operand::Number(-n), b),
             _ => return false,
@@ -68,9 +76,9 @@ impl<S: Copy> Signs<S> {
         true
     }
 
-    fn flip_operand(&mut self, operand: Operand<S>) -> bool {
+    fn flip_operand(&mut self, operand: Operand<S>, levels: usize) -> bool {
         match operand {
-            Operand::Value(k) => self.flip(k),
+            Operand::Value(k) => self.flip(k, levels),
             _ => false,
         }
     }

@@ -4,7 +4,7 @@ use proc_macro2::Span;
 
 use crate::algebra::{Evaluation, Expr, Function, Map, Number, Precise, Scalar};
 use crate::mistakes::Mistakes;
-use crate::model::Expression;
+use crate::model::{Expression, LARGEST_EXPONENT, too_many_factors};
 
 use super::Translator;
 
@@ -54,8 +54,11 @@ impl<'g> Translator<'_, 'g> {
         self.mistake(span, "a smooth step has two ends, and these are the same; write different numbers".to_owned())
     }
 
-    /// A number that literals alone determine; arithmetic with it should stay in range.
+    /// A number that literals alone determine, arithmetic with which should stay in range; a power of not too many factors.
     pub(super) fn in_range(&self, value: Expr<'g>, written: &Expression) -> Expr<'g> {
+        if value.largest_exponent() > LARGEST_EXPONENT {
+            return self.mistake(written.span, too_many_factors());
+        }
         let of_literals = || written.is_made_of_literals();
         let lost = match value.as_number() {
             Some(number) => !number.to_f64().is_finite(),

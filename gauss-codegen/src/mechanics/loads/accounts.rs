@@ -6,6 +6,7 @@ use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::loads::forces::{Action, Force, Loads};
 use crate::mechanics::loads::wrench::Wrench;
+use crate::mechanics::scene::Lettering;
 use crate::mechanics::system::System;
 use crate::mechanics::tidy::sums;
 
@@ -19,10 +20,10 @@ fn sorted(mut accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {
 }
 
 impl<'g> System<'g> {
-    /// One account for each element, with weight and buoyancy first; none where nothing else acts and no guide moves.
+    /// One account for each element, with weight and buoyancy first; of a body in a chart none where nothing else acts.
     pub fn accounts(&self) -> Vec<Account<'g>> {
         let scene = &self.scene;
-        if scene.elements.is_empty() && !self.driven {
+        if scene.lettering == Lettering::Textbook && scene.elements.is_empty() && !self.driven {
             return Vec::new();
         }
         let potential = |name: &str, potential: Expr<'g>| Account {

@@ -5,7 +5,7 @@
 
 use super::context::Context;
 use super::functions::{FUNCTIONS, Function, PROPERTIES};
-use super::{attributes, number, words};
+use super::{attributes, chains, nesting, number, words};
 use crate::model::scene::clauses::Coefficients;
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName};
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
@@ -24,11 +24,28 @@ pub const ALLOWED: &str = "expressions are made of numbers, names, `+ - * /`, br
      signum, clamp and smooth_step";
 
 /// More factors than any law of forces has.
-const LARGEST_EXPONENT: u32 = 100;
+pub const LARGEST_EXPONENT: u32 = 100;
+
+/// What is said of powers of more.
+pub fn too_many_factors() -> String {
+    format!("powers become products, of {LARGEST_EXPONENT} factors at most; write `exp` and `ln`")
+}
 
 /// Reads the tokens that `owner` is said to be.
 pub fn read(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Expression> {
-    convert(&parse(owner, tokens, context)?, context)
+    let expression = convert(&parse(owner, tokens, context)?, context)?;
+    if nesting::depth(&expression, &|_| 0) > nesting::LEVELS {
+        context.error(expression.span, nested(owner));
+        return None;
+    }
+    Some(expression)
+}
+
+fn nested(owner: &str) -> String {
+    format!(
+        "`{owner}` is nested more than {} levels deep; name parts of it by `define(…)`, or write it with fewer",
+        nesting::DEEPEST
+    )
 }
 
 /// Reads the tokens of the coefficients of a drag: a list of six, or the name of a field.
@@ -68,6 +85,10 @@ pub fn read_coefficients(owner: &str, tokens: &[TokenTree], context: &mut Contex
 }
 
 fn parse(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Expr> {
+    if let Some(span) = nesting::too_deep(tokens.iter().cloned().collect()) {
+        context.error(span, nested(owner));
+        return None;
+    }
     match syn::parse2::<Expr>(tokens.iter().cloned().collect::<TokenStream>()) {
         Ok(expression) => Some(expression),
         Err(error) => {
@@ -181,7 +202,20 @@ fn literal_number(literal: &Lit, context: &mut Context) -> Option<ExpressionKind
     }
 }
 
+/// A chain of operators, which syn nests to the left: `a + b + c` is `(a + b) + c`.
 fn convert_binary(binary: &ExprBinary, context: &mut Context) -> Option<Expression> {
+    let (mut first, mut chain) = (&*binary.left, vec![binary]);
+    while let Expr::Binary(inner) = first {
+        chain.push(inner);
+        first = &inner.left;
+    }
+    let first = convert(first, context);
+    let links: Vec<Option<chains::Link>> = chain.into_iter().rev().map(|link| convert_link(link, context)).collect();
+    Some(chains::joined(first?, links.into_iter().collect::<Option<_>>()?))
+}
+
+/// An operator and what comes after it.
+fn convert_link(binary: &ExprBinary, context: &mut Context) -> Option<chains::Link> {
     let (operator, span) = match &binary.op {
         BinOp::Add(plus) => (Some(BinaryOperator::Add), plus.spans[0]),
         BinOp::Sub(minus) => (Some(BinaryOperator::Subtract), minus.spans[0]),
@@ -197,14 +231,13 @@ fn convert_binary(binary: &ExprBinary, context: &mut Context) -> Option<Expressi
             (None, Span::call_site())
         }
     };
-    let left = convert(&binary.left, context);
     let right = convert(&binary.right, context);
-    let (operator, left, right) = (operator?, left?, right?);
+    let (operator, right) = (operator?, right?);
     if operator == BinaryOperator::Divide && right.is_zero() {
         context.error(right.span, "division by zero");
         return None;
     }
-    Some(Expression { kind: ExpressionKind::Binary(operator, Box::new(left), Box::new(right)), span })
+    Some((operator, span, right))
 }
 
 fn vector(array: &ExprArray, context: &mut Context) -> Option<Expression> {
@@ -384,10 +417,7 @@ fn apply(
                 return None;
             };
             if power.unsigned_abs() > LARGEST_EXPONENT {
-                context.error_at(
-                    exponent,
-                    format!("powers become products, of {LARGEST_EXPONENT} factors at most; write `exp` and `ln`"),
-                );
+                context.error_at(exponent, too_many_factors());
                 return None;
             }
             let base = values.into_iter().next()?;

@@ -1,61 +1,84 @@
 //! Definitions: expressions with names. Each is checked by itself and then once more wherever its name stands, since what it may
 //! contain depends on that. Afterwards its tree takes the place of its name, so that nothing behind the model knows of it.
 
-use super::kinds;
 use super::places::Place;
 use super::scope::Scope;
+use super::{expressions, kinds};
 use crate::model::language::context::Context;
 use crate::model::language::declarations::Definition;
+use crate::model::language::nesting::{self, LEVELS};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::word;
 use crate::model::scene::expression::{Expression, ExpressionKind};
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 
-/// Parts that a definition may have when those that it names are written out: far more than anyone writes, and few enough
-/// that the tree is built in no time.
+/// Parts that all expressions together may have when definitions are written out: far more than anyone
+/// writes, and few enough that the trees are built in no time.
 const LIMIT: usize = 100_000;
 
 /// Checks every definition by itself, in order, and tells the scope what each stands for.
 pub fn check(definitions: &[Definition], scope: &mut Scope, context: &mut Context) {
-    let mut sizes: Vec<usize> = Vec::new();
-    for (index, Definition { name, expression }) in definitions.iter().enumerate() {
-        let size = expression.as_ref().map_or(0, |expression| size(expression, &definitions[..index], &sizes));
-        let well = match expression {
-            Some(_) if size > LIMIT => {
-                context.error(
-                    name.span(),
-                    format!(
-                        "`{name}` has more than {LIMIT} parts when the definitions that it names are written out; name them \
-                         less often"
-                    ),
-                );
-                None
-            }
-            Some(expression) => kinds::check(expression, Place::Definition, scope, context).and(Some(expression)),
-            None => None,
-        };
-        // Of those that name it it is not said again.
-        sizes.push(if size > LIMIT { 1 } else { size });
+    for Definition { expression, .. } in definitions {
+        let expression = expression.as_ref();
+        let well = expression.and_then(|e| kinds::check(e, Place::Definition, scope, context).and(Some(e)));
         scope.define(well.cloned());
     }
 }
 
-/// How many parts an expression has with earlier definitions written out.
-fn size(expression: &Expression, earlier: &[Definition], sizes: &[usize]) -> usize {
-    let mut total = 0;
-    expression.walk(&mut |part| {
-        let own = match &part.kind {
-            ExpressionKind::Name(name) => find(earlier, name).map_or(1, |index| sizes[index]),
-            _ => 1,
-        };
-        total += own;
-    });
-    total
+/// Refuses what would be too long or too deep with definitions written out; whether nothing is.
+pub fn check_sizes(statements: &Statements, context: &mut Context) -> bool {
+    let definitions = &statements.definitions;
+    let mut written = WrittenOut { names: Vec::new(), sizes: Vec::new(), depths: Vec::new(), total: 0 };
+    for Definition { name, expression } in definitions {
+        let (size, depth) = expression.as_ref().map_or((0, 0), |expression| written.measure(expression));
+        if !written.accepts((size, depth), name.span(), &format!("`{name}`"), context) {
+            return false;
+        }
+        written.names.push(word(name));
+        written.sizes.push(size);
+        written.depths.push(depth);
+    }
+    expressions::all(statements).into_iter().all(|(_, expression)| {
+        let measured = written.measure(expression);
+        written.accepts(measured, expression.span, "this", context)
+    })
 }
 
-fn find(definitions: &[Definition], name: &Ident) -> Option<usize> {
-    definitions.iter().position(|definition| word(&definition.name) == word(name))
+/// Definitions written out, as far as they are measured.
+struct WrittenOut {
+    names: Vec<String>,
+    sizes: Vec<usize>,
+    depths: Vec<usize>,
+    total: usize,
+}
+
+impl WrittenOut {
+    /// The definition that a name stands for.
+    fn find(&self, expression: &Expression) -> Option<usize> {
+        let ExpressionKind::Name(name) = &expression.kind else { return None };
+        let name = word(name);
+        self.names.iter().position(|known| *known == name)
+    }
+
+    /// Parts and levels.
+    fn measure(&self, expression: &Expression) -> (usize, usize) {
+        let mut size = 0_usize;
+        expression.walk(&mut |part| size = size.saturating_add(self.find(part).map_or(1, |index| self.sizes[index])));
+        let named = |part: &Expression| self.find(part).map_or(0, |index| self.depths[index]);
+        (size, nesting::depth(expression, &named))
+    }
+
+    fn accepts(&mut self, (size, depth): (usize, usize), span: Span, what: &str, context: &mut Context) -> bool {
+        self.total = self.total.saturating_add(size);
+        let found = match (self.total > LIMIT, depth > LEVELS) {
+            (true, _) => format!("up to {what} expressions have more than {LIMIT} parts"),
+            (_, true) => format!("{what} is nested more than {LEVELS} levels deep"),
+            _ => return true,
+        };
+        context.error(span, format!("{found} when definitions are written out; name them less often"));
+        false
+    }
 }
 
 /// Definitions whose names stand nowhere.

@@ -20,6 +20,7 @@ impl Moving {
         let speeds = statements.speeds.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)).collect();
         // A child may be written before its parent: round after round adds those that are moved by what moves.
         for _ in &statements.bodies {
+            let known = places.len();
             for body in &statements.bodies {
                 let name = body.word();
                 let moved = body.parent.as_ref().is_some_and(|parent| places.contains(&word(parent)))
@@ -27,6 +28,9 @@ impl Moving {
                 if moved && !places.contains(&name) {
                     places.push(name);
                 }
+            }
+            if places.len() == known {
+                break;
             }
         }
         for point in &statements.points {
@@ -64,5 +68,9 @@ impl Moving {
 }
 
 fn names_any(expression: &Expression, words: &[String]) -> bool {
-    words.iter().any(|word| expression.names(word))
+    let mut found = false;
+    expression.walk(&mut |part| {
+        found |= matches!(&part.kind, ExpressionKind::Name(name) if words.contains(&word(name)));
+    });
+    found
 }

@@ -134,18 +134,23 @@ impl Expression {
     /// Calls `visit` with this expression and every part of it.
     pub fn walk(&self, visit: &mut dyn FnMut(&Expression)) {
         visit(self);
+        self.parts(&mut |part| part.walk(visit));
+    }
+
+    /// Calls `visit` with each of its parts, not with the parts of these.
+    pub fn parts(&self, visit: &mut dyn FnMut(&Expression)) {
         match &self.kind {
             ExpressionKind::Number { .. } | ExpressionKind::Name(_) => {}
             ExpressionKind::Component(inner, _)
             | ExpressionKind::Property(inner, _)
             | ExpressionKind::Negate(inner)
-            | ExpressionKind::Power(inner, _) => inner.walk(visit),
+            | ExpressionKind::Power(inner, _) => visit(inner),
             ExpressionKind::Binary(_, left, right) => {
-                left.walk(visit);
-                right.walk(visit);
+                visit(left);
+                visit(right);
             }
-            ExpressionKind::Call(_, arguments) => arguments.iter().for_each(|argument| argument.walk(visit)),
-            ExpressionKind::Vector(components) => components.iter().for_each(|component| component.walk(visit)),
+            ExpressionKind::Call(_, arguments) => arguments.iter().for_each(visit),
+            ExpressionKind::Vector(components) => components.iter().for_each(|component| visit(component)),
         }
     }
 

@@ -74,9 +74,8 @@ fn order_and_use() {
     mistakes(
         &format!("define(a0 = x, {}), drive(x = a20)", doubled.join(", ")),
         &[(
-            "a16",
-            "`a16` has more than 100000 parts when the definitions that it names are written out; name them \
-                 less often",
+            "a15",
+            "up to `a15` expressions have more than 100000 parts when definitions are written out; name them less often",
         )],
     );
 }

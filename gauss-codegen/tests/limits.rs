@@ -1,0 +1,128 @@
+//! What is too long, too deep or too large is refused at its place before time, memory or the stack run out; the rest works.
+
+use std::thread;
+use std::time::{Duration, Instant};
+
+use gauss_codegen::{expand, item};
+
+/// As long as anyone waits for a derive.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// Half of what the compiler has.
+const STACK: usize = 4 << 20;
+
+/// A particle in the plane, with more clauses.
+fn plane(clauses: &str) -> String {
+    format!(
+        "#[gauss(coordinates(x, y), particle(mass = m, position = [x, y, 0]), {clauses})] struct Scene {{ m: f64, k: f64 }}"
+    )
+}
+
+fn listed(count: usize, separator: &str, entry: impl Fn(usize) -> String) -> String {
+    (0..count).map(entry).collect::<Vec<_>>().join(separator)
+}
+
+/// The first message, if there is one.
+#[track_caller]
+fn derived(source: String) -> Option<String> {
+    let begun = Instant::now();
+    let shown: String = source.chars().take(200).collect();
+    let work = move || {
+        let tokens = source.parse().expect("tokens");
+        item(tokens).and_then(|input| expand(&input)).err().map(|mistake| mistake.to_string())
+    };
+    let worker = thread::Builder::new().stack_size(STACK).spawn(work).expect("a thread");
+    let message = worker.join().expect("no panic");
+    assert!(begun.elapsed() < PATIENCE, "{:?}: {shown}", begun.elapsed());
+    message
+}
+
+#[track_caller]
+fn works(source: String) {
+    assert_eq!(derived(source), None);
+}
+
+#[track_caller]
+fn refused(source: String, message: &str) {
+    let found = derived(source).expect("it is refused");
+    assert!(found.contains(message), "{found}");
+}
+
+#[test]
+fn definitions_that_square_one_another() {
+    let squarings = |count: usize| {
+        let squares = listed(count, ", ", |k| format!("d{} = d{k} * d{k}", k + 1));
+        plane(&format!("define(d0 = x + y, {squares}), potential = d{count}"))
+    };
+    works(squarings(5));
+    refused(squarings(10), "100 factors at most");
+    refused(squarings(20), "more than 100000 parts");
+    refused(squarings(40), "more than 100000 parts");
+}
+
+#[test]
+fn powers() {
+    works(plane("potential = powi(x + k * y, 100)"));
+    works(plane("potential = powi(powi(cos(x) + y, 9) + sin(y), 9)"));
+    refused(plane("potential = powi(x, 1000)"), "100 factors at most");
+    let nested = (0..9).fold("x".to_owned(), |base, _| format!("powi({base}, 100)"));
+    refused(plane(&format!("potential = {nested}")), "100 factors at most");
+    refused(plane(&format!("potential = {}", listed(500, " * ", |_| "x".into()))), "100 factors at most");
+}
+
+#[test]
+fn long_chains_of_operators() {
+    works(plane(&format!("drive(x = {})", listed(1000, " - ", |k| format!("{k} * sin(y)")))));
+    works(plane(&format!("potential = {}", listed(300, " + ", |k| format!("k * cos({} * x)", k + 1)))));
+    works(plane(&format!("drive(x = {})", listed(300, " * ", |k| format!("cos({} * x)", k + 1)))));
+    works(plane(&format!("drive(x = k / {})", listed(90, " / ", |_| "(2 + cos(x))".into()))));
+    works(plane(&format!("potential = {}", listed(40, " * ", |k| format!("(x + {} * y)", k + 1)))));
+}
+
+#[test]
+fn depth() {
+    let nested = |count: usize, before: &str, after: &str| {
+        plane(&format!("drive(x = {}x{})", before.repeat(count), after.repeat(count)))
+    };
+    for (before, after) in [("(", ")"), ("sin(", ")"), ("sqrt(1 + ", ")"), ("", ".sin()")] {
+        works(nested(100, before, after));
+        refused(nested(400, before, after), "`x` is nested more than 128 levels deep");
+        refused(nested(1000, before, after), "nested more than 128 levels deep");
+        refused(nested(30_000, before, after), "nested more than 128 levels deep");
+    }
+    for (before, after) in
+        [("-", ""), ("!", ""), ("[", "]"), ("&", ""), ("x = ", ""), ("|x| ", ""), ("if x {} else ", "")]
+    {
+        refused(nested(1000, before, after), "nested more than 128 levels deep");
+    }
+    works(plane(&format!("potential = {}x{}", "sin(".repeat(100), ")".repeat(100))));
+    let types = format!("struct Scene {{ m: {}f64{} }}", "Vector3<".repeat(1000), ">".repeat(1000));
+    refused(types, "nested more than 128 levels deep");
+    let documented = format!("#[doc = {}x{}] struct Scene {{ m: f64 }}", "abs(".repeat(300), ")".repeat(300));
+    refused(documented, "nested more than 128 levels deep");
+    // Each is shallow.
+    let deeper = listed(20, ", ", |k| format!("d{} = {}d{k}{}", k + 1, "sin(".repeat(50), ")".repeat(50)));
+    refused(plane(&format!("define(d0 = x, {deeper}), drive(x = d20)")), "`d6` is nested more than 256 levels deep");
+}
+
+#[test]
+fn many_bodies() {
+    let frames = |count: usize| {
+        let next = |k: usize| {
+            let before = if k > 0 { format!("parent = f{}, ", k - 1) } else { String::new() };
+            format!("frame(f{k}, {before}position = [k, x, 0], rotation = rotation_{}(y))", ["x", "z"][k % 2])
+        };
+        let last = count - 1;
+        let frames = listed(count, ", ", next);
+        format!(
+            "#[gauss(coordinates(x, y), {frames}, particle(mass = m, parent = f{last}, position = [k, 0, 0]))] struct Scene {{ m: f64, k: f64 }}"
+        )
+    };
+    works(frames(20));
+    refused(frames(300), "the equations are made of more expressions than 50000 operations can come of");
+    let apart = |k: usize| format!("particle(mass = m, position = [q{k}, 0, 0])");
+    works(format!(
+        "#[gauss(coordinates({}), {})] struct Scene {{ m: f64 }}",
+        listed(100, ", ", |k| format!("q{k}")),
+        listed(100, ", ", apart)
+    ));
+}
