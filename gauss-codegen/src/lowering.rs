@@ -1,5 +1,6 @@
 //! From formulas to programs, with what only the programs show to be a mistake.
 
+use crate::accuracy::{Point, States, Trial, sample_states};
 use crate::algebra::{Expr, Graph, Rational};
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
@@ -7,6 +8,9 @@ use crate::mechanics::{Formula, Method};
 use crate::mistakes::{bug, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives};
 use crate::model::{Model, Scalar};
 use crate::translate::Translator;
+
+/// How many states programs are tried at.
+const STATES: usize = 6;
 
 /// The programs of all formulas and of the derivatives that are wanted.
 ///
@@ -34,7 +38,9 @@ pub fn lower<'g>(
     };
     let literals = translator.literals();
     let known = foldable(&model.scalar, &literals);
-    let kernel = Kernel::lower(graph, &functions, &joined(formulas), &formulation.definitions, &wanted, known)
+    let mut trial = Trial::new(states(translator, formulation));
+    let joined = joined(formulas);
+    let kernel = Kernel::lower(graph, &functions, &joined, &formulation.definitions, &wanted, known, &mut trial)
         .map_err(|error| bug(&model.ident, &error))?;
     if graph.is_undefined() {
         return Err(undefined());
@@ -44,6 +50,22 @@ pub fn lower<'g>(
     refuse_regressor(model.wanted.regressor.as_ref(), regressor.as_ref(), &kernel)?;
     refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), formulas, &kernel)?;
     Ok(kernel)
+}
+
+/// States at which the programs are tried.
+fn states<'g>(translator: &Translator<'_, 'g>, formulation: &Formulation<'g>) -> Vec<Point> {
+    let Formulation { system, formulas, definitions, units, .. } = formulation;
+    let momentum = formulas.iter().find(|formula| formula.method == Method::Momentum);
+    let parameters = formulation.parameters.iter();
+    let states = States {
+        system,
+        momentum: momentum.map_or(&[], |formula| &formula.arrangements[0]),
+        parameters: parameters.map(|parameter| (parameter.symbol, parameter.name.contains('['))).collect(),
+        literals: translator.literals(),
+        units,
+        definitions,
+    };
+    sample_states(&states, STATES)
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.

@@ -50,6 +50,7 @@ extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+pub mod accuracy;
 pub mod adapters;
 #[cfg(feature = "alloc")]
 pub mod batch;

@@ -9,7 +9,9 @@
 //!   identities, cancels what can cancel, and is what a reader wants to see printed.
 
 mod budget;
+mod cosines;
 mod differentiate;
+mod doubled;
 mod evaluate;
 mod function;
 mod graph;
@@ -31,6 +33,7 @@ mod substitute;
 #[cfg(test)]
 mod tests;
 
+pub use doubled::Doubled;
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use function::{BinaryFunction, Function, OwnFunction};
 pub use graph::{Expr, Graph, NodeView};

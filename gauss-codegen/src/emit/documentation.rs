@@ -106,6 +106,9 @@ fn description(derived: &Derived<'_, '_>) -> String {
 /// The methods that [`Kernel::derivatives`](crate::kernel::Kernel::derivatives) has the programs of.
 pub const DERIVATIVES: [&str; 3] = ["linearize", "by_parameters", "regressor"];
 
+/// The loss above which the documentation of a kernel warns of it: three decimal places.
+const MUCH: f64 = 1e3;
+
 /// Rustdoc of the kernel: what it is, its equations, its costs.
 pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     let mut out = format!(
@@ -122,14 +125,21 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     }
     out.push_str(&states(derived));
     out.push_str(&acting(derived));
-    out.push_str("\n# Cost\n\n| method | operations |\n|---|---|\n");
-    for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
-        out.push_str(&format!("| `{}` | {} |\n", formula.method.name(), program.counts()));
+    out.push_str(
+        "\n# Cost and rounding\n\nThe loss is the largest error of double precision at sample states (median), in units of what a change of \
+         every parameter and argument in its last place does.\n\n| method | operations | loss, at most |\n|---|---|---|\n",
+    );
+    for ((formula, program), loss) in derived.formulas.iter().zip(&derived.kernel.functions).zip(&derived.kernel.losses)
+    {
+        let [worst, median] = loss.rounded();
+        let warning = if worst > MUCH { ": **digits are lost**" } else { "" };
+        let loss = if worst > 0.0 { format!("{worst} ({median}){warning}") } else { String::new() };
+        out.push_str(&format!("| `{}` | {} | {loss} |\n", formula.method.name(), program.counts()));
     }
-    out.push_str(&format!("| `evaluate` | {} |\n", derived.kernel.joined.counts()));
+    out.push_str(&format!("| `evaluate` | {} | |\n", derived.kernel.joined.counts()));
     for (name, program) in DERIVATIVES.into_iter().zip(derived.kernel.derivatives()) {
         if let Some(program) = program {
-            out.push_str(&format!("| `{name}` | {} |\n", program.counts()));
+            out.push_str(&format!("| `{name}` | {} | |\n", program.counts()));
         }
     }
     out

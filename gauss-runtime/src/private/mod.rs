@@ -10,6 +10,7 @@ mod poses;
 mod samples;
 mod warnings;
 
+pub use crate::accuracy::{Accuracy, Loss};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
 pub use crate::configuration::Configuration;
 pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};
