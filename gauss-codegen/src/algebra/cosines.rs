@@ -13,7 +13,7 @@ impl<'g> Polynomial<'g> {
         let mut terms = self.clone();
         terms.restore_cosines();
         let mut denominators = Map::default();
-        for (monomial, _) in &terms.terms {
+        for monomial in terms.terms.keys() {
             for &(atom, _) in monomial.factors.iter().filter(|&&(_, exponent)| exponent < 0) {
                 denominators.entry(atom).or_insert_with(|| restored(self.graph, atom));
             }
