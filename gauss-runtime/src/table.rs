@@ -174,7 +174,7 @@ const fn curvatures<const N: usize>(points: &[[f64; 2]; N]) -> [f64; N] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::Pack;
+    use crate::simd::Lanes;
 
     const POINTS: [[f64; 2]; 5] = [[-1.0, 2.0], [0.0, 1.0], [0.5, 1.5], [2.0, 0.0], [3.0, 0.25]];
     const LINEAR: Linear<5> = Linear::through(&POINTS);
@@ -231,7 +231,7 @@ mod tests {
 
     #[test]
     fn lanes_find_their_own_pieces() {
-        let lanes = CUBIC.value(Pack([0.25, 2.5]));
+        let lanes = CUBIC.value(Lanes([0.25, 2.5]));
         assert_eq!(lanes.0, [CUBIC.value(0.25), CUBIC.value(2.5)]);
     }
 }
