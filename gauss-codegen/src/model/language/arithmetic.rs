@@ -431,8 +431,7 @@ fn power(base: Expression, exponent: &Expr, context: &mut Context) -> Option<Exp
         return None;
     };
     if power.unsigned_abs() > LARGEST_EXPONENT {
-        context
-            .error_at(exponent, format!("powers become products, of {LARGEST_EXPONENT} factors at most; write `powf`"));
+        context.error_at(exponent, too_many_factors());
         return None;
     }
     if power < 0 && base.is_zero() {
