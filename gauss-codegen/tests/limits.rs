@@ -97,6 +97,8 @@ fn depth() {
     works(plane(&format!("potential = {}x{}", "sin(".repeat(100), ")".repeat(100))));
     let types = format!("struct Scene {{ m: {}f64{} }}", "Vector3<".repeat(1000), ">".repeat(1000));
     refused(types, "nested more than 128 levels deep");
+    let documented = format!("#[doc = {}x{}] struct Scene {{ m: f64 }}", "abs(".repeat(300), ")".repeat(300));
+    refused(documented, "nested more than 128 levels deep");
     // Each is shallow.
     let deeper = listed(20, ", ", |k| format!("d{} = {}d{k}{}", k + 1, "sin(".repeat(50), ")".repeat(50)));
     refused(plane(&format!("define(d0 = x, {deeper}), drive(x = d20)")), "`d6` is nested more than 256 levels deep");

@@ -169,6 +169,66 @@ fn names_may_be_shadowed() {
     assert!(body.kernel().is_ok());
 }
 
+/// Constants, statics and structs of the user's that a name in a pattern would be taken for.
+mod patterns {
+    #![allow(dead_code, non_camel_case_types, non_upper_case_globals)]
+
+    use gauss_runtime::prelude::*;
+
+    macro_rules! constants {
+        ($($name:ident)+) => { $(const $name: u8 = 0;)+ };
+    }
+    constants!(t z acceleration twist residual order series kernel check k v w a b c s x y order_ rates values);
+    static p: u8 = 0;
+    static input: u8 = 0;
+    struct q;
+    struct pose(u8);
+    struct momentum;
+
+    #[derive(GaussDynamics)]
+    #[gauss(chart = jet(euler_zyx), taylor, linearize(parameters), regressor, drag(linear = d))]
+    pub(super) struct Free {
+        #[gauss(mass)]
+        pub(super) mass: f64,
+        #[gauss(inertia)]
+        pub(super) inertia: Vector3<f64>,
+        #[gauss(added_mass)]
+        pub(super) added: Vector6<f64>,
+        pub(super) d: Vector6<f64>,
+    }
+
+    #[derive(GaussDynamics)]
+    #[gauss(
+        coordinates(angle, height), input(push), body(rod, rotation = rotation_y(angle)), drive(height = push),
+        particle(mass = rider, position = [0, 0, height]), constraint(position = height * height - angle),
+    )]
+    pub(super) struct Held {
+        #[gauss(body)]
+        pub(super) rod: RigidBody<f64>,
+        pub(super) rider: f64,
+    }
+
+    #[derive(GaussDynamics)]
+    #[gauss(coordinates(attitude: Rotation), body(rotation = attitude))]
+    pub(super) struct Placed {
+        #[gauss(mass)]
+        pub(super) mass: f64,
+        #[gauss(inertia)]
+        pub(super) inertia: f64,
+    }
+}
+
+#[test]
+fn names_may_be_those_of_constants() {
+    use gauss_runtime::prelude::*;
+    let free =
+        patterns::Free { mass: 1.0, inertia: [1.0, 2.0, 2.5].into(), added: Vector6::zeros(), d: Vector6::zeros() };
+    assert!(free.kernel().is_ok());
+    let rod = RigidBody { mass: 1.0, center_of_mass: Vector3::x(), inertia: Matrix3::identity() * 2.0 };
+    assert!(patterns::Held { rod, rider: 1.0 }.kernel().is_ok());
+    assert!(patterns::Placed { mass: 1.0, inertia: 1.0 }.kernel().is_ok());
+}
+
 #[test]
 fn structs_may_be_local() {
     use gauss_runtime::prelude::*;

@@ -5,8 +5,10 @@ use std::collections::hash_map::Entry;
 use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 
+use super::budget::Budget;
+use super::function::{BinaryFunction, Function, OwnFunction};
 use super::map::Map;
-use super::node::{BinaryFunction, Function, Id, Node};
+use super::node::{Id, Node};
 use super::rational::Rational;
 
 /// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
@@ -45,27 +47,16 @@ struct Traits {
     depth: u32,
 }
 
-/// Levels that recursions go down at once, see [`Graph::stages`].
-const BAND: u32 = 400;
-
-/// Nodes and edges that a derivation may have for each operation that its code may have, and at least: several times as many
-/// as any scene that is known needs. What is made of more would take gigabytes and minutes.
-const SIZE: [usize; 2] = [60, 3_000_000];
-
-/// Products of terms that may be formed while a derivation multiplies out: three times as many as any scene that is known
-/// needs. What would take more stays as it is.
-const TERMS: u64 = 1_000_000;
-
 /// The arena of all expressions of one derivation.
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
     traits: RefCell<Vec<Traits>>,
-    /// Nodes and edges, and how many there may be.
-    size: Cell<usize>,
-    most: Cell<usize>,
-    terms: Cell<u64>,
+    /// How much more may be made of it.
+    pub(super) budget: Budget,
     index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
+    /// Names of functions of the user's own.
+    functions: RefCell<Vec<String>>,
     undefined: Cell<bool>,
 }
 
@@ -78,9 +69,8 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        let (nodes, traits, index, symbols, undefined) = Default::default();
-        let (size, most, terms) = (Cell::new(0), Cell::new(SIZE[1]), Cell::new(TERMS));
-        let graph = Self { nodes, traits, size, most, terms, index, symbols, undefined };
+        let (nodes, traits, index, symbols, functions, undefined) = Default::default();
+        let graph = Self { nodes, traits, budget: Budget::default(), index, symbols, functions, undefined };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
@@ -92,30 +82,6 @@ impl Graph {
         self.undefined.get()
     }
 
-    /// Lets code of so many operations be derived.
-    pub fn allow(&self, operations: usize) {
-        self.most.set(SIZE[1].max(operations.saturating_mul(SIZE[0])));
-    }
-
-    /// Lets no more than so many nodes and edges be made.
-    #[cfg(test)]
-    pub fn restrict(&self, size: usize) {
-        self.most.set(size);
-    }
-
-    /// True once there is more than a derivation may have; everything that is made afterwards is zero, so that
-    /// whatever is going on soon ends, and every result is meaningless.
-    pub fn is_exhausted(&self) -> bool {
-        self.size.get() >= self.most.get()
-    }
-
-    /// Takes the work of multiplying two terms from what is left; false when nothing is left.
-    pub(super) fn may_multiply(&self, work: u64) -> bool {
-        let left = self.terms.get();
-        self.terms.set(left.saturating_sub(work));
-        left > work
-    }
-
     /// A new symbol; two calls give two different symbols even when the names agree.
     pub fn symbol(&self, text: impl Into<String>, latex: impl Into<String>, constant: bool) -> Expr<'_> {
         let mut symbols = self.symbols.borrow_mut();
@@ -123,6 +89,19 @@ impl Graph {
         let symbol = symbols.len() as u32 - 1;
         drop(symbols);
         self.intern(Node::Symbol(symbol))
+    }
+
+    /// A function of the user's own, by its place among them.
+    pub fn declare_function(&self, name: impl Into<String>) -> u16 {
+        let mut functions = self.functions.borrow_mut();
+        functions.push(name.into());
+        (functions.len() - 1) as u16
+    }
+
+    /// The name of a function of the user's own, with a prime for each derivative.
+    pub fn function_name(&self, function: OwnFunction) -> String {
+        let name = self.functions.borrow().get(usize::from(function.index)).cloned().unwrap_or_default();
+        name + &"'".repeat(usize::from(function.order))
     }
 
     /// Keys of all symbols made so far.
@@ -137,26 +116,6 @@ impl Graph {
 
     pub(super) fn any_symbol(&self, holds: impl FnMut(&Symbol) -> bool) -> bool {
         self.symbols.borrow().iter().any(holds)
-    }
-
-    /// All that expressions are made of, they too; parts come before what is made of them.
-    pub(super) fn reached(&self, roots: &[Id], parts: impl Fn(&Self, Id) -> Vec<Id>) -> Vec<Id> {
-        let (mut found, mut open) = (Map::default(), roots.to_vec());
-        while let Some(id) = open.pop() {
-            if found.insert(id, ()).is_none() {
-                open.extend(parts(self, id));
-            }
-        }
-        let mut found: Vec<Id> = found.into_keys().collect();
-        found.sort_unstable();
-        found
-    }
-
-    /// About how many operations expressions take together, each part computed once.
-    pub fn operations(&self, outputs: &[Expr<'_>]) -> usize {
-        let roots: Vec<Id> = outputs.iter().map(|e| e.id).collect();
-        let children = |graph: &Self, id: Id| graph.node(id).children();
-        self.reached(&roots, children).into_iter().map(|id| children(self, id).len()).sum()
     }
 
     /// What a group is a group of.
@@ -189,11 +148,11 @@ impl Graph {
     pub(super) fn intern(&self, node: Node) -> Expr<'_> {
         let id = match self.index.borrow_mut().entry(node) {
             Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(place) if self.is_exhausted() && !matches!(place.key(), Node::Symbol(_)) => 0,
+            Entry::Vacant(place) if self.budget.is_exhausted() && !matches!(place.key(), Node::Symbol(_)) => 0,
             Entry::Vacant(place) => {
                 let mut nodes = self.nodes.borrow_mut();
                 let id = nodes.len() as Id;
-                self.size.set(self.size.get() + 1 + place.key().edges());
+                self.budget.count(1 + place.key().edges());
                 let traits = self.traits_of(place.key());
                 self.traits.borrow_mut().push(traits);
                 nodes.push(place.key().clone());
@@ -222,25 +181,9 @@ impl Graph {
         Traits { depth: parts.depth + 1, ..parts }
     }
 
-    /// What recursions over deep expressions visit first, parts before what is made of them, so that none goes down more
-    /// than some levels at once and overflows the stack; nothing of what is `known`. Empty for what is not deep.
-    pub(super) fn stages(&self, roots: &[Id], known: impl Fn(Id) -> bool) -> Vec<Id> {
-        let band = |id: Id| self.traits.borrow()[id as usize].depth / BAND;
-        if roots.iter().all(|&root| band(root) == 0 || known(root)) {
-            return Vec::new();
-        }
-        let stages = RefCell::new(Map::default());
-        self.reached(roots, |graph, id| {
-            if known(id) {
-                return Vec::new();
-            }
-            let parts = graph.node(id).children();
-            stages.borrow_mut().extend(parts.iter().filter(|&&part| band(part) < band(id)).map(|&part| (part, ())));
-            parts
-        });
-        let mut stages: Vec<Id> = stages.into_inner().into_keys().filter(|&id| !known(id)).collect();
-        stages.sort_unstable();
-        stages
+    /// The longest way from a node down to a symbol or a number.
+    pub(super) fn depth(&self, id: Id) -> u32 {
+        self.traits.borrow()[id as usize].depth
     }
 
     pub(super) fn node(&self, id: Id) -> Node {
@@ -429,10 +372,12 @@ impl Graph {
     pub fn call<'g>(&'g self, function: Function, argument: Expr<'g>) -> Expr<'g> {
         if argument.is_zero() {
             match function {
-                Function::Sin | Function::Sqrt | Function::Abs | Function::Signum => return self.zero(),
+                Function::Sin | Function::Sqrt | Function::Abs | Function::Signum | Function::Tanh => {
+                    return self.zero();
+                }
                 Function::Cos | Function::Exp => return self.one(),
                 // Not a number: it is left to whoever evaluates it.
-                Function::Ln => {}
+                Function::Ln | Function::Own(_) => {}
             }
         }
         if argument == self.one() {
@@ -550,6 +495,12 @@ impl<'g> Expr<'g> {
         self.graph.call(Function::Abs, self)
     }
 
+    /// √((1 − x)(1 + x)): the other leg of a right triangle with the hypotenuse 1; no digits cancel where the triangle is thin.
+    pub fn leg(self) -> Self {
+        let one = self.graph.one();
+        ((one - self).group() * (one + self).group()).sqrt()
+    }
+
     pub fn binary(self, function: BinaryFunction, other: Self) -> Self {
         self.graph.intern(Node::Binary(function, self.id, other.id))
     }
@@ -628,11 +579,6 @@ impl<'g> Expr<'g> {
     /// True when every symbol in it is constant.
     pub fn is_constant(self) -> bool {
         self.graph.traits.borrow()[self.id as usize].constant
-    }
-
-    /// Deep parts of it that are not `known`, for recursions to visit first.
-    pub fn stages(self, known: impl Fn(u32) -> bool) -> Vec<Self> {
-        self.graph.stages(&[self.id], known).into_iter().map(|id| self.graph.expr(id)).collect()
     }
 }
 

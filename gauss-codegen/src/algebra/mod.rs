@@ -8,8 +8,10 @@
 //!   and in proofs the relations of a rotation matrix). Equal expressions have equal normal forms, so this one decides
 //!   identities, cancels what can cancel, and is what a reader wants to see printed.
 
+mod budget;
 mod differentiate;
 mod evaluate;
+mod function;
 mod graph;
 #[cfg(test)]
 pub mod ideal;
@@ -24,15 +26,16 @@ mod polynomial;
 mod precise;
 mod print;
 mod rational;
+mod stages;
 mod substitute;
 #[cfg(test)]
 mod tests;
 
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
+pub use function::{BinaryFunction, Function, OwnFunction};
 pub use graph::{Expr, Graph, NodeView};
 pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
 pub use map::{Map, Set};
-pub use node::{BinaryFunction, Function};
 pub use orthogonal::LeastSquares;
 pub use parts::Parts;
 pub use polynomial::{Expander, Polynomial};

@@ -9,9 +9,10 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::function::Function;
 use super::graph::{Expr, Graph, NodeView};
 use super::map::Map;
-use super::node::{Function, Id, Node};
+use super::node::{Id, Node};
 use super::rational::Rational;
 
 /// Π atomᵢ^nᵢ, sorted by atom, exponents nonzero.
@@ -269,7 +270,7 @@ impl<'g> Expander<'g> {
         for (m, c) in &a.terms {
             // Long monomials and coefficients take their time.
             let length = 1 + m.factors.len() as u64 / 4 + if c.parts().is_some() { 0 } else { 40 };
-            if !self.graph.may_multiply(length * b.terms.len() as u64) {
+            if !self.graph.budget.may_multiply(length * b.terms.len() as u64) {
                 return None;
             }
             for (n, d) in &b.terms {

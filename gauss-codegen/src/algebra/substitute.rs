@@ -18,7 +18,7 @@ impl<'g> Expr<'g> {
         self.rebuild(&mut memo, &leaf)
     }
 
-    pub(super) fn rebuild(self, memo: &mut Map<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
+    fn rebuild(self, memo: &mut Map<Id, Expr<'g>>, leaf: &impl Fn(Expr<'g>) -> Option<Expr<'g>>) -> Self {
         if let Some(&done) = memo.get(&self.id) {
             return done;
         }

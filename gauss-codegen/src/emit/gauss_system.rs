@@ -56,8 +56,8 @@ fn smoothness(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 
 fn methods(derived: &Derived<'_, '_>) -> TokenStream {
     let private = derived.private();
-    let [z, p, input] = [quote!(z: &Self::Speeds), quote!(p: &Self::Speeds), quote!(input: &Self::Input)];
-    let acceleration = quote!(z: &Self::Speeds, acceleration: &Self::Speeds, input: &Self::Input);
+    let [z, p, input] = [quote!(__z: &Self::Speeds), quote!(__p: &Self::Speeds), quote!(__input: &Self::Input)];
+    let acceleration = quote!(__z: &Self::Speeds, __acceleration: &Self::Speeds, __input: &Self::Input);
     let [speeds, matrix, scalar] = [quote!(Self::Speeds), quote!(Self::MassMatrix), quote!(Self::Scalar)];
     let tangent = quote!(<Self::Configuration as #private::Configuration>::Tangent);
     let methods = [
@@ -88,10 +88,10 @@ fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
         #[inline]
         fn evaluate(
             &self,
-            t: Self::Scalar,
-            q: &Self::Configuration,
-            z: &Self::Speeds,
-            input: &Self::Input,
+            __t: Self::Scalar,
+            __q: &Self::Configuration,
+            __z: &Self::Speeds,
+            __input: &Self::Input,
         ) -> #private::Evaluated<Self> {
             #instructions
             let [__kinetic, __potential] = [#(#energies),*];

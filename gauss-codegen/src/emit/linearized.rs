@@ -28,10 +28,10 @@ pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
             const INPUT_PATTERN: #boolean = &[#(#input_pattern),*];
             fn linearize(
                 &self,
-                t: Self::Scalar,
-                q: &Self::Configuration,
-                z: &Self::Speeds,
-                input: &Self::Input,
+                __t: Self::Scalar,
+                __q: &Self::Configuration,
+                __z: &Self::Speeds,
+                __input: &Self::Input,
             ) -> Self::Linearization {
                 #instructions
                 #private::Linearization {

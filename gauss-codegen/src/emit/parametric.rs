@@ -20,10 +20,10 @@ pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
             const PARAMETER_PATTERN: &'static [&'static [::core::primitive::bool]] = &[#(#pattern),*];
             fn by_parameters(
                 &self,
-                t: Self::Scalar,
-                q: &Self::Configuration,
-                z: &Self::Speeds,
-                input: &Self::Input,
+                __t: Self::Scalar,
+                __q: &Self::Configuration,
+                __z: &Self::Speeds,
+                __input: &Self::Input,
             ) -> Self::ByParameters {
                 #instructions
                 #private::matrix([#(#matrix),*])

@@ -15,26 +15,28 @@ pub fn pose_bodies(derived: &Derived<'_, '_>, own: Option<InChart>) -> Option<(T
     let chart = own.map(|own| rotation_chart_tokens(&derived.private(), own.chart));
     let coordinate = &derived.subject.system.scene.coordinates[0];
     Some(match (coordinate, own.map(|own| own.motion)) {
-        (Coordinate::Pose(..), _) => (quote!(*q), quote!(#private::free_pose(pose))),
+        (Coordinate::Pose(..), _) => (quote!(*__q), quote!(#private::free_pose(__pose))),
         (Coordinate::Rotation(_), _) => {
-            (quote!(#private::pose_of_rotation(q)), quote!(#private::rotation_of_pose(pose)))
+            (quote!(#private::pose_of_rotation(__q)), quote!(#private::rotation_of_pose(__pose)))
         }
-        (Coordinate::Plane { .. }, _) => (quote!(#private::pose_of_plane(q)), quote!(#private::plane_of_pose(pose))),
+        (Coordinate::Plane { .. }, _) => {
+            (quote!(#private::pose_of_plane(__q)), quote!(#private::plane_of_pose(__pose)))
+        }
         (Coordinate::Scalar(_), Some(Motion::Planar)) => (
-            quote!(#private::pose_of_plane_chart(#private::components(q))),
-            quote!(#private::plane_chart_of_pose(pose).map(#private::vector)),
+            quote!(#private::pose_of_plane_chart(#private::components(__q))),
+            quote!(#private::plane_chart_of_pose(__pose).map(#private::vector)),
         ),
         (Coordinate::Scalar(_), Some(Motion::FixedPoint)) => (
-            quote!(#private::pose_of_rotation_chart(#chart, #private::components(q))),
-            quote!(#private::rotation_chart_of_pose(#chart, pose).map(#private::vector)),
+            quote!(#private::pose_of_rotation_chart(#chart, #private::components(__q))),
+            quote!(#private::rotation_chart_of_pose(#chart, __pose).map(#private::vector)),
         ),
         (Coordinate::Scalar(_), Some(Motion::Free)) => (
             quote! {
-                let [__b1, __b2, __b3, __a1, __a2, __a3] = #private::components(q);
+                let [__b1, __b2, __b3, __a1, __a2, __a3] = #private::components(__q);
                 #private::pose_of_chart(#chart, [__a1, __a2, __a3], [__b1, __b2, __b3])
             },
             quote! {
-                #private::chart_of_pose(#chart, pose)
+                #private::chart_of_pose(#chart, __pose)
                     .map(|([__a1, __a2, __a3], [__b1, __b2, __b3])| {
                         #private::vector([__b1, __b2, __b3, __a1, __a2, __a3])
                     })

@@ -25,10 +25,10 @@ pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
             const REGRESSOR_PATTERN: &'static [&'static [::core::primitive::bool]] = &[#(#pattern),*];
             fn regressor(
                 &self,
-                t: Self::Scalar,
-                q: &Self::Configuration,
-                z: &Self::Speeds,
-                acceleration: &Self::Speeds,
+                __t: Self::Scalar,
+                __q: &Self::Configuration,
+                __z: &Self::Speeds,
+                __acceleration: &Self::Speeds,
             ) -> Self::Regressor {
                 #instructions
                 #private::matrix([#(#matrix),*])
@@ -38,11 +38,11 @@ pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
             }
             fn other_forces(
                 &self,
-                t: Self::Scalar,
-                q: &Self::Configuration,
-                z: &Self::Speeds,
-                acceleration: &Self::Speeds,
-                input: &Self::Input,
+                __t: Self::Scalar,
+                __q: &Self::Configuration,
+                __z: &Self::Speeds,
+                __acceleration: &Self::Speeds,
+                __input: &Self::Input,
             ) -> Self::Speeds {
                 #forces
             }

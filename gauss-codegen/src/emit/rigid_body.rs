@@ -13,18 +13,18 @@ pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (pose, configuration_of_pose) = pose_bodies(derived, derived.subject.model.one_body())?;
     let private = derived.private();
     let six = quote!(#private::SVector<Self::Scalar, 6>);
-    let twist = derived.function(Method::BodyTwist, quote!(z: &Self::Speeds), six.clone());
-    let speeds = derived.function(Method::Speeds, quote!(twist: &#six), quote!(Self::Speeds));
-    let momentum = derived.function(Method::BodyMomentum, quote!(z: &Self::Speeds), six);
+    let twist = derived.function(Method::BodyTwist, quote!(__z: &Self::Speeds), six.clone());
+    let speeds = derived.function(Method::Speeds, quote!(__twist: &#six), quote!(Self::Speeds));
+    let momentum = derived.function(Method::BodyMomentum, quote!(__z: &Self::Speeds), six);
     let items = quote! {
         #[inline]
-        fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> #private::Isometry3<Self::Scalar> {
+        fn pose(&self, __t: Self::Scalar, __q: &Self::Configuration) -> #private::Isometry3<Self::Scalar> {
             #pose
         }
         #[inline]
         fn configuration(
             &self,
-            pose: &#private::Isometry3<Self::Scalar>,
+            __pose: &#private::Isometry3<Self::Scalar>,
         ) -> ::core::result::Result<Self::Configuration, #private::ChartError> {
             #configuration_of_pose
         }

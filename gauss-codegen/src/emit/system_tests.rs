@@ -102,6 +102,16 @@ fn multipliers_of_a_pendulum_in_cartesian_coordinates() {
     insta::assert_snapshot!(function(ROD, "multipliers"));
 }
 
+/// Weight is an element like others.
+#[test]
+fn a_system_under_gravity_alone_has_powers() {
+    let falling =
+        "#[gauss(coordinates(x), particle(mass = m, position = [0, 0, x]))] struct Falling { m: f64, GRAVITY }";
+    let code = |gravity: &str| generate(&falling.replace("GRAVITY", gravity)).to_string();
+    assert!(code("#[gauss(gravity)] g: f64").contains("ForcedSystem"));
+    assert!(!code("g: f64").contains("ForcedSystem"));
+}
+
 #[test]
 fn kinematics_of_a_disk_whose_constraints_are_solved() {
     insta::assert_snapshot!(function(DISK, "kinematics"));

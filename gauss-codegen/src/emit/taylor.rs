@@ -10,6 +10,8 @@
 //! | e = exp a | `aₖe₀ + Σ jaⱼeₖ₋ⱼ/k` |
 //! | l = ln a | `(aₖ − Σ jlⱼaₖ₋ⱼ/k)/a₀` |
 //! | s = sin a, c = cos a | `aₖc₀ + Σ jaⱼcₖ₋ⱼ/k`, `−aₖs₀ − Σ jaⱼsₖ₋ⱼ/k` |
+//! | w = tanh a, r = 1 − w² | `aₖr₀ + Σ jaⱼrₖ₋ⱼ/k`, `−2w₀wₖ − Σ wⱼwₖ₋ⱼ` |
+//! | w = aᵖ | `(p(aₖw₀ + Σ jaⱼwₖ₋ⱼ/k) − Σ jwⱼaₖ₋ⱼ/k)/a₀` |
 //! | θ = atan2(y, x), r = x² + y² | `(yₖx₀ − xₖy₀ + Σ (jyⱼxₖ₋ⱼ − jxⱼyₖ₋ⱼ − jθⱼrₖ₋ⱼ)/k)/r₀` |
 //!
 //! with sums over 0 < j < k (Knuth, TAOCP 2, 4.7). Each sum is a *lane* of the runtime's `Series`: all lanes of an order are summed
@@ -70,7 +72,9 @@ impl<'a, 'g> Order<'a, 'g> {
             if self.moving[k] && !self.inlined[k] {
                 let names = match instruction {
                     Operation::SineCosine(_) => vec![named("ws", k), named("wc", k)],
-                    Operation::Binary(..) => vec![named("wr", k), named("w", k)],
+                    Operation::Binary(BinaryFunction::Atan2, ..) | Operation::Call(Function::Tanh, _) => {
+                        vec![named("wr", k), named("w", k)]
+                    }
                     _ => vec![named("w", k)],
                 };
                 lines.push((names, self.statement(k, instruction)));
@@ -183,6 +187,7 @@ impl<'a, 'g> Order<'a, 'g> {
                 let sum = self.lane(quote!(#w * __order), ak.clone());
                 quote!(#real::fma(-__over, #sum, #ak) * #reciprocal)
             }
+            Operation::Call(Function::Tanh, a) => return self.tangent(k, a),
             Operation::Call(_, a) => {
                 let ak = self.coefficient(a).unwrap_or(zero);
                 let sum = self.lane(quote!(#ak * __order), w.clone());
@@ -190,6 +195,13 @@ impl<'a, 'g> Order<'a, 'g> {
             }
             Operation::SineCosine(a) => return self.sine_cosine(k, a),
             Operation::Binary(BinaryFunction::Atan2, y, x) => return self.angle(k, y, x),
+            Operation::Binary(BinaryFunction::Powf, a, p) => {
+                let (a0, p, ak) = (self.first(a), self.first(p), self.coefficient(a).unwrap_or(zero));
+                let reciprocal = self.reciprocal(k, &a0);
+                let up = self.lane(quote!(#ak * __order), w.clone());
+                let down = self.lane(quote!(#w * __order), ak.clone());
+                quote!((#p * #real::fma(__over, #up, #ak * #v0) - __over * #down) * #reciprocal)
+            }
             Operation::Binary(..) => {
                 let message = "bug in gauss-derive: a function without a power series";
                 quote!(::core::compile_error!(#message))
@@ -221,6 +233,18 @@ impl<'a, 'g> Order<'a, 'g> {
         quote! {
             let #s = #real::fma(__over, #with_cosine, #ak * #c0);
             let #c = -#real::fma(__over, #with_sine, #ak * #s0);
+        }
+    }
+
+    /// w = tanh a, r = 1 − w².
+    fn tangent(&mut self, k: usize, a: &Operand<'g>) -> TokenStream {
+        let (real, w, rk) = (self.scalar.real.clone(), named("w", k), named("wr", k));
+        let (w0, ak) = (self.first(&Operand::Value(k)), self.coefficient(a).unwrap_or(self.zero()));
+        let with_rest = self.lane(quote!(#ak * __order), rk.clone());
+        let squares = self.lane(w.clone(), w.clone());
+        quote! {
+            let #w = #real::fma(__over, #with_rest, #ak * #real::fma(-#w0, #w0, __one));
+            let #rk = -#real::fma(#w0 + #w0, #w, #squares);
         }
     }
 
@@ -312,10 +336,10 @@ impl Variables {
     fn of<'g>(derived: &Derived<'_, 'g>, program: &Program<'g>) -> Self {
         let (mut first, mut coefficients) = (derived.constant_names(program), Map::default());
         let time = derived.subject.system.scene.time;
-        first.insert(time.key(), quote!(t));
+        first.insert(time.key(), quote!(__t));
         coefficients.insert(time.key(), quote!(__time));
         let mut arguments = derived.subject.configuration_arguments(&derived.private());
-        arguments.push(derived.vector_argument(quote!(z), derived.speeds()));
+        arguments.push(derived.vector_argument(quote!(__z), derived.speeds()));
         let (mut declarations, mut names) = (TokenStream::new(), Vec::new());
         for argument in &arguments {
             let start = names.len();
@@ -356,30 +380,30 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         const GROUPS: &'static [::core::primitive::usize] = &[#(#groups),*];
         fn expand(
             &self,
-            t: Self::Scalar,
-            q: &Self::Configuration,
-            z: &Self::Speeds,
-            order: ::core::primitive::usize,
-            series: &mut Self::Series,
+            __t: Self::Scalar,
+            __q: &Self::Configuration,
+            __z: &Self::Speeds,
+            __orders: ::core::primitive::usize,
+            __series: &mut Self::Series,
         ) {
             let __zero = <#ty as #real>::zero();
             let __one = <#ty as #real>::one();
             #declarations
             #instructions
             #once
-            series.set_variables(0, [#(#names),*]);
-            series.set_variables(1, [#(#rates),*]);
+            __series.set_variables(0, [#(#names),*]);
+            __series.set_variables(1, [#(#rates),*]);
             let mut __order = __zero;
             let mut __time = __one;
-            for __k in 1..order {
+            for __k in 1..__orders {
                 __order = __order + __one;
                 let __over = #real::recip(__order);
                 let __next = #real::recip(__order + __one);
-                let __x = series.variables(__k);
-                let __sums = series.convolution(__k);
+                let __x = __series.variables(__k);
+                let __sums = __series.convolution(__k);
                 #line
-                series.set_factors(__k, [#(#left),*], [#(#right),*]);
-                series.set_variables(__k + 1, [#(#of_order * __next),*]);
+                __series.set_factors(__k, [#(#left),*], [#(#right),*]);
+                __series.set_variables(__k + 1, [#(#of_order * __next),*]);
                 __time = __zero;
             }
         }

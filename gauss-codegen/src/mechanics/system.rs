@@ -19,6 +19,9 @@ use crate::mechanics::tidy::{sums, tidy};
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 const DENSE: usize = 10;
+/// Degrees of freedom up to which C is also orthogonalised as a sum of squares: beyond, that would be a third of the time
+/// of an expansion.
+const SQUARES: usize = 6;
 
 /// A system with what its equations are made of.
 pub struct System<'g> {
@@ -287,7 +290,10 @@ impl<'g> System<'g> {
         for &inertia in self.scene.tree.inertias(self.is_long()) {
             let residual = self.residual(&self.along, inertia);
             let still = self.residual(&self.scene.rates, inertia);
-            let floating = self.floating(inertia);
+            let floating = match self.scene.tree.floats() {
+                true => self.floating(inertia),
+                false => [still.clone(), vec![self.scene.graph.zero(); still.len()]],
+            };
             if !self.is_long() {
                 let (matrix, floating) =
                     (tidied(&self.matrix), [&floating[0], &floating[1]].map(|rows| tidy_all(rows)));
@@ -425,7 +431,7 @@ impl<'g> System<'g> {
 
     /// C as a sum of squares, where several speeds share it.
     fn elements(&self) -> Option<Elements<'_, 'g>> {
-        let few = (2..=DENSE).contains(&self.scene.speeds.len()) && self.only_body().is_none();
+        let few = (2..=SQUARES).contains(&self.scene.speeds.len()) && self.only_body().is_none();
         few.then(|| Elements::new(&self.scene.tree)).flatten()
     }
 

@@ -57,6 +57,10 @@ pub fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool, conte
     for field in &named.named {
         // A field of a struct with named fields has a name.
         let Some(ident) = &field.ident else { continue };
+        if ident == "_" {
+            context.error(ident.span(), "a field has a name, and `_` is none; write one");
+            continue;
+        }
         let mut role: Option<Claim> = None;
         let mut unit: Option<(String, Span)> = None;
         for clause in attributes::clauses(&field.attrs, Owner::Field, context) {

@@ -2,7 +2,7 @@
 //! within the compiler a macro has a few megabytes of stack, and an overflow could not be reported.
 
 use proc_macro2::token_stream::IntoIter;
-use proc_macro2::{Span, TokenStream, TokenTree};
+use proc_macro2::{Group, Span, TokenStream, TokenTree};
 
 use crate::model::scene::expression::Expression;
 
@@ -71,10 +71,15 @@ impl Level {
             TokenTree::Literal(_) | TokenTree::Group(_) => After::Operand,
         };
         match token {
-            TokenTree::Group(group) if before != After::Hash => Some(group.stream()),
+            TokenTree::Group(group) if before != After::Hash || is_parsed(&group) => Some(group.stream()),
             _ => None,
         }
     }
+}
+
+/// Whether syn reads what an attribute says: `#[name = …]`, whose value is an expression.
+fn is_parsed(attribute: &Group) -> bool {
+    attribute.stream().into_iter().any(|token| matches!(token, TokenTree::Punct(sign) if sign.as_char() == '='))
 }
 
 /// The first token that is too deep, if there is one.

@@ -1,0 +1,54 @@
+//! How much may be made of one graph: memory and time are bounded by counts, so that builds repeat.
+
+use std::cell::Cell;
+
+/// Nodes and edges that a derivation may have for each operation that its code may have, and at least: many times as many as
+/// any scene that is known needs. What is made of more would take gigabytes and minutes.
+const SIZE: [usize; 2] = [60, 3_000_000];
+
+/// Products of terms that may be formed while a derivation multiplies out: three times as many as any scene that is known
+/// needs. What would take more stays as it is.
+const TERMS: u64 = 1_000_000;
+
+/// What is left.
+pub(super) struct Budget {
+    /// Nodes and edges, and how many there may be.
+    size: Cell<usize>,
+    most: Cell<usize>,
+    terms: Cell<u64>,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { size: Cell::new(0), most: Cell::new(SIZE[1]), terms: Cell::new(TERMS) }
+    }
+}
+
+impl Budget {
+    /// Lets code of so many operations be derived.
+    pub(super) fn allow(&self, operations: usize) {
+        self.most.set(SIZE[1].max(operations.saturating_mul(SIZE[0])));
+    }
+
+    /// Lets no more than so many nodes and edges be made.
+    #[cfg(test)]
+    pub(super) fn restrict(&self, size: usize) {
+        self.most.set(size);
+    }
+
+    pub(super) fn is_exhausted(&self) -> bool {
+        self.size.get() >= self.most.get()
+    }
+
+    /// Takes a node with its edges.
+    pub(super) fn count(&self, size: usize) {
+        self.size.set(self.size.get() + size);
+    }
+
+    /// Takes the work of multiplying terms; false when nothing is left.
+    pub(super) fn may_multiply(&self, work: u64) -> bool {
+        let left = self.terms.get();
+        self.terms.set(left.saturating_sub(work));
+        left > work
+    }
+}

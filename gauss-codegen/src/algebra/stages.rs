@@ -1,0 +1,77 @@
+//! How large and how deep expressions are, and what they are made of in order: parts before what is made of them.
+
+use std::cell::RefCell;
+
+use super::graph::{Expr, Graph};
+use super::map::Map;
+use super::node::Id;
+
+/// Levels that recursions go down at once.
+const BAND: u32 = 400;
+
+impl Graph {
+    /// Lets code of so many operations be derived.
+    pub fn allow(&self, operations: usize) {
+        self.budget.allow(operations);
+    }
+
+    /// Lets no more than so many nodes and edges be made.
+    #[cfg(test)]
+    pub fn restrict(&self, size: usize) {
+        self.budget.restrict(size);
+    }
+
+    /// True once there is more than a derivation may have; everything that is made afterwards is zero, so that whatever is
+    /// going on soon ends, and every result is meaningless.
+    pub fn is_exhausted(&self) -> bool {
+        self.budget.is_exhausted()
+    }
+
+    /// All that expressions are made of, they too; parts come before what is made of them.
+    pub(super) fn reached(&self, roots: &[Id], parts: impl Fn(&Self, Id) -> Vec<Id>) -> Vec<Id> {
+        let (mut found, mut open) = (Map::default(), roots.to_vec());
+        while let Some(id) = open.pop() {
+            if found.insert(id, ()).is_none() {
+                open.extend(parts(self, id));
+            }
+        }
+        let mut found: Vec<Id> = found.into_keys().collect();
+        found.sort_unstable();
+        found
+    }
+
+    /// About how many operations expressions take together, each part computed once.
+    pub fn operations(&self, outputs: &[Expr<'_>]) -> usize {
+        let roots: Vec<Id> = outputs.iter().map(|e| e.id).collect();
+        let children = |graph: &Self, id: Id| graph.node(id).children();
+        self.reached(&roots, children).into_iter().map(|id| children(self, id).len()).sum()
+    }
+
+    /// What recursions over deep expressions visit first, parts before what is made of them, so that none goes down more
+    /// than some levels at once and overflows the stack; nothing of what is `known`. Empty for what is not deep.
+    fn stages(&self, root: Id, known: impl Fn(Id) -> bool) -> Vec<Id> {
+        let band = |id: Id| self.depth(id) / BAND;
+        if band(root) == 0 || known(root) {
+            return Vec::new();
+        }
+        let stages = RefCell::new(Map::default());
+        self.reached(&[root], |graph, id| {
+            if known(id) {
+                return Vec::new();
+            }
+            let parts = graph.node(id).children();
+            stages.borrow_mut().extend(parts.iter().filter(|&&part| band(part) < band(id)).map(|&part| (part, ())));
+            parts
+        });
+        let mut stages: Vec<Id> = stages.into_inner().into_keys().filter(|&id| !known(id)).collect();
+        stages.sort_unstable();
+        stages
+    }
+}
+
+impl<'g> Expr<'g> {
+    /// Deep parts of it that are not `known`, for recursions to visit first.
+    pub fn stages(self, known: impl Fn(u32) -> bool) -> Vec<Self> {
+        self.graph.stages(self.id, known).into_iter().map(|id| self.graph.expr(id)).collect()
+    }
+}

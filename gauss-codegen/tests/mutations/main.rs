@@ -1,0 +1,65 @@
+//! Whatever is written in the place of a scene ends in code or in located mistakes: no panic, no abort, no blame on this crate, no
+//! derivation above 10 s or 1 GB, no code that is no Rust.
+//!
+//! All scenes of this project are changed at random, token by token. Each run makes some thousand of them;
+//! `MUTATIONS=200000 cargo test -p gauss-codegen --test mutations` makes more, `MUTATION=17` shows the one with that number. They
+//! are derived in other processes, which may be killed.
+
+mod corpus;
+mod derive;
+mod mutate;
+mod random;
+mod scenes;
+mod watch;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+
+use corpus::Corpus;
+
+/// How many by default: some seconds.
+const MUTATIONS: u64 = 2_000;
+/// How many one process derives: what is kept for the life of a process does not add up.
+const TOGETHER: u64 = 500;
+
+fn number(variable: &str) -> Option<u64> {
+    std::env::var(variable).ok()?.parse().ok()
+}
+
+#[test]
+fn no_input_is_too_much() {
+    let corpus = Corpus::gathered();
+    if let Some(one) = number("MUTATION") {
+        println!("{}", corpus.mutation(one));
+        return;
+    }
+    let count = number("MUTATIONS").unwrap_or(MUTATIONS);
+    let (next, found) = (AtomicU64::new(0), Mutex::new(Vec::new()));
+    let work = || {
+        loop {
+            let first = next.fetch_add(TOGETHER, Ordering::Relaxed);
+            if first >= count {
+                return;
+            }
+            let faults = watch::derive(first..(first + TOGETHER).min(count));
+            found.lock().expect("no thread panics with it").extend(faults);
+        }
+    };
+    thread::scope(|scope| {
+        (0..thread::available_parallelism().map_or(1, usize::from)).for_each(|_| _ = scope.spawn(work))
+    });
+    let mut found = found.into_inner().expect("no thread panics with it");
+    found.sort();
+    let shown: Vec<String> =
+        found.iter().map(|(k, fault)| format!("{k}: {fault}\n    {}", corpus.mutation(*k))).collect();
+    assert!(shown.is_empty(), "{} of {count}:\n{}", shown.len(), shown.join("\n"));
+}
+
+/// The other process: derives what it is asked for. Without being asked it does nothing.
+#[test]
+fn derives_what_it_is_asked_for() {
+    if let (Some(first), Some(end)) = (number("MUTATIONS_FROM"), number("MUTATIONS_TO")) {
+        derive::all(first..end);
+    }
+}

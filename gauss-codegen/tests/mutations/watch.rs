@@ -1,0 +1,71 @@
+//! Processes that derive mutations, watched and limited.
+
+use std::io::{BufRead, BufReader};
+use std::ops::Range;
+use std::process::{Command, Stdio};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::derive::{FAULT, NEXT};
+
+/// Until a derivation hangs: it says itself when it took more than 10 s of a processor that it may have to share.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// To gather the corpus as well.
+const START: Duration = Duration::from_secs(60);
+/// Address space in kilobytes: the gigabyte, and what the program itself and its threads reserve.
+const MEMORY: u32 = 1_400_000;
+
+/// Derives some mutations; what is wrong with which.
+pub fn derive(mut numbers: Range<u64>) -> Vec<(u64, String)> {
+    let mut faults = Vec::new();
+    while !numbers.is_empty() {
+        match process(numbers.clone(), &mut faults) {
+            None => break,
+            Some((number, end)) => {
+                faults.push((number, end));
+                numbers.start = number + 1;
+            }
+        }
+    }
+    faults
+}
+
+/// One process; where and why it came to an end before all was done.
+fn process(numbers: Range<u64>, faults: &mut Vec<(u64, String)>) -> Option<(u64, String)> {
+    let program = std::env::current_exe().expect("the test has a file");
+    let mut command = if cfg!(unix) { Command::new("sh") } else { Command::new(&program) };
+    if cfg!(unix) {
+        command.arg("-c").arg(format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\"")).arg(&program);
+    }
+    command
+        .args(["--exact", "derives_what_it_is_asked_for", "--nocapture"])
+        .envs([("MUTATIONS_FROM", numbers.start.to_string()), ("MUTATIONS_TO", numbers.end.to_string())])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null());
+    let mut child = command.spawn().expect("a process");
+    let lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
+    let (sender, said) = channel();
+    thread::spawn(move || lines.map_while(Result::ok).try_for_each(|line| sender.send(line)));
+    let (mut at, mut begun) = (numbers.start, Instant::now());
+    let mut patience = START;
+    loop {
+        match said.recv_timeout(patience.saturating_sub(begun.elapsed())) {
+            Ok(line) => {
+                if let Some(number) = line.strip_prefix(NEXT).and_then(|number| number.parse().ok()) {
+                    (at, begun, patience) = (number, Instant::now(), PATIENCE);
+                } else if let Some(fault) = line.strip_prefix(FAULT) {
+                    faults.push((at, fault.to_owned()));
+                }
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                child.kill().and_then(|()| child.wait()).expect("it can be killed");
+                return Some((at, format!("more than {PATIENCE:?}")));
+            }
+            Err(RecvTimeoutError::Disconnected) => {
+                let status = child.wait().expect("it has ended");
+                return (!status.success()).then(|| (at, format!("{status}: the stack, or more than a gigabyte")));
+            }
+        }
+    }
+}
