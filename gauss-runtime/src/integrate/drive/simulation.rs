@@ -258,7 +258,7 @@ let fall = (2.0_f64 / 9.81).sqrt();
 let times: Vec<f64> = run.events().iter().map(|event| event.sample.t).collect();
 assert_eq!(times.len(), 3);
 assert!((times[2] - fall * (1.0 + 2.0 * 0.8 + 2.0 * 0.64)).abs() < 1e-9);
-assert!(run.iter().all(|state| state.q[0] > -1e-15));
+assert!(run.iter().all(|state| state.q[0] > -1e-14)); // some roundings of the time, at 4.4 m/s
 # Ok(())
 # }
 ```
