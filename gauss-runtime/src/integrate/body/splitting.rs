@@ -173,6 +173,8 @@ where
             passed += length;
         }
         let t = state.t + h;
+        // Turns are of norm 1 up to rounding, which adds up over the drifts of a step.
+        q = q.renormalise();
         if let Some(&push) = self.scheme.kicks().last() {
             p = kick(t, &q, &p, push);
         }
