@@ -138,7 +138,7 @@ fn run(
         let last = samples[samples.len() - 1];
         let interval = f64::from(n)..f64::from(n + 1);
         let way = Simulation::new(kernel).input(|t, q, z| SVector::from(input(t, q, z))).adaptive(1e-11, 1e-12);
-        samples.push(way.run_to_end(last.q, last.z, interval)?);
+        samples.push(way.run_to_end(last.q, last.z, interval)?.sample);
     }
     Ok(samples)
 }

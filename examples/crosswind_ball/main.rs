@@ -40,7 +40,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // Dropped in calm air: (m + m_a) v̇ = (m − m_d) g − c v² has the solution v∞ tanh(t/τ).
     let (terminal, tau) = (calm.terminal_speed(), calm.terminal_speed() * calm.total_mass() / calm.heaviness());
-    let (_, drop) = fly(&calm, Vector3::zeros(), Vector3::zeros(), 30.0)?;
+    let kernel = calm.kernel()?;
+    let drop = fly(&kernel, Vector3::zeros(), Vector3::zeros(), 30.0)?;
     let error = drop.iter().map(|s| (s.z[2] + terminal * (s.t / tau).tanh()).abs()).fold(0.0, f64::max);
     println!(
         "dropped for 30 s: {:.6} m/s; closed form {:.6}, terminal {terminal:.6}",
@@ -50,9 +51,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("  largest distance from v∞ tanh(t/τ): {error:.1e} m/s\n");
 
     // The sidespin that brings the ball back to the line in 8 m/s of crosswind, by bisection.
-    let crosswind = Ball::football(Vector3::new(0.0, 8.0, 0.0));
+    let crosswind = Ball::football(Vector3::new(0.0, 8.0, 0.0)).kernel()?;
     let landing = |spin: f64| -> Result<f64, Box<dyn std::error::Error>> {
-        let (_, path) = fly(&crosswind, kick(), Vector3::z() * spin, 3.5)?;
+        let path = fly(&crosswind, kick(), Vector3::z() * spin, 3.5)?;
         Ok(until_ground(&path).1[200].y)
     };
     let (mut low, mut high) = (-80.0, 0.0);
@@ -75,7 +76,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (mut above, mut beside) = (vec![], vec![]);
     for (name, colour, wind, spin) in passes {
         let ball = Ball::football(wind);
-        let (kernel, path) = fly(&ball, kick(), Vector3::z() * spin, 3.5)?;
+        let kernel = ball.kernel()?;
+        let path = fly(&kernel, kick(), Vector3::z() * spin, 3.5)?;
         let hand = fly_by_hand(&ball, kick(), Vector3::z() * spin, 1e-3, 3500);
         let apart = hand.iter().enumerate().map(|(n, (x, _))| {
             let sample = path.at((n as f64 * 1e-3).min(3.5)).expect("inside the run");

@@ -130,17 +130,15 @@ pub fn fly_by_hand(
 /// The flight from the origin, with a spin in observer axes, for so many seconds. Steps of at most 5 ms.
 ///
 /// # Errors
-/// When the ball's numbers make no ball, or the run does not reach the end.
+/// When the run does not reach the end.
 pub fn fly(
-    ball: &Ball,
+    kernel: &BallKernel,
     velocity: Vector3<f64>,
     omega: Vector3<f64>,
     seconds: f64,
-) -> Result<(BallKernel, Trajectory<BallKernel>), Box<dyn std::error::Error>> {
-    let kernel = ball.kernel()?;
+) -> Result<Trajectory<'_, BallKernel>, IntegrationError> {
     // The hybrid chart takes ḃ and ω; at the start both axes are the same.
     let z = SVector::from([velocity.x, velocity.y, velocity.z, omega.x, omega.y, omega.z]);
-    let run = Simulation::new(&kernel).adaptive(1e-11, 1e-12).largest_step(5e-3);
-    let path = run.run(Isometry3::identity(), z, 0.0..seconds)?;
-    Ok((kernel, path))
+    let run = Simulation::new(kernel).adaptive(1e-11, 1e-12).largest_step(5e-3);
+    run.run(Isometry3::identity(), z, 0.0..seconds)
 }

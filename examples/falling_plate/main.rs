@@ -22,7 +22,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("acceleration in an ideal fluid: {}", IdealPlateKernel::OPERATIONS.acceleration);
     println!("with lift, drag and braking:    {}\n", PlateKernel::OPERATIONS.acceleration);
 
-    let (flutter, tumble) = (fall(FLUTTERING)?, fall(TUMBLING)?);
+    let (fluttering, tumbling) = (Plate::new(FLUTTERING).kernel()?, Plate::new(TUMBLING).kernel()?);
+    let (flutter, tumble) = (fall(&fluttering)?, fall(&tumbling)?);
     for (words, ratio, path) in [("flutters", FLUTTERING, &flutter), ("tumbles", TUMBLING, &tumble)] {
         report(words, ratio, path)?;
     }
@@ -38,10 +39,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     write("falling_plate", &svg)
 }
 
-fn fall(ratio: f64) -> Result<Trajectory<PlateKernel>, Box<dyn std::error::Error>> {
-    let kernel = Plate::new(ratio).kernel()?;
+fn fall(kernel: &PlateKernel) -> Result<Trajectory<'_, PlateKernel>, IntegrationError> {
     let (pose, twist) = released();
-    Ok(Simulation::new(&kernel).adaptive(1e-11, 1e-11).largest_step(0.02).run(pose, twist, 0.0..DURATION)?)
+    Simulation::new(kernel).adaptive(1e-11, 1e-11).largest_step(0.02).run(pose, twist, 0.0..DURATION)
 }
 
 /// How it falls, what does it, and how far that is from equations typed by hand.

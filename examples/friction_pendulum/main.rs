@@ -83,7 +83,11 @@ impl<K: GaussSystem<Scalar = f64, Configuration = SVector<f64, 1>, Speeds = SVec
 }
 
 /// The slider from where it is let go until it rests.
-fn slide<K: Sliding>(kernel: &K, slider: &Slider, tolerance: f64) -> Result<Trajectory<K>, IntegrationError> {
+fn slide<'k, K: Sliding>(
+    kernel: &'k K,
+    slider: &Slider,
+    tolerance: f64,
+) -> Result<Trajectory<'k, K>, IntegrationError> {
     let run = Simulation::new(kernel).adaptive(tolerance, tolerance);
     run.run(SVector::from([slider.released()]), SVector::from([0.0]), 0.0..slider.rests())
 }

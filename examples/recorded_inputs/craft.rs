@@ -94,7 +94,7 @@ pub fn replay(kernel: &CraftKernel, recording: &Recording) -> Result<Vec<Sample<
     for pair in rows.windows(2) {
         let last = &samples[samples.len() - 1];
         let run = Simulation::new(kernel).input_from(recording).adaptive(1e-11, 1e-12);
-        samples.push(run.run_to_end(last.q, last.z, pair[0].time..pair[1].time)?);
+        samples.push(run.run_to_end(last.q, last.z, pair[0].time..pair[1].time)?.sample);
     }
     Ok(samples)
 }

@@ -60,8 +60,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
 
     let slewer = Slewer::cubesat();
-    let (calm, tumbling) = (slew(&slewer, FRAC_PI_2, SLEW, 0.0)?, slew(&slewer, FRAC_PI_2, SLEW, 0.01)?);
     let wheel = slewer.kernel()?;
+    let by = |roll: f64| slew(&wheel, &slewer, FRAC_PI_2, SLEW, roll);
+    let (calm, tumbling) = (by(0.0)?, by(0.01)?);
     let (hub, about) = slewer.moments();
     println!("a quarter turn in {SLEW} s by a wheel of {about:.2e} kg m² about e₃");
     let (mut closed, mut lost) = (0.0_f64, 0.0_f64);

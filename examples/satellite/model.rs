@@ -80,7 +80,7 @@ pub fn orbit(
     kernel: &OrbiterKernel,
     start: (Isometry3<f64>, SVector<f64, 6>),
     seconds: f64,
-) -> Result<Trajectory<OrbiterKernel>, IntegrationError> {
+) -> Result<Trajectory<'_, OrbiterKernel>, IntegrationError> {
     // The absolute one is for speeds that vanish: some 10⁻³ rad/s is what counts.
     Simulation::new(kernel).adaptive(1e-12, 1e-15).largest_step(20.0).run(start.0, start.1, 0.0..seconds)
 }
@@ -209,18 +209,18 @@ pub fn tumble_by_hand(slewer: &Slewer, roll: f64, motor: impl Fn(f64) -> f64, h:
 /// of the speeds).
 ///
 /// # Errors
-/// When the numbers make no bodies, or the run does not reach the end.
-pub fn slew(
-    slewer: &Slewer,
+/// When the run does not reach the end.
+pub fn slew<'k>(
+    kernel: &'k SlewerKernel,
+    slewer: &'k Slewer,
     angle: f64,
     seconds: f64,
     roll: f64,
-) -> Result<Trajectory<SlewerKernel>, Box<dyn std::error::Error>> {
-    let kernel = slewer.kernel()?;
+) -> Result<Trajectory<'k, SlewerKernel>, IntegrationError> {
     let start = (UnitQuaternion::identity(), SVector::from([0.0]));
-    let run = Simulation::new(&kernel)
+    let run = Simulation::new(kernel)
         .adaptive(1e-12, 1e-14)
         .largest_step(0.25)
-        .input(|t, _, _| SVector::from([slew_torque(slewer, angle, seconds, t)]));
-    Ok(run.run(start, SVector::from([roll, 0.0, 0.0, 0.0]), 0.0..seconds)?)
+        .input(move |t, _, _| SVector::from([slew_torque(slewer, angle, seconds, t)]));
+    run.run(start, SVector::from([roll, 0.0, 0.0, 0.0]), 0.0..seconds)
 }

@@ -54,7 +54,7 @@ fn swim(fish: &Fish, strokes: u32) -> Result<Vec<Sample<FishKernel>>, Box<dyn Er
         let last = samples[samples.len() - 1];
         let part = TAU / f64::from(STATES);
         let interval = part * f64::from(n)..part * f64::from(n + 1);
-        samples.push(Simulation::new(&kernel).adaptive(1e-12, 1e-13).run_to_end(last.q, last.z, interval)?);
+        samples.push(Simulation::new(&kernel).adaptive(1e-12, 1e-13).run_to_end(last.q, last.z, interval)?.sample);
     }
     Ok(samples)
 }

@@ -30,7 +30,7 @@ fn end(
 ) -> Sample<BoatKernel> {
     let kernel = boat.kernel().unwrap();
     let run = Simulation::new(&kernel).input(|t, q, _| SVector::from(input(t, q))).adaptive(1e-11, 1e-12);
-    run.run_to_end(q, z, 0.0..seconds).unwrap()
+    run.run_to_end(q, z, 0.0..seconds).unwrap().sample
 }
 
 fn adrift(_: f64, _: &Isometry2<f64>) -> [f64; 2] {

@@ -24,7 +24,7 @@ fn craft() -> Quadrotor {
 
 const FLIGHT: f64 = 4.0;
 
-fn flight(kernel: &QuadrotorKernel, step: f64) -> Trajectory<QuadrotorKernel> {
+fn flight(kernel: &QuadrotorKernel, step: f64) -> Trajectory<'_, QuadrotorKernel> {
     let control = |t: f64, q: &Isometry3<f64>, z: &SVector<f64, 6>| SVector::from(pilot(&craft(), t, &seen(q, z)));
     let run = Simulation::new(kernel).adaptive(1e-10, 1e-12).input(control).largest_step(step);
     run.run(Isometry3::identity(), SVector::zeros(), 0.0..FLIGHT).unwrap()

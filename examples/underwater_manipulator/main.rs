@@ -77,7 +77,7 @@ fn run(vehicle: &Vehicle, (q, z): (Place, Speeds)) -> Result<Vec<Sample<VehicleK
         let last = samples[samples.len() - 1];
         let interval = 0.1 * f64::from(n)..0.1 * f64::from(n + 1);
         let way = Simulation::new(&kernel).input(reach).adaptive(1e-11, 1e-13);
-        samples.push(way.run_to_end(last.q, last.z, interval)?);
+        samples.push(way.run_to_end(last.q, last.z, interval)?.sample);
     }
     Ok(samples)
 }
@@ -85,7 +85,11 @@ fn run(vehicle: &Vehicle, (q, z): (Place, Speeds)) -> Result<Vec<Sample<VehicleK
 /// The state a little later or earlier.
 fn step(vehicle: &Vehicle, from: &Sample<VehicleKernel>, h: f64) -> Result<Sample<VehicleKernel>, Box<dyn Error>> {
     let kernel = vehicle.kernel()?;
-    Ok(Simulation::new(&kernel).input(reach).adaptive(1e-12, 1e-14).run_to_end(from.q, from.z, from.t..from.t + h)?)
+    Ok(Simulation::new(&kernel)
+        .input(reach)
+        .adaptive(1e-12, 1e-14)
+        .run_to_end(from.q, from.z, from.t..from.t + h)?
+        .sample)
 }
 
 /// Shoulder, elbow and tip of the arm, m, observer's axes.

@@ -26,7 +26,8 @@
 /// | role | type | meaning |
 /// |---|---|---|
 /// | `mass` | scalar | required |
-/// | `inertia` | scalar (spherical), `Vector3` (principal), `Matrix3` (full) | about O, body axes; required |
+/// | `inertia` | scalar (spherical), `Vector3` (principal), `Matrix3` (full) | about O, body axes; required, or the next |
+/// | `inertia_about_center_of_mass` | the same | about G, body axes, in the place of `inertia`: never carried through that about O, whose m c² would hide its digits where G is far from O |
 /// | `center_of_mass` | `Vector3` | from O, body axes; without it O is the centre of mass |
 /// | `added_mass` | `Vector6` (diagonal), `Matrix6` (full) | order (u, ω), about O, body axes; without it no fluid |
 /// | `gravity` | scalar (along −k₃, in the plane −k₂), `Vector3` (observer's axes) | acceleration of free fall; without it no weight |
@@ -34,9 +35,9 @@
 /// | `center_of_buoyancy` | `Vector3` | from O, body axes; without it buoyancy acts at O |
 ///
 /// The last segment of the written type decides the shape. Behind an alias the role says it: `inertia = spherical |
-/// principal | full`, `added_mass = diagonal | full`, `gravity = vertical | vector`. The scalar is `f32`, `f64`, or a type
-/// parameter of the struct (`struct Body<T> { … }`; the kernel is then generic over `T: Real`). Fields without a role are
-/// left alone.
+/// principal | full` (of `inertia_about_center_of_mass` too), `added_mass = diagonal | full`, `gravity = vertical | vector`.
+/// The scalar is `f32`, `f64`, or a type parameter of the struct (`struct Body<T> { … }`; the kernel is then generic over
+/// `T: Real`). Fields without a role are left alone.
 ///
 /// Instead of fields the same words can be clauses of the struct: `mass = 2.0, inertia = [a, a, c], center_of_mass = [0, 0, l]`,
 /// expressions of numbers and fields without a role; `added_mass` is a list of six, or a field that is a `Vector6` or a `Matrix6`.
@@ -73,7 +74,7 @@
 /// | `coordinates(x, theta, pose: Pose, attitude: Rotation)` | the configuration: scalars, elements of SE(3) and of SO(3) |
 /// | `speeds(v, u: Vector3)` and `kinematics(x = v, pose = twist(u, w), attitude = w)` | quasi-velocities z with q̇ = ψ(t, q, z), affine in z; a `Vector3` is three of them, `u.x` or `u[0]` and so on. A pose changes by its twist in body axes, pole O, a rotation by ω in body axes. Without speeds these rates are the z |
 /// | `body(position = […], rotation = …)` | the only body, where there is no chart; its mass data from the roles above |
-/// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`, or from the clause: `mass = m, center_of_mass = [0, 0, l], inertia = [a, a, c]` (about O); from the clause what the fluid does: `added_mass = x, displaced_mass = m, center_of_buoyancy = […]`, as above; position and rotation relative to the parent, a body or a frame |
+/// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`, or from the clause: `mass = m, center_of_mass = [0, 0, l], inertia = [a, a, c]` (about O, or `inertia_about_center_of_mass`); a field made by `RigidBody::about_center_of_mass` is `RigidBody<f64, AboutCenterOfMass<f64>>`, behind an alias `#[gauss(body = about_center_of_mass)]`; from the clause what the fluid does: `added_mass = x, displaced_mass = m, center_of_buoyancy = […]`, as above; position and rotation relative to the parent, a body or a frame |
 /// | `frame(name, parent = other, position = […], rotation = …)` | a body without mass |
 /// | `particle(mass = m, position = […], parent = other)` | a point with mass; the position in observer's axes from Ω, or in the axes of the parent from its O |
 /// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |

@@ -12,20 +12,20 @@ pub use crate::description::{Described, Equations, OperationCount, Operations};
 pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
-pub use crate::integrate::{
-    Adaptive, Classical4, Collocation, CommutatorFree4, Crossing, DormandPrince5, DormandPrince8, Fixed, InputSource,
-    IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta, Sample, Simulation, Tableau, Taylor,
-    VelocityForm, Verner9,
-};
 #[cfg(feature = "alloc")]
-pub use crate::integrate::{Dense, Trajectory};
+pub use crate::integrate::Trajectory;
+pub use crate::integrate::{
+    Adaptive, Classical4, Collocation, CommutatorFree4, Crossing, DormandPrince5, DormandPrince8, End, Fixed,
+    InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta, Sample, Simulation,
+    Tableau, Taylor, VelocityForm, Verner9,
+};
 pub use crate::linearize::{Linearization, LinearizedSystem};
 #[cfg(feature = "alloc")]
 pub use crate::monitor::{monitor, monitor_body, power_balance};
 pub use crate::real::Real;
 pub use crate::series::TaylorSystem;
 pub use crate::simd::Lanes;
-pub use crate::system::{GaussSystem, RigidBody, RigidBodySystem, Smoothness};
+pub use crate::system::{AboutCenterOfMass, GaussSystem, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
     UnitQuaternion, Vector3, Vector6,

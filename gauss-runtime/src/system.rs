@@ -258,14 +258,47 @@ pub enum Smoothness {
 }
 
 /// Mass data of one body of a system: the type of the fields that `#[gauss(body)]` marks.
+///
+/// A `RigidBody<T>` has its inertia about O. Data sheets and programs for drawing give that about the centre of mass: a
+/// `RigidBody<T, AboutCenterOfMass<T>>` keeps it, made by [`about_center_of_mass`](RigidBody::about_center_of_mass).
+/// Where the centre of mass is far from O that is the only way to have all digits: m c² of I_O hides them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RigidBody<T> {
+pub struct RigidBody<T, I = Matrix3<T>> {
     /// m.
     pub mass: T,
     /// c = G − O, body axes.
     pub center_of_mass: Vector3<T>,
-    /// I_O: the inertia tensor about O (not about the centre of mass), body axes.
-    pub inertia: Matrix3<T>,
+    /// I_O: the inertia tensor about O (not about the centre of mass), body axes; or I_G, in [`AboutCenterOfMass`].
+    pub inertia: I,
+}
+
+/// I_G: an inertia tensor about the centre of mass, body axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AboutCenterOfMass<T>(pub Matrix3<T>);
+
+impl<T> RigidBody<T, AboutCenterOfMass<T>> {
+    /// A body of mass m with G at c from O and the inertia tensor I_G about G, all in body axes.
+    ///
+    /// ```
+    /// use gauss_runtime::prelude::*;
+    ///
+    /// #[derive(GaussDynamics)]
+    /// #[gauss(coordinates(angle), body(arm, rotation = rotation_y(angle)))]
+    /// struct Pendulum {
+    ///     #[gauss(body)]
+    ///     arm: RigidBody<f64, AboutCenterOfMass<f64>>,
+    /// }
+    ///
+    /// let center = Vector3::new(0.0, 0.0, -3.0);
+    /// let arm = RigidBody::about_center_of_mass(2.0, center, Matrix3::identity());
+    /// let kernel = Pendulum { arm }.kernel()?;
+    /// // I_G + m c².
+    /// assert_eq!(kernel.mass_matrix(0.0, &SVector::from([0.3]))[0], 19.0);
+    /// # Ok::<(), ParameterError>(())
+    /// ```
+    pub fn about_center_of_mass(mass: T, center_of_mass: Vector3<T>, inertia: Matrix3<T>) -> Self {
+        Self { mass, center_of_mass, inertia: AboutCenterOfMass(inertia) }
+    }
 }
 
 /// A system that is one rigid body: its variables as a pose and a twist, whatever the chart.

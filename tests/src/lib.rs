@@ -9,6 +9,7 @@
 //! | [`laws`] | what holds for every system at every state, and for two descriptions of one |
 //! | [`trajectory`] | a system of any configuration run over a reference solution |
 //! | [`nonholonomic`] | states of rigid bodies by name, and the power of constraints that do work |
+//! | [`watchdog`] | tests that fail instead of waiting for ever |
 //! | [`compare`] | a kernel run from the initial to the final state of a scene, and how far it ends from it |
 
 pub mod compare;
@@ -19,3 +20,4 @@ pub mod nonholonomic;
 pub mod order8;
 pub mod scene;
 pub mod trajectory;
+pub mod watchdog;

@@ -2,7 +2,7 @@
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{
-    Control, Emit, IntegrationError, IntegrationErrorKind, OneStep, Part, Problem, Rates, Rkmk, State, Tableau,
+    Control, Emit, IntegrationError, IntegrationErrorKind, OneStep, Part, Problem, Rates, Rkmk, State, Tableau, Taken,
 };
 use gauss_runtime::system::GaussSystem;
 
@@ -71,7 +71,7 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
         if !rates.is_finite() {
             return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: Part::Derivative }));
         }
-        if emit(&state, &rates).is_break() {
+        if emit(&state, &rates, Taken::default()).is_break() {
             return Ok(state);
         }
         // A first step far too short costs a few steps: it grows tenfold each time.
@@ -120,7 +120,7 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
             if !rates.is_finite() {
                 return Err(stopped(&before, IntegrationErrorKind::NonFinite { part: Part::Step }));
             }
-            if emit(&state, &rates).is_break() || last {
+            if emit(&state, &rates, Taken::default()).is_break() || last {
                 return Ok(state);
             }
         }

@@ -44,7 +44,7 @@ fn a_chart_near_its_singularity_is_right_or_refused() {
         let q = Vector3::new(0.0, std::f64::consts::FRAC_PI_2 - distance, 0.0);
         let z = Vector3::new(1.0, 0.5, 0.2);
         let run = Simulation::new(&angles).adaptive(1e-13, 1e-14).max_steps(200_000).run(q, z, 0.0..1.0);
-        let end = match run {
+        let (end, excess) = match run {
             Err(error) => {
                 assert!(
                     matches!(
@@ -58,7 +58,7 @@ fn a_chart_near_its_singularity_is_right_or_refused() {
                 refused.push(distance);
                 continue;
             }
-            Ok(path) => angles.pose(1.0, &path.last().q),
+            Ok(path) => (angles.pose(1.0, &path.last().q), path.summary().excess),
         };
         let start = body.configuration(&angles.pose(0.0, &q)).expect("a rotation");
         let omega = body.speeds(0.0, &start, &angles.body_twist(0.0, &q, &z));
@@ -66,6 +66,8 @@ fn a_chart_near_its_singularity_is_right_or_refused() {
         // Some 1e-11 a step over some hundreds of steps, a hundred times the tolerance because estimates of order 8 are optimistic
         // this near; and rounding of the angles divided by the distance.
         let allowed = 1e-8 + 1e3 * f64::EPSILON / distance;
+        // Where rounding is more than the tolerance the run says so: accelerations are up to 1/distance² of what rounds them.
+        let allowed = if excess > 0.0 { allowed + 8.0 * f64::EPSILON / (distance * distance) } else { allowed };
         let error = end.rotation.angle_to(&truth.last().q);
         assert!(error < allowed, "{error:e} rad at {distance:e} from gimbal lock, allowed {allowed:e}");
     }

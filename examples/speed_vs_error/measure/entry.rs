@@ -135,7 +135,7 @@ impl<S: Kernel> Setup<S> {
             let problem = SystemProblem { system: &kernel, form, input: NoInput };
             let start = problem.state(0.0, q, &z);
             let control = control(value);
-            let nothing = &mut |_: &State<_>, _: &Rates<_>| ControlFlow::Continue(());
+            let nothing = &mut |_: &State<_>, _: &Rates<_>, _| ControlFlow::Continue(());
             match ask {
                 Ask::Time => {
                     black_box(control.drive(&problem, black_box(start), duration, MOST_STEPS, nothing)?);
@@ -145,7 +145,7 @@ impl<S: Kernel> Setup<S> {
                     *error = target.error(&observe(&end.q));
                 }
                 Ask::Energy(see) => {
-                    let emit = &mut |state: &State<Counted<S>>, _: &Rates<_>| {
+                    let emit = &mut |state: &State<Counted<S>>, _: &Rates<_>, _| {
                         let z = form.speeds(&kernel, state.t, &state.q, &state.y);
                         see(state.t, kernel.energy(state.t, &state.q, &z));
                         ControlFlow::Continue(())

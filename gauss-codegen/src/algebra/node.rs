@@ -82,17 +82,6 @@ pub(super) enum Node {
     Opaque(Id),
 }
 
-impl Node {
-    /// How many parts it has.
-    pub(super) fn edges(&self) -> usize {
-        match self {
-            Node::Sum(terms) => terms.len(),
-            Node::Product(factors) => factors.len(),
-            _ => 1,
-        }
-    }
-}
-
 /// In one word: hashing piece by piece is most of a look-up in unoptimised code.
 impl Hash for Node {
     fn hash<H: Hasher>(&self, state: &mut H) {
@@ -123,6 +112,15 @@ impl Hash for Node {
 }
 
 impl Node {
+    /// How many parts it has.
+    pub(super) fn edges(&self) -> usize {
+        match self {
+            Node::Sum(terms) => terms.len(),
+            Node::Product(factors) => factors.len(),
+            _ => 1,
+        }
+    }
+
     /// What it is made of.
     pub(super) fn children(&self) -> Vec<Id> {
         match self {

@@ -1,6 +1,10 @@
 //! The public face of the pipeline: a struct in; programs, equations and Rust out.
 
 mod methods;
+#[cfg(test)]
+mod rounding;
+#[cfg(test)]
+mod rounding_tests;
 mod signature;
 
 use std::fmt;

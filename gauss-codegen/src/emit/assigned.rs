@@ -10,7 +10,7 @@ use crate::mechanics::{Assigned, KineticMatrix};
 use crate::model::{Motion, Role, Shape};
 
 use super::derived::Derived;
-use super::inertia::{in_plane, inertia_rows};
+use super::inertia::{inertia_rows, of_body};
 use super::program::statements;
 
 /// `let name = …;`: the value, or the array of components.
@@ -91,7 +91,9 @@ pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream
         let Some(name) = &body.name else { continue };
         let own = &subject.assigned_to_bodies[clause];
         let value_of = |quantity: Role| own.iter().find(|assigned| assigned.quantity == quantity);
-        let (Some(mass), Some(inertia)) = (value_of(Role::Mass), value_of(Role::Inertia)) else { continue };
+        let central = value_of(Role::CentralInertia);
+        let inertia = central.or_else(|| value_of(Role::Inertia));
+        let (Some(mass), Some(inertia)) = (value_of(Role::Mass), inertia) else { continue };
         let local = |part: &str| format_ident!("__b{}", part, span = Span::mixed_site());
         let [m, c, moments, tensor] = ["mass", "center", "moments", "inertia"].map(local);
         let zero = quote!(<#ty as #real>::zero());
@@ -105,14 +107,8 @@ pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream
         let rows = inertia_rows(&ty, derived, shape, &moments);
         read.extend(quote!(let #tensor = #rows;));
         let said = |part: &str| format!("{}.{part}", name.unraw());
-        let [said_mass, said_center, said_inertia] = ["mass", "center_of_mass", "inertia"].map(said);
-        let of_inertia = match subject.only_axis(Some(name)) {
-            Some(axis) => in_plane(derived, axis, &said_inertia, [&m, &c, &tensor]),
-            None => quote! {
-                __check.inertia(#said_inertia, &#tensor);
-                __check.central_inertia(#said_inertia, #m, #c, &#tensor);
-            },
-        };
+        let [said_mass, said_center, said_inertia] = ["mass", "center_of_mass", inertia.quantity.word()].map(said);
+        let of_inertia = of_body(derived, Some(name), &said_inertia, [&m, &c, &tensor], central.is_some());
         checks.extend(quote!({
             #read
             __check.mass(#said_mass, #m);

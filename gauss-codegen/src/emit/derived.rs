@@ -129,7 +129,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     pub fn scalar(&self) -> ScalarTokens<'a> {
         let private = self.private();
-        ScalarTokens { scalar: self.item().scalar, real: quote!(#private::Real) }
+        ScalarTokens { scalar: self.item().scalar, real: quote!(#private::Real), apart: quote!(#private::apart) }
     }
 
     pub fn kernel_name(&self) -> Ident {

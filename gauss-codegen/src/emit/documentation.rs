@@ -68,6 +68,7 @@ fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
                 Role::Mass => "m",
                 Role::CenterOfMass => "c",
                 Role::Inertia => "I",
+                Role::CentralInertia => "IG",
                 Role::AddedMass => "X",
                 Role::Gravity => "g",
                 Role::DisplacedMass => "md",

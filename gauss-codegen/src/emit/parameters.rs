@@ -12,7 +12,7 @@ use crate::translate::{Part, Source};
 
 use super::assigned::{assigned_bodies, assigned_local, fluid};
 use super::derived::Derived;
-use super::inertia::{in_plane, inertia_rows};
+use super::inertia::{inertia_rows, of_body};
 use super::program::statements;
 use super::subject::Subject;
 
@@ -72,31 +72,30 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
             Shape::Scalar | Shape::Vector3 | Shape::Vector6 | Shape::Matrix3 | Shape::Matrix6 => {
                 read.extend(read_field(derived, k, field));
             }
-            Shape::RigidBody => {
+            Shape::RigidBody | Shape::CentralBody => {
                 let [mass, center, inertia] = ["mass", "center_of_mass", "inertia"].map(|part| local(k, part));
                 read.extend(quote! {
                     let #mass = self.#ident.mass;
                     let #center = #private::components(&self.#ident.center_of_mass);
-                    let #inertia = #private::entries(&self.#ident.inertia);
                 });
+                let tensor = match field.shape {
+                    Shape::CentralBody => quote!(inertia.0),
+                    _ => quote!(inertia),
+                };
+                read.extend(quote!(let #inertia = #private::entries(&self.#ident.#tensor);));
                 let [said_mass, said_center, said_inertia] =
                     ["mass", "center_of_mass", "inertia"].map(|part| format!("{said}.{part}"));
                 checks.extend(quote! {
                     __check.mass(#said_mass, #mass);
                     __check.finite(#said_center, &#center);
                 });
-                checks.extend(match subject.only_axis(Some(ident)) {
-                    Some(axis) => in_plane(derived, axis, &said_inertia, [&mass, &center, &inertia]),
-                    None => quote! {
-                        __check.inertia(#said_inertia, &#inertia);
-                        __check.central_inertia(#said_inertia, #mass, #center, &#inertia);
-                    },
-                });
+                let central = field.shape == Shape::CentralBody;
+                checks.extend(of_body(derived, Some(ident), &said_inertia, [&mass, &center, &inertia], central));
             }
             Shape::Other => {}
         }
         checks.extend(match (field.role, field.shape) {
-            (_, Shape::RigidBody | Shape::Other) => TokenStream::new(),
+            (_, Shape::RigidBody | Shape::CentralBody | Shape::Other) => TokenStream::new(),
             (Some(role), shape) => role_check(derived, model, role, shape, &said, &name),
             _ => finite(derived, k, field),
         });
@@ -167,7 +166,7 @@ fn role_check(
     match (role, shape) {
         (Role::Mass, _) => quote!(__check.mass(#said, #name);),
         (Role::DisplacedMass, _) => quote!(__check.non_negative(#said, #name);),
-        (Role::Inertia, shape) => {
+        (Role::Inertia | Role::CentralInertia, shape) => {
             let rows = inertia_rows(&derived.scalar().ty(), derived, shape, name);
             let checks = match model.in_chart.map(|own| own.motion) {
                 // In the plane only the moment about k₃ enters.
@@ -182,6 +181,10 @@ fn role_check(
                             __check.finite(#said, __row);
                         }
                     })
+                }
+                _ if role == Role::CentralInertia => {
+                    let (mass, zero) = (local_of(model, Role::Mass), derived.scalar().number(&Rational::zero()));
+                    quote!(__check.central_inertia(#said, #mass, [#zero; 3], &__inertia);)
                 }
                 _ => {
                     let about_center = central_inertia(model, said);
@@ -235,7 +238,7 @@ pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (visibility, scalar) = (derived.item().visibility, derived.scalar());
     let is_read = |k: usize| sources.iter().any(|s| s.field == k);
-    let read = model.fields.iter().enumerate().filter(|(k, f)| f.shape != Shape::RigidBody && is_read(*k));
+    let read = model.fields.iter().enumerate().filter(|(k, f)| !f.shape.is_body() && is_read(*k));
     let read = read.map(|(k, field)| read_field(derived, k, field));
     let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
     symbols.extend(literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
@@ -284,7 +287,9 @@ fn kinetic_matrix(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) ->
     let free = system.free.iter().find(|free| free.link == links[clause])?;
     let active = &free.kinematics.active;
     let fluid = system.scene.tree.links[free.link].body()?.added_mass.is_some();
-    if fluid || active.iter().all(|&k| k >= 3) || model.shape(Role::CenterOfMass).is_none() {
+    // About the centre of mass no part speaks against another.
+    let alone = model.shape(Role::CenterOfMass).is_none() || model.shape(Role::CentralInertia).is_some();
+    if fluid || active.iter().all(|&k| k >= 3) || alone {
         return None;
     }
     let role = Role::Inertia;

@@ -15,6 +15,7 @@ use crate::mechanics::tests::{Charted, scenes};
 /// Full inertia, O ≠ G, weight in any direction, buoyancy. The fluid's impulse enters both derivations alike.
 pub const GENERAL: BodyShape = BodyShape {
     inertia: Shape::Matrix3,
+    central: false,
     center_of_mass: true,
     added_mass: None,
     gravity: Some(Shape::Vector3),

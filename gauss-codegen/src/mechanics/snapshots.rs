@@ -9,6 +9,7 @@ use crate::mechanics::tests::Charted;
 
 const PRINCIPAL: BodyShape = BodyShape {
     inertia: Shape::Vector3,
+    central: false,
     center_of_mass: false,
     added_mass: None,
     gravity: None,

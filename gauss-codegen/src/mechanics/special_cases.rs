@@ -8,7 +8,7 @@ use crate::mechanics::check::definition::stationarity;
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, add, dot};
 use crate::mechanics::links::tree::Inertia;
-use crate::mechanics::loads::forces::{Action, Element, Force};
+use crate::mechanics::loads::forces::{Action, Element, Field, Force, Loads};
 use crate::mechanics::loads::observed::Observed;
 use crate::mechanics::proof::{GENERAL, relations};
 use crate::mechanics::tests::{Charted, scenes};
@@ -28,7 +28,7 @@ fn a_chart_is_a_system_of_one_link() {
         };
         let condition = stationarity(&scene.chart.kinematics, &scene.body);
         for inertia in [Inertia::Tensor, Inertia::Field] {
-            same("the residual", tree.residual(&along, inertia, &[]), condition.clone());
+            same("the residual", tree.residual(&along, inertia, &Loads::default()), condition.clone());
         }
         same("the momentum", tree.momentum(), body.momentum());
         same("the forces", tree.weights(), body.generalised_forces());
@@ -89,10 +89,12 @@ fn compare_loads(graph: &Graph, motion: Motion, chart: Chart) {
     assert_eq!(accounts.len(), 1 + system.scene.elements.len());
     for element in &system.scene.elements {
         let expected: Vec<Expr<'_>> = match &element.action {
-            Action::Potential(potential) => system.potential_forces(*potential),
+            Action::Potential(potential) | Action::Field(Field { potential, .. }) => {
+                system.potential_forces(*potential)
+            }
             Action::Forces(forces) => match forces[0].generalised(&kinematics.speeds, &kinematics.rates) {
                 Some(rows) => rows,
-                None => system.scene.tree.loads(forces),
+                None => system.scene.tree.loads(&Loads::of_forces(forces)),
             },
         };
         let account = accounts.iter().find(|account| account.name == element.name).expect("an account each");

@@ -5,11 +5,12 @@ use crate::algebra::{Expr, Map, solve_pairs, solve_symmetric};
 
 use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::arrangements::free_link::FreeLink;
+use crate::mechanics::arrangements::orthogonal::Elements;
 use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::links::tree::Inertia;
 use crate::mechanics::loads::account::account_formulas;
-use crate::mechanics::loads::forces::{Force, forces_of, potential_of};
+use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Lettering, SystemScene};
 use crate::mechanics::tidy::{sums, tidy};
 
@@ -25,6 +26,8 @@ pub struct System<'g> {
     /// Of all elements together.
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
+    /// What acts on links, fields among it.
+    loads: Loads<'g>,
     pub constraints: Constraints<'g>,
     /// Links that nothing else moves with.
     pub free: Vec<FreeLink<'g>>,
@@ -42,6 +45,8 @@ struct Arrangement<'g> {
     /// ∂C/∂ż at ż = 0, and at any ż.
     still: Vec<Expr<'g>>,
     residual: Vec<Expr<'g>>,
+    /// ∂C/∂ż at ż = ζ, and ζ.
+    floating: [Vec<Expr<'g>>; 2],
 }
 
 /// The methods in equivalent arrangements.
@@ -107,7 +112,9 @@ impl<'g> System<'g> {
         let constraints = Constraints::new(&scene, &scene.rates);
         let free = FreeLink::all(&scene);
         let (potential, forces) = (potential_of(&scene.elements), forces_of(&scene.elements));
-        let mut system = Self { scene, potential, forces, constraints, free, driven: false, along, matrix: Vec::new() };
+        let loads = Loads::of(&scene.elements);
+        let (driven, matrix) = (false, Vec::new());
+        let mut system = Self { scene, potential, forces, loads, constraints, free, driven, along, matrix };
         system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();
         let mut velocities = system.constraints.on_velocities.clone();
@@ -280,11 +287,14 @@ impl<'g> System<'g> {
         for &inertia in self.scene.tree.inertias(self.is_long()) {
             let residual = self.residual(&self.along, inertia);
             let still = self.residual(&self.scene.rates, inertia);
+            let floating = self.floating(inertia);
             if !self.is_long() {
-                let matrix = tidied(&self.matrix);
-                arrangements.push(Arrangement { matrix, still: tidy_all(&still), residual: tidy_all(&residual) });
+                let (matrix, floating) =
+                    (tidied(&self.matrix), [&floating[0], &floating[1]].map(|rows| tidy_all(rows)));
+                let (still, residual) = (tidy_all(&still), tidy_all(&residual));
+                arrangements.push(Arrangement { matrix, still, residual, floating });
             }
-            arrangements.push(Arrangement { matrix: self.matrix.clone(), still, residual });
+            arrangements.push(Arrangement { matrix: self.matrix.clone(), still, residual, floating });
         }
         arrangements
     }
@@ -307,8 +317,7 @@ impl<'g> System<'g> {
 
     /// `∫∂v_P/∂z·dF` of everything that acts: weight and buoyancy, the potential, forces.
     pub fn generalised_forces(&self) -> Vec<Expr<'g>> {
-        let loads = self.scene.tree.loads(&self.forces);
-        sums(&sums(&self.scene.tree.weights(), &loads), &self.other_forces())
+        sums(&self.scene.tree.weights(), &self.element_forces_in_general())
     }
 
     /// `∫∂v_P/∂z·dF` of the elements alone.
@@ -316,7 +325,11 @@ impl<'g> System<'g> {
         if let Some(body) = self.only_body() {
             return body.load_forces();
         }
-        sums(&self.scene.tree.loads(&self.forces), &self.other_forces())
+        self.element_forces_in_general()
+    }
+
+    fn element_forces_in_general(&self) -> Vec<Expr<'g>> {
+        sums(&self.scene.tree.loads(&self.loads), &self.other_forces())
     }
 
     /// ∂C/∂ż of the unconstrained C without the elements of what acts: inertia, weight and buoyancy.
@@ -325,7 +338,8 @@ impl<'g> System<'g> {
             return body.inertial_residuals();
         }
         let tree = &self.scene.tree;
-        let residuals = tree.inertias(self.is_long()).iter().map(|&inertia| tree.residual(&self.along, inertia, &[]));
+        let residuals =
+            tree.inertias(self.is_long()).iter().map(|&inertia| tree.residual(&self.along, inertia, &Loads::default()));
         residuals.flat_map(|residual| self.with_tidied(residual)).collect()
     }
 
@@ -333,20 +347,34 @@ impl<'g> System<'g> {
     fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
         let acting = self.forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
-        let potential = self.potential.unwrap_or_else(|| scene.graph.zero());
+        let potential = potential_of_forces(&scene.elements).unwrap_or_else(|| scene.graph.zero());
         acting.fold(self.potential_forces(potential), |sum, forces| sums(&sum, &forces))
     }
 
     /// ∂C/∂ż of the unconstrained C.
     fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia) -> Vec<Expr<'g>> {
-        let inertia = self.scene.tree.residual(along, inertia, &self.forces);
-        inertia.into_iter().zip(self.other_forces()).map(|(r, f)| r - f).collect()
+        self.without_others(self.scene.tree.residual(along, inertia, &self.loads))
     }
 
-    /// ż and λ: `A ż = −∂C/∂ż(ż = 0) + Jᵀλ`.
+    fn without_others(&self, rows: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+        rows.into_iter().zip(self.other_forces()).map(|(r, f)| r - f).collect()
+    }
+
+    /// ∂C/∂ż of the unconstrained C at ż = ζ, and ζ: what links that float have of the accelerations at ż = 0, along
+    /// speeds that no constraint mentions.
+    fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
+        let held = |speed: usize| self.constraints.jacobian.iter().any(|row| !row[speed].is_zero());
+        let held: Vec<bool> = (0..self.scene.speeds.len()).map(held).collect();
+        let (rows, taken) = self.scene.tree.floating_residual(inertia, &self.loads, &held);
+        [self.without_others(rows), taken]
+    }
+
+    /// ż and λ: with `ż = ζ + ż′`, `A ż′ = −∂C/∂ż(ζ) + Jᵀλ`.
     fn acceleration(&self, arrangement: &Arrangement<'g>) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
-        let right: Vec<Expr<'g>> = arrangement.still.iter().map(|r| -*r).collect();
-        self.constraints.solve(&arrangement.matrix, &right)
+        let [rows, taken] = &arrangement.floating;
+        let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
+        let (rates, multipliers) = self.constraints.solve(&arrangement.matrix, &right);
+        (sums(&rates, taken), multipliers)
     }
 
     /// `∂C/∂ż − Jᵀλ` with the multipliers of the motion.
@@ -385,10 +413,20 @@ impl<'g> System<'g> {
             return arrangements.iter().map(|a| self.acceleration(a).0).collect();
         }
         let solve = |a: &Arrangement<'g>| {
-            let right: Vec<Expr<'g>> = a.still.iter().map(|r| -*r).collect();
-            self.solutions(&a.matrix, &right)
+            let [rows, taken] = &a.floating;
+            let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
+            let solutions = self.solutions(&a.matrix, &right).into_iter();
+            solutions.map(|rates| sums(&rates, taken)).collect::<Vec<_>>()
         };
-        arrangements.iter().flat_map(solve).collect()
+        let orthogonal = self.elements();
+        let orthogonal = orthogonal.iter().map(|elements| elements.accelerations(&self.loads, &self.other_forces()));
+        arrangements.iter().flat_map(solve).chain(orthogonal).collect()
+    }
+
+    /// C as a sum of squares, where several speeds share it.
+    fn elements(&self) -> Option<Elements<'_, 'g>> {
+        let few = (2..=DENSE).contains(&self.scene.speeds.len()) && self.only_body().is_none();
+        few.then(|| Elements::new(&self.scene.tree)).flatten()
     }
 
     /// z from p = A z + p(z = 0).
@@ -399,7 +437,9 @@ impl<'g> System<'g> {
             if self.is_long() { value } else { tidy(value) }
         });
         let right: Vec<Expr<'g>> = self.scene.momenta.iter().zip(beside).map(|(symbol, p)| *symbol - p).collect();
-        self.solutions(&self.matrix, &right)
+        let mut solutions = self.solutions(&self.matrix, &right);
+        solutions.extend(self.elements().map(|elements| elements.solve(&right)));
+        solutions
     }
 
     /// z = 0.

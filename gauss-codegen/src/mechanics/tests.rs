@@ -47,6 +47,7 @@ pub fn scenes() -> Vec<(Motion, Chart)> {
 pub fn shapes() -> Vec<BodyShape> {
     let principal = BodyShape {
         inertia: Shape::Vector3,
+        central: false,
         center_of_mass: false,
         added_mass: None,
         gravity: None,
@@ -69,6 +70,7 @@ pub fn shapes() -> Vec<BodyShape> {
         heavy,
         BodyShape { gravity: None, ..off_centre },
         off_centre,
+        BodyShape { central: true, ..off_centre },
         fluid,
         BodyShape { center_of_mass: true, displaced_mass: true, gravity: Some(Shape::Scalar), ..fluid },
         everything,
@@ -152,7 +154,9 @@ pub fn random_point(scene: &Charted<'_>, random: &mut Random) -> Map<u32, f64> {
         // Diagonals dominate, so every kinetic matrix is positive definite.
         let value = match p.quantity {
             Role::Mass | Role::DisplacedMass => 2.0 + random.next(),
-            Role::Inertia | Role::AddedMass if is_diagonal(scene, p.symbol) => 3.0 + random.next(),
+            Role::Inertia | Role::CentralInertia | Role::AddedMass if is_diagonal(scene, p.symbol) => {
+                3.0 + random.next()
+            }
             _ => 0.3 * random.next(),
         };
         values.insert(p.symbol.key(), value);

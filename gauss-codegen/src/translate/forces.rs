@@ -7,7 +7,7 @@ use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
-use crate::mechanics::{Action, Axes, Element, Force, Matter, Tree, attraction, entrained};
+use crate::mechanics::{Action, Axes, CentralField, Element, Force, Tree, entrained};
 use crate::model::{Coefficients, Expression, Extent, ForceAxes, ForceClause, ForceKind, Property};
 
 use super::drag::DragMatrix;
@@ -46,8 +46,8 @@ impl<'g> Translator<'_, 'g> {
         for clause in &model.attractions {
             let mu = self.scalar(&clause.mu, tree)?;
             let center = clause.center.as_ref().map(|e| self.vector(e, tree)).transpose()?;
-            let name = names.of(clause.name.as_ref(), "central gravity");
-            elements.push(Element::new(name, Action::Potential(self.attraction(mu, center, tree))));
+            let field = CentralField { mu, center: center.unwrap_or([self.graph.zero(); 3]) };
+            elements.push(Element::new(names.of(clause.name.as_ref(), "central gravity"), field.action(tree)));
         }
         let entrained = self.medium(tree)?;
         if !entrained.is_empty() {
@@ -230,23 +230,6 @@ impl<'g> Translator<'_, 'g> {
             }
             Coefficients::Field(name) => self.declared.matrix(name).cloned().ok_or_else(|| bug(name.span())),
         }
-    }
-
-    /// Potential energy of everything with mass in the field of a centre.
-    fn attraction(&self, mu: Expr<'g>, center: Option<Triple<'g>>, tree: &Tree<'g>) -> Expr<'g> {
-        let zero = self.graph.zero();
-        let center = center.unwrap_or([zero; 3]);
-        let links = tree.links.iter().filter(|link| !matches!(link.matter, Matter::Nothing));
-        let energies = links.map(|link| {
-            let arm: Triple<'g> = std::array::from_fn(|i| (link.position[i] - center[i]).group());
-            // The field looks the same from all sides: of a particle no axes are needed.
-            let arm = match link.matter {
-                Matter::Body(_) => link.axes().to_body(&arm).map(Expr::group),
-                _ => arm,
-            };
-            attraction(mu, &link.moments, &arm)
-        });
-        energies.fold(zero, |sum, energy| sum + energy)
     }
 
     /// What the velocity of the medium changes beside drag.

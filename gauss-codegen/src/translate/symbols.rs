@@ -281,13 +281,16 @@ impl<'g> Declared<'g> {
         let mut body = match &clause.name {
             Some(name) if clause.has_matter() => Body::named(self.graph, body_shape(given), 2, name_of(name)),
             Some(name) => {
-                let of_field = |role: Role| [Role::CenterOfMass, Role::Inertia].contains(&role);
+                let field = model.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
+                let inertia = match model.fields[field].shape {
+                    Shape::CentralBody => Role::CentralInertia,
+                    _ => Role::Inertia,
+                };
+                let of_field = |role: Role| [Role::Mass, Role::CenterOfMass, inertia].contains(&role);
                 let has = |role: Role| if of_field(role) { Some(Shape::RigidBody) } else { given(role) };
                 let body = Body::named(self.graph, body_shape(has), 2, name_of(name));
-                let field = model.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
                 // What the clause says of the fluid takes the place of the other symbols.
-                let of_field =
-                    |p: &&ParameterSymbol<'g>| [Role::Mass, Role::CenterOfMass, Role::Inertia].contains(&p.quantity);
+                let of_field = |p: &&ParameterSymbol<'g>| of_field(p.quantity);
                 self.sources.extend(body.parameters.iter().filter(of_field).map(|p| Source {
                     symbol: p.symbol,
                     field,
@@ -313,6 +316,7 @@ impl<'g> Declared<'g> {
             Role::Mass,
             Role::CenterOfMass,
             Role::Inertia,
+            Role::CentralInertia,
             Role::AddedMass,
             Role::DisplacedMass,
             Role::CenterOfBuoyancy,
@@ -355,8 +359,10 @@ pub fn free_fall<'g>(model: &Model, zero: Expr<'g>, g: Expr<'g>) -> [Expr<'g>; 3
 
 /// What a body has, from the shapes of what plays the roles.
 pub fn body_shape(shape_of: impl Fn(Role) -> Option<Shape>) -> BodyShape {
+    let central = shape_of(Role::CentralInertia);
     BodyShape {
-        inertia: shape_of(Role::Inertia).filter(|shape| *shape != Shape::RigidBody).unwrap_or(Shape::Matrix3),
+        inertia: central.or(shape_of(Role::Inertia)).filter(|shape| !shape.is_body()).unwrap_or(Shape::Matrix3),
+        central: central.is_some(),
         center_of_mass: shape_of(Role::CenterOfMass).is_some(),
         added_mass: shape_of(Role::AddedMass),
         gravity: shape_of(Role::Gravity),

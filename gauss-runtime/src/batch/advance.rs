@@ -7,7 +7,9 @@ use super::error::StateError;
 use super::packs::{SingleConfiguration, SingleSpeeds};
 use super::system::BatchSystem;
 use crate::configuration::Configuration;
-use crate::integrate::{IntegrationErrorKind, OneStep, Problem, Rates, State, accept, number_of_steps, prepare};
+use crate::integrate::{
+    DEFAULT_LIMIT, IntegrationErrorKind, OneStep, Problem, Rates, State, accept, number_of_steps, prepare,
+};
 use crate::real::Real;
 use crate::simd::Packed;
 
@@ -59,7 +61,12 @@ pub(super) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
     let (given, refused) = ((*q, *z), block.failures.len());
 
     let (start, end) = (reached.0.t, S::Scalar::from_f64(interval.end));
-    let steps = if span == 0.0 { 0 } else { number_of_steps::<S::Scalar>(span, interval.step.abs()) as u64 };
+    let steps = if span == 0.0 { 0.0 } else { number_of_steps::<S::Scalar>(span, interval.step.abs()) };
+    if steps > DEFAULT_LIMIT as f64 {
+        block.fail_the_rest(interval.start, IntegrationErrorKind::TooManySteps { limit: DEFAULT_LIMIT });
+        return block.failures;
+    }
+    let steps = steps as u64;
     let h = S::Scalar::from_f64(if span < 0.0 { -interval.step.abs() } else { interval.step.abs() });
     for n in 1..=steps {
         // As `Fixed` has it: times are multiples of h, not sums of it, and the last step ends where it should.

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry2, Isometry3, Quaternion, SMatrix, Translation, Unit, UnitComplex, UnitQuaternion};
 
 use super::{Bounded, Float};
-use crate::system::RigidBody;
+use crate::system::{AboutCenterOfMass, RigidBody};
 
 /// Numbers and what is made of them: vectors, matrices, rotations, poses, [`RigidBody`], arrays and pairs.
 pub trait Lift {
@@ -111,9 +111,18 @@ macro_rules! poses {
 
 poses!(Isometry2 Isometry3);
 
-impl<T: Float> Lift for RigidBody<T> {
+impl<T: Float> Lift for AboutCenterOfMass<T> {
     type Number = T;
-    type Lifted = RigidBody<Bounded<T>>;
+    type Lifted = AboutCenterOfMass<Bounded<T>>;
+
+    fn lift(&self, bounded: &impl Fn(T) -> Bounded<T>) -> Self::Lifted {
+        AboutCenterOfMass(self.0.lift(bounded))
+    }
+}
+
+impl<T: Float, I: Lift<Number = T>> Lift for RigidBody<T, I> {
+    type Number = T;
+    type Lifted = RigidBody<Bounded<T>, I::Lifted>;
 
     fn lift(&self, bounded: &impl Fn(T) -> Bounded<T>) -> Self::Lifted {
         RigidBody {

@@ -10,7 +10,7 @@
 //! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov, splitting |
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
-//! | [`drive`] | runs. [`control`](drive::control): fixed and adaptive steps; `step_length`: how these grow and shrink; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event): zeros of functions; [`trajectory`](drive::trajectory), `dense`: what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
+//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`table`](drive::table), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
 //! | [`tune`] | [`method`](tune::method): methods and forms chosen at run time; `measure`: the cheapest for a scene, measured on it |
 
 pub mod body;
@@ -25,16 +25,21 @@ pub mod taylor;
 pub mod tune;
 
 pub use body::{FreeFlow, MoserVeselov, Scheme, Splitting, SplittingError};
+pub use drive::adaptive::Adaptive;
 pub use drive::compensated::Compensated;
-pub use drive::control::{Adaptive, Control, Emit, Fixed};
 #[cfg(feature = "alloc")]
-pub(crate) use drive::control::{number_of_steps, prepare};
-#[cfg(feature = "alloc")]
-pub use drive::dense::Dense;
+pub(crate) use drive::control::prepare;
+pub use drive::control::{Control, DEFAULT_LIMIT, Emit, Taken};
 pub use drive::event::Crossing;
+pub use drive::fixed::Fixed;
+#[cfg(feature = "alloc")]
+pub(crate) use drive::fixed::number_of_steps;
 #[cfg(feature = "alloc")]
 pub(crate) use drive::projection::accept;
 pub use drive::simulation::{Observer, Simulation};
+pub use drive::summary::{End, Summary};
+#[cfg(feature = "alloc")]
+pub use drive::table::Table;
 #[cfg(feature = "alloc")]
 pub use drive::trajectory::{EventSample, Trajectory};
 pub use lie_group::commutator_free::CommutatorFree4;

@@ -34,6 +34,7 @@ fn run<C: Configuration>(q: C, z: C::Tangent, push: C::Tangent, on_components: b
         run.control(Fixed::with(&Tableau::RK4, step)).run_to_end(q, z, span)
     }
     .expect("runs")
+    .sample
 }
 
 fn factors_run_by_themselves<T: Real>() {

@@ -109,7 +109,7 @@ type Vector<S> = <Model<S> as LinearModel<<S as GaussSystem>::Scalar>>::Vector;
 
 impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
     fn properties(&self) -> Properties {
-        Properties::of_order(4)
+        Properties { stiff: true, ..Properties::of_order(4) }
     }
 
     /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates

@@ -6,7 +6,9 @@
 //! be as small as the tolerance. No step is rejected.
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::drive::control::{Control, Emit, check_tolerances, prepare};
+use crate::integrate::drive::cause::{Gave, Place, cause};
+use crate::integrate::drive::control::{Control, Emit, Taken, check_tolerances, longest, prepare, smallest};
+use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::{accept, on_constraints};
 use crate::integrate::drive::simulation::Simulation;
 use crate::integrate::problem::equations::{Problem, SystemProblem};
@@ -24,12 +26,15 @@ pub struct Taylor {
     relative: f64,
     absolute: f64,
     order: Option<usize>,
-    largest_step: f64,
+    largest_step: Option<f64>,
 }
 
 /// Orders per e-fold of the tolerance, to begin with. At order p steps are as long as ρ ε^(1/p): ½ is best where the cost of a step
 /// goes with p², 1 where it goes with p.
 const ORDERS: f64 = 0.75;
+
+/// The part of a rounding of the state below which nothing need be left out of a series.
+const LEAST: f64 = 1.0 / 64.0;
 
 /// The lowest order that is chosen, and how far apart orders are compared.
 const LOWEST: usize = 6;
@@ -40,7 +45,7 @@ impl Taylor {
     /// rotation, the largest component of a translation, |q| for a plain coordinate and |z| for a speed.
     #[must_use]
     pub fn new(relative: f64, absolute: f64) -> Self {
-        Self { relative, absolute, order: None, largest_step: f64::INFINITY }
+        Self { relative, absolute, order: None, largest_step: None }
     }
 
     /// Series of one order, from 2 to [`MAX_ORDER`], instead of one that follows from the tolerance.
@@ -53,7 +58,7 @@ impl Taylor {
     /// The longest step.
     #[must_use]
     pub fn largest_step(mut self, length: f64) -> Self {
-        self.largest_step = length;
+        self.largest_step = Some(length);
         self
     }
 
@@ -76,7 +81,10 @@ impl Taylor {
 
     /// ln of the longest steps at two orders with the given tails, so that what is left out of the series is within the tolerance.
     /// It is judged by the last two terms, since one of them may be small by chance. `guess` is about as long, for the sizes.
-    fn lengths<S: TaylorSystem>(&self, series: &S::Series, judged: [(usize, f64); 2], guess: f64) -> [f64; 2] {
+    ///
+    /// Beside them, how many times the tolerance rounding is where it is more: less than that cannot be left out.
+    fn lengths<S: TaylorSystem>(&self, series: &S::Series, judged: [(usize, f64); 2], guess: f64) -> ([f64; 2], f64) {
+        let mut beyond = 0.0_f64;
         let mut excess = [[0.0_f64; 2]; 2];
         let worse = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
         let mut first = 0;
@@ -91,7 +99,10 @@ impl Taylor {
                         *terms = [worse(terms[0], value(order - 1, i).abs()), worse(terms[1], value(order, i).abs())];
                     }
                 }
-                let tolerance = (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
+                let asked = (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
+                let rounding = LEAST * S::Scalar::EPSILON * size;
+                beyond = beyond.max(rounding / asked);
+                let tolerance = asked.max(rounding);
                 for (excess, terms) in excess.iter_mut().zip(terms) {
                     *excess = [worse(excess[0], terms[0] / tolerance), worse(excess[1], terms[1] / tolerance)];
                 }
@@ -103,7 +114,8 @@ impl Taylor {
             let (before, last) = (of(before, order - 1), of(last, order));
             if before < last || before.is_nan() { before } else { last }
         };
-        [length(excess[0], judged[0]), length(excess[1], judged[1])]
+        let lengths = [length(excess[0], judged[0]), length(excess[1], judged[1])];
+        (lengths, if beyond > 1.0 { beyond } else { 0.0 })
     }
 }
 
@@ -217,44 +229,47 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         check_tolerances(self.relative, self.absolute).map_err(|kind| stopped(&start, kind))?;
         let (span, start, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
-        if emit(&start, &rates).is_break() || span == 0.0 {
+        if emit(&start, &rates, Taken::default()).is_break() || span == 0.0 {
             return Ok(start);
         }
-        let longest = self.largest_step.min(span.abs());
-        if longest.is_nan() || longest <= 0.0 {
-            return Err(stopped(&start, IntegrationErrorKind::InvalidStep { step: longest }));
-        }
+        let longest = longest(self.largest_step, span, limit).map_err(|kind| stopped(&start, kind))?;
         let direction = if span < 0.0 { -1.0 } else { 1.0 };
+        let mut pace = Pace::new(start.t.lane(0), limit);
         let mut order = Order::new(self, self.first_order());
         let mut series = S::Series::zero();
-        let mut state = start;
+        let (mut state, mut rates) = (start, rates);
         let mut guess = 0.0;
-        for _ in 0..limit {
+        loop {
+            let left = (end - state.t).lane(0).abs();
+            let place = Place { state: &state, rates: &rates, length: guess, left, stiff: false };
+            let gave = |gave| stopped(&state, cause(problem, &place, gave));
+            if let Some(hopeless) = pace.spent(state.t.lane(0), left) {
+                return Err(gave(Gave::Out { limit, hopeless }));
+            }
             expanded(problem, &state, order.value(), &mut series);
-            let lengths = self.lengths::<S>(&series, order.judged, direction * guess);
+            let (lengths, excess) = self.lengths::<S>(&series, order.judged, direction * guess);
             let length = Real::exp(lengths[1]);
             // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
             if length.is_nan() {
-                return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: Part::Derivative }));
+                return Err(gave(Gave::AnyStep(IntegrationErrorKind::NonFinite { part: Part::Derivative })));
             }
             let length = length.min(longest);
-            let left = (end - state.t).lane(0).abs();
             let last = length >= left * 0.999;
             let h = if last { end - state.t } else { S::Scalar::from_f64(direction * length) };
-            if state.t + h == state.t {
-                return Err(stopped(&state, IntegrationErrorKind::StepTooSmall { step: length }));
+            if state.t + h == state.t || !last && length <= smallest::<S::Scalar>(state.t.lane(0), span) {
+                return Err(gave(Gave::AnyStep(IntegrationErrorKind::StepTooSmall { step: length })));
             }
             let mut reached = summed(problem, state.t, &series, order.value(), h);
             if last {
                 reached.t = end;
             }
             if !(reached.q.is_finite() && reached.y.is_finite()) {
-                return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: Part::Step }));
+                return Err(gave(Gave::AnyStep(IntegrationErrorKind::NonFinite { part: Part::Step })));
             }
             check_chart(problem.system(), &state, &reached).map_err(|kind| stopped(&state, kind))?;
-            let rates: Rates<S> = accept(problem, &mut reached, None).map_err(|kind| stopped(&state, kind))?;
-            state = reached;
-            if emit(&state, &rates).is_break() || last {
+            let next: Rates<S> = accept(problem, &mut reached, None).map_err(|kind| gave(Gave::AnyStep(kind)))?;
+            (state, rates) = (reached, next);
+            if emit(&state, &rates, Taken { rejected: 0, excess }).is_break() || last {
                 return Ok(state);
             }
             guess = length;
@@ -265,23 +280,35 @@ impl<S: TaylorSystem> Control<S> for Taylor {
                 }
             }
         }
-        Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }))
     }
 
     fn within<P: Problem<System = S>>(
         &self,
         problem: &P,
         state: &State<S>,
-        _: &Rates<S>,
+        rates: &Rates<S>,
         h: S::Scalar,
     ) -> Result<State<S>, IntegrationErrorKind> {
-        let mut series = S::Series::zero();
-        let order = self.order.unwrap_or(MAX_ORDER);
-        expanded(problem, state, order, &mut series);
-        let end = summed(problem, state.t, &series, order, h);
-        if !(end.q.is_finite() && end.y.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
-        }
-        if S::CONSTRAINED { on_constraints(problem, &end) } else { Ok(end) }
+        self.along(problem, state, rates)(h)
     }
+
+    fn along<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        state: &State<S>,
+        _: &Rates<S>,
+    ) -> impl FnMut(S::Scalar) -> Result<State<S>, IntegrationErrorKind> {
+        let mut series = S::Series::zero();
+        let (t, order) = (state.t, self.order.unwrap_or(MAX_ORDER));
+        expanded(problem, state, order, &mut series);
+        move |h| {
+            let end = summed(problem, t, &series, order, h);
+            if !(end.q.is_finite() && end.y.is_finite()) {
+                return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            }
+            if S::CONSTRAINED { on_constraints(problem, &end) } else { Ok(end) }
+        }
+    }
+
+    const LONG_STEPS: bool = true;
 }

@@ -245,7 +245,7 @@ fn on_a_linear_space_it_is_plain_runge_kutta_to_the_last_bit() {
 fn adaptive_steps_keep_the_tolerance_and_save_work() {
     let (q0, z0) = initial();
     let run = Simulation::new(&TOP).input(quiet);
-    let order = |outcome: &dyn Fn(f64) -> Result<Trajectory<FreeTop<f64>>, IntegrationError>| {
+    let order = |outcome: &dyn Fn(f64) -> Result<Trajectory<'static, FreeTop<f64>>, IntegrationError>| {
         let points: Vec<_> = [8, 9, 10, 11, 12]
             .into_iter()
             .map(|exponent| {
@@ -293,30 +293,6 @@ fn time_runs_backwards_as_well() {
 }
 
 #[test]
-fn interpolation_is_of_fourth_order_in_every_quantity() {
-    let (q0, z0) = initial();
-    for momentum in [false, true] {
-        let mut points = [Vec::new(), Vec::new(), Vec::new()];
-        for h in [0.2, 0.1, 0.05] {
-            let run = Simulation::new(&TOP).input(quiet).fixed_step(h);
-            let trajectory =
-                if momentum { run.momentum_form().run(q0, z0, 0.0..2.0) } else { run.run(q0, z0, 0.0..2.0) }
-                    .expect("runs");
-            let t = 1.0 + 0.4 * h;
-            let found = trajectory.at(t).expect("inside");
-            let exact =
-                Simulation::new(&TOP).input(quiet).adaptive(1e-13, 1e-14).run_to_end(q0, z0, 0.0..t).expect("runs");
-            points[0].push((h, found.q.difference(&exact.q).norm()));
-            points[1].push((h, (found.z - exact.z).norm()));
-            points[2].push((h, (found.p - exact.p).norm()));
-        }
-        for list in points {
-            assert!(slope(&list) > 3.6, "{list:?}");
-        }
-    }
-}
-
-#[test]
 fn a_trajectory_answers_at_its_ends_and_not_beyond() {
     let (q0, z0) = initial();
     let trajectory = Simulation::new(&TOP).input(quiet).fixed_step(0.3).run(q0, z0, 1.0..2.0).expect("runs");
@@ -326,7 +302,7 @@ fn a_trajectory_answers_at_its_ends_and_not_beyond() {
     assert!((times[3] - 1.9).abs() < 1e-15 && times[4] == 2.0);
     assert_eq!(trajectory.at(1.0).expect("inside").q, trajectory.first().q);
     assert_eq!(trajectory.at(2.0).expect("inside").q, trajectory.last().q);
-    assert!(trajectory.at(2.1).is_none() && trajectory.at(0.9).is_none() && trajectory.at(f64::NAN).is_none());
+    assert!(trajectory.at(2.1).is_err() && trajectory.at(0.9).is_err() && trajectory.at(f64::NAN).is_err());
     assert_eq!(trajectory.into_iter().count(), 5);
     assert_eq!(trajectory.get(4).map(|sample| sample.t), Some(2.0));
     // An empty interval is one sample.
@@ -393,9 +369,9 @@ fn settings_are_checked_and_limits_kept() {
     let error = run.adaptive(1e-10, 0.0).max_steps(5).run(q0, z0, 0.0..10.0).expect_err("refused");
     assert_eq!(error.kind, IntegrationErrorKind::TooManySteps { limit: 5 });
     assert!(error.time > 0.0);
-    // A tolerance below rounding ends in words.
-    let error = run.adaptive(1e-40, 0.0).run(q0, z0, 1e3..1e3 + 1.0).expect_err("refused");
-    assert!(matches!(error.kind, IntegrationErrorKind::StepTooSmall { .. }), "{error}");
+    // A tolerance below rounding is met as far as rounding lets it, and that is told.
+    let below = run.adaptive(1e-40, 0.0).run(q0, z0, 1e3..1e3 + 1.0).expect("runs");
+    assert!(below.summary().excess > 1e20 && below.summary().rounded > 0 && below.len() < 100, "{}", below.summary());
     let longest = run.adaptive(1e-3, 1e-3).largest_step(0.25).first_step(0.01).run(q0, z0, 0.0..5.0).expect("runs");
     let times: Vec<_> = longest.iter().map(|sample| sample.t).collect();
     assert!((times[1] - 0.01).abs() < 1e-15 && times.windows(2).all(|w| w[1] - w[0] < 0.2526));

@@ -16,6 +16,7 @@ fn run(scene: &Scene, kernel: &TopKernel, method: &(impl OneStep<TopKernel> + Co
         .control(Fixed::by(*method, scene.duration / f64::from(steps)))
         .run_to_end(scene.initial.pose().rotation, scene.initial.omega, 0.0..scene.duration)
         .expect("the motion is regular")
+        .sample
 }
 
 /// What rounding may do to the end of a scene: each of `calls` drifts commits some 16 roundings of random sign, of which the

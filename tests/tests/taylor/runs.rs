@@ -122,7 +122,7 @@ fn events_and_states_between_samples_have_the_accuracy_of_the_method() {
     let run = Simulation::new(&kernel)
         .event(Crossing::Any, |_, _, z| z[0])
         .control(Taylor::new(1e-14, 1e-14))
-        .run_dense(SVector::from([amplitude]), SVector::from([0.0]), 0.0..10.0)
+        .run(SVector::from([amplitude]), SVector::from([0.0]), 0.0..10.0)
         .expect("runs");
     let (mut a, mut b) = (1.0, (0.5 * amplitude).cos());
     for _ in 0..6 {

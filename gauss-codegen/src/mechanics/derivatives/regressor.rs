@@ -38,14 +38,16 @@ pub struct InertialParameters<'a, 'g> {
     replacement: Map<u32, Expr<'g>>,
     /// c = s/m, by the mass and c: bodies may share the one or the other.
     centers: Map<(u32, u32), Expr<'g>>,
+    /// Entries of I_O in which forces are linear where I_G is given.
+    about_o: Map<u32, Expr<'g>>,
 }
 
 impl<'a, 'g> InertialParameters<'a, 'g> {
     /// Of all bodies and particles; `names` are those of the numbers of fields.
     pub fn new(system: &System<'g>, names: &'a Map<u32, String>) -> Self {
         let graph = system.scene.graph;
-        let (replacement, centers) = (Map::default(), Map::default());
-        let mut parameters = Self { graph, names, list: Vec::new(), replacement, centers };
+        let (replacement, centers, about_o) = (Map::default(), Map::default(), Map::default());
+        let mut parameters = Self { graph, names, list: Vec::new(), replacement, centers, about_o };
         for link in &system.scene.tree.links {
             match &link.matter {
                 Matter::Body(body) => parameters.take_body(body),
@@ -84,16 +86,34 @@ impl<'a, 'g> InertialParameters<'a, 'g> {
             };
             self.centers.insert(key, center);
         }
-        (0..3).for_each(|i| (i..3).for_each(|j| self.take(body.inertia[i][j])));
+        for (i, j) in (0..3).flat_map(|i| (i..3).map(move |j| (i, j))) {
+            match body.central {
+                None => self.take(body.inertia[i][j]),
+                Some(_) => self.take_about_o(body, [i, j]),
+            }
+        }
         for (i, row) in body.added_mass.iter().flatten().enumerate() {
             row[i..].iter().for_each(|&x| self.take(x));
         }
     }
 
-    /// The body by its first moment: from the start, because common factors are pulled out of sums as soon as these are formed.
+    /// An entry of I_O = I_G + m (c² 1 − c cᵀ): in I_G and c forces are not linear.
+    fn take_about_o(&mut self, body: &Body<'g>, [i, j]: [usize; 2]) {
+        let entry = body.inertia[i][j];
+        let free = [entry.is_zero(), entry.as_number().is_some(), self.about_o.contains_key(&entry.key())];
+        if let (Some(mass), [false, false, false]) = (self.names.get(&body.mass.key()), free) {
+            let symbol = self.push(format!("I_O[{i}][{j}] of {mass}"), entry);
+            self.about_o.insert(entry.key(), symbol);
+        }
+    }
+
+    /// The body by its first moment: from the start, because common factors are pulled out of sums as soon as these are
+    /// formed.
     pub fn by_first_moment(&self, body: &Body<'g>) -> Body<'g> {
         let center = |c: Expr<'g>| self.centers.get(&(body.mass.key(), c.key())).copied().unwrap_or(c);
-        Body { center_of_mass: body.center_of_mass.map(center), ..body.clone() }
+        let about_o = |e: Expr<'g>| self.about_o.get(&e.key()).copied().unwrap_or(e);
+        let inertia = body.inertia.map(|row| row.map(about_o));
+        Body { center_of_mass: body.center_of_mass.map(center), inertia, central: None, ..body.clone() }
     }
 
     /// `residuals` are arrangements of the forces of inertia, weight and buoyancy of bodies by their first moments, `forces` those of

@@ -1,5 +1,6 @@
 //! Bodies, frames and particles, each relative to its parent, and sums over them by recursion.
 
+pub mod floating;
 pub mod link;
 pub mod regroup;
 pub mod tree;

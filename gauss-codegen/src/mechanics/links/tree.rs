@@ -6,13 +6,14 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::mechanics::arrangements::balance::Weight;
 use crate::mechanics::kinematics::turn::{Turn, angular_acceleration, inward, outward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, scale, subtract};
+use crate::mechanics::links::floating::Floating;
 use crate::mechanics::links::link::{Link, Matter, Placement, impulse, reaction};
 use crate::mechanics::links::regroup::regroup;
-use crate::mechanics::loads::forces::Force;
+use crate::mechanics::loads::forces::{Force, Loads};
 use crate::mechanics::matter::body::Body;
 use crate::mechanics::matter::moments::Moments;
 
-/// A linear and an angular part at the pole O of each link: momenta or forces.
+/// A linear and an angular part at the pole O of each link: momenta, forces or accelerations.
 pub type Pairs<'g> = Vec<(Vector<'g>, Triple<'g>)>;
 
 /// The rate of the angular momentum of a link: two ways to form it, one cheaper here, the other there.
@@ -34,6 +35,7 @@ pub struct Tree<'g> {
     rates: Map<u32, Expr<'g>>,
     /// Acceleration of free fall, observer's axes.
     pub gravity: Option<Triple<'g>>,
+    floating: Vec<Option<Floating<'g>>>,
 }
 
 impl<'g> Tree<'g> {
@@ -52,7 +54,7 @@ impl<'g> Tree<'g> {
         let about_it = |turn: &Turn<'g>| turn.axis_and_angle().is_some_and(|(own, _)| Some(own) == axis);
         let dry = placements.iter().all(|p| !matches!(&p.matter, Matter::Body(body) if body.added_mass.is_some()));
         let planar = axis.filter(|_| chained && dry && turns.all(about_it));
-        let mut tree = Self { graph, links: Vec::new(), planar, speeds, rates, gravity };
+        let mut tree = Self { graph, links: Vec::new(), planar, speeds, rates, gravity, floating: Vec::new() };
         placements.into_iter().for_each(|placement| tree.hang(placement));
         tree
     }
@@ -69,6 +71,7 @@ impl<'g> Tree<'g> {
 
     /// Gives to parents what moves with them as well; to be called once all links hang.
     pub fn settle(&mut self) {
+        self.floating = Floating::of(&self.links, self.speeds.len());
         regroup(self.graph, &mut self.links);
         self.links.iter_mut().for_each(Link::settle);
     }
@@ -216,14 +219,41 @@ impl<'g> Tree<'g> {
         (inward(&joint.turns, &moved), inward(&joint.turns, &angular))
     }
 
-    /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm`, the fluid's share and the
-    /// loads, with ż by its rates in `along`.
-    pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
-        let accelerations = self.accelerations(along);
-        let inertia_forces = self.links.iter().zip(&accelerations);
+    /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm`, the fluid's share and
+    /// the loads, with ż by its rates in `along`.
+    pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia, loads: &Loads<'g>) -> Vec<Expr<'g>> {
+        self.balance(along, inertia, loads, &self.accelerations(along, loads, None))
+    }
+
+    /// The same at ż = ζ, seen by observers who move with the links that float, and ζ. Speeds of which `held` is true
+    /// stay at rest.
+    pub fn floating_residual(
+        &self,
+        inertia: Inertia,
+        loads: &Loads<'g>,
+        held: &[bool],
+    ) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
+        let (accelerations, taken) = self.floating_accelerations(loads, held);
+        (self.balance(&self.rates, inertia, loads, &accelerations), taken)
+    }
+
+    /// `a_O − g` and ω̇ of every link at ż = ζ for these observers, and ζ.
+    pub fn floating_accelerations(&self, loads: &Loads<'g>, held: &[bool]) -> (Pairs<'g>, Vec<Expr<'g>>) {
+        let mut taken = vec![self.graph.zero(); self.speeds.len()];
+        (self.accelerations(&self.rates, loads, Some((held, &mut taken))), taken)
+    }
+
+    fn balance(
+        &self,
+        along: &Map<u32, Expr<'g>>,
+        inertia: Inertia,
+        loads: &Loads<'g>,
+        accelerations: &Pairs<'g>,
+    ) -> Vec<Expr<'g>> {
+        let inertia_forces = self.links.iter().zip(accelerations);
         let mut pairs: Pairs<'g> =
             inertia_forces.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
-        for (link, force, torque) in forces.iter().filter_map(|force| force.load(&self.links)) {
+        for (link, force, torque) in loads.forces.iter().filter_map(|force| force.load(&self.links)) {
             let (linear, angular) = &mut pairs[link];
             *linear = linear.minus(&force).map(Expr::group);
             *angular = subtract(angular, &torque).map(Expr::group);
@@ -231,10 +261,14 @@ impl<'g> Tree<'g> {
         self.projected(&self.gathered(pairs))
     }
 
-    /// `R·a_α + M_O·o_α` of the forces that act on links.
-    pub fn loads(&self, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
-        let none = [self.graph.zero(); 3];
-        let mut pairs: Pairs<'g> = self.links.iter().map(|link| (link.frame.zero(), none)).collect();
+    /// `R·a_α + M_O·o_α` of what acts on links.
+    pub fn loads(&self, loads: &Loads<'g>) -> Vec<Expr<'g>> {
+        let fields: Vec<Option<Triple<'g>>> = (0..self.links.len()).map(|k| loads.field_on(self.root_of(k))).collect();
+        self.acted_on_by(&loads.forces, self.weights_in(&fields, |_| None))
+    }
+
+    /// `R·a_α + M_O·o_α` of forces, and of a resultant and a torque about O on each link.
+    pub fn acted_on_by(&self, forces: &[Force<'g>], mut pairs: Pairs<'g>) -> Vec<Expr<'g>> {
         for (link, force, torque) in forces.iter().filter_map(|force| force.load(&self.links)) {
             let (linear, angular) = &mut pairs[link];
             *linear = linear.plus(&force);
@@ -243,21 +277,40 @@ impl<'g> Tree<'g> {
         self.projected(&self.gathered(pairs))
     }
 
-    /// `a_O − g` and ω̇ of every link; uniform gravity is an acceleration of the observer.
-    fn accelerations(&self, along: &Map<u32, Expr<'g>>) -> Vec<(Vector<'g>, Triple<'g>)> {
-        let mut accelerations: Vec<(Vector<'g>, Triple<'g>)> = Vec::with_capacity(self.links.len());
-        for link in &self.links {
+    /// The axis that every turn is about, if components are taken in k for that.
+    pub fn planar_axis(&self) -> Option<usize> {
+        self.planar
+    }
+
+    /// ∂v_O/∂z^α and ∂ω/∂z^α of a link, in its working axes.
+    pub fn motion(&self, k: usize, speed: usize) -> (Triple<'g>, Triple<'g>) {
+        let (linear, angular) = self.carried_motion(k, speed);
+        let own = self.links[k].frame.resolve(&self.links[k].linear_rows[speed], Axes::Body);
+        (add(&linear, &own).map(Expr::group), add(&angular, &self.links[k].angular_rows[speed]).map(Expr::group))
+    }
+
+    /// The root that a link hangs on.
+    pub fn root_of(&self, k: usize) -> usize {
+        self.links[k].parent.map_or(k, |parent| self.root_of(parent))
+    }
+
+    /// `a_O − g` and ω̇ of every link; a uniform field is an acceleration of the observer, and so is what links that
+    /// float have at ż = 0, unless the speed is held: it is written down.
+    fn accelerations(
+        &self,
+        along: &Map<u32, Expr<'g>>,
+        loads: &Loads<'g>,
+        mut observers: Option<(&[bool], &mut [Expr<'g>])>,
+    ) -> Pairs<'g> {
+        let mut accelerations: Pairs<'g> = Vec::with_capacity(self.links.len());
+        for (k, link) in self.links.iter().enumerate() {
             let frame = &link.frame;
-            let entry = match link.parent {
+            let (mut a, alpha) = match link.parent {
                 None => {
                     let omega = frame.body_vector(link.angular_velocity);
                     let a = frame.derivative(&link.velocity, along, &omega).map(Expr::group);
-                    let a = self.gravity.map_or(a, |g| a.minus(&frame.space_vector(g)));
-                    let a = if link.is_alone() {
-                        a
-                    } else {
-                        frame.body_vector(frame.resolve(&a, Axes::Body).map(Expr::group))
-                    };
+                    let fields = self.gravity.into_iter().chain(loads.field_on(k));
+                    let a = fields.fold(a, |a, g| a.minus(&frame.space_vector(g)));
                     (a, link.angular_velocity.map(|e| e.derivative(along).group()))
                 }
                 Some(parent) => {
@@ -280,7 +333,13 @@ impl<'g> Tree<'g> {
                     (a, alpha)
                 }
             };
-            accelerations.push(entry);
+            if let (Some((held, taken)), Some(Some(floating))) = (&mut observers, self.floating.get(k)) {
+                a = floating.taken_from(link, &a, held, taken);
+            }
+            if !link.is_alone() {
+                a = frame.body_vector(frame.resolve(&a, Axes::Body).map(Expr::group));
+            }
+            accelerations.push((a, alpha));
         }
         accelerations
     }
@@ -376,21 +435,34 @@ impl<'g> Tree<'g> {
 
     /// `R·a_α + M_O·o_α` of weight and buoyancy.
     pub fn weights(&self) -> Vec<Expr<'g>> {
-        let Some(gravity) = self.gravity else { return vec![self.graph.zero(); self.speeds.len()] };
-        let forces = self.links.iter().map(|link| {
+        if self.gravity.is_none() {
+            return vec![self.graph.zero(); self.speeds.len()];
+        }
+        self.projected(&self.gathered(self.weights_in(&vec![self.gravity; self.links.len()], Link::displaced)))
+    }
+
+    /// Resultant and torque about O, on each link, of a field that is uniform over it; what is displaced is lifted.
+    fn weights_in(
+        &self,
+        fields: &[Option<Triple<'g>>],
+        displaced: impl Fn(&Link<'g>) -> Option<(Expr<'g>, Triple<'g>)>,
+    ) -> Pairs<'g> {
+        let none = [self.graph.zero(); 3];
+        let weight = |(link, field): (&Link<'g>, &Option<Triple<'g>>)| {
             let frame = &link.frame;
+            let Some(field) = *field else { return (frame.zero(), none) };
             let (mut mass, mut first) = (link.moments.mass, link.moments.first);
-            if let Some((displaced, center)) = link.displaced() {
+            if let Some((displaced, center)) = displaced(link) {
                 mass = mass - displaced;
                 first = subtract(&first, &scale(displaced, &center));
             }
-            let g = frame.space_vector(gravity);
+            let g = frame.space_vector(field);
             let force = g.times(mass);
             let torque = if is_zero(&first) { first } else { cross(&first, &frame.resolve(&g, Axes::Body)) };
             let force = if link.is_alone() { force } else { frame.body_vector(frame.resolve(&force, Axes::Body)) };
             (force, torque.map(Expr::group))
-        });
-        self.projected(&self.gathered(forces.collect()))
+        };
+        self.links.iter().zip(fields).map(weight).collect()
     }
 
     /// 2T = Σ Q·v_O + Γ_O·ω.

@@ -4,7 +4,7 @@ use crate::algebra::Expr;
 
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
-use crate::mechanics::loads::forces::{Action, Force};
+use crate::mechanics::loads::forces::{Action, Force, Loads};
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::scene::Lettering;
 use crate::mechanics::system::System;
@@ -49,9 +49,10 @@ impl<'g> System<'g> {
         }
         accounts.extend(scene.elements.iter().map(|element| match (&element.action, body, &element.on_link) {
             (action, Some(body), Some((_, wrench))) => {
-                by_wrench(body, &element.name, matches!(action, Action::Potential(_)), wrench)
+                by_wrench(body, &element.name, !matches!(action, Action::Forces(_)), wrench)
             }
             (Action::Potential(energy), ..) => potential(&element.name, *energy),
+            (Action::Field(field), ..) => potential(&element.name, field.potential),
             (Action::Forces(forces), ..) => self.account_of(&element.name, forces),
         }));
         if self.driven {
@@ -82,7 +83,7 @@ impl<'g> System<'g> {
         Account {
             name: name.to_owned(),
             conservative: false,
-            forces: elsewhere.fold(scene.tree.loads(forces), |sum, own| sums(&sum, &own)),
+            forces: elsewhere.fold(scene.tree.loads(&Loads::of_forces(forces)), |sum, own| sums(&sum, &own)),
             power: powers.fold(scene.graph.zero(), |sum, power| sum + power),
         }
     }

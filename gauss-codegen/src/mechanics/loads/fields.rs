@@ -1,31 +1,13 @@
-//! What acts on all that a body is made of: central gravity, and a medium that moves.
+//! What acts on all that a body is in: a medium that moves.
 
 use crate::algebra::{Expr, Graph, Map};
 
-use crate::mechanics::kinematics::vector::{Triple, add, cross, dot, is_zero, scale, subtract};
+use crate::mechanics::kinematics::vector::{Triple, add, cross, is_zero, scale, subtract};
 use crate::mechanics::links::link::reaction;
 use crate::mechanics::matter::body::Body;
-use crate::mechanics::matter::moments::Moments;
 
 /// Terms that a component may have while what cancels is looked for.
 const LIMIT: usize = 2000;
-
-/// The potential energy of a body in the field of a centre, by its moments about O: `∫φ(ρ + x) dm` with the field φ = −μ/|ρ|
-/// expanded to second order in x. For a body small beside its distance that is all of gravity: its first order moves the
-/// body, its second turns it (the gravity-gradient torque) and corrects the first. `arm` is ρ, O from the centre, in body axes.
-pub fn attraction<'g>(mu: Expr<'g>, moments: &Moments<'g>, arm: &Triple<'g>) -> Expr<'g> {
-    let graph = mu.graph();
-    let rho: Triple<'g> =
-        std::array::from_fn(|i| graph.symbol(format!("ρ{}", i + 1), format!("\\rho_{{{}}}", i + 1), false));
-    let field = -mu * dot(&rho, &rho).group().sqrt().recip();
-    let gradient = rho.map(|r| field.partial(r));
-    let second: Expr<'g> = (0..3)
-        .flat_map(|i| (0..3).map(move |j| (i, j)))
-        .map(|(i, j)| gradient[i].partial(rho[j]) * moments.second[i][j])
-        .sum();
-    let energy = moments.mass * field + dot(&gradient, &moments.first) + second.half();
-    energy.substitute(&rho.iter().zip(arm).map(|(r, value)| (r.key(), value.group())).collect())
-}
 
 /// What a uniform stream changes beside the relative velocity that drag feels: forces and a torque about O, body axes.
 ///

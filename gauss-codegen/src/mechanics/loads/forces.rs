@@ -27,14 +27,74 @@ impl<'g> Element<'g> {
 pub enum Action<'g> {
     /// By a potential, a function of t and q: part of the energy.
     Potential(Expr<'g>),
+    /// By a potential of which the forces are known, in part, link by link.
+    Field(Field<'g>),
     /// By forces that act together.
     Forces(Vec<Force<'g>>),
+}
+
+/// A field with its potential.
+#[derive(Clone)]
+pub struct Field<'g> {
+    /// All of it.
+    pub potential: Expr<'g>,
+    /// What acts by its derivatives.
+    pub rest: Expr<'g>,
+    /// What the remainder does.
+    pub loads: Loads<'g>,
+}
+
+/// What acts on links.
+#[derive(Clone, Default)]
+pub struct Loads<'g> {
+    pub forces: Vec<Force<'g>>,
+    /// Accelerations that all matter on a root has from a field, observer's axes.
+    pub uniform: Vec<(usize, Triple<'g>)>,
+}
+
+impl<'g> Loads<'g> {
+    /// Of all elements together.
+    pub fn of(elements: &[Element<'g>]) -> Self {
+        let mut all = Self::default();
+        for element in elements {
+            match &element.action {
+                Action::Potential(_) => {}
+                Action::Field(field) => {
+                    all.forces.extend(&field.loads.forces);
+                    all.uniform.extend(&field.loads.uniform);
+                }
+                Action::Forces(forces) => all.forces.extend(forces),
+            }
+        }
+        all
+    }
+
+    pub fn of_forces(forces: &[Force<'g>]) -> Self {
+        Self { forces: forces.to_vec(), uniform: Vec::new() }
+    }
+
+    /// The acceleration that the matter on a root has.
+    pub fn field_on(&self, root: usize) -> Option<Triple<'g>> {
+        let own = self.uniform.iter().filter(|(other, _)| *other == root).map(|(_, field)| *field);
+        own.reduce(|sum, field| add(&sum, &field))
+    }
 }
 
 /// The sum of all potentials.
 pub fn potential_of<'g>(elements: &[Element<'g>]) -> Option<Expr<'g>> {
     let potentials = elements.iter().filter_map(|element| match element.action {
         Action::Potential(potential) => Some(potential),
+        Action::Field(ref field) => Some(field.potential),
+        Action::Forces(_) => None,
+    });
+    potentials.reduce(|sum, potential| sum + potential)
+}
+
+/// What of it acts by its derivatives.
+pub fn potential_of_forces<'g>(elements: &[Element<'g>]) -> Option<Expr<'g>> {
+    let potentials = elements.iter().filter_map(|element| match element.action {
+        Action::Potential(potential) => Some(potential),
+        Action::Field(ref field) => Some(field.rest),
         Action::Forces(_) => None,
     });
     potentials.reduce(|sum, potential| sum + potential)
@@ -43,7 +103,7 @@ pub fn potential_of<'g>(elements: &[Element<'g>]) -> Option<Expr<'g>> {
 /// All forces, of whichever element.
 pub fn forces_of<'g>(elements: &[Element<'g>]) -> Vec<Force<'g>> {
     let forces = elements.iter().filter_map(|element| match &element.action {
-        Action::Potential(_) => None,
+        Action::Potential(_) | Action::Field(_) => None,
         Action::Forces(forces) => Some(forces),
     });
     forces.flatten().copied().collect()

@@ -2,6 +2,7 @@
 
 pub mod account;
 pub mod accounts;
+pub mod central;
 pub mod fields;
 pub mod forces;
 pub mod observed;

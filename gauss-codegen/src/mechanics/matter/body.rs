@@ -10,6 +10,8 @@ use crate::mechanics::print::names::Name;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BodyShape {
     pub inertia: Shape,
+    /// The inertia is about G.
+    pub central: bool,
     pub center_of_mass: bool,
     pub added_mass: Option<Shape>,
     pub gravity: Option<Shape>,
@@ -42,6 +44,8 @@ pub struct Body<'g> {
     pub center_of_mass: Triple<'g>,
     /// I_O, body axes.
     pub inertia: [Triple<'g>; 3],
+    /// I_G, where that is given: I_O is then a sum of it.
+    pub central: Option<[Triple<'g>; 3]>,
     /// Added mass in the order (u, ω), body axes, pole O.
     pub added_mass: Option<Vec<Vec<Expr<'g>>>>,
     /// Acceleration of free fall, observer's axes.
@@ -115,12 +119,19 @@ impl<'g> Body<'g> {
         let mut symbols = Symbols { graph, suffix, list: Vec::new() };
         let mass = symbols.scalar("m", "m", Role::Mass);
         let center_of_mass = if shape.center_of_mass { symbols.vector("c", Role::CenterOfMass) } else { [zero; 3] };
+        let (letter, role) = if shape.central { ("IG", Role::CentralInertia) } else { ("I", Role::Inertia) };
         let inertia = match shape.inertia {
-            Shape::Scalar => diagonal(graph, &[symbols.scalar("I", "I", Role::Inertia); 3]),
-            Shape::Vector3 => diagonal(graph, &symbols.vector::<3>("I", Role::Inertia)),
-            _ => symbols.symmetric(3, "I", Role::Inertia),
+            Shape::Scalar => diagonal(graph, &[symbols.scalar(letter, letter, role); 3]),
+            Shape::Vector3 => diagonal(graph, &symbols.vector::<3>(letter, role)),
+            _ => symbols.symmetric(3, letter, role),
         };
-        let inertia = std::array::from_fn(|i| std::array::from_fn(|j| inertia[i][j]));
+        let given: [Triple<'g>; 3] = std::array::from_fn(|i| std::array::from_fn(|j| inertia[i][j]));
+        let central = shape.central.then_some(given);
+        let about_o = |central: [Triple<'g>; 3]| {
+            let lever = lever(mass, &center_of_mass);
+            std::array::from_fn(|i| std::array::from_fn(|j| central[i][j] + lever[i][j]))
+        };
+        let inertia = central.map_or(given, about_o);
         let added_mass = shape.added_mass.map(|shape| match shape {
             Shape::Vector6 => diagonal(graph, &symbols.vector::<6>("X", Role::AddedMass)),
             _ => symbols.symmetric(6, "X", Role::AddedMass),
@@ -137,7 +148,7 @@ impl<'g> Body<'g> {
             let center = if shape.center_of_buoyancy { symbols.vector("h", Role::CenterOfBuoyancy) } else { [zero; 3] };
             (mass, center)
         });
-        Self { mass, center_of_mass, inertia, added_mass, gravity, displaced, parameters: symbols.list }
+        Self { mass, center_of_mass, inertia, central, added_mass, gravity, displaced, parameters: symbols.list }
     }
 
     /// Puts values in the place of the symbols of a quantity, as many as its shape has.
@@ -150,6 +161,7 @@ impl<'g> Body<'g> {
         put(&mut self.mass);
         self.center_of_mass.iter_mut().for_each(put);
         self.inertia.iter_mut().flatten().for_each(put);
+        self.central.iter_mut().flatten().flatten().for_each(put);
         self.gravity.iter_mut().flatten().for_each(put);
         self.added_mass.iter_mut().flatten().flatten().for_each(put);
         if let Some((mass, center)) = &mut self.displaced {
@@ -163,6 +175,16 @@ impl<'g> Body<'g> {
         self.center_of_mass.map(|c| self.mass * c)
     }
 
+    /// I_G = I_O − m (c² 1 − c cᵀ), body axes, if it is not given: numbers once the parameters are known.
+    pub fn central_inertia(&self) -> [Triple<'g>; 3] {
+        let lever = lever(self.mass, &self.center_of_mass);
+        let moved = |i: usize, j: usize| match (self.inertia[i][j], lever[i][j]) {
+            (inertia, lever) if lever.is_zero() => inertia,
+            (inertia, lever) => (inertia - lever).opaque(),
+        };
+        self.central.unwrap_or_else(|| std::array::from_fn(|i| std::array::from_fn(|j| moved(i, j))))
+    }
+
     /// `J = ∫ x xᵀ dm = ½ tr(I_O) 1 − I_O`.
     pub fn second_moment(&self) -> [Triple<'g>; 3] {
         let half_trace = (0..3).map(|i| self.inertia[i][i]).sum::<Expr<'g>>().half();
@@ -170,6 +192,16 @@ impl<'g> Body<'g> {
             std::array::from_fn(|j| if i == j { half_trace - self.inertia[i][j] } else { -self.inertia[i][j] })
         })
     }
+}
+
+/// `m (c² 1 − c cᵀ)`: what the inertia about O has beyond that about G.
+fn lever<'g>(mass: Expr<'g>, c: &Triple<'g>) -> [Triple<'g>; 3] {
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| match i == j {
+            true => mass * ((i + 1)..(i + 3)).map(|k| c[k % 3].powi(2)).sum::<Expr<'g>>(),
+            false => -(mass * c[i] * c[j]),
+        })
+    })
 }
 
 /// A vector field over the body that is affine in the body coordinates x: `constant + Σ x_j · linear[j]`.

@@ -86,6 +86,7 @@ impl<'g> Symbols<'g> {
             MatterPlan::Solid(solid) => {
                 let shape = BodyShape {
                     inertia: solid.inertia,
+                    central: false,
                     center_of_mass: solid.has_center,
                     added_mass: solid.added_mass.map(|_| Shape::Matrix6),
                     gravity: None,
@@ -174,7 +175,7 @@ fn parameter(solid: &Solid, quantity: Role, row: usize, column: usize) -> f64 {
     match quantity {
         Role::Mass => solid.mass(),
         Role::CenterOfMass => solid.center()[row],
-        Role::Inertia => match solid.inertia {
+        Role::Inertia | Role::CentralInertia => match solid.inertia {
             Shape::Matrix3 => solid.inertia(row, column),
             _ => solid.inertia(row, row),
         },

@@ -30,6 +30,10 @@ pub fn check_roles(
     let given = |role: Role| statements.given.iter().any(|given| given.role == role);
     let known =
         |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role) || given(role);
+    let claimed = |role: Role| owners.iter().any(|(owner, _)| *owner == role) || given(role);
+    refuse_both(claimed, input.ident.span(), &input.ident.to_string(), context);
+    // One inertia is as good as the other.
+    let known = |role: Role| known(role) || (role == Role::Inertia && known(Role::CentralInertia));
     // An accelerating medium pushes the displaced mass as gravity does.
     let pushed = statements.medium.is_some();
     let known = |role: Role| known(role) || (role == Role::Gravity && pushed);
@@ -103,6 +107,14 @@ pub fn check_roles(
     }
 }
 
+/// A body has one inertia, about O or about its centre of mass.
+fn refuse_both(known: impl Fn(Role) -> bool, span: Span, name: &str, context: &mut Context) {
+    if known(Role::Inertia) && known(Role::CentralInertia) {
+        let words = [Role::Inertia, Role::CentralInertia].map(Role::word);
+        context.error(span, format!("`{name}` has both `{}` and `{}`; keep one of the two", words[0], words[1]));
+    }
+}
+
 /// Settles the shapes, and refuses numbers that no body has.
 pub fn check(list: &mut [Given], fields: &[ReadField<'_>], scope: &Scope, context: &mut Context) {
     for given in list {
@@ -145,7 +157,7 @@ fn broken_rule(given: &Given) -> Option<(Span, String)> {
     let word = given.role.word();
     let (least, positive) = match given.role {
         Role::Mass => ("positive", true),
-        Role::Inertia | Role::DisplacedMass => ("zero or more", false),
+        Role::Inertia | Role::CentralInertia | Role::DisplacedMass => ("zero or more", false),
         _ => return None,
     };
     let wrong = |part: &&Expression| part.literal().is_some_and(|number| number < 0.0 || (positive && number == 0.0));
@@ -210,8 +222,9 @@ pub fn check_named(body: &BodyClause, fields: &[ReadField<'_>], context: &mut Co
         );
     }
     let has = |role: Role| body.given.iter().any(|given| given.role == role);
+    refuse_both(has, body.span, &name.to_string(), context);
     for role in [Role::Mass, Role::Inertia] {
-        if !has(role) {
+        if !has(role) && (role == Role::Mass || !has(Role::CentralInertia)) {
             let remedy = if role == Role::Inertia { ", or write a `particle`" } else { "" };
             context.error(
                 body.span,

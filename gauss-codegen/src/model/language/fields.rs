@@ -197,7 +197,7 @@ fn wrong_unit(field: &Ident, role: Option<&Claim>, reading: &Reading, unit: &str
         (_, TypeKind::Known(Shape::Vector6 | Shape::Matrix6)) => {
             "what has six components belongs to forces and torques, which have different units"
         }
-        (Some(Role::Body), _) | (_, TypeKind::Known(Shape::RigidBody)) => {
+        (Some(Role::Body), _) | (_, TypeKind::Known(Shape::RigidBody | Shape::CentralBody)) => {
             "a rigid body has a mass in kg, a centre of mass in m and an inertia in kg m^2"
         }
         _ => return None,

@@ -18,7 +18,7 @@ pub fn read(role: Role, clause: &Clause, list: &mut Vec<Given>, context: &mut Co
     let word = role.word();
     let example = match role {
         Role::CenterOfMass | Role::CenterOfBuoyancy => "[0, 0, l]",
-        Role::Inertia => "[a, a, c]",
+        Role::Inertia | Role::CentralInertia => "[a, a, c]",
         Role::AddedMass => "[a, b, c, d, e, f]",
         _ => "2.0",
     };

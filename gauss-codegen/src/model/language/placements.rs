@@ -15,6 +15,7 @@ const BODY: &Table<()> = &[
     ("mass", ()),
     ("center_of_mass", ()),
     ("inertia", ()),
+    ("inertia_about_center_of_mass", ()),
     ("added_mass", ()),
     ("displaced_mass", ()),
     ("center_of_buoyancy", ()),

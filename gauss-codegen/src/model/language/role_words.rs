@@ -9,6 +9,7 @@ pub const ROLES: &Table<Role> = &[
     ("mass", Role::Mass),
     ("center_of_mass", Role::CenterOfMass),
     ("inertia", Role::Inertia),
+    ("inertia_about_center_of_mass", Role::CentralInertia),
     ("added_mass", Role::AddedMass),
     ("gravity", Role::Gravity),
     ("displaced_mass", Role::DisplacedMass),
@@ -20,6 +21,7 @@ pub const SYSTEM_ROLES: &Table<Role> = &[
     ("mass", Role::Mass),
     ("center_of_mass", Role::CenterOfMass),
     ("inertia", Role::Inertia),
+    ("inertia_about_center_of_mass", Role::CentralInertia),
     ("added_mass", Role::AddedMass),
     ("gravity", Role::Gravity),
     ("displaced_mass", Role::DisplacedMass),
@@ -34,6 +36,7 @@ impl Role {
             Role::Mass => "mass",
             Role::CenterOfMass => "center_of_mass",
             Role::Inertia => "inertia",
+            Role::CentralInertia => "inertia_about_center_of_mass",
             Role::AddedMass => "added_mass",
             Role::Gravity => "gravity",
             Role::DisplacedMass => "displaced_mass",
@@ -45,10 +48,14 @@ impl Role {
     /// The words after `=` that choose among the shapes of a role; none where there is nothing to choose.
     pub fn forms(self) -> &'static Table<Shape> {
         match self {
-            Role::Inertia => &[("spherical", Shape::Scalar), ("principal", Shape::Vector3), ("full", Shape::Matrix3)],
+            Role::Inertia | Role::CentralInertia => {
+                &[("spherical", Shape::Scalar), ("principal", Shape::Vector3), ("full", Shape::Matrix3)]
+            }
             Role::AddedMass => &[("diagonal", Shape::Vector6), ("full", Shape::Matrix6)],
             Role::Gravity => &[("vertical", Shape::Scalar), ("vector", Shape::Vector3)],
-            Role::Mass | Role::CenterOfMass | Role::DisplacedMass | Role::CenterOfBuoyancy | Role::Body => &[],
+            // Without a word its inertia is about O.
+            Role::Body => &[("about_center_of_mass", Shape::CentralBody)],
+            Role::Mass | Role::CenterOfMass | Role::DisplacedMass | Role::CenterOfBuoyancy => &[],
         }
     }
 
@@ -58,7 +65,7 @@ impl Role {
             Role::Mass | Role::DisplacedMass => Some(Shape::Scalar),
             Role::CenterOfMass | Role::CenterOfBuoyancy => Some(Shape::Vector3),
             Role::Body => Some(Shape::RigidBody),
-            Role::Inertia | Role::AddedMass | Role::Gravity => None,
+            Role::Inertia | Role::CentralInertia | Role::AddedMass | Role::Gravity => None,
         }
     }
 
@@ -89,6 +96,9 @@ impl Role {
             Role::Mass => "the mass of a body is one number",
             Role::CenterOfMass => "the centre of mass is a point, in body axes from O",
             Role::Inertia => "the inertia about O is one number, three principal moments or a tensor",
+            Role::CentralInertia => {
+                "the inertia about the centre of mass is one number, three principal moments or a tensor"
+            }
             Role::AddedMass => "added mass acts on three linear and three angular speeds",
             Role::Gravity => "gravity is a magnitude along −k₃ or a vector in observer axes",
             Role::DisplacedMass => "the mass of the displaced fluid is one number",
@@ -102,7 +112,7 @@ impl Role {
         match self {
             Role::Mass | Role::DisplacedMass => Some(("kg", Dimension::new(1, 0, 0))),
             Role::CenterOfMass | Role::CenterOfBuoyancy => Some(("m", Dimension::new(0, 1, 0))),
-            Role::Inertia => Some(("kg m^2", Dimension::new(1, 2, 0))),
+            Role::Inertia | Role::CentralInertia => Some(("kg m^2", Dimension::new(1, 2, 0))),
             Role::Gravity => Some(("m/s^2", Dimension::new(0, 1, -2))),
             Role::AddedMass | Role::Body => None,
         }
@@ -113,7 +123,7 @@ impl Role {
         let (name, shape) = match self {
             Role::Mass => ("mass", Shape::Scalar),
             Role::CenterOfMass => ("center", Shape::Vector3),
-            Role::Inertia => ("inertia", Shape::Vector3),
+            Role::Inertia | Role::CentralInertia => ("inertia", Shape::Vector3),
             Role::AddedMass => ("added_mass", Shape::Matrix6),
             Role::Gravity => ("g", Shape::Scalar),
             Role::DisplacedMass => ("displaced", Shape::Scalar),
@@ -134,6 +144,7 @@ impl Shape {
             Shape::Vector6 => format!("Vector6<{scalar}>"),
             Shape::Matrix6 => format!("Matrix6<{scalar}>"),
             Shape::RigidBody => format!("RigidBody<{scalar}>"),
+            Shape::CentralBody => format!("RigidBody<{scalar}, AboutCenterOfMass<{scalar}>>"),
             Shape::Other => "_".into(),
         }
     }

@@ -128,7 +128,12 @@ fn read_path(path: &Path, generics: &Generics) -> Reading {
         "Matrix3" => TypeKind::Known(Shape::Matrix3),
         "Vector6" => TypeKind::Known(Shape::Vector6),
         "Matrix6" => TypeKind::Known(Shape::Matrix6),
-        "RigidBody" => TypeKind::Known(Shape::RigidBody),
+        "RigidBody" => TypeKind::Known(match types(last).nth(1) {
+            Some(Type::Path(path)) if path.path.segments.last().is_some_and(|s| s.ident == "AboutCenterOfMass") => {
+                Shape::CentralBody
+            }
+            _ => Shape::RigidBody,
+        }),
         "SVector" => sized(&dimensions(last), 1),
         "SMatrix" => sized(&dimensions(last), 2),
         name if FOREIGN.contains(&name) => TypeKind::Foreign,

@@ -68,8 +68,8 @@ fn meaning(field: &ReadField<'_>, shape: Shape, scalar: &str) -> Meaning {
     match (shape, field.reading.kind) {
         (Shape::Scalar, _) => Meaning::Scalar,
         (Shape::Vector3, _) => Meaning::Vector,
-        (Shape::RigidBody, _) if field.role.is_some() => Meaning::Body,
-        (Shape::RigidBody, _) => Meaning::Unusable(format!(
+        (Shape::RigidBody | Shape::CentralBody, _) if field.role.is_some() => Meaning::Body,
+        (Shape::RigidBody | Shape::CentralBody, _) => Meaning::Unusable(format!(
             "the field `{name}` has no role; a body is a field `#[gauss(body)] {name}: RigidBody<{scalar}>` with a clause \
              `body({name}, …)`"
         )),

@@ -312,7 +312,7 @@ pub enum GivenValue {
 impl Given {
     /// It is of the body itself, not of the fluid about it.
     pub fn is_of_matter(&self) -> bool {
-        matches!(self.role, Role::Mass | Role::CenterOfMass | Role::Inertia)
+        matches!(self.role, Role::Mass | Role::CenterOfMass | Role::Inertia | Role::CentralInertia)
     }
 }
 

@@ -15,8 +15,17 @@ pub enum Shape {
     Matrix6,
     /// Mass, centre of mass and inertia of a body.
     RigidBody,
+    /// The same with the inertia about the centre of mass.
+    CentralBody,
     /// Anything else: only plain parameters have it.
     Other,
+}
+
+impl Shape {
+    /// Whether it is that of a whole body.
+    pub fn is_body(self) -> bool {
+        matches!(self, Shape::RigidBody | Shape::CentralBody)
+    }
 }
 
 /// What a field means to the body.
@@ -28,6 +37,8 @@ pub enum Role {
     CenterOfMass,
     /// About O, body axes: scalar (spherical), vector (principal) or matrix (full).
     Inertia,
+    /// The same about G.
+    CentralInertia,
     /// Six by six about O, body axes: vector (diagonal) or matrix (full).
     AddedMass,
     /// Scalar along −k₃, or a vector in observer axes.

@@ -131,7 +131,7 @@ fn fluid_that_is_none() {
             (
                 "gravity",
                 "unknown argument of `body`: `gravity`; expected `position`, `rotation`, `parent`, `mass`, \
-                 `center_of_mass`, `inertia`, `added_mass`, `displaced_mass` or `center_of_buoyancy`",
+                 `center_of_mass`, `inertia`, `inertia_about_center_of_mass`, `added_mass`, `displaced_mass` or `center_of_buoyancy`",
             ),
             (
                 "displaced_mass",

@@ -2,8 +2,7 @@
 
 use super::{INERTIA, check, with};
 
-const ROLES: &str =
-    "`mass`, `center_of_mass`, `inertia`, `added_mass`, `gravity`, `displaced_mass` or `center_of_buoyancy`";
+const ROLES: &str = "`mass`, `center_of_mass`, `inertia`, `inertia_about_center_of_mass`, `added_mass`, `gravity`, `displaced_mass` or `center_of_buoyancy`";
 
 #[test]
 fn missing_roles() {
@@ -40,11 +39,19 @@ fn unknown_roles() {
     );
     check(
         "struct Body { #[gauss(mass)] m: f64, #[gauss(principal)] j: Vector3<f64> }",
-        &[("principal", "`principal` is a form of a role, not a role; write `inertia = principal`")],
+        &[(
+            "principal",
+            "`principal` is a form of a role, not a role; write `inertia = principal` or \
+              `inertia_about_center_of_mass = principal`",
+        )],
     );
     check(
         &with("#[gauss(full)] a: Matrix6<f64>"),
-        &[("full", "`full` is a form of a role, not a role; write `inertia = full` or `added_mass = full`")],
+        &[(
+            "full",
+            "`full` is a form of a role, not a role; write `inertia = full` or \
+              `inertia_about_center_of_mass = full` or `added_mass = full`",
+        )],
     );
 }
 

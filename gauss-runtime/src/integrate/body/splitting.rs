@@ -143,6 +143,7 @@ where
             symplectic: self.body.motion.symplectic(),
             keeps_momentum: true,
             keeps_energy: false,
+            stiff: false,
         }
     }
 

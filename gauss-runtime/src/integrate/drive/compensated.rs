@@ -9,7 +9,8 @@
 //! ([`IncrementStep`]); attitudes are held at norm 1 within the same sum. The example `long_runs` measures it.
 
 use crate::configuration::{Configuration, VectorSpace, add_carrying};
-use crate::integrate::drive::control::{Control, Emit, one_step, steps_of_one_length};
+use crate::integrate::drive::control::{Control, Emit, one_step};
+use crate::integrate::drive::fixed::steps_of_one_length;
 use crate::integrate::lie_group::rkmk::Rkmk;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
@@ -55,18 +56,26 @@ impl<S: GaussSystem, M: IncrementStep<S>> Control<S> for Compensated<S::Scalar, 
         emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let mut carried: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
-        steps_of_one_length(self.step, problem, start, end, limit, emit, |state, rates, h| {
-            let increment = self.method.increment(problem, state, rates, h)?;
-            let q = state.q.retract_carrying(&increment.configuration, &mut carried.configuration);
-            let (y, rest) = add_carrying(&state.y, &increment.variables, &carried.variables);
-            carried.variables = rest;
-            let end = State { t: state.t + h, q, y };
-            check_chart(problem.system(), state, &end)?;
-            if !(end.q.is_finite() && end.y.is_finite()) {
-                return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
-            }
-            Ok((end, None))
-        })
+        steps_of_one_length(
+            (self.step, self.method.properties().stiff),
+            problem,
+            start,
+            end,
+            limit,
+            emit,
+            |state, rates, h| {
+                let increment = self.method.increment(problem, state, rates, h)?;
+                let q = state.q.retract_carrying(&increment.configuration, &mut carried.configuration);
+                let (y, rest) = add_carrying(&state.y, &increment.variables, &carried.variables);
+                carried.variables = rest;
+                let end = State { t: state.t + h, q, y };
+                check_chart(problem.system(), state, &end)?;
+                if !(end.q.is_finite() && end.y.is_finite()) {
+                    return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+                }
+                Ok((end, None))
+            },
+        )
     }
 
     fn within<P: Problem<System = S>>(

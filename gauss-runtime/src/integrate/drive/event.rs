@@ -1,21 +1,35 @@
-//! Events: where a function of the state passes through zero during a run.
+//! Events: where a function of the state passes through zero during a run, and jumps of the state there.
 //!
-//! After every step the signs of the functions at its two ends are compared. Where they differ, the length of the step is
-//! varied until it ends at the zero: what is found is a state that the method itself reaches from the last one, as accurate
-//! as the run, and not a point of an interpolant. The search is Chandrupatla's (1997): inverse quadratic interpolation where
-//! that is safe, bisection else, with the zero always in brackets; a jump through zero is found as well.
+//! **What is an event.** A function passes from one side of zero to zero or to the other side, in a direction that is asked for, in
+//! the order of integration.
 //!
-//! **What is not seen.** A function that has the same sign at both ends of a step has no event there: two zeros within one
-//! step, and a zero that is touched without being crossed, pass unnoticed (unless a step happens to end on it). Bound the steps
-//! where that matters ([`Simulation::largest_step`](crate::integrate::Simulation::largest_step)), or watch the derivative instead: a
-//! function grazes zero where its derivative passes through it.
+//! - *A zero at the start* is none: what starts on zero has left it, or is there by an event that was seen. So a run goes on from
+//!   where another one ended.
+//! - *A touch* without passing is none; where rounding decides, it is two passages or none. A function grazes zero where its
+//!   derivative passes through it: watch that.
+//! - *A jump* of the function over zero is one. *A pole*, where it passes from one side to the other by way of infinity, is none.
+//! - A function that is undefined (NaN) ends the run.
+//!
+//! **How they are found.** After every step the function is looked at between its ends as well: on the cubic through the states and
+//! derivatives there, or on the series of Taylor's method. So passages there and back within one step are seen, as
+//! long as that curve shows them; what is faster than the steps is not, and where that matters steps are to be bounded
+//! ([`Simulation::largest_step`](crate::integrate::Simulation::largest_step)). Then the length of the step is varied until it ends at the
+//! zero: what is found is a state that the method itself reaches from the last one, as accurate as the run, and not a point
+//! of the curve.
+//!
+//! **Jumps.** [`Simulation::then`](crate::integrate::Simulation::then) changes the state at an event, and the run goes on from there. After
+//! the jump the function is on the side that it came from, also where rounding left it a little beyond zero: a ball that bounces
+//! has not fallen through the floor. Only where it passes on in the same direction, as at a gate that kicks, it is on the other. Where a jump itself leads over the zero of another event, that one happens at once, in the
+//! state after the jump. Where it does not leave zero again, or events come ever faster and pile up at one time
+//! (a ball that bounces infinitely often before it rests), the run ends with
+//! [`IntegrationErrorKind::Zeno`].
 
-use core::ops::ControlFlow;
-
+use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
+use crate::integrate::drive::zero::{below_zero, least_of_cubic, locate};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::problem::state::{Rates, Sample, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -50,8 +64,14 @@ pub struct Mark {
     crossing: Crossing,
     terminal: bool,
     value: f64,
-    /// The part of the present step at whose end the event is, when it has one that is not reported yet.
-    part: Option<f64>,
+    /// Where in the present step the next one is, if there is one, with the value there.
+    next: Option<(f64, f64)>,
+    /// The value before the event that was found last.
+    before: f64,
+    /// Whether the state has jumped there, and stays on the side that it came from.
+    jumped: bool,
+    /// Whether a jump has led over it.
+    passed: bool,
 }
 
 /// A function of time, configuration and quasi-velocities.
@@ -68,6 +88,9 @@ pub trait Events<S: GaussSystem> {
 
     /// Shows every one.
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark));
+
+    /// Changes the state as the event of this number does; whether it does.
+    fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool;
 }
 
 /// None.
@@ -78,27 +101,66 @@ impl<S: GaussSystem> Events<S> for NoEvents {
     const COUNT: usize = 0;
 
     fn each(&mut self, _: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {}
+
+    fn jump(&mut self, _: usize, _: &mut Sample<S>) -> bool {
+        false
+    }
 }
 
-/// One event after others.
+/// One event after others, with what becomes of the state there.
 #[derive(Clone, Copy, Debug)]
-pub struct Watched<E, G> {
+pub struct Watched<E, G, J = Stay> {
     others: E,
     function: G,
+    jump: J,
     mark: Mark,
 }
 
 impl<E, G> Watched<E, G> {
     pub(in crate::integrate) fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
-        Self { others, function, mark: Mark { crossing, terminal, value: 0.0, part: None } }
+        let mark = Mark { crossing, terminal, value: 0.0, next: None, before: 0.0, jumped: false, passed: false };
+        Self { others, function, jump: Stay, mark }
+    }
+
+    pub(in crate::integrate) fn then<J>(self, jump: J) -> Watched<E, G, Then<J>> {
+        let Self { others, function, mark, .. } = self;
+        Watched { others, function, jump: Then(jump), mark }
     }
 }
 
-impl<S, E, G> Events<S> for Watched<E, G>
+/// What becomes of the state at an event.
+pub trait Jump<S: GaussSystem> {
+    /// Changes it; whether it does.
+    fn jump(&mut self, state: &mut Sample<S>) -> bool;
+}
+
+/// The state stays as it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stay;
+
+impl<S: GaussSystem> Jump<S> for Stay {
+    fn jump(&mut self, _: &mut Sample<S>) -> bool {
+        false
+    }
+}
+
+/// A function changes the state.
+#[derive(Clone, Copy, Debug)]
+pub struct Then<J>(J);
+
+impl<S: GaussSystem, J: FnMut(&mut Sample<S>)> Jump<S> for Then<J> {
+    fn jump(&mut self, state: &mut Sample<S>) -> bool {
+        (self.0)(state);
+        true
+    }
+}
+
+impl<S, E, G, J> Events<S> for Watched<E, G, J>
 where
     S: GaussSystem,
     E: Events<S>,
     G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
+    J: Jump<S>,
 {
     const COUNT: usize = E::COUNT + 1;
 
@@ -106,107 +168,270 @@ where
         self.others.each(visit);
         visit(&self.function, &mut self.mark);
     }
+
+    fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
+        if number == E::COUNT { self.jump.jump(state) } else { self.others.jump(number, state) }
+    }
+}
+
+/// What the events of a step come to.
+pub(in crate::integrate) enum Outcome<S: GaussSystem> {
+    /// The step stands as it is.
+    On,
+    /// The run ends within the step or goes on from there in another state.
+    Here {
+        /// The state at the event.
+        state: State<S>,
+        /// What it jumped to.
+        after: Option<State<S>>,
+        /// The event that made it jump, or ended the run.
+        number: usize,
+        /// The event that ended the run.
+        stopped_by: Option<usize>,
+    },
+}
+
+/// A step with the derivatives at its ends.
+pub(in crate::integrate) struct Made<'a, S: GaussSystem> {
+    pub(in crate::integrate) before: (&'a State<S>, &'a Rates<S>),
+    pub(in crate::integrate) after: (&'a State<S>, &'a Rates<S>),
 }
 
 /// Looks for events at the start of a run and within its steps.
 pub(in crate::integrate) struct Watch<'a, P, C, E> {
-    pub(in crate::integrate) control: &'a C,
-    pub(in crate::integrate) problem: &'a P,
-    pub(in crate::integrate) events: E,
+    control: &'a C,
+    problem: &'a P,
+    events: E,
 }
 
-impl<S, P, C, E> Watch<'_, P, C, E>
+impl<'a, S, P, C, E> Watch<'a, P, C, E>
 where
     S: GaussSystem,
     P: Problem<System = S>,
     C: Control<S>,
     E: Events<S>,
 {
-    /// Takes the values at the start.
+    pub(in crate::integrate) fn new(control: &'a C, problem: &'a P, events: E) -> Self {
+        Self { control, problem, events }
+    }
+
+    /// Takes the values at the start of a run, or where it goes on after a jump.
     pub(in crate::integrate) fn begin(&mut self, start: &State<S>) -> Result<(), IntegrationErrorKind> {
         let problem = self.problem;
         let mut outcome = Ok(());
         self.events.each(&mut |function, mark| match value(problem, function, start) {
-            Ok(value) => mark.value = value,
+            Ok(value) => {
+                let side = |of: f64| if of < 0.0 { -f64::MIN_POSITIVE } else { f64::MIN_POSITIVE };
+                let beyond = value.abs() <= mark.value.abs() && !same_side(value, mark.before);
+                let passed = core::mem::take(&mut mark.passed);
+                mark.value = match core::mem::take(&mut mark.jumped) {
+                    // On the side that it came from, unless the jump has led away from zero.
+                    true if beyond => side(mark.before),
+                    // Another event that is to come at this very time.
+                    false if value == 0.0 && mark.value != 0.0 && !passed => side(mark.value),
+                    _ => value,
+                };
+            }
             Err(kind) => outcome = Err(kind),
         });
         outcome
     }
 
-    /// Reports the events of a step, with their numbers, in the order in which they happen. Breaks with the state at which
-    /// the run is to end.
+    /// Reports the events of a step, with their numbers, in the order in which they happen.
     pub(in crate::integrate) fn step(
         &mut self,
-        before: &State<S>,
-        rates: &Rates<S>,
-        after: &State<S>,
+        made: &Made<'_, S>,
         report: &mut dyn FnMut(usize, &State<S>),
-    ) -> Result<ControlFlow<State<S>>, IntegrationErrorKind> {
-        let (control, problem) = (self.control, self.problem);
-        let reach = |part: f64| {
-            // The end of the step itself is that of the run, whose time is not the sum of lengths.
-            if part >= 1.0 {
-                return Ok(*after);
-            }
-            let h = (after.t - before.t) * S::Scalar::from_f64(part);
-            control.within(problem, before, rates, h)
-        };
+    ) -> Result<Outcome<S>, IntegrationErrorKind> {
+        let looking = Looking::of(self.control, self.problem, made);
         let mut outcome = Ok(());
         self.events.each(&mut |function, mark| {
-            let found = value(problem, function, after).and_then(|value_after| {
-                if mark.crossing.between(mark.value, value_after) {
-                    let along = |part: f64| value(problem, function, &reach(part)?);
-                    mark.part = Some(locate(along, mark.value, value_after, resolution(before, after))?);
-                }
-                Ok(value_after)
-            });
+            let found = looking.first(function, mark, (0.0, mark.value));
             match found {
-                Ok(value) => mark.value = value,
+                Ok(next) => mark.next = next,
                 Err(kind) => outcome = Err(kind),
             }
         });
         outcome?;
 
-        let (mut last, mut stop) = (f64::INFINITY, None);
-        while let Some((number, part, terminal)) = self.take_earliest() {
+        let (mut last, mut here) = (f64::INFINITY, None);
+        while let Some((number, part, terminal)) = self.earliest() {
             // Others at the very end of the run are told of, later ones are not.
             if part > last {
                 break;
             }
-            let state = reach(part)?;
+            let state = looking.reach(part)?;
             report(number, &state);
-            if terminal {
-                (last, stop) = (part, Some(state));
+            self.go_on(&looking, number)?;
+            let (at, mut after, first, mut stopped_by) = here.take().unwrap_or((state, None, number, None));
+            let from = after.unwrap_or(at);
+            let mut sample = self.problem.sample(&from);
+            if self.events.jump(number, &mut sample) {
+                let (q, z) = consistent(self.problem, &sample)?;
+                after = Some(self.problem.state(from.t, q, &z));
+                self.leave(number, &state)?;
+            }
+            if terminal && stopped_by.is_none() {
+                stopped_by = Some(number);
+            }
+            if after.is_some() || stopped_by.is_some() {
+                last = part;
+                here = Some((at, after, first, stopped_by));
             }
         }
-        Ok(stop.map_or(ControlFlow::Continue(()), ControlFlow::Break))
+        if let Some((state, mut after, number, mut stopped_by)) = here {
+            self.led_over(&state, (&mut after, &mut stopped_by), report)?;
+            if let Some(after) = &after {
+                self.passing(&state, after, looking.length() * S::Scalar::from_f64(INSTANT))?;
+            }
+            return Ok(Outcome::Here { state, after, number, stopped_by });
+        }
+        let problem = self.problem;
+        let mut outcome = Ok(());
+        self.events.each(&mut |function, mark| match value(problem, function, made.after.0) {
+            Ok(value) => mark.value = value,
+            Err(kind) => outcome = Err(kind),
+        });
+        outcome.map(|()| Outcome::On)
     }
 
-    /// The number of the event that was found earliest in the step, where that is, and whether it ends the run; it is then no
-    /// longer to be reported.
-    fn take_earliest(&mut self) -> Option<(usize, f64, bool)> {
+    /// Where the function of an event passes on through zero after the jump as before it, slower or faster, it is on the other side.
+    fn passing(&mut self, before: &State<S>, after: &State<S>, h: S::Scalar) -> Result<(), IntegrationErrorKind> {
+        let problem = self.problem;
+        let (slopes_before, slopes) = (problem.rates(before), problem.rates(after));
+        let mut outcome = Ok(());
+        self.events.each(&mut |function, mark| {
+            let change = |at: &State<S>, rates: &Rates<S>| {
+                let on = State {
+                    t: at.t + h,
+                    q: at.q.retract(&rates.configuration.scale(h)),
+                    y: at.y.add_scaled(h, &rates.variables),
+                };
+                Ok(value(problem, function, &on)? - value(problem, function, at)?)
+            };
+            if mark.jumped {
+                match change(before, &slopes_before).and_then(|was| Ok((was, change(after, &slopes)?))) {
+                    Ok((was, is)) => mark.jumped = !(same_side(was, is) && is.abs() > 1e-6 * was.abs()),
+                    Err(kind) => outcome = Err(kind),
+                }
+            }
+        });
+        outcome
+    }
+
+    /// Reports the events over whose zeros a jump has led, each once, with what follows from them.
+    fn led_over(
+        &mut self,
+        before: &State<S>,
+        (after, stopped_by): (&mut Option<State<S>>, &mut Option<usize>),
+        report: &mut dyn FnMut(usize, &State<S>),
+    ) -> Result<(), IntegrationErrorKind> {
+        let problem = self.problem;
+        while let Some(state) = *after {
+            let (mut first, mut n, mut outcome) = (None, 0, Ok(()));
+            self.events.each(&mut |function, mark| {
+                if first.is_none() && !mark.jumped && !mark.passed {
+                    match value(problem, function, before)
+                        .and_then(|from| Ok((from, value(problem, function, &state)?)))
+                    {
+                        Ok((from, to)) if mark.crossing.between(from, to) => {
+                            (mark.passed, first) = (true, Some((n, mark.terminal)));
+                        }
+                        Ok(_) => {}
+                        Err(kind) => outcome = Err(kind),
+                    }
+                }
+                n += 1;
+            });
+            outcome?;
+            let Some((number, terminal)) = first else { break };
+            report(number, &state);
+            let mut sample = problem.sample(&state);
+            if self.events.jump(number, &mut sample) {
+                let (q, z) = consistent(problem, &sample)?;
+                *after = Some(problem.state(state.t, q, &z));
+            }
+            if terminal && stopped_by.is_none() {
+                *stopped_by = Some(number);
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of the event that comes next in the step, where, and whether it ends the run.
+    fn earliest(&mut self) -> Option<(usize, f64, bool)> {
         let mut first: Option<(usize, f64, bool)> = None;
         let mut number = 0;
         self.events.each(&mut |_, mark| {
-            if let Some(part) = mark.part
+            if let Some((part, _)) = mark.next
                 && first.is_none_or(|(_, earliest, _)| part < earliest)
             {
                 first = Some((number, part, mark.terminal));
             }
             number += 1;
         });
+        first
+    }
+
+    /// Looks for the next one of an event behind the one that was reported.
+    fn go_on(&mut self, looking: &Looking<'_, S, P, C>, number: usize) -> Result<(), IntegrationErrorKind> {
+        let mut outcome = Ok(());
         let mut n = 0;
-        self.events.each(&mut |_, mark| {
-            if first.is_some_and(|(number, ..)| number == n) {
-                mark.part = None;
+        self.events.each(&mut |function, mark| {
+            if n == number
+                && let Some(from) = mark.next
+            {
+                (mark.before, mark.value) = (mark.value, from.1);
+                match looking.first(function, mark, from) {
+                    Ok(next) => mark.next = next,
+                    Err(kind) => outcome = Err(kind),
+                }
             }
             n += 1;
         });
-        first
+        outcome
+    }
+
+    /// Remembers that the state jumped at an event, and how far beyond zero it was.
+    fn leave(&mut self, number: usize, state: &State<S>) -> Result<(), IntegrationErrorKind> {
+        let problem = self.problem;
+        let mut outcome = Ok(());
+        let mut n = 0;
+        self.events.each(&mut |function, mark| {
+            if n == number {
+                match value(problem, function, state) {
+                    Ok(value) => (mark.jumped, mark.value) = (true, value),
+                    Err(kind) => outcome = Err(kind),
+                }
+            }
+            n += 1;
+        });
+        outcome
     }
 }
 
-/// The first lane of an event's function.
+/// Whether two values are both below zero, or both above.
+fn same_side(a: f64, b: f64) -> bool {
+    a < 0.0 && b < 0.0 || a > 0.0 && b > 0.0
+}
+
+/// The state after a jump, on the constraints where there are any: what is nearest by the kinetic energy is what an impact makes
+/// of the velocities.
+fn consistent<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    sample: &Sample<S>,
+) -> Result<(S::Configuration, S::Speeds), IntegrationErrorKind> {
+    let Sample { t, q, z, .. } = *sample;
+    if !(q.is_finite() && z.is_finite()) {
+        return Err(IntegrationErrorKind::NonFinite { part: Part::Jump });
+    }
+    if !S::CONSTRAINED {
+        return Ok((q.renormalise(), z));
+    }
+    problem.system().project(t, &q, &z).map_err(|error| IntegrationErrorKind::Projection { error })
+}
+
+/// The first lane of an event's function. It may be infinite, as on the way through a pole.
 fn value<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     function: Function<'_, S>,
@@ -214,56 +439,194 @@ fn value<S: GaussSystem, P: Problem<System = S>>(
 ) -> Result<f64, IntegrationErrorKind> {
     let z = problem.speeds(state.t, &state.q, &state.y);
     let value = function(state.t, &state.q, &z).lane(0);
-    if value.is_finite() { Ok(value) } else { Err(IntegrationErrorKind::NonFinite { part: Part::Event }) }
+    if value.is_nan() { Err(IntegrationErrorKind::NonFinite { part: Part::Event }) } else { Ok(value) }
 }
 
-/// The part of a step that changes its end by four roundings of the time, at least of the step itself.
-fn resolution<S: GaussSystem>(before: &State<S>, after: &State<S>) -> f64 {
-    let (from, to) = (before.t.lane(0), after.t.lane(0));
-    let unit = S::Scalar::EPSILON.max(f64::EPSILON);
-    4.0 * unit * (from.abs().max(to.abs()) / (to - from).abs()).max(1.0)
-}
+/// The parts into which a step is divided where the cubic between its ends is looked at, and where a series is.
+const PARTS: (usize, usize) = (2, 32);
 
-/// The zero of a function on [0, 1] with values of different signs, or zero, at the ends: to a distance of `resolution`, on the
-/// side that has the sign of `at_one`. Chandrupatla, *A new hybrid quadratic/bisection algorithm for finding the zero of a
-/// nonlinear function without using derivatives*, Advances in Engineering Software 28 (1997).
-fn locate(
-    mut function: impl FnMut(f64) -> Result<f64, IntegrationErrorKind>,
-    at_zero: f64,
-    at_one: f64,
+/// The part of a step over which it is seen where a function goes after a jump.
+const INSTANT: f64 = 1.0 / 1_048_576.0;
+
+/// The part of a step over which slopes are measured.
+const SHORT: f64 = 1.0 / 1024.0;
+
+/// A step that is searched.
+struct Looking<'a, S: GaussSystem, P, C> {
+    control: &'a C,
+    problem: &'a P,
+    made: &'a Made<'a, S>,
     resolution: f64,
-) -> Result<f64, IntegrationErrorKind> {
-    // The zero is between a, the newest point, and b; c is the point before.
-    let (mut a, mut at_a, mut b, mut at_b) = (1.0, at_one, 0.0, at_zero);
-    let mut fraction = 0.5;
-    let mut trials = 0;
-    while at_a != 0.0 && (b - a).abs() > resolution {
-        trials += 1;
-        let x = a + fraction * (b - a);
-        let at_x = function(x)?;
-        let (c, at_c);
-        if (at_x > 0.0) == (at_a > 0.0) && at_x != 0.0 {
-            (c, at_c) = (a, at_a);
-        } else {
-            (c, at_c) = (b, at_b);
-            (b, at_b) = (a, at_a);
-        }
-        (a, at_a) = (x, at_x);
-        // Interpolate where the three points lie so that the inverse quadratic is monotone, else halve. A function that
-        // is at odds with every interpolation is halved from the fiftieth trial on, which ends it.
-        let (xi, phi) = ((a - b) / (c - b), (at_a - at_b) / (at_c - at_b));
-        fraction = if trials < 50 && phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi {
-            at_a / (at_b - at_a) * at_c / (at_b - at_c)
-                + (c - a) / (b - a) * at_a / (at_c - at_a) * at_b / (at_c - at_b)
-        } else {
-            0.5
-        };
-        // Not so near to an end of the bracket that it could not shrink to the resolution from there.
-        let margin = (0.5 * resolution / (b - a).abs()).min(0.5);
-        fraction = fraction.max(margin).min(1.0 - margin);
+    parts: usize,
+}
+
+impl<'a, S, P, C> Looking<'a, S, P, C>
+where
+    S: GaussSystem,
+    P: Problem<System = S>,
+    C: Control<S>,
+{
+    fn of(control: &'a C, problem: &'a P, made: &'a Made<'a, S>) -> Self {
+        let (from, to) = (made.before.0.t.lane(0), made.after.0.t.lane(0));
+        let unit = S::Scalar::EPSILON.max(f64::EPSILON);
+        // The part of a step that changes its end by four roundings of the time, at least of the step itself.
+        let resolution = 4.0 * unit * (from.abs().max(to.abs()) / (to - from).abs()).max(1.0);
+        Self { control, problem, made, resolution, parts: if C::LONG_STEPS { PARTS.1 } else { PARTS.0 } }
     }
-    let beyond = at_a == 0.0 || (at_a > 0.0) == (at_one > 0.0) && at_one != 0.0;
-    Ok(if beyond { a } else { b })
+
+    fn length(&self) -> S::Scalar {
+        self.made.after.0.t - self.made.before.0.t
+    }
+
+    /// The state that the method reaches at a part of the step.
+    fn reach(&self, part: f64) -> Result<State<S>, IntegrationErrorKind> {
+        // The end of the step itself is that of the run, whose time is not the sum of lengths.
+        if part >= 1.0 {
+            return Ok(*self.made.after.0);
+        }
+        let (state, rates) = self.made.before;
+        self.control.within(self.problem, state, rates, self.length() * S::Scalar::from_f64(part))
+    }
+
+    /// The first event behind a point of the step with the value there: its part, and the value at it.
+    fn first(
+        &self,
+        function: Function<'_, S>,
+        mark: &Mark,
+        from: (f64, f64),
+    ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
+        if !self.suspicious(function, from)? {
+            return Ok(None);
+        }
+        let along = |part: f64| value(self.problem, function, &self.reach(part)?);
+        let mut glance = self.glances();
+        let mut slope = |from: f64, to: f64| -> Result<f64, IntegrationErrorKind> {
+            let mut at = |part: f64| value(self.problem, function, &glance(part)?);
+            Ok((at(to)? - at(from)?) / (to - from))
+        };
+        let mut a = from;
+        for k in 1..=self.parts {
+            let part = k as f64 / self.parts as f64;
+            if part <= a.0 {
+                continue;
+            }
+            let b = (part, along(part)?);
+            // There and back between these two.
+            if same_side(a.1, b.1) {
+                let sign = a.1.signum();
+                let short = SHORT * (b.0 - a.0);
+                let falls = sign * slope(a.0, a.0 + short)? < 0.0 && sign * slope(b.0 - short, b.0)? > 0.0;
+                if falls && let Some((x, beyond)) = below_zero(|part| Ok(sign * along(part)?), a.0, b.0)? {
+                    let x = (x, sign * beyond);
+                    if let Some(found) = self.between(&along, mark, a, x)? {
+                        return Ok(Some(found));
+                    }
+                    a = x;
+                }
+            }
+            if let Some(found) = self.between(&along, mark, a, b)? {
+                return Ok(Some(found));
+            }
+            a = b;
+        }
+        Ok(None)
+    }
+
+    /// The event between two points, if it is one.
+    fn between(
+        &self,
+        along: &impl Fn(f64) -> Result<f64, IntegrationErrorKind>,
+        mark: &Mark,
+        a: (f64, f64),
+        b: (f64, f64),
+    ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
+        if !mark.crossing.between(a.1, b.1) {
+            return Ok(None);
+        }
+        // Where it is zero at last, whatever sign the rounding there has.
+        let zero = |part: f64| (part, if b.1 == 0.0 { 0.0 } else { b.1.signum() * f64::MIN_POSITIVE });
+        Ok(locate(along, a, b, self.resolution)?.map(zero))
+    }
+
+    /// Whether the curve between the ends of the step shows a sign, or comes so near to zero within, that it is worth a search.
+    fn suspicious(&self, function: Function<'_, S>, from: (f64, f64)) -> Result<bool, IntegrationErrorKind> {
+        let mut glance = self.glances();
+        let mut at = |part: f64| value(self.problem, function, &glance(part)?);
+        let (mut a, mut on_curve) = (from, at(from.0)?);
+        for k in 1..=self.parts {
+            let part = k as f64 / self.parts as f64;
+            if part <= a.0 {
+                continue;
+            }
+            let b = (part, at(part)?);
+            // What was zero before has left it.
+            if a.1 != 0.0 && !same_side(a.1, b.1) || !b.1.is_finite() {
+                return Ok(true);
+            }
+            let width = b.0 - a.0;
+            let (sign, short) = (b.1.signum(), SHORT * width);
+            let leaves = sign * (at(a.0 + short)? - on_curve) / SHORT;
+            let comes = sign * (b.1 - at(b.0 - short)?) / SHORT;
+            // Its slopes lead towards zero from both sides.
+            if leaves < 0.0 && comes > 0.0 {
+                let least = least_of_cubic([sign * a.1, sign * b.1], [leaves, comes]);
+                if least < 0.1 * a.1.abs().max(b.1.abs()) {
+                    return Ok(true);
+                }
+            }
+            (a, on_curve) = (b, b.1);
+        }
+        Ok(false)
+    }
+
+    /// States within the step for a first look: the series where steps are long, else the cubic between the ends.
+    fn glances(&self) -> impl FnMut(f64) -> Result<State<S>, IntegrationErrorKind> {
+        let (before, rates) = self.made.before;
+        let length = self.length();
+        let mut along = C::LONG_STEPS.then(|| self.control.along(self.problem, before, rates));
+        let cubic = (!C::LONG_STEPS).then(|| Cubic::of(self.made));
+        move |part| match (&mut along, &cubic) {
+            (Some(along), _) => along(length * S::Scalar::from_f64(part)),
+            (None, Some(cubic)) => Ok(cubic.at(part)),
+            (None, None) => Ok(*before),
+        }
+    }
+}
+
+/// The cubic through the states at the ends of a step with the derivatives there: in the algebra at the start, where q is
+/// `q₀ ∘ exp(σ)` and `σ̇ = dexp_inv(σ, V)`.
+struct Cubic<'a, S: GaussSystem> {
+    made: &'a Made<'a, S>,
+    h: S::Scalar,
+    change: Rates<S>,
+    end: Rates<S>,
+}
+
+impl<'a, S: GaussSystem> Cubic<'a, S> {
+    fn of(made: &'a Made<'a, S>) -> Self {
+        let ((from, _), (to, rates)) = (made.before, made.after);
+        let configuration = from.q.difference(&to.q);
+        let end = S::Configuration::dexp_inv(&configuration, &rates.configuration);
+        Self {
+            made,
+            h: to.t - from.t,
+            change: Rates { configuration, variables: to.y.add_scaled(-S::Scalar::one(), &from.y) },
+            end: Rates { configuration: end, variables: rates.variables },
+        }
+    }
+
+    fn at(&self, part: f64) -> State<S> {
+        let (from, rates) = self.made.before;
+        let rest = 1.0 - part;
+        let number = S::Scalar::from_f64;
+        let value = number(part * part * (1.0 + 2.0 * rest));
+        let (left, right) = (number(part * rest * rest) * self.h, number(-part * part * rest) * self.h);
+        let sigma = self.change.configuration.scale(value);
+        let sigma = sigma.add_scaled(left, &rates.configuration).add_scaled(right, &self.end.configuration);
+        let y = from.y.add_scaled(value, &self.change.variables);
+        let y = y.add_scaled(left, &rates.variables).add_scaled(right, &self.end.variables);
+        State { t: number(part).fma(self.h, from.t), q: from.q.retract(&sigma), y }
+    }
 }
 
 #[cfg(all(test, feature = "alloc"))]

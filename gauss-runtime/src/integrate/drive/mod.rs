@@ -1,12 +1,20 @@
 //! What drives a method over an interval: the choice of steps, events, constraints, and what is kept of a run.
 
+pub mod adaptive;
+pub(in crate::integrate) mod cause;
 pub mod compensated;
 pub mod control;
-#[cfg(feature = "alloc")]
-pub mod dense;
 pub mod event;
+pub mod fixed;
+pub(in crate::integrate) mod pace;
 pub(in crate::integrate) mod projection;
+pub(in crate::integrate) mod run;
 pub mod simulation;
 pub(in crate::integrate) mod step_length;
+pub mod summary;
+#[cfg(feature = "alloc")]
+pub mod table;
+pub(in crate::integrate) mod tolerance;
 #[cfg(feature = "alloc")]
 pub mod trajectory;
+pub(in crate::integrate) mod zero;

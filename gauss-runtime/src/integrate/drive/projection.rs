@@ -9,10 +9,12 @@ use crate::constraint::ConstraintLevel;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
 use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::step::checks::is_in_range;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// Brings the end of an accepted step onto the constraints, where there are any, and gives the derivatives there. Those that
+/// Brings the end of an accepted step onto the constraints, where there are any, and gives the derivatives there; refuses speeds
+/// whose squares overflow. Derivatives that
 /// came with the step belong to its end before it was projected, and serve without constraints only.
 #[inline(always)]
 pub(crate) fn accept<S: GaussSystem, P: Problem<System = S>>(
@@ -20,6 +22,9 @@ pub(crate) fn accept<S: GaussSystem, P: Problem<System = S>>(
     state: &mut State<S>,
     known: Option<Rates<S>>,
 ) -> Result<Rates<S>, IntegrationErrorKind> {
+    if !is_in_range(&state.y) {
+        return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+    }
     if S::CONSTRAINED {
         *state = on_constraints(problem, state)?;
     } else if let Some(rates) = known {

@@ -1,19 +1,21 @@
 //! The front of the integrators: say what, in which form and how accurately, then run.
 
-use core::ops::{ControlFlow, Range};
+use core::ops::Range;
 
 use crate::configuration::Configuration;
-use crate::integrate::drive::control::{Adaptive, Control, Fixed};
-#[cfg(feature = "alloc")]
-use crate::integrate::drive::dense::Dense;
-use crate::integrate::drive::event::{Crossing, Events, NoEvents, Watch, Watched};
+use crate::integrate::drive::adaptive::Adaptive;
+use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
+use crate::integrate::drive::event::{Crossing, Events, NoEvents, Then, Watched};
+use crate::integrate::drive::fixed::Fixed;
+use crate::integrate::drive::run::{Run, Seen};
+use crate::integrate::drive::summary::End;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::trajectory::Trajectory;
 use crate::integrate::problem::equations::{Problem, SystemProblem};
-use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::error::IntegrationError;
 use crate::integrate::problem::form::{Form, MomentumForm};
 use crate::integrate::problem::input::{Feedback, InputSource};
-use crate::integrate::problem::state::{Rates, Sample, State};
+use crate::integrate::problem::state::{Sample, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -96,7 +98,7 @@ pub struct Simulation<P, C = Undecided, O = Unobserved, E = NoEvents> {
     observer: O,
     events: E,
     every: u64,
-    pub(in crate::integrate) limit: u64,
+    pub(in crate::integrate) limit: Option<u64>,
 }
 
 impl<'k, S: GaussSystem> Simulation<SystemProblem<'k, S>> {
@@ -109,7 +111,7 @@ impl<'k, S: GaussSystem> Simulation<SystemProblem<'k, S>> {
 impl<P> Simulation<P> {
     /// A run of any [`Problem`].
     pub fn of(problem: P) -> Self {
-        Self { problem, control: Undecided, observer: Unobserved, events: NoEvents, every: 1, limit: u64::MAX }
+        Self { problem, control: Undecided, observer: Unobserved, events: NoEvents, every: 1, limit: None }
     }
 }
 
@@ -148,7 +150,8 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C
 
     /// Finds the states in which a function of time and state, of its first lane where numbers are packs, passes through
     /// zero. They are numbered in the order of these calls and of [`until`](Self::until), from 0, and are found in
-    /// [`Trajectory::events`], and by an [`Observer`]. How, and what is not seen: [`event`](crate::integrate::drive::event).
+    /// [`Trajectory::events`], and by an [`Observer`]; [`then`](Simulation::then) changes the state there. How they are found, and what is
+    /// not seen: [`event`](crate::integrate::drive::event).
     ///
     #[cfg_attr(
         feature = "derive",
@@ -206,9 +209,9 @@ assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
     }
 
     /// Ends the run at the first such state, which is then the last sample; it is an [`event`](Self::event) as well.
+    /// [`Trajectory::stopped_by`] and [`End::stopped_by`] tell whether it came to that.
     ///
-    /// The state is at zero or beyond it, by rounding. To go on from there with another velocity, as after an impact, ask for
-    /// the one direction in which the function is to pass.
+    /// The state is at zero or beyond it, by rounding. To go on from there by another kernel, start that one there.
     pub fn until<G>(
         self,
         crossing: Crossing,
@@ -218,6 +221,54 @@ assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
         G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
     {
         self.watch(crossing, true, function)
+    }
+}
+
+impl<'k, S: GaussSystem, F, I, C, O, E, G> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G>> {
+    /// Changes the state at the event that was asked for last, before the run goes on from there, or ends there
+    /// ([`until`](Self::until)). What is set is `q` and `z`; the momenta are then those of z. Under constraints the state is
+    /// brought onto them, with velocities as an impact makes them.
+    ///
+    /// The trajectory has a sample before the jump and one after it, both at its time.
+    ///
+    #[cfg_attr(
+        feature = "derive",
+        doc = r##"
+A ball that bounces, and keeps four fifths of its speed each time:
+
+```
+use gauss_runtime::prelude::*;
+
+#[derive(GaussDynamics)]
+#[gauss(coordinates(height), particle(mass = 1, position = [0, 0, height]))]
+struct Ball {
+    #[gauss(gravity)] g: f64,
+}
+
+# fn main() -> Result<(), Box<dyn std::error::Error>> {
+let kernel = Ball { g: 9.81 }.kernel()?;
+let run = Simulation::new(&kernel)
+    .event(Crossing::Falling, |_t, q, _z| q[0])
+    .then(|state| state.z[0] *= -0.8)
+    .adaptive(1e-10, 1e-10)
+    .run(SVector::from([1.0]), SVector::from([0.0]), 0.0..2.0)?;
+// It falls for √(2h/g); then it flies for twice that, times 0.8, and so on.
+let fall = (2.0_f64 / 9.81).sqrt();
+let times: Vec<f64> = run.events().iter().map(|event| event.sample.t).collect();
+assert_eq!(times.len(), 3);
+assert!((times[2] - fall * (1.0 + 2.0 * 0.8 + 2.0 * 0.64)).abs() < 1e-9);
+assert!(run.iter().all(|state| state.q[0] > -1e-15));
+# Ok(())
+# }
+```
+"##
+    )]
+    pub fn then<J: FnMut(&mut Sample<S>)>(
+        self,
+        jump: J,
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G, Then<J>>> {
+        let Self { problem, control, observer, events, every, limit } = self;
+        Simulation { problem, control, observer, events: events.then(jump), every, limit }
     }
 }
 
@@ -252,9 +303,13 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         self
     }
 
-    /// The most steps (rejected ones included) before the run is given up.
+    /// The most steps (rejected ones included) before the run is given up, instead of [`DEFAULT_LIMIT`], or of a tenth of it where
+    /// every one is kept.
+    ///
+    /// Runs that cannot reach their end within the limit end as soon as that is seen: steps of one length at once, others when the
+    /// way that a hundred thousand of them made shows it.
     pub fn max_steps(mut self, limit: u64) -> Self {
-        self.limit = limit;
+        self.limit = Some(limit);
         self
     }
 
@@ -279,7 +334,7 @@ impl<P, O, E, M> Simulation<P, Adaptive<M>, O, E> {
 
     /// The longest step.
     pub fn largest_step(mut self, length: f64) -> Self {
-        self.control.largest_step = length;
+        self.control.largest_step = Some(length);
         self
     }
 }
@@ -292,17 +347,23 @@ where
     O: Observer<S>,
     E: Events<S>,
 {
-    /// Integrates from (q₀, z₀) over the interval, which may run backwards, and keeps every sample.
+    /// Integrates from (q₀, z₀) over the interval, which may run backwards, and keeps every sample. The
+    /// [`Trajectory`] gives the states between them as well, [as accurate as they are](Trajectory::at), for which it
+    /// borrows the kernel.
     ///
     /// # Errors
     /// When the run does not reach the end; [`attempt`](Self::attempt) then gives what there is.
     #[cfg(feature = "alloc")]
-    pub fn run(
+    pub fn run<'t>(
         self,
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
-    ) -> Result<Trajectory<S>, IntegrationError> {
+    ) -> Result<Trajectory<'t, S>, IntegrationError>
+    where
+        P: 't,
+        C: 't,
+    {
         match self.attempt(q0, z0, interval) {
             (trajectory, None) => Ok(trajectory),
             (_, Some(error)) => Err(error),
@@ -312,39 +373,26 @@ where
     /// Like [`run`](Self::run), but gives the trajectory up to the last good state when the end is not reached, with the
     /// reason.
     #[cfg(feature = "alloc")]
-    pub fn attempt(
+    pub fn attempt<'t>(
         self,
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
-    ) -> (Trajectory<S>, Option<IntegrationError>) {
+    ) -> (Trajectory<'t, S>, Option<IntegrationError>)
+    where
+        P: 't,
+        C: 't,
+    {
         let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, observer, events, every, limit } = self;
-        Run { control: &control, problem: &problem, every, limit }.keep(events, observer, start, interval.end)
-    }
-
-    /// Like [`run`](Self::run), but keeps the method too, so that between samples [`Dense::at`] has the accuracy of the method and
-    /// not that of an interpolation.
-    ///
-    /// # Errors
-    /// When the run does not reach the end.
-    #[cfg(feature = "alloc")]
-    pub fn run_dense(
-        self,
-        q0: S::Configuration,
-        z0: S::Speeds,
-        interval: Range<S::Scalar>,
-    ) -> Result<Dense<P, C>, IntegrationError> {
-        let start = self.start(q0, &z0, interval.start);
-        let Self { problem, control, observer, events, every, limit } = self;
+        let limit = limit.unwrap_or((DEFAULT_LIMIT / 10).saturating_mul(every).min(DEFAULT_LIMIT));
         let run = Run { control: &control, problem: &problem, every, limit };
-        match run.keep(events, observer, start, interval.end) {
-            (trajectory, None) => Ok(Dense::new(trajectory, problem, control, every == 1)),
-            (_, Some(error)) => Err(error),
-        }
+        let (kept, error) = run.keep(events, observer, start, interval.end);
+        (Trajectory::new(kept, problem, control, every == 1), error)
     }
 
-    /// Integrates without keeping anything, and gives the final state; an observer sees the others. Needs no memory.
+    /// Integrates without keeping anything, and gives the final state with what brought the run there; an observer sees the
+    /// others. Needs no memory.
     ///
     /// # Errors
     /// When the run does not reach the end.
@@ -353,130 +401,19 @@ where
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
-    ) -> Result<Sample<S>, IntegrationError> {
+    ) -> Result<End<S>, IntegrationError> {
         let start = self.start(q0, &z0, interval.start);
-        let problem = &self.problem;
-        let mut observer = self.observer;
-        let end = Run { control: &self.control, problem, every: self.every, limit: self.limit }.drive(
-            self.events,
-            start,
-            interval.end,
-            &mut |seen| match seen {
-                Seen::Sample(state, _) => observer.see(&problem.sample(state)),
-                Seen::Event(number, state) => observer.event(number, &problem.sample(state)),
-            },
-        )?;
-        Ok(problem.sample(&end))
+        let Self { problem, control, mut observer, events, every, limit } = self;
+        let run = Run { control: &control, problem: &problem, every, limit: limit.unwrap_or(DEFAULT_LIMIT) };
+        let (reached, outcome) = run.drive(events, start, interval.end, &mut |seen| match seen {
+            Seen::Sample(state) => observer.see(&problem.sample(state)),
+            Seen::Event(number, state) => observer.event(number, &problem.sample(state)),
+        });
+        let state = outcome?;
+        Ok(End { sample: problem.sample(&state), stopped_by: reached.stopped_by, summary: reached.summary })
     }
 
     fn start(&self, q0: S::Configuration, z0: &S::Speeds, t: S::Scalar) -> State<S> {
         self.problem.state(t, q0.renormalise(), z0)
-    }
-}
-
-/// What a run passes on.
-enum Seen<'a, S: GaussSystem> {
-    // Derivatives are for trajectories.
-    #[cfg_attr(not(feature = "alloc"), allow(dead_code))]
-    Sample(&'a State<S>, &'a Rates<S>),
-    Event(usize, &'a State<S>),
-}
-
-/// What stays the same during a run.
-struct Run<'a, P, C> {
-    control: &'a C,
-    problem: &'a P,
-    every: u64,
-    limit: u64,
-}
-
-impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
-    /// Keeps every sample and event.
-    #[cfg(feature = "alloc")]
-    fn keep<O: Observer<S>, E: Events<S>>(
-        &self,
-        events: E,
-        mut observer: O,
-        start: State<S>,
-        end: S::Scalar,
-    ) -> (Trajectory<S>, Option<IntegrationError>) {
-        let problem = self.problem;
-        let mut trajectory = Trajectory::starting_with(problem.sample(&start));
-        let mut first = true;
-        let outcome = self.drive(events, start, end, &mut |seen| match seen {
-            Seen::Sample(state, rates) => {
-                let sample = problem.sample(state);
-                trajectory.record(first, problem, &sample, state, rates);
-                observer.see(&sample);
-                first = false;
-            }
-            Seen::Event(number, state) => {
-                let sample = problem.sample(state);
-                trajectory.record_event(number, sample);
-                observer.event(number, &sample);
-            }
-        });
-        (trajectory, outcome.err())
-    }
-
-    /// Runs the method and passes on the first, every n-th and the last state reached, and the events between them.
-    fn drive<E: Events<S>>(
-        &self,
-        events: E,
-        start: State<S>,
-        end: S::Scalar,
-        pass: &mut dyn FnMut(Seen<'_, S>),
-    ) -> Result<State<S>, IntegrationError> {
-        let mut watch = Watch { control: self.control, problem: self.problem, events };
-        let mut count = 0_u64;
-        // The state before, for events; and whether it is still to be passed on: it is, at the end or at an error.
-        let mut before: Option<(State<S>, Rates<S>)> = None;
-        let mut held = false;
-        let mut stopped: Option<State<S>> = None;
-        let mut failure: Option<IntegrationErrorKind> = None;
-        let outcome = self.control.drive(self.problem, start, end, self.limit, &mut |state, rates| {
-            if E::COUNT > 0 {
-                let found = match &before {
-                    None => watch.begin(state).map(ControlFlow::Continue),
-                    Some((from, slopes)) => {
-                        watch.step(from, slopes, state, &mut |number, state| pass(Seen::Event(number, state)))
-                    }
-                };
-                match found {
-                    Ok(ControlFlow::Continue(())) => {}
-                    Ok(ControlFlow::Break(last)) => {
-                        stopped = Some(last);
-                        return ControlFlow::Break(());
-                    }
-                    Err(kind) => {
-                        failure = Some(kind);
-                        return ControlFlow::Break(());
-                    }
-                }
-            }
-            held = !count.is_multiple_of(self.every);
-            if !held {
-                pass(Seen::Sample(state, rates));
-            }
-            if held || E::COUNT > 0 {
-                before = Some((*state, *rates));
-            }
-            count += 1;
-            ControlFlow::Continue(())
-        });
-        if let Some(last) = stopped {
-            pass(Seen::Sample(&last, &self.problem.rates(&last)));
-            return Ok(last);
-        }
-        if let (true, Some((state, rates))) = (held, &before) {
-            pass(Seen::Sample(state, rates));
-        }
-        match failure {
-            Some(kind) => {
-                let last = before.map_or(start, |(state, _)| state);
-                Err(IntegrationError::at(self.problem, &last, kind))
-            }
-            None => outcome,
-        }
     }
 }

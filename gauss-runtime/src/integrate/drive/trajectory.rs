@@ -1,86 +1,82 @@
-//! What an integration hands out: samples, and trajectories that can be asked at any time between them.
+//! What an integration hands out: samples, and the states between them.
 
 use core::fmt;
 
+use alloc::rc::Rc;
 use alloc::vec::Vec;
 
-use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
+use crate::integrate::drive::summary::Summary;
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::state::{Rates, Sample, State, TangentOf, copy_and_debug};
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::state::{Sample, State, copy_and_debug};
 use crate::real::Real;
 use crate::system::GaussSystem;
-
-/// A sample with the derivatives that interpolation needs.
-struct Knot<S: GaussSystem> {
-    sample: Sample<S>,
-    velocity: TangentOf<S>,
-    acceleration: S::Speeds,
-    momentum_rate: S::Speeds,
-}
-
-copy_and_debug!(Knot { sample, velocity, acceleration, momentum_rate });
 
 /// A state in which a function passed through zero: see [`Simulation::event`](crate::integrate::Simulation::event).
 #[non_exhaustive]
 pub struct EventSample<S: GaussSystem> {
     /// Which event, counted from 0 in the order in which they were asked for.
     pub number: usize,
-    /// The state.
+    /// The state; where it jumps, the one before.
     pub sample: Sample<S>,
 }
 
 copy_and_debug!(EventSample { number, sample });
 
-/// Samples in the order of integration, at least one; a continuous curve through them by [`at`](Self::at).
-pub struct Trajectory<S: GaussSystem> {
-    knots: Vec<Knot<S>>,
+/// Samples in the order of integration, at least one, and by [`at`](Self::at) any state between them.
+///
+/// It keeps the samples and borrows what made them: the kernel, and what the input refers to.
+/// [`into_samples`](Self::into_samples) and [tables](Self::table) stand alone.
+pub struct Trajectory<'k, S: GaussSystem> {
+    samples: Vec<Sample<S>>,
     events: Vec<EventSample<S>>,
+    stopped_by: Option<usize>,
+    summary: Summary,
+    between: Rc<dyn Between<S> + 'k>,
 }
 
-impl<S: GaussSystem> Clone for Trajectory<S> {
+impl<S: GaussSystem> Clone for Trajectory<'_, S> {
     fn clone(&self) -> Self {
-        Self { knots: self.knots.clone(), events: self.events.clone() }
+        let Self { samples, events, stopped_by, summary, between } = self;
+        Self {
+            samples: samples.clone(),
+            events: events.clone(),
+            stopped_by: *stopped_by,
+            summary: *summary,
+            between: Rc::clone(between),
+        }
     }
 }
 
-impl<S: GaussSystem> fmt::Debug for Trajectory<S> {
+impl<S: GaussSystem> fmt::Debug for Trajectory<'_, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.iter()).finish()
     }
 }
 
+/// What is kept of a run.
+pub(in crate::integrate) struct Kept<S: GaussSystem> {
+    pub(in crate::integrate) samples: Vec<Sample<S>>,
+    pub(in crate::integrate) events: Vec<EventSample<S>>,
+    pub(in crate::integrate) stopped_by: Option<usize>,
+    pub(in crate::integrate) summary: Summary,
+}
+
 #[allow(clippy::len_without_is_empty)] // Never empty.
-impl<S: GaussSystem> Trajectory<S> {
-    /// A trajectory of one sample, its derivatives not known.
-    pub(in crate::integrate) fn starting_with(sample: Sample<S>) -> Self {
-        let none = S::Speeds::zero();
-        let velocity = TangentOf::<S>::zero();
-        let knots = Vec::from([Knot { sample, velocity, acceleration: none, momentum_rate: none }]);
-        Self { knots, events: Vec::new() }
+impl<'k, S: GaussSystem> Trajectory<'k, S> {
+    /// The samples of a run that was made by a control, with all steps or not.
+    pub(in crate::integrate) fn new<P, C>(kept: Kept<S>, problem: P, control: C, every_step: bool) -> Self
+    where
+        P: Problem<System = S> + 'k,
+        C: Control<S> + 'k,
+    {
+        let Kept { samples, events, stopped_by, summary } = kept;
+        Self { samples, events, stopped_by, summary, between: Rc::new(Maker { problem, control, every_step }) }
     }
 
-    /// Appends a sample; `first` replaces the one that the trajectory started with.
-    pub(in crate::integrate) fn record<P: Problem<System = S>>(
-        &mut self,
-        first: bool,
-        problem: &P,
-        sample: &Sample<S>,
-        state: &State<S>,
-        rates: &Rates<S>,
-    ) {
-        let (acceleration, momentum_rate) = problem.both_rates(state, &rates.variables);
-        if first {
-            self.knots.clear();
-        }
-        self.knots.push(Knot { sample: *sample, velocity: rates.configuration, acceleration, momentum_rate });
-    }
-
-    pub(in crate::integrate) fn record_event(&mut self, number: usize, sample: Sample<S>) {
-        self.events.push(EventSample { number, sample });
-    }
-
-    /// The events in the order in which they happened. They are states of the run by themselves, not samples of the
-    /// trajectory; only one that ended the run is its last sample too.
+    /// The events in the order in which they happened. They are states of the run by themselves; only where the state jumps, or the
+    /// run ended, are they samples of the trajectory too.
     #[must_use]
     pub fn events(&self) -> &[EventSample<S>] {
         &self.events
@@ -91,98 +87,141 @@ impl<S: GaussSystem> Trajectory<S> {
         self.events.iter().filter(move |event| event.number == number).map(|event| &event.sample)
     }
 
+    /// The event that ended the run, by its number; `None` where it went on to the end of the interval.
+    #[must_use]
+    pub fn stopped_by(&self) -> Option<usize> {
+        self.stopped_by
+    }
+
+    /// The steps of the run in numbers, and where rounding did not let them be as accurate as was asked for.
+    #[must_use]
+    pub fn summary(&self) -> &Summary {
+        &self.summary
+    }
+
     /// The number of samples, at least 1.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.knots.len()
+        self.samples.len()
     }
 
     /// The initial sample.
     #[must_use]
     pub fn first(&self) -> &Sample<S> {
-        &self.knots[0].sample
+        &self.samples[0]
     }
 
     /// The last sample.
     #[must_use]
     pub fn last(&self) -> &Sample<S> {
-        &self.knots[self.knots.len() - 1].sample
+        &self.samples[self.samples.len() - 1]
     }
 
     /// Sample `n`, counted from 0.
     #[must_use]
     pub fn get(&self, n: usize) -> Option<&Sample<S>> {
-        self.knots.get(n).map(|knot| &knot.sample)
+        self.samples.get(n)
     }
 
     /// The samples in order.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Sample<S>> + DoubleEndedIterator {
-        self.knots.iter().map(|knot| &knot.sample)
+    pub fn iter(&self) -> core::slice::Iter<'_, Sample<S>> {
+        self.samples.iter()
     }
 
-    /// The state at time `t`; `None` outside the interval of the trajectory. For packs of numbers the first lane of the
-    /// times decides between which samples to look.
-    ///
-    /// Cubic Hermite interpolation of z and p, and of the configuration on its group: in the algebra at the earlier sample,
-    /// where q is `q₀ ∘ exp(σ)`, σ is interpolated with `σ̇ = dexp_inv(σ, V)`. The error is of fourth order in the distance
-    /// of the samples; between them the body must turn by less than π. Samples satisfy constraints up to rounding, what is
-    /// interpolated between them up to that error: [`GaussSystem::project`] takes it away.
+    /// The samples in order.
     #[must_use]
-    pub fn at(&self, t: S::Scalar) -> Option<Sample<S>> {
-        let time = t.lane(0);
-        let after = self.knot_from(t)?;
-        let right = self.knots.get(after)?;
-        if right.sample.t.lane(0) == time || after == 0 {
-            return Some(Sample { t, ..right.sample });
-        }
-        Some(hermite(&self.knots[after - 1], right, t))
+    pub fn samples(&self) -> &[Sample<S>] {
+        &self.samples
     }
 
-    /// The number of the first sample that is not before `t`, if the trajectory covers it.
-    pub(in crate::integrate) fn knot_from(&self, t: S::Scalar) -> Option<usize> {
+    /// The samples alone, which borrow nothing.
+    #[must_use]
+    pub fn into_samples(self) -> Vec<Sample<S>> {
+        self.samples
+    }
+
+    /// The state at time `t`, which the method reaches from the last sample before it: by a shorter step, or where samples are
+    /// several steps apart by a short run. So it has the error of the samples, whatever their distance, satisfies constraints
+    /// as they do, and costs a step instead of memory. Where the state jumps at `t`, the one after it.
+    ///
+    /// For packs of numbers the first lane of the times decides from which sample to start.
+    ///
+    /// # Errors
+    /// [`IntegrationErrorKind::OutsideRun`] when the run does not cover `t`, else what the step says.
+    pub fn at(&self, t: S::Scalar) -> Result<Sample<S>, IntegrationError> {
+        let Some(before) = self.last_before(t) else {
+            return Err(self.between.refuse(self.last(), IntegrationErrorKind::OutsideRun { time: t.lane(0) }));
+        };
+        let from = &self.samples[before];
+        // The last one has none behind it.
+        if from.t == t || before + 1 == self.samples.len() { Ok(*from) } else { self.between.reach(from, t) }
+    }
+
+    /// The states at given times, in any order: [`at`](Self::at) each of them.
+    ///
+    /// # Errors
+    /// What [`at`](Self::at) says of the first that is not to be had.
+    pub fn at_times(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Vec<Sample<S>>, IntegrationError> {
+        times.into_iter().map(|t| self.at(t)).collect()
+    }
+
+    /// The number of the last sample that is not behind `t`, if the trajectory covers it.
+    fn last_before(&self, t: S::Scalar) -> Option<usize> {
         let time = t.lane(0);
-        let of = |knot: &Knot<S>| knot.sample.t.lane(0);
         let (first, last) = (self.first().t.lane(0), self.last().t.lane(0));
         let backward = last < first;
         let inside = if backward { last <= time && time <= first } else { first <= time && time <= last };
-        if !inside {
-            return None;
-        }
-        Some(self.knots.partition_point(|knot| if backward { of(knot) > time } else { of(knot) < time }))
+        let not_behind =
+            |sample: &Sample<S>| if backward { sample.t.lane(0) >= time } else { sample.t.lane(0) <= time };
+        inside.then(|| self.samples.partition_point(not_behind) - 1)
     }
 }
 
-impl<'a, S: GaussSystem> IntoIterator for &'a Trajectory<S> {
+impl<'a, S: GaussSystem> IntoIterator for &'a Trajectory<'_, S> {
     type Item = &'a Sample<S>;
-    type IntoIter = alloc::boxed::Box<dyn Iterator<Item = &'a Sample<S>> + 'a>;
+    type IntoIter = core::slice::Iter<'a, Sample<S>>;
 
     fn into_iter(self) -> Self::IntoIter {
-        alloc::boxed::Box::new(self.iter())
+        self.iter()
     }
 }
 
-/// The cubic between two knots.
-fn hermite<S: GaussSystem>(left: &Knot<S>, right: &Knot<S>, t: S::Scalar) -> Sample<S> {
-    let (one, two) = (S::Scalar::one(), S::Scalar::from_f64(2.0));
-    let h = right.sample.t - left.sample.t;
-    let s = (t - left.sample.t) / h;
-    let rest = one - s;
-    // Values at the right end (the left one is the origin of differences), and the two slopes.
-    let value = s * s * (one + two * rest);
-    let (slope_left, slope_right) = (h * s * rest * rest, -(h * s * s * rest));
+/// What finds states between samples.
+trait Between<S: GaussSystem> {
+    /// The state at a time, from the sample before it.
+    fn reach(&self, from: &Sample<S>, t: S::Scalar) -> Result<Sample<S>, IntegrationError>;
 
-    let sigma = left.sample.q.difference(&right.sample.q);
-    let end_slope = S::Configuration::dexp_inv(&sigma, &right.velocity);
-    let increment = sigma.scale(value).add_scaled(slope_left, &left.velocity).add_scaled(slope_right, &end_slope);
+    /// The error of what cannot be found.
+    fn refuse(&self, near: &Sample<S>, kind: IntegrationErrorKind) -> IntegrationError;
+}
 
-    let linear = |from: &S::Speeds, to: &S::Speeds, slope: &S::Speeds, next: &S::Speeds| {
-        let change = to.add_scaled(-one, from);
-        from.add_scaled(value, &change).add_scaled(slope_left, slope).add_scaled(slope_right, next)
-    };
-    Sample {
-        t,
-        q: left.sample.q.retract(&increment).renormalise(),
-        z: linear(&left.sample.z, &right.sample.z, &left.acceleration, &right.acceleration),
-        p: linear(&left.sample.p, &right.sample.p, &left.momentum_rate, &right.momentum_rate),
+/// What made a run.
+struct Maker<P, C> {
+    problem: P,
+    control: C,
+    /// Whether neighbouring samples are one step apart.
+    every_step: bool,
+}
+
+impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Between<S> for Maker<P, C> {
+    fn reach(&self, from: &Sample<S>, t: S::Scalar) -> Result<Sample<S>, IntegrationError> {
+        let Self { problem, control, every_step } = self;
+        let state = problem.state(from.t, from.q, &from.z);
+        if !every_step {
+            let nobody = &mut |_: &State<S>, _: &_, _| core::ops::ControlFlow::Continue(());
+            return control.drive(problem, state, t, DEFAULT_LIMIT, nobody).map(|end| problem.sample(&end));
+        }
+        match control.within(problem, &state, &problem.rates(&state), t - state.t) {
+            Ok(end) => Ok(problem.sample(&State { t, ..end })),
+            Err(kind) => Err(IntegrationError::at(problem, &state, kind)),
+        }
+    }
+
+    fn refuse(&self, near: &Sample<S>, kind: IntegrationErrorKind) -> IntegrationError {
+        IntegrationError::at(&self.problem, &self.problem.state(near.t, near.q, &near.z), kind)
     }
 }
+
+#[cfg(test)]
+#[path = "between_tests.rs"]
+mod tests;

@@ -61,20 +61,45 @@ impl IntegrationError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum IntegrationErrorKind {
-    /// A number became infinite or undefined.
+    /// A number became infinite or undefined, or so large that its square is infinite.
     NonFinite {
         /// Where it was seen first.
         part: Part,
     },
-    /// The step that the tolerance asks for no longer changes the time.
+    /// Steps shrink until they no longer change the time, and neither the coordinates nor rounding are to blame: the motion itself is
+    /// singular here, or a force jumps where there is no motion that agrees with it, as dry friction at rest.
     StepTooSmall {
         /// The step.
         step: f64,
     },
-    /// The limit of steps was reached before the end.
+    /// The limit of steps was reached before the end, or the end is farther away than the limit allows.
     TooManySteps {
         /// The limit.
         limit: u64,
+    },
+    /// Something decays so fast beside the rest of the motion that an explicit method cannot make longer steps, or could not make
+    /// those that it was to make.
+    Stiff {
+        /// The rate of the decay, per unit of time.
+        rate: f64,
+        /// The length of steps.
+        step: f64,
+    },
+    /// The motion has rates at which the end of the run is out of reach of the steps that follow it, or that steps are too long
+    /// for.
+    TooFast {
+        /// The largest rate, per unit of time.
+        rate: f64,
+        /// The length of steps.
+        step: f64,
+    },
+    /// Events at which the state jumps follow each other at once, again and again: the jump does not lead away from zero, or
+    /// infinitely many of them pile up at this time.
+    Zeno {
+        /// The number of the event.
+        event: usize,
+        /// The time between the last two of them.
+        interval: f64,
     },
     /// The rotation in one step exceeds half a turn, beyond which its logarithm is not the shortest and the method's
     /// differential soon is singular.
@@ -85,7 +110,7 @@ pub enum IntegrationErrorKind {
     /// The coordinates are singular here, or change sides of a singularity in the step: see
     /// [`GaussSystem::regularity`].
     SingularChart {
-        /// The regularity at the end of the step.
+        /// The regularity nearest to the singularity that was seen: 0 where the step passes over it.
         regularity: f64,
     },
     /// The equations of an implicit step are not solved by iteration: a shorter step may do.
@@ -141,36 +166,66 @@ pub enum Part {
     Step,
     /// The function of an event, at the end of the next step or on the way.
     Event,
+    /// The state that an event's jump leads to.
+    Jump,
 }
 
 impl fmt::Display for IntegrationErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NonFinite { part } => {
-                let whence = match part {
-                    Part::Event => "the function of an event is",
-                    Part::InitialState => "the initial state is",
-                    Part::Derivative => "the equations of motion are",
-                    Part::Step => "the next step is",
+                let (whence, remedy) = match part {
+                    Part::Event => {
+                        ("the function of an event is", "undefined; give it a value wherever the run may come")
+                    }
+                    Part::Jump => {
+                        ("the state after the jump at an event is", "infinite or undefined; check what sets it")
+                    }
+                    Part::InitialState => ("the initial state is", "undefined, or so large that squares overflow"),
+                    Part::Derivative => {
+                        ("the equations of motion are", "infinite or undefined here; check parameters and inputs")
+                    }
+                    Part::Step => (
+                        "the next step is",
+                        "undefined, or so large that squares overflow; check parameters and inputs, and whether the motion \
+                         itself runs away",
+                    ),
                 };
-                write!(f, "{whence} infinite or undefined; check parameters and inputs, and the chart's singularities")
+                write!(f, "{whence} {remedy}")
             }
             Self::StepTooSmall { step } => write!(
                 f,
-                "the tolerance asks for a step of {step:e}, which no longer changes the time; \
-                 the motion is singular here, or the tolerance below rounding"
+                "steps shrink to {step:.1e} and less: the motion is singular here, or a force jumps where nothing can move as it \
+                 asks (dry friction at rest: use a smooth law)"
             ),
-            Self::TooManySteps { limit } => {
-                write!(f, "{limit} steps did not reach the end; raise the limit or the tolerance")
-            }
+            Self::TooManySteps { limit } => write!(
+                f,
+                "{limit} steps do not reach the end; use a larger tolerance or step, or allow more with `max_steps` (and keep \
+                 fewer with `every`)"
+            ),
+            Self::Stiff { rate, step } => write!(
+                f,
+                "the scene is stiff: something decays at a rate of {rate:.1e} per unit of time, which steps of {step:.1e} of an \
+                 explicit method cannot pass over; use `Rosenbrock` (with `#[gauss(linearize)]`), or leave out what decays"
+            ),
+            Self::TooFast { rate, step } => write!(
+                f,
+                "the motion has rates of {rate:.1e} per unit of time, for which steps of {step:.1e} are too long or too many; check \
+                 units and parameters, shorten the run, or use a method that need not resolve them (`FreeFlow`, `Splitting`)"
+            ),
+            Self::Zeno { event, interval } => write!(
+                f,
+                "event {event} comes again after {interval:e}, and again: its jump does not lead away from zero, or infinitely \
+                 many pile up here; end the run with `until` before, and go on with what is then at rest"
+            ),
             Self::IncrementTooLarge { angle } => write!(
                 f,
                 "the body turns by {angle:.3} rad in one step, and at most π can be told from less; use a smaller step"
             ),
             Self::SingularChart { regularity } => write!(
                 f,
-                "the coordinates are singular here (regularity {regularity:e}); use another sequence of angles, or a chart \
-                 without angles"
+                "the coordinates are singular here or within the next step (regularity {regularity:.1e}); use another sequence \
+                 of angles, or a chart without singularities"
             ),
             Self::NotConverged { iterations, residual } => write!(
                 f,

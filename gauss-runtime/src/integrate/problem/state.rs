@@ -53,7 +53,6 @@ macro_rules! copy_and_debug {
         }
     };
 }
-#[cfg(feature = "alloc")]
 pub(in crate::integrate) use copy_and_debug;
 
 copy_and_debug!(Rates { configuration, variables });

@@ -1,6 +1,6 @@
 //! What no step may do: pass over a singularity of the coordinates, or turn so far that the increment is ambiguous.
 
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::real::Real;
@@ -20,10 +20,19 @@ pub(in crate::integrate) fn check_chart<S: GaussSystem>(
         let (before, after) = (before.lane(lane), after.lane(lane));
         // A NaN passes here and is caught at the end of the step.
         if before.abs().min(after.abs()) <= Real::sqrt(S::Scalar::EPSILON) || (before < 0.0) != (after < 0.0) {
-            return Err(IntegrationErrorKind::SingularChart { regularity: after });
+            // What lies between the two sides is the singularity itself.
+            let regularity = if (before < 0.0) == (after < 0.0) { before.abs().min(after.abs()) } else { 0.0 };
+            return Err(IntegrationErrorKind::SingularChart { regularity });
         }
     }
     Ok(())
+}
+
+/// Whether all components are finite and their squares are as well: those of speeds are in every equation of motion, and where
+/// they overflow nothing that follows means anything, finite or not.
+#[inline(always)]
+pub(in crate::integrate) fn is_in_range<T: Real, V: VectorSpace<T>>(variables: &V) -> bool {
+    (0..V::DIM).all(|i| (variables.component(i) * variables.component(i)).is_finite())
 }
 
 /// Refuses rotations beyond half a turn. A NaN passes here and is caught at the end of the step.

@@ -19,13 +19,15 @@ pub struct Properties {
     pub keeps_momentum: bool,
     /// The energy is kept up to rounding and the tolerance of iterations.
     pub keeps_energy: bool,
+    /// Steps may be much longer than the time in which the fastest motions decay.
+    pub stiff: bool,
 }
 
 impl Properties {
     /// A method of the given order that keeps nothing.
     #[must_use]
     pub const fn of_order(order: u32) -> Self {
-        Self { order, symmetric: false, symplectic: false, keeps_momentum: false, keeps_energy: false }
+        Self { order, symmetric: false, symplectic: false, keeps_momentum: false, keeps_energy: false, stiff: false }
     }
 }
 

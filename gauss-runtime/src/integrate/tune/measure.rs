@@ -213,29 +213,30 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
         let direction = self.span().signum();
         let mut before: Option<(State<S>, Rates<S>)> = None;
         let mut failure = None;
-        let outcome = method.drive(&problem, self.start(form), self.interval.end, self.limit, &mut |state, rates| {
-            if let Some((from, slopes)) = &before {
-                seen.steps += 1;
-                while seen.states.len() + 1 < CHECKPOINTS {
-                    let next = time(seen.states.len() + 1);
-                    if direction * (state.t - next).lane(0) < 0.0 {
-                        break;
-                    }
-                    // Looking is not counted.
-                    let evaluations = count.get();
-                    match method.within(&problem, from, slopes, next - from.t) {
-                        Ok(at) => seen.states.push((at.q, form.speeds(self.system, at.t, &at.q, &at.y))),
-                        Err(kind) => {
-                            failure = Some(IntegrationError::at(&problem, from, kind));
-                            return ControlFlow::Break(());
+        let outcome =
+            method.drive(&problem, self.start(form), self.interval.end, self.limit, &mut |state, rates, _| {
+                if let Some((from, slopes)) = &before {
+                    seen.steps += 1;
+                    while seen.states.len() + 1 < CHECKPOINTS {
+                        let next = time(seen.states.len() + 1);
+                        if direction * (state.t - next).lane(0) < 0.0 {
+                            break;
                         }
+                        // Looking is not counted.
+                        let evaluations = count.get();
+                        match method.within(&problem, from, slopes, next - from.t) {
+                            Ok(at) => seen.states.push((at.q, form.speeds(self.system, at.t, &at.q, &at.y))),
+                            Err(kind) => {
+                                failure = Some(IntegrationError::at(&problem, from, kind));
+                                return ControlFlow::Break(());
+                            }
+                        }
+                        count.set(evaluations);
                     }
-                    count.set(evaluations);
                 }
-            }
-            before = Some((*state, *rates));
-            ControlFlow::Continue(())
-        });
+                before = Some((*state, *rates));
+                ControlFlow::Continue(())
+            });
         if let Some(error) = failure {
             return Err(error);
         }
@@ -370,7 +371,7 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
             }
         }
         let problem = SystemProblem { system: self.system, form, input: Uncounted(self.input) };
-        let nobody = &mut |_: &State<S>, _: &Rates<S>| ControlFlow::Continue(());
+        let nobody = &mut |_: &State<S>, _: &Rates<S>, _| ControlFlow::Continue(());
         let (mut shortest, mut total) = (f64::INFINITY, 0.0);
         for _ in 0..5 {
             let clock = std::time::Instant::now();
@@ -566,7 +567,16 @@ let end = scene.control(found.control).run_to_end(tilted, spinning, 0.0..10.0)?;
             return Err(TuneError::InvalidTolerance);
         }
         let (system, input) = (self.problem.system, &self.problem.input);
-        Ok(Bench { system, input, q, z, interval, limit: self.limit.min(MOST_STEPS), relative, absolute })
+        Ok(Bench {
+            system,
+            input,
+            q,
+            z,
+            interval,
+            limit: self.limit.map_or(MOST_STEPS, |limit| limit.min(MOST_STEPS)),
+            relative,
+            absolute,
+        })
     }
 
     /// Runs by a candidate of [`tune`](Self::tune).

@@ -2,7 +2,9 @@
 
 use core::fmt;
 
-use crate::integrate::drive::control::{Adaptive, Control, Emit, Fixed};
+use crate::integrate::drive::adaptive::Adaptive;
+use crate::integrate::drive::control::{Control, Emit};
+use crate::integrate::drive::fixed::Fixed;
 use crate::integrate::lie_group::commutator_free::CommutatorFree4;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};

@@ -2,7 +2,7 @@
 
 use crate::algebra::Expr;
 use crate::mechanics::kinematics::vector::{Triple, cross, is_zero};
-use crate::mechanics::loads::forces::{Action, Element, Force};
+use crate::mechanics::loads::forces::{Action, Element, Field, Force, Loads};
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 
@@ -17,16 +17,18 @@ impl<'g> FreeLink<'g> {
             return if *link == self.link { *wrench } else { nothing };
         }
         match &element.action {
-            Action::Potential(potential) => self.along_pose(scene, *potential).unwrap_or_else(|| {
-                let power = potential.derivative(&scene.rates);
-                self.dual(self.kinematics.speeds.iter().map(|&z| -power.partial(z)).collect())
-            }),
+            Action::Potential(potential) | Action::Field(Field { potential, .. }) => {
+                self.along_pose(scene, *potential).unwrap_or_else(|| {
+                    let power = potential.derivative(&scene.rates);
+                    self.dual(self.kinematics.speeds.iter().map(|&z| -power.partial(z)).collect())
+                })
+            }
             Action::Forces(forces) => {
                 let wrenches = forces.iter().map(|force| match force {
                     Force::OnLink { link, .. } if *link == self.link => {
                         force.wrench(&self.kinematics.frame).unwrap_or(nothing)
                     }
-                    Force::OnLink { .. } => self.dual(self.of_block(&scene.tree.loads(&[*force]))),
+                    Force::OnLink { .. } => self.dual(self.of_block(&scene.tree.loads(&Loads::of_forces(&[*force])))),
                     _ => match force.generalised(&scene.speeds, &scene.rates) {
                         Some(rows) => self.dual(self.of_block(&rows)),
                         None => nothing,

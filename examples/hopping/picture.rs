@@ -1,0 +1,95 @@
+//! The picture: the hip's path with the leg, heights of apices from several starts, a ball's height and energy.
+
+use std::error::Error;
+
+use gauss_examples::figure::{COLOURS, INK};
+use gauss_examples::plots::{Line, Plot, sheet};
+use gauss_runtime::prelude::*;
+
+use crate::model::{BallKernel, Run, Runner};
+
+/// Steps that the path shows.
+const SHOWN: usize = 5;
+
+/// Draws all panels.
+///
+/// # Errors
+/// When a panel cannot be laid out, or a run does not reach its end.
+pub fn draw(
+    runner: &Runner,
+    run: &Run,
+    ball: &BallKernel,
+    bounces: &Trajectory<'_, BallKernel>,
+) -> Result<String, Box<dyn Error>> {
+    let title = "A runner whose flights and stances are two kernels, and a ball that bounces";
+    sheet(title, (1600, 1300), &[vec![path(run)], vec![apices(runner)?, heights(ball, bounces)?]])
+}
+
+fn path(run: &Run) -> Plot<'static> {
+    let steps = &run.steps[..SHOWN.min(run.steps.len())];
+    let hip = steps.iter().flat_map(|step| &step.path).map(|(_, [x, y], _)| (*x, *y));
+    let end = steps.last().and_then(|step| step.path.last()).map_or(1.0, |(_, [x, _], _)| *x);
+    let mut lines = vec![Line::new("", INK, [(0.0, 0.0), (end, 0.0)]).wide(2)];
+    for step in steps {
+        // The leg at touchdown, when it is shortest, and at lift-off.
+        let on_ground = step.path.iter().filter(|(t, ..)| (step.touchdown.0..step.liftoff.0).contains(t));
+        let length = |(_, [x, y], _): &(f64, [f64; 2], [f64; 2])| f64::hypot(x - step.foot, *y);
+        let shortest = on_ground.min_by(|a, b| length(a).total_cmp(&length(b))).unwrap_or(&step.touchdown);
+        for (name, colour, (_, [x, y], _)) in
+            [("", COLOURS[2], step.touchdown), ("", COLOURS[1], *shortest), ("", COLOURS[2], step.liftoff)]
+        {
+            lines.push(Line::new(name, colour, [(step.foot, 0.0), (x, y)]).wide(3));
+        }
+    }
+    lines.push(Line::new("hip", COLOURS[0], hip).wide(5));
+    lines.push(Line::new("leg at touchdown and lift-off", COLOURS[2], []));
+    lines.push(Line::new("leg when it is shortest", COLOURS[1], []));
+    Plot {
+        title: "Five steps at 5 m/s",
+        x: ("way, m", 0.0..end),
+        y: ("height, m", 0.0..1.3),
+        equal: true,
+        lines,
+        marks: Vec::new(),
+    }
+}
+
+fn apices(runner: &Runner) -> Result<Plot<'static>, Box<dyn Error>> {
+    // Starts of one energy: what is higher is slower.
+    let energy = 0.5 * 25.0 + runner.g;
+    let mut lines = Vec::new();
+    for (colour, height) in [(COLOURS[1], 0.96_f64), (COLOURS[0], 1.0), (COLOURS[2], 1.06), (INK, 1.12)] {
+        let run = runner.run(height, (2.0 * (energy - runner.g * height)).sqrt(), 20)?;
+        let points = run.steps.iter().enumerate().map(|(n, step)| (n as f64, step.apex.1[1]));
+        lines.push(Line::new(format!("{height} m"), colour, points));
+    }
+    Ok(Plot {
+        title: "Heights of apices from several starts",
+        x: ("step", 0.0..19.0),
+        y: ("m", 0.9..1.2),
+        equal: false,
+        lines,
+        marks: Vec::new(),
+    })
+}
+
+fn heights(ball: &BallKernel, path: &Trajectory<'_, BallKernel>) -> Result<Plot<'static>, Box<dyn Error>> {
+    let end = path.last().t;
+    let table = path.table_at((0..=600).map(|n| end * (f64::from(n) / 600.0).min(1.0)))?;
+    let table = table.column("height", |s| s.q[0]).energies(ball);
+    let column = |name: &str| -> Vec<(f64, f64)> {
+        let (times, values) = (table.get("t").unwrap_or_default(), table.get(name).unwrap_or_default());
+        times.iter().copied().zip(values.iter().copied()).collect()
+    };
+    Ok(Plot {
+        title: "A ball that keeps 0.7 of its speed",
+        x: ("time, s", 0.0..end),
+        y: ("m, and J", 0.0..1.1),
+        equal: false,
+        lines: vec![
+            Line::new("height", COLOURS[0], column("height")),
+            Line::new("energy", COLOURS[1], column("energy")).wide(3),
+        ],
+        marks: Vec::new(),
+    })
+}

@@ -1,0 +1,152 @@
+//! C of (3.1) as the sum of squares that it is: masses times squares of accelerations of centres of mass, and inertias
+//! about these times those of angular accelerations, all affine in ż. Orthogonalised element by element, the light keep
+//! their digits beside the heavy, and what is far from O is not squared; A is never formed.
+
+use crate::algebra::{Expr, LeastSquares};
+
+use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, dot};
+use crate::mechanics::links::link::{Link, Matter};
+use crate::mechanics::links::tree::{Pairs, Tree};
+use crate::mechanics::loads::forces::Loads;
+
+/// Elements of inertia.
+pub struct Elements<'a, 'g> {
+    tree: &'a Tree<'g>,
+    squares: LeastSquares<'g>,
+    /// Which link, and how the row is made of a motion of it.
+    forms: Vec<(usize, Form<'g>)>,
+}
+
+/// A component of the motion of a link, working axes: of the velocity of G, or a combination of those of the angular
+/// velocity.
+enum Form<'g> {
+    Center(usize, Triple<'g>),
+    Turn(Triple<'g>),
+}
+
+impl<'g> Form<'g> {
+    fn of(&self, linear: &Triple<'g>, angular: &Triple<'g>) -> Expr<'g> {
+        match self {
+            Form::Center(axis, center) => linear[*axis] + cross(angular, center)[*axis],
+            Form::Turn(factors) => dot(factors, angular),
+        }
+    }
+}
+
+impl<'a, 'g> Elements<'a, 'g> {
+    /// Of all matter; `None` where fluid is moved or displaced: its impulse is no sum of squares of this kind.
+    pub fn new(tree: &'a Tree<'g>) -> Option<Self> {
+        let dry =
+            |link: &Link<'g>| link.body().is_none_or(|body| body.added_mass.is_none() && body.displaced.is_none());
+        if !tree.links.iter().all(dry) {
+            return None;
+        }
+        let (mut rows, mut weights, mut forms) = (Vec::new(), Vec::new(), Vec::new());
+        for k in 0..tree.links.len() {
+            let motions: Vec<_> = (0..tree.speed_count()).map(|speed| tree.motion(k, speed)).collect();
+            for (weight, form) in forms_of(tree, k) {
+                let row: Vec<Expr<'g>> = motions.iter().map(|(v, w)| form.of(v, w).group()).collect();
+                if row.iter().any(|e| !e.is_zero()) {
+                    rows.push(row);
+                    weights.push(weight);
+                    forms.push((k, form));
+                }
+            }
+        }
+        Some(Self { tree, squares: LeastSquares::new(rows, &weights), forms })
+    }
+
+    /// z with `A z = right`.
+    pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        self.squares.solve(&vec![self.tree.graph.zero(); self.forms.len()], right)
+    }
+
+    /// ż, from what acts elsewhere than on links and by no field.
+    pub fn accelerations(&self, loads: &Loads<'g>, others: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let tree = self.tree;
+        let nothing = vec![false; tree.speed_count()];
+        let (accelerations, taken) = tree.floating_accelerations(loads, &nothing);
+        let offset = |(k, form): &(usize, Form<'g>)| {
+            let (link, (a, alpha)) = (&tree.links[*k], &accelerations[*k]);
+            let a = link.frame.resolve(a, Axes::Body);
+            match form {
+                Form::Center(axis, center) => {
+                    let w = &link.angular_velocity;
+                    let turning = cross(w, &cross(w, center).map(Expr::group));
+                    add(&a, &add(&cross(alpha, center), &turning))[*axis].group()
+                }
+                Form::Turn(_) => form.of(&a, alpha).group(),
+            }
+        };
+        let offsets: Vec<Expr<'g>> = self.forms.iter().map(offset).collect();
+        let forces = tree.acted_on_by(&loads.forces, self.gyroscopic());
+        let forces: Vec<Expr<'g>> = forces.iter().zip(others).map(|(own, other)| (*own + *other).group()).collect();
+        let rates = match forces.len() {
+            0..=2 => self.squares.solve(&offsets, &forces),
+            _ => self.squares.refined(&offsets, &forces),
+        };
+        rates.iter().zip(&taken).map(|(rate, own)| *rate + *own).collect()
+    }
+
+    /// −ω × I_G ω on every link.
+    fn gyroscopic(&self) -> Pairs<'g> {
+        let tree = self.tree;
+        let on = |link: &Link<'g>| {
+            let w = &link.angular_velocity;
+            let torque = match central_inertia(link).filter(|_| link.works_in_body_axes()) {
+                Some(inertia) => {
+                    let spin: Triple<'g> = std::array::from_fn(|i| dot(&inertia[i], w).group());
+                    cross(&spin, w).map(Expr::group)
+                }
+                // About one axis: along it.
+                None => [tree.graph.zero(); 3],
+            };
+            (link.frame.zero(), torque)
+        };
+        tree.links.iter().map(on).collect()
+    }
+}
+
+/// The elements of one link, with their weights.
+fn forms_of<'g>(tree: &Tree<'g>, k: usize) -> Vec<(Expr<'g>, Form<'g>)> {
+    let (graph, link) = (tree.graph, &tree.links[k]);
+    let none = [graph.zero(); 3];
+    let (mass, center) = match &link.matter {
+        Matter::Nothing => return Vec::new(),
+        Matter::Particle(mass) => (*mass, none),
+        Matter::Body(body) => (body.mass, link.in_working_axes(&body.center_of_mass, Axes::Body).map(Expr::group)),
+    };
+    let mut forms: Vec<_> = (0..3).map(|axis| (mass, Form::Center(axis, center))).collect();
+    let Some(inertia) = central_inertia(link) else { return forms };
+    if let Some(axis) = tree.planar_axis() {
+        let unit = std::array::from_fn(|i| if i == axis { graph.one() } else { graph.zero() });
+        forms.push((inertia[axis][axis], Form::Turn(unit)));
+        return forms;
+    }
+    // I_G = L D Lᵀ: Σ D_j (Lᵀω)_j².
+    let mut rest = inertia;
+    for j in 0..3 {
+        let pivot = rest[j][j];
+        let factors: Triple<'g> = std::array::from_fn(|i| match i {
+            _ if i < j => graph.zero(),
+            _ if i == j => graph.one(),
+            _ if rest[i][j].is_zero() => graph.zero(),
+            _ => (rest[i][j] * pivot.recip()).opaque(),
+        });
+        for a in j + 1..3 {
+            for b in j + 1..3 {
+                if !rest[a][j].is_zero() && !rest[b][j].is_zero() {
+                    rest[a][b] = (rest[a][b] - factors[a] * rest[b][j]).opaque();
+                }
+            }
+        }
+        forms.push((pivot, Form::Turn(factors)));
+    }
+    forms
+}
+
+/// I_G of a body, body axes.
+fn central_inertia<'g>(link: &Link<'g>) -> Option<[Triple<'g>; 3]> {
+    let body = link.body()?;
+    Some(body.central_inertia())
+}

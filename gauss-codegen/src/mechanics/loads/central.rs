@@ -1,0 +1,185 @@
+//! Central gravity: one potential; over links that hang on one another the field at a common pole, which is an
+//! acceleration of the observer, and the tide about it.
+
+use crate::algebra::{Expr, Map};
+
+use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, dot, is_zero, scale, subtract};
+use crate::mechanics::links::link::{Link, Matter};
+use crate::mechanics::links::tree::Tree;
+use crate::mechanics::loads::forces::{Action, Field, Force, Loads};
+use crate::mechanics::matter::moments::Moments;
+
+/// The field of a centre: φ = −μ/|ρ|, ρ from the centre.
+#[derive(Clone, Copy)]
+pub struct CentralField<'g> {
+    pub mu: Expr<'g>,
+    /// Observer's axes, from Ω.
+    pub center: Triple<'g>,
+}
+
+/// Matter about O in the field, φ expanded to second order in x under the moments: `m φ + ∇φ·∫x dm + ½ ∇∇φ : J`. For a
+/// body small beside its distance that is all of gravity: its first order moves the body, its second turns it (the
+/// gravity-gradient torque) and corrects the first. In terms of formal components of ρ, body axes, and of 1/|ρ|, whose
+/// rate is −ρ·dρ/dt/|ρ|³.
+struct Expansion<'g> {
+    arm: Triple<'g>,
+    inverse: Expr<'g>,
+    /// Of order 0, 1 and 2.
+    energies: [Expr<'g>; 3],
+}
+
+impl<'g> Expansion<'g> {
+    fn new(mu: Expr<'g>, moments: &Moments<'g>) -> Self {
+        let graph = mu.graph();
+        let arm: Triple<'g> =
+            std::array::from_fn(|i| graph.symbol(format!("ρ{}", i + 1), format!("\\rho_{{{}}}", i + 1), false));
+        let inverse = graph.symbol("1/|ρ|", "|\\rho|^{-1}", false);
+        let mut expansion = Self { arm, inverse, energies: [-mu * inverse; 3] };
+        let field = expansion.energies[0];
+        let gradient: Triple<'g> = std::array::from_fn(|i| field.derivative(&expansion.moving(i)));
+        let second = |i: usize| {
+            let rates = expansion.moving(i);
+            (0..3).map(move |j| gradient[j].derivative(&rates) * moments.second[i][j])
+        };
+        let second: Expr<'g> = (0..3).flat_map(second).sum();
+        expansion.energies = [moments.mass * field, dot(&gradient, &moments.first), second.half()];
+        expansion
+    }
+
+    /// Rates while O moves along an axis.
+    fn moving(&self, axis: usize) -> Map<u32, Expr<'g>> {
+        let along = self.arm[axis];
+        Map::from_iter([(along.key(), along.graph().one()), (self.inverse.key(), -along * self.inverse.powi(3))])
+    }
+
+    /// Rates while the body turns about an axis: those of ρ, fixed for the observer, in body axes; the distance stays.
+    fn turning(&self, axis: usize) -> Map<u32, Expr<'g>> {
+        let graph = self.inverse.graph();
+        let unit: Triple<'g> = std::array::from_fn(|i| if i == axis { graph.one() } else { graph.zero() });
+        self.arm.iter().zip(cross(&self.arm, &unit)).map(|(r, rate)| (r.key(), rate)).collect()
+    }
+
+    fn at(&self, arm: &Triple<'g>, inverse: Expr<'g>) -> Map<u32, Expr<'g>> {
+        let own = self.arm.iter().zip(arm).map(|(r, value)| (r.key(), value.group()));
+        own.chain([(self.inverse.key(), inverse)]).collect()
+    }
+}
+
+impl<'g> CentralField<'g> {
+    /// O of a link from the centre, observer's axes.
+    fn arm(&self, link: &Link<'g>) -> Triple<'g> {
+        std::array::from_fn(|i| (link.position[i] - self.center[i]).group())
+    }
+
+    /// The same in body axes. The field looks the same from all sides: of a particle no axes are needed.
+    fn arm_in_body(&self, link: &Link<'g>) -> Triple<'g> {
+        match link.matter {
+            Matter::Body(_) => link.axes().to_body(&self.arm(link)).map(Expr::group),
+            _ => self.arm(link),
+        }
+    }
+
+    /// How the field acts on all matter of a tree.
+    pub fn action(&self, tree: &Tree<'g>) -> Action<'g> {
+        let graph = tree.graph;
+        let sum = |links: &mut dyn Iterator<Item = &Link<'g>>| {
+            links.map(|link| self.energy(link)).fold(graph.zero(), |sum, energy| sum + energy)
+        };
+        let heavy = |link: &&Link<'g>| !matches!(link.matter, Matter::Nothing);
+        let potential = sum(&mut tree.links.iter().filter(heavy));
+        let (mut loads, mut gathered) = (Loads::default(), Vec::new());
+        for root in (0..tree.links.len()).filter(|&k| tree.links[k].parent.is_none()) {
+            let Some(pole) = pole_of(tree, root).filter(|&pole| !is_zero(&self.arm(&tree.links[pole]))) else {
+                continue;
+            };
+            gathered.push(root);
+            loads.uniform.push((root, self.at(&self.arm(&tree.links[pole]))));
+            let own = (0..tree.links.len()).filter(|&k| tree.root_of(k) == root && heavy(&&tree.links[k]));
+            loads.forces.extend(own.flat_map(|k| self.tide(tree, pole, k)));
+        }
+        if gathered.is_empty() {
+            return Action::Potential(potential);
+        }
+        let apart = tree.links.iter().enumerate().filter(|(k, _)| !gathered.contains(&tree.root_of(*k)));
+        let rest = sum(&mut apart.map(|(_, link)| link).filter(heavy));
+        Action::Field(Field { potential, rest, loads })
+    }
+
+    fn energy(&self, link: &Link<'g>) -> Expr<'g> {
+        let expansion = Expansion::new(self.mu, &link.moments);
+        let arm = self.arm_in_body(link);
+        let energy: Expr<'g> = expansion.energies.into_iter().sum();
+        energy.substitute(&expansion.at(&arm, inverse_length(&arm)))
+    }
+
+    /// γ = −∇φ.
+    fn at(&self, arm: &Triple<'g>) -> Triple<'g> {
+        scale((-self.mu * inverse_length(arm).powi(3)).group(), arm).map(Expr::group)
+    }
+
+    /// What the field does to a link beside what it does to the pole: the difference of the accelerations, and what the
+    /// first and the second moments add. With d = O − pole the difference is that of Encke, in which nothing cancels:
+    /// `|ρ + d|² = |ρ|² w`,
+    /// `w = 1 + q`, `q = d·(2ρ + d)/|ρ|²`, and
+    ///
+    /// `γ(ρ + d) − γ(ρ) = −μ/|ρ|³ (d − f (ρ + d))`, `f = 1 − 1/h = q (3 + 3q + q²)/(h (1 + h))`, `h = w√w`.
+    fn tide(&self, tree: &Tree<'g>, pole: usize, k: usize) -> Vec<Force<'g>> {
+        let (graph, link) = (tree.graph, &tree.links[k]);
+        let (one, three) = (graph.one(), graph.integer(3));
+        let near = self.arm(&tree.links[pole]);
+        let inverse = inverse_length(&near);
+        let d = from_pole(tree, pole, k);
+        let q = (dot(&d, &add(&scale(graph.integer(2), &near), &d).map(Expr::group)) * inverse.powi(2)).group();
+        let w = (one + q).group();
+        let h = (w * w.sqrt()).group();
+        // One division: 1/√w = w (1 + h)/(h (1 + h)).
+        let divided = (h * (one + h).group()).group().recip().group();
+        let f = (q * (three + q * (three + q)).group() * divided).group();
+        let tide =
+            scale((-self.mu * inverse.powi(3)).group(), &subtract(&d, &scale(f, &self.arm(link)))).map(Expr::group);
+        let none = [graph.zero(); 3];
+        let mut forces = Vec::new();
+        let moments = &link.moments;
+        if k != pole {
+            let center = link.body().map_or(none, |body| body.center_of_mass);
+            let force = scale(moments.mass, &tide).map(Expr::group);
+            forces.push(Force::OnLink { link: k, at: center, force, torque: none, axes: Axes::Space });
+        }
+        if matches!(link.matter, Matter::Body(_)) {
+            let expansion = Expansion::new(self.mu, moments);
+            let at = expansion.at(&self.arm_in_body(link), (inverse * w * (one + h).group() * divided).group());
+            let [_, first, second] = expansion.energies;
+            let negative = |e: Expr<'g>, rates: &Map<u32, Expr<'g>>| (-e.derivative(rates)).substitute(&at).group();
+            let force = std::array::from_fn(|i| negative(first + second, &expansion.moving(i)));
+            let torque = std::array::from_fn(|i| negative(second, &expansion.turning(i)));
+            forces.push(Force::OnLink { link: k, at: none, force, torque, axes: Axes::Body });
+        }
+        forces
+    }
+}
+
+/// 1/|a|.
+fn inverse_length<'g>(a: &Triple<'g>) -> Expr<'g> {
+    dot(a, a).group().sqrt().recip().group()
+}
+
+/// The link that all matter on a root hangs on, where there is more than one with matter.
+fn pole_of(tree: &Tree<'_>, root: usize) -> Option<usize> {
+    let heavy = |k: &usize| !matches!(tree.links[*k].matter, Matter::Nothing);
+    let own: Vec<usize> = (0..tree.links.len()).filter(|&k| tree.root_of(k) == root).filter(heavy).collect();
+    let path = |k: usize| -> Vec<usize> { std::iter::successors(Some(k), |&k| tree.links[k].parent).collect() };
+    let (first, others) = own.split_first()?;
+    let shared = |k: &usize| others.iter().all(|&other| path(other).contains(k));
+    if others.is_empty() { None } else { path(*first).into_iter().find(shared) }
+}
+
+/// O of a link from that of one it hangs on, observer's axes.
+fn from_pole<'g>(tree: &Tree<'g>, pole: usize, k: usize) -> Triple<'g> {
+    match tree.links[k].parent.filter(|_| k != pole) {
+        None => [tree.graph.zero(); 3],
+        Some(parent) => {
+            let offset = tree.links[parent].frame.to_space(&tree.links[k].joint.offset).map(Expr::group);
+            add(&from_pole(tree, pole, parent), &offset).map(Expr::group)
+        }
+    }
+}

@@ -1,0 +1,316 @@
+//! Steps as long as a tolerance allows.
+
+use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::cause::{Gave, Place, cause, change};
+use crate::integrate::drive::control::{Control, Emit, Taken, check_tolerances, longest, one_step, prepare, smallest};
+use crate::integrate::drive::pace::Pace;
+use crate::integrate::drive::projection::accept;
+use crate::integrate::drive::step_length::{StepLength, power};
+use crate::integrate::drive::tolerance::{Floor, Tolerance, Trial};
+use crate::integrate::lie_group::rkmk::Rkmk;
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::runge_kutta::components::RungeKutta;
+use crate::integrate::runge_kutta::tableau::{DormandPrince8, Tableau};
+use crate::integrate::step::one_step::EstimatingStep;
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// Steps that keep the estimated error of each within a tolerance: an embedded pair, or any other [`EstimatingStep`], with a PI
+/// controller (Gustafsson; Hairer, Nørsett & Wanner II.4).
+///
+/// Where the tolerance is less than what rounding does to a step, it is rounding that is tolerated, measured at the state:
+/// shorter steps would be no better. A [`Summary`](crate::integrate::Summary) says where and by how much.
+#[derive(Clone, Copy, Debug)]
+pub struct Adaptive<M = RungeKutta<DormandPrince8, 12>> {
+    method: M,
+    tolerance: Tolerance,
+    pub(in crate::integrate) first_step: Option<f64>,
+    pub(in crate::integrate) largest_step: Option<f64>,
+}
+
+impl Adaptive {
+    /// [`RungeKutta`] of [`DormandPrince8`].
+    ///
+    /// The error of a step is measured component by component against `absolute + relative·size`, where the size is
+    /// |y| for velocities or momenta, 1 for a rotation, |b| for a translation and |q| for a plain coordinate, and the root
+    /// mean square must not exceed 1.
+    #[must_use]
+    pub fn new(relative: f64, absolute: f64) -> Self {
+        Self::by(RungeKutta(DormandPrince8), relative, absolute)
+    }
+}
+
+impl<T: Real, const S: usize> Adaptive<Rkmk<T, S>> {
+    /// The Runge–Kutta–Munthe-Kaas method of any embedded pair.
+    #[must_use]
+    pub fn with(tableau: &Tableau<S>, relative: f64, absolute: f64) -> Self {
+        Self::by(Rkmk::new(tableau), relative, absolute)
+    }
+}
+
+impl<M> Adaptive<M> {
+    /// Any method that estimates its error, for example `Adaptive::by(RungeKutta(Verner9), 1e-12, 1e-12)`; tolerances as in
+    /// [`Adaptive::new`].
+    #[must_use]
+    pub fn by(method: M, relative: f64, absolute: f64) -> Self {
+        Self { method, tolerance: Tolerance { relative, absolute }, first_step: None, largest_step: None }
+    }
+}
+
+/// The error, in tolerances, for which one that is but rounding is taken: steps then grow by a sixth.
+const ROUNDED: f64 = 1e-3;
+
+/// A run on its way.
+struct Drive<'a, S: GaussSystem, P, M> {
+    control: &'a Adaptive<M>,
+    problem: &'a P,
+    end: S::Scalar,
+    span: f64,
+    longest: f64,
+    state: State<S>,
+    rates: Rates<S>,
+    /// The length to try next.
+    length: f64,
+    lengths: StepLength,
+    /// Known where it was asked for.
+    floor: Option<Floor<S>>,
+    /// The longest step since it was asked for, or the one for which it was.
+    looked: f64,
+    rejected: u32,
+}
+
+impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
+    fn drive<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        start: State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut Emit<'_, S>,
+    ) -> Result<State<S>, IntegrationError> {
+        let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
+        let Tolerance { relative, absolute } = self.tolerance;
+        check_tolerances(relative, absolute).map_err(|kind| stopped(&start, kind))?;
+        let (span, start, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
+        if emit(&start, &rates, Taken::default()).is_break() || span == 0.0 {
+            return Ok(start);
+        }
+        let lengths = self.first_and_longest(problem, &start, &rates, span, limit);
+        let (length, longest) = lengths.map_err(|kind| stopped(&start, kind))?;
+        let lengths = StepLength::new(self.method.estimate_order(), S::SMOOTHNESS);
+        let (state, floor) = (start, None);
+        let mut run = Drive {
+            control: self,
+            problem,
+            end,
+            span,
+            longest,
+            state,
+            rates,
+            length,
+            lengths,
+            floor,
+            looked: 0.0,
+            rejected: 0,
+        };
+        let mut pace = Pace::new(start.t.lane(0), limit);
+        loop {
+            if let Some(hopeless) = pace.spent(run.state.t.lane(0), run.left()) {
+                return Err(stopped(&run.state, run.cause(Gave::Out { limit, hopeless })));
+            }
+            match run.step() {
+                Ok(None) => {}
+                Ok(Some((taken, last))) => {
+                    if emit(&run.state, &run.rates, taken).is_break() || last {
+                        return Ok(run.state);
+                    }
+                }
+                Err(kind) => return Err(stopped(&run.state, run.cause(Gave::AnyStep(kind)))),
+            }
+        }
+    }
+
+    fn within<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        one_step(&self.method, problem, state, rates, h)
+    }
+}
+
+impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, P, M> {
+    fn left(&self) -> f64 {
+        (self.end - self.state.t).lane(0).abs()
+    }
+
+    fn cause(&self, gave: Gave) -> IntegrationErrorKind {
+        let Self { problem, state, rates, length, .. } = self;
+        let stiff = self.control.method.properties().stiff;
+        cause(*problem, &Place { state, rates, length: *length, left: self.left(), stiff }, gave)
+    }
+
+    /// Tries a step. None when it is rejected, else how it was taken, and whether it was the last one.
+    #[inline(always)]
+    fn step(&mut self) -> Result<Option<(Taken, bool)>, IntegrationErrorKind> {
+        let left = self.left();
+        // Stretch by 1 % rather than leave a sliver.
+        let last = self.length >= left * 0.99;
+        let signed = if last {
+            self.end - self.state.t
+        } else {
+            S::Scalar::from_f64(if self.span < 0.0 { -self.length } else { self.length })
+        };
+        if self.state.t + signed == self.state.t || !last && self.vanishes(self.length) {
+            return Err(IntegrationErrorKind::StepTooSmall { step: self.length });
+        }
+        let (step, coarse) =
+            match self.control.method.step_and_estimates(self.problem, &self.state, &self.rates, signed) {
+                Ok(step) => step,
+                Err(kind) => return self.halve(left, kind),
+            };
+        let used = if last { left } else { self.length };
+        let tolerance = &self.control.tolerance;
+        let (from, to) = (&self.state, &step.state);
+        let of = |floor: &Option<Floor<S>>| {
+            let trial = Trial { from, to, length: used, floor: floor.as_ref() };
+            tolerance.error(&trial, &step.error, coarse.as_ref())
+        };
+        let mut error = of(&self.floor);
+        if self.floor.is_none() && (error.is_nan() || error > self.lengths.limit()) {
+            // It may be rounding that is too much.
+            let floor = Some(Floor::at(self.problem, from, &self.rates));
+            error = of(&floor);
+            self.floor = floor;
+        }
+        if error.is_nan() || error > self.lengths.limit() {
+            self.length = used * self.lengths.reject(error);
+            self.rejected += 1;
+            return Ok(None);
+        }
+        let mut reached = step.state;
+        if last {
+            reached.t = self.end;
+        }
+        let rates = match accept(self.problem, &mut reached, step.rates) {
+            Ok(rates) => rates,
+            Err(kind) => return self.halve(left, kind),
+        };
+        let excess = self.floor.as_ref().map_or(0.0, |floor| {
+            tolerance.excess(&Trial { from: &self.state, to: &reached, length: used, floor: Some(floor) })
+        });
+        // Well below what rounding does there is nothing to be learnt of the step.
+        let told = if excess > 0.0 && error < 0.5 { error.min(ROUNDED) } else { error };
+        let taken = Taken { rejected: core::mem::take(&mut self.rejected), excess };
+        (self.state, self.rates) = (reached, rates);
+        self.length = (used * self.lengths.accept(told)).min(self.longest);
+        // Where rounding is in the way it is asked for again, elsewhere when steps have become short.
+        let short = self.length < 0.5 * self.looked;
+        self.floor = (excess > 0.0 || short).then(|| Floor::at(self.problem, &self.state, &self.rates));
+        self.looked = if self.floor.is_some() { self.length } else { self.looked.max(self.length) };
+        Ok(Some((taken, last)))
+    }
+
+    /// A step that failed: a shorter one may do, as long as it changes the time, and the state if anything does.
+    #[cold]
+    fn halve(&mut self, left: f64, kind: IntegrationErrorKind) -> Result<Option<(Taken, bool)>, IntegrationErrorKind> {
+        self.length = 0.5 * self.length.min(left);
+        self.rejected += 1;
+        self.lengths.fail();
+        let h = S::Scalar::from_f64(if self.span < 0.0 { -self.length } else { self.length });
+        let moves = change(&self.state, &self.rates) * self.length;
+        let still = moves > 0.0 && moves < 0.5 * S::Scalar::EPSILON;
+        if still || self.vanishes(self.length) || self.state.t + h == self.state.t { Err(kind) } else { Ok(None) }
+    }
+
+    fn vanishes(&self, length: f64) -> bool {
+        length <= smallest::<S::Scalar>(self.state.t.lane(0), self.span)
+    }
+}
+
+impl<M> Adaptive<M> {
+    /// The lengths of the first step and of the longest.
+    fn first_and_longest<S, P>(
+        &self,
+        problem: &P,
+        start: &State<S>,
+        rates: &Rates<S>,
+        span: f64,
+        limit: u64,
+    ) -> Result<(f64, f64), IntegrationErrorKind>
+    where
+        S: GaussSystem,
+        P: Problem<System = S>,
+        M: EstimatingStep<S>,
+    {
+        let longest = longest(self.largest_step, span, limit)?;
+        let first = self.first_step.unwrap_or_else(|| self.first_length(problem, start, rates, span.signum()));
+        if first.is_finite() && first > 0.0 {
+            Ok((first.min(longest), longest))
+        } else {
+            Err(IntegrationErrorKind::InvalidStep { step: first })
+        }
+    }
+
+    /// The root mean square of the components of `error`, each against its tolerance; the worst lane.
+    fn scaled_norm<S: GaussSystem>(&self, at: &State<S>, error: &Rates<S>) -> f64 {
+        self.tolerance.error(&Trial { from: at, to: at, length: 0.0, floor: None }, error, None)
+    }
+
+    /// A first step from the sizes of the state, of its derivative and of the change of the derivative over an Euler step
+    /// (Hairer, Nørsett & Wanner, II.4).
+    fn first_length<S, P>(&self, problem: &P, start: &State<S>, rates: &Rates<S>, direction: f64) -> f64
+    where
+        S: GaussSystem,
+        P: Problem<System = S>,
+        M: EstimatingStep<S>,
+    {
+        let size = {
+            // The state itself as an "error": |y| with the magnitudes of q.
+            let mut sizes: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: start.y };
+            for i in 0..TangentOf::<S>::DIM {
+                sizes.configuration.set_component(i, S::Scalar::from_f64(start.q.magnitude(i)));
+            }
+            self.scaled_norm(start, &sizes)
+        };
+        let speed = self.scaled_norm(start, rates);
+        let guess = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
+        // A component that is zero and moves has no size for a purely relative tolerance: any short step will do, and the
+        // controller lengthens it.
+        let guess = if guess > 0.0 && guess.is_finite() { guess } else { 1e-6 };
+        // Not beyond a fraction of a turn.
+        let turn = S::Configuration::increment_angle(&rates.configuration);
+        let guess = if turn * guess > 0.1 { 0.1 / turn } else { guess };
+
+        let h = S::Scalar::from_f64(direction * guess);
+        let euler = State {
+            t: start.t + h,
+            q: start.q.retract(&rates.configuration.scale(h)),
+            y: start.y.add_scaled(h, &rates.variables),
+        };
+        let next = problem.rates(&euler);
+        if !next.is_finite() {
+            return guess * 1e-3;
+        }
+        let change = Rates {
+            configuration: next.configuration.add_scaled(-S::Scalar::one(), &rates.configuration),
+            variables: next.variables.add_scaled(-S::Scalar::one(), &rates.variables),
+        };
+        let curvature = self.scaled_norm(start, &change) / guess;
+        let steepest = speed.max(curvature);
+        let second = if steepest <= 1e-15 {
+            (guess * 1e-3).max(1e-6)
+        } else {
+            power(0.01 / steepest, 1.0 / self.method.estimate_order())
+        };
+        if second > 0.0 { second.min(100.0 * guess) } else { guess }
+    }
+}
+
+#[cfg(test)]
+#[path = "adaptive_tests.rs"]
+mod tests;

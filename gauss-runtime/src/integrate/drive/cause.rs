@@ -1,0 +1,194 @@
+//! Why a run cannot go on: what a step that fails, or steps without end, are a sign of.
+
+use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::real::Real;
+use crate::system::{GaussSystem, Smoothness};
+
+/// How a run came to its end.
+pub(in crate::integrate) enum Gave {
+    /// A step of the length that it had to have cannot be made.
+    Step(IntegrationErrorKind),
+    /// No step can be made, however short.
+    AnyStep(IntegrationErrorKind),
+    /// So many steps were made, and there is no prospect of an end, or the limit was asked for.
+    Out { limit: u64, hopeless: bool },
+}
+
+/// Where a run came to its end.
+pub(in crate::integrate) struct Place<'a, S: GaussSystem> {
+    pub(in crate::integrate) state: &'a State<S>,
+    pub(in crate::integrate) rates: &'a Rates<S>,
+    /// The length of its steps, or of those that were tried.
+    pub(in crate::integrate) length: f64,
+    /// The time that is left.
+    pub(in crate::integrate) left: f64,
+    /// Whether the method passes over what decays fast.
+    pub(in crate::integrate) stiff: bool,
+}
+
+/// Coordinates that are nearer to a singularity than this have to do with what fails there: velocities in them are ten
+/// thousand times as large as those of the bodies.
+const NEAR_SINGULARITY: f64 = 1e-4;
+
+/// Speeds or momenta that are larger have run away, in whatever units.
+const RUN_AWAY: f64 = 1e12;
+
+/// Time constants of which no run is long enough to hold so many.
+const OUT_OF_REACH: f64 = 1e10;
+
+/// What is behind the end of a run.
+pub(in crate::integrate) fn cause<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    place: &Place<'_, S>,
+    gave: Gave,
+) -> IntegrationErrorKind {
+    let &Place { state, rates, length, left, stiff } = place;
+    let (kind, lost, shrunk) = match gave {
+        Gave::Step(kind) => (kind, false, false),
+        Gave::AnyStep(kind) => (kind, false, true),
+        Gave::Out { limit, hopeless } => (IntegrationErrorKind::TooManySteps { limit }, hopeless, false),
+    };
+    let undefined = matches!(kind, IntegrationErrorKind::NonFinite { part: Part::Step | Part::Derivative });
+    let vanish = matches!(kind, IntegrationErrorKind::StepTooSmall { .. });
+    let used_up = matches!(kind, IntegrationErrorKind::TooManySteps { .. });
+    // What is undefined at once, and not because it grew, has another reason.
+    let run_away = undefined && state.y.max_norm() > RUN_AWAY;
+    if !(used_up || vanish || run_away || undefined && shrunk) {
+        return kind;
+    }
+    let regularity = problem.system().regularity(state.t, &state.q);
+    let regularity = (0..S::Scalar::LANES).map(|lane| regularity.lane(lane).abs()).fold(f64::INFINITY, f64::min);
+    if regularity < NEAR_SINGULARITY {
+        return IntegrationErrorKind::SingularChart { regularity };
+    }
+    if lost && S::SMOOTHNESS == Smoothness::Jumps {
+        return IntegrationErrorKind::StepTooSmall { step: length };
+    }
+    let moves = change(state, rates);
+    let fastest = fastest(problem, state, rates).unwrap_or(Fastest { rate: moves, decays: false });
+    let rate = fastest.rate.max(moves);
+    if !stiff && fastest.decays && fastest.rate * length > 1.0 && (run_away || moves * length < 0.05) {
+        return IntegrationErrorKind::Stiff { rate: fastest.rate, step: length };
+    }
+    // Where the motion itself becomes infinite, its rate is as large as the time can be told.
+    let ticks = rate * S::Scalar::EPSILON * state.t.lane(0).abs();
+    let singular = (1e-3..1e3).contains(&ticks);
+    if lost || run_away && !stiff && rate * length > 2.0 || shrunk && !singular && rate * left > OUT_OF_REACH {
+        return IntegrationErrorKind::TooFast { rate, step: length };
+    }
+    kind
+}
+
+/// The fastest of the motions near a state.
+struct Fastest {
+    /// |λ| of the largest eigenvalue of the derivatives by the state, per unit of time.
+    rate: f64,
+    /// Whether it is about real and negative.
+    decays: bool,
+}
+
+/// By the power method, with differences in place of derivatives; none where these are undefined.
+fn fastest<S: GaussSystem, P: Problem<System = S>>(problem: &P, state: &State<S>, rates: &Rates<S>) -> Option<Fastest> {
+    let sizes = sizes(state);
+    // J v, with v in units of the sizes, and v small beside them.
+    let times = |v: &Rates<S>| {
+        let small = S::Scalar::from_f64(Real::sqrt(S::Scalar::EPSILON));
+        let (v, sizes) = (scaled(v, &sizes, |v, size| v * size), &sizes);
+        let near = problem.rates(&State {
+            t: state.t,
+            q: state.q.retract(&v.configuration.scale(small)),
+            y: state.y.add_scaled(small, &v.variables),
+        });
+        let one = -S::Scalar::one();
+        let change = Rates::<S> {
+            configuration: near.configuration.add_scaled(one, &rates.configuration).scale(small.recip()),
+            variables: near.variables.add_scaled(one, &rates.variables).scale(small.recip()),
+        };
+        scaled(&change, sizes, |change, size| change / size)
+    };
+    let mut v = start();
+    for _ in 0..8 {
+        let next = times(&v);
+        v = scale(&next, 1.0 / norm(&next).filter(|size| *size > 0.0)?);
+    }
+    let once = times(&v);
+    let twice = times(&scale(&once, 1.0 / norm(&once).filter(|size| *size > 0.0)?));
+    let (first, second) = (norm(&once)?, norm(&twice)?);
+    let along = product(&v, &once) / first;
+    let back = product(&v, &twice) / second;
+    let rate = Real::sqrt(first) * Real::sqrt(second);
+    rate.is_finite().then_some(Fastest { rate, decays: along < -0.5 && back > 0.5 })
+}
+
+/// How fast the state changes beside its own size, per unit of time: the largest of the components.
+pub(in crate::integrate) fn change<S: GaussSystem>(state: &State<S>, rates: &Rates<S>) -> f64 {
+    let relative = scaled(rates, &sizes(state), |rate, size| rate / size);
+    relative.configuration.max_norm().max(relative.variables.max_norm())
+}
+
+/// The sizes of the components; those that are nearly nothing beside the others count as a millionth of these.
+fn sizes<S: GaussSystem>(state: &State<S>) -> Rates<S> {
+    let mut sizes: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+    let largest = state.y.max_norm();
+    let floor = |largest: f64| if largest > 0.0 { 1e-6 * largest } else { 1.0 };
+    for i in 0..S::Speeds::DIM {
+        let size = (0..S::Scalar::LANES).map(|lane| state.y.component(i).lane(lane).abs()).fold(0.0, f64::max);
+        sizes.variables.set_component(i, S::Scalar::from_f64(size.max(floor(largest))));
+    }
+    let of = |i: usize| state.q.magnitude(i);
+    let largest = (0..TangentOf::<S>::DIM).map(of).fold(0.0, f64::max);
+    for i in 0..TangentOf::<S>::DIM {
+        sizes.configuration.set_component(i, S::Scalar::from_f64(of(i).max(floor(largest))));
+    }
+    sizes
+}
+
+fn scaled<S: GaussSystem>(v: &Rates<S>, by: &Rates<S>, one: impl Fn(S::Scalar, S::Scalar) -> S::Scalar) -> Rates<S> {
+    let mut result = *v;
+    for i in 0..TangentOf::<S>::DIM {
+        result.configuration.set_component(i, one(v.configuration.component(i), by.configuration.component(i)));
+    }
+    for i in 0..S::Speeds::DIM {
+        result.variables.set_component(i, one(v.variables.component(i), by.variables.component(i)));
+    }
+    result
+}
+
+fn scale<S: GaussSystem>(v: &Rates<S>, by: f64) -> Rates<S> {
+    let by = S::Scalar::from_f64(by);
+    Rates { configuration: v.configuration.scale(by), variables: v.variables.scale(by) }
+}
+
+/// Unlike any eigenvector by its regularity.
+fn start<S: GaussSystem>() -> Rates<S> {
+    let mut v: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+    for i in 0..TangentOf::<S>::DIM {
+        v.configuration.set_component(i, S::Scalar::ratio(1 + i as i64, 7 + 2 * i as i64));
+    }
+    for i in 0..S::Speeds::DIM {
+        v.variables.set_component(i, S::Scalar::ratio(3 + 2 * i as i64, 5 + i as i64));
+    }
+    v
+}
+
+/// Over all lanes.
+fn product<S: GaussSystem>(a: &Rates<S>, b: &Rates<S>) -> f64 {
+    let dot =
+        |a: S::Scalar, b: S::Scalar| -> f64 { (0..S::Scalar::LANES).map(|lane| a.lane(lane) * b.lane(lane)).sum() };
+    let of_q = (0..TangentOf::<S>::DIM).map(|i| dot(a.configuration.component(i), b.configuration.component(i)));
+    let of_y = (0..S::Speeds::DIM).map(|i| dot(a.variables.component(i), b.variables.component(i)));
+    of_q.chain(of_y).sum()
+}
+
+/// None where it is not finite.
+fn norm<S: GaussSystem>(v: &Rates<S>) -> Option<f64> {
+    let largest = v.configuration.max_norm().max(v.variables.max_norm());
+    if !(largest.is_finite() && largest > 0.0) {
+        return largest.is_finite().then_some(0.0);
+    }
+    let v = scale(v, 1.0 / largest);
+    Some(largest * Real::sqrt(product(&v, &v)))
+}

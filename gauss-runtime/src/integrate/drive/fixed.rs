@@ -1,0 +1,176 @@
+//! Steps of one length.
+
+use crate::integrate::drive::cause::{Gave, Place, cause};
+use crate::integrate::drive::control::{Control, Emit, Taken, one_step, prepare};
+use crate::integrate::drive::projection::accept;
+use crate::integrate::lie_group::rkmk::Rkmk;
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::runge_kutta::components::RungeKutta;
+use crate::integrate::runge_kutta::tableau::{DormandPrince8, Tableau};
+use crate::integrate::step::one_step::OneStep;
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// Steps of one length, by any method of one step. The last one ends where it should.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed<T, M = RungeKutta<DormandPrince8, 12>> {
+    method: M,
+    step: T,
+}
+
+impl<T: Real> Fixed<T> {
+    /// [`RungeKutta`] of [`DormandPrince8`] with steps of length |step|; the direction is that of the interval.
+    #[must_use]
+    pub fn new(step: T) -> Self {
+        Self::by(RungeKutta(DormandPrince8), step)
+    }
+}
+
+impl<T: Real, const S: usize> Fixed<T, Rkmk<T, S>> {
+    /// The Runge–Kutta–Munthe-Kaas method of any tableau, for example [`Tableau::RK4`].
+    #[must_use]
+    pub fn with(tableau: &Tableau<S>, step: T) -> Self {
+        Self::by(Rkmk::new(tableau), step)
+    }
+}
+
+impl<T: Real, M> Fixed<T, M> {
+    /// Any method, for example `Fixed::by(RungeKutta(Verner9), 0.1)`.
+    #[must_use]
+    pub fn by(method: M, step: T) -> Self {
+        Self { method, step }
+    }
+}
+
+/// The end of a step, and the derivatives there where they came with it.
+pub(in crate::integrate) type Advanced<S> = (State<S>, Option<Rates<S>>);
+
+/// How many steps of a length fill a span of time. A remainder of a few roundings of the count is that of the length and of the
+/// ends, not a step.
+pub(crate) fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
+    let count = span.abs() / length;
+    let unit = T::EPSILON.max(f64::EPSILON);
+    let whole = Real::abs(count - round(count)) <= 8.0 * unit * count.max(1.0);
+    if whole { round(count).max(1.0) } else { floor(count) + 1.0 }
+}
+
+/// Steps of length |length|, the last one ending where it should, each made by `advance`; `stiff` says whether the method is
+/// stable where steps are long beside what decays.
+#[inline]
+pub(in crate::integrate) fn steps_of_one_length<S: GaussSystem, P: Problem<System = S>>(
+    (length, stiff): (S::Scalar, bool),
+    problem: &P,
+    start: State<S>,
+    end: S::Scalar,
+    limit: u64,
+    emit: &mut Emit<'_, S>,
+    mut advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
+) -> Result<State<S>, IntegrationError> {
+    let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
+    let positive = length.lane(0).abs();
+    if !(positive.is_finite() && positive > 0.0) {
+        return Err(stopped(&start, IntegrationErrorKind::InvalidStep { step: length.lane(0) }));
+    }
+    let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
+    if emit(&start, &rates, Taken::default()).is_break() || span == 0.0 {
+        return Ok(start);
+    }
+
+    let steps = number_of_steps::<S::Scalar>(span, positive);
+    if steps > limit as f64 {
+        return Err(stopped(&start, IntegrationErrorKind::TooManySteps { limit }));
+    }
+    let h = if (span < 0.0) == (length.lane(0) < 0.0) { length } else { -length };
+
+    let mut state = start;
+    let steps = steps as u64;
+    for n in 1..=steps {
+        let last = n == steps;
+        let this = if last { end - state.t } else { h };
+        let failed = |kind| {
+            let left = (end - state.t).lane(0).abs();
+            let place = Place { state: &state, rates: &rates, length: positive, left, stiff };
+            stopped(&state, cause(problem, &place, Gave::Step(kind)))
+        };
+        let (mut next, known) = advance(&state, &rates, this).map_err(failed)?;
+        // Times are multiples of h, not sums of it.
+        next.t = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start.t) };
+        let there = accept(problem, &mut next, known).map_err(failed)?;
+        (state, rates) = (next, there);
+        if emit(&state, &rates, Taken::default()).is_break() {
+            break;
+        }
+    }
+    Ok(state)
+}
+
+impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
+    fn drive<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        start: State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut Emit<'_, S>,
+    ) -> Result<State<S>, IntegrationError> {
+        let how = (self.step, self.method.properties().stiff);
+        steps_of_one_length(how, problem, start, end, limit, emit, |state, rates, h| {
+            self.method.step(problem, state, rates, h).map(|step| (step.state, step.rates))
+        })
+    }
+
+    fn within<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        one_step(&self.method, problem, state, rates, h)
+    }
+}
+
+/// The integer part of a count; beyond 2⁵³ every number is an integer.
+fn floor(count: f64) -> f64 {
+    if count < 9.0e15 { (count as u64) as f64 } else { count }
+}
+
+fn round(count: f64) -> f64 {
+    floor(count + 0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use core::cell::Cell;
+    use core::ops::ControlFlow;
+
+    use nalgebra::{UnitQuaternion, Vector3};
+
+    use super::*;
+    use crate::integrate::{Classical4, DormandPrince5, Feedback, InputSource, SystemProblem, VelocityForm};
+    use crate::testing::FreeTop;
+    use crate::testing::order::{TOP, TORQUE, start_by_velocity};
+
+    /// A method whose last stage is the end of the step pays for the derivatives there once.
+    #[test]
+    fn fixed_steps_use_the_derivatives_that_come_with_a_step() {
+        const STEPS: u32 = 20;
+        fn evaluations(method: impl OneStep<FreeTop<f64>>) -> u32 {
+            let count = Cell::new(0);
+            let input = Feedback(|t: f64, q: &UnitQuaternion<f64>, z: &Vector3<f64>| {
+                count.set(count.get() + 1);
+                InputSource::<FreeTop<f64>>::input(&TORQUE, t, q, z)
+            });
+            let problem = SystemProblem { system: &TOP, form: VelocityForm, input };
+            let nobody = &mut |_: &State<_>, _: &Rates<_>, _| ControlFlow::Continue(());
+            let run = Fixed::by(method, 0.1).drive(&problem, start_by_velocity(), 2.0, u64::from(STEPS), nobody);
+            run.expect("runs");
+            count.get()
+        }
+        assert_eq!(evaluations(RungeKutta(DormandPrince5)), 1 + 6 * STEPS);
+        assert_eq!(evaluations(Rkmk::new(&Tableau::DORMAND_PRINCE_5)), 1 + 6 * STEPS);
+        assert_eq!(evaluations(RungeKutta(Classical4)), 1 + 4 * STEPS);
+    }
+}

@@ -1,0 +1,217 @@
+//! One run: the method is driven from jump to jump, and what it passes is handed out.
+
+use core::ops::ControlFlow;
+
+use crate::integrate::drive::control::{Control, Taken};
+use crate::integrate::drive::event::{Events, Made, Outcome, Watch};
+use crate::integrate::drive::pace::Pace;
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::simulation::Observer;
+use crate::integrate::drive::summary::Summary;
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::trajectory::{EventSample, Kept};
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
+use crate::integrate::problem::state::{Rates, State};
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// What a run passes on.
+pub(in crate::integrate) enum Seen<'a, S: GaussSystem> {
+    Sample(&'a State<S>),
+    Event(usize, &'a State<S>),
+}
+
+/// What stays the same during a run.
+pub(in crate::integrate) struct Run<'a, P, C> {
+    pub(in crate::integrate) control: &'a C,
+    pub(in crate::integrate) problem: &'a P,
+    pub(in crate::integrate) every: u64,
+    pub(in crate::integrate) limit: u64,
+}
+
+/// How far a run came.
+#[derive(Default)]
+pub(in crate::integrate) struct Reached {
+    pub(in crate::integrate) summary: Summary,
+    pub(in crate::integrate) stopped_by: Option<usize>,
+}
+
+/// So many jumps in a row that are no further apart than rounding tells times apart.
+const AT_ONCE: u32 = 3;
+
+/// Jumps, as they follow each other.
+struct Jumps {
+    /// Times nearer than this are the same.
+    resolution: f64,
+    last: Option<f64>,
+    in_a_row: u32,
+}
+
+impl Jumps {
+    fn new<T: Real>(start: f64, end: f64) -> Self {
+        let unit = T::EPSILON.max(f64::EPSILON);
+        Self { resolution: 64.0 * unit * start.abs().max(end.abs()), last: None, in_a_row: 0 }
+    }
+
+    /// Takes one more: an error when they pile up.
+    fn count(&mut self, t: f64, event: usize) -> Result<(), IntegrationErrorKind> {
+        let interval = self.last.map_or(f64::INFINITY, |last| (t - last).abs());
+        self.in_a_row = if interval <= self.resolution { self.in_a_row + 1 } else { 0 };
+        self.last = Some(t);
+        if self.in_a_row < AT_ONCE { Ok(()) } else { Err(IntegrationErrorKind::Zeno { event, interval }) }
+    }
+}
+
+/// How a part of a run between two jumps ended, beside by itself.
+enum Cut<S: GaussSystem> {
+    Stopped(State<S>),
+    Jumped(State<S>),
+    Failed(IntegrationErrorKind),
+}
+
+impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
+    /// Keeps every sample and event.
+    #[cfg(feature = "alloc")]
+    pub(in crate::integrate) fn keep<O: Observer<S>, E: Events<S>>(
+        &self,
+        events: E,
+        mut observer: O,
+        start: State<S>,
+        end: S::Scalar,
+    ) -> (Kept<S>, Option<IntegrationError>) {
+        let problem = self.problem;
+        let (mut samples, mut found) = (alloc::vec::Vec::new(), alloc::vec::Vec::new());
+        let (reached, outcome) = self.drive(events, start, end, &mut |seen| match seen {
+            Seen::Sample(state) => {
+                let sample = problem.sample(state);
+                samples.push(sample);
+                observer.see(&sample);
+            }
+            Seen::Event(number, state) => {
+                let sample = problem.sample(state);
+                found.push(EventSample { number, sample });
+                observer.event(number, &sample);
+            }
+        });
+        if samples.is_empty() {
+            samples.push(problem.sample(&start));
+        }
+        let Reached { summary, stopped_by } = reached;
+        (Kept { samples, events: found, stopped_by, summary }, outcome.err())
+    }
+
+    /// Runs the method and passes on the first, every n-th and the last state reached, both sides of jumps, and the events between
+    /// them.
+    pub(in crate::integrate) fn drive<E: Events<S>>(
+        &self,
+        events: E,
+        start: State<S>,
+        end: S::Scalar,
+        pass: &mut dyn FnMut(Seen<'_, S>),
+    ) -> (Reached, Result<State<S>, IntegrationError>) {
+        let mut watch = Watch::new(self.control, self.problem, events);
+        let mut jumps = Jumps::new::<S::Scalar>(start.t.lane(0), end.lane(0));
+        let mut pace = Pace::new(start.t.lane(0), self.limit);
+        let mut reached = Reached::default();
+        let mut from = start;
+        loop {
+            let (outcome, cut, last) = self.part(&mut watch, (&mut jumps, &mut reached), from, end, pass);
+            let failed = |kind| Err(IntegrationError::at(self.problem, &last, kind));
+            match cut {
+                Some(Cut::Jumped(state)) => {
+                    from = state;
+                    let (left, tries) =
+                        ((end - from.t).lane(0).abs(), reached.summary.steps + reached.summary.rejected);
+                    if pace.jumped(from.t.lane(0), left, tries) {
+                        return (reached, failed(IntegrationErrorKind::TooManySteps { limit: self.limit }));
+                    }
+                }
+                Some(Cut::Stopped(state)) => return (reached, Ok(state)),
+                Some(Cut::Failed(kind)) => return (reached, failed(kind)),
+                None => {
+                    return (
+                        reached,
+                        outcome.map_err(|mut error| {
+                            // What was left of the limit says nothing to whoever set it.
+                            if let IntegrationErrorKind::TooManySteps { limit } = &mut error.kind {
+                                *limit = self.limit;
+                            }
+                            error
+                        }),
+                    );
+                }
+            }
+        }
+    }
+
+    /// From one jump to the next, with the last state that was reached.
+    #[expect(clippy::type_complexity, reason = "three things that belong together here alone")]
+    fn part<E: Events<S>>(
+        &self,
+        watch: &mut Watch<'_, P, C, E>,
+        (jumps, reached): (&mut Jumps, &mut Reached),
+        start: State<S>,
+        end: S::Scalar,
+        pass: &mut dyn FnMut(Seen<'_, S>),
+    ) -> (Result<State<S>, IntegrationError>, Option<Cut<S>>, State<S>) {
+        let mut count = 0_u64;
+        // The state before, for events; and whether it is still to be passed on: it is, at the end or at an error.
+        let mut before: Option<(State<S>, Rates<S>)> = None;
+        let (mut held, mut cut) = (false, None);
+        let limit = self.limit.saturating_sub(reached.summary.steps + reached.summary.rejected);
+        let outcome = self.control.drive(self.problem, start, end, limit, &mut |state, rates, taken: Taken| {
+            if count > 0 {
+                reached.summary.count(taken);
+            }
+            if E::COUNT > 0 {
+                let found = match &before {
+                    None => watch.begin(state).map(|()| Outcome::On),
+                    Some((from, slopes)) => {
+                        let made = Made { before: (from, slopes), after: (state, rates) };
+                        watch.step(&made, &mut |number, state| pass(Seen::Event(number, state)))
+                    }
+                };
+                cut = match found {
+                    Ok(Outcome::On) => None,
+                    Ok(Outcome::Here { state, after, number, stopped_by }) => {
+                        pass(Seen::Sample(&state));
+                        (held, reached.stopped_by) = (false, stopped_by);
+                        let counted = after.map_or(Ok(()), |_| {
+                            reached.summary.jumps += 1;
+                            jumps.count(state.t.lane(0), number)
+                        });
+                        before = Some((state, *rates));
+                        Some(match (counted, after, stopped_by) {
+                            (Err(kind), ..) => Cut::Failed(kind),
+                            (_, Some(after), None) => Cut::Jumped(after),
+                            (_, after, _) => {
+                                if let Some(after) = &after {
+                                    pass(Seen::Sample(after));
+                                }
+                                Cut::Stopped(after.unwrap_or(state))
+                            }
+                        })
+                    }
+                    Err(kind) => Some(Cut::Failed(kind)),
+                };
+                if cut.is_some() {
+                    return ControlFlow::Break(());
+                }
+            }
+            held = !count.is_multiple_of(self.every);
+            if !held {
+                pass(Seen::Sample(state));
+            }
+            if held || E::COUNT > 0 {
+                before = Some((*state, *rates));
+            }
+            count += 1;
+            ControlFlow::Continue(())
+        });
+        if let (true, Some((state, _))) = (held, &before) {
+            pass(Seen::Sample(state));
+        }
+        (outcome, cut, before.map_or(start, |(state, _)| state))
+    }
+}

@@ -1,0 +1,250 @@
+//! Every run ends, soon, with a reason: what hung, took a thousand times as many steps as it needs, or ended with a wrong hint.
+
+mod hostile;
+mod scenes;
+
+use std::f64::consts::FRAC_PI_2;
+
+use gauss_runtime::integrate::{DEFAULT_LIMIT, Part, Summary};
+use gauss_runtime::prelude::*;
+use gauss_tests::watchdog::within;
+
+use scenes::{Angles, Inclined, Pendulum, Rodrigues, Slider, Spring, Top, one};
+
+/// Seconds in which each of these runs ends, on a slow machine that does other things too.
+const SOON: u64 = 60;
+
+/// Why a run does not reach its end.
+fn refusal<K: GaussSystem>(run: (Trajectory<'_, K>, Option<IntegrationError>)) -> IntegrationError {
+    let (path, error) = run;
+    let error = error.expect("does not reach the end");
+    assert_eq!(error.time, path.last().t.lane(0), "{error}");
+    assert!(path.last().q.is_finite(), "the last state is a good one");
+    error
+}
+
+#[test]
+fn at_gimbal_lock_the_chart_is_named() {
+    let error = within(SOON, "gimbal lock", || {
+        let kernel = Angles { mass: 1.0, inertia: Vector3::new(1.0, 2.0, 2.5) }.kernel().expect("a body");
+        let (q, z) = (Vector3::new(0.0, FRAC_PI_2 - 0.07, 0.0), Vector3::new(0.0, 1.0, 0.0));
+        let run = Simulation::new(&kernel).adaptive(1e-9, 1e-9);
+        let (path, error) = run.attempt(q, z, 0.0..1.0);
+        assert!(path.summary().steps + path.summary().rejected < 1000, "{}", path.summary());
+        // With a limit it is the same.
+        let limited = refusal(run.max_steps(30).attempt(q, z, 0.0..1.0));
+        assert!(matches!(limited.kind, IntegrationErrorKind::SingularChart { .. }), "{limited}");
+        // Steps over the lock find it between their ends, whatever the regularity there.
+        let over = refusal(Simulation::new(&kernel).fixed_step(0.3).attempt(q, z, 0.0..1.0));
+        assert_eq!(over.kind, IntegrationErrorKind::SingularChart { regularity: 0.0 });
+        error.expect("does not reach the end")
+    });
+    assert!((error.time - 0.07).abs() < 1e-7, "{error}");
+    assert!(matches!(error.kind, IntegrationErrorKind::SingularChart { regularity } if regularity < 1e-7), "{error}");
+    assert!(error.to_string().contains("use another sequence of angles, or a chart without singularities"), "{error}");
+}
+
+#[test]
+fn what_is_stiff_is_told_with_the_remedy_which_works() {
+    within(SOON, "a stiff oscillator", || {
+        let kernel = Spring { k: 1e12, c: 1e12 }.kernel().expect("a spring");
+        let (q, z) = (one(1.0), one(0.0));
+        let run = Simulation::new(&kernel);
+        for error in [
+            refusal(run.adaptive(1e-6, 1e-6).attempt(q, z, 0.0..1.0)),
+            refusal(run.taylor(1e-6, 1e-6).attempt(q, z, 0.0..1.0)),
+            refusal(run.momentum_form().adaptive(1e-3, 1e-3).attempt(q, z, 0.0..1e6)),
+            refusal(run.adaptive(1e-6, 1e-6).max_steps(5000).attempt(q, z, 0.0..1.0)),
+            // Steps that are too long overflow.
+            refusal(run.fixed_step(1e-3).attempt(q, z, 0.0..1.0)),
+        ] {
+            let IntegrationErrorKind::Stiff { rate, .. } = error.kind else { panic!("{error}") };
+            assert!((rate / 1e12 - 1.0).abs() < 0.01, "{error}");
+            assert!(error.to_string().contains("use `Rosenbrock` (with `#[gauss(linearize)]`)"), "{error}");
+        }
+        let remedy = run.control(Adaptive::by(Rosenbrock, 1e-6, 1e-6)).run(q, z, 0.0..1.0).expect("runs");
+        // ẋ = −x, after the first moment.
+        assert!((remedy.last().q[0] - (-1.0_f64).exp()).abs() < 1e-5 && remedy.len() < 200, "{}", remedy.summary());
+    });
+}
+
+#[test]
+fn what_is_too_fast_is_told_at_once() {
+    within(SOON, "an oscillator of 1e150 rad per unit of time", || {
+        let kernel = Spring { k: 1e300, c: 0.0 }.kernel().expect("a spring");
+        let run = Simulation::new(&kernel);
+        for start in [0.0, 3.0] {
+            let span = start..start + 1.0;
+            for error in [
+                refusal(run.adaptive(1e-6, 1e-6).attempt(one(1.0), one(0.0), span.clone())),
+                refusal(run.adaptive(1e-6, 1e-6).attempt(one(1e-150), one(1.0), span.clone())),
+                refusal(run.taylor(1e-6, 1e-6).attempt(one(1.0), one(0.0), span.clone())),
+            ] {
+                assert!(matches!(error.kind, IntegrationErrorKind::TooFast { rate, .. } if rate > 1e149), "{error}");
+            }
+        }
+        let top = Top::toy().kernel().expect("a top");
+        let spin = Vector3::z() * 1e150;
+        let error =
+            refusal(Simulation::new(&top).adaptive(1e-9, 1e-9).attempt(UnitQuaternion::identity(), spin, 0.0..1.0));
+        assert!(matches!(error.kind, IntegrationErrorKind::TooFast { rate, .. } if rate > 1e149), "{error}");
+        // A million turns a second for a year: of which steps can follow some.
+        let spin = Vector3::z() * 6e6;
+        let error =
+            refusal(Simulation::new(&top).adaptive(1e-9, 1e-9).attempt(UnitQuaternion::identity(), spin, 0.0..3e7));
+        assert!(matches!(error.kind, IntegrationErrorKind::TooFast { .. }), "{error}");
+    });
+}
+
+#[test]
+fn tolerances_below_rounding_are_met_as_far_as_rounding_lets_them() {
+    within(SOON, "tolerances of 1e-300", || {
+        let kernel = Spring { k: 1.0, c: 0.0 }.kernel().expect("a spring");
+        let run = Simulation::new(&kernel);
+        for tolerance in [1e-16, 1e-17, 1e-30, 1e-300, 5e-324] {
+            for start in [0.0, 1e3] {
+                let span = start..start + 10.0;
+                let adaptive = run.adaptive(tolerance, tolerance).run(one(1.0), one(0.0), span.clone()).expect("runs");
+                let taylor = run.taylor(tolerance, tolerance).run(one(1.0), one(0.0), span.clone()).expect("runs");
+                for path in [adaptive, taylor] {
+                    let end = path.last();
+                    let error = (end.q[0] - 10.0_f64.cos()).abs().max((end.z[0] + 10.0_f64.sin()).abs());
+                    // A few roundings a step, of numbers up to 1, and one of the time.
+                    let rounding = f64::EPSILON * (4.0 + start) * path.len() as f64;
+                    assert!(error < rounding, "{tolerance:e}: {error:e}, {}", path.summary());
+                    assert!(path.len() < 2000, "{}", path.summary());
+                    if tolerance < 1e-17 {
+                        let Summary { rounded, excess, .. } = *path.summary();
+                        assert!(rounded > 0 && excess > 1.0, "{}", path.summary());
+                        assert!(path.summary().to_string().contains("times the tolerance"));
+                    }
+                }
+            }
+        }
+        // Where rounding is no matter it is not spoken of.
+        let plain = run.adaptive(1e-12, 1e-12).run(one(1.0), one(0.0), 0.0..10.0).expect("runs");
+        assert_eq!((plain.summary().rounded, plain.summary().steps), (0, plain.len() as u64 - 1));
+    });
+}
+
+/// A wing nut from near its middle axis to where the Rodrigues vector is infinite: derivatives cancel on the way there.
+#[test]
+fn steps_do_not_chase_rounding_in_coordinates_that_become_singular() {
+    let steps = within(SOON, "a wing nut", || {
+        let kernel = Rodrigues { mass: 1.0, inertia: Vector3::new(1.0, 2.0, 2.5) }.kernel().expect("a body");
+        [1e-10, 1e-12, 1e-13, 1e-14].map(|tolerance| {
+            let run = Simulation::new(&kernel).adaptive(tolerance, tolerance);
+            let (path, error) = run.attempt(Vector3::zeros(), Vector3::new(0.3, 0.5, 0.3), 0.0..5.0);
+            let error = error.expect("it turns by π");
+            assert!(matches!(error.kind, IntegrationErrorKind::SingularChart { .. }), "{error}");
+            path.summary().steps + path.summary().rejected
+        })
+    });
+    // By order 8 a hundredth of the tolerance takes 1.8 times the steps, a ten thousandth 3.2 times.
+    assert!(steps.windows(2).all(|pair| pair[1] < 3 * pair[0]) && steps[3] < 5 * steps[0], "{steps:?}");
+}
+
+#[test]
+fn steps_do_not_chase_rounding_in_momenta() {
+    within(SOON, "a sleeping top in momenta", || {
+        let top = Inclined::toy().kernel().expect("a top");
+        // A little slower than is stable, a milliradian from upright, where angles and their momenta are nearly singular.
+        let spin = (0.98_f64 * 4.0 * 0.2 * 0.4 * 9.81).sqrt() / 0.05;
+        let tilted = Isometry3::from_parts(Translation3::identity(), UnitQuaternion::new(Vector3::x() * 1e-3));
+        let q = top.configuration(&tilted).expect("regular");
+        let z = top.speeds(0.0, &q, &SVector::from([0.0, 0.0, 0.0, 0.0, 0.0, spin]));
+        let run = Simulation::new(&top);
+        let exact = run.adaptive(1e-14, 1e-14).run_to_end(q, z, 0.0..12.0).expect("runs");
+        let mut coarse = f64::INFINITY;
+        for tolerance in [1e-10, 1e-12, 1e-13, 1e-14] {
+            let velocities = run.adaptive(tolerance, tolerance).run(q, z, 0.0..12.0).expect("runs");
+            let momenta = run.momentum_form().adaptive(tolerance, tolerance).run(q, z, 0.0..12.0).expect("runs");
+            assert!(momenta.len() < 2 * velocities.len(), "{tolerance:e}: {} {}", momenta.len(), velocities.len());
+            // What cancels is p − (…) cos θ over sin² θ: a part ε of momenta over 1e-6, in some hundred steps.
+            let error = (momenta.last().q - exact.q).amax();
+            let told = momenta.summary().excess.max(1.0) * tolerance * 1e3;
+            assert!(error < 1e-8 && error < told, "{tolerance:e}: {error:e}, {}", momenta.summary());
+            coarse = coarse.min(error);
+        }
+        assert!(coarse < 1e-9, "{coarse:e}");
+    });
+}
+
+#[test]
+fn what_overflows_is_an_error() {
+    let kernel = Pendulum { g: 9.81 }.kernel().expect("a pendulum");
+    let run = Simulation::new(&kernel);
+    let fast = |z: f64| {
+        [
+            refusal(run.adaptive(1e-6, 1e-6).attempt(one(1.0), one(z), 0.0..1.0)),
+            refusal(run.fixed_step(0.1).attempt(one(1.0), one(z), 0.0..1.0)),
+            refusal(run.taylor(1e-6, 1e-6).attempt(one(1.0), one(z), 0.0..1.0)),
+        ]
+    };
+    for error in fast(1e300) {
+        assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::InitialState }, "{error}");
+        assert!(error.to_string().contains("so large that squares overflow"), "{error}");
+    }
+    // It grows on the way: a force that pushes away from the middle.
+    let kernel = Slider { friction: 0.0 }.kernel().expect("a slider");
+    let away = |_: f64, q: &SVector<f64, 1>, _: &SVector<f64, 1>| q * 1e4;
+    let error = refusal(Simulation::new(&kernel).input(away).fixed_step(0.01).attempt(one(1.0), one(0.0), 0.0..10.0));
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step }, "{error}");
+    // e^(100 t) has a square that overflows when 200 t > 709.
+    assert!((3.5..3.6).contains(&error.time), "{error}");
+}
+
+#[test]
+fn other_ends_have_their_own_reasons() {
+    within(SOON, "what breaks or cannot be", || {
+        let kernel = Slider { friction: 0.5 }.kernel().expect("a slider");
+        // An input that breaks is not stiff, nor too fast.
+        let broken = |t: f64, _: &SVector<f64, 1>, _: &SVector<f64, 1>| one(if t > 1.0 { f64::NAN } else { 0.0 });
+        let run = Simulation::new(&kernel).input(broken);
+        for error in [
+            refusal(run.adaptive(1e-9, 1e-9).attempt(one(1.0), one(3.0), 0.0..3.0)),
+            refusal(run.fixed_step(0.125).attempt(one(1.0), one(3.0), 0.0..3.0)),
+        ] {
+            assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step }, "{error}");
+        }
+        // Dry friction that holds: no motion agrees with a force that jumps.
+        let quiet = |_: f64, _: &SVector<f64, 1>, _: &SVector<f64, 1>| one(0.2);
+        let (path, error) =
+            Simulation::new(&kernel).input(quiet).adaptive(1e-9, 1e-9).attempt(one(1.0), one(0.01), 0.0..3.0);
+        let error = error.expect("it rests");
+        assert!(path.summary().steps < 200_000, "{}", path.summary());
+        assert!(matches!(error.kind, IntegrationErrorKind::StepTooSmall { .. }), "{error}");
+        assert!(error.to_string().contains("dry friction at rest: use a smooth law"), "{error}");
+    });
+}
+
+#[test]
+fn what_is_out_of_reach_is_refused_before_the_first_step() {
+    let kernel = Spring { k: 1.0, c: 0.0 }.kernel().expect("a spring");
+    let run = Simulation::new(&kernel);
+    let (q, z) = (one(1.0), one(0.0));
+    for kind in [
+        refusal(run.fixed_step(1e-300).attempt(q, z, 0.0..1.0)).kind,
+        refusal(run.adaptive(1e-6, 1e-6).largest_step(1e-300).attempt(q, z, 0.0..1.0)).kind,
+        refusal(run.control(Taylor::new(1e-6, 1e-6).largest_step(1e-300)).attempt(q, z, 0.0..1.0)).kind,
+    ] {
+        assert!(matches!(kind, IntegrationErrorKind::TooManySteps { .. }), "{kind:?}");
+    }
+    let longest = run.adaptive(1e-6, 1e-6).largest_step(f64::NAN);
+    assert!(matches!(refusal(longest.attempt(q, z, 0.0..1.0)).kind, IntegrationErrorKind::InvalidStep { .. }));
+    let whole = refusal(run.fixed_step(0.1).attempt(q, z, -1e308..1e308));
+    assert_eq!(whole.kind, IntegrationErrorKind::InvalidInterval);
+    // Steps that are many, but not too many.
+    let end = run.fixed_step(1e-6).run_to_end(q, z, 0.0..1.0).expect("runs");
+    assert_eq!((end.summary.steps, end.stopped_by), (1_000_000, None));
+    // A batch has no other limit.
+    use gauss_runtime::batch::{Batch, States};
+    type Four = Lanes<f64, 4>;
+    let top = scenes::GenericTop::<Four>::toy().kernel().expect("a top");
+    let mut states =
+        States::<scenes::GenericTopKernel<Four>>::from_fn(5, |_| (UnitQuaternion::identity(), Vector3::z()));
+    let error =
+        Batch::new(&top).advance(&RungeKutta(DormandPrince8), 1e-300, 0.0..1.0, &mut states).expect_err("refused");
+    assert_eq!(error.failures.len(), 5);
+    assert_eq!(error.failures[0].kind, IntegrationErrorKind::TooManySteps { limit: DEFAULT_LIMIT });
+}
