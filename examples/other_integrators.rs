@@ -80,7 +80,7 @@ fn top() -> Outcome<()> {
     let counted = |_: f64, _: &UnitQuaternion<f64>, _: &Vector3<f64>| count.set(count.get() + 1);
     let ours = Simulation::new(&kernel).input(counted);
     let method = Adaptive::with(&Tableau::DORMAND_PRINCE_8, TOLERANCE, TOLERANCE);
-    let run = measured(&count, || Ok(ours.control(method).run_to_end(tilted, spinning, 0.0..end)?))?;
+    let run = measured(&count, || Ok(ours.control(method).run_to_end(tilted, spinning, 0.0..end)?.sample))?;
     print("gauss-runtime, Dormand–Prince 8 on the group", &run, &exact);
 
     let system = FlatSystem::new(&kernel).input(counted);

@@ -59,7 +59,7 @@ pub struct Step {
 /// How a run ends.
 pub struct Run {
     pub steps: Vec<Step>,
-    /// Whether the leg gave way, and the hip fell to the ground.
+    /// Whether the leg gave way, or the apex was too low for it: the hip falls to the ground.
     pub stumbled: bool,
 }
 
@@ -115,8 +115,10 @@ impl Runner {
         for _ in 0..steps {
             let down = to_ground.run(apex.q, apex.z, apex.t..apex.t + LONGEST)?;
             let last = down.last();
+            // An apex below the height of touchdown leaves no room for the leg.
             if down.stopped_by().is_none() {
-                return Err("the apex is below the height of touchdown".into());
+                run.stumbled = true;
+                return Ok(run);
             }
             // The foot stands where it touches: the same state goes on with another kernel.
             let foot = last.q[0] + l * attack.cos();

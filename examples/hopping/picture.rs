@@ -59,13 +59,13 @@ fn apices(runner: &Runner) -> Result<Plot<'static>, Box<dyn Error>> {
     let energy = 0.5 * 25.0 + runner.g;
     let mut lines = Vec::new();
     for (colour, height) in [(COLOURS[1], 0.96_f64), (COLOURS[0], 1.0), (COLOURS[2], 1.06), (INK, 1.12)] {
-        let run = runner.run(height, (2.0 * (energy - runner.g * height)).sqrt(), 20)?;
+        let run = runner.run(height, (2.0 * (energy - runner.g * height)).sqrt(), 9)?;
         let points = run.steps.iter().enumerate().map(|(n, step)| (n as f64, step.apex.1[1]));
         lines.push(Line::new(format!("{height} m"), colour, points));
     }
     Ok(Plot {
         title: "Heights of apices from several starts",
-        x: ("step", 0.0..19.0),
+        x: ("step", 0.0..8.0),
         y: ("m", 0.9..1.2),
         equal: false,
         lines,

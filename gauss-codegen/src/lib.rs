@@ -2,6 +2,7 @@
 #![doc = include_str!("../README.md")]
 #![warn(missing_docs)]
 
+mod accuracy;
 mod algebra;
 mod derivation;
 mod emit;

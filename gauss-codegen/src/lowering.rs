@@ -1,12 +1,16 @@
 //! From formulas to programs, with what only the programs show to be a mistake.
 
+use crate::accuracy::{Point, States, Trial, sample_states};
 use crate::algebra::{Expr, Graph, Rational};
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
 use crate::mechanics::{Formula, Method};
-use crate::mistakes::{bug, refuse_regressor, refuse_series, refuse_too_much};
+use crate::mistakes::{bug, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives};
 use crate::model::{Model, Scalar};
 use crate::translate::Translator;
+
+/// How many states programs are tried at.
+const STATES: usize = 6;
 
 /// The programs of all formulas and of the derivatives that are wanted.
 ///
@@ -18,6 +22,10 @@ pub fn lower<'g>(
     translator: &Translator<'_, 'g>,
     formulation: &Formulation<'g>,
 ) -> syn::Result<Kernel<'g>> {
+    let undefined = || bug(&model.ident, &"the equations divide by zero");
+    if graph.is_undefined() {
+        return Err(undefined());
+    }
     let Formulation { formulas, linearization, regressor, .. } = formulation;
     let functions: Vec<_> = formulas.iter().map(candidates).collect();
     let parameters: Vec<Expr<'g>> = formulation.parameters.iter().map(|parameter| parameter.symbol).collect();
@@ -30,15 +38,34 @@ pub fn lower<'g>(
     };
     let literals = translator.literals();
     let known = foldable(&model.scalar, &literals);
-    let kernel = Kernel::lower(graph, &functions, &joined(formulas), &formulation.definitions, &wanted, known)
+    let mut trial = Trial::new(states(translator, formulation));
+    let joined = joined(formulas);
+    let kernel = Kernel::lower(graph, &functions, &joined, &formulation.definitions, &wanted, known, &mut trial)
         .map_err(|error| bug(&model.ident, &error))?;
     if graph.is_undefined() {
-        return Err(bug(&model.ident, &"the equations divide by zero"));
+        return Err(undefined());
     }
+    refuse_unknown_derivatives(model, &kernel)?;
     refuse_too_much(model, &kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), regressor.as_ref(), &kernel)?;
     refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), formulas, &kernel)?;
     Ok(kernel)
+}
+
+/// States at which the programs are tried.
+fn states<'g>(translator: &Translator<'_, 'g>, formulation: &Formulation<'g>) -> Vec<Point> {
+    let Formulation { system, formulas, definitions, units, .. } = formulation;
+    let momentum = formulas.iter().find(|formula| formula.method == Method::Momentum);
+    let parameters = formulation.parameters.iter();
+    let states = States {
+        system,
+        momentum: momentum.map_or(&[], |formula| &formula.arrangements[0]),
+        parameters: parameters.map(|parameter| (parameter.symbol, parameter.name.contains('['))).collect(),
+        literals: translator.literals(),
+        units,
+        definitions,
+    };
+    sample_states(&states, STATES)
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.

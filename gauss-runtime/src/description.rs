@@ -1,8 +1,10 @@
-//! What a generated kernel says of itself: its equations as text, and what its methods cost.
+//! What a generated kernel says of itself: its equations as text, what its methods cost, and what they lose to rounding.
 
 use core::fmt;
 
-/// A system that says what its equations are and what its methods cost. Generated for every kernel; nothing is computed
+use crate::accuracy::Accuracy;
+
+/// A system that says what its equations are, what its methods cost and what they lose. Generated for every kernel; nothing is computed
 /// with it, and a system that is written by hand needs it only to be [tuned](crate::integrate::Simulation::tune):
 /// `impl Described for MySystem {}`.
 pub trait Described {
@@ -11,6 +13,9 @@ pub trait Described {
 
     /// What each method costs.
     const OPERATIONS: Operations = Operations::NONE;
+
+    /// What each method loses to rounding.
+    const ACCURACY: Accuracy = Accuracy::NONE;
 }
 
 /// The equations of motion as printed by the derivation.

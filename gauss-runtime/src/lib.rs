@@ -50,6 +50,7 @@ extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+pub mod accuracy;
 pub mod adapters;
 #[cfg(feature = "alloc")]
 pub mod batch;
@@ -73,6 +74,7 @@ pub mod real;
 pub mod series;
 pub mod simd;
 pub mod system;
+pub mod table;
 
 mod trigonometry;
 mod triple;

@@ -4,6 +4,7 @@
 #[cfg(feature = "derive")]
 pub use gauss_derive::GaussDynamics;
 
+pub use crate::accuracy::Accuracy;
 pub use crate::bounded::Bounded;
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};

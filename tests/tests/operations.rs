@@ -44,12 +44,17 @@ charts! {
 struct Costs {
     name: &'static str,
     charts: [Operations; 4],
+    losses: [Accuracy; 4],
 }
 
 const CHARTS: [&str; 4] = ["left_invariant", "right_invariant", "hybrid", "jet(euler_zyx)"];
 
 fn operations<S: Scene>() -> Operations {
     <S::Kernel<f64> as Described>::OPERATIONS
+}
+
+fn accuracy<S: Scene>() -> Accuracy {
+    <S::Kernel<f64> as Described>::ACCURACY
 }
 
 macro_rules! costs {
@@ -61,6 +66,12 @@ macro_rules! costs {
                 operations::<$module::Right<()>>(),
                 operations::<$module::Hybrid<()>>(),
                 operations::<$module::Jet<()>>(),
+            ],
+            losses: [
+                accuracy::<$module::Left<()>>(),
+                accuracy::<$module::Right<()>>(),
+                accuracy::<$module::Hybrid<()>>(),
+                accuracy::<$module::Jet<()>>(),
             ],
         }
     };
@@ -159,17 +170,24 @@ fn what_is_absent_costs_nothing() {
 const BEGIN: &str = "<!-- operations:begin -->";
 const END: &str = "<!-- operations:end -->";
 
-/// The section of BENCHMARKS.md between the markers: additions + multiplications of each method.
+/// The section of BENCHMARKS.md between the markers: additions + multiplications of each method, and what two of them lose.
 fn table() -> String {
-    let mut out =
-        String::from("| scene | chart | acceleration | momentum rate | kinetic energy |\n|---|---|---|---|---|\n");
+    let mut out = String::from(
+        "| scene | chart | acceleration | momentum rate | kinetic energy | loss of acceleration | of momentum rate |\n\
+         |---|---|---|---|---|---|---|\n",
+    );
     for scene in scenes() {
-        for (chart, operations) in CHARTS.iter().zip(&scene.charts) {
+        for ((chart, operations), losses) in CHARTS.iter().zip(&scene.charts).zip(&scene.losses) {
             let cell = |count: OperationCount| format!("{} + {}", count.additions, count.multiplications);
             let (acceleration, rate, energy) =
                 (cell(operations.acceleration), cell(operations.momentum_rate), cell(operations.kinetic_energy));
             let name = scene.name;
-            writeln!(out, "| {name} | `{chart}` | {acceleration} | {rate} | {energy} |").expect("a string");
+            let (of_acceleration, of_rate) = (losses.acceleration, losses.momentum_rate);
+            writeln!(
+                out,
+                "| {name} | `{chart}` | {acceleration} | {rate} | {energy} | {of_acceleration} | {of_rate} |"
+            )
+            .expect("a string");
         }
     }
     out

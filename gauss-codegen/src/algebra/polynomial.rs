@@ -9,9 +9,10 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::function::Function;
 use super::graph::{Expr, Graph, NodeView};
 use super::map::Map;
-use super::node::{Function, Id, Node};
+use super::node::{Id, Node};
 use super::rational::Rational;
 
 /// Π atomᵢ^nᵢ, sorted by atom, exponents nonzero.
@@ -114,8 +115,8 @@ impl PartialOrd for Monomial {
 /// Σ cᵢ · monomialᵢ in normal form.
 #[derive(Clone)]
 pub struct Polynomial<'g> {
-    graph: &'g Graph,
-    terms: BTreeMap<Monomial, Rational>,
+    pub(super) graph: &'g Graph,
+    pub(super) terms: BTreeMap<Monomial, Rational>,
 }
 
 impl PartialEq for Polynomial<'_> {
@@ -128,6 +129,8 @@ impl PartialEq for Polynomial<'_> {
 pub struct Expander<'g> {
     graph: &'g Graph,
     limit: usize,
+    /// Whether sums of moving symbols that are factors stay as they are written.
+    whole: bool,
     memo: Map<Id, Option<Rc<Polynomial<'g>>>>,
     denominators: Map<Id, Denominator<'g>>,
 }
@@ -147,6 +150,15 @@ impl<'g> Expr<'g> {
         Some(Rc::unwrap_or_clone(polynomial))
     }
 
+    /// The same with sums of moving symbols and constants, such as `x − c`, as atoms where they are factors: what is multiplied out there
+    /// loses the digits of the difference.
+    pub fn expand_around_sums(self, limit: usize) -> Option<Polynomial<'g>> {
+        let mut expander = Expander { whole: true, ..Expander::new(self.graph, limit) };
+        let polynomial = expander.expand(self)?;
+        drop(expander);
+        Some(Rc::unwrap_or_clone(polynomial))
+    }
+
     /// The normal form written back as an expression: constants gathered in front of each monomial of what varies.
     /// Stays as it is when more than `limit` terms would be needed.
     pub fn collected(self, limit: usize) -> Self {
@@ -154,10 +166,18 @@ impl<'g> Expr<'g> {
     }
 }
 
+/// Σ cᵢ sᵢ of symbols of which one moves at least, with constants of any kind.
+fn is_written_sum(e: Expr<'_>) -> bool {
+    let NodeView::Sum(terms) = e.view() else { return false };
+    let (fixed, moving): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, e)| e.is_constant());
+    let symbols = moving.iter().all(|(_, e)| matches!(e.view(), NodeView::Symbol(_)));
+    symbols && !moving.is_empty() && fixed.len() + moving.len() > 1
+}
+
 impl<'g> Expander<'g> {
     /// `limit` is the number of terms that may be needed on the way.
     pub fn new(graph: &'g Graph, limit: usize) -> Self {
-        Self { graph, limit, memo: Map::default(), denominators: Map::default() }
+        Self { graph, limit, whole: false, memo: Map::default(), denominators: Map::default() }
     }
 
     /// The normal form, or `None` when more terms would be needed on the way.
@@ -219,7 +239,12 @@ impl<'g> Expander<'g> {
         let mut result = Polynomial::constant(self.graph, Rational::one());
         // Powers of atoms first: cheap, and denominators then cancel as early as possible.
         for &(factor, exponent) in factors {
-            let factor = self.visit(self.graph.expr(factor))?;
+            let factor = self.graph.expr(factor);
+            if self.whole && is_written_sum(factor) {
+                result = self.multiply(&result, &Polynomial::atom(factor, exponent))?;
+                continue;
+            }
+            let factor = self.visit(factor)?;
             result = self.multiply_power(result, &factor, exponent)?;
         }
         Some(result)
@@ -411,7 +436,7 @@ impl<'g> Polynomial<'g> {
         self.terms.keys().max_by_key(|m| parts(m)).expect("a denominator has terms")
     }
 
-    fn monomial_expr(&self, monomial: &Monomial) -> Expr<'g> {
+    pub(super) fn monomial_expr(&self, monomial: &Monomial) -> Expr<'g> {
         self.graph.product(Rational::one(), monomial.factors.iter().map(|&(id, n)| (self.graph.expr(id), n)))
     }
 

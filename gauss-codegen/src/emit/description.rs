@@ -1,17 +1,18 @@
-//! `Described`: equations as text and LaTeX, the operations of the methods.
+//! `Described`: equations as text and LaTeX, the operations of the methods, what they lose.
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
+use crate::accuracy::Loss;
 use crate::kernel::Counts;
-use crate::mechanics::Method;
+use crate::mechanics::{Formula, Method};
 
 use super::derived::Derived;
 use super::documentation::{DERIVATIVES, Equations};
 
 pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let private = derived.private();
-    let (Equations { text, latex }, operations) = (equations, operations(derived));
+    let (Equations { text, latex }, operations, losses) = (equations, operations(derived), losses(derived));
     let items = quote! {
         const EQUATIONS: #private::Equations = #private::Equations::new(#text, #latex);
         const OPERATIONS: #private::Operations = {
@@ -19,8 +20,25 @@ pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStrea
             #(__operations.#operations;)*
             __operations
         };
+        const ACCURACY: #private::Accuracy = {
+            let mut __accuracy = #private::Accuracy::NONE;
+            #(__accuracy.#losses;)*
+            __accuracy
+        };
     };
     derived.implementation(quote!(Described), items)
+}
+
+/// `method = loss`, for every method.
+fn losses(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
+    let private = derived.private();
+    let methods = derived.formulas.iter().zip(&derived.kernel.losses).filter(|(f, _)| f.method <= Method::Powers);
+    let loss = |(formula, loss): (&Formula<'_>, &Loss)| {
+        let (field, [worst, median]) = (Ident::new(formula.method.name(), Span::call_site()), loss.rounded());
+        let [worst, median] = [worst, median].map(Literal::f64_unsuffixed);
+        quote!(#field = #private::Loss::new(#worst, #median))
+    };
+    methods.map(loss).collect()
 }
 
 /// `method = count`, for every method.

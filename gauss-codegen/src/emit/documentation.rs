@@ -8,6 +8,7 @@ use crate::model::{InChart, InputKind, Role};
 
 use super::chart::{chart_name, motion_name};
 use super::derived::Derived;
+use super::state::{Part, PartKind, parts, state_name};
 
 /// The equations as plain text and as one LaTeX environment.
 #[derive(Clone, Debug)]
@@ -31,7 +32,9 @@ fn text(derived: &Derived<'_, '_>, page: &Page<'_>) -> String {
         derived.item().ident.unraw(),
         description(derived)
     );
-    let letters: Vec<String> = legend(derived).iter().map(|(letter, field, _)| format!("{letter} = {field}")).collect();
+    // A letter that is the name of its field says nothing.
+    let letters = legend(derived).into_iter().filter(|(letter, field, _)| letter != field);
+    let letters: Vec<String> = letters.map(|(letter, field, _)| format!("{letter} = {field}")).collect();
     if !letters.is_empty() {
         out.push_str(&format!(
             "with {}{}
@@ -97,11 +100,14 @@ fn description(derived: &Derived<'_, '_>) -> String {
     }
     let names = &derived.subject.system.scene.coordinate_names;
     let q: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
-    format!("chart own, q = ({}), z = ({speeds})", q.join(", "))
+    format!("q = ({}), z = ({speeds})", q.join(", "))
 }
 
 /// The methods that [`Kernel::derivatives`](crate::kernel::Kernel::derivatives) has the programs of.
 pub const DERIVATIVES: [&str; 3] = ["linearize", "by_parameters", "regressor"];
+
+/// The loss above which the documentation of a kernel warns of it: three decimal places.
+const MUCH: f64 = 1e3;
 
 /// Rustdoc of the kernel: what it is, its equations, its costs.
 pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
@@ -117,18 +123,48 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     for (letter, field, said) in legend(derived) {
         out.push_str(&format!("| {letter} | `{field}` | {} |\n", said.replace('|', "\\|")));
     }
+    out.push_str(&states(derived));
     out.push_str(&acting(derived));
-    out.push_str("\n# Cost\n\n| method | operations |\n|---|---|\n");
-    for (formula, program) in derived.formulas.iter().zip(&derived.kernel.functions) {
-        out.push_str(&format!("| `{}` | {} |\n", formula.method.name(), program.counts()));
+    out.push_str(
+        "\n# Cost and rounding\n\nThe loss is the largest error of double precision at sample states (median), in units of what a change of \
+         every parameter and argument in its last place does.\n\n| method | operations | loss, at most |\n|---|---|---|\n",
+    );
+    for ((formula, program), loss) in derived.formulas.iter().zip(&derived.kernel.functions).zip(&derived.kernel.losses)
+    {
+        let [worst, median] = loss.rounded();
+        let warning = if worst > MUCH { ": **digits are lost**" } else { "" };
+        let loss = if worst > 0.0 { format!("{worst} ({median}){warning}") } else { String::new() };
+        out.push_str(&format!("| `{}` | {} | {loss} |\n", formula.method.name(), program.counts()));
     }
-    out.push_str(&format!("| `evaluate` | {} |\n", derived.kernel.joined.counts()));
+    out.push_str(&format!("| `evaluate` | {} | |\n", derived.kernel.joined.counts()));
     for (name, program) in DERIVATIVES.into_iter().zip(derived.kernel.derivatives()) {
         if let Some(program) = program {
-            out.push_str(&format!("| `{name}` | {} |\n", program.counts()));
+            out.push_str(&format!("| `{name}` | {} | |\n", program.counts()));
         }
     }
     out
+}
+
+/// What a configuration and speeds are made of, in words and in a call.
+fn states(derived: &Derived<'_, '_>) -> String {
+    let (name, [coordinates, speeds]) = (state_name(derived), parts(derived));
+    let listed = |parts: &[Part]| parts.iter().map(|part| format!("`{}`", part.shown())).collect::<Vec<_>>().join(", ");
+    let (groups, scalars): (Vec<&Part>, Vec<&Part>) =
+        coordinates.iter().partition(|part| part.kind != PartKind::Scalar);
+    let mut factors: Vec<String> = groups.iter().map(|part| format!("`{}`", part.ident)).collect();
+    if !scalars.is_empty() {
+        let names: Vec<String> = scalars.iter().map(|part| part.ident.to_string()).collect();
+        factors.push(format!("`SVector[{}]`", names.join(", ")));
+    }
+    let nested = factors.iter().rev().cloned().reduce(|inner, outer| format!("({outer}, {inner})")).unwrap_or_default();
+    let idents = coordinates.iter().chain(&speeds).map(|part| part.ident.to_string()).collect::<Vec<_>>().join(", ");
+    format!(
+        "\n# State\n\nCoordinates: {}. Speeds: {}. The configuration q is {nested}, the speeds z are one vector; by name \
+         both are [`{name}`]:\n\n```text\nlet state = {name} {{ {idents} }};\nlet rates = kernel.acceleration(t, \
+         &state.q(), &state.z(), &input);\nlet {name} {{ {idents} }} = {name}::of(&q, &z);\n```\n",
+        listed(&coordinates),
+        listed(&speeds),
+    )
 }
 
 /// The components of the input in order, and the elements in the order of their powers.
@@ -154,7 +190,11 @@ fn acting(derived: &Derived<'_, '_>) -> String {
         out.push_str("\n# What acts\n\n| element | |\n|---|---|\n");
     }
     for account in accounts {
-        let kind = if account.conservative { "in the potential energy" } else { "" };
+        let kind = match (account.conservative, account.outside) {
+            (true, Some(_)) => "in the potential energy, with a damper",
+            (true, None) => "in the potential energy",
+            (false, _) => "",
+        };
         out.push_str(&format!("| {} | {kind} |\n", account.name));
     }
     out

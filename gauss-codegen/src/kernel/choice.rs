@@ -1,5 +1,6 @@
 //! The arrangements of one function, and which of them is taken.
 
+use crate::accuracy::{Loss, Trial, taken, usable};
 use crate::algebra::Expr;
 
 use super::hoist::Hoister;
@@ -24,6 +25,7 @@ pub enum Aim {
 pub(super) struct Lowered<'a, 'g> {
     pub outputs: &'a [Expr<'g>],
     pub program: Program<'g>,
+    pub loss: Loss,
 }
 
 impl<'g> Candidates<'g> {
@@ -33,14 +35,22 @@ impl<'g> Candidates<'g> {
         Self { arrangements, aim: Aim::Values }
     }
 
-    /// The arrangement that is taken.
-    pub(super) fn chosen(&self, hoister: &mut Hoister<'_, 'g>) -> Lowered<'_, 'g> {
+    /// The arrangement that is taken, and the outputs of the first one where that keeps the digits, too.
+    pub(super) fn chosen(
+        &self,
+        hoister: &mut Hoister<'_, 'g>,
+        trial: &mut Trial,
+    ) -> (Lowered<'_, 'g>, Option<&[Expr<'g>]>) {
         let mut lowered = self.lowered(hoister);
-        let best = self.best(&lowered, hoister);
-        let Lowered { outputs, program } = lowered.swap_remove(best);
+        trial.define(hoister.constants());
+        let programs: Vec<&Program<'g>> = lowered.iter().map(|candidate| &candidate.program).collect();
+        let losses = trial.losses(&programs);
+        let best = taken(&losses, &self.costs(&lowered, hoister));
+        let first = Some(lowered[0].outputs).filter(|_| usable(&losses)[0]);
+        let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         // A power series takes a negation of an addend for an instruction like any other.
         let program = if self.aim == Aim::Values { program.with_signs_led_back() } else { program };
-        Lowered { outputs, program }
+        (Lowered { outputs, program, loss: losses.into_iter().nth(best).unwrap_or_default() }, first)
     }
 
     /// The arrangements as programs, in their order; those that are the same once constants are hoisted, once.
@@ -49,21 +59,18 @@ impl<'g> Candidates<'g> {
         for outputs in &self.arrangements {
             let hoisted = hoister.hoist(outputs);
             if !seen.contains(&hoisted) {
-                lowered.push(Lowered { outputs, program: Program::lower(&hoisted) });
+                lowered.push(Lowered { outputs, program: Program::lower(&hoisted), loss: Loss::default() });
                 seen.push(hoisted);
             }
         }
         lowered
     }
 
-    /// Which of the arrangements is taken, of one at least: the one that costs least, the first of several. Here candidates are weighed,
-    /// whatever counts.
-    fn best(&self, candidates: &[Lowered<'_, 'g>], hoister: &Hoister<'_, 'g>) -> usize {
+    fn costs(&self, candidates: &[Lowered<'_, 'g>], hoister: &Hoister<'_, 'g>) -> Vec<u32> {
         let cost = |candidate: &Lowered<'_, 'g>| match self.aim {
             Aim::Values => candidate.program.cost().total(),
             Aim::Series => candidate.program.series_cost(|symbol| hoister.is_hoisted(symbol)),
         };
-        let costs = candidates.iter().map(cost);
-        costs.enumerate().min_by_key(|(_, cost)| *cost).expect("a function has at least one arrangement").0
+        candidates.iter().map(cost).collect()
     }
 }

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::accuracy::{Loss, Trial, taken, usable};
 use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Tangents};
 
 use super::hoist::Hoister;
@@ -80,15 +81,23 @@ pub(super) struct Constants<'g> {
 impl<'g> Differentiated<'g> {
     /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple where
     /// those of its definition are not: R σ̂ beside what a quaternion makes of it.
-    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, kept: Kept) -> Lowered<'_, 'g> {
+    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, kept: Kept, trial: &mut Trial) -> Lowered<'_, 'g> {
         let definitions = Program::lower(&hoister.hoist(&self.defined));
         let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
-        let lowered = self.arrangements.iter().map(|outputs| {
-            let program = Program::lower(&hoister.hoist_undefined(outputs));
-            (differentiate(&program, (&self.defined, &definitions), &self.directions), outputs)
+        let lower = |outputs: &'_ Vec<Expr<'g>>| Program::lower(&hoister.hoist_undefined(outputs));
+        let programs: Vec<Program<'g>> = self.arrangements.iter().map(lower).collect();
+        trial.define(hoister.constants());
+        // What loses digits loses them in its derivatives, too.
+        let losses = trial.losses(&programs.iter().collect::<Vec<_>>());
+        let usable = usable(&losses);
+        let of_usable = (0..programs.len()).filter(|&k| usable[k]).map(|k| {
+            let program = differentiate(&programs[k], (&self.defined, &definitions), &self.directions);
+            (program, losses[k].clone(), &self.arrangements[k])
         });
-        let (program, outputs) =
-            lowered.min_by_key(|(program, _)| program.cost().total()).expect("a function has at least one arrangement");
+        let mut of_usable: Vec<_> = of_usable.collect();
+        let losses: Vec<Loss> = of_usable.iter().map(|(_, loss, _)| loss.clone()).collect();
+        let costs: Vec<u32> = of_usable.iter().map(|(program, ..)| program.cost().total()).collect();
+        let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
         (program, Expected { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&self.directions), kept })
     }
 }

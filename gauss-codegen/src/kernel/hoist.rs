@@ -43,6 +43,11 @@ impl<'a, 'g> Hoister<'a, 'g> {
         hoisted
     }
 
+    /// (symbol, definition) of all so far, in order of creation.
+    pub fn constants(&self) -> &[(Expr<'g>, Expr<'g>)] {
+        &self.constants
+    }
+
     pub fn into_constants(self) -> Vec<(Expr<'g>, Expr<'g>)> {
         self.constants
     }

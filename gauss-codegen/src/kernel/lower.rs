@@ -1,5 +1,6 @@
 //! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
+use crate::accuracy::{Loss, Trial};
 use crate::algebra::{Evaluation, Expr, Graph, Map, Rational, Set};
 
 use super::check::{Checked, Miscompiled, Sample};
@@ -14,6 +15,8 @@ pub struct Kernel<'g> {
     pub constants: Program<'g>,
     /// One program a function, in the order given; the symbols of constants among their inputs are listed below.
     pub functions: Vec<Program<'g>>,
+    /// What each of them loses at sample states.
+    pub losses: Vec<Loss>,
     /// The outputs of several functions, one after the other, what they have in common computed once.
     pub joined: Program<'g>,
     /// The outputs of what is differentiated, then all their derivatives along the first direction, and so on.
@@ -41,19 +44,24 @@ impl<'g> Kernel<'g> {
         definitions: &Map<u32, Expr<'g>>,
         wanted: &Derivatives<'_, 'g>,
         literals: Literals<'_, 'g>,
+        trial: &mut Trial,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
         let candidates = functions;
-        let (functions, chosen): (Vec<_>, Vec<_>) = candidates
-            .iter()
-            .map(|candidates| candidates.chosen(&mut hoister))
-            .map(|Lowered { program, outputs }| (program, outputs))
-            .unzip();
-        let (joined, of_joined) = lower_together(&mut hoister, candidates, &chosen, joined);
+        let (mut functions, mut chosen, mut losses, mut choices) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for candidates in candidates {
+            let (Lowered { program, outputs, loss }, first) = candidates.chosen(&mut hoister, trial);
+            functions.push(program);
+            chosen.push(outputs);
+            losses.push(loss);
+            choices.push([Some(outputs), first]);
+        }
+        let joined: Vec<_> = joined.iter().map(|&k| choices[k]).collect();
+        let (joined, of_joined) = lower_together(&mut hoister, &joined);
         let (tangents, expected_tangents) =
-            wanted.by_state.map(|wanted| wanted.lower(&mut hoister, Kept::ValuesToo)).unzip();
+            wanted.by_state.map(|wanted| wanted.lower(&mut hoister, Kept::ValuesToo, trial)).unzip();
         let (regressor, expected_regressor) =
-            wanted.regressor.map(|wanted| wanted.lower(&mut hoister, Kept::DerivativesAlone)).unzip();
+            wanted.regressor.map(|wanted| wanted.lower(&mut hoister, Kept::DerivativesAlone, trial)).unzip();
         let read: Vec<Expr<'g>> =
             functions.iter().chain([&joined]).chain(&tangents).chain(&regressor).flat_map(Program::symbols).collect();
         let numbers: Map<u32, f64> =
@@ -65,6 +73,7 @@ impl<'g> Kernel<'g> {
         let kernel = Self {
             constants: program,
             functions,
+            losses,
             joined,
             tangents,
             by_parameters,
@@ -100,25 +109,20 @@ impl<'g> Kernel<'g> {
     }
 }
 
-/// Several functions in one program. What wins alone may have less in common with the rest than what comes first: it is
-/// replaced where that costs less.
+/// Several functions in one program, of each what was taken and what comes first where that keeps the digits. What wins alone may have less in
+/// common with the rest than what comes first: it is replaced where that costs less.
 fn lower_together<'g>(
     hoister: &mut Hoister<'_, 'g>,
-    functions: &[Candidates<'g>],
-    chosen: &[&[Expr<'g>]],
-    joined: &[usize],
+    functions: &[[Option<&[Expr<'g>]>; 2]],
 ) -> (Program<'g>, Vec<Expr<'g>>) {
     let mut lower = |parts: &[&[Expr<'g>]]| {
         let outputs = parts.concat();
         (Program::lower(&hoister.hoist(&outputs)), outputs)
     };
-    let mut parts: Vec<&[Expr<'g>]> = joined.iter().map(|&k| chosen[k]).collect();
+    let mut parts: Vec<&[Expr<'g>]> = functions.iter().filter_map(|[taken, _]| *taken).collect();
     let mut best = lower(&parts);
-    for (place, &k) in joined.iter().enumerate() {
-        let first = functions[k].arrangements[0].as_slice();
-        if first == parts[place] {
-            continue;
-        }
+    for (place, [_, first]) in functions.iter().enumerate() {
+        let Some(first) = first.filter(|first| *first != parts[place]) else { continue };
         let won = std::mem::replace(&mut parts[place], first);
         let other = lower(&parts);
         if other.0.cost().total() < best.0.cost().total() {
@@ -142,7 +146,7 @@ fn constants<'g>(
 ) -> (Constants<'g>, Vec<(Expr<'g>, f64)>, Definitions<'g>) {
     let known = |definition: Expr<'g>| {
         let literals = literals?;
-        let value = Evaluation::new(literals).value(definition);
+        let value = Evaluation::of_known(literals).value(definition);
         let is_made_of_literals =
             || Program::lower(&[definition]).symbols().iter().all(|symbol| literals.contains_key(&symbol.key()));
         // What has no value is left to `kernel()`, which refuses it; nearly all that is made of parameters has none here.

@@ -6,6 +6,7 @@ use super::factor::Factoring;
 use super::hoist::Hoister;
 use super::tangent::with_tangents;
 use super::{ByParameters, Candidates, Counts, Derivatives, Differentiated, Direction, Equation, Kernel, Program};
+use crate::accuracy::Trial;
 use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
 
 /// A reproducible stream of small integers.
@@ -143,6 +144,7 @@ fn what_depends_on_parameters_alone_is_a_constant() {
         &Map::default(),
         &Derivatives::default(),
         None,
+        &mut Trial::default(),
     )
     .expect("a program");
     // One constant serves both terms, up to its sign.
@@ -163,6 +165,7 @@ fn the_cheapest_arrangement_is_taken() {
         &Map::default(),
         &Derivatives::default(),
         None,
+        &mut Trial::default(),
     )
     .expect("a program");
     assert_eq!(kernel.functions[0].counts().transcendentals, 0);
@@ -179,6 +182,7 @@ fn a_program_that_computes_something_else_is_refused() {
         &Map::default(),
         &Derivatives::default(),
         None,
+        &mut Trial::default(),
     )
     .expect("a program");
     kernel.functions[0] = Program::lower(&[a - b]);
@@ -260,9 +264,16 @@ fn what_is_defined_moves_by_its_own_rates() {
         directions: vec![vec![(r, -s), (s, r)], vec![(y, graph.one())]],
     };
     let by_state = Derivatives { by_state: Some(&wanted), ..Derivatives::default() };
-    let kernel =
-        Kernel::lower(&graph, &[Candidates::of_values(vec![outputs.clone()])], &[], &definitions, &by_state, None)
-            .expect("a program");
+    let kernel = Kernel::lower(
+        &graph,
+        &[Candidates::of_values(vec![outputs.clone()])],
+        &[],
+        &definitions,
+        &by_state,
+        None,
+        &mut Trial::default(),
+    )
+    .expect("a program");
     let point = point_of(&graph, &definitions);
     let expected = symbolic(&outputs, &wanted.directions, &point);
     let found = kernel.tangents.expect("asked for").run(&point);
@@ -290,7 +301,8 @@ fn parameters_move_constants() {
         let by_parameters =
             ByParameters { parameters: &parameters, velocity: 0, order: &[0], acceleration: 1, equation };
         let wanted = Derivatives { by_parameters: Some(by_parameters), ..Derivatives::default() };
-        let kernel = Kernel::lower(&graph, &candidates, &[], &Map::default(), &wanted, None).expect("a program");
+        let kernel = Kernel::lower(&graph, &candidates, &[], &Map::default(), &wanted, None, &mut Trial::default())
+            .expect("a program");
         let mut values = point.clone();
         let constants = kernel.constants.run(&point);
         values.extend(kernel.constant_symbols.iter().zip(constants).map(|(symbol, value)| (symbol.key(), value)));

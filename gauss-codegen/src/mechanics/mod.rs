@@ -40,6 +40,8 @@ pub mod tests;
 mod tidy;
 
 pub use arrangements::balance::KineticMatrix;
+#[cfg(test)]
+pub use check::witness::acceleration_by_definition;
 pub use check::witness::{SystemFault, check_system_against_definition};
 pub use constraints::constraint::{Constraint, ConstraintKind};
 pub use constraints::elimination::{Elimination, Obstacle};

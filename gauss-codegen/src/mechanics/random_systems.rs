@@ -16,6 +16,7 @@ mod plan;
 mod scene;
 mod witness;
 
+use crate::accuracy::Trial;
 use crate::algebra::{Graph, Map};
 use crate::kernel::{Candidates, Derivatives, Kernel, Program};
 
@@ -47,7 +48,15 @@ impl<'g> Compiled<'g> {
         let each = formulas.iter().flat_map(|f| f.arrangements.iter().map(|outputs| (f.method, outputs.clone())));
         let (methods, outputs): (Vec<_>, Vec<_>) =
             each.map(|(method, outputs)| (method, Candidates::of_values(vec![outputs]))).unzip();
-        let kernel = Kernel::lower(graph, &outputs, &[], &symbols.definitions, &Derivatives::default(), None);
+        let kernel = Kernel::lower(
+            graph,
+            &outputs,
+            &[],
+            &symbols.definitions,
+            &Derivatives::default(),
+            None,
+            &mut Trial::default(),
+        );
         let kernel = kernel.unwrap_or_else(|error| panic!("{what}: {error}"));
         assert!(!graph.is_undefined(), "{what}: a division by zero");
         let values = kernel.constants.run(&symbols.parameters);

@@ -8,17 +8,22 @@ use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::arrangements::orthogonal::Elements;
 use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::kinematics::vector::{Vector, is_zero};
+use crate::mechanics::links::link::Link;
 use crate::mechanics::links::tree::Inertia;
 use crate::mechanics::loads::account::account_formulas;
-use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
+use crate::mechanics::loads::forces::{Action, Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Lettering, SystemScene};
-use crate::mechanics::tidy::{sums, tidy};
+use crate::mechanics::tidy::{compact, sums, tidy};
 
 /// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of links
 /// that do not, where a free body must be among them.
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 const DENSE: usize = 10;
+/// Degrees of freedom up to which C is also orthogonalised as a sum of squares: beyond, that would be a third of the time
+/// of an expansion.
+const SQUARES: usize = 6;
 
 /// A system with what its equations are made of.
 pub struct System<'g> {
@@ -74,10 +79,11 @@ impl<'g> Arranged<'g> {
         let residual = and(body.residuals().into(), short.residual);
         let for_constraint = residual.iter().chain(&short.collected);
         let momentum = body.momentum();
+        let dense = system.dense_accelerations(body, &residual);
         let potential = body.potential_energy();
         let potential = system.potential.map_or(potential, |other| potential + other);
         Self {
-            acceleration: and(balances.iter().map(|b| body.acceleration(b)).collect(), short.acceleration),
+            acceleration: and(balances.iter().map(|b| body.acceleration(b)).chain(dense).collect(), short.acceleration),
             momentum_rate: and(body.momentum_rates(&Map::default()), short.momentum_rate),
             velocity: and(body.velocities_of_momentum(), short.velocity),
             mass_matrix: and(vec![body.mass_matrix(&momentum)], short.matrix),
@@ -132,9 +138,7 @@ impl<'g> System<'g> {
             let entries = body.mass_matrix(&body.momentum());
             return entries.chunks(self.scene.speeds.len()).map(<[Expr<'g>]>::to_vec).collect();
         }
-        let matrix = self.scene.tree.mass_matrix();
-        // Where links hang on one another entries are short as they are, and long multiplied out.
-        if self.scene.tree.is_chained() { grouped(&matrix) } else { tidied(&matrix) }
+        grouped(&self.scene.tree.mass_matrix())
     }
 
     /// The free link that is all of the system.
@@ -186,8 +190,15 @@ impl<'g> System<'g> {
             }
             return general;
         };
-        let of_body = Arranged::of_body(self, body);
+        let mut of_body = Arranged::of_body(self, body);
         if self.constraints.is_empty() {
+            // The wrench of a field about O is a difference of large terms far from its centre: the tide is not.
+            if self.scene.elements.iter().any(|element| matches!(element.action, Action::Field(_))) {
+                let general = self.arranged_in_general();
+                of_body.acceleration.extend(general.acceleration);
+                of_body.residual.extend(general.residual);
+                of_body.momentum_rate.extend(general.momentum_rate);
+            }
             return of_body;
         }
         // Multipliers are found together with the accelerations.
@@ -207,14 +218,26 @@ impl<'g> System<'g> {
         Arranged {
             acceleration: self.accelerations(&arrangements),
             momentum: self.with_tidied(momentum),
-            momentum_rate: velocity.iter().map(|z| self.momentum_rate(z, &arrangements[0])).collect(),
+            momentum_rate: velocity.iter().flat_map(|z| self.momentum_rates(z, &arrangements[0])).collect(),
             velocity,
-            mass_matrix: vec![self.matrix.concat()],
+            mass_matrix: self.with_tidied(self.matrix.concat()),
             kinetic_energy: self.kinetic_energies(),
             potential_energy: self.with_tidied(vec![self.potential_energy()]),
             constraint: arrangements.iter().map(|a| vec![self.constraint_function(a)]).collect(),
             residual: arrangements.iter().map(|a| self.gauss_residual(a)).collect(),
         }
+    }
+
+    /// By a factorisation of A, where speeds are rates of coordinates.
+    fn dense_accelerations(&self, body: &FreeLink<'g>, residuals: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
+        if !body.in_coordinates || !self.constraints.is_empty() {
+            return Vec::new();
+        }
+        let zero = self.scene.graph.zero();
+        let still: Map<u32, Expr<'g>> = self.scene.speed_rates.iter().map(|dz| (dz.key(), zero)).collect();
+        let right: Vec<Expr<'g>> = residuals[0].iter().map(|row| -row.substitute(&still)).collect();
+        let compact = (!self.is_long()).then(|| tidied(&self.matrix));
+        compact.iter().chain([&self.matrix]).flat_map(|matrix| self.solutions(matrix, &right)).collect()
     }
 
     /// In the place of the rows of free links what they are in their arrangements.
@@ -264,7 +287,7 @@ impl<'g> System<'g> {
 
     /// Multiplied out, where that is not long.
     fn tidied_too(&self, outputs: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
-        (!self.is_long()).then(|| outputs.iter().map(|e| tidy(*e)).collect())
+        (!self.is_long()).then(|| outputs.iter().map(|e| compact(*e)).collect())
     }
 
     /// Multiplied out as well, where that is not long.
@@ -272,7 +295,7 @@ impl<'g> System<'g> {
         if self.is_long() {
             return vec![outputs];
         }
-        vec![outputs.iter().map(|e| tidy(*e)).collect(), outputs]
+        vec![outputs.iter().map(|e| compact(*e)).collect(), outputs]
     }
 
     /// Whether multiplying out would be slow and of no use.
@@ -283,11 +306,14 @@ impl<'g> System<'g> {
 
     fn arrangements(&self) -> Vec<Arrangement<'g>> {
         let mut arrangements = Vec::new();
-        let tidy_all = |rows: &[Expr<'g>]| -> Vec<Expr<'g>> { rows.iter().map(|e| tidy(*e)).collect() };
+        let tidy_all = |rows: &[Expr<'g>]| -> Vec<Expr<'g>> { rows.iter().map(|e| compact(*e)).collect() };
         for &inertia in self.scene.tree.inertias(self.is_long()) {
             let residual = self.residual(&self.along, inertia);
             let still = self.residual(&self.scene.rates, inertia);
-            let floating = self.floating(inertia);
+            let floating = match self.scene.tree.floats() {
+                true => self.floating(inertia),
+                false => [still.clone(), vec![self.scene.graph.zero(); still.len()]],
+            };
             if !self.is_long() {
                 let (matrix, floating) =
                     (tidied(&self.matrix), [&floating[0], &floating[1]].map(|rows| tidy_all(rows)));
@@ -423,10 +449,17 @@ impl<'g> System<'g> {
         arrangements.iter().flat_map(solve).chain(orthogonal).collect()
     }
 
-    /// C as a sum of squares, where several speeds share it.
+    /// C as a sum of squares, where several speeds share it. Where a speed turns a root and moves its O as well, as those of
+    /// twists about Ω do, the squares are not of what is relative.
     fn elements(&self) -> Option<Elements<'_, 'g>> {
-        let few = (2..=DENSE).contains(&self.scene.speeds.len()) && self.only_body().is_none();
-        few.then(|| Elements::new(&self.scene.tree)).flatten()
+        let few = (2..=SQUARES).contains(&self.scene.speeds.len()) && self.only_body().is_none();
+        let still = |a: &Vector<'g>| is_zero(&a.body) && is_zero(&a.space);
+        let about_far_pole = |link: &Link<'g>| {
+            let rows = link.linear_rows.iter().zip(&link.angular_rows);
+            link.parent.is_none() && rows.into_iter().any(|(a, o)| !still(a) && !is_zero(o))
+        };
+        let relative = !self.scene.tree.links.iter().any(about_far_pole);
+        (few && relative).then(|| Elements::new(&self.scene.tree)).flatten()
     }
 
     /// z from p = A z + p(z = 0).
@@ -437,9 +470,10 @@ impl<'g> System<'g> {
             if self.is_long() { value } else { tidy(value) }
         });
         let right: Vec<Expr<'g>> = self.scene.momenta.iter().zip(beside).map(|(symbol, p)| *symbol - p).collect();
-        let mut solutions = self.solutions(&self.matrix, &right);
-        solutions.extend(self.elements().map(|elements| elements.solve(&right)));
-        solutions
+        let compact = (!self.is_long()).then(|| tidied(&self.matrix));
+        let matrices = compact.iter().chain([&self.matrix]);
+        let orthogonal = self.elements().map(|elements| elements.solve(&right));
+        matrices.flat_map(|matrix| self.solutions(matrix, &right)).chain(orthogonal).collect()
     }
 
     /// z = 0.
@@ -452,19 +486,19 @@ impl<'g> System<'g> {
         self.scene.tree.bracket()
     }
 
-    /// ṗ as a function of (t, q, p).
-    fn momentum_rate(&self, velocity: &[Expr<'g>], arrangement: &Arrangement<'g>) -> Vec<Expr<'g>> {
-        let mut bracket = self.bracket();
-        if !self.is_long() {
-            bracket.iter_mut().for_each(|e| *e = tidy(*e));
-        }
-        if !self.constraints.is_empty() {
-            bracket = sums(&bracket, &self.constraints.forces(&self.acceleration(arrangement).1));
-        }
+    /// ṗ as a function of (t, q, p), with the bracket multiplied out and as it is.
+    fn momentum_rates(&self, velocity: &[Expr<'g>], arrangement: &Arrangement<'g>) -> Vec<Vec<Expr<'g>>> {
         let of_momenta: Map<u32, Expr<'g>> =
             self.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
-        let rows = bracket.into_iter().zip(self.generalised_forces());
-        rows.map(|(bracket, force)| bracket.substitute(&of_momenta) + force.substitute(&of_momenta)).collect()
+        let constraints =
+            (!self.constraints.is_empty()).then(|| self.constraints.forces(&self.acceleration(arrangement).1));
+        let forces = self.generalised_forces();
+        let rate = |bracket: Vec<Expr<'g>>| -> Vec<Expr<'g>> {
+            let bracket = constraints.iter().fold(bracket, |bracket, forces| sums(&bracket, forces));
+            let rows = bracket.into_iter().zip(&forces);
+            rows.map(|(bracket, force)| bracket.substitute(&of_momenta) + force.substitute(&of_momenta)).collect()
+        };
+        self.with_tidied(self.bracket()).into_iter().map(rate).collect()
     }
 
     /// T, link by link and, where velocities are homogeneous in z, as ½ p·z.
@@ -517,7 +551,7 @@ impl<'g> System<'g> {
 }
 
 fn tidied<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
-    matrix.iter().map(|row| row.iter().map(|e| tidy(*e)).collect()).collect()
+    matrix.iter().map(|row| row.iter().map(|e| compact(*e)).collect()).collect()
 }
 
 fn grouped<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {

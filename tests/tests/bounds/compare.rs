@@ -1,10 +1,11 @@
 //! Bounds against errors.
 
+use gauss_runtime::integrate::Control;
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
 
 use crate::common::Bounded;
-use crate::common::body::{Parts, list, speeds};
+use crate::common::body::{list, speeds};
 
 /// Numbers between −1 and 1, the same in every run (a linear congruence of 64 bits; Knuth).
 pub struct Random(pub u64);
@@ -84,16 +85,24 @@ impl Excess {
     }
 }
 
-/// A kernel whose states can be put together from numbers.
-pub trait Any<T: Real>: GaussSystem<Scalar = T, Input = (), Configuration: Parts<T>, Speeds: VectorSpace<T>> {}
-impl<T: Real, K> Any<T> for K where
-    K: GaussSystem<Scalar = T, Input = (), Configuration: Parts<T>, Speeds: VectorSpace<T>>
-{
-}
+/// A kernel without inputs: its states can be put together from numbers.
+pub trait Any<T: Real>: GaussSystem<Scalar = T, Input = ()> {}
+impl<T: Real, K: GaussSystem<Scalar = T, Input = ()>> Any<T> for K {}
 
+/// A configuration by its components, and speeds.
 fn state<T: Real, K: Any<T>>(_: &K, q: &[f64], z: &[f64]) -> (K::Configuration, K::Speeds) {
     let all = |numbers: &[f64]| numbers.iter().map(|&x| T::from_f64(x)).collect::<Vec<_>>();
-    (K::Configuration::assemble(&all(q)), speeds(&all(z)))
+    (K::Configuration::from_components(&speeds(&all(q))), speeds(&all(z)))
+}
+
+/// The components of the configuration to which an increment leads whose components are drawn.
+pub fn moved<K: Any<f64>>(kernel: &K, q: &[f64], mut draw: impl FnMut() -> f64) -> Vec<f64> {
+    let (q, _) = state(kernel, q, &[]);
+    let mut increment = <K::Configuration as Configuration>::Tangent::zero();
+    for i in 0..<K::Configuration as Configuration>::Tangent::DIM {
+        increment.set_component(i, draw());
+    }
+    list(&q.retract(&increment).components())
 }
 
 /// Everything that a kernel computes at a state.
@@ -107,11 +116,12 @@ fn outputs<T: Real, K: Any<T>>(kernel: &K, q: &[f64], z: &[f64]) -> Vec<(&'stati
         ("momentum rate", list(&kernel.momentum_rate(t, &q, &p, &()))),
         ("velocity", list(&kernel.velocity(t, &q, &p))),
         ("momentum", list(&p)),
+        ("residual", list(&kernel.gauss_residual(t, &q, &z, &z, &()))),
     ]
 }
 
 /// All outputs at a state.
-pub fn outputs_hold<B: Any<Bounded>, D: Any<DoubleDouble>>(
+fn outputs_hold<B: Any<Bounded>, D: Any<DoubleDouble>>(
     what: &str,
     (bounded, wide): (&B, &D),
     (q, z): (&[f64], &[f64]),
@@ -123,7 +133,7 @@ pub fn outputs_hold<B: Any<Bounded>, D: Any<DoubleDouble>>(
 }
 
 /// Bit by bit: bounds never decide what is computed.
-pub fn values_are_those_of_the_plain_scalar<K: Any<f64>, B: Any<Bounded>>(
+fn values_are_those_of_the_plain_scalar<K: Any<f64>, B: Any<Bounded>>(
     what: &str,
     (plain, bounded): (&K, &B),
     (q, z): (&[f64], &[f64]),
@@ -136,23 +146,45 @@ pub fn values_are_those_of_the_plain_scalar<K: Any<f64>, B: Any<Bounded>>(
     }
 }
 
-/// Five steps of a method of order four.
-fn run<T: Real, K: Any<T>>(kernel: &K, q: &[f64], z: &[f64], step: f64) -> Vec<T> {
+/// Five steps of some method, from the state on the constraints: published ones are on them as well as numbers of
+/// double precision can be, which is not enough for wider ones.
+pub fn run<T: Real, K: Any<T>, C: Control<K>>(
+    kernel: &K,
+    (q, z): (&[f64], &[f64]),
+    step: f64,
+    control: impl FnOnce(T) -> C,
+) -> Vec<T> {
     let (q, z) = state::<T, K>(kernel, q, z);
+    let (q, z) = kernel.project(T::zero(), &q, &z).expect("constraints");
     let h = T::from_f64(step);
     let end = T::from_f64(5.0) * h;
-    let reached = Simulation::new(kernel).fixed_step(h).run_to_end(q, z, T::zero()..end).expect("runs");
-    [reached.q.parts(), list(&reached.z)].concat()
+    let reached = Simulation::new(kernel).control(control(h)).run_to_end(q, z, T::zero()..end).expect("runs");
+    [list(&reached.q.components()), list(&reached.z)].concat()
 }
 
 /// The state after some steps.
-pub fn run_holds<B: Any<Bounded>, D: Any<DoubleDouble>>(
+fn run_holds<B: Any<Bounded>, D: Any<DoubleDouble>>(
     what: &str,
     (bounded, wide): (&B, &D),
     (q, z): (&[f64], &[f64]),
     step: f64,
     excess: &mut Excess,
 ) {
-    let (found, exact) = (run(bounded, q, z, step), run(wide, q, z, step));
+    let (found, exact) = (run(bounded, (q, z), step, Fixed::new), run(wide, (q, z), step, Fixed::new));
     excess.check(&format!("{what}: run"), &found, &exact);
+}
+
+/// Bounds of everything at a state and, for a step, of a run from it; the values are those without bounds.
+pub fn holds<P: Any<f64>, B: Any<Bounded>, D: Any<DoubleDouble>>(
+    what: &str,
+    (plain, bounded, wide): (&P, &B, &D),
+    (q, z): (&[f64], &[f64]),
+    step: Option<f64>,
+    excess: &mut Excess,
+) {
+    outputs_hold(what, (bounded, wide), (q, z), excess);
+    values_are_those_of_the_plain_scalar(what, (plain, bounded), (q, z));
+    if let Some(step) = step {
+        run_holds(what, (bounded, wide), (q, z), step, excess);
+    }
 }

@@ -9,7 +9,7 @@ use crate::common::Bounded;
 use crate::common::body::{Parts, Scene, list};
 use crate::common::parameters::{Parameters, parameters};
 use crate::common::states::{Motion, State, state};
-use crate::compare::{Any, Excess, Random, outputs_hold, run_holds, values_are_those_of_the_plain_scalar};
+use crate::compare::{self, Excess, Random};
 
 /// The same body in units of its own: masses times `mass`, lengths times `length`, the fluid denser by `fluid`.
 fn in_units(p: &Parameters, mass: f64, length: f64, fluid: f64) -> Parameters {
@@ -42,23 +42,13 @@ fn spread(random: &mut Random, parameters: &Parameters, state: &State) -> (Param
 }
 
 /// A scene at a state, in the variables of its chart; none where its coordinates are singular.
-pub fn holds<S: Scene>(what: &str, parameters: &Parameters, state: &State, step: Option<f64>, excess: &mut Excess)
-where
-    S::Kernel<f64>: Any<f64>,
-    S::Kernel<Bounded>: Any<Bounded>,
-    S::Kernel<DoubleDouble>: Any<DoubleDouble>,
-{
+pub fn holds<S: Scene>(what: &str, parameters: &Parameters, state: &State, step: Option<f64>, excess: &mut Excess) {
     let kernel = S::kernel::<f64>(parameters);
     let parts = state.pose().parts().iter().map(|x| x.value).collect::<Vec<_>>();
     let Ok(q) = kernel.configuration(&Isometry3::assemble(&parts)) else { return };
     let z = list(&kernel.speeds(0.0, &q, &SVector::from(state.twist)));
-    let q = q.parts();
-    let kernels = (&S::kernel::<Bounded>(parameters), &S::kernel::<DoubleDouble>(parameters));
-    outputs_hold(what, kernels, (&q, &z), excess);
-    values_are_those_of_the_plain_scalar(what, (&kernel, kernels.0), (&q, &z));
-    if let Some(step) = step {
-        run_holds(what, kernels, (&q, &z), step, excess);
-    }
+    let kernels = (&kernel, &S::kernel::<Bounded>(parameters), &S::kernel::<DoubleDouble>(parameters));
+    compare::holds(what, kernels, (&list(&q.components()), &z), step, excess);
 }
 
 /// Random bodies and states, `count` of everyday sizes and `count` that are spread.

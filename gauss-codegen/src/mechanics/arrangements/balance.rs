@@ -50,7 +50,10 @@ impl<'g> KineticMatrix<'g> {
             .collect();
         let uncoupled = linear_axes.iter().all(|&i| angular_axes.iter().all(|&j| entries[i][j].is_zero()));
         let spherical = multiple_of_identity(&entries, angular_axes).filter(|_| uncoupled);
-        Self { isotropic: multiple_of_identity(&entries, linear_axes), spherical, entries }
+        // The translation is eliminated from all that the rotation couples with: it must be free there.
+        let held = |i: usize| !linear_axes.contains(&i) && angular_axes.iter().any(|&j| !entries[i][j].is_zero());
+        let isotropic = multiple_of_identity(&entries, linear_axes).filter(|_| !(0..3).any(held));
+        Self { isotropic, spherical, entries }
     }
 
     pub fn block(&self, row: usize, column: usize, a: &Triple<'g>) -> Triple<'g> {

@@ -1,8 +1,8 @@
 //! The equations of one body in coordinates with everything multiplied out, where that makes them short.
 
-use crate::algebra::{Expr, Map, NodeView, Solver};
+use crate::algebra::{Expr, Map, Solver};
 
-use crate::mechanics::tidy::readable;
+use crate::mechanics::tidy;
 
 use super::free_link::FreeLink;
 
@@ -21,7 +21,7 @@ pub struct Short<'g> {
 }
 
 fn short<'g>(rows: Vec<Expr<'g>>) -> Option<Vec<Expr<'g>>> {
-    rows.into_iter().map(|row| readable(row).map(|p| p.collect())).collect()
+    rows.into_iter().map(tidy::short).collect()
 }
 
 impl<'g> FreeLink<'g> {
@@ -58,10 +58,6 @@ impl<'g> FreeLink<'g> {
 
     /// In coordinates what does not depend on one of them, because the body is the same whichever way it is turned about an axis, is
     /// free of it only when it is multiplied out.
-    ///
-    /// Near a singularity of the coordinates det A vanishes with the square of a sine or of a cosine. The normal form has sin² for
-    /// the one, which is reduced and loses nothing, and 1 − sin² for the other, whose leading digits cancel: solutions with such a
-    /// divisor are left to the other arrangements.
     fn short_in_coordinates(&self) -> Option<Short<'g>> {
         let kinematics = &self.kinematics;
         let graph = kinematics.frame.graph;
@@ -84,9 +80,7 @@ impl<'g> FreeLink<'g> {
             residual.iter().map(|row| kinematics.speed_rates.iter().map(|&dz| row.partial(dz)).collect()).collect();
         let right: Vec<Expr<'g>> = residual.iter().map(|row| -row.substitute(&at_rest)).collect();
         let solver = Solver::new(matrix.clone())?;
-        let solved = |right: &[Expr<'g>]| {
-            short(solver.solve(right)).filter(|rows| !rows.iter().any(divides_by_sum)).map(with_loads)
-        };
+        let solved = |right: &[Expr<'g>]| short(solver.solve(right)).map(with_loads);
         Some(Short {
             acceleration: solved(&right),
             velocity: solved(&self.momenta),
@@ -96,23 +90,5 @@ impl<'g> FreeLink<'g> {
             residual: Some(with_loads(residual)),
             ..Short::default()
         })
-    }
-}
-
-/// Whether a sum that moves stands below the line.
-fn divides_by_sum(e: &Expr<'_>) -> bool {
-    fn is_sum(e: &Expr<'_>) -> bool {
-        match e.view() {
-            NodeView::Group(inner) => is_sum(&inner),
-            NodeView::Sum(_) => !e.is_constant(),
-            _ => false,
-        }
-    }
-    match e.view() {
-        NodeView::Number(_) | NodeView::Symbol(_) | NodeView::Opaque(_) => false,
-        NodeView::Group(inner) | NodeView::Call(_, inner) => divides_by_sum(&inner),
-        NodeView::Binary(_, a, b) => divides_by_sum(&a) || divides_by_sum(&b),
-        NodeView::Product(factors) => factors.iter().any(|(f, n)| (*n < 0 && is_sum(f)) || divides_by_sum(f)),
-        NodeView::Sum(terms) => terms.iter().any(|(_, term)| divides_by_sum(term)),
     }
 }

@@ -274,6 +274,57 @@ impl<N: Number> Distribution<N> {
     }
 }
 
+/// ż of (3.1) at a state: C is made stationary, under the constraints.
+#[cfg(test)]
+pub fn acceleration_by_definition<N: Number>(system: &System<'_>, state: Map<u32, N>) -> Vec<N> {
+    let n = system.scene.speeds.len();
+    let witness = Witness::new(system, state);
+    let (zero, one) = (N::number(0.0), N::number(1.0));
+    let still = vec![zero; n];
+    let at_rest = witness.stationarity(&still);
+    let columns: Vec<Vec<N>> = (0..n)
+        .map(|k| {
+            let unit: Vec<N> = (0..n).map(|j| if j == k { one } else { zero }).collect();
+            witness.stationarity(&unit).into_iter().zip(&at_rest).map(|(moved, still)| moved - *still).collect()
+        })
+        .collect();
+    // One row a speed, then one a constraint.
+    let jacobian = witness.partials(&system.constraints.on_velocities);
+    let bias = witness.along(&witness.flow(&still), &system.constraints.on_velocities);
+    let m = bias.len();
+    let mut rows: Vec<Vec<N>> = (0..n)
+        .map(|i| {
+            let matrix = columns.iter().map(|column| column[i]);
+            matrix.chain(jacobian[i].iter().copied()).chain([-at_rest[i]]).collect()
+        })
+        .collect();
+    rows.extend((0..m).map(|k| {
+        let of_constraint = jacobian.iter().map(|row| row[k]);
+        of_constraint.chain((0..m).map(|_| zero)).chain([-bias[k]]).collect()
+    }));
+    eliminated(rows).into_iter().take(n).collect()
+}
+
+/// The unknowns of linear equations with their right-hand sides in the last column, by elimination with the largest pivots.
+#[cfg(test)]
+fn eliminated<N: Number>(mut rows: Vec<Vec<N>>) -> Vec<N> {
+    let n = rows.len();
+    let size = |x: &N| x.to_f64().abs();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&i, &j| size(&rows[i][k]).total_cmp(&size(&rows[j][k]))).unwrap_or(k);
+        rows.swap(k, pivot);
+        for i in 0..n {
+            if i != k {
+                let factor = rows[i][k] / rows[k][k];
+                for j in k..=n {
+                    rows[i][j] = rows[i][j] - factor * rows[k][j];
+                }
+            }
+        }
+    }
+    (0..n).map(|k| rows[k][n] / rows[k][k]).collect()
+}
+
 /// Evaluates the condition at one state, with the residual at any ż and with every arrangement's acceleration.
 ///
 /// Where large terms cancel, right formulas disagree by the roundings of these, and a pivot that is small beside what it was formed of looks

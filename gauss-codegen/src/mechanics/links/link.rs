@@ -8,7 +8,7 @@ use crate::mechanics::kinematics::turn::{Turn, angular_velocity, inward};
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector, add, cross, is_zero};
 use crate::mechanics::matter::body::Body;
 use crate::mechanics::matter::moments::Moments;
-use crate::mechanics::tidy::tidy;
+use crate::mechanics::tidy::compact;
 
 /// What has mass.
 pub enum Matter<'g> {
@@ -132,7 +132,7 @@ impl<'g> Link<'g> {
                 (position, velocity, omega, frame.body_vector(inward(&joint.turns, &joint.offset_rate)))
             }
         };
-        let named = |e: Expr<'g>| tidy(e).group();
+        let named = |e: Expr<'g>| compact(e).group();
         let linear_rows = speeds.iter().map(|&z| own_velocity.partial(z).map(named)).collect();
         let angular_rows = speeds.iter().map(|&z| spin.map(|e| named(e.partial(z)))).collect();
         let moments = match &matter {

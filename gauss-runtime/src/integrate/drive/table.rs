@@ -44,7 +44,8 @@ let table = run
 # let folder = std::env::temp_dir();
 # std::fs::write(folder.join("gauss_table_example.csv"), table.to_string())?;
 # std::fs::remove_file(folder.join("gauss_table_example.csv"))?;
-assert!(table.to_string().starts_with("t,angle,rate,kinetic energy,potential energy,energy,gravity power,bearing power\n"));
+assert!(table.to_string().starts_with("t,angle,rate,kinetic energy,potential energy,energy,gravity power,"));
+assert!(table.get("bearing power").is_some());
 let energy = table.get("energy").expect("is there");
 assert!(energy.len() == 101 && energy.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9));
 # Ok(())

@@ -205,12 +205,15 @@ fn head<T: Real>((p, q): Rational) -> T {
     T::from_f64(rounded_ratio(p, q, digits))
 }
 
-/// What [`head`] leaves out.
+/// What [`head`] leaves out, so that 80 binary digits of the coefficient are right.
 fn tail<T: Real>((p, q): Rational) -> T {
     if T::EPSILON < f64::EPSILON {
         return T::zero();
     }
-    T::from_f64(f64::ratio(p, q) - head::<T>((p, q)).lane(0) + ratio_rest(p, q))
+    let tail = f64::ratio(p, q) - head::<T>((p, q)).lane(0) + ratio_rest(p, q);
+    // Halves, quarters, … are not rounded; of others, the sum and the rest.
+    let rounding = if q.unsigned_abs().is_power_of_two() { 0.0 } else { f64::EPSILON * Real::abs(tail) };
+    T::from_f64(tail).omitting(T::from_f64(rounding))
 }
 
 /// `h Σ wᵢ·stageᵢ`; null weights are passed over.

@@ -1,0 +1,55 @@
+//! Programs that are run many times: inputs and numbers in one list.
+
+use crate::algebra::{Expr, Map, Number, Rational};
+use crate::program::{Code, Operand};
+
+/// What a place in the list is filled with.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    Symbol(u32),
+    Number(Rational),
+}
+
+/// A program with the places of its inputs.
+pub struct Tape {
+    code: Code<usize>,
+    places: Vec<Place>,
+}
+
+impl Tape {
+    pub fn new(program: &Code<Expr<'_>>) -> Self {
+        let mut places: Vec<Place> = Vec::new();
+        let mut known: Map<u32, usize> = Map::default();
+        let mut numbers: Map<Rational, usize> = Map::default();
+        let mut place_of = |operand: Operand<Expr<'_>>| match operand {
+            Operand::Input(symbol) => Operand::Input(*known.entry(symbol.key()).or_insert_with(|| {
+                places.push(Place::Symbol(symbol.key()));
+                places.len() - 1
+            })),
+            Operand::Number(value) => Operand::Input(*numbers.entry(value).or_insert_with(|| {
+                places.push(Place::Number(value));
+                places.len() - 1
+            })),
+            Operand::Value(k) => Operand::Value(k),
+            Operand::Sine(k) => Operand::Sine(k),
+            Operand::Cosine(k) => Operand::Cosine(k),
+        };
+        let instructions = program.instructions.iter().map(|instruction| instruction.map(&mut place_of)).collect();
+        let outputs = program.outputs.iter().map(|&operand| place_of(operand)).collect();
+        Self { code: Code { instructions, outputs }, places }
+    }
+
+    /// Its outputs, with values of symbols by their keys; numbers that double precision cannot hold are multiplied by what `nudge` gives for
+    /// their place in the list.
+    pub fn run<N: Number>(&self, symbols: &Map<u32, N>, nudge: impl Fn(usize) -> Option<N>) -> Vec<N> {
+        let value = |(k, place): (usize, &Place)| match *place {
+            Place::Symbol(key) => symbols.get(&key).copied().unwrap_or(N::number(f64::NAN)),
+            Place::Number(value) => {
+                let exact = N::fraction(value);
+                if value.is_dyadic() { exact } else { nudge(k).map_or(exact, |factor| exact * factor) }
+            }
+        };
+        let values: Vec<N> = self.places.iter().enumerate().map(value).collect();
+        self.code.evaluate(|place| values[place])
+    }
+}

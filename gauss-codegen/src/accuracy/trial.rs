@@ -1,0 +1,268 @@
+//! The loss of programs at sample states: their error beside results in 106 binary digits, in units of what a change of every input and
+//! parameter in its last place does to these.
+
+use crate::algebra::{Doubled, Evaluation, Expr, Function, Map, Number, Scalar};
+use crate::program::Code;
+
+use super::random::Random;
+use super::tape::Tape;
+
+/// By how much inputs are changed, relatively: far above 2⁻¹⁰⁴, and so little that results change in proportion.
+const CHANGE: f64 = 1.0 / (1_u64 << 30) as f64;
+/// Changes of all inputs at once, each by something else.
+const CHANGES: u64 = 2;
+
+/// One state: what a kernel is given, the same without its rounding, and with every number changed a little.
+pub struct Point {
+    given: Map<u32, f64>,
+    exact: Map<u32, Doubled>,
+    changed: Vec<Map<u32, Doubled>>,
+}
+
+impl Point {
+    /// Symbols, numbers that tell how they are changed, and their values. Those of each of `units` are scaled to have the norm 1;
+    /// `definitions` are symbols that stand for expressions of the others.
+    pub fn new<'g>(values: &[(u32, u64, f64)], units: &[Vec<Expr<'g>>], definitions: &Map<u32, Expr<'g>>) -> Self {
+        let whole = |mut point: Map<u32, Doubled>| {
+            for unit in units {
+                let norm = norm(unit, &point);
+                for symbol in unit {
+                    point.entry(symbol.key()).and_modify(|value| *value = *value / norm);
+                }
+            }
+            let mut evaluation = Evaluation::new(&point);
+            let defined: Vec<_> = definitions.iter().map(|(&key, e)| (key, evaluation.value(*e))).collect();
+            point.extend(defined);
+            point
+        };
+        let exact = whole(values.iter().map(|&(key, _, value)| (key, Doubled::number(value))).collect());
+        let change =
+            |n: u64| whole(values.iter().map(|&(key, name, _)| (key, exact[&key] * factor(name, n))).collect());
+        Self {
+            given: exact.iter().map(|(&key, value)| (key, value.to_f64())).collect(),
+            changed: (0..CHANGES).map(change).collect(),
+            exact,
+        }
+    }
+}
+
+fn norm(unit: &[Expr<'_>], point: &Map<u32, Doubled>) -> Doubled {
+    let squares = unit.iter().map(|symbol| point[&symbol.key()] * point[&symbol.key()]);
+    squares.fold(Doubled::number(0.0), |sum, square| sum + square).call(Function::Sqrt)
+}
+
+/// 1 and a change of the mean square one, which depends on the name or the place and on the number of the change. Changes of one size would leave out
+/// what two of them cancel in.
+fn factor(place: u64, n: u64) -> Doubled {
+    let share = 2.0 * Random::new(place.wrapping_mul(CHANGES).wrapping_add(n)).fraction() - 1.0;
+    Doubled::number(1.0) + Doubled::number(CHANGE * 3.0_f64.sqrt() * share)
+}
+
+/// What a function should give at one state, and what a change of everything in its last place does to it.
+struct Reference {
+    values: Vec<Doubled>,
+    units: Vec<f64>,
+}
+
+/// Losses of one function at all states where it has a value.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Loss(pub Vec<f64>);
+
+/// A loss of which no digit is left.
+const NO_DIGIT: f64 = 1e16;
+/// Round bounds of losses up to that.
+const ROUND: [f64; 52] = {
+    let mut bounds = [0.0; 52];
+    let (mut k, mut power) = (0, 0.1);
+    while k < bounds.len() {
+        bounds[k] = power
+            * if k % 3 == 0 {
+                1.0
+            } else if k % 3 == 1 {
+                2.0
+            } else {
+                5.0
+            };
+        k += 1;
+        if k % 3 == 0 {
+            power *= 10.0;
+        }
+    }
+    bounds
+};
+
+impl Loss {
+    /// The largest; zero of none.
+    pub fn worst(&self) -> f64 {
+        self.0.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The one in the middle; zero of none.
+    pub fn median(&self) -> f64 {
+        let mut sorted = self.0.clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// Worst and median, up to the next of 1, 2 and 5 times a power of ten: nothing at all where nothing was tried.
+    pub fn rounded(&self) -> [f64; 2] {
+        [self.worst(), self.median()].map(|loss| {
+            let round = ROUND.iter().copied().find(|round| loss <= *round).unwrap_or(NO_DIGIT);
+            if self.0.is_empty() { 0.0 } else { round }
+        })
+    }
+}
+
+/// Sample states at which programs are tried.
+#[derive(Default)]
+pub struct Trial {
+    points: Vec<Point>,
+    /// How many constants have their values.
+    defined: usize,
+}
+
+impl Trial {
+    pub fn new(points: Vec<Point>) -> Self {
+        Self { points, defined: 0 }
+    }
+
+    /// Computes constants, symbols and what they stand for, beyond those that are known.
+    pub fn define<'g>(&mut self, constants: &[(Expr<'g>, Expr<'g>)]) {
+        let fresh = &constants[self.defined..];
+        self.defined = constants.len();
+        if fresh.is_empty() {
+            return;
+        }
+        for point in &mut self.points {
+            define_in(&mut point.given, fresh);
+            define_in(&mut point.exact, fresh);
+            point.changed.iter_mut().for_each(|changed| define_in(changed, fresh));
+        }
+    }
+
+    /// The losses of programs that should compute the same, beside the best of them in 106 binary digits: what it loses of 53 it has to
+    /// spare there, unless that is nearly all.
+    pub fn losses(&self, programs: &[&Code<Expr<'_>>]) -> Vec<Loss> {
+        let tapes: Vec<Tape> = programs.iter().map(|program| Tape::new(program)).collect();
+        let mut best = 0;
+        let mut losses = self.losses_beside(&tapes, best);
+        // Of a form that loses nearly everything the longer numbers are not sure either.
+        for _ in 1..tapes.len() {
+            let least = (0..tapes.len()).min_by(|&a, &b| losses[a].worst().total_cmp(&losses[b].worst()));
+            let Some(least) = least.filter(|&least| least != best && losses[best].worst() > UNSURE) else { break };
+            best = least;
+            losses = self.losses_beside(&tapes, best);
+        }
+        losses
+    }
+
+    fn losses_beside(&self, tapes: &[Tape], reference: usize) -> Vec<Loss> {
+        let mut losses = vec![Loss::default(); tapes.len()];
+        for point in &self.points {
+            let found: Vec<Vec<f64>> = tapes.iter().map(|tape| tape.run(&point.given, |_| None)).collect();
+            let Some(expected) = point.reference(&tapes[reference], &found) else { continue };
+            losses.iter_mut().zip(&found).for_each(|(loss, found)| loss.0.push(expected.loss_of(found)));
+        }
+        losses
+    }
+}
+
+/// How many times the loss of the best a program may have at a state, and what loss may be had anyhow. The errors of n roundings that do not
+/// amplify each other add up to some √n, and now and then to the one or to n: of programs of up to a thousand operations two that are equally
+/// good differ by that much, and at the next state the other way round.
+const FACTOR: f64 = 32.0;
+/// Results below this share of the error of double precision vanish identically: of terms whose roundings are 2⁻⁵³, those of 106 digits are 2⁻⁷⁴
+/// of a change, and some of either are small by chance.
+const VANISHING: f64 = 1.0 / 1024.0;
+
+/// Three decimal places may go where keeping them costs a quarter more: nobody pays for them who has ordinary numbers.
+const TOLERABLE: f64 = 1e3;
+
+/// Of programs with their costs the one that is taken: the cheapest that keeps the digits; or, where that is dear, the cheapest that loses no
+/// more than three decimal places anywhere.
+pub fn taken(losses: &[Loss], costs: &[u32]) -> usize {
+    let cheapest = |flags: Vec<bool>| {
+        let allowed = costs.iter().zip(flags).enumerate().filter(|(_, (_, allowed))| *allowed);
+        allowed.map(|(k, (cost, _))| (k, *cost)).min_by_key(|(_, cost)| *cost)
+    };
+    let (best, cost) = cheapest(accurate(losses)).expect("a function has at least one arrangement");
+    match cheapest(losses.iter().map(|loss| loss.worst() <= TOLERABLE).collect()) {
+        Some((other, less)) if 5 * less < 4 * cost => other,
+        _ => best,
+    }
+}
+
+/// Which programs may be taken.
+pub fn usable(losses: &[Loss]) -> Vec<bool> {
+    accurate(losses).into_iter().zip(losses).map(|(accurate, loss)| accurate || loss.worst() <= TOLERABLE).collect()
+}
+
+/// Which programs keep the digits: at every state not much more is lost than by the best there. Where each of them loses somewhere what another
+/// keeps, those that come closest, within the same factor.
+fn accurate(losses: &[Loss]) -> Vec<bool> {
+    let states = losses.first().map_or(0, |loss| loss.0.len());
+    let least = |state: usize| losses.iter().map(|loss| loss.0[state]).fold(f64::INFINITY, f64::min);
+    let allowed: Vec<f64> = (0..states).map(|state| FACTOR * least(state).max(1.0)).collect();
+    let excess = |loss: &Loss| loss.0.iter().zip(&allowed).map(|(loss, allowed)| loss / allowed).fold(0.0, f64::max);
+    let excesses: Vec<f64> = losses.iter().map(excess).collect();
+    let limit = match excesses.iter().copied().fold(f64::INFINITY, f64::min) {
+        least if least <= 1.0 => 1.0,
+        least => FACTOR * least,
+    };
+    excesses.into_iter().map(|excess| excess <= limit).collect()
+}
+
+/// The loss from which on a form is no reference.
+const UNSURE: f64 = (1_u64 << 30) as f64;
+
+fn define_in<'g, N: Number>(values: &mut Map<u32, N>, constants: &[(Expr<'g>, Expr<'g>)]) {
+    let mut evaluation = Evaluation::new(values);
+    let known: Vec<_> = constants.iter().map(|(symbol, e)| (symbol.key(), evaluation.value(*e))).collect();
+    values.extend(known);
+}
+
+impl Point {
+    /// By one program, beside what it and others found in double precision; `None` where the function has no value.
+    fn reference(&self, tape: &Tape, found: &[Vec<f64>]) -> Option<Reference> {
+        let values = tape.run(&self.exact, |_| None);
+        let mut squares = vec![0.0; values.len()];
+        for (n, changed) in self.changed.iter().enumerate() {
+            let moved = tape.run(changed, |place| Some(factor(place as u64, n as u64 + CHANGES)));
+            for (square, (moved, value)) in squares.iter_mut().zip(moved.iter().zip(&values)) {
+                let change = (*moved - *value).to_f64() / CHANGE;
+                *square += change * change / CHANGES as f64;
+            }
+        }
+        let sizes = squares.into_iter().zip(&values).map(|(square, value)| value.to_f64().abs() + square.sqrt());
+        let mut sizes: Vec<f64> = sizes.collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        // What vanishes whatever the numbers are has no size of its own, but that of the roundings of the longer numbers.
+        for (k, size) in sizes.iter_mut().enumerate() {
+            let error =
+                found.iter().map(|found| (Doubled::number(found[k]) - values[k]).to_f64().abs()).fold(0.0, f64::max);
+            if *size <= VANISHING * error || *size == 0.0 {
+                *size = largest;
+            }
+        }
+        let units: Vec<f64> = sizes.into_iter().map(|size| f64::EPSILON * size).collect();
+        let there =
+            values.iter().all(|value| value.is_finite()) && units.iter().all(|unit| unit.is_finite() && *unit > 0.0);
+        there.then_some(Reference { values, units })
+    }
+}
+
+impl Reference {
+    fn loss_of(&self, found: &[f64]) -> f64 {
+        let loss = |((found, value), unit): ((&f64, &Doubled), &f64)| {
+            let error = (Doubled::number(*found) - *value).to_f64().abs();
+            if error.is_nan() {
+                f64::INFINITY
+            } else if error == 0.0 {
+                0.0
+            } else {
+                error / unit
+            }
+        };
+        found.iter().zip(&self.values).zip(&self.units).map(loss).fold(0.0, f64::max)
+    }
+}

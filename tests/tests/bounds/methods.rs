@@ -1,0 +1,108 @@
+//! Methods of fixed steps, some steps of each: what they round, and what their coefficients are off by. Methods that
+//! iterate are left out: what is left when they stop is not rounding.
+
+use gauss_runtime::integrate::{
+    CommutatorFree4, Compensated, IncrementStep, MoserVeselov, Problem, Rkmk, Scheme, Splitting, State, SystemProblem,
+};
+use gauss_runtime::prelude::*;
+use gauss_tests::double_double::DoubleDouble;
+
+use crate::common::Bounded;
+use crate::compare::{Excess, Random, run};
+
+/// Forces that grow with time: what a step adds depends on its coefficients alone, and little else is rounded.
+#[derive(GaussDynamics)]
+#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), potential = -m * x * t)]
+struct Pull<T> {
+    m: T,
+}
+
+#[derive(GaussDynamics)]
+#[gauss(motion = fixed_point, chart = left_invariant)]
+struct Top<T> {
+    #[gauss(mass)]
+    mass: T,
+    #[gauss(center_of_mass)]
+    center: Vector3<T>,
+    #[gauss(inertia)]
+    inertia: Vector3<T>,
+    #[gauss(gravity)]
+    g: T,
+}
+
+fn pull<T: Real>() -> PullKernel<T> {
+    Pull { m: T::one() }.kernel().expect("a system")
+}
+
+fn top<T: Real>() -> TopKernel<T> {
+    let vector = |v: [f64; 3]| Vector3::from(v.map(T::from_f64));
+    let (mass, g) = (T::from_f64(1.5), T::from_f64(9.81));
+    Top { mass, center: vector([0.1, -0.2, 0.4]), inertia: vector([0.9, 1.1, 0.7]), g }.kernel().expect("a top")
+}
+
+/// Steps of powers of two and of any length, from states of both kinds.
+macro_rules! explore {
+    ($kernel:ident, $q:expr, $speeds:literal, $method:literal, |$of:pat_param, $h:pat_param| $control:expr) => {{
+        let (plain, wide) = ($kernel::<Bounded>(), $kernel::<DoubleDouble>());
+        let (mut excess, mut random) = (Excess::default(), Random(19));
+        let what = concat!(stringify!($kernel), ", ", $method);
+        for k in 0..100 {
+            let (step, z) = match k % 2 {
+                0 => (0.5_f64.powi(k / 2 % 9 + 3), [0.5; $speeds]),
+                _ => (random.decades(-3.0, -1.0), std::array::from_fn(|_| random.next())),
+            };
+            let found = run(&plain, (&$q, &z), step, |$h| {
+                let $of = &plain;
+                $control
+            });
+            let exact = run(&wide, (&$q, &z), step, |$h| {
+                let $of = &wide;
+                $control
+            });
+            excess.check(what, &found, &exact);
+        }
+        excess.report(what);
+    }};
+}
+
+const UPRIGHT: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
+#[test]
+fn explicit_methods() {
+    explore!(pull, [0.0], 1, "RK4", |_, h| Fixed::with(&Tableau::RK4, h));
+    explore!(pull, [0.0], 1, "RK4, compensated", |_, h| Compensated::with(&Tableau::RK4, h));
+    explore!(pull, [0.0], 1, "order 8, compensated", |_, h| Compensated::with(&Tableau::DORMAND_PRINCE_8, h));
+    explore!(pull, [0.0], 1, "commutator-free", |_, h| Fixed::by(CommutatorFree4, h));
+    explore!(top, UPRIGHT, 3, "RK4", |_, h| Fixed::with(&Tableau::RK4, h));
+    explore!(top, UPRIGHT, 3, "RK4, compensated", |_, h| Compensated::with(&Tableau::RK4, h));
+    explore!(top, UPRIGHT, 3, "commutator-free", |_, h| Fixed::by(CommutatorFree4, h));
+}
+
+#[test]
+fn splitting() {
+    explore!(top, UPRIGHT, 3, "splitting", |of, h| {
+        let body = Splitting::with(of, Scheme::BLANES_MOAN_4, MoserVeselov::new).expect("a body in its own axes");
+        Fixed::by(body, h)
+    });
+}
+
+/// A step alone, before it is added to the state: of stages 0, h/2, h/2, h nothing is rounded but the coefficients and
+/// their sum.
+#[test]
+fn increments() {
+    fn increment<T: Real>(step: f64) -> Vec<T> {
+        let (kernel, h) = (pull::<T>(), T::from_f64(step));
+        let problem = SystemProblem::new(&kernel);
+        let state = State { t: T::zero(), q: SVector::from([T::zero()]), y: SVector::from([T::zero()]) };
+        let rates = problem.rates(&state);
+        let step = Rkmk::new(&Tableau::RK4).increment(&problem, &state, &rates, h).expect("a step");
+        vec![step.configuration[0], step.variables[0]]
+    }
+    let mut excess = Excess::default();
+    for k in 1..20 {
+        for step in [1.0, 3.0, 5.0, 0.7].map(|m| m * 0.5_f64.powi(k)) {
+            excess.check("increment", &increment(step), &increment(step));
+        }
+    }
+    excess.report("increments");
+}
