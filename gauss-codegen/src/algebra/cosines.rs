@@ -1,8 +1,8 @@
 //! Normal forms with squares of cosines in the place of `1 − sin²`, whose digits cancel near quarter turns.
 
+use super::function::Function;
 use super::graph::{Expr, Graph, NodeView};
 use super::map::Map;
-use super::function::Function;
 use super::node::{Id, Node};
 use super::polynomial::{Monomial, Polynomial};
 use super::rational::Rational;

@@ -138,6 +138,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         ScalarTokens {
             scalar: self.item().scalar,
             real: quote!(#private::Real),
+            apart: quote!(#private::apart),
             functions: &self.subject.model.functions,
         }
     }

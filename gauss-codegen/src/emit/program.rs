@@ -14,6 +14,8 @@ pub struct ScalarTokens<'a> {
     pub scalar: &'a Scalar,
     /// `::gauss_runtime::real::Real`.
     pub real: TokenStream,
+    /// `::gauss_runtime::__private::apart`.
+    pub apart: TokenStream,
     /// Functions of the user's own.
     pub functions: &'a [FunctionClause],
 }
@@ -109,6 +111,12 @@ pub fn operand(operand: &Operand<'_>, symbols: &Map<u32, TokenStream>, scalar: &
 /// their stacks. Longer programs are written in blocks that hand on what later ones need.
 const BLOCK: usize = 256;
 
+/// Instructions up to which a program is one function for the compiler, whose time grows faster than the function does.
+const WHOLE: usize = 16_384;
+
+/// Instructions of each function that a longer program is split into.
+const PART: usize = 8 * BLOCK;
+
 /// The statements of a program, and its outputs as expressions. `symbols` says how each symbol is written.
 pub fn statements(
     program: &Program<'_>,
@@ -138,7 +146,7 @@ pub fn statements_kept<'g>(
     let instructions = program.instructions.iter().enumerate();
     let written = instructions.map(|(k, instruction)| statement(k, instruction, read[k], symbols, scalar));
     (
-        in_blocks(handed_on(program, kept).into_iter().zip(written).collect()),
+        in_functions(program, kept, written.collect(), scalar),
         program.outputs.iter().map(|output| operand(output, symbols, scalar)).collect(),
     )
 }
@@ -212,12 +220,12 @@ fn pairs_read(program: &Program<'_>, kept: Kept) -> Vec<[bool; 2]> {
 }
 
 /// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.
-fn handed_on(program: &Program<'_>, kept: Kept) -> Vec<Vec<TokenStream>> {
+fn handed_on(program: &Program<'_>, kept: Kept, size: usize) -> Vec<Vec<TokenStream>> {
     // Values, sines and cosines by the index of their instruction.
     let mut read = vec![BTreeSet::new(); program.instructions.len()];
     let mut note = |operand: Operand<'_>, reader: usize| {
         if let Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) = operand
-            && k / BLOCK < reader
+            && k / size < reader
         {
             let kind = match operand {
                 Operand::Sine(_) => 1,
@@ -228,7 +236,7 @@ fn handed_on(program: &Program<'_>, kept: Kept) -> Vec<Vec<TokenStream>> {
         }
     };
     for (k, instruction) in program.instructions.iter().enumerate() {
-        instruction.operands().for_each(|operand| note(operand, k / BLOCK));
+        instruction.operands().for_each(|operand| note(operand, k / size));
         if kept == Kept::Everything {
             match instruction {
                 Operation::SineCosine(_) => [Operand::Sine(k), Operand::Cosine(k)].map(|o| note(o, usize::MAX)),
@@ -246,6 +254,27 @@ fn handed_on(program: &Program<'_>, kept: Kept) -> Vec<Vec<TokenStream>> {
         kinds.into_iter().map(name).collect()
     };
     read.into_iter().enumerate().map(named).collect()
+}
+
+/// Statements in blocks; of long programs in functions, each with some blocks, which the compiler does not put together again.
+fn in_functions(
+    program: &Program<'_>,
+    kept: Kept,
+    written: Vec<TokenStream>,
+    ScalarTokens { apart, .. }: &ScalarTokens<'_>,
+) -> TokenStream {
+    let mut statements: Vec<_> = handed_on(program, kept, BLOCK).into_iter().zip(written).collect();
+    if statements.len() <= WHOLE {
+        return in_blocks(statements);
+    }
+    let handed_on = handed_on(program, kept, PART);
+    let parts = handed_on.chunks(PART).map(|names| {
+        let names: Vec<_> = names.iter().flatten().collect();
+        let rest = statements.split_off(PART.min(statements.len()));
+        let part = in_blocks(std::mem::replace(&mut statements, rest));
+        quote!(let (#(#names,)*) = #apart(|| { #part (#(#names,)*) });)
+    });
+    parts.collect()
 }
 
 /// Statements, each with the names that are read behind its block: one after the other, or block by block where there are many.

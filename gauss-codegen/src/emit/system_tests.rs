@@ -102,6 +102,27 @@ fn multipliers_of_a_pendulum_in_cartesian_coordinates() {
     insta::assert_snapshot!(function(ROD, "multipliers"));
 }
 
+/// The compiler's time grows faster than a function does. Short ones are one function as ever.
+#[test]
+fn long_programs_are_split_into_functions() {
+    let chain = |count: usize| {
+        let listed = |entry: &dyn Fn(usize) -> String| (0..count).map(entry).collect::<Vec<_>>().join(", ");
+        let body = |k: usize| {
+            let parent = if k > 0 { format!("parent = b{}, position = [l, 0, 0], ", k - 1) } else { String::new() };
+            format!("body(b{k}, {parent}rotation = rotation_{}(q{k}))", ["x", "y", "z"][k % 3])
+        };
+        format!(
+            "#[gauss(linearize, limit = 1000000, coordinates({}), {})] struct Chain {{ {}, l: f64 }}",
+            listed(&|k| format!("q{k}")),
+            listed(&body),
+            listed(&|k| format!("#[gauss(body)] b{k}: RigidBody<f64>")),
+        )
+    };
+    let parts = |count: usize| generate(&chain(count)).to_string().matches(":: apart").count();
+    assert_eq!(parts(4), 0);
+    assert!(parts(13) > 4);
+}
+
 /// Weight is an element like others.
 #[test]
 fn a_system_under_gravity_alone_has_powers() {

@@ -126,7 +126,12 @@ fn acceleration_of_a_body_of_literals() {
 
 #[test]
 fn literals_read_back_as_what_they_are() {
-    let scalar = |scalar: &'static Scalar| ScalarTokens { scalar, real: TokenStream::new(), functions: &[] };
+    let scalar = |scalar: &'static Scalar| ScalarTokens {
+        scalar,
+        real: TokenStream::new(),
+        apart: TokenStream::new(),
+        functions: &[],
+    };
     // Steps of an odd number run through exponents and mantissas alike.
     let bits = (0..10_000_u64).map(|k| k.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     for value in bits.map(f64::from_bits).filter(|value| value.is_finite()) {

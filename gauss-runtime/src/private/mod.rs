@@ -35,6 +35,12 @@ pub use poses::{
 pub use samples::{sample_time, samples};
 pub use warnings::WarningCheck;
 
+/// A part of a long program, as a function of its own: compilers take longer than in proportion for longer ones.
+#[inline(never)]
+pub fn apart<R>(part: impl FnOnce() -> R) -> R {
+    part()
+}
+
 #[cfg(test)]
 mod tests {
     /// The derive makes the name from its own version, which is that of this crate: both are pinned to each other.
