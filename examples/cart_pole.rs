@@ -75,13 +75,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("push = −K (x, θ, ẋ, θ̇), K ={gains:.3}");
     let residual = (a.transpose() * p + p * a - p * b * b.transpose() * p / r + q).amax();
 
-    let law = |_: f64, q: &SVector<f64, 2>, z: &SVector<f64, 2>| -gains * State::new(q[0], q[1], z[0], z[1]);
+    let law = |_: f64, q: &_, z: &_| {
+        let CartPoleState { x, theta, x_dot, theta_dot } = CartPoleState::of(q, z);
+        -gains * State::new(x, theta, x_dot, theta_dot)
+    };
     let simulation = Simulation::new(&kernel).input(law);
     println!("    t/s     x/m  θ/rad   push/N");
-    let fall = simulation.adaptive(1e-9, 1e-9).run(upright + SVector::from([0.0, 0.6]), still, 0.0..8.0)?;
+    let tilted = CartPoleState { theta: 0.6, ..CartPoleState::default() };
+    let fall = simulation.adaptive(1e-9, 1e-9).run(tilted.q(), tilted.z(), 0.0..8.0)?;
     for n in 0..=8 {
         let s = fall.at(f64::from(n)).expect("inside the run");
-        println!("  {:5.1} {:7.3} {:6.3} {:8.3}", s.t, s.q[0], s.q[1], law(s.t, &s.q, &s.z)[0]);
+        let CartPoleState { x, theta, .. } = CartPoleState::of(&s.q, &s.z);
+        println!("  {:5.1} {x:7.3} {theta:6.3} {:8.3}", s.t, law(s.t, &s.q, &s.z)[0]);
     }
 
     // Near upright a disturbance x costs xᵀPx in the end: a check of derivatives, regulator and run together. What the linear

@@ -45,9 +45,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{}\n", RollingDiskKernel::EQUATIONS);
 
     // What one would type: the height and the velocities do not fit together to the last digit, nor need they.
-    let typed = (SVector::from([0.0, 0.0, 0.28, 0.0, 1.2, 0.0]), SVector::from([1.2, 0.0, 0.0, -0.8, 0.0, -3.7]));
-    let (q, z) = kernel.project(0.0, &typed.0, &typed.1)?;
-    println!("the nearest state that rolls: height {:.6} m, speed {:.6} m/s, spin {:.6} rad/s\n", q[2], z[0], z[5]);
+    let typed = RollingDiskState {
+        z: 0.28,
+        lean: 1.2,
+        x_dot: 1.2,
+        heading_dot: -0.8,
+        spin_dot: -3.7,
+        ..RollingDiskState::default()
+    };
+    let (q, z) = kernel.project(0.0, &typed.q(), &typed.z())?;
+    let RollingDiskState { z: height, x_dot: speed, spin_dot: spin, .. } = RollingDiskState::of(&q, &z);
+    println!("the nearest state that rolls: height {height:.6} m, speed {speed:.6} m/s, spin {spin:.6} rad/s\n");
 
     let path = Simulation::new(&kernel).adaptive(1e-10, 1e-10).run(q, z, 0.0..12.0)?;
     let (mut off, mut friction, mut lightest) = (0.0_f64, 0.0_f64, f64::INFINITY);
@@ -63,8 +71,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for n in 0..=12 {
         let s = path.at(f64::from(n)).expect("inside the run");
         let [along, across, normal] = kernel.multipliers(s.t, &s.q, &s.z, &()).into();
-        let lean = s.q[4].to_degrees();
-        println!("{:6.1} {:8.3} {:8.3} {lean:8.2} {along:9.3} {across:9.3} {normal:9.3}", s.t, s.q[0], s.q[1]);
+        let RollingDiskState { x, y, lean, .. } = RollingDiskState::of(&s.q, &s.z);
+        let lean = lean.to_degrees();
+        println!("{:6.1} {x:8.3} {y:8.3} {lean:8.2} {along:9.3} {across:9.3} {normal:9.3}", s.t);
     }
     println!(
         "\nit rolls while the coefficient of friction is above {friction:.3}; the floor carries {lightest:.3} of its weight at least"
@@ -76,8 +85,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hoops: Vec<Hoop> = (0..=1200)
         .map(|n| {
             let s = path.at(0.01 * f64::from(n)).expect("inside the run");
-            let rotation = turn(Vector3::z_axis(), s.q[3]) * turn(Vector3::x_axis(), s.q[4]);
-            Hoop { centre: Vector3::new(s.q[0], s.q[1], s.q[2]), rotation, radius: RADIUS }
+            let RollingDiskState { x, y, z, heading, lean, .. } = RollingDiskState::of(&s.q, &s.z);
+            let rotation = turn(Vector3::z_axis(), heading) * turn(Vector3::x_axis(), lean);
+            Hoop { centre: Vector3::new(x, y, z), rotation, radius: RADIUS }
         })
         .collect();
     let svg = draw(

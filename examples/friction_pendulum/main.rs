@@ -9,7 +9,7 @@ mod scene;
 use gauss_examples::plots::write;
 use gauss_runtime::prelude::*;
 
-use scene::{Pendulum, PendulumKernel, Slider};
+use scene::{Pendulum, PendulumKernel, PendulumState, Slider};
 
 /// Length of the run of the pendulum, s.
 const DURATION: f64 = 12.0;
@@ -19,7 +19,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let kernel = pendulum.kernel()?;
     println!("A rod with dry friction at its pivot, a spiral spring and a buffer at −0.5 rad, let go at 1.6 rad:\n");
     let run = Simulation::new(&kernel).adaptive(1e-10, 1e-12).largest_step(0.01);
-    let path = run.run(SVector::from([1.6]), SVector::from([0.0]), 0.0..DURATION)?;
+    let start = PendulumState { theta: 1.6, ..PendulumState::default() };
+    let path = run.run(start.q(), start.z(), 0.0..DURATION)?;
 
     println!("what each element delivered in {DURATION} s, mJ:");
     for (element, work) in PendulumKernel::ELEMENTS.iter().zip(works(&kernel, &path)) {

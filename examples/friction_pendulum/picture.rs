@@ -52,8 +52,13 @@ pub fn draw(
     let power = |name: &str| {
         of_path(&|s| kernel.power(name, s.t, &s.q, &s.z, &()).map_or(f64::NAN, |power| power.max(LEAST_POWER)))
     };
+    // What friction does not take, the damper of the buffer does.
+    let damping = of_path(&|s| {
+        let friction = kernel.power("friction", s.t, &s.q, &s.z, &()).unwrap_or(f64::NAN);
+        (kernel.supplied_power(s.t, &s.q, &s.z, &()) - friction).max(LEAST_POWER)
+    });
     let losses = vec![
-        Line::new("damping of the buffer", COLOURS[1], power("buffer damping")).wide(3),
+        Line::new("damping of the buffer", COLOURS[1], damping).wide(3),
         Line::new("friction", COLOURS[0], power("friction")).wide(3),
     ];
     let powers = plot("Power (peaks of the buffer are cut off)", "W", LEAST_POWER..0.05, losses);

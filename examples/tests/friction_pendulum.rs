@@ -7,8 +7,8 @@ use gauss_runtime::prelude::*;
 
 use scene::{Pendulum, Slider};
 
-/// The torques of gravity, spiral, buffer, its damping and friction, N m: a uniform rod hangs at rest, angles from there.
-fn torques(p: &Pendulum, theta: f64, speed: f64) -> [f64; 5] {
+/// The torques of gravity, spiral, buffer with its damping, and friction, N m: a uniform rod hangs at rest, angles from there.
+fn torques(p: &Pendulum, theta: f64, speed: f64) -> [f64; 4] {
     let lever = -p.rod.center_of_mass.z;
     let beyond = p.limit - theta;
     let root = (beyond * beyond + p.soft * p.soft).sqrt();
@@ -17,8 +17,7 @@ fn torques(p: &Pendulum, theta: f64, speed: f64) -> [f64; 5] {
     [
         -p.rod.mass * p.g * lever * theta.sin(),
         -p.spiral * (theta - p.relaxed),
-        p.rubber * pressed * slope,
-        -p.loss * slope * slope * speed,
+        p.rubber * pressed * slope - p.loss * slope * slope * speed,
         -p.dry * speed / (speed * speed + p.creep * p.creep).sqrt(),
     ]
 }
@@ -54,7 +53,7 @@ fn the_forces_are_those_of_the_textbook() {
             let size: f64 =
                 expected.iter().map(|torque| torque.abs()).sum::<f64>() + pendulum.rubber * theta.abs().max(1.0);
             let rounding = 12.0 * f64::EPSILON * size;
-            let names = ["gravity", "spiral", "buffer", "buffer damping", "friction"];
+            let names = ["gravity", "spiral", "buffer", "friction"];
             for (name, torque) in names.into_iter().zip(expected) {
                 let found = kernel.generalised_force(name, 0.0, &q, &z, &()).unwrap()[0];
                 assert!((found - torque).abs() <= rounding, "{name} at {theta}, {speed}: {found} and {torque}");

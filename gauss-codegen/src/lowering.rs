@@ -5,7 +5,7 @@ use crate::algebra::{Expr, Graph, Rational};
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
 use crate::mechanics::{Formula, Method};
-use crate::mistakes::{bug, refuse_regressor, refuse_series, refuse_too_much};
+use crate::mistakes::{bug, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives};
 use crate::model::{Model, Scalar};
 use crate::translate::Translator;
 
@@ -22,6 +22,10 @@ pub fn lower<'g>(
     translator: &Translator<'_, 'g>,
     formulation: &Formulation<'g>,
 ) -> syn::Result<Kernel<'g>> {
+    let undefined = || bug(&model.ident, &"the equations divide by zero");
+    if graph.is_undefined() {
+        return Err(undefined());
+    }
     let Formulation { formulas, linearization, regressor, .. } = formulation;
     let functions: Vec<_> = formulas.iter().map(candidates).collect();
     let parameters: Vec<Expr<'g>> = formulation.parameters.iter().map(|parameter| parameter.symbol).collect();
@@ -39,8 +43,9 @@ pub fn lower<'g>(
     let kernel = Kernel::lower(graph, &functions, &joined, &formulation.definitions, &wanted, known, &mut trial)
         .map_err(|error| bug(&model.ident, &error))?;
     if graph.is_undefined() {
-        return Err(bug(&model.ident, &"the equations divide by zero"));
+        return Err(undefined());
     }
+    refuse_unknown_derivatives(model, &kernel)?;
     refuse_too_much(model, &kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), regressor.as_ref(), &kernel)?;
     refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), formulas, &kernel)?;

@@ -4,12 +4,13 @@ use std::fmt::Display;
 
 use proc_macro2::{Ident, Span};
 
-use crate::algebra::Graph;
+use crate::algebra::{Function, Graph};
 use crate::kernel::Kernel;
 use crate::mechanics::{
     Coordinate, Elimination, Formula, Method, Obstacle, Regressor, System, SystemFault, SystemScene,
 };
-use crate::model::Model;
+use crate::model::{FunctionKind, Model, SpeedPart};
+use crate::program::Instruction;
 use crate::translate::Translator;
 
 /// Operations up to which code is generated unless the user says otherwise: some seconds of the compiler's time.
@@ -75,6 +76,32 @@ pub fn refuse_idle_speeds(model: &Model, translator: &Translator<'_, '_>, system
             span,
             format!("no velocity depends on `{name}`: its row of the mass matrix is zero; give what it moves a mass, or leave it out"),
         );
+    }
+    mistakes.finish()
+}
+
+/// Derivatives of functions of the user's own that no clause says.
+pub fn refuse_unknown_derivatives(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
+    let mut mistakes = Mistakes::default();
+    for (index, clause) in model.functions.iter().enumerate() {
+        let programs = kernel.functions.iter().chain(kernel.derivatives().flatten()).chain([&kernel.constants]);
+        let orders = programs.flat_map(|program| &program.instructions).filter_map(|instruction| match instruction {
+            Instruction::Call(Function::Own(own), _) if usize::from(own.index) == index => Some(own.order),
+            _ => None,
+        });
+        let (needed, known) = (orders.max().unwrap_or(0), clause.kind.derivatives());
+        if needed <= known {
+            continue;
+        }
+        let name = &clause.name;
+        let word = ["derivative", "second", "third"].get(usize::from(known)).copied();
+        let ordinal = ["value", "first", "second", "third"].get(usize::from(needed)).unwrap_or(&"fourth");
+        let remedy = match (&clause.kind, word) {
+            (FunctionKind::Rust(_), Some(word)) => format!("add `{word} = …` to `function({name}, …)`"),
+            (FunctionKind::Linear(_), _) => "write `kind = cubic`".to_owned(),
+            _ => "write a force in the place of a potential, or a law that is differentiated less often".to_owned(),
+        };
+        mistakes.push(name.span(), format!("the equations need the {ordinal} derivative of `{name}`; {remedy}"));
     }
     mistakes.finish()
 }
@@ -145,13 +172,13 @@ pub fn eliminate<'g>(
     model: &Model,
     translator: &Translator<'_, 'g>,
     whole: System<'g>,
-    independent: &[Ident],
+    independent: &[SpeedPart],
 ) -> syn::Result<Elimination<'g>> {
     let kept = translator.indices_of_speeds(independent);
     let clauses: Vec<Span> =
         whole.scene.constraints.iter().map(|c| model.constraints[c.clause].expression.span).collect();
     let (total, count) = (whole.scene.speeds.len(), clauses.len());
-    let named = independent.first().map_or(model.ident.span(), Ident::span);
+    let named = independent.first().map_or(model.ident.span(), |speed| speed.ident.span());
     Elimination::new(whole, &kept).map_err(|obstacle| match obstacle {
         Obstacle::NotAffine(k) => syn::Error::new(
             clauses[k],

@@ -108,3 +108,19 @@ fn a_function_in_c() {
 fn a_header_in_c() {
     insta::assert_snapshot!(targets::c::declarations(&derivation("Rod")));
 }
+
+/// Functions of the user's own are declared, and whoever links the code provides them.
+#[test]
+fn functions_to_be_provided() {
+    let source = "#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), potential = liftCurve(x), \
+                  function(liftCurve = aero::lift, derivative = aero::slope))] struct Wing { m: f64 }";
+    let wing = Derivation::of_source(source, "Wing").expect("a scene");
+    let code = targets::c::source(&wing);
+    assert!(code.contains("double lift_curve(double x);\ndouble lift_curve_1(double x);\n"), "{code}");
+    assert!(wing.program("acceleration").expect("it").to_string().contains("liftCurve'(x)"));
+    // The interpreter does not know them.
+    let energy = wing.program("potential_energy").expect("it");
+    let arguments: Vec<Vec<f64>> = energy.arguments.iter().map(|a| vec![0.5; a.components.len()]).collect();
+    let lists: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
+    assert!(energy.run(&lists).expect("its arguments")[0].is_nan());
+}

@@ -78,6 +78,7 @@ impl Scalar for Dual {
             Function::Ln => 1.0 / self.value,
             Function::Sqrt => 0.5 / value,
             Function::Abs => self.value.signum(),
+            Function::Tanh => 1.0 - value * value,
             _ => 0.0,
         };
         dual(value, self.slope * slope)
@@ -89,6 +90,10 @@ impl Scalar for Dual {
                 let (y, x) = (self, other);
                 let square = x.value * x.value + y.value * y.value;
                 dual(y.value.atan2(x.value), (y.slope * x.value - x.slope * y.value) / square)
+            }
+            BinaryFunction::Powf => {
+                let (x, p, power) = (self.value, other.value, self.value.powf(other.value));
+                dual(power, self.slope * p * x.powf(p - 1.0) + other.slope * power * x.ln())
             }
             BinaryFunction::Min if other.value < self.value => other,
             BinaryFunction::Max if other.value > self.value => other,

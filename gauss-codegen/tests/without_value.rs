@@ -70,7 +70,7 @@ fn beyond_double_precision() {
 
 #[test]
 fn powers_of_many_factors() {
-    let factors = "powers become products, of 100 factors at most; write `exp` and `ln`";
+    let factors = "powers become products, of 100 factors at most; write `powf`";
     check(&scene("potential = h * powi(x, 2147483647)"), &[("2147483647", factors)]);
 }
 

@@ -4,8 +4,8 @@
 
 #![warn(missing_docs)]
 
-/// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()` and the
-/// `NameKernel` that implements `GaussSystem` and `RigidBodySystem`.
+/// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()`, the `NameKernel` that
+/// implements `GaussSystem` and `RigidBodySystem`, `Name::warnings()`, and `NameState`: coordinates and speeds by name.
 ///
 /// # The struct: `#[gauss(…)]`
 ///
@@ -54,6 +54,33 @@
 ///
 /// Jet charts have `SVector`s as configurations. `euler_zyx` is R = R_z(ψ) R_y(θ) R_x(φ), with angles (ψ, θ, φ), and so on.
 ///
+/// # States by name
+///
+/// Of a system the configuration is made of its elements of groups in the order in which they are declared, then of one `SVector` of
+/// all its scalars: `A`, `(A, B)`, `(A, (B, C))`. Nobody needs to count: `NameState` has a field for every coordinate and every speed,
+/// vectors as `Vector3`.
+///
+/// ```text
+/// let start = SpacecraftState { angle: 0.3, spin: 2.0, ..Default::default() }; // the rest at the origin, at rest
+/// simulation.run(start.q(), start.z(), 0.0..10.0)?;
+/// let motor = |_t: f64, q: &_, z: &_| SVector::from([-k * SpacecraftState::of(q, z).angle]);
+/// ```
+///
+/// Without `speeds` the speeds are called after their coordinates: `angle_dot` of a scalar, `craft_u` and `craft_omega` of a pose,
+/// `attitude_omega` of a rotation. Charts have `pose` (`rotation` about a fixed point) and `u`, `xi` or `b_dot` with `omega`; jet charts
+/// `b1`, `psi` …, `b1_dot`, `psi_dot` …. Of a vector of which `independent` keeps a component that is called `w_x`.
+///
+/// # What kernels refuse, and warnings
+///
+/// `kernel()` refuses what no body, spring or stop has: numbers that are not finite; masses, moments of inertia, displaced masses and
+/// stiffness below zero; inertias that are not symmetric, or break the triangle inequality; stops without width or with exchanged
+/// limits. Bodies that others move with can be without mass or without some moment (rotors, forks, rods, plates) as long as the sum is
+/// regular. Of a body that turns about one axis alone the other moments may be all zero, for "not stated". `waive(triangle_inequality)`
+/// waives that rule for all bodies, `waive(triangle_inequality = arm)` for one.
+///
+/// `warnings()` says what is likely not meant: drag and damping that feed energy, a `gravity` below zero, a center that pushes away,
+/// added mass with the sign of the derivatives X_u̇ … N_ṙ. `for warning in body.warnings() { println!("{warning}") }`.
+///
 /// # Systems
 ///
 /// Any of these clauses but `point` and `limit` makes a system, as does a field that is a body; its kernel implements
@@ -73,13 +100,15 @@
 /// |---|---|
 /// | `coordinates(x, theta, pose: Pose, attitude: Rotation)` | the configuration: scalars, elements of SE(3) and of SO(3) |
 /// | `speeds(v, u: Vector3)` and `kinematics(x = v, pose = twist(u, w), attitude = w)` | quasi-velocities z with q̇ = ψ(t, q, z), affine in z; a `Vector3` is three of them, `u.x` or `u[0]` and so on. A pose changes by its twist in body axes, pole O, a rotation by ω in body axes. Without speeds these rates are the z |
+/// | `body(name, pose = craft)` | short for `position = craft.position, rotation = craft.rotation` |
 /// | `body(position = […], rotation = …)` | the only body, where there is no chart; its mass data from the roles above |
 /// | `body(name, parent = other, position = […], rotation = …)` | one of several; mass data from a field `#[gauss(body)] name: RigidBody<f64>`, or from the clause: `mass = m, center_of_mass = [0, 0, l], inertia = [a, a, c]` (about O, or `inertia_about_center_of_mass`); a field made by `RigidBody::about_center_of_mass` is `RigidBody<f64, AboutCenterOfMass<f64>>`, behind an alias `#[gauss(body = about_center_of_mass)]`; from the clause what the fluid does: `added_mass = x, displaced_mass = m, center_of_buoyancy = […]`, as above; position and rotation relative to the parent, a body or a frame |
 /// | `frame(name, parent = other, position = […], rotation = …)` | a body without mass |
 /// | `particle(mass = m, position = […], parent = other)` | a point with mass; the position in observer's axes from Ω, or in the axes of the parent from its O |
 /// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |
 /// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once |
-/// | `independent(v, w)` | the speeds that stay when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
+/// | `independent(v, w.x)` | the speeds that stay, or components of them, when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
+/// | `waive(triangle_inequality)` | see above |
 /// | `limit = 50000` | the most operations that the generated code may have, also of one body |
 ///
 /// # What acts
@@ -100,25 +129,28 @@
 /// | `wrench(name, body = other, at = […], force = […], torque = […], axes = body)` | a force, a torque or both; place and axes as above |
 /// | `drag(name, body = other, linear = d, quadratic = e)` | −D V − Q (\|V\| V), with V = (u, ω) relative to the medium, body axes, pole O, \|V\| V component by component: coefficients are a list of six scalars, which can depend on what forces depend on, or a field `Vector6` (diagonal) or `Matrix6`. One of the two or both |
 /// | `drive(name, theta = expr, x = expr)` | generalised forces on scalar coordinates, each of the power `expr` · dθ/dt |
-/// | `spring(name, from = …, to = …, stiffness = k, length = l, damping = c)` | a spring with a damper between two points, observer's axes from Ω; `length`, at which it is without force, and `damping` are 0 by default |
+/// | `spring(name, from = …, to = …, stiffness = k, length = l, damping = c)` | a spring with a damper between two points, observer's axes from Ω; `length`, at which it is without force, and `damping` are 0 by default. It is one element: its power is that of both |
 /// | `spring(name, along = theta, stiffness = k, length = l, damping = c)` | the same along any scalar of coordinates and time, such as the angle of a joint |
-/// | `stop(name, along = theta, least = a, most = b, stiffness = k, width = e, damping = c)`, `stop(name, from = …, to = …, …)` | pushes back what leaves the limits, of which one is enough, and sets in smoothly over `width` |
+/// | `stop(name, along = theta, least = a, most = b, stiffness = k, width = e, damping = c)`, `stop(name, from = …, to = …, …)` | pushes back what leaves the limits, of which one is enough, by k s²/√(x² + e²) with s = (x + √(x² + e²))/2 and x the distance beyond the limit: k x far beyond it. It sets in before: ¼ k e at the limit, 0.03 k e at −e, k e⁴/16\|x\|³ far before; all of it is smooth, so that power series and large steps go through |
 /// | `damping = expr` | Rayleigh's dissipation function: its negative partial derivatives by z are generalised forces |
 /// | `point(name, body = other, at = […])` | as above |
+/// | `function(lift, derivative = lift_slope, second = …)`, `function(lift = aero::lift, derivative = …)` | a smooth function of one number, `lift(x)` in expressions, that is written in Rust: `fn(f64) -> f64`, of a generic scalar `fn<T: Real>(T) -> T`. The derivative is needed in potentials, constraints and `linearize`, where the second may be |
+/// | `table(lift, points = LIFT, kind = linear)` | the same through the points of `const LIFT: [[f64; 2]; N] = [[x, y], …]`, x increasing: joined by straight lines, which is the default and stands where `abs` may, or `kind = cubic` by the natural spline, which has two continuous derivatives. Beyond the ends both go on straight |
 ///
 /// What acts can have a name, which no expression uses.
 ///
 /// # Expressions
 ///
-/// Rust arithmetic on coordinates, speeds, fields, definitions and the time `t`, with `sin cos tan atan2 exp ln sqrt hypot powi
-/// dot cross` and the rotations `rotation_x rotation_y rotation_z inverse`, which are joined by `*` and turn vectors by `*`. A
-/// coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and `pose.rotation`. Components are `v.x` or
-/// `v[0]`.
+/// Rust arithmetic on coordinates, speeds, fields, definitions, `pi` and the time `t`, with `sin cos tan asin acos atan atan2 tanh exp
+/// ln sqrt hypot powi powf dot cross`, functions that clauses declare, and the rotations `rotation_x rotation_y rotation_z inverse`,
+/// which are joined by `*` and turn vectors by `*`. A coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and
+/// `pose.rotation`. Components are `v.x` or `v[0]`. The exponent of `powi` is an integer literal, that of `powf` is made of numbers and
+/// fields, and its base is not negative. A `rotation_z(pi / 2)` is exact.
 ///
 /// | where | what else |
 /// |---|---|
 /// | particles without a parent, potentials, constraints, points of forces, springs, stops | points, which are position vectors; of bodies and frames `arm.position` (of O) and `arm.rotation`, all from Ω in observer's axes |
-/// | constraints of velocities; values of forces, torques, wrenches and drives; coefficients of drags; `damping` | the same; speeds; `arm.velocity` (of O) and `arm.angular_velocity` in observer's axes; `arm.body_velocity`, `arm.body_angular_velocity` and `arm.relative_velocity` (of O, relative to the medium) in body axes; the time derivative `rate(expr)` of what has no speeds in it |
+/// | constraints of velocities; values of forces, torques, wrenches and drives; coefficients of drags; `damping` | the same; speeds; `arm.velocity` (of O) and `arm.angular_velocity` in observer's axes; `arm.body_velocity`, `arm.body_angular_velocity` and `arm.relative_velocity` (of O, relative to the medium) in body axes; of poses and rotations the same but the last, of points `tip.velocity`; the time derivative `rate(expr)` of what has no speeds in it |
 /// | values of forces, torques, wrenches and drives; coefficients of drags; `damping` | inputs |
 /// | the same without `damping` | `abs min max clamp(x, low, high) signum smooth_step(x, from, to)`, which are not smooth; the last is 0 below `from`, 1 above `to` and 3s² − 2s³ between |
 ///

@@ -25,7 +25,20 @@ pub enum Rule {
         /// Column of the entry, from 0.
         col: usize,
     },
-    /// An inertia tensor is positive definite. The value is its smallest principal moment.
+    /// The stiffness of a spring or a stop is zero or greater.
+    NonNegativeStiffness,
+    /// A stop sets in over a distance that is greater than zero.
+    PositiveWidth,
+    /// The lower limit of a stop, the value, is below its upper one.
+    LimitsInOrder {
+        /// The upper limit.
+        most: f64,
+    },
+    /// Bodies without mass, or without some moment of inertia, move together with others that make up for it. The value is the
+    /// smallest eigenvalue of their mass matrix scaled to a unit diagonal, 0.
+    RegularSum,
+    /// An inertia tensor is positive definite; of a body that others move with, no moment is negative. The value is its smallest
+    /// principal moment.
     PositiveDefiniteInertia,
     /// The moments of inertia about the centre of mass, `I_O − m(|c|² 1 − c cᵀ)`, are positive. The value is the smallest.
     InertiaAboutCenterOfMass,
@@ -93,16 +106,39 @@ impl fmt::Display for Violation {
             Rule::NonNegative => {
                 write!(f, "`{field}` is {value}: it must be 0 or greater; check its sign")
             }
+            Rule::NonNegativeStiffness => write!(
+                f,
+                "`{field}` is {value}: a stiffness is 0 or greater, and pulls back; check its sign, or write what pushes \
+                 away as a `potential`"
+            ),
+            Rule::PositiveWidth => write!(
+                f,
+                "`{field}` is {value}: the width over which a stop sets in must be greater than 0; give a length (an \
+                 angle) that steps of the run resolve"
+            ),
+            Rule::LimitsInOrder { most } => write!(
+                f,
+                "`{field}` is {value}, and the upper limit of the same stop is {most}: the lower limit lies below; \
+                 exchange the two"
+            ),
+            Rule::RegularSum => write!(
+                f,
+                "`{field}` is zero, and nothing that moves with it makes up for that: the mass matrix is singular in \
+                 every configuration; give the body mass or inertia, or take away the speed that nothing resists"
+            ),
             Rule::SymmetricInertia { row, col } => write!(
                 f,
                 "`{field}`: entries ({row}, {col}) and ({col}, {row}) differ by {value}: an inertia tensor is symmetric; \
                  products of inertia enter it twice, with the minus sign"
             ),
-            Rule::PositiveDefiniteInertia => write!(
-                f,
-                "`{field}` has the smallest principal moment {value}: it must be greater than 0; check the diagonal, \
-                 and the sign and size of the products of inertia"
-            ),
+            Rule::PositiveDefiniteInertia => {
+                let rule = if *value < 0.0 { "no body has a negative one" } else { "it must be greater than 0" };
+                write!(
+                    f,
+                    "`{field}` has the smallest principal moment {value}: {rule}; check the diagonal, and the sign and \
+                     size of the products of inertia"
+                )
+            }
             Rule::InertiaAboutCenterOfMass => write!(
                 f,
                 "`{field}` leaves the smallest principal moment {value} about the centre of mass: it must be greater than \
@@ -113,7 +149,8 @@ impl fmt::Display for Violation {
                 write!(
                     f,
                     "`{field}`: the principal moment {value}{about} (axis {axis}) exceeds the sum {sum} of the other two \
-                     by {excess}: no distribution of mass has it; check the moments and their units"
+                     by {excess}: no distribution of mass has it; check the moments and their units, or write \
+                     `waive(triangle_inequality)` if the body is formal"
                 )
             }
             Rule::SymmetricAddedMass { row, col } => write!(
@@ -124,7 +161,8 @@ impl fmt::Display for Violation {
             Rule::PositiveDefiniteKineticMatrix => write!(
                 f,
                 "`{field}` makes the kinetic energy of body and fluid indefinite (smallest scaled eigenvalue {value}): it \
-                 must be positive for every motion; check signs, and that all refers to the pole O"
+                 must be positive for every motion; check signs (added mass is minus the derivatives X_u̇ … N_ṙ), and that all \
+                 refers to the pole O"
             ),
             Rule::ConditionedKineticMatrix { limit } => write!(
                 f,
@@ -153,9 +191,10 @@ impl ParameterError {
     }
 }
 
+/// As `Display`: what `main` and `unwrap` print are the sentences.
 impl fmt::Debug for ParameterError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ParameterError").field("violations", &self.violations()).finish()
+        fmt::Display::fmt(self, f)
     }
 }
 
@@ -203,6 +242,16 @@ pub enum Finding {
         /// Linear or quadratic.
         kind: DragKind,
     },
+    /// The damping of a spring or a stop, a Rayleigh dissipation function delivers energy. The value is the coefficient, or
+    /// what the function is in the state where it was found to be negative.
+    DampingFeedsEnergy,
+    /// A gravity of one number is negative: bodies fall upward. The value is that number.
+    GravityUpward,
+    /// A centre pushes away. The value is its gravitational parameter.
+    CenterRepels,
+    /// A diagonal entry of an added mass is negative, which is the sign of the derivatives X_u̇ … N_ṙ (SNAME 1950). The value is
+    /// that entry.
+    AddedMassOfDerivatives,
 }
 
 /// One finding about one parameter. The kernel works as given.
@@ -232,6 +281,25 @@ impl fmt::Display for ParameterWarning {
                  the symmetric part of `{field}` has the eigenvalue {value}; drag is −Σ_j `{field}`_ij |V_j| V_j; check \
                  its signs"
             ),
+            Finding::DampingFeedsEnergy => write!(
+                f,
+                "damping feeds energy: `{field}` is {value}, and what is damped loses energy where that is positive; check \
+                 its sign"
+            ),
+            Finding::GravityUpward => write!(
+                f,
+                "`{field}` is {value}: a gravity of one number is how fast things fall, so these fall upward; write its \
+                 magnitude, or a vector"
+            ),
+            Finding::CenterRepels => write!(
+                f,
+                "`{field}` is {value}: a center with a negative gravitational parameter pushes away; check its sign"
+            ),
+            Finding::AddedMassOfDerivatives => write!(
+                f,
+                "`{field}` has {value} on its diagonal: in an ideal fluid added mass is 0 or greater there; hydrodynamic \
+                 derivatives X_u̇ … N_ṙ have the opposite sign: give −X_u̇ … −N_ṙ"
+            ),
         }
     }
 }
@@ -258,6 +326,15 @@ impl ParameterWarnings {
     /// The findings in order.
     pub fn iter(&self) -> core::slice::Iter<'_, ParameterWarning> {
         self.as_slice().iter()
+    }
+}
+
+impl IntoIterator for ParameterWarnings {
+    type Item = ParameterWarning;
+    type IntoIter = core::iter::Take<core::array::IntoIter<ParameterWarning, MOST_VIOLATIONS>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.list.items.into_iter().take(self.list.count)
     }
 }
 

@@ -38,7 +38,8 @@ pub trait ForcedSystem: GaussSystem {
         input: &Self::Input,
     ) -> Self::ElementForces;
 
-    /// dE/dt by what acts, E = T + U: the powers of the elements that are not in the potential energy, plus ∂U/∂t.
+    /// dE/dt by what acts, E = T + U: the powers of the elements that are not in the potential energy, and of dampers of springs and
+    /// stops that are, plus ∂U/∂t.
     ///
     /// It is all of dE/dt. Where something is moved as a function of time (a prescribed coordinate, a constraint that depends
     /// on t), whatever moves it does work as well: that is the last element, `guides`, which has no generalised force.
@@ -90,23 +91,35 @@ fn position<S: ForcedSystem + ?Sized>(name: &str) -> Option<usize> {
 pub struct Element {
     /// Its name in the scene, or the name of its kind where it has none.
     pub name: &'static str,
-    /// Whether [`potential_energy`](GaussSystem::potential_energy) counts its work.
+    /// Whether [`potential_energy`](GaussSystem::potential_energy) counts its work; of a spring with a damper, that of the spring.
     pub conservative: bool,
+    /// Whether it is a spring or a stop with a damper, whose power changes the energy.
+    pub damped: bool,
 }
 
 impl Element {
     /// An element from its parts, in the order of the fields.
     #[must_use]
     pub const fn new(name: &'static str, conservative: bool) -> Self {
-        Self { name, conservative }
+        Self { name, conservative, damped: false }
+    }
+
+    /// The same with a damper.
+    #[must_use]
+    pub const fn with_damper(self) -> Self {
+        Self { damped: true, ..self }
     }
 }
 
 impl fmt::Display for Element {
-    /// `spring (in the potential energy)`, `drag`.
+    /// `spring (in the potential energy)`, `stop (in the potential energy, with a damper)`, `drag`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name)?;
-        if self.conservative { f.write_str(" (in the potential energy)") } else { Ok(()) }
+        match (self.conservative, self.damped) {
+            (true, true) => f.write_str(" (in the potential energy, with a damper)"),
+            (true, false) => f.write_str(" (in the potential energy)"),
+            (false, _) => Ok(()),
+        }
     }
 }
 

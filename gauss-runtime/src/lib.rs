@@ -74,6 +74,7 @@ pub mod real;
 pub mod series;
 pub mod simd;
 pub mod system;
+pub mod table;
 
 mod trigonometry;
 mod triple;

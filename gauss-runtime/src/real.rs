@@ -135,6 +135,12 @@ pub trait Real:
         if exponent < 0 { result.recip() } else { result }
     }
 
+    /// Power with a real exponent, of a base that is not negative.
+    #[inline]
+    fn powf(self, exponent: Self) -> Self {
+        (exponent * self.ln()).exp()
+    }
+
     /// Absolute value.
     fn abs(self) -> Self;
 
@@ -196,7 +202,7 @@ macro_rules! elementary {
 }
 
 macro_rules! implement_real {
-    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $sincos:expr) => {
+    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr) => {
         impl Real for $float {
             const LANES: usize = 1;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -259,6 +265,11 @@ macro_rules! implement_real {
             }
 
             #[inline(always)]
+            fn powf(self, exponent: Self) -> Self {
+                elementary!($float, powf, $pow; self, exponent)
+            }
+
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $sincos(self)
             }
@@ -283,10 +294,10 @@ macro_rules! implement_real {
 
 implement_real!(f64, 53;
     sqrt sqrt, sin sin, cos cos, tan tan, asin asin, acos acos, atan atan,
-    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 |x: f64| sin_cos(x, f64::fma));
+    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow |x: f64| sin_cos(x, f64::fma));
 implement_real!(f32, 24;
 sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
-sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f |x: f32| {
+sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf |x: f32| {
     // Rounded once more than it need be: within 0.5 ulp and a little.
     let (sine, cosine) = sin_cos(f64::from(x), f64::fma);
     (sine as f32, cosine as f32)
@@ -385,6 +396,8 @@ mod tests {
         assert_eq!(Real::powi(1.5_f64, 7), 17.085_937_5);
         assert_eq!(Real::powi(2.0_f64, -3), 0.125);
         assert_eq!(Real::powi(0.0_f64, 0), 1.0);
+        assert_eq!([Real::powf(2.25_f64, 1.5), Real::powf(0.0, 0.3)], [3.375, 0.0]);
+        assert_eq!(Real::powf(2.25_f32, 1.5), 3.375);
         assert_eq!(f64::select_lt(1.0, 2.0, 3.0, f64::NAN), 3.0);
         assert_eq!(f64::select_lt(f64::NAN, 2.0, 3.0, 4.0), 4.0);
         assert_eq!(Real::atan2(1.0_f32, 1.0), core::f32::consts::FRAC_PI_4);

@@ -16,6 +16,10 @@ struct Experiment {
     z: <BodyKernel as GaussSystem>::Speeds,
 }
 
+fn at_rest() -> BodyState {
+    BodyState::default()
+}
+
 fn degrees_of_freedom<K: GaussSystem>(_: &K) -> usize {
     K::DOF
 }

@@ -293,7 +293,7 @@ pub fn laws<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds, 
 ///
 /// - The power of each element is its generalised force by z, unless something is moved as a function of time.
 /// - The energy T + U changes at the rate that is supplied: by the elements that are not in it, whatever moves what is moved
-///   among them, and by ∂U/∂t.
+///   among them, by dampers of those that are, and by ∂U/∂t. What all elements deliver changes T, and the rest U.
 ///
 /// # Panics
 /// When one of them does not hold.
@@ -324,9 +324,14 @@ where
     let energy = flow.rate(|t, q, z| vec![system.energy(t, q, z)]);
     let allowed = flow.slack(rounding) * sizes.energy + rounding * (sizes.returned * z.max_norm() + powered);
     near("dE/dt", &energy, &[supplied], allowed);
-    let outside = S::ELEMENTS.iter().zip(&powers).filter(|(element, _)| !element.conservative);
-    let explicit = flow.differences(|s| vec![system.potential_energy(t + s, q)])[0];
-    near("∂U/∂t", &[supplied - outside.map(|(_, power)| power).sum::<f64>()], &[explicit], allowed);
+    let potential = flow.rate(|t, q, _| vec![system.potential_energy(t, q)]);
+    near("dU/dt", &[supplied - powers.iter().sum::<f64>()], &potential, allowed);
+    // The power of a spring with a damper is in part that of the damper.
+    if S::ELEMENTS.iter().all(|element| !element.damped) {
+        let outside = S::ELEMENTS.iter().zip(&powers).filter(|(element, _)| !element.conservative);
+        let explicit = flow.differences(|s| vec![system.potential_energy(t + s, q)])[0];
+        near("∂U/∂t", &[supplied - outside.map(|(_, power)| power).sum::<f64>()], &[explicit], allowed);
+    }
 }
 
 /// The generalised force of each element.

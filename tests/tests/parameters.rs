@@ -208,8 +208,13 @@ fn planar_bodies_need_one_moment() {
     assert!(skater(1.0, 0.5, [0.0, 0.0, 1.0]).is_ok());
     assert_eq!(skater(1.0, 0.5, [f64::NAN, 0.0, 1.0]).expect_err("NaN")[0].rule, Rule::Finite);
     assert_eq!(skater(1.0, 0.5, [0.0, 0.0, -1.0]).expect_err("negative")[0].rule, Rule::PositiveDefiniteInertia);
-    // I₃ = 1 < m c² = 4: the mass matrix is indefinite.
-    assert_eq!(skater(1.0, 2.0, [0.0, 0.0, 1.0]).expect_err("indefinite")[0].rule, Rule::PositiveDefiniteKineticMatrix);
+    // I₃ = 1 < m c² = 4: about the centre of mass −3 is left, and the mass matrix is indefinite.
+    let found = skater(1.0, 2.0, [0.0, 0.0, 1.0]).expect_err("indefinite")[0];
+    assert_eq!((found.value, found.rule), (-3.0, Rule::InertiaAboutCenterOfMass));
+    // What is stated of other axes is that of a body, too.
+    assert_eq!(skater(1.0, 0.0, [-1.0, 1.0, 1.0]).expect_err("negative")[0].rule, Rule::PositiveDefiniteInertia);
+    let found = skater(1.0, 0.0, [1.0, 1.0, 3.0]).expect_err("no body")[0].rule;
+    assert!(matches!(found, Rule::TriangleInequality { axis: 2, .. }));
 }
 
 everything!(Any AnyKernel, free, [hybrid]);

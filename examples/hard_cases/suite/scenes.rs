@@ -71,6 +71,17 @@ in_charts! {
 }
 
 in_charts! {
+    {
+        [mass] mass: (f64), [center_of_mass] center: (Vector3<f64>),
+        [inertia_about_center_of_mass] inertia: (Matrix3<f64>)
+    }
+    /// The same with its inertia about the centre of mass.
+    Central [motion = free]
+    /// ḃ and ω.
+    CentralHybrid [motion = free, chart = hybrid]
+}
+
+in_charts! {
     { [mass] mass: (f64), [inertia] inertia: (Vector3<f64>), [added_mass] added: (Matrix6<f64>) }
     /// A body in an ideal fluid.
     Immersed [motion = free]

@@ -1,8 +1,9 @@
 //! Normal forms with squares of cosines in the place of `1 − sin²`, whose digits cancel near quarter turns.
 
+use super::function::Function;
 use super::graph::{Expr, Graph, NodeView};
 use super::map::Map;
-use super::node::{Function, Id, Node};
+use super::node::{Id, Node};
 use super::polynomial::{Monomial, Polynomial};
 use super::rational::Rational;
 

@@ -1,8 +1,9 @@
 //! Derivatives: one recursion serves partial derivatives and derivatives along a flow alike.
 
+use super::function::{BinaryFunction, Function};
 use super::graph::{Expr, NodeView};
 use super::map::Map;
-use super::node::{BinaryFunction, Function};
+
 use super::rational::Rational;
 
 impl<'g> Expr<'g> {
@@ -51,23 +52,17 @@ impl<'g> Expr<'g> {
             }
             NodeView::Call(function, argument) => {
                 let rate = argument.differentiate(rates, memo);
-                if rate.is_zero() {
-                    rate
-                } else {
-                    rate * match function {
-                        Function::Sin => argument.cos(),
-                        Function::Cos => -argument.sin(),
-                        Function::Exp => self,
-                        Function::Ln => argument.recip(),
-                        Function::Sqrt => self.recip().half(),
-                        Function::Abs => graph.call(Function::Signum, argument),
-                        Function::Signum => graph.zero(),
-                    }
-                }
+                if rate.is_zero() { rate } else { rate * self.slope(function, argument) }
             }
             NodeView::Binary(BinaryFunction::Atan2, y, x) => {
                 let turned = x * y.differentiate(rates, memo) - y * x.differentiate(rates, memo);
                 if turned.is_zero() { turned } else { turned * (x * x + y * y).group().recip() }
+            }
+            // The exponent is constant.
+            NodeView::Binary(BinaryFunction::Powf, base, exponent) => {
+                let rate = base.differentiate(rates, memo);
+                let slope = || exponent * base.binary(BinaryFunction::Powf, exponent - graph.one());
+                if rate.is_zero() { rate } else { rate * slope() }
             }
             // Of the smaller or the larger: half the sum, and half the difference by which of them it is.
             NodeView::Binary(function, a, b) => {
@@ -79,5 +74,21 @@ impl<'g> Expr<'g> {
         };
         memo.insert(self.id, result);
         result
+    }
+
+    /// The derivative of a function, which this is, by its argument.
+    fn slope(self, function: Function, argument: Self) -> Self {
+        let graph = self.graph;
+        match function {
+            Function::Sin => argument.cos(),
+            Function::Cos => -argument.sin(),
+            Function::Exp => self,
+            Function::Ln => argument.recip(),
+            Function::Sqrt => self.recip().half(),
+            Function::Abs => graph.call(Function::Signum, argument),
+            Function::Signum => graph.zero(),
+            Function::Tanh => (graph.one() - self * self).group(),
+            Function::Own(function) => graph.call(Function::Own(function.derivative()), argument),
+        }
     }
 }

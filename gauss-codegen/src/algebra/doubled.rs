@@ -7,7 +7,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::evaluate::{Number, Scalar};
-use super::node::{BinaryFunction, Function};
+use super::function::{BinaryFunction, Function};
 use super::precise::Precise;
 use super::rational::Rational;
 
@@ -100,6 +100,19 @@ impl Doubled {
         guess + (self * (-guess).exp() - Self::new(1.0))
     }
 
+    /// By series near zero, where the exponentials cancel.
+    fn tanh(self) -> Self {
+        if self.high.abs() < 0.5 {
+            let square = self * self;
+            return Self::series(self, square, 1, 2) / Self::series(Self::new(1.0), square, 0, 2);
+        }
+        if self.high.abs() > 80.0 {
+            return Self::new(self.high.signum());
+        }
+        let (up, down) = (self.exp(), (-self).exp());
+        (up - down) / (up + down)
+    }
+
     fn sqrt(self) -> Self {
         let root = self.high.sqrt();
         if root == 0.0 || !root.is_finite() {
@@ -157,12 +170,17 @@ impl Scalar for Doubled {
             Function::Abs if self.high < 0.0 => -self,
             Function::Abs => self,
             Function::Signum => Self::new(self.high.call(Function::Signum)),
+            Function::Tanh => self.tanh(),
+            Function::Own(_) => Self::new(f64::NAN),
         }
     }
 
     fn call_with(self, function: BinaryFunction, other: Self) -> Self {
         match function {
             BinaryFunction::Atan2 => self.atan2(other),
+            BinaryFunction::Powf if other.high == 0.0 => Self::new(1.0),
+            BinaryFunction::Powf if self.high == 0.0 => Self::new(self.high.powf(other.high)),
+            BinaryFunction::Powf => (other * self.ln()).exp(),
             BinaryFunction::Min => {
                 if self > other {
                     other
@@ -303,6 +321,7 @@ mod tests {
                 }
                 agree("sqrt", x.call(Function::Sqrt), p.call(Function::Sqrt));
                 agree("ln", x.call(Function::Ln) + Doubled::new(100.0), p.call(Function::Ln) + Precise::number(100.0));
+                agree("tanh", x.call(Function::Tanh), p.call(Function::Tanh));
                 agree("atan2", x.call_with(BinaryFunction::Atan2, -third), p.call_with(BinaryFunction::Atan2, -t));
                 if x.high <= 600.0 {
                     let (found, expected) = (x.call(Function::Exp), p.call(Function::Exp));

@@ -2,9 +2,10 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::function::{BinaryFunction, Function};
 use super::graph::{Expr, NodeView};
 use super::map::Map;
-use super::node::{BinaryFunction, Function, Node};
+use super::node::Node;
 use super::rational::Rational;
 
 /// What expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual numbers, intervals or numbers of more digits.
@@ -20,7 +21,7 @@ pub trait Scalar:
     /// Sine and cosine of an angle in radians.
     fn sine_cosine(self) -> (Self, Self);
 
-    /// A function of one argument; NaN, or what stands for it, outside its domain.
+    /// A function of one argument; NaN, or what stands for it, outside its domain, and of functions of the user's own.
     fn call(self, function: Function) -> Self;
 
     /// A function of two arguments, of which this is the first.
@@ -53,6 +54,8 @@ macro_rules! primitive {
                     // Unlike that of the primitive type, zero at zero.
                     Function::Signum if self == 0.0 => 0.0,
                     Function::Signum => self.signum(),
+                    Function::Tanh => self.tanh(),
+                    Function::Own(_) => $scalar::NAN,
                 }
             }
 
@@ -61,6 +64,7 @@ macro_rules! primitive {
                     BinaryFunction::Atan2 => self.atan2(other),
                     BinaryFunction::Min => self.min(other),
                     BinaryFunction::Max => self.max(other),
+                    BinaryFunction::Powf => self.powf(other),
                 }
             }
         }
@@ -83,6 +87,20 @@ pub trait Number: Scalar + Copy + PartialOrd {
 
     /// An integer power.
     fn powi(self, exponent: i32) -> Self;
+
+    /// A function, where those of the user's own, of which nothing is known, are stood in for by shifted sines: what holds of any
+    /// function holds of these.
+    fn call_any(self, function: Function) -> Self {
+        let Function::Own(own) = function else { return self.call(function) };
+        let (shift, order) = own.stand_in();
+        let (sine, cosine) = (self + Self::number(shift)).sine_cosine();
+        match order {
+            0 => sine,
+            1 => cosine,
+            2 => -sine,
+            _ => -cosine,
+        }
+    }
 }
 
 impl Number for f64 {
@@ -113,6 +131,11 @@ impl Function {
             Function::Sqrt => N::number(0.5) / x.call(Function::Sqrt),
             Function::Abs => x.call(Function::Signum),
             Function::Signum => N::number(0.0),
+            Function::Tanh => {
+                let value = x.call(Function::Tanh);
+                one - value * value
+            }
+            Function::Own(function) => x.call_any(Function::Own(function.derivative())),
         }
     }
 }
@@ -121,12 +144,19 @@ impl Function {
 pub struct Evaluation<'a, N = f64> {
     symbols: &'a Map<u32, N>,
     values: Map<u32, N>,
+    /// Functions of the user's own have the values of what stands in for them.
+    stand_ins: bool,
 }
 
 impl<'a, N: Number> Evaluation<'a, N> {
     /// `symbols` gives the value of every symbol, by key.
     pub fn new(symbols: &'a Map<u32, N>) -> Self {
-        Self { symbols, values: Map::default() }
+        Self { symbols, values: Map::default(), stand_ins: true }
+    }
+
+    /// The same for what is to be the value indeed: functions of the user's own have none.
+    pub fn of_known(symbols: &'a Map<u32, N>) -> Self {
+        Self { stand_ins: false, ..Self::new(symbols) }
     }
 
     /// The value of an expression; NaN where a symbol has none.
@@ -159,6 +189,7 @@ impl<'a, N: Number> Evaluation<'a, N> {
                 }
                 product
             }
+            Node::Call(function, id) if self.stand_ins => self.visit(graph.expr(id)).call_any(function),
             Node::Call(function, id) => self.visit(graph.expr(id)).call(function),
             Node::Binary(function, a, b) => self.visit(graph.expr(a)).call_with(function, self.visit(graph.expr(b))),
             Node::Group(id) | Node::Opaque(id) => self.visit(graph.expr(id)),
@@ -228,6 +259,13 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
             NodeView::Binary(BinaryFunction::Atan2, y, x) => {
                 let (b, a) = (self.values.value(y), self.values.value(x));
                 (a * self.visit(y) - b * self.visit(x)) / (a * a + b * b)
+            }
+            NodeView::Binary(BinaryFunction::Powf, base, exponent) => {
+                let (x, p) = (self.values.value(base), self.values.value(exponent));
+                let less = x.call_with(BinaryFunction::Powf, p - N::number(1.0));
+                let of = |rate: N, slope: &dyn Fn() -> N| if rate == zero { zero } else { slope() * rate };
+                let by_base = of(self.along(base), &|| p * less);
+                by_base + of(self.along(exponent), &|| x * less * x.call(Function::Ln))
             }
             NodeView::Binary(function, a, b) => {
                 let first = self.values.value(a).call_with(function, self.values.value(b)) == self.values.value(a);

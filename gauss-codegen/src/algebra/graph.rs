@@ -6,8 +6,9 @@ use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 
 use super::budget::Budget;
+use super::function::{BinaryFunction, Function, OwnFunction};
 use super::map::Map;
-use super::node::{BinaryFunction, Function, Id, Node};
+use super::node::{Id, Node};
 use super::rational::Rational;
 
 /// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
@@ -54,6 +55,8 @@ pub struct Graph {
     pub(super) budget: Budget,
     index: RefCell<Map<Node, Id>>,
     symbols: RefCell<Vec<Symbol>>,
+    /// Names of functions of the user's own.
+    functions: RefCell<Vec<String>>,
     undefined: Cell<bool>,
 }
 
@@ -66,8 +69,8 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        let (nodes, traits, index, symbols, undefined) = Default::default();
-        let graph = Self { nodes, traits, budget: Budget::default(), index, symbols, undefined };
+        let (nodes, traits, index, symbols, functions, undefined) = Default::default();
+        let graph = Self { nodes, traits, budget: Budget::default(), index, symbols, functions, undefined };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
@@ -86,6 +89,19 @@ impl Graph {
         let symbol = symbols.len() as u32 - 1;
         drop(symbols);
         self.intern(Node::Symbol(symbol))
+    }
+
+    /// A function of the user's own, by its place among them.
+    pub fn declare_function(&self, name: impl Into<String>) -> u16 {
+        let mut functions = self.functions.borrow_mut();
+        functions.push(name.into());
+        (functions.len() - 1) as u16
+    }
+
+    /// The name of a function of the user's own, with a prime for each derivative.
+    pub fn function_name(&self, function: OwnFunction) -> String {
+        let name = self.functions.borrow().get(usize::from(function.index)).cloned().unwrap_or_default();
+        name + &"'".repeat(usize::from(function.order))
     }
 
     /// Keys of all symbols made so far.
@@ -356,10 +372,12 @@ impl Graph {
     pub fn call<'g>(&'g self, function: Function, argument: Expr<'g>) -> Expr<'g> {
         if argument.is_zero() {
             match function {
-                Function::Sin | Function::Sqrt | Function::Abs | Function::Signum => return self.zero(),
+                Function::Sin | Function::Sqrt | Function::Abs | Function::Signum | Function::Tanh => {
+                    return self.zero();
+                }
                 Function::Cos | Function::Exp => return self.one(),
                 // Not a number: it is left to whoever evaluates it.
-                Function::Ln => {}
+                Function::Ln | Function::Own(_) => {}
             }
         }
         if argument == self.one() {
@@ -475,6 +493,12 @@ impl<'g> Expr<'g> {
 
     pub fn abs(self) -> Self {
         self.graph.call(Function::Abs, self)
+    }
+
+    /// √((1 − x)(1 + x)): the other leg of a right triangle with the hypotenuse 1; no digits cancel where the triangle is thin.
+    pub fn leg(self) -> Self {
+        let one = self.graph.one();
+        ((one - self).group() * (one + self).group()).sqrt()
     }
 
     pub fn binary(self, function: BinaryFunction, other: Self) -> Self {

@@ -13,6 +13,7 @@ mod cosines;
 mod differentiate;
 mod doubled;
 mod evaluate;
+mod function;
 mod graph;
 #[cfg(test)]
 pub mod ideal;
@@ -34,10 +35,10 @@ mod tests;
 
 pub use doubled::Doubled;
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
+pub use function::{BinaryFunction, Function, OwnFunction};
 pub use graph::{Expr, Graph, NodeView};
 pub use linear::{Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
 pub use map::{Map, Set};
-pub use node::{BinaryFunction, Function};
 pub use orthogonal::LeastSquares;
 pub use parts::Parts;
 pub use polynomial::{Expander, Polynomial};

@@ -1,67 +1,10 @@
-//! What expressions are made of: functions, and nodes with their children by index.
+//! What expressions are made of: nodes with their children by index.
 
 use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 
+use super::function::{BinaryFunction, Function};
 use super::rational::Rational;
-
-/// A function of one argument that the language knows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Function {
-    /// Sine of an angle in radians.
-    Sin,
-    /// Cosine of an angle in radians.
-    Cos,
-    /// Exponential.
-    Exp,
-    /// Natural logarithm.
-    Ln,
-    /// Square root.
-    Sqrt,
-    /// Absolute value.
-    Abs,
-    /// −1, 0 or 1.
-    Signum,
-}
-
-/// A function of two arguments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum BinaryFunction {
-    /// Angle of the point (x, y), given as y and x.
-    Atan2,
-    /// The smaller one.
-    Min,
-    /// The larger one.
-    Max,
-}
-
-impl Function {
-    /// What users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Function::Sin => "sin",
-            Function::Cos => "cos",
-            Function::Exp => "exp",
-            Function::Ln => "ln",
-            Function::Sqrt => "sqrt",
-            Function::Abs => "abs",
-            Function::Signum => "signum",
-        }
-    }
-}
-
-impl BinaryFunction {
-    /// What users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            BinaryFunction::Atan2 => "atan2",
-            BinaryFunction::Min => "min",
-            BinaryFunction::Max => "max",
-        }
-    }
-}
 
 /// Index of a node in its graph. Children always have smaller indices than their parents.
 pub(super) type Id = u32;
@@ -103,7 +46,7 @@ impl Hash for Node {
             Node::Symbol(symbol) => 1 << 32 | u64::from(*symbol),
             Node::Sum(_) => 2,
             Node::Product(_) => 3,
-            Node::Call(function, id) => (4 + *function as u64) << 32 | u64::from(*id),
+            Node::Call(function, id) => (4 + function.word()) << 32 | u64::from(*id),
             Node::Binary(function, a, b) => (64 + *function as u64) << 48 | u64::from(*a) << 24 ^ u64::from(*b),
             Node::Group(id) => 128 << 32 | u64::from(*id),
             Node::Opaque(id) => 129 << 32 | u64::from(*id),

@@ -9,9 +9,10 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::function::Function;
 use super::graph::{Expr, Graph, NodeView};
 use super::map::Map;
-use super::node::{Function, Id, Node};
+use super::node::{Id, Node};
 use super::rational::Rational;
 
 /// Π atomᵢ^nᵢ, sorted by atom, exponents nonzero.

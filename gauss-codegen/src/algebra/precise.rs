@@ -7,7 +7,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use num_bigint::{BigInt, BigUint, Sign};
 
 use super::evaluate::{Number, Scalar};
-use super::node::{BinaryFunction, Function};
+use super::function::{BinaryFunction, Function};
 use super::rational::Rational;
 
 /// Binary digits of a number.
@@ -134,6 +134,28 @@ impl Precise {
         }
     }
 
+    /// sinh and cosh of a small part, doubled; far from zero the difference from ±1 has no digit here.
+    fn tanh(self) -> Self {
+        if self.defined && !self.is_zero() && self.magnitude() > 8 {
+            return self.call(Function::Signum);
+        }
+        let Some((x, doublings)) = self.halved() else { return Self::UNDEFINED };
+        let start = (x.series(1, 2, false), x.series(0, 2, false));
+        let double = |(sinh, cosh): (Self, Self), _| ((sinh * cosh).times_two_to(1), cosh * cosh + sinh * sinh);
+        let (sinh, cosh) = (0..doublings).fold(start, double);
+        sinh / cosh
+    }
+
+    /// Of a base that is not negative.
+    fn powf(self, exponent: Self) -> Self {
+        match (self.is_zero(), exponent.is_zero(), exponent.negative) {
+            (_, true, _) => Self::integer(1),
+            (true, _, true) => Self::UNDEFINED,
+            (true, _, false) if exponent.defined => Self::ZERO,
+            _ => (exponent * self.ln()).exp(),
+        }
+    }
+
     /// From the nearest double, by Newton's iteration on the tangent of what is left.
     fn atan2(self, x: Self) -> Self {
         if !self.defined || !x.defined {
@@ -184,12 +206,15 @@ impl Scalar for Precise {
             Function::Abs => Self { negative: false, ..self },
             Function::Signum if !self.defined || self.is_zero() => self,
             Function::Signum => Self::integer(if self.negative { -1 } else { 1 }),
+            Function::Tanh => self.tanh(),
+            Function::Own(_) => Self::UNDEFINED,
         }
     }
 
     fn call_with(self, function: BinaryFunction, other: Self) -> Self {
         match (function, self.partial_cmp(&other)) {
             (BinaryFunction::Atan2, _) => self.atan2(other),
+            (BinaryFunction::Powf, _) => self.powf(other),
             (_, None) => Self::UNDEFINED,
             (BinaryFunction::Min, Some(Ordering::Greater)) | (BinaryFunction::Max, Some(Ordering::Less)) => other,
             _ => self,
@@ -343,6 +368,9 @@ mod tests {
             agree("sin² + cos²", sin * sin + cos * cos, Precise::number(1.0));
             assert!((sin.to_f64() - x.sin()).abs() < 1e-15 && (cos.to_f64() - x.cos()).abs() < 1e-15, "{x}");
             agree("sqrt", p.call(Function::Sqrt).powi(2) / p, Precise::number(1.0));
+            let (one, power) = (Precise::number(1.0), p.call(Function::Exp));
+            agree("tanh", p.call(Function::Tanh), (power - one / power) / (power + one / power));
+            agree("powf", p.call_with(BinaryFunction::Powf, Precise::number(2.5)).powi(2) / p.powi(5), one);
             agree("ln", p.call(Function::Ln).call(Function::Exp) / p, Precise::number(1.0));
             let (y, x) = (sin * p, cos * p);
             let angle = y.call_with(BinaryFunction::Atan2, x);

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
+use super::function::{BinaryFunction, Function};
 use super::graph::{Expr, NodeView};
-use super::node::{BinaryFunction, Function};
 use super::parts::Parts;
 use super::rational::Rational;
 
@@ -202,6 +202,18 @@ impl<'a, 'g> Printer<'a, 'g> {
             NodeView::Symbol(symbol) => {
                 e.graph().with_symbol(symbol, |s| if self.latex() { s.latex.clone() } else { s.text.clone() })
             }
+            NodeView::Call(Function::Own(function), argument) => {
+                let name = e.graph().function_name(function);
+                match self.latex() {
+                    true => format!(
+                        "\\operatorname{{{}}}{}\\left({}\\right)",
+                        name.trim_end_matches('\'').replace('_', "\\_"),
+                        "'".repeat(usize::from(function.order)),
+                        self.sum(argument)
+                    ),
+                    false => format!("{name}({})", self.sum(argument)),
+                }
+            }
             NodeView::Call(function, argument) => {
                 let name = match function {
                     Function::Sqrt if self.latex() => return format!("\\sqrt{{{}}}", self.sum(argument)),
@@ -215,11 +227,22 @@ impl<'a, 'g> Printer<'a, 'g> {
                     (false, _) => format!("{name}({})", self.sum(argument)),
                 }
             }
+            NodeView::Binary(BinaryFunction::Powf, base, exponent) if self.latex() => {
+                format!("{{{}}}^{{{}}}", self.factor(base, false), self.sum(exponent))
+            }
+            NodeView::Binary(BinaryFunction::Atan2, y, x) if arc(y, x).is_some() => {
+                let (name, argument) = arc(y, x).unwrap_or(("arctan", y));
+                match self.latex() {
+                    true => format!("\\{name}\\left({}\\right)", self.sum(argument)),
+                    false => format!("{}({})", name.replace("arc", "a"), self.sum(argument)),
+                }
+            }
             NodeView::Binary(function, a, b) => {
                 let name = match (function, self.latex()) {
                     (BinaryFunction::Atan2, true) => "\\operatorname{atan2}",
                     (BinaryFunction::Min, true) => "\\min",
                     (BinaryFunction::Max, true) => "\\max",
+                    (BinaryFunction::Powf, true) => "\\operatorname{powf}",
                     (function, false) => function.name(),
                 };
                 let (open, close) = if self.latex() { ("\\left(", "\\right)") } else { ("(", ")") };
@@ -247,6 +270,16 @@ impl<'a, 'g> Printer<'a, 'g> {
     fn fraction(&self, value: Rational) -> (String, Option<String>) {
         let Some((numerator, denominator)) = value.parts() else { return (decimal(value, self.notation), None) };
         (numerator.to_string(), (denominator != 1).then(|| denominator.to_string()))
+    }
+}
+
+/// The angle of the point (x, y) as an inverse function of one number.
+fn arc<'g>(y: Expr<'g>, x: Expr<'g>) -> Option<(&'static str, Expr<'g>)> {
+    match () {
+        () if x == y.graph().one() => Some(("arctan", y)),
+        () if x == y.leg() => Some(("arcsin", y)),
+        () if y == x.leg() => Some(("arccos", x)),
+        () => None,
     }
 }
 

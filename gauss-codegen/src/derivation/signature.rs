@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use syn::ext::IdentExt;
+
 use crate::algebra::{Expr, Map, Notation, Rational, print};
 use crate::emit::Derived;
 use crate::kernel;
@@ -13,6 +15,8 @@ pub struct Signature<'g> {
     /// Symbols of literals, and of what literals determine.
     literals: Map<u32, Rational>,
     known: Map<u32, f64>,
+    /// Names of functions of the user's own.
+    functions: Vec<String>,
 }
 
 /// An error of this crate.
@@ -57,7 +61,8 @@ impl<'g> Signature<'g> {
         ];
         let known = derived.kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), *value));
         let literals = derived.literals().iter().map(|(value, symbol)| (symbol.key(), *value));
-        Self { arguments, literals: literals.collect(), known: known.collect() }
+        let functions = derived.subject.model.functions.iter().map(|function| function.name.unraw().to_string());
+        Self { arguments, literals: literals.collect(), known: known.collect(), functions: functions.collect() }
     }
 
     /// A program with arguments of these kinds.
@@ -91,7 +96,8 @@ impl<'g> Signature<'g> {
             inputs.get(&symbol.key()).copied().ok_or_else(|| Unbound::Symbol(print(symbol, Notation::Text)))
         };
         let arguments = taken.into_iter().map(|(argument, _)| argument.clone()).collect();
-        Program::new(name, arguments, numbers, code.with_inputs(bound)?, results).map_err(Unbound::Malformed)
+        let program = Program::new(name, arguments, numbers, code.with_inputs(bound)?, results);
+        program.map(|program| program.with_functions(self.functions.clone())).map_err(Unbound::Malformed)
     }
 
     /// What computes the constants from the parameters.

@@ -2,7 +2,6 @@
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
-use syn::ext::IdentExt;
 
 use crate::algebra::Map;
 use crate::kernel::Program;
@@ -10,7 +9,7 @@ use crate::mechanics::{Assigned, KineticMatrix};
 use crate::model::{Motion, Role, Shape};
 
 use super::derived::Derived;
-use super::inertia::{inertia_rows, of_body};
+use super::inertia::{inertia_rows, named_body, own_matrix};
 use super::program::statements;
 
 /// `let name = …;`: the value, or the array of components.
@@ -43,14 +42,10 @@ pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> Toke
     let model = subject.model;
     let mut checks = TokenStream::new();
     for (clause, written) in model.bodies.iter().enumerate() {
-        let named = |word: &str| match (&written.name, model.field(Role::AddedMass)) {
-            (Some(name), _) => format!("{}.{word}", name.unraw()),
-            (None, Some(field)) => field.ident.unraw().to_string(),
-            (None, None) => word.to_owned(),
-        };
         let own = written.name.iter().flat_map(|_| written.given.iter().zip(&subject.assigned_to_bodies[clause]));
         for (given, assigned) in own.filter(|(given, _)| !given.is_of_matter()) {
-            let (said, local) = (named(given.role.word()), format_ident!("__fluid", span = Span::mixed_site()));
+            let (said, local) =
+                (subject.said_of_body(written, given.role), format_ident!("__fluid", span = Span::mixed_site()));
             let value = assigned_local(derived, &local, assigned, symbols);
             let check = match (given.role, given.shape) {
                 (Role::DisplacedMass, _) => quote!(__check.non_negative(#said, #local);),
@@ -77,8 +72,8 @@ pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> Toke
             .collect();
         let (compute, outputs) = statements(&Program::lower(&entries), symbols, &derived.scalar());
         let rows = outputs.chunks(active.len()).map(|row| quote!([#(#row),*]));
-        let said = named(Role::AddedMass.word());
-        checks.extend(quote!({ #compute __check.kinetic_matrix(#said, &[#(#rows),*]); }));
+        let said = subject.said_of_body(written, Role::AddedMass);
+        checks.extend(own_matrix(derived, quote!({ #compute __check.kinetic_matrix(#said, &[#(#rows),*]); })));
     }
     checks
 }
@@ -106,14 +101,10 @@ pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream
         let shape = if inertia.values.len() == 1 { Shape::Scalar } else { Shape::Vector3 };
         let rows = inertia_rows(&ty, derived, shape, &moments);
         read.extend(quote!(let #tensor = #rows;));
-        let said = |part: &str| format!("{}.{part}", name.unraw());
-        let [said_mass, said_center, said_inertia] = ["mass", "center_of_mass", inertia.quantity.word()].map(said);
-        let of_inertia = of_body(derived, Some(name), &said_inertia, [&m, &c, &tensor], central.is_some());
+        let check = named_body(derived, name, inertia.quantity.word(), [&m, &c, &tensor], central.is_some());
         checks.extend(quote!({
             #read
-            __check.mass(#said_mass, #m);
-            __check.finite(#said_center, &#c);
-            #of_inertia
+            #check
         }));
     }
     checks

@@ -8,7 +8,7 @@ use crate::formulation::Formulation;
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, Formula, Linearization, Method, Regressor};
 use crate::model::{Model, Scalar};
-use crate::translate::{DragMatrix, Parameter, Translator};
+use crate::translate::{DragMatrix, Law, Parameter, Translator};
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, declare};
@@ -30,6 +30,8 @@ pub struct Derived<'a, 'g> {
     pub subject: Subject<'a, 'g>,
     /// Matrices of drag.
     pub drags: Vec<DragMatrix<'g>>,
+    /// Constants of springs, stops and other elements.
+    pub laws: Vec<Law<'g>>,
     pub formulas: &'a [Formula<'g>],
     pub kernel: &'a Kernel<'g>,
     /// What is differentiated by the state, where that is asked for.
@@ -77,6 +79,8 @@ impl<'a, 'g> Derived<'a, 'g> {
         kernel: &'a Kernel<'g>,
     ) -> syn::Result<Self> {
         let assigned_to_bodies = model.bodies.iter().map(|body| translator.assigned(&body.given));
+        let declared = translator.speeds();
+        let of_system = &formulation.system.scene.speeds;
         let subject = Subject {
             model,
             system: &formulation.system,
@@ -86,12 +90,14 @@ impl<'a, 'g> Derived<'a, 'g> {
             literals: translator.literals(),
             assigned: translator.assigned(&model.given)?,
             assigned_to_bodies: assigned_to_bodies.collect::<syn::Result<_>>()?,
+            kept_speeds: (0..declared.len()).filter(|&k| of_system.contains(&declared[k])).collect(),
             links: translator.links_of_clauses(),
             quaternions: &formulation.quaternions,
         };
         Ok(Self {
             subject,
             drags: translator.drags(),
+            laws: translator.laws(),
             formulas: &formulation.formulas,
             kernel,
             linearization: formulation.linearization.as_ref(),
@@ -129,7 +135,11 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     pub fn scalar(&self) -> ScalarTokens<'a> {
         let private = self.private();
-        ScalarTokens { scalar: self.item().scalar, real: quote!(#private::Real) }
+        ScalarTokens {
+            scalar: self.item().scalar,
+            real: quote!(#private::Real),
+            functions: &self.subject.model.functions,
+        }
     }
 
     pub fn kernel_name(&self) -> Ident {

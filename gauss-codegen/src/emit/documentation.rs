@@ -8,6 +8,7 @@ use crate::model::{InChart, InputKind, Role};
 
 use super::chart::{chart_name, motion_name};
 use super::derived::Derived;
+use super::state::{Part, PartKind, parts, state_name};
 
 /// The equations as plain text and as one LaTeX environment.
 #[derive(Clone, Debug)]
@@ -31,7 +32,9 @@ fn text(derived: &Derived<'_, '_>, page: &Page<'_>) -> String {
         derived.item().ident.unraw(),
         description(derived)
     );
-    let letters: Vec<String> = legend(derived).iter().map(|(letter, field, _)| format!("{letter} = {field}")).collect();
+    // A letter that is the name of its field says nothing.
+    let letters = legend(derived).into_iter().filter(|(letter, field, _)| letter != field);
+    let letters: Vec<String> = letters.map(|(letter, field, _)| format!("{letter} = {field}")).collect();
     if !letters.is_empty() {
         out.push_str(&format!(
             "with {}{}
@@ -97,7 +100,7 @@ fn description(derived: &Derived<'_, '_>) -> String {
     }
     let names = &derived.subject.system.scene.coordinate_names;
     let q: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
-    format!("chart own, q = ({}), z = ({speeds})", q.join(", "))
+    format!("q = ({}), z = ({speeds})", q.join(", "))
 }
 
 /// The methods that [`Kernel::derivatives`](crate::kernel::Kernel::derivatives) has the programs of.
@@ -120,6 +123,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     for (letter, field, said) in legend(derived) {
         out.push_str(&format!("| {letter} | `{field}` | {} |\n", said.replace('|', "\\|")));
     }
+    out.push_str(&states(derived));
     out.push_str(&acting(derived));
     out.push_str(
         "\n# Cost and rounding\n\nThe loss is the largest error of double precision at sample states (median), in units of what a change of \
@@ -139,6 +143,28 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         }
     }
     out
+}
+
+/// What a configuration and speeds are made of, in words and in a call.
+fn states(derived: &Derived<'_, '_>) -> String {
+    let (name, [coordinates, speeds]) = (state_name(derived), parts(derived));
+    let listed = |parts: &[Part]| parts.iter().map(|part| format!("`{}`", part.shown())).collect::<Vec<_>>().join(", ");
+    let (groups, scalars): (Vec<&Part>, Vec<&Part>) =
+        coordinates.iter().partition(|part| part.kind != PartKind::Scalar);
+    let mut factors: Vec<String> = groups.iter().map(|part| format!("`{}`", part.ident)).collect();
+    if !scalars.is_empty() {
+        let names: Vec<String> = scalars.iter().map(|part| part.ident.to_string()).collect();
+        factors.push(format!("`SVector[{}]`", names.join(", ")));
+    }
+    let nested = factors.iter().rev().cloned().reduce(|inner, outer| format!("({outer}, {inner})")).unwrap_or_default();
+    let idents = coordinates.iter().chain(&speeds).map(|part| part.ident.to_string()).collect::<Vec<_>>().join(", ");
+    format!(
+        "\n# State\n\nCoordinates: {}. Speeds: {}. The configuration q is {nested}, the speeds z are one vector; by name \
+         both are [`{name}`]:\n\n```text\nlet state = {name} {{ {idents} }};\nlet rates = kernel.acceleration(t, \
+         &state.q(), &state.z(), &input);\nlet {name} {{ {idents} }} = {name}::of(&q, &z);\n```\n",
+        listed(&coordinates),
+        listed(&speeds),
+    )
 }
 
 /// The components of the input in order, and the elements in the order of their powers.
@@ -164,7 +190,11 @@ fn acting(derived: &Derived<'_, '_>) -> String {
         out.push_str("\n# What acts\n\n| element | |\n|---|---|\n");
     }
     for account in accounts {
-        let kind = if account.conservative { "in the potential energy" } else { "" };
+        let kind = match (account.conservative, account.outside) {
+            (true, Some(_)) => "in the potential energy, with a damper",
+            (true, None) => "in the potential energy",
+            (false, _) => "",
+        };
         out.push_str(&format!("| {} | {kind} |\n", account.name));
     }
     out

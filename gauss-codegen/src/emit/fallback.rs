@@ -13,7 +13,7 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
     let DeriveInput { ident, vis, generics, .. } = input;
     let mut mistakes = mistakes.into_iter().map(|mistake| mistake.into_compile_error());
     let first = mistakes.next();
-    let name = format_ident!("{}Kernel", ident);
+    let (name, state) = (format_ident!("{}Kernel", ident), format_ident!("{}State", ident));
     let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
     // A generic kernel has one type parameter: its scalar.
     let mut parameters = generics.type_params().map(|parameter| &parameter.ident);
@@ -25,6 +25,8 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
     quote! {
         #[allow(non_camel_case_types, dead_code)]
         #vis type #name #declared = [#element; #first];
+        #[allow(non_camel_case_types, dead_code)]
+        #vis type #state #declared = #name #declared;
         #(#mistakes)*
 
         const _: () = {

@@ -16,7 +16,8 @@ pub fn forced_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let count = accounts.len();
     let elements = accounts.iter().map(|account| {
         let (name, conservative) = (&account.name, account.conservative);
-        quote!(#private::Element::new(#name, #conservative))
+        let damper = (conservative && account.outside.is_some()).then(|| quote!(.with_damper()));
+        quote!(#private::Element::new(#name, #conservative) #damper)
     });
     let arguments = quote!(__z: &Self::Speeds, __input: &Self::Input);
     let powers = derived.function(Method::Powers, arguments.clone(), quote!(Self::Powers));

@@ -1,55 +1,66 @@
-//! Inertia tensors of one body as rows, and what must hold of one that turns about a single axis.
+//! Inertia tensors of bodies as rows, and what must hold of the mass data of bodies that others move with.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
+use syn::ext::IdentExt;
 
 use crate::model::Shape;
 
 use super::derived::Derived;
 
-/// What must hold of the inertia of a body, about O or about its centre of mass (`central`).
-pub fn of_body(
+/// What must hold of the mass data of a body with a name: mass, centre of mass from O, rows of the inertia about O, or about the
+/// centre of mass (`central`), which is called `word`.
+pub fn named_body(
     derived: &Derived<'_, '_>,
-    name: Option<&Ident>,
-    said: &str,
+    body: &Ident,
+    word: &str,
     [mass, center, inertia]: [&Ident; 3],
     central: bool,
 ) -> TokenStream {
+    let [said_mass, said_center, said_inertia] =
+        ["mass", "center_of_mass", word].map(|part| format!("{}.{part}", body.unraw()));
     let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
     // About the centre of mass there is no lever.
     let arm = if central { quote!([<#ty as #real>::zero(); 3]) } else { quote!(#center) };
-    match derived.subject.only_axis(name) {
-        Some(axis) => in_plane(derived, axis, said, [mass, inertia], &arm),
-        None if central => quote!(__check.central_inertia(#said, #mass, #arm, &#inertia);),
-        None => quote! {
-            __check.inertia(#said, &#inertia);
-            __check.central_inertia(#said, #mass, #arm, &#inertia);
-        },
+    let of_inertia = in_sum(derived, Some(body), &said_inertia, [&quote!(#mass), &arm, &quote!(#inertia)]);
+    quote! {
+        __check.mass_in_sum(#said_mass, #mass);
+        __check.finite(#said_center, &#center);
+        #of_inertia
     }
 }
 
-/// Of a body that turns about one of its axes alone only the moment of inertia about that axis enters, and the two
-/// components of the centre of mass across it.
-fn in_plane(
+/// What must hold of the inertia of the body of that name (the unnamed one), which moves with others.
+pub fn in_sum(
     derived: &Derived<'_, '_>,
-    axis: usize,
+    body: Option<&Ident>,
     said: &str,
-    [mass, inertia]: [&Ident; 2],
-    center: &TokenStream,
+    [mass, center, inertia]: [&TokenStream; 3],
 ) -> TokenStream {
-    let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
-    let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-    let zero = quote!(<#ty as #real>::zero());
+    let check = match derived.subject.only_axis(body) {
+        Some(axis) => quote!(__check.inertia_about_axis(#said, #axis, (#mass, #center), &#inertia);),
+        None => quote!(__check.inertia_in_sum(#said, #mass, #center, &#inertia);),
+    };
+    waived(derived, body, check)
+}
+
+/// Checks of the inertia of a body, without the triangle inequality where that is waived.
+pub fn waived(derived: &Derived<'_, '_>, body: Option<&Ident>, checks: TokenStream) -> TokenStream {
+    if !derived.subject.model.waives_triangle_inequality(body) {
+        return checks;
+    }
     quote! {
-        let __center = #center;
-        for __row in &#inertia {
-            __check.finite(#said, __row);
-        }
-        __check.kinetic_matrix(#said, &[
-            [#mass, #zero, -(#mass * __center[#b])],
-            [#zero, #mass, #mass * __center[#a]],
-            [-(#mass * __center[#b]), #mass * __center[#a], #inertia[#axis][#axis]],
-        ]);
+        __check.waive_triangle_inequality(true);
+        #checks
+        __check.waive_triangle_inequality(false);
+    }
+}
+
+/// A check of the mass matrix of one body, which says nothing where others make up for what it lacks: their sum is checked then.
+pub fn own_matrix(derived: &Derived<'_, '_>, check: TokenStream) -> TokenStream {
+    match derived.subject.model.one_body() {
+        Some(_) => check,
+        None => quote!(if __check.massless().is_none() #check),
     }
 }
 

@@ -1,11 +1,15 @@
 //! The kernel struct, and `kernel()` of the user's struct, which makes it.
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{Span, TokenStream};
+use quote::{quote, quote_spanned};
+use syn::spanned::Spanned;
 
 use super::derived::{Derived, Item, KernelGenerics};
 use super::documentation::{Equations, rustdoc};
-use super::parameters::{kernel_body, warnings};
+use super::laws::warnings;
+use super::parameters::kernel_body;
+use super::program::table_name;
+use crate::model::{FunctionClause, FunctionKind};
 
 /// The struct: the constants that `kernel()` computes.
 pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
@@ -48,6 +52,23 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
             #warnings
         }
     }
+}
+
+/// Constants that hold the tables.
+pub fn tables(derived: &Derived<'_, '_>) -> TokenStream {
+    let private = derived.private();
+    let table = |(index, clause): (usize, &FunctionClause)| {
+        let (points, kind) = match &clause.kind {
+            FunctionKind::Rust(_) => return None,
+            FunctionKind::Linear(points) => (points, quote!(Linear)),
+            FunctionKind::Cubic(points) => (points, quote!(Cubic)),
+        };
+        let name = table_name(index as u16);
+        // What is wrong with the points is shown where they are named.
+        let at = points.span().resolved_at(Span::mixed_site());
+        Some(quote_spanned!(at=> const #name: #private::#kind<{ #points.len() }> = #private::#kind::through(&#points);))
+    };
+    derived.subject.model.functions.iter().enumerate().filter_map(table).collect()
 }
 
 /// What the scalar must be, where it is a type parameter.

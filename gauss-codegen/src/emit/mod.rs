@@ -4,13 +4,13 @@
 //! |---|---|
 //! | `program` | instructions as `let` statements |
 //! | `arguments` | where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel |
-//! | `parameters`, `assigned`, `inertia` | the parameters read, checked, and turned into constants |
+//! | `parameters`, `locals`, `assigned`, `inertia`, `laws` | the parameters read, checked, and turned into constants; `warnings()` |
 //! | `subject`, `chart`, `pose` | what is derived: its configuration, its constraints; charts by name; configurations as poses |
 //! | `documentation` | equations and costs as text, LaTeX and rustdoc |
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
-//! `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
+//! `state` (coordinates and speeds by name), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
 //! where there are mistakes.
 
 use proc_macro2::TokenStream;
@@ -28,7 +28,9 @@ mod forced;
 mod gauss_system;
 mod inertia;
 mod kernel;
+mod laws;
 mod linearized;
+mod locals;
 mod parameters;
 mod parametric;
 mod pose;
@@ -37,6 +39,7 @@ mod regressor;
 mod rigid_body;
 #[cfg(test)]
 mod specialisation_tests;
+mod state;
 mod subject;
 #[cfg(test)]
 mod system_tests;
@@ -52,6 +55,7 @@ pub use fallback::fallback;
 pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let kernel = kernel::kernel_struct(derived, equations);
     let constructor = kernel::constructor(derived);
+    let tables = kernel::tables(derived);
     let gauss_system = gauss_system::gauss_system(derived);
     let described = description::described(derived, equations);
     let rigid_body = rigid_body::rigid_body_system(derived);
@@ -61,11 +65,15 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let linearized = linearized::linearized_system(derived);
     let parametric = parametric::parametric_system(derived);
     let regressor = regressor::inertial_regressor(derived);
+    let [state, conversions] = state::state(derived);
     quote! {
         #kernel
+        #state
 
         const _: () = {
+            #tables
             #constructor
+            #conversions
             #gauss_system
             #described
             #rigid_body

@@ -1,125 +1,39 @@
-//! `kernel()`: role fields, rigid bodies and plain parameters read, checked, and turned into constants.
+//! `kernel()`: role fields, rigid bodies and plain parameters checked, and turned into constants.
 
-use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
 use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
 use crate::mechanics::Matter;
-use crate::model::{ExpressionKind, Field, Model, Motion, Role, Shape};
-use crate::translate::{Part, Source};
+use crate::model::{BodyClause, ExpressionKind, Field, Model, Motion, ParticleClause, Role, Shape};
 
-use super::assigned::{assigned_bodies, assigned_local, fluid};
-use super::derived::Derived;
-use super::inertia::{inertia_rows, of_body};
+use super::assigned::{assigned_bodies, fluid};
+use super::derived::{Derived, KernelGenerics};
+use super::inertia::{in_sum, inertia_rows, named_body, own_matrix, waived};
+use super::laws;
+use super::locals::{is_read, local, local_of, local_of_clause, parameters_read, symbols_of_parameters};
 use super::program::statements;
 use super::subject::Subject;
 
-/// The local that holds a field, or one part of a rigid body.
-fn local(field: usize, part: &str) -> Ident {
-    format_ident!("__f{}{}", field, part, span = Span::mixed_site())
-}
-
-/// The word of a part of a rigid body: the field of `RigidBody` and the end of the local.
-fn word(quantity: Role) -> &'static str {
-    match quantity {
-        Role::Mass => "mass",
-        Role::CenterOfMass => "center_of_mass",
-        _ => "inertia",
-    }
-}
-
-/// How the value of a symbol is written where the locals are.
-pub fn element(source: &Source<'_>) -> TokenStream {
-    let plain = local(source.field, "");
-    match source.part {
-        Part::Scalar => quote!(#plain),
-        Part::Component(i) => quote!(#plain[#i]),
-        Part::Entry(i, j) => quote!(#plain[#i][#j]),
-        Part::Body(quantity, i, j) => {
-            let name = local(source.field, word(quantity));
-            match quantity {
-                Role::Mass => quote!(#name),
-                Role::CenterOfMass => quote!(#name[#i]),
-                _ => quote!(#name[#i][#j]),
-            }
-        }
-    }
-}
-
 /// The body of `kernel()`.
 pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
-    let subject = &derived.subject;
-    let Subject { model, system, sources, .. } = subject;
-    let private = derived.private();
-    let ty = derived.scalar().ty();
-    let mut read = TokenStream::new();
-    let mut checks = TokenStream::new();
-    let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
-    let scalar = derived.scalar();
-    symbols.extend(subject.literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
-    let assigned = model.given.iter().zip(&subject.assigned);
-    let assigned =
-        assigned.map(|(given, value)| assigned_local(derived, &local_of_clause(given.role), value, &symbols));
-    let assigned: TokenStream = assigned.collect();
-    for (k, field) in model.fields.iter().enumerate() {
-        if !sources.iter().any(|s| s.field == k) {
-            continue;
-        }
-        let (ident, name, said) = (&field.ident, local(k, ""), field.ident.unraw().to_string());
-        match field.shape {
-            Shape::Scalar | Shape::Vector3 | Shape::Vector6 | Shape::Matrix3 | Shape::Matrix6 => {
-                read.extend(read_field(derived, k, field));
-            }
-            Shape::RigidBody | Shape::CentralBody => {
-                let [mass, center, inertia] = ["mass", "center_of_mass", "inertia"].map(|part| local(k, part));
-                read.extend(quote! {
-                    let #mass = self.#ident.mass;
-                    let #center = #private::components(&self.#ident.center_of_mass);
-                });
-                let tensor = match field.shape {
-                    Shape::CentralBody => quote!(inertia.0),
-                    _ => quote!(inertia),
-                };
-                read.extend(quote!(let #inertia = #private::entries(&self.#ident.#tensor);));
-                let [said_mass, said_center, said_inertia] =
-                    ["mass", "center_of_mass", "inertia"].map(|part| format!("{said}.{part}"));
-                checks.extend(quote! {
-                    __check.mass(#said_mass, #mass);
-                    __check.finite(#said_center, &#center);
-                });
-                let central = field.shape == Shape::CentralBody;
-                checks.extend(of_body(derived, Some(ident), &said_inertia, [&mass, &center, &inertia], central));
-            }
-            Shape::Other => {}
-        }
-        checks.extend(match (field.role, field.shape) {
-            (_, Shape::RigidBody | Shape::CentralBody | Shape::Other) => TokenStream::new(),
-            (Some(role), shape) => role_check(derived, model, role, shape, &said, &name),
-            _ => finite(derived, k, field),
-        });
-    }
-    for given in &model.given {
+    let Subject { model, sources, .. } = &derived.subject;
+    let (private, ty) = (derived.private(), derived.scalar().ty());
+    let symbols = symbols_of_parameters(derived);
+    let read = parameters_read(derived, &symbols);
+    let fields = model.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
+    let mut checks: TokenStream = fields.map(|(k, field)| field_check(derived, k, field)).collect();
+    checks.extend(model.given.iter().map(|given| {
         let (said, name) = (given.role.word(), local_of_clause(given.role));
-        checks.extend(role_check(derived, model, given.role, given.shape, said, &name));
-    }
+        role_check(derived, model, given.role, given.shape, said, &name)
+    }));
+    checks.extend(assigned_bodies(derived, &symbols));
+    checks.extend(particles(derived, &symbols));
     checks.extend(fluid(derived, &symbols));
     checks.extend(kinetic_matrix(derived, &symbols));
-    read.extend(assigned);
-    checks.extend(assigned_bodies(derived, &symbols));
-    let particles = system.scene.tree.links.iter().filter_map(|link| match link.matter {
-        Matter::Particle(mass) => Some(mass),
-        _ => None,
-    });
-    for (clause, mass) in model.particles.iter().zip(particles) {
-        let said = match &clause.mass.kind {
-            ExpressionKind::Name(name) => name.unraw().to_string(),
-            _ => "particle(mass = …)".to_owned(),
-        };
-        let (compute, mass) = evaluate(derived, &symbols, mass);
-        checks.extend(quote!({ #compute __check.mass(#said, #mass); }));
-    }
+    checks.extend(laws::checked(derived, &symbols));
     // The first field that the equations read speaks for all of them.
     let said = sources.first().map(|s| model.fields[s.field].ident.unraw().to_string()).unwrap_or_default();
     let kernel = constants(derived, &symbols, &said);
@@ -132,26 +46,70 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
     }
 }
 
+/// What must hold of a field.
+fn field_check(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream {
+    match (field.role, field.shape) {
+        (_, Shape::Other) => TokenStream::new(),
+        (_, Shape::RigidBody | Shape::CentralBody) => {
+            let [mass, center, inertia] = ["mass", "center_of_mass", "inertia"].map(|part| local(k, part));
+            let central = field.shape == Shape::CentralBody;
+            named_body(derived, &field.ident, "inertia", [&mass, &center, &inertia], central)
+        }
+        (Some(role), shape) => {
+            role_check(derived, derived.subject.model, role, shape, &field.ident.unraw().to_string(), &local(k, ""))
+        }
+        _ => finite(derived, k, field),
+    }
+}
+
+/// What must hold of the masses of particles.
+fn particles(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let Subject { model, system, .. } = &derived.subject;
+    let masses = system.scene.tree.links.iter().filter_map(|link| match link.matter {
+        Matter::Particle(mass) => Some(mass),
+        _ => None,
+    });
+    let check = |(clause, mass): (&ParticleClause, Expr<'_>)| {
+        let said = match &clause.mass.kind {
+            ExpressionKind::Name(name) => name.unraw().to_string(),
+            _ => "particle(mass = …)".to_owned(),
+        };
+        let (compute, mass) = evaluate(derived, symbols, mass);
+        quote!({ #compute __check.mass_in_sum(#said, #mass); })
+    };
+    model.particles.iter().zip(masses).map(check).collect()
+}
+
 /// The constants computed and checked: together, parameters that are fine one by one can overflow. `said` is the field that
 /// speaks for them.
 pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, said: &str) -> TokenStream {
-    let private = derived.private();
-    let ty = derived.scalar().ty();
     let (compute, outputs) = statements(&derived.kernel.constants, symbols, &derived.scalar());
+    let sum = sum(derived);
     let (name, fields) = (derived.kernel_name(), derived.constant_fields());
     quote! {
         #compute
         let __kernel = #name { #(#fields: #outputs),* };
-        let mut __check = #private::ParameterCheck::<#ty>::new();
+        #sum
         __check.constants(#said, &[#(__kernel.#fields),*]);
         __check.finish()?;
         ::core::result::Result::Ok(__kernel)
     }
 }
 
-/// The local of what a clause says.
-fn local_of_clause(role: Role) -> Ident {
-    format_ident!("__given_{}", role.word(), span = Span::mixed_site())
+/// Bodies some of which have no mass have a mass matrix all the same; where there is one body alone that is checked of it.
+fn sum(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    if derived.subject.model.one_body().is_some() {
+        return None;
+    }
+    let (private, kernel) = (derived.private(), derived.kernel_name());
+    let KernelGenerics { used, .. } = derived.kernel_generics();
+    let system = quote!(<#kernel #used as #private::GaussSystem>);
+    Some(quote! {
+        if __check.massless().is_some() {
+            let __matrix = |__q| #private::entries(&#system::mass_matrix(&__kernel, #private::sample_time(), &__q));
+            __check.regular(&#private::samples::<#system::Configuration>().map(__matrix));
+        }
+    })
 }
 
 /// What must hold of mass data and gravity, from fields or clauses.
@@ -164,33 +122,12 @@ fn role_check(
     name: &Ident,
 ) -> TokenStream {
     match (role, shape) {
-        (Role::Mass, _) => quote!(__check.mass(#said, #name);),
+        (Role::Mass, _) if model.one_body().is_some() => quote!(__check.mass(#said, #name);),
+        (Role::Mass, _) => quote!(__check.mass_in_sum(#said, #name);),
         (Role::DisplacedMass, _) => quote!(__check.non_negative(#said, #name);),
         (Role::Inertia | Role::CentralInertia, shape) => {
             let rows = inertia_rows(&derived.scalar().ty(), derived, shape, name);
-            let checks = match model.in_chart.map(|own| own.motion) {
-                // In the plane only the moment about k₃ enters.
-                Some(Motion::Planar) => {
-                    let zero = derived.scalar().number(&Rational::zero());
-                    quote!({
-                        let __moment = __inertia[2usize][2usize];
-                        __check.inertia(#said, &[
-                            [__moment, #zero, #zero], [#zero, __moment, #zero], [#zero, #zero, __moment],
-                        ]);
-                        for __row in &__inertia {
-                            __check.finite(#said, __row);
-                        }
-                    })
-                }
-                _ if role == Role::CentralInertia => {
-                    let (mass, zero) = (local_of(model, Role::Mass), derived.scalar().number(&Rational::zero()));
-                    quote!(__check.central_inertia(#said, #mass, [#zero; 3], &__inertia);)
-                }
-                _ => {
-                    let about_center = central_inertia(model, said);
-                    quote!(__check.inertia(#said, &__inertia); #about_center)
-                }
-            };
+            let checks = inertia_check(derived, model, role, said);
             quote!({
                 let __inertia = #rows;
                 #checks
@@ -201,14 +138,41 @@ fn role_check(
     }
 }
 
-/// The local of a field.
-fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream {
-    let (private, ident, name) = (derived.private(), &field.ident, local(k, ""));
-    match field.shape {
-        Shape::Scalar => quote!(let #name = self.#ident;),
-        Shape::Vector3 | Shape::Vector6 => quote!(let #name = #private::components(&self.#ident);),
-        _ => quote!(let #name = #private::entries(&self.#ident);),
+/// What must hold of the inertia of the body without a name, which is `__inertia`.
+fn inertia_check(derived: &Derived<'_, '_>, model: &Model, role: Role, said: &str) -> TokenStream {
+    let zero = derived.scalar().number(&Rational::zero());
+    let local = |role: Role| local_of(model, role).map(|name| quote!(#name));
+    let motion = model.in_chart.map(|own| own.motion);
+    // Where O is held at Ω only m·c and I_O enter, and m by itself says nothing.
+    let placed = |body: &BodyClause| body.name.is_none() && body.position.is_none() && body.parent.is_none();
+    let held = match motion {
+        Some(motion) => motion == Motion::FixedPoint,
+        None => model.bodies.iter().any(placed),
+    };
+    let mass = local(Role::Mass).filter(|_| !held).unwrap_or_else(|| zero.clone());
+    let central = role == Role::CentralInertia;
+    let center = local(Role::CenterOfMass).filter(|_| !held && !central).unwrap_or_else(|| quote!([#zero; 3]));
+    if model.one_body().is_none() {
+        return in_sum(derived, None, said, [&mass, &center, &quote!(__inertia)]);
     }
+    let checks = match motion {
+        // In the plane only the moment about k₃ enters, but all that is given is that of a body.
+        Some(Motion::Planar) => quote! {
+            let __moment = __inertia[2usize][2usize];
+            __check.inertia(#said, &[[__moment, #zero, #zero], [#zero, __moment, #zero], [#zero, #zero, __moment]]);
+            __check.inertia_about_axis(#said, 2usize, (#mass, #center), &__inertia);
+        },
+        _ if central => {
+            let mass = local(Role::Mass);
+            quote!(__check.central_inertia(#said, #mass, [#zero; 3], &__inertia);)
+        }
+        Some(Motion::Free) if local(Role::CenterOfMass).is_some() => quote! {
+            __check.inertia(#said, &__inertia);
+            __check.central_inertia(#said, #mass, #center, &__inertia);
+        },
+        _ => quote!(__check.inertia(#said, &__inertia);),
+    };
+    waived(derived, None, checks)
 }
 
 /// What must hold of a field without a role.
@@ -228,55 +192,9 @@ fn finite_value(shape: Shape, said: &str, name: &Ident) -> TokenStream {
     }
 }
 
-/// `warnings()`: what is likely not meant; only of scenes with drag.
-pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
-    let drags = &derived.drags;
-    if drags.is_empty() {
-        return TokenStream::new();
-    }
-    let Subject { model, sources, literals, .. } = &derived.subject;
-    let (private, ty) = (derived.private(), derived.scalar().ty());
-    let (visibility, scalar) = (derived.item().visibility, derived.scalar());
-    let is_read = |k: usize| sources.iter().any(|s| s.field == k);
-    let read = model.fields.iter().enumerate().filter(|(k, f)| !f.shape.is_body() && is_read(*k));
-    let read = read.map(|(k, field)| read_field(derived, k, field));
-    let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
-    symbols.extend(literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
-    let checks = drags.iter().filter_map(|drag| {
-        let program = Program::lower(&drag.entries.concat());
-        // Coefficients that depend on the state are no matrix that could be judged here.
-        if !program.symbols().iter().all(|s| symbols.contains_key(&s.key())) {
-            return None;
-        }
-        let (compute, outputs) = statements(&program, &symbols, &scalar);
-        let rows = outputs.chunks(6).map(|row| quote!([#(#row),*]));
-        let (said, kind) = (&drag.said, if drag.quadratic { quote!(Quadratic) } else { quote!(Linear) });
-        Some(quote!({
-            #compute
-            __warnings.drag(#said, #private::DragKind::#kind, &[#(#rows),*]);
-        }))
-    });
-    quote! {
-        /// What is likely not meant, although a kernel can be made of it: drag that feeds energy, with its eigenvalue.
-        #[allow(unused_variables, dead_code)]
-        #visibility fn warnings(&self) -> #private::ParameterWarnings {
-            #(#read)*
-            let mut __warnings = #private::WarningCheck::<#ty>::new();
-            #(#checks)*
-            __warnings.finish()
-        }
-    }
-}
-
 fn evaluate(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, e: Expr<'_>) -> (TokenStream, TokenStream) {
     let (compute, outputs) = statements(&Program::lower(&[e]), symbols, &derived.scalar());
     (compute, quote!(#(#outputs)*))
-}
-
-/// The local of what plays a role of the body without a name.
-fn local_of(model: &Model, role: Role) -> Option<Ident> {
-    let field = model.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
-    field.or_else(|| model.given.iter().any(|given| given.role == role).then(|| local_of_clause(role)))
 }
 
 /// The matrix of the kinetic energy of the body without a name, on the axes of its motion: with a centre of mass off O its parts can be
@@ -298,23 +216,11 @@ fn kinetic_matrix(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) ->
     let entries: Vec<Expr<'_>> = entries.map(|(i, j)| free.matrix.entries[i][j]).collect();
     let (compute, outputs) = statements(&Program::lower(&entries), symbols, &derived.scalar());
     let rows = outputs.chunks(active.len()).map(|row| quote!([#(#row),*]));
-    Some(quote!({
-        #compute
-        __check.kinetic_matrix(#said, &[#(#rows),*]);
-    }))
-}
-
-/// What is left about the centre of mass must be an inertia too, unless O is held at Ω: only m·c and I_O enter then, and m
-/// by itself says nothing.
-fn central_inertia(model: &Model, said: &str) -> TokenStream {
-    let moves = match model.in_chart {
-        Some(own) => own.motion == Motion::Free,
-        None => model.bodies.iter().any(|body| body.position.is_some()),
-    };
-    match (local_of(model, Role::Mass), local_of(model, Role::CenterOfMass)) {
-        (Some(mass), Some(center)) if moves => {
-            quote!(__check.central_inertia(#said, #mass, #center, &__inertia);)
-        }
-        _ => TokenStream::new(),
-    }
+    Some(own_matrix(
+        derived,
+        quote!({
+            #compute
+            __check.kinetic_matrix(#said, &[#(#rows),*]);
+        }),
+    ))
 }

@@ -5,15 +5,17 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::{BinaryFunction, Function, Map, Rational};
+use crate::algebra::{BinaryFunction, Function, Map, OwnFunction, Rational};
 use crate::kernel::{Operand, Operation, Program};
-use crate::model::Scalar;
+use crate::model::{FunctionClause, FunctionKind, Scalar};
 
 /// How numbers are written for a scalar type.
 pub struct ScalarTokens<'a> {
     pub scalar: &'a Scalar,
     /// `::gauss_runtime::real::Real`.
     pub real: TokenStream,
+    /// Functions of the user's own.
+    pub functions: &'a [FunctionClause],
 }
 
 impl ScalarTokens<'_> {
@@ -132,56 +134,68 @@ pub fn statements_kept<'g>(
     scalar: &ScalarTokens<'_>,
     kept: Kept,
 ) -> (TokenStream, Vec<TokenStream>) {
-    let real = &scalar.real;
-    let write = |o: &Operand<'_>| operand(o, symbols, scalar);
-    let mut written = Vec::with_capacity(program.instructions.len());
     let read = pairs_read(program, kept);
-    for (k, instruction) in program.instructions.iter().enumerate() {
-        let name = value(k);
-        let statement = match instruction {
-            Operation::Add(a, b) => binary(&name, &write(a), &quote!(+), &write(b)),
-            Operation::Subtract(a, b) => binary(&name, &write(a), &quote!(-), &write(b)),
-            Operation::Multiply(a, b) => binary(&name, &write(a), &quote!(*), &write(b)),
-            Operation::Divide(a, b) => binary(&name, &write(a), &quote!(/), &write(b)),
-            Operation::MultiplyAdd(a, b, c) => {
-                let (a, b, c) = (write(a), write(b), write(c));
-                quote!(let #name = #real::fma(#a, #b, #c);)
-            }
-            Operation::MultiplySubtract(a, b, c) => {
-                let (a, b, c) = (write(a), write(b), write(c));
-                quote!(let #name = #real::fma(-#a, #b, #c);)
-            }
-            Operation::Negate(a) => {
-                let a = write(a);
-                quote!(let #name = -#a;)
-            }
-            Operation::Call(function, a) => {
-                let (a, function) = (write(a), function_name(*function));
-                quote!(let #name = #real::#function(#a);)
-            }
-            Operation::Binary(function, a, b) => {
-                let (a, b) = (write(a), write(b));
-                let function = match function {
-                    BinaryFunction::Atan2 => quote!(atan2),
-                    BinaryFunction::Min => quote!(min),
-                    BinaryFunction::Max => quote!(max),
-                };
-                quote!(let #name = #real::#function(#a, #b);)
-            }
-            Operation::SineCosine(a) => {
-                let (a, s, c) = (write(a), sine(k), cosine(k));
-                let [sine, cosine] = read[k];
-                let s = if sine { quote!(#s) } else { quote!(_) };
-                let c = if cosine { quote!(#c) } else { quote!(_) };
-                quote!(let (#s, #c) = #real::sin_cos(#a);)
-            }
-        };
-        written.push(statement);
-    }
+    let instructions = program.instructions.iter().enumerate();
+    let written = instructions.map(|(k, instruction)| statement(k, instruction, read[k], symbols, scalar));
     (
         in_blocks(handed_on(program, kept).into_iter().zip(written).collect()),
-        program.outputs.iter().map(write).collect(),
+        program.outputs.iter().map(|output| operand(output, symbols, scalar)).collect(),
     )
+}
+
+/// One instruction; of a sine and a cosine what is read.
+fn statement(
+    k: usize,
+    instruction: &Operation<'_>,
+    [sine_read, cosine_read]: [bool; 2],
+    symbols: &Map<u32, TokenStream>,
+    scalar: &ScalarTokens<'_>,
+) -> TokenStream {
+    let real = &scalar.real;
+    let write = |o: &Operand<'_>| operand(o, symbols, scalar);
+    let name = value(k);
+    match instruction {
+        Operation::Add(a, b) => binary(&name, &write(a), &quote!(+), &write(b)),
+        Operation::Subtract(a, b) => binary(&name, &write(a), &quote!(-), &write(b)),
+        Operation::Multiply(a, b) => binary(&name, &write(a), &quote!(*), &write(b)),
+        Operation::Divide(a, b) => binary(&name, &write(a), &quote!(/), &write(b)),
+        Operation::MultiplyAdd(a, b, c) => {
+            let (a, b, c) = (write(a), write(b), write(c));
+            quote!(let #name = #real::fma(#a, #b, #c);)
+        }
+        Operation::MultiplySubtract(a, b, c) => {
+            let (a, b, c) = (write(a), write(b), write(c));
+            quote!(let #name = #real::fma(-#a, #b, #c);)
+        }
+        Operation::Negate(a) => {
+            let a = write(a);
+            quote!(let #name = -#a;)
+        }
+        Operation::Call(Function::Own(own), a) => {
+            let (a, function) = (write(a), own_function(scalar, *own));
+            quote!(let #name = #function(#a);)
+        }
+        Operation::Call(function, a) => {
+            let (a, function) = (write(a), function_name(*function));
+            quote!(let #name = #real::#function(#a);)
+        }
+        Operation::Binary(function, a, b) => {
+            let (a, b) = (write(a), write(b));
+            let function = match function {
+                BinaryFunction::Atan2 => quote!(atan2),
+                BinaryFunction::Min => quote!(min),
+                BinaryFunction::Max => quote!(max),
+                BinaryFunction::Powf => quote!(powf),
+            };
+            quote!(let #name = #real::#function(#a, #b);)
+        }
+        Operation::SineCosine(a) => {
+            let (a, s, c) = (write(a), sine(k), cosine(k));
+            let s = if sine_read { quote!(#s) } else { quote!(_) };
+            let c = if cosine_read { quote!(#c) } else { quote!(_) };
+            quote!(let (#s, #c) = #real::sin_cos(#a);)
+        }
+    }
 }
 
 /// Whether the sine and the cosine of each instruction are read.
@@ -247,6 +261,25 @@ pub fn in_blocks(statements: Vec<(Vec<TokenStream>, TokenStream)>) -> TokenStrea
     blocks.collect()
 }
 
+/// How a function of the user's own, or a derivative of it, is called: by its path, or as a method of a table.
+fn own_function(scalar: &ScalarTokens<'_>, own: OwnFunction) -> TokenStream {
+    let order = usize::from(own.order);
+    match &scalar.functions[usize::from(own.index)].kind {
+        // That the derivative is there was checked.
+        FunctionKind::Rust(paths) => paths.get(order).map_or_else(TokenStream::new, |path| quote!(#path)),
+        FunctionKind::Linear(_) | FunctionKind::Cubic(_) => {
+            let (table, method) = (table_name(own.index), ["value", "slope", "second", "third"].get(order));
+            let method = Ident::new(method.copied().unwrap_or("third"), Span::call_site());
+            quote!(#table.#method)
+        }
+    }
+}
+
+/// The constant that holds a table.
+pub fn table_name(index: u16) -> Ident {
+    format_ident!("__TABLE_{}", index, span = Span::mixed_site())
+}
+
 fn function_name(function: Function) -> Ident {
     let name = match function {
         Function::Sin => "sin",
@@ -256,6 +289,8 @@ fn function_name(function: Function) -> Ident {
         Function::Sqrt => "sqrt",
         Function::Abs => "abs",
         Function::Signum => "signum",
+        Function::Tanh => "tanh",
+        Function::Own(_) => unreachable!("functions of the user's own have paths"),
     };
     Ident::new(name, Span::call_site())
 }

@@ -3,10 +3,11 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Ident;
+use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Rational};
 use crate::mechanics::{Assigned, Constraints, Coordinate, Method, System};
-use crate::model::Model;
+use crate::model::{BodyClause, Model, Role};
 use crate::translate::Source;
 
 use super::arguments::Argument;
@@ -26,6 +27,8 @@ pub struct Subject<'a, 'g> {
     /// Mass data that are written in clauses: of the body without a name, and of each of the others.
     pub assigned: Vec<Assigned<'g>>,
     pub assigned_to_bodies: Vec<Vec<Assigned<'g>>>,
+    /// Which of the speeds that are declared are speeds of the system: not those that constraints determine.
+    pub kept_speeds: Vec<usize>,
     /// Which link each clause of a body or frame became.
     pub links: Vec<usize>,
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate.
@@ -80,12 +83,7 @@ impl<'g> Subject<'_, 'g> {
         let last = factors.len() - 1;
         let mut arguments = Vec::new();
         for (k, factor) in factors.into_iter().enumerate() {
-            let mut place = quote!(__q);
-            if last > 0 {
-                let deeper = (0..k).map(|_| quote!(.1));
-                let own = if k < last { quote!(.0) } else { quote!() };
-                place = quote!((&__q #(#deeper)* #own));
-            }
+            let place = place(k, last);
             match factor {
                 Factor::Scalars { symbols } => {
                     arguments.push(Argument { array: quote!(#private::components(#place)), symbols });
@@ -110,6 +108,42 @@ impl<'g> Subject<'_, 'g> {
             }
         }
         arguments
+    }
+
+    /// The coordinates in their order, each as its value in `__q`.
+    pub fn places_of_coordinates(&self, private: &TokenStream) -> Vec<TokenStream> {
+        let factors = self.factors();
+        let last = factors.len() - 1;
+        let mut places = vec![TokenStream::new(); self.coordinates().len()];
+        let scalars: Vec<usize> =
+            (0..places.len()).filter(|&k| matches!(self.coordinates()[k], Coordinate::Scalar(_))).collect();
+        for (k, factor) in factors.iter().enumerate() {
+            let place = place(k, last);
+            match factor {
+                Factor::Group { coordinate } => places[*coordinate] = quote!(*#place),
+                Factor::Scalars { .. } => {
+                    for (component, &coordinate) in scalars.iter().enumerate() {
+                        places[coordinate] = quote!(#private::components(#place)[#component]);
+                    }
+                }
+            }
+        }
+        places
+    }
+
+    /// The configuration that has these coordinates.
+    pub fn configuration_of(&self, private: &TokenStream, values: &[TokenStream]) -> TokenStream {
+        let (mut groups, mut scalars) = (Vec::new(), Vec::new());
+        for (coordinate, value) in self.coordinates().iter().zip(values) {
+            match coordinate {
+                Coordinate::Scalar(_) => scalars.push(value.clone()),
+                _ => groups.push(value.clone()),
+            }
+        }
+        if !scalars.is_empty() || groups.is_empty() {
+            groups.push(quote!(#private::vector([#(#scalars),*])));
+        }
+        nested(groups, |a, b| quote!((#a, #b)))
     }
 
     /// The components of an increment of the configuration, in the order of the coordinates, as its type.
@@ -143,6 +177,15 @@ impl<'g> Subject<'_, 'g> {
     pub fn only_axis(&self, name: Option<&Ident>) -> Option<usize> {
         let clause = self.model.bodies.iter().position(|body| body.name.as_ref() == name)?;
         self.system.scene.tree.links[self.links[clause]].only_axis()
+    }
+
+    /// What a role of a body is called: by its field, or by its word after the name of the body.
+    pub fn said_of_body(&self, body: &BodyClause, role: Role) -> String {
+        match (&body.name, self.model.field(role)) {
+            (Some(name), _) => format!("{}.{}", name.unraw(), role.word()),
+            (None, Some(field)) => field.ident.unraw().to_string(),
+            (None, None) => role.word().to_owned(),
+        }
     }
 
     /// `project` of the kernel's [`GaussSystem`], where there is something to project to.
@@ -179,6 +222,16 @@ impl<'g> Subject<'_, 'g> {
             ),
         ]
     }
+}
+
+/// Factor k of `__q`, of which the last is `last`.
+fn place(k: usize, last: usize) -> TokenStream {
+    if last == 0 {
+        return quote!(__q);
+    }
+    let deeper = (0..k).map(|_| quote!(.1));
+    let own = if k < last { quote!(.0) } else { quote!() };
+    quote!((&__q #(#deeper)* #own))
 }
 
 fn nested(

@@ -10,6 +10,8 @@
 //! | e = exp a | `aₖe₀ + Σ jaⱼeₖ₋ⱼ/k` |
 //! | l = ln a | `(aₖ − Σ jlⱼaₖ₋ⱼ/k)/a₀` |
 //! | s = sin a, c = cos a | `aₖc₀ + Σ jaⱼcₖ₋ⱼ/k`, `−aₖs₀ − Σ jaⱼsₖ₋ⱼ/k` |
+//! | w = tanh a, r = 1 − w² | `aₖr₀ + Σ jaⱼrₖ₋ⱼ/k`, `−2w₀wₖ − Σ wⱼwₖ₋ⱼ` |
+//! | w = aᵖ | `(p(aₖw₀ + Σ jaⱼwₖ₋ⱼ/k) − Σ jwⱼaₖ₋ⱼ/k)/a₀` |
 //! | θ = atan2(y, x), r = x² + y² | `(yₖx₀ − xₖy₀ + Σ (jyⱼxₖ₋ⱼ − jxⱼyₖ₋ⱼ − jθⱼrₖ₋ⱼ)/k)/r₀` |
 //!
 //! with sums over 0 < j < k (Knuth, TAOCP 2, 4.7). Each sum is a *lane* of the runtime's `Series`: all lanes of an order are summed
@@ -70,7 +72,9 @@ impl<'a, 'g> Order<'a, 'g> {
             if self.moving[k] && !self.inlined[k] {
                 let names = match instruction {
                     Operation::SineCosine(_) => vec![named("ws", k), named("wc", k)],
-                    Operation::Binary(..) => vec![named("wr", k), named("w", k)],
+                    Operation::Binary(BinaryFunction::Atan2, ..) | Operation::Call(Function::Tanh, _) => {
+                        vec![named("wr", k), named("w", k)]
+                    }
                     _ => vec![named("w", k)],
                 };
                 lines.push((names, self.statement(k, instruction)));
@@ -183,6 +187,7 @@ impl<'a, 'g> Order<'a, 'g> {
                 let sum = self.lane(quote!(#w * __order), ak.clone());
                 quote!(#real::fma(-__over, #sum, #ak) * #reciprocal)
             }
+            Operation::Call(Function::Tanh, a) => return self.tangent(k, a),
             Operation::Call(_, a) => {
                 let ak = self.coefficient(a).unwrap_or(zero);
                 let sum = self.lane(quote!(#ak * __order), w.clone());
@@ -190,6 +195,13 @@ impl<'a, 'g> Order<'a, 'g> {
             }
             Operation::SineCosine(a) => return self.sine_cosine(k, a),
             Operation::Binary(BinaryFunction::Atan2, y, x) => return self.angle(k, y, x),
+            Operation::Binary(BinaryFunction::Powf, a, p) => {
+                let (a0, p, ak) = (self.first(a), self.first(p), self.coefficient(a).unwrap_or(zero));
+                let reciprocal = self.reciprocal(k, &a0);
+                let up = self.lane(quote!(#ak * __order), w.clone());
+                let down = self.lane(quote!(#w * __order), ak.clone());
+                quote!((#p * #real::fma(__over, #up, #ak * #v0) - __over * #down) * #reciprocal)
+            }
             Operation::Binary(..) => {
                 let message = "bug in gauss-derive: a function without a power series";
                 quote!(::core::compile_error!(#message))
@@ -221,6 +233,18 @@ impl<'a, 'g> Order<'a, 'g> {
         quote! {
             let #s = #real::fma(__over, #with_cosine, #ak * #c0);
             let #c = -#real::fma(__over, #with_sine, #ak * #s0);
+        }
+    }
+
+    /// w = tanh a, r = 1 − w².
+    fn tangent(&mut self, k: usize, a: &Operand<'g>) -> TokenStream {
+        let (real, w, rk) = (self.scalar.real.clone(), named("w", k), named("wr", k));
+        let (w0, ak) = (self.first(&Operand::Value(k)), self.coefficient(a).unwrap_or(self.zero()));
+        let with_rest = self.lane(quote!(#ak * __order), rk.clone());
+        let squares = self.lane(w.clone(), w.clone());
+        quote! {
+            let #w = #real::fma(__over, #with_rest, #ak * #real::fma(-#w0, #w0, __one));
+            let #rk = -#real::fma(#w0 + #w0, #w, #squares);
         }
     }
 

@@ -102,9 +102,9 @@ fn generated_code_is_straight_and_safe() {
             {
                 assert!(!found.contains(&forbidden.to_owned()), "`{forbidden}` in {chart}");
             }
-            // `for` stands only in `impl … for`.
+            // `for` stands only in `impl … for`: all but those of the struct and of its state.
             let loops = found.iter().filter(|w| *w == "for").count();
-            assert_eq!(loops, found.iter().filter(|w| *w == "impl").count() - 1, "{chart}");
+            assert_eq!(loops, found.iter().filter(|w| *w == "impl").count() - 2, "{chart}");
         }
     }
 }
@@ -126,7 +126,7 @@ fn acceleration_of_a_body_of_literals() {
 
 #[test]
 fn literals_read_back_as_what_they_are() {
-    let scalar = |scalar: &'static Scalar| ScalarTokens { scalar, real: TokenStream::new() };
+    let scalar = |scalar: &'static Scalar| ScalarTokens { scalar, real: TokenStream::new(), functions: &[] };
     // Steps of an odd number run through exponents and mantissas alike.
     let bits = (0..10_000_u64).map(|k| k.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     for value in bits.map(f64::from_bits).filter(|value| value.is_finite()) {

@@ -146,7 +146,7 @@ fn constants<'g>(
 ) -> (Constants<'g>, Vec<(Expr<'g>, f64)>, Definitions<'g>) {
     let known = |definition: Expr<'g>| {
         let literals = literals?;
-        let value = Evaluation::new(literals).value(definition);
+        let value = Evaluation::of_known(literals).value(definition);
         let is_made_of_literals =
             || Program::lower(&[definition]).symbols().iter().all(|symbol| literals.contains_key(&symbol.key()));
         // What has no value is left to `kernel()`, which refuses it; nearly all that is made of parameters has none here.

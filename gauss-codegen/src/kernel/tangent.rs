@@ -177,6 +177,12 @@ impl<'g> Writer<'g> {
         }
     }
 
+    /// A number that is nearly the smallest.
+    fn least(&mut self) -> Operand<'g> {
+        let tiny = Operand::Number(Rational::new(1, 1 << 62));
+        self.push(Operation::Multiply(tiny, tiny))
+    }
+
     fn reciprocal(&mut self, a: Operand<'g>) -> Operand<'g> {
         match a {
             Operand::Number(n) => Operand::Number(n.recip()),
@@ -354,6 +360,7 @@ impl<'a, 'g> Pass<'a, 'g> {
                 self.writer.times(da, slope)
             }
             Operation::Binary(BinaryFunction::Atan2, y, x) => self.angle([y, x], tangents),
+            Operation::Binary(BinaryFunction::Powf, base, exponent) => self.power([base, exponent], own, tangents),
             Operation::Binary(function @ (BinaryFunction::Min | BinaryFunction::Max), a, b) => {
                 self.selected(function, [a, b], tangents)
             }
@@ -387,6 +394,27 @@ impl<'a, 'g> Pass<'a, 'g> {
         self.writer.times(turned, reciprocal)
     }
 
+    /// (x^p)˙ = p x^(p − 1) ẋ + x^p ln x ṗ.
+    fn power(&mut self, [base, exponent]: [Operand<'g>; 2], own: Operand<'g>, tangents: &[Rate<'g>]) -> Rate<'g> {
+        let [of_base, of_exponent] = self.both([base, exponent], tangents)?;
+        let (x, p) = (self.here(base), self.here(exponent));
+        let by_base = of_base.and_then(|rate| {
+            let less = self.writer.push(Operation::Subtract(p, Operand::Number(Rational::one())));
+            let power = self.writer.push(Operation::Binary(BinaryFunction::Powf, x, less));
+            let slope = self.writer.multiplied(p, power);
+            self.writer.times(Some(rate), slope)
+        });
+        let by_exponent = of_exponent.and_then(|rate| {
+            // Of 0 the power is 0, which the logarithm must not spoil.
+            let tiny = self.writer.least();
+            let least = self.writer.push(Operation::Binary(BinaryFunction::Max, x, tiny));
+            let logarithm = self.writer.push(Operation::Call(Function::Ln, least));
+            let slope = self.writer.multiplied(own, logarithm);
+            self.writer.times(Some(rate), slope)
+        });
+        self.writer.plus(by_base, by_exponent)
+    }
+
     /// That of the smaller or larger of two numbers.
     fn selected(&mut self, function: BinaryFunction, [a, b]: [Operand<'g>; 2], tangents: &[Rate<'g>]) -> Rate<'g> {
         let [da, db] = self.both([a, b], tangents)?;
@@ -406,12 +434,17 @@ impl<'a, 'g> Pass<'a, 'g> {
             // At 0, where the slope is infinite, a huge number in its place: 0 stays 0 along directions in which the radicand, such as
             // the square of a velocity, does not change to first order. Two factors, because 2⁻¹²⁴ is no fraction of 64-bit integers.
             Function::Sqrt => {
-                let least = self.writer.push(Operation::Multiply(number(1, 1 << 62), number(1, 1 << 62)));
+                let least = self.writer.least();
                 let root = self.writer.push(Operation::Binary(BinaryFunction::Max, own, least));
                 self.writer.push(Operation::Divide(number(1, 2), root))
             }
             Function::Abs => self.writer.push(Operation::Call(Function::Signum, a)),
             Function::Signum => return None,
+            Function::Tanh => {
+                let one = Operand::Number(Rational::one());
+                self.writer.push(Operation::MultiplySubtract(own, own, one))
+            }
+            Function::Own(function) => self.writer.push(Operation::Call(Function::Own(function.derivative()), a)),
             Function::Sin | Function::Cos => unreachable!("sines and cosines come in pairs"),
         })
     }

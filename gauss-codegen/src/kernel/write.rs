@@ -28,7 +28,8 @@ impl<'g> Program<'g> {
 
     /// Runs the program in double precision, with values of symbols by their keys.
     pub fn run<N: Number>(&self, symbols: &Map<u32, N>) -> Vec<N> {
-        self.evaluate(|symbol| symbols.get(&symbol.key()).copied().unwrap_or(N::number(f64::NAN)))
+        let input = |symbol: Expr<'_>| symbols.get(&symbol.key()).copied().unwrap_or(N::number(f64::NAN));
+        self.evaluate_with(input, Number::call_any)
     }
 }
 
@@ -98,10 +99,7 @@ impl<'g> Writer<'g> {
                 let a = self.operand(a);
                 self.push(Instruction::Divide(Operand::Number(Rational::one()), a))
             }
-            Node::Call(
-                function @ (Function::Exp | Function::Ln | Function::Sqrt | Function::Abs | Function::Signum),
-                a,
-            ) => {
+            Node::Call(function, a) if !matches!(function, Function::Sin | Function::Cos) => {
                 let a = self.operand(a);
                 self.push(Instruction::Call(function, a))
             }

@@ -21,6 +21,9 @@ use crate::mechanics::tidy::{compact, sums, tidy};
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 const DENSE: usize = 10;
+/// Degrees of freedom up to which C is also orthogonalised as a sum of squares: beyond, that would be a third of the time
+/// of an expansion.
+const SQUARES: usize = 6;
 
 /// A system with what its equations are made of.
 pub struct System<'g> {
@@ -307,7 +310,10 @@ impl<'g> System<'g> {
         for &inertia in self.scene.tree.inertias(self.is_long()) {
             let residual = self.residual(&self.along, inertia);
             let still = self.residual(&self.scene.rates, inertia);
-            let floating = self.floating(inertia);
+            let floating = match self.scene.tree.floats() {
+                true => self.floating(inertia),
+                false => [still.clone(), vec![self.scene.graph.zero(); still.len()]],
+            };
             if !self.is_long() {
                 let (matrix, floating) =
                     (tidied(&self.matrix), [&floating[0], &floating[1]].map(|rows| tidy_all(rows)));
@@ -446,7 +452,7 @@ impl<'g> System<'g> {
     /// C as a sum of squares, where several speeds share it. Where a speed turns a root and moves its O as well, as those of
     /// twists about Ω do, the squares are not of what is relative.
     fn elements(&self) -> Option<Elements<'_, 'g>> {
-        let few = (2..=DENSE).contains(&self.scene.speeds.len()) && self.only_body().is_none();
+        let few = (2..=SQUARES).contains(&self.scene.speeds.len()) && self.only_body().is_none();
         let still = |a: &Vector<'g>| is_zero(&a.body) && is_zero(&a.space);
         let about_far_pole = |link: &Link<'g>| {
             let rows = link.linear_rows.iter().zip(&link.angular_rows);

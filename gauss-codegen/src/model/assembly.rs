@@ -92,8 +92,9 @@ fn check_expressions(
             kinds::check(expression, place, &scope, context);
         }
     }
+    let alone = statements.bodies.len() == 1 && statements.particles.is_empty();
     let all = std::iter::once(&mut statements.given).chain(statements.bodies.iter_mut().map(|body| &mut body.given));
-    all.for_each(|given| masses::check(given, &reader.fields, &scope, context));
+    all.for_each(|given| masses::check(given, alone, &reader.fields, &scope, context));
     forces::check(statements, context);
     coefficients::check(statements, &reader.fields, &scope, scalar, context);
     let well = constraints::check_kinds(statements, &scope, context);
@@ -175,6 +176,8 @@ fn assembled(
         medium: statements.medium.and_then(|(_, velocity)| velocity),
         attractions: statements.attractions,
         forces: statements.forces,
+        functions: statements.functions,
+        formal: statements.formal,
     })
 }
 

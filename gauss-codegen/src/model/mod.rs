@@ -25,11 +25,12 @@ mod tests;
 mod units;
 
 pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
+pub use language::number::exact as literal;
 pub use parse::{item, parse};
 pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceAxes, ForceClause, ForceKind,
-    Given, GivenValue, InputKind, InputName, SpeedKind,
+    FunctionClause, FunctionKind, Given, GivenValue, InputKind, InputName, ParticleClause, SpeedKind, SpeedPart,
 };
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 pub use scene::model::{Field, Model, Scalar};

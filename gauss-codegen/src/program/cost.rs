@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::algebra::{BinaryFunction, Function};
+use crate::algebra::{BinaryFunction, Function, OwnFunction};
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
@@ -130,6 +130,9 @@ impl<S: Copy> Code<S> {
     pub fn smoothness(&self) -> Smoothness {
         let of = |instruction: &Instruction<S>| match instruction {
             Instruction::Call(Function::Signum, _) => Smoothness::Jumps,
+            Instruction::Call(Function::Own(OwnFunction { order, continuous: Some(continuous), .. }), _) => {
+                if order > continuous { Smoothness::Jumps } else { Smoothness::Kinks }
+            }
             Instruction::Call(Function::Abs, _)
             | Instruction::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => Smoothness::Kinks,
             _ => Smoothness::Smooth,

@@ -24,6 +24,9 @@ pub struct Program {
     pub code: Code,
     /// What the outputs of the code are, in their order.
     pub results: Vec<Results>,
+    /// Names of functions of the user's own, by their index. [`run`](Self::run) does not know them: they give NaN.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub functions: Vec<String>,
 }
 
 /// Arguments of a call that are not those of the program.
@@ -55,8 +58,14 @@ impl Program {
         code: Code,
         results: Vec<Results>,
     ) -> Result<Self, Malformed> {
-        let program = Self { name: name.into(), arguments, numbers, code, results };
+        let program = Self { name: name.into(), arguments, numbers, code, results, functions: Vec::new() };
         program.verify().map(|()| program)
+    }
+
+    /// The same with names of functions of the user's own.
+    #[must_use]
+    pub fn with_functions(self, functions: Vec<String>) -> Self {
+        Self { functions, ..self }
     }
 
     /// The same function with other code, as a pass makes it.

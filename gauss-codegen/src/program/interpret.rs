@@ -1,6 +1,6 @@
 //! The interpreter: a program run on any numbers.
 
-use crate::algebra::Scalar;
+use crate::algebra::{Function, Scalar};
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
@@ -18,6 +18,14 @@ impl<S: Copy> Code<S> {
     /// # Panics
     /// Of code that [`Code::verify`] refuses.
     pub fn evaluate<T: Scalar>(&self, input: impl Fn(S) -> T) -> Vec<T> {
+        self.evaluate_with(input, Scalar::call)
+    }
+
+    /// The same; `call` gives the values of functions of one argument, those of the user's own too.
+    ///
+    /// # Panics
+    /// Of code that [`Code::verify`] refuses.
+    pub fn evaluate_with<T: Scalar>(&self, input: impl Fn(S) -> T, call: impl Fn(T, Function) -> T) -> Vec<T> {
         let mut results: Vec<Computed<T>> = Vec::with_capacity(self.instructions.len());
         let get = |operand: Operand<S>, results: &[Computed<T>]| match operand {
             Operand::Input(symbol) => input(symbol),
@@ -44,7 +52,7 @@ impl<S: Copy> Code<S> {
                     results.push(Computed::Pair(sine, cosine));
                     continue;
                 }
-                Instruction::Call(function, a) => at(a).call(function),
+                Instruction::Call(function, a) => call(at(a), function),
                 Instruction::Binary(function, a, b) => at(a).call_with(function, at(b)),
             };
             results.push(Computed::One(value));

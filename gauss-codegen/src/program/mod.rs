@@ -44,7 +44,7 @@ mod series;
 mod signs;
 mod verify;
 
-pub use crate::algebra::{BinaryFunction, Function, Rational, Scalar};
+pub use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational, Scalar};
 pub use code::Code;
 pub use cost::{Cost, Counts, Smoothness};
 pub use function::{Program, WrongArguments};

@@ -84,6 +84,7 @@ impl<S: Copy> Code<S> {
     pub fn function_without_series(&self) -> Option<&'static str> {
         self.instructions.iter().find_map(|instruction| match instruction {
             Instruction::Call(function @ (Function::Abs | Function::Signum), _) => Some(function.name()),
+            Instruction::Call(Function::Own(_), _) => Some("a function of your own"),
             Instruction::Binary(function @ (BinaryFunction::Min | BinaryFunction::Max), ..) => Some(function.name()),
             _ => None,
         })

@@ -13,9 +13,10 @@
 //! # Ok::<(), syn::Error>(())
 //! ```
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use crate::algebra::{BinaryFunction, Function, Notation, Rational};
+use crate::algebra::{BinaryFunction, Function, Notation, OwnFunction, Rational};
 use crate::derivation::Derivation;
 use crate::program::{Argument, ArgumentKind, Input, Instruction, Operand, Program, Results};
 
@@ -34,6 +35,10 @@ pub fn source(derivation: &Derivation) -> String {
     out.push_str("#include <math.h>\n");
     if programs().any(calls_signum) {
         write!(out, "\n{SIGNUM}").ok();
+    }
+    let own = own_functions(programs());
+    if !own.is_empty() {
+        write!(out, "\n/* To be provided: functions of the scene, name_n their n-th derivatives. */\n{own}").ok();
     }
     for program in programs() {
         write!(out, "\n{}", function(program, &prefix)).ok();
@@ -159,12 +164,14 @@ fn statement(program: &Program, k: usize, instruction: &Instruction, operands: &
             let written = read.map(|(name, part)| format!("{} = {name}({})", of(&part), of(a)));
             return format!("    const double {};\n", written.collect::<Vec<_>>().join(", "));
         }
+        Instruction::Call(Function::Own(function), a) => format!("{}({})", own_name(program, *function), of(a)),
         Instruction::Call(function, a) => format!("{}({})", name(*function), of(a)),
         Instruction::Binary(function, a, b) => {
             let name = match function {
                 BinaryFunction::Atan2 => "atan2",
                 BinaryFunction::Min => "fmin",
                 BinaryFunction::Max => "fmax",
+                BinaryFunction::Powf => "pow",
             };
             format!("{name}({}, {})", of(a), of(b))
         }
@@ -177,8 +184,29 @@ fn name(function: Function) -> &'static str {
         Function::Ln => "log",
         Function::Abs => "fabs",
         Function::Signum => "gauss_signum",
-        Function::Sin | Function::Cos | Function::Exp | Function::Sqrt => function.name(),
+        Function::Sin | Function::Cos | Function::Exp | Function::Sqrt | Function::Tanh | Function::Own(_) => {
+            function.name()
+        }
     }
+}
+
+/// A function of the user's own, which whoever links the code provides: `lift`, its derivatives `lift_1`, `lift_2`.
+fn own_name(program: &Program, function: OwnFunction) -> String {
+    let name = snake(program.functions.get(usize::from(function.index)).map_or("own", String::as_str));
+    if function.order == 0 { name } else { format!("{name}_{}", function.order) }
+}
+
+/// Declarations of the functions of the user's own that programs call.
+fn own_functions<'a>(programs: impl Iterator<Item = &'a Program>) -> String {
+    let called = programs.flat_map(|program| {
+        let own = |instruction: &Instruction| match instruction {
+            Instruction::Call(Function::Own(function), _) => Some(own_name(program, *function)),
+            _ => None,
+        };
+        program.code.instructions.iter().filter_map(own)
+    });
+    let names: BTreeSet<String> = called.collect();
+    names.into_iter().map(|name| format!("double {name}(double x);\n")).collect()
 }
 
 fn operand(program: &Program, operand: &Operand) -> String {

@@ -2,9 +2,9 @@
 
 use proc_macro2::Span;
 
-use crate::algebra::{Evaluation, Expr, Function, Map, Number, Precise, Scalar};
+use crate::algebra::{Evaluation, Expr, Map, Number, Precise, Scalar};
 use crate::mistakes::Mistakes;
-use crate::model::{Expression, LARGEST_EXPONENT, too_many_factors};
+use crate::model::{Expression, FunctionName, LARGEST_EXPONENT, too_many_factors};
 
 use super::Translator;
 
@@ -20,19 +20,26 @@ impl<'g> Translator<'_, 'g> {
         self.mistake(span, "division by zero: this is always zero".to_owned())
     }
 
-    /// The argument of a root or a logarithm.
-    pub(super) fn in_domain(&self, function: Function, argument: Expr<'g>, span: Span) -> Expr<'g> {
+    /// The argument of a function that has none everywhere.
+    pub(super) fn in_domain(&self, function: FunctionName, argument: Expr<'g>, span: Span) -> Expr<'g> {
         let found = match self.known(argument) {
             Some(value) => value.to_f64(),
             None if self.vanishes(argument) => 0.0,
             None => return argument,
         };
         match function {
-            Function::Ln if found <= 0.0 => {
+            FunctionName::Ln if found <= 0.0 => {
                 self.mistake(span, format!("the argument of `ln` must be positive, found {found}"))
             }
-            Function::Sqrt if found < 0.0 => {
+            FunctionName::Sqrt if found < 0.0 => {
                 self.mistake(span, format!("the argument of `sqrt` must be zero or more, found {found}"))
+            }
+            FunctionName::Powf if found < 0.0 => {
+                self.mistake(span, format!("the base of `powf` must be zero or more, found {found}; write `powi`"))
+            }
+            FunctionName::Asin | FunctionName::Acos if found.abs() > 1.0 => {
+                let word = if function == FunctionName::Asin { "asin" } else { "acos" };
+                self.mistake(span, format!("the argument of `{word}` lies between -1 and 1, found {found}"))
             }
             _ => argument,
         }
@@ -44,6 +51,17 @@ impl<'g> Translator<'_, 'g> {
             return y;
         }
         self.mistake(span, "both arguments of `atan2` are always zero, and that point has no angle".to_owned())
+    }
+
+    /// Whether what has mass stays at a center of attraction, from which it is `arm` away; that is noted.
+    pub(super) fn stays_at(&self, arm: &[Expr<'g>; 3], span: Span) -> bool {
+        let stays = arm.iter().all(|e| self.vanishes(*e));
+        if stays {
+            let message = "something with mass stays at the center, where the attraction is infinite; say where the center \
+                           is: `center = […]`";
+            self.mistake(span, message.to_owned());
+        }
+        stays
     }
 
     /// The width of a smooth step.
@@ -115,6 +133,6 @@ impl<'g> Translator<'_, 'g> {
         let literals = self.literals.borrow();
         let literals = literals.iter().map(|(value, symbol)| (symbol.key(), Precise::fraction(*value))).collect();
         // Symbols without a value make it undefined.
-        Some(Evaluation::new(&literals).value(value)).filter(|value: &Precise| value.is_finite())
+        Some(Evaluation::of_known(&literals).value(value)).filter(|value: &Precise| value.is_finite())
     }
 }

@@ -3,14 +3,16 @@
 
 use std::collections::HashSet;
 
+use proc_macro2::Span;
 use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
-use crate::mechanics::{Action, Axes, CentralField, Element, Force, Tree, entrained};
-use crate::model::{Coefficients, Expression, Extent, ForceAxes, ForceClause, ForceKind, Property};
+use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Tree, entrained};
+use crate::model::{Coefficients, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Property};
 
 use super::drag::DragMatrix;
+use super::laws::{Law, LawKind};
 use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
@@ -46,8 +48,12 @@ impl<'g> Translator<'_, 'g> {
         for clause in &model.attractions {
             let mu = self.scalar(&clause.mu, tree)?;
             let center = clause.center.as_ref().map(|e| self.vector(e, tree)).transpose()?;
+            let name = names.of(clause.name.as_ref(), "central gravity");
+            self.note(LawKind::Attraction, (&name, "mu"), &clause.mu, vec![mu]);
             let field = CentralField { mu, center: center.unwrap_or([self.graph.zero(); 3]) };
-            elements.push(Element::new(names.of(clause.name.as_ref(), "central gravity"), field.action(tree)));
+            if !self.is_infinite(&field, clause.mu.span, tree) {
+                elements.push(Element::new(name, field.action(tree)));
+            }
         }
         let entrained = self.medium(tree)?;
         if !entrained.is_empty() {
@@ -55,20 +61,14 @@ impl<'g> Translator<'_, 'g> {
         }
         for clause in &model.forces {
             let name = names.of(clause.name.as_ref(), noun(clause));
-            for (suffix, action) in self.actions(clause, &name, tree)? {
-                elements.push(Element::new(format!("{name}{suffix}"), action));
-            }
+            let actions = self.actions(clause, &name, tree)?;
+            elements.extend(actions.into_iter().map(|action| Element::new(name.clone(), action)));
         }
         Ok(elements)
     }
 
-    /// How a clause acts; of several elements the later ones have a suffix to the name.
-    fn actions(
-        &self,
-        clause: &ForceClause,
-        name: &str,
-        tree: &Tree<'g>,
-    ) -> syn::Result<Vec<(&'static str, Action<'g>)>> {
+    /// How a clause acts: a spring with a damper is one element that acts in two ways.
+    fn actions(&self, clause: &ForceClause, name: &str, tree: &Tree<'g>) -> syn::Result<Vec<Action<'g>>> {
         let none = [self.graph.zero(); 3];
         let vector = |e: &Option<Expression>| e.as_ref().map_or(Ok(none), |e| self.vector(e, tree));
         let forces = match &clause.kind {
@@ -107,16 +107,42 @@ impl<'g> Translator<'_, 'g> {
             ForceKind::Drag { body, linear, quadratic } => {
                 vec![self.drag(name, body, [linear.as_ref(), quadratic.as_ref()], tree)?]
             }
-            ForceKind::Dissipation(function) => vec![Force::Dissipation(self.scalar(function, tree)?)],
+            ForceKind::Dissipation(function) => {
+                let value = self.scalar(function, tree)?;
+                self.note(LawKind::Dissipation, (name, ""), function, vec![value]);
+                vec![Force::Dissipation(value)]
+            }
             ForceKind::Spring { extent, stiffness, length, damping } => {
-                return self.spring(extent, stiffness, [length.as_ref(), damping.as_ref()], tree);
+                return self.spring(name, extent, stiffness, [length.as_ref(), damping.as_ref()], tree);
             }
             ForceKind::Stop { extent, least, most, stiffness, width, damping } => {
                 let limits = [least.as_ref(), most.as_ref()];
-                return self.stop(extent, limits, [stiffness, width], damping.as_ref(), tree);
+                return self.stop(name, extent, limits, [stiffness, width], damping.as_ref(), tree);
             }
         };
-        Ok(vec![("", Action::Forces(forces))])
+        Ok(vec![Action::Forces(forces)])
+    }
+
+    /// Takes note of what the argument `word` of the element `name` is.
+    fn note(&self, kind: LawKind, (name, word): (&str, &str), e: &Expression, values: Vec<Expr<'g>>) {
+        let field = |ident: &Ident| self.model.fields.iter().any(|field| field.ident.unraw() == ident.unraw());
+        let said = match &e.kind {
+            ExpressionKind::Name(ident) if field(ident) => ident.unraw().to_string(),
+            _ if word.is_empty() => name.to_owned(),
+            _ => format!("{name}.{word}"),
+        };
+        self.laws.borrow_mut().push(Law { said, kind, values });
+    }
+
+    /// A constant of the element `name`, of which note is taken.
+    fn constant(&self, kind: LawKind, of: (&str, &str), e: &Expression, tree: &Tree<'g>) -> syn::Result<Expr<'g>> {
+        let value = self.scalar(e, tree)?;
+        self.note(kind, of, e, vec![value]);
+        Ok(value)
+    }
+
+    fn damping(&self, name: &str, e: Option<&Expression>, tree: &Tree<'g>) -> syn::Result<Option<Expr<'g>>> {
+        e.map(|e| self.constant(LawKind::Damping, (name, "damping"), e, tree)).transpose()
     }
 
     fn optional(&self, e: Option<&Expression>, tree: &Tree<'g>) -> syn::Result<Option<Expr<'g>>> {
@@ -140,36 +166,46 @@ impl<'g> Translator<'_, 'g> {
 
     fn spring(
         &self,
+        name: &str,
         extent: &Extent,
         stiffness: &Expression,
         [rest, damping]: [Option<&Expression>; 2],
         tree: &Tree<'g>,
-    ) -> syn::Result<Vec<(&'static str, Action<'g>)>> {
+    ) -> syn::Result<Vec<Action<'g>>> {
         let (length, square) = self.extent(extent, tree)?;
         let stretched = self.optional(rest, tree)?.map_or(square, |rest| (length - rest).powi(2));
-        let energy = (self.scalar(stiffness, tree)? * stretched).half();
-        let mut actions = vec![("", Action::Potential(energy))];
-        if let Some(damping) = self.optional(damping, tree)? {
+        let stiffness = self.constant(LawKind::Stiffness, (name, "stiffness"), stiffness, tree)?;
+        let mut actions = vec![Action::Potential((stiffness * stretched).half())];
+        if let Some(damping) = self.damping(name, damping, tree)? {
             let rate = length.derivative(&self.rates).group();
             let function = (damping * rate.powi(2)).half();
-            actions.push((" damping", Action::Forces(vec![Force::Dissipation(function)])));
+            actions.push(Action::Forces(vec![Force::Dissipation(function)]));
         }
         Ok(actions)
     }
 
     /// Beyond a limit a spring sets in over the given width: `½ k s²` with `s = (x + √(x² + w²))/2`, which is x far beyond
     /// the limit and 0 far before it. What it damps is the rate of s.
+    ///
+    /// The force is k s² /√(x² + w²): ¼ k w at the limit, 0.03 k w a width before it, and k w⁴/16|x|³ far before. A force of no extent
+    /// before the limit would have a kink or a power series that ends there.
     fn stop(
         &self,
+        name: &str,
         extent: &Extent,
         [least, most]: [Option<&Expression>; 2],
         [stiffness, width]: [&Expression; 2],
         damping: Option<&Expression>,
         tree: &Tree<'g>,
-    ) -> syn::Result<Vec<(&'static str, Action<'g>)>> {
+    ) -> syn::Result<Vec<Action<'g>>> {
         let (length, _) = self.extent(extent, tree)?;
-        let (stiffness, width) = (self.scalar(stiffness, tree)?, self.scalar(width, tree)?);
+        let stiffness = self.constant(LawKind::Stiffness, (name, "stiffness"), stiffness, tree)?;
+        let width = self.constant(LawKind::Width, (name, "width"), width, tree)?;
+        let lower = least;
         let (least, most) = (self.optional(least, tree)?, self.optional(most, tree)?);
+        if let (Some(lower), Some(least), Some(most)) = (lower, least, most) {
+            self.note(LawKind::Limits, (name, "least"), lower, vec![least, most]);
+        }
         let beyond = [least.map(|least| least - length), most.map(|most| length - most)];
         let pressed = beyond.into_iter().flatten().map(|x| {
             let x = x.group();
@@ -181,10 +217,10 @@ impl<'g> Translator<'_, 'g> {
             let squares = terms.iter().fold(zero, |sum, e| sum + e.powi(2));
             (factor * squares).half()
         };
-        let mut actions = vec![("", Action::Potential(half_squares(stiffness, &pressed)))];
-        if let Some(damping) = self.optional(damping, tree)? {
+        let mut actions = vec![Action::Potential(half_squares(stiffness, &pressed))];
+        if let Some(damping) = self.damping(name, damping, tree)? {
             let rates: Vec<Expr<'g>> = pressed.iter().map(|s| s.derivative(&self.rates).group()).collect();
-            actions.push((" damping", Action::Forces(vec![Force::Dissipation(half_squares(damping, &rates))])));
+            actions.push(Action::Forces(vec![Force::Dissipation(half_squares(damping, &rates))]));
         }
         Ok(actions)
     }
@@ -230,6 +266,15 @@ impl<'g> Translator<'_, 'g> {
             }
             Coefficients::Field(name) => self.declared.matrix(name).cloned().ok_or_else(|| bug(name.span())),
         }
+    }
+
+    /// Whether something with mass stays at the center of a field, which is noted.
+    fn is_infinite(&self, field: &CentralField<'g>, span: Span, tree: &Tree<'g>) -> bool {
+        let mut massive = tree.links.iter().filter(|link| !matches!(link.matter, Matter::Nothing));
+        massive.any(|link| {
+            let arm = std::array::from_fn(|i| link.position[i] - field.center[i]);
+            self.stays_at(&arm, span)
+        })
     }
 
     /// What the velocity of the medium changes beside drag.

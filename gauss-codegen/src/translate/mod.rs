@@ -4,12 +4,14 @@
 //! - `values`: expressions.
 //! - `domains`: expressions without a value.
 //! - `forces`: what acts.
+//! - `laws`: constants of what acts, for checks.
 //! - `parameters`: what the numbers of fields are called.
 //! - here: the scene, part by part, in the order in which one part can name another.
 
 mod domains;
 mod drag;
 mod forces;
+mod laws;
 mod parameters;
 mod symbols;
 mod value;
@@ -23,17 +25,18 @@ use quote::format_ident;
 use syn::Ident;
 use syn::ext::IdentExt;
 
-use crate::algebra::{Expr, Graph, Map, Rational};
+use crate::algebra::{Expr, Graph, Map, OwnFunction, Rational};
 use crate::mechanics::{
     Assigned, Body, ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Lettering, Matter, Observed,
     Placement, SystemScene, Tree, Turn, Vector, poisson,
 };
 use crate::model::{
-    self, BinaryOperator, BodyClause, ExpressionKind, FunctionName, Given, GivenValue, InChart, Model, Property, Role,
-    Shape,
+    self, BinaryOperator, BodyClause, ExpressionKind, FunctionClause, FunctionName, Given, GivenValue, InChart, Model,
+    Property, Role, Shape, SpeedPart,
 };
 
 pub use drag::DragMatrix;
+pub use laws::{Law, LawKind};
 pub use parameters::{Parameter, parameters};
 use symbols::Declared;
 pub use symbols::{Part, Source};
@@ -49,12 +52,17 @@ pub struct Translator<'a, 'g> {
     links: HashMap<String, usize>,
     /// Which link each clause of a body or frame became.
     links_of_clauses: Vec<usize>,
+    /// Functions that clauses declare, by name.
+    functions: HashMap<String, OwnFunction>,
+    pi: Expr<'g>,
     /// Literal numbers that are constants of their own.
     literals: RefCell<Vec<(Rational, Expr<'g>)>>,
     /// Expressions without a value.
     mistakes: RefCell<Vec<(Span, String)>>,
     /// Matrices of drag, for warnings.
     drags: RefCell<Vec<DragMatrix<'g>>>,
+    /// Constants of elements, for checks and warnings.
+    laws: RefCell<Vec<Law<'g>>>,
     /// ḃ and ω̂ of each coordinate that is a pose or a rotation, where the kinematics give them rather than u and ω.
     observed_rates: Vec<[Option<[Expr<'g>; 3]>; 2]>,
     /// The chart's motion, with the speeds as they are now.
@@ -72,6 +80,12 @@ impl<'a, 'g> Translator<'a, 'g> {
     pub fn new(graph: &'g Graph, model: &'a Model) -> syn::Result<Self> {
         let declared = Declared::new(graph, model);
         let (names, links) = (HashMap::new(), HashMap::new());
+        let function = |clause: &FunctionClause| {
+            let name = clause.name.unraw().to_string();
+            let index = graph.declare_function(name.clone());
+            (name, OwnFunction::new(index, clause.kind.continuous()))
+        };
+        let pi = graph.symbol("π", "\\pi", true);
         let mut translator = Self {
             graph,
             model,
@@ -79,9 +93,12 @@ impl<'a, 'g> Translator<'a, 'g> {
             names,
             links,
             links_of_clauses: vec![0; model.bodies.len()],
-            literals: RefCell::default(),
+            functions: model.functions.iter().map(function).collect(),
+            pi,
+            literals: RefCell::new(vec![(symbols::pi(), pi)]),
             mistakes: RefCell::default(),
             drags: RefCell::default(),
+            laws: RefCell::default(),
             observed_rates: vec![[None; 2]; model.coordinates.len()],
             chart: None,
             observed: None,
@@ -96,6 +113,7 @@ impl<'a, 'g> Translator<'a, 'g> {
     fn assign_mass_data(&mut self) -> syn::Result<()> {
         let model = self.model;
         self.names.extend(self.declared.fields.iter().cloned());
+        self.names.insert("pi".to_owned(), Value::Scalar(self.pi));
         let given = self.assigned(&model.given)?;
         if let Some(gravity) = given.iter().find(|assigned| assigned.quantity == Role::Gravity) {
             let zero = self.graph.zero();
@@ -158,6 +176,11 @@ impl<'a, 'g> Translator<'a, 'g> {
         self.drags.borrow().clone()
     }
 
+    /// Constants of elements.
+    pub fn laws(&self) -> Vec<Law<'g>> {
+        self.laws.borrow().clone()
+    }
+
     /// Which link each clause of a body or frame became.
     pub fn links_of_clauses(&self) -> Vec<usize> {
         self.links_of_clauses.clone()
@@ -168,10 +191,14 @@ impl<'a, 'g> Translator<'a, 'g> {
         &self.declared.speeds
     }
 
-    /// Indices of the speeds with the given names: three for a vector.
-    pub fn indices_of_speeds(&self, names: &[Ident]) -> Vec<usize> {
+    /// Indices of the speeds with the given names: three for a vector, one for a component.
+    pub fn indices_of_speeds(&self, names: &[SpeedPart]) -> Vec<usize> {
         let idents = self.speed_idents();
-        (0..idents.len()).filter(|&k| names.contains(&idents[k])).collect()
+        let component = |k: usize| idents[..k].iter().rev().take_while(|earlier| **earlier == idents[k]).count();
+        let named = |k: usize, name: &SpeedPart| {
+            name.ident == idents[k] && name.component.is_none_or(|named| named == component(k))
+        };
+        (0..idents.len()).filter(|&k| names.iter().any(|name| named(k, name))).collect()
     }
 
     /// The declared coordinate whose rate a speed is, where no speeds are declared.
@@ -288,9 +315,11 @@ impl<'a, 'g> Translator<'a, 'g> {
 
     fn name_everything(&mut self, values: &[Expr<'g>]) {
         self.drags.borrow_mut().clear();
+        self.laws.borrow_mut().clear();
         self.names.clear();
         self.links.clear();
         self.names.insert("t".to_owned(), Value::Scalar(self.declared.time));
+        self.names.insert("pi".to_owned(), Value::Scalar(self.pi));
         self.names.extend(self.declared.fields.iter().cloned());
         for (written, coordinate) in
             self.model.coordinates.iter().zip(&self.declared.coordinates[self.declared.before..])

@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
-use crate::algebra::{Expr, Graph};
+use crate::algebra::{Expr, Graph, Rational};
 use crate::mechanics::{Body, BodyShape, ChartedBody, Coordinate, Name, ParameterSymbol};
 use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
 
@@ -369,6 +369,13 @@ pub fn body_shape(shape_of: impl Fn(Role) -> Option<Shape>) -> BodyShape {
         displaced_mass: shape_of(Role::DisplacedMass).is_some(),
         center_of_buoyancy: shape_of(Role::CenterOfBuoyancy).is_some(),
     }
+}
+
+/// π to far more digits than any scalar has.
+pub fn pi() -> Rational {
+    const DIGITS: &str =
+        "3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803482534211707";
+    model::literal(DIGITS).unwrap_or_else(Rational::zero)
 }
 
 fn name_of(ident: &Ident) -> Name {

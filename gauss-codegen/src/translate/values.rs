@@ -18,6 +18,9 @@ const EXACT: i64 = 1000;
 /// How many quarters of a turn a literal angle is: `1.5707963267948966` is meant to be π/2, and its sine and cosine to be one
 /// and zero, not 6e-17.
 fn quarter_turns(angle: &Expression) -> Option<usize> {
+    if let Some((turns, 1)) = angle.turns_of_pi().and_then(|turns| (turns * Rational::from_integer(2)).parts()) {
+        return usize::try_from(turns.rem_euclid(4)).ok();
+    }
     let angle = match &angle.kind {
         ExpressionKind::Number { value } => value.to_f64(),
         ExpressionKind::Negate(inner) => return quarter_turns(inner).map(|quarters| (4 - quarters) % 4),
@@ -73,6 +76,10 @@ impl<'g> Translator<'_, 'g> {
             ExpressionKind::Vector([a, b, c]) => {
                 Value::Vector([self.scalar(a, tree)?, self.scalar(b, tree)?, self.scalar(c, tree)?])
             }
+            ExpressionKind::Own(name, argument) => {
+                let function = self.functions.get(&name.unraw().to_string()).ok_or_else(|| bug(e.span))?;
+                Value::Scalar(self.graph.call(Function::Own(*function), self.scalar(argument, tree)?))
+            }
             ExpressionKind::Call(function, arguments) => match self.call(*function, arguments, e.span, tree)? {
                 Value::Scalar(value) => Value::Scalar(self.in_range(value, e)),
                 value => value,
@@ -106,15 +113,34 @@ impl<'g> Translator<'_, 'g> {
         symbol
     }
 
+    /// x^p: products where p is a small whole number, a root beside them for a half.
+    fn power(&self, x: Expr<'g>, p: Expr<'g>, span: Span) -> Expr<'g> {
+        const LARGEST: i64 = 20;
+        match p.as_number().and_then(Rational::parts) {
+            Some((n, d @ (1 | 2))) if n.abs() <= LARGEST * d => {
+                let x = if n < 0 { self.divisor(x, span) } else { x };
+                let root = if d == 2 { x.sqrt().powi((n.rem_euclid(2)) as i32) } else { self.graph.one() };
+                x.powi(n.div_euclid(d) as i32) * root
+            }
+            _ => x.binary(BinaryFunction::Powf, p),
+        }
+    }
+
     fn property(&self, owner: &Expression, property: Property, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
         let ExpressionKind::Name(name) = &owner.kind else { return Err(bug(owner.span)) };
         let word = name.unraw().to_string();
-        if let Some(Value::Pose(rotation, position)) = self.names.get(&word) {
-            return match property {
-                Property::Position => Ok(Value::Vector(*position)),
-                Property::Rotation => Ok(Value::Rotation(vec![*rotation])),
-                _ => Err(bug(owner.span)),
-            };
+        match self.names.get(&word) {
+            Some(Value::Pose(_, position)) if property == Property::Position => return Ok(Value::Vector(*position)),
+            Some(Value::Pose(rotation, _)) if property == Property::Rotation => {
+                return Ok(Value::Rotation(vec![*rotation]));
+            }
+            Some(Value::Vector(position)) if property == Property::Velocity => {
+                return Ok(Value::Vector(position.map(|e| e.derivative(&self.rates))));
+            }
+            Some(Value::Pose(..) | Value::Rotation(_)) => {
+                return self.velocity_of_coordinate(&word, property).map(Value::Vector).ok_or_else(|| bug(owner.span));
+            }
+            _ => {}
         }
         if let Some(Value::Twist(force, torque)) = self.names.get(&word) {
             return match property {
@@ -133,6 +159,29 @@ impl<'g> Translator<'_, 'g> {
             }
             Property::Force | Property::Torque => return Err(bug(owner.span)),
             _ => Value::Vector(self.velocity_of(index, property, tree)),
+        })
+    }
+
+    /// A velocity of a coordinate that is a pose or a rotation, as the kinematics have it.
+    fn velocity_of_coordinate(&self, word: &str, property: Property) -> Option<Triple<'g>> {
+        let own = self.model.coordinates.iter().position(|q| q.ident.unraw() == *word)?;
+        let k = self.declared.before + own;
+        let matrix = self.declared.coordinates[k].rotation()?;
+        let rate = self.declared.rate_of(k, &self.kinematics);
+        let triple = |at: usize| Some([*rate.get(at)?, *rate.get(at + 1)?, *rate.get(at + 2)?]);
+        let omega = triple(rate.len().checked_sub(3)?)?;
+        let turned =
+            |v: Triple<'g>| std::array::from_fn(|i| (0..3).map(|j| matrix[i][j] * v[j]).sum::<Expr<'g>>().group());
+        let [observed, observed_omega] = self.observed_rates[own];
+        Some(match property {
+            Property::BodyAngularVelocity => omega,
+            Property::AngularVelocity => observed_omega.unwrap_or_else(|| turned(omega)),
+            Property::BodyVelocity => triple(0)?,
+            Property::Velocity => match observed {
+                Some(velocity) => velocity,
+                None => turned(triple(0)?),
+            },
+            _ => return None,
         })
     }
 
@@ -180,6 +229,42 @@ impl<'g> Translator<'_, 'g> {
         })
     }
 
+    /// A function of one number, which is `x`, written as `written`.
+    fn elementary(&self, function: FunctionName, x: Expr<'g>, written: &Expression) -> Expr<'g> {
+        let quarters = || written.turns_of_pi().and(quarter_turns(written));
+        let in_domain = || self.in_domain(function, x, written.span);
+        let exact = |quarters: usize| self.graph.integer([0, 1, 0, -1][quarters % 4]);
+        match function {
+            FunctionName::Sin => quarters().map_or_else(|| x.sin(), exact),
+            FunctionName::Cos => quarters().map_or_else(|| x.cos(), |quarters| exact(quarters + 1)),
+            // The sine–cosine pair is shared with whatever else turns by the angle.
+            FunctionName::Tan => x.sin() * x.cos().recip(),
+            FunctionName::Asin => {
+                let x = in_domain();
+                x.binary(BinaryFunction::Atan2, x.leg())
+            }
+            FunctionName::Acos => {
+                let x = in_domain();
+                x.leg().binary(BinaryFunction::Atan2, x)
+            }
+            FunctionName::Atan => x.binary(BinaryFunction::Atan2, self.graph.one()),
+            FunctionName::Tanh => self.graph.call(Function::Tanh, x),
+            FunctionName::Exp => x.exp(),
+            FunctionName::Ln => in_domain().ln(),
+            FunctionName::Sqrt => in_domain().sqrt(),
+            FunctionName::Abs => x.abs(),
+            _ => self.graph.call(Function::Signum, x),
+        }
+    }
+
+    /// 3s² − 2s³ of the way from one number to another.
+    fn smooth_step(&self, [x, start, end]: [Expr<'g>; 3], span: Span) -> Expr<'g> {
+        let s = (x - start) * self.width(end - start, span).group().recip();
+        let s = clamped(s, [self.graph.zero(), self.graph.one()]).group();
+        let three = self.graph.integer(3);
+        s.powi(2) * (three - s.scale(Rational::from_integer(2))).group()
+    }
+
     fn call(
         &self,
         function: FunctionName,
@@ -196,28 +281,20 @@ impl<'g> Translator<'_, 'g> {
             syn::Result::Ok(Value::Rotation(vec![piece]))
         };
         Ok(match (function, arguments) {
-            (FunctionName::Sin, [a]) => Value::Scalar(scalar(a)?.sin()),
-            (FunctionName::Cos, [a]) => Value::Scalar(scalar(a)?.cos()),
-            // The sine–cosine pair is shared with whatever else turns by the angle.
-            (FunctionName::Tan, [a]) => Value::Scalar(scalar(a)?.sin() * scalar(a)?.cos().recip()),
-            (FunctionName::Exp, [a]) => Value::Scalar(scalar(a)?.exp()),
-            (FunctionName::Ln, [a]) => Value::Scalar(self.in_domain(Function::Ln, scalar(a)?, a.span).ln()),
-            (FunctionName::Sqrt, [a]) => Value::Scalar(self.in_domain(Function::Sqrt, scalar(a)?, a.span).sqrt()),
+            (function, [a]) if function.is_elementary() => Value::Scalar(self.elementary(function, scalar(a)?, a)),
+            (FunctionName::Powf, [a, p]) => {
+                let x = self.in_domain(function, scalar(a)?, a.span);
+                Value::Scalar(self.power(x, scalar(p)?, a.span))
+            }
             (FunctionName::Atan2, [y, x]) => {
                 let (b, a) = (scalar(y)?, scalar(x)?);
                 Value::Scalar(self.ordinate([b, a], span).binary(BinaryFunction::Atan2, a))
             }
-            (FunctionName::Abs, [a]) => Value::Scalar(scalar(a)?.abs()),
             (FunctionName::Min, [a, b]) => Value::Scalar(scalar(a)?.binary(BinaryFunction::Min, scalar(b)?)),
             (FunctionName::Max, [a, b]) => Value::Scalar(scalar(a)?.binary(BinaryFunction::Max, scalar(b)?)),
-            (FunctionName::Signum, [a]) => Value::Scalar(self.graph.call(Function::Signum, scalar(a)?)),
             (FunctionName::Clamp, [x, low, high]) => Value::Scalar(clamped(scalar(x)?, [scalar(low)?, scalar(high)?])),
             (FunctionName::SmoothStep, [x, from, to]) => {
-                let (start, end) = (scalar(from)?, scalar(to)?);
-                let s = (scalar(x)? - start) * self.width(end - start, from.span).group().recip();
-                let s = clamped(s, [self.graph.zero(), self.graph.one()]).group();
-                let three = self.graph.integer(3);
-                Value::Scalar(s.powi(2) * (three - s.scale(Rational::from_integer(2))).group())
+                Value::Scalar(self.smooth_step([scalar(x)?, scalar(from)?, scalar(to)?], from.span))
             }
             (FunctionName::Hypot, [a, b]) => {
                 let (a, b) = (scalar(a)?, scalar(b)?);

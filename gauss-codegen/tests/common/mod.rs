@@ -4,7 +4,7 @@ use gauss_codegen::Derivation;
 use gauss_codegen::program::{ArgumentKind, Program};
 
 /// One body in each kind of chart, systems with groups, constraints, inputs, literals, and forces that are not smooth.
-pub const SCENES: [(&str, &str); 6] = [
+pub const SCENES: [(&str, &str); 7] = [
     (
         "Top",
         "#[gauss(motion = fixed_point)] struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }",
@@ -22,6 +22,12 @@ pub const SCENES: [(&str, &str); 6] = [
             #[gauss(mass)] m: f64, #[gauss(center_of_mass)] c: Vector3<f64>, #[gauss(inertia)] i: Vector3<f64>,
             #[gauss(gravity)] g: f64,
         }",
+    ),
+    (
+        "Laws",
+        "#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), linearize,
+            drive(x = -tanh(c * rate(x)) * powf(k, p) + powf(x, p) + asin(x / 4) + pi * acos(x / 5) + atan(x)))]
+        struct Laws { m: f64, c: f64, k: f64, p: f64 }",
     ),
     (
         "Vehicle",

@@ -66,13 +66,14 @@ assert!(a.iter().all(|a| (2.0..4.0).contains(&a.digits())));
 //!
 //! # What is not
 //!
-//! - A splitting [`Scheme`](crate::integrate::Scheme) holds the lengths of its kicks and drifts in `f64`. They are taken
-//!   as they are, so exact results are those of the method with these numbers, not with those that they round.
+//! - A splitting [`Scheme`](crate::integrate::Scheme) holds the lengths of its kicks and drifts in `f64`. They are
+//!   taken as they are: exact results are those of the method with these numbers, not with those that they round.
 //! - The elliptic functions of [`FreeFlow`](crate::integrate::FreeFlow) are for `f64` alone, so it takes no bounded
 //!   numbers, and neither does [`Splitting::exact`](crate::integrate::Splitting::exact).
-//!   [`Splitting::discrete`](crate::integrate::Splitting::discrete) does; forgotten correlations in its iterations make
-//!   bounds that hold, but say little: about 10⁹ times the error after five steps of a top, where explicit methods have
-//!   a hundred at most, and some thousand when they are [`Compensated`](crate::integrate::Compensated).
+//!   [`Splitting::discrete`](crate::integrate::Splitting::discrete) does, but forgotten correlations in its iterations
+//!   make bounds that hold and say little: after five steps of a top the median is 10⁹ times the error, where that of
+//!   explicit methods is below a hundred times, and some thousand times when they are
+//!   [`Compensated`](crate::integrate::Compensated).
 //!
 //! # Inputs
 //!

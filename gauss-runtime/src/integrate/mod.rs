@@ -10,7 +10,7 @@
 //! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov, splitting |
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
-//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`table`](drive::table), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
+//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`table`](drive::table), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
 //! | [`tune`] | [`method`](tune::method): methods and forms chosen at run time; `measure`: the cheapest for a scene, measured on it |
 
 pub mod body;
@@ -30,12 +30,12 @@ pub use drive::compensated::Compensated;
 #[cfg(feature = "alloc")]
 pub(crate) use drive::control::prepare;
 pub use drive::control::{Control, DEFAULT_LIMIT, Emit, Taken};
-pub use drive::event::Crossing;
 pub use drive::fixed::Fixed;
 #[cfg(feature = "alloc")]
 pub(crate) use drive::fixed::number_of_steps;
 #[cfg(feature = "alloc")]
 pub(crate) use drive::projection::accept;
+pub use drive::search::Crossing;
 pub use drive::simulation::{Observer, Simulation};
 pub use drive::summary::{End, Summary};
 #[cfg(feature = "alloc")]

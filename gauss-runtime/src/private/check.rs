@@ -12,6 +12,10 @@ use crate::real::Real;
 /// For packs of numbers every lane is checked; the first lane that breaks a rule speaks for the others.
 pub struct ParameterCheck<T> {
     violations: BoundedList<Violation>,
+    /// The first field with a mass or a principal moment of zero: others must make up for it.
+    massless: Option<&'static str>,
+    /// The triangle inequality of principal moments is not asked for.
+    formal: bool,
     scalar: PhantomData<T>,
 }
 
@@ -29,7 +33,12 @@ impl<T: Real> ParameterCheck<T> {
     #[inline(always)]
     #[must_use]
     pub fn new() -> Self {
-        Self { violations: BoundedList::<Violation>::new(), scalar: PhantomData }
+        Self { violations: BoundedList::<Violation>::new(), massless: None, formal: false, scalar: PhantomData }
+    }
+
+    /// From here on principal moments need not obey the triangle inequality, or do again.
+    pub fn waive_triangle_inequality(&mut self, waived: bool) {
+        self.formal = waived;
     }
 
     /// Every value is finite.
@@ -48,6 +57,49 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
+    /// A mass in a sum: zero where other bodies make up for it, which [`regular`](Self::regular) finds out.
+    pub fn mass_in_sum(&mut self, field: &'static str, mass: T) {
+        if self.finite_so_far(field, &[mass]) {
+            self.each_lane(field, |lane| {
+                let value = mass.lane(lane);
+                (value < 0.0).then_some((value, Rule::PositiveMass))
+            });
+            if (0..T::LANES).any(|lane| mass.lane(lane) == 0.0) {
+                self.massless.get_or_insert(field);
+            }
+        }
+    }
+
+    /// The stiffness of a spring or a stop: finite and zero or greater.
+    pub fn stiffness(&mut self, field: &'static str, stiffness: T) {
+        if self.finite_so_far(field, &[stiffness]) {
+            self.each_lane(field, |lane| {
+                let value = stiffness.lane(lane);
+                (value < 0.0).then_some((value, Rule::NonNegativeStiffness))
+            });
+        }
+    }
+
+    /// The distance over which a stop sets in: finite and greater than zero.
+    pub fn width(&mut self, field: &'static str, width: T) {
+        if self.finite_so_far(field, &[width]) {
+            self.each_lane(field, |lane| {
+                let value = width.lane(lane);
+                (value <= 0.0).then_some((value, Rule::PositiveWidth))
+            });
+        }
+    }
+
+    /// The limits of a stop, the lower one first. `field` is what says the lower one.
+    pub fn limits(&mut self, field: &'static str, [least, most]: [T; 2]) {
+        if self.finite_so_far(field, &[least, most]) {
+            self.each_lane(field, |lane| {
+                let (value, most) = (least.lane(lane), most.lane(lane));
+                (value >= most).then_some((value, Rule::LimitsInOrder { most }))
+            });
+        }
+    }
+
     /// A value that is finite and zero or greater.
     pub fn non_negative(&mut self, field: &'static str, value: T) {
         if self.finite_so_far(field, &[value]) {
@@ -62,12 +114,71 @@ impl<T: Real> ParameterCheck<T> {
     /// positive definite, and its principal moments obey the triangle inequality up to a few ulp of the trace.
     pub fn inertia(&mut self, field: &'static str, inertia: &[[T; 3]; 3]) {
         if self.symmetric_so_far(field, inertia, |row, col| Rule::SymmetricInertia { row, col }) {
+            let formal = self.formal;
             self.each_lane(field, |lane| {
                 let tensor = in_lane(inertia, lane);
                 let slack = 8.0 * Self::UNIT * trace(&tensor);
-                principal_moments(&tensor, 0.0, slack, false)
+                Moments { rounding: 0.0, slack, about_center_of_mass: false, formal }.broken_rule(&tensor)
             });
         }
+    }
+
+    /// The inertia tensor about O of a body in a sum, with its mass and its centre of mass: as [`inertia`](Self::inertia) and
+    /// [`central_inertia`](Self::central_inertia), but a smallest moment of zero, as of rods, plates and particles, is one of a
+    /// body: whether others make up for it is found by [`regular`](Self::regular).
+    pub fn inertia_in_sum(&mut self, field: &'static str, mass: T, center: [T; 3], inertia: &[[T; 3]; 3]) {
+        if !self.symmetric_so_far(field, inertia, |row, col| Rule::SymmetricInertia { row, col }) {
+            return;
+        }
+        let formal = self.formal;
+        let mut least = f64::INFINITY;
+        for lane in 0..T::LANES {
+            let about_o = in_lane(inertia, lane);
+            let slack = 8.0 * Self::UNIT * trace(&about_o).abs();
+            let moments = Moments { rounding: slack.next_up(), slack, about_center_of_mass: false, formal };
+            if let Some((value, rule)) = moments.broken_rule(&about_o) {
+                self.violations.push(Violation { field, value, rule });
+                return;
+            }
+            let (m, c) = (mass.lane(lane), center.map(|c| c.lane(lane)));
+            if !(m >= 0.0 && m.is_finite() && c.iter().all(|c| c.is_finite())) {
+                continue;
+            }
+            let (central, square) = about_center_of_mass(&about_o, m, c);
+            let slack = slack + 8.0 * Self::UNIT * m * square;
+            let moments = Moments { rounding: slack.next_up(), slack, about_center_of_mass: true, formal };
+            if let Some((value, rule)) = out_of_range(&central).or_else(|| moments.broken_rule(&central)) {
+                self.violations.push(Violation { field, value, rule });
+                return;
+            }
+            least = least.min(extremes(&eigenvalues(&central)).0 - slack);
+        }
+        if least <= 0.0 {
+            self.massless.get_or_insert(field);
+        }
+    }
+
+    /// The inertia tensor about O of a body that turns about one of its axes alone: that of a body, as in
+    /// [`inertia_in_sum`](Self::inertia_in_sum), or nothing but the moment about that axis, and zeros. No other moment enters.
+    pub fn inertia_about_axis(
+        &mut self,
+        field: &'static str,
+        axis: usize,
+        (mass, center): (T, [T; 3]),
+        inertia: &[[T; 3]; 3],
+    ) {
+        let zero = |entry: T| (0..T::LANES).all(|lane| entry.lane(lane) == 0.0);
+        let others = (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).filter(|&place| place != (axis, axis));
+        if others.into_iter().any(|(i, j)| !zero(inertia[i][j])) {
+            return self.inertia_in_sum(field, mass, center, inertia);
+        }
+        // A disk across the axis has the same moment, and its centre of mass where it matters.
+        let moment = inertia[axis][axis];
+        let across = core::array::from_fn(|i| if i == axis { T::zero() } else { center[i] });
+        let disk = core::array::from_fn(|i| core::array::from_fn(|j| if i == j { moment } else { T::zero() }));
+        let formal = core::mem::replace(&mut self.formal, true);
+        self.inertia_in_sum(field, mass, across, &disk);
+        self.formal = formal;
     }
 
     /// An inertia tensor about O together with mass m and centre of mass c (from O, body axes): what is left about the
@@ -78,27 +189,19 @@ impl<T: Real> ParameterCheck<T> {
         if !self.symmetric_so_far(field, inertia, |row, col| Rule::SymmetricInertia { row, col }) {
             return;
         }
+        let formal = self.formal;
         self.each_lane(field, |lane| {
             let (m, c) = (mass.lane(lane), center.map(|c| c.lane(lane)));
             if !(m > 0.0 && m.is_finite() && c.iter().all(|c| c.is_finite())) {
                 return None;
             }
             let about_o = in_lane(inertia, lane);
-            let square: f64 = c.iter().map(|c| c * c).sum();
-            let central = core::array::from_fn(|i| {
-                core::array::from_fn(|j| {
-                    let steiner = if i == j { square - c[i] * c[i] } else { -(c[i] * c[j]) };
-                    about_o[i][j] - m * steiner
-                })
-            });
-            // Squares of what is finite can overflow.
-            if let Some(&value) = central.iter().flatten().find(|e| !f64::is_finite(**e)) {
-                return Some((value, Rule::OutOfRange));
-            }
+            let (central, square) = about_center_of_mass(&about_o, m, c);
             // The subtraction leaves rounding of the size of what was subtracted.
             let rounding = 8.0 * Self::UNIT * m * square;
             let slack = rounding + 8.0 * Self::UNIT * trace(&about_o);
-            principal_moments(&central, rounding, slack, true)
+            let moments = Moments { rounding, slack, about_center_of_mass: true, formal };
+            out_of_range(&central).or_else(|| moments.broken_rule(&central))
         });
     }
 
@@ -121,16 +224,10 @@ impl<T: Real> ParameterCheck<T> {
             }
         }
         self.each_lane(field, |lane| {
-            let a = in_lane(matrix, lane);
-            let positive = |value: f64| value > 0.0;
-            if let Some(i) = (0..N).find(|&i| !positive(a[i][i])) {
-                return Some((a[i][i], Rule::PositiveDefiniteKineticMatrix));
-            }
-            let scale: [f64; N] = core::array::from_fn(|i| 1.0 / Real::sqrt(a[i][i]));
-            let unit = core::array::from_fn(|i| {
-                core::array::from_fn(|j| if i == j { 1.0 } else { (a[i][j] * scale[i]) * scale[j] })
-            });
-            let (smallest, largest, _) = extremes(&eigenvalues::<N>(&unit));
+            let (smallest, largest) = match of_unit_diagonal(&in_lane(matrix, lane)) {
+                Ok(found) => found,
+                Err(entry) => return Some((entry, Rule::PositiveDefiniteKineticMatrix)),
+            };
             let limit = 1.0 / Self::UNIT;
             // An entry is rounded to ε, and so is a vanishing eigenvalue: below, its sign says nothing.
             if smallest <= -(N as f64) * Self::UNIT {
@@ -141,6 +238,30 @@ impl<T: Real> ParameterCheck<T> {
             } else {
                 None
             }
+        });
+    }
+
+    /// The field with a mass or a moment of zero for which others must make up, if there is one, and all is well otherwise.
+    #[must_use]
+    pub fn massless(&self) -> Option<&'static str> {
+        self.massless.filter(|_| self.violations.as_slice().is_empty())
+    }
+
+    /// The mass matrix A of bodies some of which have no mass of their own, at a few configurations, of general position: it is
+    /// regular at one of them, and then nearly everywhere, since its determinant is an analytic function.
+    ///
+    /// A matrix that is singular whatever q is has an eigenvalue of rounding: some ε for each of the terms that its entries are
+    /// sums of. Silent where nothing is [massless](Self::massless).
+    pub fn regular<const N: usize>(&mut self, samples: &[[[T; N]; N]]) {
+        let Some(field) = self.massless() else { return };
+        let negligible = 256.0 * N as f64 * Self::UNIT;
+        self.each_lane(field, |lane| {
+            let smallest = samples.iter().map(|matrix| match of_unit_diagonal(&in_lane(matrix, lane)) {
+                Ok((smallest, _)) if smallest > negligible => smallest,
+                _ => 0.0,
+            });
+            let best = smallest.fold(0.0, f64::max);
+            (best == 0.0).then_some((best, Rule::RegularSum))
         });
     }
 
@@ -240,22 +361,64 @@ fn extremes<const N: usize>(values: &[f64; N]) -> (f64, f64, usize) {
     found
 }
 
-/// What is wrong with principal moments that are known up to `rounding`; `slack` of the triangle inequality.
-fn principal_moments(
-    tensor: &[[f64; 3]; 3],
+/// The smallest and the largest eigenvalue of a matrix whose rows have different units, scaled to a unit diagonal; or the entry on
+/// its diagonal that is not positive.
+fn of_unit_diagonal<const N: usize>(a: &[[f64; N]; N]) -> Result<(f64, f64), f64> {
+    let positive = |value: f64| value > 0.0;
+    if let Some(i) = (0..N).find(|&i| !positive(a[i][i])) {
+        return Err(a[i][i]);
+    }
+    let scale: [f64; N] = core::array::from_fn(|i| 1.0 / Real::sqrt(a[i][i]));
+    let unit =
+        core::array::from_fn(|i| core::array::from_fn(|j| if i == j { 1.0 } else { (a[i][j] * scale[i]) * scale[j] }));
+    let (smallest, largest, _) = extremes(&eigenvalues::<N>(&unit));
+    Ok((smallest, largest))
+}
+
+/// `I_O − m(|c|² 1 − c cᵀ)`, and |c|².
+fn about_center_of_mass(about_o: &[[f64; 3]; 3], mass: f64, c: [f64; 3]) -> ([[f64; 3]; 3], f64) {
+    let square: f64 = c.iter().map(|c| c * c).sum();
+    let central = core::array::from_fn(|i| {
+        core::array::from_fn(|j| {
+            let steiner = if i == j { square - c[i] * c[i] } else { -(c[i] * c[j]) };
+            about_o[i][j] - mass * steiner
+        })
+    });
+    (central, square)
+}
+
+/// Squares of what is finite can overflow.
+fn out_of_range(tensor: &[[f64; 3]; 3]) -> Option<(f64, Rule)> {
+    let value = tensor.iter().flatten().find(|entry| !f64::is_finite(**entry));
+    value.map(|&value| (value, Rule::OutOfRange))
+}
+
+/// How principal moments are judged.
+struct Moments {
+    /// What the smallest may be below zero, exclusively.
     rounding: f64,
+    /// What the largest may exceed the sum of the others by.
     slack: f64,
     about_center_of_mass: bool,
-) -> Option<(f64, Rule)> {
-    let moments = eigenvalues(tensor);
-    let (smallest, largest, axis) = extremes(&moments);
-    if smallest <= -rounding {
-        let rule = if about_center_of_mass { Rule::InertiaAboutCenterOfMass } else { Rule::PositiveDefiniteInertia };
-        return Some((smallest, rule));
+    /// The triangle inequality is waived.
+    formal: bool,
+}
+
+impl Moments {
+    fn broken_rule(&self, tensor: &[[f64; 3]; 3]) -> Option<(f64, Rule)> {
+        let Self { rounding, slack, about_center_of_mass, formal } = *self;
+        let moments = eigenvalues(tensor);
+        let (smallest, largest, axis) = extremes(&moments);
+        if smallest <= -rounding {
+            let rule =
+                if about_center_of_mass { Rule::InertiaAboutCenterOfMass } else { Rule::PositiveDefiniteInertia };
+            return Some((smallest, rule));
+        }
+        let sum = moments.iter().sum::<f64>() - largest;
+        let excess = largest - sum;
+        let broken = !formal && excess > slack;
+        broken.then_some((largest, Rule::TriangleInequality { axis, sum, excess, about_center_of_mass }))
     }
-    let sum = moments.iter().sum::<f64>() - largest;
-    let excess = largest - sum;
-    (excess > slack).then_some((largest, Rule::TriangleInequality { axis, sum, excess, about_center_of_mass }))
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod check;
 mod containers;
 mod eigenvalues;
 mod poses;
+mod samples;
 mod warnings;
 
 pub use crate::accuracy::{Accuracy, Loss};
@@ -21,14 +22,17 @@ pub use crate::linearize::{Linearization, LinearizedSystem};
 pub use crate::real::Real;
 pub use crate::series::{Series, TaylorSystem};
 pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};
+pub use crate::table::{Cubic, Linear};
 pub use check::ParameterCheck;
 pub use containers::{components, entries, isometry2, isometry3, matrix, product, quaternion, vector};
 pub(crate) use eigenvalues::eigenvalues;
 pub use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, UnitQuaternion};
 pub use poses::{
     chart_of_pose, free_pose, plane_chart_of_pose, plane_of_pose, pose_from_quaternion, pose_of_chart, pose_of_plane,
-    pose_of_plane_chart, pose_of_rotation, pose_of_rotation_chart, rotation_chart_of_pose, rotation_of_pose,
+    pose_of_plane_chart, pose_of_rotation, pose_of_rotation_chart, rotation_chart_of_pose, rotation_of_pose, unmoved,
+    unmoved_in_plane, unturned,
 };
+pub use samples::{sample_time, samples};
 pub use warnings::WarningCheck;
 
 #[cfg(test)]

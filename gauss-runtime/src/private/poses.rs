@@ -1,12 +1,32 @@
 //! Poses of the body from configurations of every motion and chart, and configurations from poses.
 
-use nalgebra::{Isometry2, Isometry3, UnitQuaternion};
+use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
 use crate::chart::rotation::{coordinates_of_rotation, rotation_from_coordinates};
 use crate::chart::{ChartError, MotionRule, RotationChart};
+use crate::configuration::Configuration;
 use crate::lie::{se2, se3};
 use crate::real::Real;
 use crate::triple::{quaternion, triple, unit_quaternion};
+
+/// R = 1.
+#[inline]
+pub fn unturned<T: Real>() -> UnitQuaternion<T> {
+    unit_quaternion([T::zero(), T::zero(), T::zero(), T::one()])
+}
+
+/// R = 1 and b = 0.
+#[inline]
+pub fn unmoved<T: Real>() -> Isometry3<T> {
+    pose_of_rotation(&unturned())
+}
+
+/// The same in the plane.
+#[inline]
+pub fn unmoved_in_plane<T: Real>() -> Isometry2<T> {
+    let (zero, one) = (T::zero(), T::one());
+    Configuration::from_components(&SVector::from([one, zero, zero, zero]))
+}
 
 /// The pose with a unit quaternion (x, y, z, w) and a translation b.
 #[inline(always)]

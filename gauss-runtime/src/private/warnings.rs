@@ -40,6 +40,42 @@ impl<T: Real> WarningCheck<T> {
         }
     }
 
+    /// The damping coefficient of a spring or a stop.
+    pub fn damping(&mut self, said: &'static str, coefficient: T) {
+        self.negative(said, &[coefficient], Finding::DampingFeedsEnergy);
+    }
+
+    /// A dissipation function in a few states of general position: in one of them it is not negative.
+    pub fn dissipation(&mut self, said: &'static str, values: &[T]) {
+        let negative = |value: &T| (0..T::LANES).all(|lane| value.lane(lane) < 0.0);
+        if values.iter().all(negative) {
+            self.negative(said, values, Finding::DampingFeedsEnergy);
+        }
+    }
+
+    /// A gravity of one number.
+    pub fn gravity(&mut self, said: &'static str, value: T) {
+        self.negative(said, &[value], Finding::GravityUpward);
+    }
+
+    /// The gravitational parameter of a centre.
+    pub fn center(&mut self, said: &'static str, mu: T) {
+        self.negative(said, &[mu], Finding::CenterRepels);
+    }
+
+    /// The diagonal of an added mass.
+    pub fn added_mass(&mut self, said: &'static str, diagonal: &[T; 6]) {
+        self.negative(said, diagonal, Finding::AddedMassOfDerivatives);
+    }
+
+    /// The first value that is negative. What is not a number is refused elsewhere.
+    fn negative(&mut self, said: &'static str, values: &[T], finding: Finding) {
+        let lanes = values.iter().flat_map(|value| (0..T::LANES).map(|lane| value.lane(lane)));
+        if let Some(value) = lanes.into_iter().find(|value| *value < 0.0) {
+            self.warnings.push(ParameterWarning { field: said, value, finding });
+        }
+    }
+
     /// All findings, in the order of the checks.
     #[must_use]
     pub fn finish(self) -> ParameterWarnings {

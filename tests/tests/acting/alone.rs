@@ -73,11 +73,11 @@ alone! {
         input(gust: Wrench),
         wrench(blow, at = at, force = gust.force, torque = gust.torque, axes = observer)
     ];
-    a_spring dry ["cord", "cord damping"]: [
+    a_spring dry ["cord"]: [
         point(tip, body = body, at = at),
         spring(cord, from = anchor, to = tip, stiffness = stiff, length = length, damping = damped)
     ];
-    a_stop dry ["stop", "stop damping"]: [
+    a_stop dry ["stop"]: [
         point(tip, body = body, at = at),
         stop(from = tip, to = anchor, least = 12, most = length, stiffness = stiff, width = 2, damping = damped)
     ];

@@ -11,7 +11,10 @@ use crate::compare::{Any, Excess, Random, holds, moved};
 
 /// A derived system of any scalar, each of its fields read from the parameters of a reference.
 macro_rules! scene {
-    ($module:ident($of:ident), [$($clause:tt)+], { $($(#[$role:meta])* $field:ident: $type:ty = $value:expr),+ $(,)? }) => {
+    (
+        $module:ident($of:ident), [$($clause:tt)+],
+        { $($(#[$role:meta])* $field:ident: $type:ty = $value:expr),+ $(,)? }
+    ) => {
         mod $module {
             use super::*;
 

@@ -146,8 +146,8 @@ fn values_are_those_of_the_plain_scalar<K: Any<f64>, B: Any<Bounded>>(
     }
 }
 
-/// Five steps of some method. Published states are on constraints as well as numbers of double precision can be, which is not
-/// enough for the wider ones.
+/// Five steps of some method, from the state on the constraints: published ones are on them as well as numbers of
+/// double precision can be, which is not enough for wider ones.
 pub fn run<T: Real, K: Any<T>, C: Control<K>>(
     kernel: &K,
     (q, z): (&[f64], &[f64]),

@@ -82,6 +82,11 @@ impl<'g> Tree<'g> {
         self.links.iter_mut().for_each(Link::settle);
     }
 
+    /// Whether some link floats.
+    pub fn floats(&self) -> bool {
+        self.floating.iter().any(Option::is_some)
+    }
+
     fn speeds(&self) -> std::ops::Range<usize> {
         0..self.speeds.len()
     }

@@ -12,6 +12,8 @@ pub struct Account<'g> {
     /// `∫∂v_P/∂z^α·dF`, one for each speed.
     pub forces: Vec<Expr<'g>>,
     pub power: Expr<'g>,
+    /// The part of the power that changes the energy: all of it, or what a damper takes beside a potential.
+    pub outside: Option<Expr<'g>>,
 }
 
 /// What weight and buoyancy are called.
@@ -21,7 +23,7 @@ pub fn account_formulas<'g>(accounts: &[Account<'g>], explicit_power: Expr<'g>) 
     let Some(first) = accounts.first() else { return Vec::new() };
     let single = |method, outputs| Formula { method, arrangements: vec![outputs] };
     let rows = (0..first.forces.len()).flat_map(|row| accounts.iter().map(move |account| account.forces[row]));
-    let outside = accounts.iter().filter(|account| !account.conservative).map(|account| account.power);
+    let outside = accounts.iter().filter_map(|account| account.outside);
     vec![
         single(Method::Powers, accounts.iter().map(|account| account.power).collect()),
         single(Method::ElementForces, rows.collect()),

@@ -13,6 +13,23 @@ use crate::mechanics::tidy::sums;
 /// What is called that moves coordinates or constraints as a function of time.
 const GUIDES: &str = "guides";
 
+/// One account of a name: what acts by a potential and by forces, as a spring with a damper does, is in the energy by the first.
+fn joined(accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {
+    let mut all: Vec<Account<'_>> = Vec::with_capacity(accounts.len());
+    for account in accounts {
+        match all.last_mut().filter(|earlier| earlier.name == account.name) {
+            Some(earlier) => {
+                earlier.conservative |= account.conservative;
+                earlier.forces = sums(&earlier.forces, &account.forces);
+                earlier.power = earlier.power + account.power;
+                earlier.outside = earlier.outside.into_iter().chain(account.outside).reduce(|sum, power| sum + power);
+            }
+            None => all.push(account),
+        }
+    }
+    all
+}
+
 /// The elements in the order of the accounts: those of the energy first.
 fn sorted(mut accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {
     accounts.sort_by_key(|account| !account.conservative);
@@ -32,12 +49,12 @@ impl<'g> System<'g> {
             forces: self.potential_forces(potential),
             // What the force does, not the change of the field in time.
             power: potential.partial(scene.time) - potential.derivative(&scene.rates),
+            outside: None,
         };
-        let by_wrench = |body: &FreeLink<'g>, name: &str, conservative: bool, wrench: &Wrench<'g>| Account {
-            name: name.to_owned(),
-            conservative,
-            forces: body.project_wrench(wrench),
-            power: body.power(wrench),
+        let by_wrench = |body: &FreeLink<'g>, name: &str, conservative: bool, wrench: &Wrench<'g>| {
+            let power = body.power(wrench);
+            let outside = (!conservative).then_some(power);
+            Account { name: name.to_owned(), conservative, forces: body.project_wrench(wrench), power, outside }
         };
         let body = self.only_body();
         let mut accounts = Vec::new();
@@ -55,6 +72,7 @@ impl<'g> System<'g> {
             (Action::Field(field), ..) => potential(&element.name, field.potential),
             (Action::Forces(forces), ..) => self.account_of(&element.name, forces),
         }));
+        let mut accounts = joined(accounts);
         if self.driven {
             accounts.push(self.account_of_guides(&accounts));
         }
@@ -68,24 +86,18 @@ impl<'g> System<'g> {
         let rates = scene.speed_rates.iter().zip(self.any_acceleration()).map(|(s, e)| (s.key(), e.group())).collect();
         let energy = scene.tree.twice_kinetic_energy().half().derivative(&self.along).substitute(&rates);
         let known = others.iter().map(|account| account.power.group());
-        Account {
-            name: GUIDES.to_owned(),
-            conservative: false,
-            forces: vec![scene.graph.zero(); scene.speeds.len()],
-            power: known.fold(energy, |rest, power| rest - power),
-        }
+        let power = known.fold(energy, |rest, power| rest - power);
+        let forces = vec![scene.graph.zero(); scene.speeds.len()];
+        Account { name: GUIDES.to_owned(), conservative: false, forces, power, outside: Some(power) }
     }
 
     fn account_of(&self, name: &str, forces: &[Force<'g>]) -> Account<'g> {
         let scene = &self.scene;
         let elsewhere = forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
         let powers = forces.iter().map(|force| force.power(&scene.tree.links, &scene.speeds, &scene.rates));
-        Account {
-            name: name.to_owned(),
-            conservative: false,
-            forces: elsewhere.fold(scene.tree.loads(&Loads::of_forces(forces)), |sum, own| sums(&sum, &own)),
-            power: powers.fold(scene.graph.zero(), |sum, power| sum + power),
-        }
+        let power = powers.fold(scene.graph.zero(), |sum, power| sum + power);
+        let forces = elsewhere.fold(scene.tree.loads(&Loads::of_forces(forces)), |sum, own| sums(&sum, &own));
+        Account { name: name.to_owned(), conservative: false, forces, power, outside: Some(power) }
     }
 
     /// ∂U/∂t.

@@ -148,6 +148,7 @@ fn check_references(statements: &Statements, context: &mut Context) {
         references.extend(particle.parent.as_ref().map(|parent| (parent, None, Some("parent"))));
     }
     references.extend(statements.points.iter().map(|point| (&point.body, None, None)));
+    references.extend(statements.formal.iter().flatten().map(|body| (body, None, None)));
     for clause in &statements.forces {
         references.extend(clause.kind.body().map(|body| (body, None, None)));
         if let ForceKind::Torque { body, reaction: Some(reaction), .. } = &clause.kind {

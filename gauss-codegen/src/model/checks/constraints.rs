@@ -8,7 +8,8 @@ use crate::model::names::kinds;
 use crate::model::names::moving::Moving;
 use crate::model::names::places::Place;
 use crate::model::names::scope::Scope;
-use crate::model::scene::clauses::{ConstraintClause, ConstraintKind};
+use crate::model::scene::clauses::{ConstraintClause, ConstraintKind, SpeedKind};
+use proc_macro2::Ident;
 
 /// Checks names and kinds in the constraints, and says which are vectors; and which are without mistakes.
 pub fn check_kinds(statements: &mut Statements, scope: &Scope, context: &mut Context) -> Vec<bool> {
@@ -71,35 +72,58 @@ fn check_independent(statements: &Statements, uncertain: bool, context: &mut Con
         }
         return;
     }
-    let mut table = statements.speeds_of_chart.clone();
-    table.extend(own.iter().flat_map(|speeds| &speeds.names).map(|speed| word(&speed.ident)));
-    table.dedup();
+    // One word for each speed: those of a vector share theirs.
+    let mut speeds = statements.speeds_of_chart.clone();
+    speeds.extend(own.iter().flat_map(|speeds| &speeds.names).flat_map(|speed| {
+        let count = if speed.kind == SpeedKind::Vector { 3 } else { 1 };
+        std::iter::repeat_n(word(&speed.ident), count)
+    }));
     let complete = own.is_none_or(|speeds| speeds.complete);
-    let table: Vec<(&str, ())> = table.iter().map(|name| (name.as_str(), ())).collect();
-    for (index, name) in independent.names.iter().enumerate() {
-        if independent.names[..index].iter().any(|earlier| same(earlier, name)) {
-            context.error(name.span(), format!("`{name}` is named independent twice; remove one of the two"));
-        } else if !table.iter().any(|(speed, ())| word(name) == **speed) && complete {
-            let coordinate =
-                statements.coordinates.iter().flat_map(|names| &names.names).any(|other| same(&other.ident, name));
-            let problem = if coordinate { "is a coordinate, not a speed" } else { "is no speed" };
-            // Between single letters every name is near; a coordinate is no misspelt speed.
-            let single = word(name).chars().count() == 1;
-            let near = if coordinate || single { None } else { words::nearest(&word(name), &table) };
-            let remedy = match near {
-                Some((near, ())) => format!("did you mean `{near}`?"),
-                None if table.is_empty() => "add it to `speeds(…)`".into(),
-                None => format!("expected {}", words::list(&table)),
-            };
-            context.error(name.span(), format!("`{name}` {problem}; {remedy}"));
+    let mut kept = vec![false; speeds.len()];
+    for named in &independent.names {
+        let name = &named.ident;
+        let own: Vec<usize> = (0..speeds.len()).filter(|&k| word(name) == speeds[k]).collect();
+        if own.is_empty() {
+            if complete {
+                refuse_name(name, &speeds, statements, context);
+            }
+            continue;
         }
+        let own = match named.component {
+            None => own.as_slice(),
+            Some(k) if own.len() > 1 && k < own.len() => &own[k..=k],
+            Some(_) => {
+                context.error(name.span(), format!("`{name}` is one speed and has no components; write `{name}`"));
+                continue;
+            }
+        };
+        if own.iter().any(|&k| kept[k]) {
+            context.error(name.span(), format!("`{named}` is named independent twice; remove one of the two"));
+        }
+        own.iter().for_each(|&k| kept[k] = true);
     }
-    let all_named = table.iter().all(|(speed, ())| independent.names.iter().any(|name| word(name) == **speed));
-    if all_named && complete && !table.is_empty() {
+    if complete && !kept.is_empty() && kept.iter().all(|kept| *kept) {
         context.error(
             independent.clause.span(),
             "all speeds are named independent, and none is left to solve the constraints for; \
              leave out as many as there are constraints",
         );
     }
+}
+
+/// Notes that a name is none of the speeds.
+fn refuse_name(name: &Ident, speeds: &[String], statements: &Statements, context: &mut Context) {
+    let mut table: Vec<(&str, ())> = speeds.iter().map(|speed| (speed.as_str(), ())).collect();
+    table.dedup();
+    let coordinate = statements.coordinates.iter().flat_map(|names| &names.names).any(|other| same(&other.ident, name));
+    let problem = if coordinate { "is a coordinate, not a speed" } else { "is no speed" };
+    // Between single letters every name is near; a coordinate is no misspelt speed.
+    let single = word(name).chars().count() == 1;
+    let near = if coordinate || single { None } else { words::nearest(&word(name), &table) };
+    let remedy = match near {
+        Some((near, ())) => format!("did you mean `{near}`?"),
+        None if table.is_empty() => "add it to `speeds(…)`".into(),
+        None => format!("expected {}", words::list(&table)),
+    };
+    context.error(name.span(), format!("`{name}` {problem}; {remedy}"));
 }

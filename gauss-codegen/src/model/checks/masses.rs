@@ -115,8 +115,8 @@ fn refuse_both(known: impl Fn(Role) -> bool, span: Span, name: &str, context: &m
     }
 }
 
-/// Settles the shapes, and refuses numbers that no body has.
-pub fn check(list: &mut [Given], fields: &[ReadField<'_>], scope: &Scope, context: &mut Context) {
+/// Settles the shapes, and refuses numbers that no body has; one that moves `alone` needs a mass of its own.
+pub fn check(list: &mut [Given], alone: bool, fields: &[ReadField<'_>], scope: &Scope, context: &mut Context) {
     for given in list {
         match &given.value {
             GivenValue::Coefficients(Coefficients::Field(name)) => {
@@ -140,7 +140,7 @@ pub fn check(list: &mut [Given], fields: &[ReadField<'_>], scope: &Scope, contex
                 _ => continue,
             },
         }
-        if let Some((span, rule)) = broken_rule(given) {
+        if let Some((span, rule)) = broken_rule(given, alone) {
             context.error(span, rule);
         }
     }
@@ -148,7 +148,7 @@ pub fn check(list: &mut [Given], fields: &[ReadField<'_>], scope: &Scope, contex
 
 /// What literal numbers alone show to be wrong. The rest is checked when a kernel is made, because it depends on the motion: of a body
 /// in the plane one moment of inertia matters.
-fn broken_rule(given: &Given) -> Option<(Span, String)> {
+fn broken_rule(given: &Given, alone: bool) -> Option<(Span, String)> {
     let GivenValue::Expression(value) = &given.value else { return None };
     let parts: Vec<&Expression> = match &value.kind {
         ExpressionKind::Vector(parts) => parts.iter().map(|part| &**part).collect(),
@@ -156,8 +156,8 @@ fn broken_rule(given: &Given) -> Option<(Span, String)> {
     };
     let word = given.role.word();
     let (least, positive) = match given.role {
-        Role::Mass => ("positive", true),
-        Role::Inertia | Role::CentralInertia | Role::DisplacedMass => ("zero or more", false),
+        Role::Mass if alone => ("positive", true),
+        Role::Mass | Role::Inertia | Role::CentralInertia | Role::DisplacedMass => ("zero or more", false),
         _ => return None,
     };
     let wrong = |part: &&Expression| part.literal().is_some_and(|number| number < 0.0 || (positive && number == 0.0));

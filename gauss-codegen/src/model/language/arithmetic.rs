@@ -20,7 +20,7 @@ use syn::{
 /// What there is, for messages about what there is not.
 pub const ALLOWED: &str = "expressions are made of numbers, names, `+ - * /`, brackets, vectors `[a, b, c]`, \
      components `a.x` or `a[0]`, positions and rotations such as `arm.position`, and the functions sin, cos, tan, exp, \
-     ln, sqrt, powi, atan2, dot, cross, rotation_x, rotation_y, rotation_z, inverse, twist, rate, abs, min, max, hypot, \
+     ln, sqrt, powi, powf, asin, acos, atan, tanh, atan2, dot, cross, rotation_x, rotation_y, rotation_z, inverse, twist, rate, abs, min, max, hypot, \
      signum, clamp and smooth_step";
 
 /// More factors than any law of forces has.
@@ -28,7 +28,7 @@ pub const LARGEST_EXPONENT: u32 = 100;
 
 /// What is said of powers of more.
 pub fn too_many_factors() -> String {
-    format!("powers become products, of {LARGEST_EXPONENT} factors at most; write `exp` and `ln`")
+    format!("powers become products, of {LARGEST_EXPONENT} factors at most; write `powf`")
 }
 
 /// Reads the tokens that `owner` is said to be.
@@ -114,6 +114,10 @@ fn convert(expression: &Expr, context: &mut Context) -> Option<Expression> {
         Expr::Lit(literal) => (literal_number(&literal.lit, context)?, literal.lit.span()),
         Expr::Path(path) => match path.path.get_ident() {
             Some(name) if path.qself.is_none() => (ExpressionKind::Name(name.clone()), name.span()),
+            _ if path.path.segments.last().is_some_and(|last| last.ident == "PI") => {
+                context.error_at(&path.path, "π is `pi` in expressions; write `pi`");
+                return None;
+            }
             _ => return refuse(expression, "a path", context),
         },
         Expr::Unary(unary) => match unary.op {
@@ -371,8 +375,13 @@ fn apply(
     arguments: &Punctuated<Expr, Token![,]>,
     context: &mut Context,
 ) -> Option<Expression> {
-    let function = words::resolve("function", name, FUNCTIONS, context).ok();
     let written: Vec<&Expr> = receiver.into_iter().chain(arguments).collect();
+    if let ([argument], false) = (written.as_slice(), FUNCTIONS.iter().any(|(word, _)| name == word)) {
+        // Whether some clause declares it is known with the other names.
+        let argument = Box::new(convert(argument, context)?);
+        return Some(Expression { kind: ExpressionKind::Own(name.clone(), argument), span: name.span() });
+    }
+    let function = words::resolve("function", name, FUNCTIONS, context).ok();
     // What stands after the base of a power is an exponent, which has rules of its own.
     let values = if function == Some(Function::Power) { written.get(..1).unwrap_or_default() } else { &written };
     let values: Vec<_> = values
@@ -407,28 +416,30 @@ fn apply(
             }
             ExpressionKind::Call(function, values)
         }
-        Function::Power => {
-            let exponent = written.get(1)?;
-            let Some(power) = integer(exponent) else {
-                context.error_at(
-                    exponent,
-                    "the exponent of `powi` is an integer literal, such as 2 or -1; for other powers write `sqrt`, or `exp` and `ln`",
-                );
-                return None;
-            };
-            if power.unsigned_abs() > LARGEST_EXPONENT {
-                context.error_at(exponent, too_many_factors());
-                return None;
-            }
-            let base = values.into_iter().next()?;
-            if power < 0 && base.is_zero() {
-                context.error(base.span, "division by zero");
-                return None;
-            }
-            ExpressionKind::Power(Box::new(base), power)
-        }
+        Function::Power => power(values.into_iter().next()?, written.get(1)?, context)?,
     };
     Some(Expression { kind, span: name.span() })
+}
+
+/// A power with an exponent that is a literal.
+fn power(base: Expression, exponent: &Expr, context: &mut Context) -> Option<ExpressionKind> {
+    let Some(power) = integer(exponent) else {
+        context.error_at(
+            exponent,
+            "the exponent of `powi` is an integer literal, such as 2 or -1; for other powers write `powf`",
+        );
+        return None;
+    };
+    if power.unsigned_abs() > LARGEST_EXPONENT {
+        context
+            .error_at(exponent, format!("powers become products, of {LARGEST_EXPONENT} factors at most; write `powf`"));
+        return None;
+    }
+    if power < 0 && base.is_zero() {
+        context.error(base.span, "division by zero");
+        return None;
+    }
+    Some(ExpressionKind::Power(Box::new(base), power))
 }
 
 /// What is wrong with limits that are literals, and where.

@@ -2,10 +2,11 @@
 //! definitions.
 
 use super::arguments::{self, brackets, value};
-use super::attributes::{self, Clause, Owner};
+use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
+use super::placements;
 use super::words::{self, Table};
-use crate::model::scene::clauses::{Coordinate, CoordinateKind, InputKind, InputName, Speed, SpeedKind};
+use crate::model::scene::clauses::{Coordinate, CoordinateKind, InputKind, InputName, Speed, SpeedKind, SpeedPart};
 use crate::model::scene::expression::Expression;
 use proc_macro2::{Ident, Span, TokenTree};
 
@@ -44,6 +45,8 @@ struct Language<K: 'static> {
     scalar: K,
     /// Units may follow, `thrust = "N"`.
     units: bool,
+    /// Components may follow, `w.x`: the kind that each is.
+    component: Option<fn(usize) -> K>,
 }
 
 /// `coordinates(x, pose: Pose)`.
@@ -54,27 +57,41 @@ pub fn read_coordinates(clause: &Clause, context: &mut Context) -> Names<Coordin
         kinds: COORDINATES,
         scalar: CoordinateKind::Scalar,
         units: false,
+        component: None,
     };
     read_names(clause, &language, |ident, kind, _| Coordinate { ident, kind }, context)
 }
 
 /// `speeds(v, w: Vector3)`.
 pub fn read_speeds(clause: &Clause, context: &mut Context) -> Names<Speed> {
-    let language =
-        Language { noun: "speed", example: "v, omega", kinds: SPEEDS, scalar: SpeedKind::Scalar, units: false };
+    let language = Language {
+        noun: "speed",
+        example: "v, omega",
+        kinds: SPEEDS,
+        scalar: SpeedKind::Scalar,
+        units: false,
+        component: None,
+    };
     read_names(clause, &language, |ident, kind, _| Speed { ident, kind }, context)
 }
 
-/// `independent(v, w)`.
-pub fn read_independent(clause: &Clause, context: &mut Context) -> Names<Ident> {
-    let language = Language { noun: "speed", example: "v, omega", kinds: &[], scalar: (), units: false };
-    read_names(clause, &language, |ident, (), _| ident, context)
+/// `independent(v, w.x)`.
+pub fn read_independent(clause: &Clause, context: &mut Context) -> Names<SpeedPart> {
+    let language =
+        Language { noun: "speed", example: "v, omega", kinds: &[], scalar: None, units: false, component: Some(Some) };
+    read_names(clause, &language, |ident, component, _| SpeedPart { ident, component }, context)
 }
 
 /// `input(thrust = "N", wind: Vector3 = "m/s", gust: Wrench)`.
 pub fn read_inputs(clause: &Clause, context: &mut Context) -> Names<InputName> {
-    let language =
-        Language { noun: "input", example: "thrust, rudder", kinds: INPUTS, scalar: InputKind::Scalar, units: true };
+    let language = Language {
+        noun: "input",
+        example: "thrust, rudder",
+        kinds: INPUTS,
+        scalar: InputKind::Scalar,
+        units: true,
+        component: None,
+    };
     let mut of_wrenches = Vec::new();
     let make = |ident: Ident, kind, unit: Option<(String, Span)>| {
         if let (InputKind::Wrench, Some((_, span))) = (kind, &unit) {
@@ -105,19 +122,7 @@ fn read_names<N, K: Copy>(
     let Some(group) = brackets(clause, language.example, context) else { return names };
     names.complete = true;
     for piece in attributes::pieces(group.stream(), &format!("the name of {}", words::a(noun)), context) {
-        let (ident, rest) = match piece.split_first() {
-            Some((TokenTree::Ident(ident), rest)) => (ident, rest),
-            Some((other, _)) => {
-                context.error(
-                    attributes::start(other),
-                    format!("expected the name of {}, found {}", words::a(noun), attributes::found(other)),
-                );
-                names.complete = false;
-                continue;
-            }
-            None => continue,
-        };
-        let Some(ident) = arguments::name(ident, noun, context) else {
+        let Some((ident, rest)) = named(&piece, noun, context) else {
             names.complete = false;
             continue;
         };
@@ -129,6 +134,15 @@ fn read_names<N, K: Copy>(
             None => (rest, None),
         };
         match rest {
+            [TokenTree::Punct(point), TokenTree::Ident(axis)]
+                if point.as_char() == '.'
+                    && let Some(kind) = language.component =>
+            {
+                match read_component(&ident, axis, context) {
+                    Some(component) => names.names.push(make(ident, kind(component), unit)),
+                    None => names.complete = false,
+                }
+            }
             [] => names.names.push(make(ident, language.scalar, unit)),
             [TokenTree::Punct(colon), ty @ ..] if colon.as_char() == ':' => {
                 match read_kind(&ident, colon.span(), ty, language, context) {
@@ -150,6 +164,29 @@ fn read_names<N, K: Copy>(
         }
     }
     names
+}
+
+/// The name that a piece begins with, and what follows it.
+fn named<'a>(piece: &'a [TokenTree], noun: &str, context: &mut Context) -> Option<(Ident, &'a [TokenTree])> {
+    match piece.split_first()? {
+        (TokenTree::Ident(ident), rest) => Some((arguments::name(ident, noun, context)?, rest)),
+        (other, _) => {
+            context.error(
+                attributes::start(other),
+                format!("expected the name of {}, found {}", words::a(noun), attributes::found(other)),
+            );
+            None
+        }
+    }
+}
+
+/// x, y or z.
+fn read_component(ident: &Ident, axis: &Ident, context: &mut Context) -> Option<usize> {
+    let component = ["x", "y", "z"].iter().position(|name| axis == name);
+    if component.is_none() {
+        context.error(axis.span(), format!("the components of a speed are `{ident}.x`, `{ident}.y` and `{ident}.z`"));
+    }
+    component
 }
 
 /// What stands after the colon; `None` if it is unknown what was meant, which is noted.
@@ -224,4 +261,20 @@ pub fn read_definitions(clause: &Clause, context: &mut Context) -> Vec<Definitio
         Some(Definition { name, expression: value(equation, "…", context) })
     };
     equations.iter().filter_map(|equation| read(equation, context)).collect()
+}
+
+/// `waive(triangle_inequality)`, of all bodies, or `waive(triangle_inequality = arm)`.
+pub fn read_waived(clause: &Clause, context: &mut Context) -> Vec<Option<Ident>> {
+    const RULES: &Table<()> = &[("triangle_inequality", ())];
+    let Some(group) = brackets(clause, "triangle_inequality", context) else { return Vec::new() };
+    let place = Owner::Action { word: "waive", example: "a rule such as `triangle_inequality`" };
+    let (rules, _) = arguments::arguments(group, place, context);
+    let read = |rule: &Clause, context: &mut Context| {
+        words::resolve("rule", &rule.name, RULES, context).ok()?;
+        match rule.value {
+            Content::Absent => Some(None),
+            _ => placements::read_reference(rule, "a body", context).map(Some),
+        }
+    };
+    rules.iter().filter_map(|rule| read(rule, context)).collect()
 }

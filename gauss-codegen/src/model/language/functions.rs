@@ -16,10 +16,15 @@ pub const FUNCTIONS: &Table<Function> = &[
     ("sin", Function::Named(FunctionName::Sin)),
     ("cos", Function::Named(FunctionName::Cos)),
     ("tan", Function::Named(FunctionName::Tan)),
+    ("asin", Function::Named(FunctionName::Asin)),
+    ("acos", Function::Named(FunctionName::Acos)),
+    ("atan", Function::Named(FunctionName::Atan)),
+    ("tanh", Function::Named(FunctionName::Tanh)),
     ("exp", Function::Named(FunctionName::Exp)),
     ("ln", Function::Named(FunctionName::Ln)),
     ("sqrt", Function::Named(FunctionName::Sqrt)),
     ("powi", Function::Power),
+    ("powf", Function::Named(FunctionName::Powf)),
     ("atan2", Function::Named(FunctionName::Atan2)),
     ("dot", Function::Named(FunctionName::Dot)),
     ("cross", Function::Named(FunctionName::Cross)),
@@ -52,6 +57,7 @@ impl Function {
         match self {
             Function::Power => "powi(x, 2)".into(),
             Function::Named(FunctionName::Atan2) => "atan2(y, x)".into(),
+            Function::Named(FunctionName::Powf) => "powf(x, 1.5)".into(),
             Function::Named(FunctionName::Inverse) => "inverse(r)".into(),
             Function::Named(FunctionName::Clamp) => "clamp(x, low, high)".into(),
             Function::Named(FunctionName::SmoothStep) => "smooth_step(x, from, to)".into(),
@@ -68,6 +74,11 @@ impl FunctionName {
             FunctionName::Sin => "sin",
             FunctionName::Cos => "cos",
             FunctionName::Tan => "tan",
+            FunctionName::Asin => "asin",
+            FunctionName::Acos => "acos",
+            FunctionName::Atan => "atan",
+            FunctionName::Tanh => "tanh",
+            FunctionName::Powf => "powf",
             FunctionName::Exp => "exp",
             FunctionName::Ln => "ln",
             FunctionName::Sqrt => "sqrt",
@@ -98,10 +109,30 @@ impl FunctionName {
             | FunctionName::Twist
             | FunctionName::Min
             | FunctionName::Max
+            | FunctionName::Powf
             | FunctionName::Hypot => 2,
             FunctionName::Clamp | FunctionName::SmoothStep => 3,
             _ => 1,
         }
+    }
+
+    /// It takes one number and gives one.
+    pub fn is_elementary(self) -> bool {
+        matches!(
+            self,
+            FunctionName::Sin
+                | FunctionName::Cos
+                | FunctionName::Tan
+                | FunctionName::Asin
+                | FunctionName::Acos
+                | FunctionName::Atan
+                | FunctionName::Tanh
+                | FunctionName::Exp
+                | FunctionName::Ln
+                | FunctionName::Sqrt
+                | FunctionName::Abs
+                | FunctionName::Signum
+        )
     }
 
     /// It jumps, or one of its first two derivatives does, so that only what is not differentiated can contain it.

@@ -13,6 +13,7 @@ pub mod given;
 pub mod kind;
 pub mod nesting;
 pub mod number;
+pub mod own_functions;
 pub mod placements;
 pub mod role_words;
 pub mod shapes;

@@ -6,11 +6,13 @@ use super::context::Context;
 use super::given;
 use super::words::{self, Table, UNNAMED};
 use crate::model::scene::clauses::{BodyClause, ParticleClause, PointClause};
+use crate::model::scene::expression::{Expression, ExpressionKind, Property};
 use proc_macro2::{Ident, TokenTree};
 
 const BODY: &Table<()> = &[
     ("position", ()),
     ("rotation", ()),
+    ("pose", ()),
     ("parent", ()),
     ("mass", ()),
     ("center_of_mass", ()),
@@ -66,6 +68,7 @@ pub fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Opti
             _ if role.is_some() => {
                 role.into_iter().for_each(|role| given::read(role, argument, &mut body.given, context))
             }
+            "pose" => read_pose(argument, &mut body, &names, context),
             "rotation" => body.rotation = value(argument, "rotation_z(theta)", context).or(body.rotation),
             _ => body.parent = read_reference(argument, "another body or frame", context).or(body.parent),
         }
@@ -77,6 +80,23 @@ pub fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Opti
         return None;
     }
     certain.then_some(body)
+}
+
+/// `pose = craft`: position and rotation at once.
+fn read_pose(argument: &Clause, body: &mut BodyClause, given: &[String], context: &mut Context) {
+    if let Some(word) = ["position", "rotation"].into_iter().find(|word| given.iter().any(|name| name == word)) {
+        context.error(
+            argument.name.span(),
+            format!("`pose` is position and rotation at once, and `{word}` is given too; keep one of the two"),
+        );
+        return;
+    }
+    let Some(name) = read_reference(argument, "a coordinate that is a `Pose`", context) else { return };
+    let part = |property| {
+        let pose = Expression { kind: ExpressionKind::Name(name.clone()), span: name.span() };
+        Some(Expression { kind: ExpressionKind::Property(Box::new(pose), property), span: name.span() })
+    };
+    (body.position, body.rotation) = (part(Property::Position), part(Property::Rotation));
 }
 
 /// A word alone at the beginning is the name; so may be one after which something is wrong.

@@ -6,10 +6,10 @@ use super::attributes::{self, Clause, Owner};
 use super::context::Context;
 use super::declarations::{self, Definition, Kinematics, Names};
 use super::words::{self, Table, same};
-use super::{actions, given, placements};
+use super::{actions, given, own_functions, placements};
 use crate::model::scene::clauses::{
-    Attraction, BodyClause, ConstraintClause, ConstraintKind, Coordinate, ForceClause, ForceKind, Given, InputName,
-    ParticleClause, PointClause, Speed,
+    Attraction, BodyClause, ConstraintClause, ConstraintKind, Coordinate, ForceClause, ForceKind, FunctionClause,
+    Given, InputName, ParticleClause, PointClause, Speed, SpeedPart,
 };
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use proc_macro2::{Group, Ident, TokenTree};
@@ -35,7 +35,7 @@ pub struct Statements {
     pub particles: Vec<ParticleClause>,
     pub points: Vec<PointClause>,
     pub constraints: Vec<ConstraintClause>,
-    pub independent: Option<Names<Ident>>,
+    pub independent: Option<Names<SpeedPart>>,
     pub limit: Option<(Ident, Option<usize>)>,
     pub potential: Option<(Ident, Option<Expression>)>,
     pub inputs: Option<Names<InputName>>,
@@ -45,6 +45,9 @@ pub struct Statements {
     pub medium: Option<(Ident, Option<Expression>)>,
     /// Mass data of the body without a name, and gravity.
     pub given: Vec<Given>,
+    pub functions: Vec<FunctionClause>,
+    /// Bodies whose moments need not obey the triangle inequality; `None`: all.
+    pub formal: Vec<Option<Ident>>,
     /// `damping = …` is written.
     damped: bool,
     /// Some clause could not be read: what seems to be missing may be what it says.
@@ -78,6 +81,9 @@ pub enum Statement {
     Define,
     Medium,
     CentralGravity,
+    Waive,
+    Function,
+    Table,
 }
 
 /// The clauses of systems.
@@ -104,6 +110,9 @@ pub const STATEMENTS: &Table<Statement> = &[
     ("medium", Statement::Medium),
     ("central_gravity", Statement::CentralGravity),
     ("define", Statement::Define),
+    ("function", Statement::Function),
+    ("table", Statement::Table),
+    ("waive", Statement::Waive),
     ("limit", Statement::Limit),
 ];
 
@@ -150,7 +159,27 @@ impl Statements {
     pub fn read(&mut self, clause: &Clause, context: &mut Context) {
         self.first.get_or_insert_with(|| clause.name.clone());
         let Some(statement) = meant(&clause.word()) else { return };
-        let in_chart = self.in_chart;
+        self.refuse_twice(statement, clause, context);
+        match statement {
+            Statement::Coordinates
+            | Statement::Speeds
+            | Statement::Kinematics
+            | Statement::Independent
+            | Statement::Input
+            | Statement::Define
+            | Statement::Function
+            | Statement::Table
+            | Statement::Waive
+            | Statement::Limit => self.read_declaration(statement, clause, context),
+            Statement::Body | Statement::Frame | Statement::Particle | Statement::Point | Statement::Constraint => {
+                self.read_placement(statement, clause, context)
+            }
+            _ => self.read_action(statement, clause, context),
+        }
+    }
+
+    /// What can be written once is not written again.
+    fn refuse_twice(&self, statement: Statement, clause: &Clause, context: &mut Context) {
         let given = match statement {
             Statement::Coordinates => self.coordinates.is_some(),
             Statement::Speeds => self.speeds.is_some(),
@@ -172,6 +201,10 @@ impl Statements {
             };
             context.error(name.span(), format!("`{name}` is given twice; {remedy}"));
         }
+    }
+
+    /// Names, and what they stand for; of what is given twice the first counts.
+    fn read_declaration(&mut self, statement: Statement, clause: &Clause, context: &mut Context) {
         match statement {
             Statement::Coordinates => {
                 let names = declarations::read_coordinates(clause, context);
@@ -189,46 +222,74 @@ impl Statements {
                 let names = declarations::read_independent(clause, context);
                 self.independent = self.independent.take().or(Some(names));
             }
-            Statement::Body => match placements::read_body(clause, false, context) {
-                Some(body) if in_chart && body.name.is_none() => context.error(
-                    body.span,
-                    "the body without a name moves in the chart, which says where it is; give another body a name, \
-                     `body(name, …)`, write mass data as clauses of the struct, or remove `chart` and `motion`",
-                ),
-                Some(mut body) => {
-                    // Of the only body there is one set of mass data, wherever they are written.
-                    if body.name.is_none() {
-                        for given in body.given.drain(..) {
-                            given::add(given, &mut self.given, context);
-                        }
-                    }
-                    self.bodies.push(body);
-                }
-                None => self.unread.push(statement),
-            },
-            Statement::Frame => match placements::read_body(clause, true, context) {
-                Some(frame) => self.bodies.push(frame),
-                None => self.unread.push(statement),
-            },
-            Statement::Particle => match placements::read_particle(clause, context) {
-                Some(particle) => self.particles.push(particle),
-                None => self.unread.push(statement),
-            },
-            Statement::Point => match placements::read_point(clause, in_chart, context) {
-                Some(point) => self.points.push(point),
-                None => self.unread.push(statement),
-            },
-            Statement::Constraint => match read_constraint(clause, context) {
-                Some(constraint) => self.constraints.push(constraint),
-                None => self.unread.push(statement),
-            },
-            Statement::Potential => {
-                let value = value(clause, "k * x * x / 2", context);
-                self.potential = self.potential.take().or(Some((clause.name.clone(), value)));
-            }
             Statement::Input => {
                 let names = declarations::read_inputs(clause, context);
                 self.inputs = self.inputs.take().or(Some(names));
+            }
+            Statement::Define => {
+                let definitions = declarations::read_definitions(clause, context);
+                self.note_read(!definitions.is_empty(), statement);
+                self.definitions.extend(definitions);
+            }
+            Statement::Waive => self.formal.extend(declarations::read_waived(clause, context)),
+            Statement::Limit => {
+                let limit = read_limit(clause, context);
+                self.limit = self.limit.take().or(Some((clause.name.clone(), limit)));
+            }
+            _ => {
+                let function = match statement {
+                    Statement::Function => own_functions::read_function(clause, context),
+                    _ => own_functions::read_table(clause, context),
+                };
+                self.note_read(function.is_some(), statement);
+                self.functions.extend(function);
+            }
+        }
+    }
+
+    /// Bodies, particles, points, and what constrains them.
+    fn read_placement(&mut self, statement: Statement, clause: &Clause, context: &mut Context) {
+        let read = match statement {
+            Statement::Body => match placements::read_body(clause, false, context) {
+                Some(body) => {
+                    self.add_body(body, context);
+                    true
+                }
+                None => false,
+            },
+            Statement::Frame => add(&mut self.bodies, placements::read_body(clause, true, context)),
+            Statement::Particle => add(&mut self.particles, placements::read_particle(clause, context)),
+            Statement::Point => add(&mut self.points, placements::read_point(clause, self.in_chart, context)),
+            _ => add(&mut self.constraints, read_constraint(clause, context)),
+        };
+        self.note_read(read, statement);
+    }
+
+    fn add_body(&mut self, mut body: BodyClause, context: &mut Context) {
+        if self.in_chart && body.name.is_none() {
+            context.error(
+                body.span,
+                "the body without a name moves in the chart, which says where it is; give another body a name, \
+                 `body(name, …)`, write mass data as clauses of the struct, or remove `chart` and `motion`",
+            );
+            return;
+        }
+        // Of the only body there is one set of mass data, wherever they are written.
+        if body.name.is_none() {
+            for given in body.given.drain(..) {
+                given::add(given, &mut self.given, context);
+            }
+        }
+        self.bodies.push(body);
+    }
+
+    /// What acts.
+    fn read_action(&mut self, statement: Statement, clause: &Clause, context: &mut Context) {
+        let in_chart = self.in_chart;
+        match statement {
+            Statement::Potential => {
+                let value = value(clause, "k * x * x / 2", context);
+                self.potential = self.potential.take().or(Some((clause.name.clone(), value)));
             }
             Statement::Force => self.forces.extend(actions::read_force(clause, in_chart, context)),
             Statement::Torque => self.forces.extend(actions::read_torque(clause, in_chart, context)),
@@ -242,27 +303,23 @@ impl Statements {
             Statement::Spring => self.forces.extend(actions::read_spring(clause, context)),
             Statement::Stop => self.forces.extend(actions::read_stop(clause, context)),
             Statement::Drag => self.forces.extend(actions::read_drag(clause, in_chart, context)),
-            Statement::Define => {
-                let definitions = declarations::read_definitions(clause, context);
-                if definitions.is_empty() {
-                    self.unread.push(statement);
-                }
-                self.definitions.extend(definitions);
-            }
             Statement::Medium => {
                 let velocity = actions::read_medium(clause, context);
                 self.medium = self.medium.take().or(Some((clause.name.clone(), velocity)));
             }
             Statement::CentralGravity => self.attractions.extend(actions::read_attraction(clause, context)),
-            Statement::Damping => {
+            _ => {
                 self.damped = true;
                 let kind = value(clause, "c * v * v / 2", context).map(ForceKind::Dissipation);
                 self.forces.extend(kind.map(|kind| ForceClause { name: None, kind, span: clause.name.span() }));
             }
-            Statement::Limit => {
-                let limit = read_limit(clause, context);
-                self.limit = self.limit.take().or(Some((clause.name.clone(), limit)));
-            }
+        }
+    }
+
+    /// Takes note of a clause that could not be read.
+    fn note_read(&mut self, read: bool, statement: Statement) {
+        if !read {
+            self.unread.push(statement);
         }
     }
 
@@ -302,6 +359,13 @@ impl Statements {
     pub fn has_unnamed_body(&self) -> bool {
         self.bodies.iter().any(|body| body.name.is_none())
     }
+}
+
+/// Whether there is something to add.
+fn add<T>(list: &mut Vec<T>, read: Option<T>) -> bool {
+    let earlier = list.len();
+    list.extend(read);
+    list.len() > earlier
 }
 
 /// `None` if something is missing or wrong, which is noted. Whether the expression is a vector is not known yet.

@@ -66,6 +66,9 @@ pub fn list<T>(table: &[(&str, T)]) -> String {
 /// The name of time.
 pub const TIME: &str = "t";
 
+/// The name of the ratio of a circle's circumference to its diameter.
+pub const PI: &str = "pi";
+
 /// What a body without a name of its own is called in expressions and clauses.
 pub const UNNAMED: &str = "body";
 

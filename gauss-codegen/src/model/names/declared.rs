@@ -21,7 +21,13 @@ pub fn scope(
     let inputs = statements.inputs.as_ref();
     // Without a clause of coordinates, or of speeds where there are kinematics, every name is one that is missing there.
     let complete = !uncertain
-        && !statements.missed_any(&[Statement::Frame, Statement::Point, Statement::Define])
+        && !statements.missed_any(&[
+            Statement::Frame,
+            Statement::Point,
+            Statement::Define,
+            Statement::Function,
+            Statement::Table,
+        ])
         && coordinates.map_or(statements.in_chart, |names| names.complete)
         && speeds.map_or(statements.kinematics.is_none(), |names| names.complete)
         && inputs.is_none_or(|names| names.complete);
@@ -50,6 +56,9 @@ pub fn scope(
     }
     for name in statements.frames() {
         scope.add(name, Meaning::Frame);
+    }
+    for function in &statements.functions {
+        scope.add(&function.name, Meaning::Function { kink: function.kind.continuous() == Some(0) });
     }
     for point in &statements.points {
         scope.add(&point.name, Meaning::Point);

@@ -71,6 +71,11 @@ impl Checker<'_> {
                         .into(),
                 )
             }
+            ExpressionKind::Own(name, argument) => self.own(name, argument, expression.span),
+            ExpressionKind::Call(FunctionName::Powf, arguments) => {
+                self.arguments(FunctionName::Powf, arguments);
+                self.exponent(arguments.get(1)?)
+            }
             ExpressionKind::Call(FunctionName::Rate, arguments) => self.rate(arguments, expression.span),
             ExpressionKind::Call(function, arguments) => {
                 self.arguments(*function, arguments);
@@ -89,6 +94,48 @@ impl Checker<'_> {
                 }
                 Some(Kind::Vector)
             }
+        }
+    }
+
+    /// A function that a clause declares.
+    fn own(&mut self, name: &Ident, argument: &Expression, span: Span) -> Option<Kind> {
+        if let Some(kind) = self.kind(argument) {
+            self.expect(kind, Kind::Scalar, argument.span, &format!("`{name}` takes"));
+        }
+        let jump = || format!("the derivative of the table `{name}` jumps");
+        match self.scope.find_function(name) {
+            Ok(true) if self.differentiated => {
+                self.note(span, format!("{}, and `rate` takes derivatives; write `kind = cubic`", jump()))
+            }
+            Ok(true) => match self.place.refuses_kinks() {
+                Some(why) => self.note(span, format!("{}, and {why}; write `kind = cubic`", jump())),
+                None => Some(Kind::Scalar),
+            },
+            Ok(false) => Some(Kind::Scalar),
+            Err(message) => self.note(span, message?),
+        }
+    }
+
+    /// The exponent of `powf`: nothing in it moves.
+    fn exponent(&mut self, exponent: &Expression) -> Option<Kind> {
+        let mut moving = None;
+        exponent.walk(&mut |part| {
+            if let ExpressionKind::Name(name) = &part.kind {
+                let constant = |meaning: &Meaning| {
+                    matches!(meaning, Meaning::Scalar | Meaning::Vector | Meaning::Pi | Meaning::Definition(_))
+                };
+                let varies = self.scope.find(name, constant).is_ok_and(|meaning| !constant(meaning));
+                moving = moving.take().or(varies.then(|| name.clone()));
+            }
+        });
+        match moving {
+            Some(name) => self.note(
+                name.span(),
+                format!(
+                    "`{name}` varies, and the exponent of `powf` is made of numbers and fields; write `exp` and `ln`"
+                ),
+            ),
+            None => Some(Kind::Scalar),
         }
     }
 
@@ -160,9 +207,12 @@ impl Checker<'_> {
                 self.note(name.span(), self.acceleration(&name.to_string(), &format!("`{name}` itself")))
             }
             Meaning::Input(_) if self.differentiated => self.note(name.span(), rate_of_input(name)),
-            Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => Some(Kind::Scalar),
+            Meaning::Time | Meaning::Pi | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => {
+                Some(Kind::Scalar)
+            }
             Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(InputKind::Scalar) => Some(Kind::Scalar),
             Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => Some(Kind::Vector),
+            Meaning::Function { .. } => self.note(name.span(), format!("`{name}` is a function; write `{name}(x)`")),
             Meaning::Input(InputKind::Wrench) => self.note(
                 name.span(),
                 format!("`{name}` is a wrench, which is two vectors; write `{name}.force` or `{name}.torque`"),
@@ -209,18 +259,18 @@ impl Checker<'_> {
         let wrench = Meaning::Input(InputKind::Wrench);
         let has = |meaning: &Meaning| {
             place.allows(meaning)
-                && if property.is_of_wrench() { *meaning == wrench } else { meaning.is_body() || *meaning == pose }
+                && if property.is_of_wrench() {
+                    *meaning == wrench
+                } else {
+                    meaning.is_body() || *meaning == pose || meaning.has_velocity(property)
+                }
         };
         let meaning = self.meaning(name, has)?;
         let message = match (&meaning, property) {
-            (Meaning::Body | Meaning::Frame, property) if property.is_velocity() => {
-                let written = format!("{name}.{word}");
-                match self.place.refuses_velocity(&written) {
-                    Some(message) => message,
-                    None if self.differentiated => self.acceleration(&written, &format!("`{written}` itself")),
-                    None => return Some(Kind::Vector),
-                }
-            }
+            (meaning, property) if meaning.has_velocity(property) => match self.velocity(&format!("{name}.{word}")) {
+                Some(message) => message,
+                None => return Some(Kind::Vector),
+            },
             (Meaning::Body | Meaning::Frame | Meaning::Coordinate(CoordinateKind::Pose), Property::Position) => {
                 return Some(Kind::Vector);
             }
@@ -241,21 +291,24 @@ impl Checker<'_> {
                 meaning.described()
             ),
             (Meaning::Coordinate(CoordinateKind::Pose), _) => format!(
-                "a pose has `.position` and `.rotation`, and no `.{word}`; ask it of the body that has this pose"
+                "a pose has `.position`, `.rotation` and velocities, and no `.{word}`; ask it of the body that has this pose"
             ),
             (Meaning::Coordinate(CoordinateKind::Rotation), Property::Rotation) => {
                 format!("`{name}` is itself a rotation; write `{name}`")
             }
             (Meaning::Point, Property::Position) => format!("`{name}` is itself a position; write `{name}`"),
-            (Meaning::Point, Property::Velocity) => {
-                format!("`{name}` is a position and has no `.velocity`; write `rate({name})`")
-            }
             (meaning, _) => format!(
                 "`{name}` is {} and has no `.{word}`; bodies and frames have, by their names",
                 meaning.described()
             ),
         };
         self.note(span, message)
+    }
+
+    /// What to say of a velocity, `written` so, where none may stand.
+    fn velocity(&self, written: &str) -> Option<String> {
+        let refused = self.place.refuses_velocity(written);
+        refused.or_else(|| self.differentiated.then(|| self.acceleration(written, &format!("`{written}` itself"))))
     }
 
     fn binary(&mut self, operator: BinaryOperator, left: Kind, right: Kind, span: Span) -> Option<Kind> {

@@ -161,6 +161,7 @@ impl Place {
     pub fn allows(self, meaning: &Meaning) -> bool {
         match meaning {
             Meaning::Scalar | Meaning::Vector | Meaning::Definition(_) | Meaning::Unusable(_) => true,
+            Meaning::Pi | Meaning::Function { .. } => true,
             Meaning::Time => !self.is_constant(),
             Meaning::Coordinate(_) => !self.is_constant() && !self.is_given(),
             Meaning::Speed(_) => self.of_velocities(),
@@ -327,6 +328,16 @@ impl Place {
         Some(format!(
             "`{written}` is a velocity, which only `constraint(velocity = …)` and values of forces can contain; {remedy}"
         ))
+    }
+
+    /// Why nothing that is not smooth may stand here.
+    pub fn refuses_kinks(self) -> Option<String> {
+        match self {
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient | Place::Definition => None,
+            Place::Dissipation => Some("forces are derivatives of a dissipation function".into()),
+            place if place.is_constant() => None,
+            place => Some(format!("{} is differentiated", place.subject())),
+        }
     }
 
     /// What to say of a function that is not smooth, where derivatives are taken.

@@ -1,9 +1,9 @@
 //! What the names in expressions mean.
 
 use crate::model::language::functions::FUNCTIONS;
-use crate::model::language::words::{self, TIME};
+use crate::model::language::words::{self, PI, TIME};
 use crate::model::scene::clauses::{CoordinateKind, InputKind, SpeedKind};
-use crate::model::scene::expression::Expression;
+use crate::model::scene::expression::{Expression, Property};
 use proc_macro2::Ident;
 use std::cell::RefCell;
 use std::cmp::Ordering;
@@ -29,6 +29,12 @@ pub enum Meaning {
     Frame,
     /// A point of a body.
     Point,
+    /// A function of one number; its derivative jumps.
+    Function {
+        kink: bool,
+    },
+    /// π.
+    Pi,
     /// A field that expressions cannot use; the message says why.
     Unusable(String),
 }
@@ -46,7 +52,12 @@ pub struct Scope {
 
 impl Scope {
     pub fn new(complete: bool) -> Scope {
-        Scope { names: vec![(TIME.into(), Meaning::Time)], complete, definitions: Vec::new(), said: RefCell::default() }
+        Scope {
+            names: vec![(TIME.into(), Meaning::Time), (PI.into(), Meaning::Pi)],
+            complete,
+            definitions: Vec::new(),
+            said: RefCell::default(),
+        }
     }
 
     /// Says what the next definition stands for; `None` if something is wrong with it.
@@ -113,6 +124,31 @@ impl Scope {
         Err(Some(format!("unknown name `{word}`; {remedy}")))
     }
 
+    /// The function that is called so, and whether its derivative jumps.
+    ///
+    /// # Errors
+    /// What to say of one that is not declared; `None` where that is said elsewhere.
+    pub fn find_function(&self, name: &Ident) -> Result<bool, Option<String>> {
+        let word = name.unraw().to_string();
+        let own = self.names.iter().filter_map(|(known, meaning)| match meaning {
+            Meaning::Function { kink } => Some((known.as_str(), Some(*kink))),
+            _ => None,
+        });
+        let table: Vec<(&str, Option<bool>)> = own.chain(FUNCTIONS.iter().map(|(word, _)| (*word, None))).collect();
+        match table.iter().find(|(known, _)| *known == word) {
+            Some((_, Some(kink))) => Ok(*kink),
+            _ if !self.complete => Err(None),
+            _ => Err(Some(match words::nearest(&word, &table) {
+                Some((near, _)) => format!("unknown function `{word}`; did you mean `{near}`?"),
+                None => format!(
+                    "unknown function `{word}`; expected {}; a function of your own is declared by `function({word}, \
+                     derivative = …)`",
+                    words::list(&table)
+                ),
+            })),
+        }
+    }
+
     /// The nearest usable name. A single letter is near to nothing but its other case: any two letters are one edit
     /// apart.
     fn nearest(&self, word: &str) -> Option<(&str, &Meaning)> {
@@ -162,7 +198,7 @@ impl Scope {
 impl Meaning {
     fn noun(&self) -> &'static str {
         match self {
-            Meaning::Time | Meaning::Unusable(_) => "",
+            Meaning::Time | Meaning::Pi | Meaning::Unusable(_) => "",
             Meaning::Coordinate(_) => "the coordinate ",
             Meaning::Speed(_) => "the speed ",
             Meaning::Input(_) => "the input ",
@@ -171,6 +207,21 @@ impl Meaning {
             Meaning::Body => "the body ",
             Meaning::Frame => "the frame ",
             Meaning::Point => "the point ",
+            Meaning::Function { .. } => "the function ",
+        }
+    }
+
+    /// It has this velocity: of bodies all of them, of poses those of the twist, of rotations the angular ones, of points their own.
+    pub fn has_velocity(&self, property: Property) -> bool {
+        let angular = matches!(property, Property::AngularVelocity | Property::BodyAngularVelocity);
+        match self {
+            Meaning::Body | Meaning::Frame => property.is_velocity(),
+            Meaning::Coordinate(CoordinateKind::Pose) => {
+                angular || matches!(property, Property::Velocity | Property::BodyVelocity)
+            }
+            Meaning::Coordinate(CoordinateKind::Rotation) => angular,
+            Meaning::Point => property == Property::Velocity,
+            _ => false,
         }
     }
 
@@ -182,7 +233,8 @@ impl Meaning {
     /// What it is, for messages.
     pub fn described(&self) -> &'static str {
         match self {
-            Meaning::Time | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => "a scalar",
+            Meaning::Function { .. } => "a function",
+            Meaning::Time | Meaning::Pi | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => "a scalar",
             Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(InputKind::Scalar) => "a scalar",
             Meaning::Vector | Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => "a vector",
             Meaning::Input(InputKind::Wrench) => "a wrench",

@@ -62,11 +62,22 @@ impl InChart {
             Chart::LeftInvariant => named("u", "omega"),
             Chart::RightInvariant => named("xi", "omega"),
             Chart::Hybrid => named("b_dot", "omega"),
-            Chart::Jet(rotation) => {
-                let linear = (1..=linear).map(|k| format!("b{k}"));
-                linear.chain(coordinate_words(rotation)).map(|word| format!("{word}_dot")).collect()
+            Chart::Jet(_) => {
+                let words = self.coordinate_words().into_iter().flatten();
+                words.map(|word| format!("{word}_dot")).collect()
             }
         }
+    }
+
+    /// One word for each coordinate where they are scalars.
+    pub fn coordinate_words(self) -> Option<Vec<String>> {
+        let Chart::Jet(rotation) = self.chart else { return None };
+        let linear = match self.motion {
+            Motion::Free => 3,
+            Motion::FixedPoint => 0,
+            Motion::Planar => 2,
+        };
+        Some((1..=linear).map(|k| format!("b{k}")).chain(coordinate_words(rotation)).collect())
     }
 }
 

@@ -3,7 +3,7 @@
 use super::expression::Expression;
 use super::roles::{Role, Shape};
 use proc_macro2::Span;
-use syn::Ident;
+use syn::{Ident, Path};
 
 /// One coordinate, or three or six that are an element of a group.
 #[derive(Clone)]
@@ -32,6 +32,24 @@ pub struct Speed {
     pub ident: Ident,
     /// How many it stands for.
     pub kind: SpeedKind,
+}
+
+/// A speed, or one component of a vector of speeds: `w`, `w.x`.
+#[derive(Clone)]
+pub struct SpeedPart {
+    /// The name of the speed.
+    pub ident: Ident,
+    /// The component; `None`: all of it.
+    pub component: Option<usize>,
+}
+
+impl std::fmt::Display for SpeedPart {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.component {
+            Some(k) => write!(f, "{}.{}", self.ident, ["x", "y", "z"][k % 3]),
+            None => self.ident.fmt(f),
+        }
+    }
 }
 
 /// How many speeds are under one name.
@@ -117,6 +135,46 @@ pub enum ConstraintKind {
     Position,
     /// φ(t, q, z) = 0.
     Velocity,
+}
+
+/// `function(lift, derivative = …)` or `table(lift, points = …)`: a function of one number.
+#[derive(Clone)]
+pub struct FunctionClause {
+    /// Its name in expressions.
+    pub name: Ident,
+    /// What it is.
+    pub kind: FunctionKind,
+}
+
+/// A function of one number that the user gives.
+#[derive(Clone)]
+pub enum FunctionKind {
+    /// Functions of the user's own: itself, its derivative, and so on.
+    Rust(Vec<Path>),
+    /// A constant array of points [x, y], joined by straight lines.
+    Linear(Path),
+    /// The same, joined by the natural cubic spline.
+    Cubic(Path),
+}
+
+impl FunctionKind {
+    /// How often it can be differentiated: of a table, until nothing is left.
+    pub fn derivatives(&self) -> u8 {
+        match self {
+            FunctionKind::Rust(paths) => paths.len().saturating_sub(1) as u8,
+            FunctionKind::Linear(_) => 1,
+            FunctionKind::Cubic(_) => 3,
+        }
+    }
+
+    /// How many derivatives are continuous; `None`: it is smooth.
+    pub fn continuous(&self) -> Option<u8> {
+        match self {
+            FunctionKind::Rust(_) => None,
+            FunctionKind::Linear(_) => Some(0),
+            FunctionKind::Cubic(_) => Some(2),
+        }
+    }
 }
 
 /// One value that arrives at run time, or several under one name.

@@ -39,6 +39,8 @@ pub enum ExpressionKind {
     Power(Box<Expression>, i32),
     /// `sin(a)`, `a.sin()`, `dot(a, b)`: the number of arguments is right.
     Call(FunctionName, Vec<Expression>),
+    /// `lift(a)`: a function that a clause declares.
+    Own(Ident, Box<Expression>),
     /// `[a, b, c]`.
     Vector([Box<Expression>; 3]),
 }
@@ -65,6 +67,16 @@ pub enum FunctionName {
     Cos,
     /// Tangent of an angle in radians.
     Tan,
+    /// Inverse sine in radians, of what lies between −1 and 1.
+    Asin,
+    /// Inverse cosine in radians, of what lies between −1 and 1.
+    Acos,
+    /// Inverse tangent in radians.
+    Atan,
+    /// Hyperbolic tangent.
+    Tanh,
+    /// Power (x, p) with a constant exponent, of a base that is not negative.
+    Powf,
     /// Exponential.
     Exp,
     /// Natural logarithm.
@@ -144,6 +156,7 @@ impl Expression {
             ExpressionKind::Component(inner, _)
             | ExpressionKind::Property(inner, _)
             | ExpressionKind::Negate(inner)
+            | ExpressionKind::Own(_, inner)
             | ExpressionKind::Power(inner, _) => visit(inner),
             ExpressionKind::Binary(_, left, right) => {
                 visit(left);
@@ -161,6 +174,7 @@ impl Expression {
             ExpressionKind::Component(inner, _)
             | ExpressionKind::Property(inner, _)
             | ExpressionKind::Negate(inner)
+            | ExpressionKind::Own(_, inner)
             | ExpressionKind::Power(inner, _) => change(inner),
             ExpressionKind::Binary(_, left, right) => {
                 change(left);
@@ -181,7 +195,8 @@ impl Expression {
     /// Whether it is made of literals alone.
     pub fn is_made_of_literals(&self) -> bool {
         let mut literals = true;
-        self.walk(&mut |part| literals &= !matches!(part.kind, ExpressionKind::Name(_)));
+        let named = |kind: &ExpressionKind| matches!(kind, ExpressionKind::Name(_) | ExpressionKind::Own(..));
+        self.walk(&mut |part| literals &= !named(&part.kind));
         literals
     }
 
@@ -190,6 +205,33 @@ impl Expression {
         match &self.kind {
             ExpressionKind::Number { value } => Some(value.to_f64()),
             ExpressionKind::Negate(inner) => inner.literal().map(|value| -value),
+            _ => None,
+        }
+    }
+
+    /// How many times π it is, if it is made of `pi` and literals so that this can be seen: `pi`, `-pi / 2`, `3 * pi / 4`.
+    pub fn turns_of_pi(&self) -> Option<Rational> {
+        match &self.kind {
+            ExpressionKind::Name(name) if name == "pi" => Some(Rational::one()),
+            ExpressionKind::Negate(inner) => inner.turns_of_pi().map(|turns| -turns),
+            ExpressionKind::Binary(BinaryOperator::Multiply, a, b) => match (a.turns_of_pi(), b.turns_of_pi()) {
+                (Some(turns), None) => Some(turns * b.number()?),
+                (None, Some(turns)) => Some(a.number()? * turns),
+                _ => None,
+            },
+            ExpressionKind::Binary(BinaryOperator::Divide, a, b) => {
+                let divisor = b.number().filter(|divisor| !divisor.is_zero())?;
+                Some(a.turns_of_pi()? * divisor.recip())
+            }
+            _ => None,
+        }
+    }
+
+    /// A literal with its sign, exactly.
+    pub fn number(&self) -> Option<Rational> {
+        match &self.kind {
+            ExpressionKind::Number { value } => Some(*value),
+            ExpressionKind::Negate(inner) => inner.number().map(|value| -value),
             _ => None,
         }
     }

@@ -3,11 +3,12 @@
 
 use super::charts::InChart;
 use super::clauses::{
-    Attraction, BodyClause, Coefficients, ConstraintClause, Coordinate, ForceClause, Given, GivenValue, InputName,
-    ParticleClause, PointClause, Speed,
+    Attraction, BodyClause, Coefficients, ConstraintClause, Coordinate, ForceClause, FunctionClause, Given, GivenValue,
+    InputName, ParticleClause, PointClause, Speed, SpeedPart,
 };
 use super::expression::Expression;
 use super::roles::{Role, Shape};
+use syn::ext::IdentExt;
 use syn::{Generics, Ident, Path, Visibility};
 
 /// Any system that the Gauss condition covers.
@@ -47,7 +48,7 @@ pub struct Model {
     /// What is further required of the motion.
     pub constraints: Vec<ConstraintClause>,
     /// The speeds that stay when the constraints are solved for the others at compile time; `None`: multipliers.
-    pub independent: Option<Vec<Ident>>,
+    pub independent: Option<Vec<SpeedPart>>,
     /// The most operations that the generated code may have; `None`: the limit of the derive.
     pub limit: Option<usize>,
     /// The potential energy besides that of gravity: a scalar of t and q.
@@ -62,6 +63,10 @@ pub struct Model {
     pub attractions: Vec<Attraction>,
     /// What acts besides gravity and the potential, in the order in which it is written.
     pub forces: Vec<ForceClause>,
+    /// Functions of one number that the user gives.
+    pub functions: Vec<FunctionClause>,
+    /// Bodies whose principal moments need not obey the triangle inequality; `None`: all of them.
+    pub formal: Vec<Option<Ident>>,
 }
 
 impl Model {
@@ -101,6 +106,12 @@ impl Model {
         let all = self.given.iter().chain(self.bodies.iter().flat_map(|body| &body.given));
         let named = |given: &Given| matches!(&given.value, GivenValue::Coefficients(Coefficients::Field(name)) if name == field);
         all.into_iter().any(named)
+    }
+
+    /// Whether the principal moments of the body of that name (the unnamed one) need not obey the triangle inequality.
+    pub fn waives_triangle_inequality(&self, body: Option<&Ident>) -> bool {
+        let same = |formal: &Ident| body.map_or_else(|| formal == "body", |body| body.unraw() == formal.unraw());
+        self.formal.iter().any(|formal| formal.as_ref().is_none_or(same))
     }
 
     /// Whether the model itself says where the body is: in a chart.

@@ -130,7 +130,7 @@ fn fluid_that_is_none() {
         &[
             (
                 "gravity",
-                "unknown argument of `body`: `gravity`; expected `position`, `rotation`, `parent`, `mass`, \
+                "unknown argument of `body`: `gravity`; expected `position`, `rotation`, `pose`, `parent`, `mass`, \
                  `center_of_mass`, `inertia`, `inertia_about_center_of_mass`, `added_mass`, `displaced_mass` or `center_of_buoyancy`",
             ),
             (

@@ -5,6 +5,7 @@
 //! literal agrees with everything too, in a sum or alone; as a factor it has no dimension, unless it is zero.
 
 use super::need::{ANGLE, ANGULAR_VELOCITY, FORCE, LENGTH, Need, TORQUE, VELOCITY};
+use crate::algebra::Rational;
 use crate::model::language::context::Context;
 use crate::model::language::units::Dimension;
 use crate::model::language::words::{same, word};
@@ -194,7 +195,13 @@ impl Checker<'_> {
                 let base = self.value(base);
                 base.change(|part| part.change(|dimension| dimension.to_the(*power)))
             }
+            ExpressionKind::Call(FunctionName::Powf, arguments) => self.power(arguments),
             ExpressionKind::Call(function, arguments) => self.call(*function, arguments, span),
+            // What units it takes and gives is the user's affair.
+            ExpressionKind::Own(_, argument) => {
+                self.value(argument);
+                Dimensions::UNKNOWN
+            }
             ExpressionKind::Vector(components) => {
                 let [x, y, z] = components;
                 Dimensions::Parts([x, y, z].map(|component| self.value(component).parts()[0]))
@@ -235,6 +242,23 @@ impl Checker<'_> {
         known.map_or(if x == y && y == z { value } else { Dimensions::UNKNOWN }, Dimensions::of)
     }
 
+    /// `powf(x, p)`: of a literal p that of a power, if it is whole; of any other a pure number.
+    fn power(&mut self, arguments: &[Expression]) -> Dimensions {
+        let [base, exponent] = arguments else { return Dimensions::UNKNOWN };
+        let (value, of_exponent) = (self.value(base), self.value(exponent));
+        let pure = |what: &str| Need::new(format!("{what} of `powf` is"), ("1", Dimension::NONE));
+        self.compare(exponent, of_exponent, &pure("the exponent"));
+        match exponent.number().map(Rational::to_f64) {
+            // Halves, as of roots.
+            Some(power) if f64::fract(2.0 * power) == 0.0 && power.abs() < 50.0 => value
+                .change(|part| part.change(|dimension| dimension.to_the((2.0 * power) as i32)).change(Dimension::root)),
+            _ => {
+                self.compare(base, value, &pure("the base"));
+                value.change(Found::without_dimension)
+            }
+        }
+    }
+
     fn call(&mut self, function: FunctionName, arguments: &[Expression], span: Span) -> Dimensions {
         let values: Vec<Dimensions> = arguments.iter().map(|argument| self.value(argument)).collect();
         let all: Vec<(&Expression, Dimensions)> = arguments.iter().zip(values.iter().copied()).collect();
@@ -251,11 +275,17 @@ impl Checker<'_> {
                 all.iter().for_each(|(argument, value)| self.compare(argument, *value, &angle));
                 Dimensions::Rotation
             }
-            FunctionName::Exp | FunctionName::Ln => {
+            FunctionName::Exp
+            | FunctionName::Ln
+            | FunctionName::Asin
+            | FunctionName::Acos
+            | FunctionName::Atan
+            | FunctionName::Tanh => {
                 let need = Need::new(format!("the argument of `{word}` is"), ("1", Dimension::NONE));
                 all.iter().for_each(|(argument, value)| self.compare(argument, *value, &need));
                 first.change(Found::without_dimension)
             }
+            FunctionName::Powf => Dimensions::UNKNOWN,
             FunctionName::Sqrt => first.change(|part| part.change(Dimension::root)),
             FunctionName::Signum => first.change(Found::without_dimension),
             FunctionName::Abs | FunctionName::Inverse => first,
@@ -381,6 +411,7 @@ pub fn subject(expression: &Expression, article: &str) -> String {
         ExpressionKind::Binary(BinaryOperator::Divide, ..) => format!("{article} quotient"),
         ExpressionKind::Power(..) => format!("{article} power"),
         ExpressionKind::Call(function, _) => format!("`{}(…)`", function.word()),
+        ExpressionKind::Own(name, _) => format!("`{name}(…)`"),
         ExpressionKind::Vector(_) => format!("{article} vector"),
     }
 }

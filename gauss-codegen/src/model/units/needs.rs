@@ -8,7 +8,7 @@ use crate::model::language::context::Context;
 use crate::model::language::fields::ReadField;
 use crate::model::language::statements::Statements;
 use crate::model::language::units::{self, Dimension};
-use crate::model::language::words::{TIME, same};
+use crate::model::language::words::{PI, TIME, same};
 use crate::model::scene::clauses::{Coefficients, CoordinateKind, Extent, ForceKind};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use crate::model::scene::roles::Role;
@@ -27,6 +27,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     }
     let mut checker = Checker { units, names: Vec::new(), context };
     checker.names.push((TIME.into(), Dimensions::of(Dimension::TIME)));
+    checker.names.push((PI.into(), Dimensions::of(Dimension::NONE)));
     for field in fields {
         let implied = field.role.as_ref().and_then(|claim| Role::unit(claim.role)).map(|(_, dimension)| dimension);
         let written = field.unit.as_ref().and_then(|unit| units::read(unit).ok());

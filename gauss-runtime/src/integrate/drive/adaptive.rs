@@ -176,18 +176,18 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         let used = if last { left } else { self.length };
         let tolerance = &self.control.tolerance;
         let (from, to) = (&self.state, &step.state);
-        let of = |floor: &Option<Floor<S>>| {
-            let trial = Trial { from, to, length: used, floor: floor.as_ref() };
-            tolerance.error(&trial, &step.error, coarse.as_ref())
+        let limit = self.lengths.limit();
+        let mut error = match &self.floor {
+            None => tolerance.error(&Trial { from, to, length: used, floor: None }, &step.error, coarse.as_ref()),
+            Some(floor) => tolerance.error_above(floor, (from, to, used), (&step.error, coarse.as_ref())),
         };
-        let mut error = of(&self.floor);
-        if self.floor.is_none() && (error.is_nan() || error > self.lengths.limit()) {
+        if self.floor.is_none() && (error.is_nan() || error > limit) {
             // It may be rounding that is too much.
-            let floor = Some(Floor::at(self.problem, from, &self.rates));
-            error = of(&floor);
-            self.floor = floor;
+            let floor = Floor::at(self.problem, from, &self.rates);
+            error = tolerance.error_above(&floor, (from, to, used), (&step.error, coarse.as_ref()));
+            self.floor = Some(floor);
         }
-        if error.is_nan() || error > self.lengths.limit() {
+        if error.is_nan() || error > limit {
             self.length = used * self.lengths.reject(error);
             self.rejected += 1;
             return Ok(None);
@@ -200,9 +200,10 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
             Ok(rates) => rates,
             Err(kind) => return self.halve(left, kind),
         };
-        let excess = self.floor.as_ref().map_or(0.0, |floor| {
-            tolerance.excess(&Trial { from: &self.state, to: &reached, length: used, floor: Some(floor) })
-        });
+        let excess = match &self.floor {
+            None => 0.0,
+            Some(floor) => tolerance.excess(&Trial { from, to: &reached, length: used, floor: Some(floor) }),
+        };
         // Well below what rounding does there is nothing to be learnt of the step.
         let told = if excess > 0.0 && error < 0.5 { error.min(ROUNDED) } else { error };
         let taken = Taken { rejected: core::mem::take(&mut self.rejected), excess };
@@ -210,9 +211,21 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         self.length = (used * self.lengths.accept(told)).min(self.longest);
         // Where rounding is in the way it is asked for again, elsewhere when steps have become short.
         let short = self.length < 0.5 * self.looked;
-        self.floor = (excess > 0.0 || short).then(|| Floor::at(self.problem, &self.state, &self.rates));
-        self.looked = if self.floor.is_some() { self.length } else { self.looked.max(self.length) };
+        if excess > 0.0 || short || self.floor.is_some() {
+            self.look(excess > 0.0 || short);
+        }
+        self.looked = self.looked.max(self.length);
         Ok(Some((taken, last)))
+    }
+
+    /// Measures what rounding does where the run is now, or forgets it.
+    #[cold]
+    #[inline(never)]
+    fn look(&mut self, again: bool) {
+        self.floor = again.then(|| Floor::at(self.problem, &self.state, &self.rates));
+        if again {
+            self.looked = self.length;
+        }
     }
 
     /// A step that failed: a shorter one may do, as long as it changes the time, and the state if anything does.

@@ -29,6 +29,11 @@ pub struct Taken {
 pub type Emit<'a, S> = dyn FnMut(&State<S>, &Rates<S>, Taken) -> ControlFlow<()> + 'a;
 
 /// A method with its choice of steps, which carries a state to the end of an interval.
+#[diagnostic::on_unimplemented(
+    message = "it is not said how the simulation steps",
+    label = "`{Self}` chooses no steps",
+    note = "add `.adaptive(1e-9, 1e-9)`, `.fixed_step(1e-3)` or `.control(…)` before the run"
+)]
 pub trait Control<S: GaussSystem> {
     /// Integrates from `start` to the time `end` (before or after it), in at most `limit` steps, rejected ones included. `emit`
     /// gets every state reached with the derivatives there, the first and the last included. With constraints, all of them

@@ -9,6 +9,7 @@ pub mod fixed;
 pub(in crate::integrate) mod pace;
 pub(in crate::integrate) mod projection;
 pub(in crate::integrate) mod run;
+pub mod search;
 pub mod simulation;
 pub(in crate::integrate) mod step_length;
 pub mod summary;

@@ -3,8 +3,9 @@
 use core::ops::ControlFlow;
 
 use crate::integrate::drive::control::{Control, Taken};
-use crate::integrate::drive::event::{Events, Made, Outcome, Watch};
+use crate::integrate::drive::event::{Events, Outcome, Watch};
 use crate::integrate::drive::pace::Pace;
+use crate::integrate::drive::search::Made;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::simulation::Observer;
 use crate::integrate::drive::summary::Summary;
@@ -68,6 +69,28 @@ enum Cut<S: GaussSystem> {
     Stopped(State<S>),
     Jumped(State<S>),
     Failed(IntegrationErrorKind),
+}
+
+impl<S: GaussSystem> Cut<S> {
+    /// At an event, with the state there and the one that it jumped to; passes on the first, and the second where the run ends.
+    fn at(
+        counted: Result<(), IntegrationErrorKind>,
+        (state, after): (State<S>, Option<State<S>>),
+        stopped: bool,
+        pass: &mut dyn FnMut(Seen<'_, S>),
+    ) -> Self {
+        pass(Seen::Sample(&state));
+        match (counted, after) {
+            (Err(kind), _) => Self::Failed(kind),
+            (Ok(()), Some(after)) if !stopped => Self::Jumped(after),
+            (Ok(()), after) => {
+                if let Some(after) = &after {
+                    pass(Seen::Sample(after));
+                }
+                Self::Stopped(after.unwrap_or(state))
+            }
+        }
+    }
 }
 
 impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
@@ -175,23 +198,12 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                 cut = match found {
                     Ok(Outcome::On) => None,
                     Ok(Outcome::Here { state, after, number, stopped_by }) => {
-                        pass(Seen::Sample(&state));
-                        (held, reached.stopped_by) = (false, stopped_by);
+                        (held, reached.stopped_by, before) = (false, stopped_by, Some((state, *rates)));
                         let counted = after.map_or(Ok(()), |_| {
                             reached.summary.jumps += 1;
                             jumps.count(state.t.lane(0), number)
                         });
-                        before = Some((state, *rates));
-                        Some(match (counted, after, stopped_by) {
-                            (Err(kind), ..) => Cut::Failed(kind),
-                            (_, Some(after), None) => Cut::Jumped(after),
-                            (_, after, _) => {
-                                if let Some(after) = &after {
-                                    pass(Seen::Sample(after));
-                                }
-                                Cut::Stopped(after.unwrap_or(state))
-                            }
-                        })
+                        Some(Cut::at(counted, (state, after), stopped_by.is_some(), pass))
                     }
                     Err(kind) => Some(Cut::Failed(kind)),
                 };

@@ -5,9 +5,10 @@ use core::ops::Range;
 use crate::configuration::Configuration;
 use crate::integrate::drive::adaptive::Adaptive;
 use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
-use crate::integrate::drive::event::{Crossing, Events, NoEvents, Then, Watched};
+use crate::integrate::drive::event::{Events, NoEvents, Then, Watched};
 use crate::integrate::drive::fixed::Fixed;
 use crate::integrate::drive::run::{Run, Seen};
+use crate::integrate::drive::search::Crossing;
 use crate::integrate::drive::summary::End;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::trajectory::Trajectory;
@@ -344,7 +345,6 @@ impl<S, P, C, O, E> Simulation<P, C, O, E>
 where
     S: GaussSystem,
     P: Problem<System = S>,
-    C: Control<S>,
     O: Observer<S>,
     E: Events<S>,
 {
@@ -364,6 +364,7 @@ where
     where
         P: 't,
         C: 't,
+        C: Control<S>,
     {
         match self.attempt(q0, z0, interval) {
             (trajectory, None) => Ok(trajectory),
@@ -383,6 +384,7 @@ where
     where
         P: 't,
         C: 't,
+        C: Control<S>,
     {
         let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, observer, events, every, limit } = self;
@@ -402,7 +404,10 @@ where
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
-    ) -> Result<End<S>, IntegrationError> {
+    ) -> Result<End<S>, IntegrationError>
+    where
+        C: Control<S>,
+    {
         let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, mut observer, events, every, limit } = self;
         let run = Run { control: &control, problem: &problem, every, limit: limit.unwrap_or(DEFAULT_LIMIT) };

@@ -33,6 +33,8 @@ pub(in crate::integrate) struct Floor<S: GaussSystem> {
 
 impl<S: GaussSystem> Floor<S> {
     /// Measured at a state with its derivatives.
+    #[cold]
+    #[inline(never)]
     pub(in crate::integrate) fn at<P: Problem<System = S>>(problem: &P, state: &State<S>, rates: &Rates<S>) -> Self {
         let mut derivatives: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
         let unit = S::Scalar::from_f64(S::Scalar::EPSILON);
@@ -114,7 +116,21 @@ impl Tolerance {
         worst
     }
 
+    /// The same above a floor. Runs that stay above rounding hold no copy of it.
+    #[cold]
+    #[inline(never)]
+    pub(in crate::integrate) fn error_above<S: GaussSystem>(
+        &self,
+        floor: &Floor<S>,
+        (from, to, length): (&State<S>, &State<S>, f64),
+        (fine, coarse): (&Rates<S>, Option<&Rates<S>>),
+    ) -> f64 {
+        self.error(&Trial { from, to, length, floor: Some(floor) }, fine, coarse)
+    }
+
     /// How many times the tolerance rounding is where it is more, the largest of the components; 0 where it is nowhere.
+    #[cold]
+    #[inline(never)]
     pub(in crate::integrate) fn excess<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> f64 {
         let bare = Trial { floor: None, ..*trial };
         let mut largest = 0.0_f64;

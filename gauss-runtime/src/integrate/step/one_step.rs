@@ -42,7 +42,7 @@ pub struct Step<S: GaussSystem> {
     pub rates: Option<Rates<S>>,
 }
 
-/// A method that makes one step of a given length: with [`Fixed`](crate::integrate::drive::control::Fixed) an integrator.
+/// A method that makes one step of a given length: with [`Fixed`](crate::integrate::Fixed) an integrator.
 ///
 /// A method of your own needs [`step`](Self::step) alone.
 pub trait OneStep<S: GaussSystem> {
@@ -63,7 +63,7 @@ pub trait OneStep<S: GaussSystem> {
     ) -> Result<Step<S>, IntegrationErrorKind>;
 }
 
-/// A method that estimates the error of its steps: with [`Adaptive`](crate::integrate::drive::control::Adaptive) an integrator whose steps are as long as
+/// A method that estimates the error of its steps: with [`Adaptive`](crate::integrate::Adaptive) an integrator whose steps are as long as
 /// a tolerance allows.
 pub trait EstimatingStep<S: GaussSystem>: OneStep<S> {
     /// The power of the step that the estimate goes with where the motion is smooth.

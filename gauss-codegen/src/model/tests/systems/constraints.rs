@@ -130,9 +130,9 @@ fn velocities() {
     );
     mistake("constraint(velocity = rate(rate(x)))", "rate", &acceleration("rate(…)", "one `rate`"));
     mistake(
-        "constraint(velocity = dot(tip.velocity, tip))",
-        "velocity",
-        "`tip` is a position and has no `.velocity`; write `rate(tip)`",
+        "constraint(velocity = dot(tip.angular_velocity, tip))",
+        "angular_velocity",
+        "`tip` is a point and has no `.angular_velocity`; bodies and frames have, by their names",
     );
 }
 

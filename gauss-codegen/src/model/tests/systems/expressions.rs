@@ -1,7 +1,7 @@
 //! Forms outside the language, and kinds that do not fit.
 
 use super::super::check;
-use super::{check_potential, particle};
+use super::{check_potential, particle, system};
 use crate::model::language::arithmetic::ALLOWED;
 
 #[test]
@@ -14,7 +14,8 @@ fn forms() {
     check_potential("x as f64", &[("as", &outside("`as`"))]);
     check_potential("(|z| z)(x)", &[("(", &outside("a call of anything but a function"))]);
     check_potential("k * |z| z", &[("|", &outside("a closure"))]);
-    check_potential("f64::consts::PI", &[("f64", &outside("a path"))]);
+    check_potential("f64::consts::TAU", &[("f64", &outside("a path"))]);
+    check_potential("f64::consts::PI * x", &[("f64::consts::PI", "π is `pi` in expressions; write `pi`")]);
     check_potential("m!(x)", &[("m", &outside("a macro"))]);
     check_potential("(x, y)", &[("(", &outside("a tuple"))]);
     check_potential("!x", &[("!", &outside("`!`"))]);
@@ -45,11 +46,14 @@ fn numbers() {
 
 #[test]
 fn functions() {
-    const FUNCTIONS: &str = "`sin`, `cos`, `tan`, `exp`, `ln`, `sqrt`, `powi`, `atan2`, `dot`, `cross`, \
-        `rotation_x`, `rotation_y`, `rotation_z`, `inverse`, `twist`, `rate`, `abs`, `min`, `max`, `hypot`, \
-        `signum`, `clamp` or `smooth_step`";
+    const FUNCTIONS: &str = "`sin`, `cos`, `tan`, `asin`, `acos`, `atan`, `tanh`, `exp`, `ln`, `sqrt`, `powi`, `powf`, \
+        `atan2`, `dot`, `cross`, `rotation_x`, `rotation_y`, `rotation_z`, `inverse`, `twist`, `rate`, `abs`, `min`, `max`, `hypot`, \
+        `signum`, `clamp` or `smooth_step`; a function of your own is declared by `function(erf, derivative = …)`";
     check_potential("sine(x)", &[("sine", "unknown function `sine`; did you mean `sin`?")]);
-    check_potential("x.powf(2)", &[("powf", "unknown function `powf`; did you mean `powi`?")]);
+    check_potential(
+        "powf(x, y)",
+        &[("y", "`y` varies, and the exponent of `powf` is made of numbers and fields; write `exp` and `ln`")],
+    );
     check_potential("erf(x)", &[("erf", &format!("unknown function `erf`; expected {FUNCTIONS}"))]);
     check_potential("sin(x, y)", &[("sin", "`sin` takes one argument, found 2; write `sin(x)`")]);
     check_potential("a.dot()", &[("dot", "`dot` takes two arguments, found 1; write `dot(a, b)`")]);
@@ -59,7 +63,7 @@ fn functions() {
         &[("smooth_step", "`smooth_step` takes three arguments, found 1; write `smooth_step(x, from, to)`")],
     );
     let exponent = "the exponent of `powi` is an integer literal, such as 2 or -1; \
-        for other powers write `sqrt`, or `exp` and `ln`";
+        for other powers write `powf`";
     check_potential("powi(x, 0.5)", &[("0.5", exponent)]);
     check_potential("x.powi(y)", &[("y", exponent)]);
     check_potential("sin * x", &[("sin", "`sin` is a function; write `sin(x)`")]);
@@ -156,5 +160,49 @@ fn names() {
             "f32",
             "the scalar of `k` is `f32`, but that of `m` is `f64`; one scalar serves the whole system: write `f64`",
         )],
+    );
+}
+
+/// Functions of the user's own, tables, and their places.
+#[test]
+fn own_functions() {
+    let with = |clauses: &str, potential: &str| particle(&format!("{clauses}, potential = {potential}"), "");
+    system(&with(
+        "function(lift, derivative = slope), table(spline, points = a::POINTS, kind = cubic)",
+        "lift(x) + y.spline() + pi",
+    ));
+    system(&with("function(lift = aero::lift, derivative = aero::slope, second = aero::second)", "lift(x)"));
+    check(
+        &with("table(line, points = POINTS)", "line(x)"),
+        &[(
+            "line",
+            "the derivative of the table `line` jumps, and a potential is differentiated; write `kind = cubic`",
+        )],
+    );
+    check(
+        &with("function(lift, derivative = slope)", "lifd(x) + lift"),
+        &[("lifd", "unknown function `lifd`; did you mean `lift`?"), ("lift", "`lift` is a function; write `lift(x)`")],
+    );
+    check(
+        &particle(
+            "function(derivative = slope), function(lift, second = bend), table(line), table(line, points = |x| x), \
+             table(spline, points = P, kind = round), function(sin, derivative = cos)",
+            "",
+        ),
+        &[
+            ("function", "a function needs a name to be called by; write `function(name, derivative = …)`"),
+            ("second", "derivatives are given in order; add `derivative = …`"),
+            (
+                "table",
+                "a table needs its points; add `points = POINTS` and `const POINTS: [[f64; 2]; 2] = [[x, y], …];`",
+            ),
+            (
+                "|",
+                "`points` is the path of a constant array of points `[[x, y], …]`, found `|`; closures have no name: write \
+                 a `fn`",
+            ),
+            ("round", "unknown kind of table `round`; expected `linear` or `cubic`"),
+            ("sin", "`sin` is a function of expressions and cannot name a function; rename it"),
+        ],
     );
 }

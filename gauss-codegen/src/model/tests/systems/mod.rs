@@ -47,6 +47,7 @@ fn check_potential(value: &str, expected: &[Mistake<'_>]) {
 /// An expression with all its brackets.
 pub(super) fn show(expression: &Expression) -> String {
     match &expression.kind {
+        ExpressionKind::Own(name, argument) => format!("({name} {})", show(argument)),
         ExpressionKind::Number { value } => format!("{value:?}"),
         ExpressionKind::Name(name) => name.to_string(),
         ExpressionKind::Component(base, index) => format!("{}[{index}]", show(base)),

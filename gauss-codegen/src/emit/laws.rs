@@ -1,0 +1,144 @@
+//! Constants of springs and stops in `kernel()`, and `warnings()`: what is likely not meant, although a kernel can be made of it.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::ext::IdentExt;
+
+use crate::algebra::{Expr, Map, Rational};
+use crate::kernel::Program;
+use crate::model::{Role, Shape};
+use crate::translate::{Law, LawKind};
+
+use super::derived::Derived;
+use super::locals::{local_of, parameters_read, symbols_of_parameters};
+use super::program::statements;
+
+/// States at which a dissipation function is looked at.
+const STATES: usize = 4;
+
+/// What must hold of constants of springs and stops.
+pub fn checked(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let check = |law: &Law<'_>| {
+        let said = &law.said;
+        let check = match law.kind {
+            LawKind::Stiffness => quote!(stiffness),
+            LawKind::Width => quote!(width),
+            LawKind::Limits => quote!(limits),
+            LawKind::Damping | LawKind::Attraction => quote!(finite),
+            LawKind::Dissipation => return None,
+        };
+        let (compute, values) = statements(&Program::lower(&law.values), symbols, &derived.scalar());
+        Some(match law.kind {
+            LawKind::Stiffness | LawKind::Width => quote!({ #compute __check.#check(#said, #(#values)*); }),
+            LawKind::Limits => quote!({ #compute __check.#check(#said, [#(#values),*]); }),
+            _ => quote!({ #compute __check.#check(#said, &[#(#values),*]); }),
+        })
+    };
+    derived.laws.iter().filter_map(check).collect()
+}
+
+/// `warnings()`.
+pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
+    let (private, ty) = (derived.private(), derived.scalar().ty());
+    let visibility = derived.item().visibility;
+    let symbols = symbols_of_parameters(derived);
+    let read = parameters_read(derived, &symbols);
+    let findings =
+        [drags(derived, &symbols), laws(derived, &symbols), gravity(derived), added_masses(derived, &symbols)];
+    quote! {
+        /// What is likely not meant, although a kernel can be made of it: drag and damping that feed energy, gravity that points
+        /// upward, added mass with the sign of hydrodynamic derivatives.
+        #[allow(unused_variables, unused_mut, dead_code, clippy::all, clippy::pedantic)]
+        #visibility fn warnings(&self) -> #private::ParameterWarnings {
+            #read
+            let mut __warnings = #private::WarningCheck::<#ty>::new();
+            #(#findings)*
+            __warnings.finish()
+        }
+    }
+}
+
+/// Matrices of drag. Coefficients that depend on the state are no matrix that could be judged here.
+fn drags(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let private = derived.private();
+    let check = |drag: &crate::translate::DragMatrix<'_>| {
+        let (compute, outputs) = of_parameters(derived, symbols, &drag.entries.concat())?;
+        let rows = outputs.chunks(6).map(|row| quote!([#(#row),*]));
+        let (said, kind) = (&drag.said, if drag.quadratic { quote!(Quadratic) } else { quote!(Linear) });
+        Some(quote!({
+            #compute
+            __warnings.drag(#said, #private::DragKind::#kind, &[#(#rows),*]);
+        }))
+    };
+    derived.drags.iter().filter_map(check).collect()
+}
+
+/// Damping and attraction.
+fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let find = |law: &Law<'_>| {
+        let said = &law.said;
+        let (check, values) = match law.kind {
+            LawKind::Damping => (quote!(damping), law.values.clone()),
+            LawKind::Attraction => (quote!(center), law.values.clone()),
+            LawKind::Dissipation => (quote!(dissipation), in_states(law.values[0], symbols)),
+            LawKind::Stiffness | LawKind::Width | LawKind::Limits => return None,
+        };
+        let (compute, values) = of_parameters(derived, symbols, &values)?;
+        Some(match law.kind {
+            LawKind::Dissipation => quote!({ #compute __warnings.#check(#said, &[#(#values),*]); }),
+            _ => quote!({ #compute __warnings.#check(#said, #(#values)*); }),
+        })
+    };
+    derived.laws.iter().filter_map(find).collect()
+}
+
+/// A function of the state at a few states of general position: small fractions in place of what is no parameter.
+fn in_states<'g>(function: Expr<'g>, symbols: &Map<u32, TokenStream>) -> Vec<Expr<'g>> {
+    let graph = function.graph();
+    let program = Program::lower(&[function]);
+    let of_state: Vec<_> = program.symbols().into_iter().filter(|s| !symbols.contains_key(&s.key())).collect();
+    let at = |state: usize| {
+        let number = |k: usize| {
+            let numerator = [7, -5, 11, -13][(state + k) % 4] + 2 * (k as i64 % 3);
+            graph.number(Rational::new(numerator, 8 + state as i64))
+        };
+        let values = of_state.iter().enumerate().map(|(k, symbol)| (symbol.key(), number(k))).collect();
+        function.substitute(&values)
+    };
+    (0..STATES).map(at).collect()
+}
+
+/// A gravity of one number.
+fn gravity(derived: &Derived<'_, '_>) -> TokenStream {
+    let model = derived.subject.model;
+    let Some((Shape::Scalar, name)) = model.shape(Role::Gravity).zip(local_of(model, Role::Gravity)) else {
+        return TokenStream::new();
+    };
+    let said = model.field(Role::Gravity).map_or_else(|| "gravity".to_owned(), |f| f.ident.unraw().to_string());
+    quote!(__warnings.gravity(#said, #name);)
+}
+
+/// Diagonals of added masses.
+fn added_masses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let subject = &derived.subject;
+    let find = |(clause, written): (usize, &crate::model::BodyClause)| {
+        let link = &subject.system.scene.tree.links[subject.links[clause]];
+        let matrix = link.body()?.added_mass.as_ref()?;
+        let said = subject.said_of_body(written, Role::AddedMass);
+        let diagonal: Vec<Expr<'_>> = (0..6).map(|i| matrix[i][i]).collect();
+        let (compute, values) = of_parameters(derived, symbols, &diagonal)?;
+        Some(quote!({ #compute __warnings.added_mass(#said, &[#(#values),*]); }))
+    };
+    subject.model.bodies.iter().enumerate().filter_map(find).collect()
+}
+
+/// The values of expressions of parameters; `None` where the state enters.
+fn of_parameters(
+    derived: &Derived<'_, '_>,
+    symbols: &Map<u32, TokenStream>,
+    expressions: &[Expr<'_>],
+) -> Option<(TokenStream, Vec<TokenStream>)> {
+    let program = Program::lower(expressions);
+    let known = program.symbols().iter().all(|symbol| symbols.contains_key(&symbol.key()));
+    known.then(|| statements(&program, symbols, &derived.scalar()))
+}

@@ -1,0 +1,98 @@
+//! Parameters as locals of `kernel()` and `warnings()`: what each is called, and how it is read from the struct.
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::algebra::Map;
+use crate::model::{Field, Model, Role, Shape};
+use crate::translate::{Part, Source};
+
+use super::assigned::assigned_local;
+use super::derived::Derived;
+use super::subject::Subject;
+
+/// The local that holds a field, or one part of a rigid body.
+pub fn local(field: usize, part: &str) -> Ident {
+    format_ident!("__f{}{}", field, part, span = Span::mixed_site())
+}
+
+/// The word of a part of a rigid body: the field of `RigidBody` and the end of the local.
+fn word(quantity: Role) -> &'static str {
+    match quantity {
+        Role::Mass => "mass",
+        Role::CenterOfMass => "center_of_mass",
+        _ => "inertia",
+    }
+}
+
+/// How the value of a symbol is written where the locals are.
+pub fn element(source: &Source<'_>) -> TokenStream {
+    let plain = local(source.field, "");
+    match source.part {
+        Part::Scalar => quote!(#plain),
+        Part::Component(i) => quote!(#plain[#i]),
+        Part::Entry(i, j) => quote!(#plain[#i][#j]),
+        Part::Body(quantity, i, j) => {
+            let name = local(source.field, word(quantity));
+            match quantity {
+                Role::Mass => quote!(#name),
+                Role::CenterOfMass => quote!(#name[#i]),
+                _ => quote!(#name[#i][#j]),
+            }
+        }
+    }
+}
+
+/// How the symbols of parameters are written, where they are read.
+pub fn symbols_of_parameters(derived: &Derived<'_, '_>) -> Map<u32, TokenStream> {
+    let (Subject { sources, literals, .. }, scalar) = (&derived.subject, derived.scalar());
+    let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
+    symbols.extend(literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
+    symbols
+}
+
+/// The locals of all parameters: fields, and what clauses say of the body without a name and of gravity.
+pub fn parameters_read(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let Subject { model, assigned, .. } = &derived.subject;
+    let fields = model.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
+    let mut read: TokenStream = fields.map(|(k, field)| read_field(derived, k, field)).collect();
+    let given = model.given.iter().zip(assigned);
+    read.extend(given.map(|(given, value)| assigned_local(derived, &local_of_clause(given.role), value, symbols)));
+    read
+}
+
+/// Whether the equations read the field.
+pub fn is_read(derived: &Derived<'_, '_>, field: usize) -> bool {
+    derived.subject.sources.iter().any(|source| source.field == field)
+}
+
+/// The local of what a clause says.
+pub fn local_of_clause(role: Role) -> Ident {
+    format_ident!("__given_{}", role.word(), span = Span::mixed_site())
+}
+
+/// The local of a field.
+fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream {
+    let (private, ident, name) = (derived.private(), &field.ident, local(k, ""));
+    match field.shape {
+        Shape::Scalar => quote!(let #name = self.#ident;),
+        Shape::Vector3 | Shape::Vector6 => quote!(let #name = #private::components(&self.#ident);),
+        Shape::Matrix3 | Shape::Matrix6 => quote!(let #name = #private::entries(&self.#ident);),
+        Shape::RigidBody | Shape::CentralBody => {
+            let [mass, center, inertia] = ["mass", "center_of_mass", "inertia"].map(|part| local(k, part));
+            let tensor = if field.shape == Shape::CentralBody { quote!(inertia.0) } else { quote!(inertia) };
+            quote! {
+                let #mass = self.#ident.mass;
+                let #center = #private::components(&self.#ident.center_of_mass);
+                let #inertia = #private::entries(&self.#ident.#tensor);
+            }
+        }
+        Shape::Other => TokenStream::new(),
+    }
+}
+
+/// The local of what plays a role of the body without a name.
+pub fn local_of(model: &Model, role: Role) -> Option<Ident> {
+    let field = model.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
+    field.or_else(|| model.given.iter().any(|given| given.role == role).then(|| local_of_clause(role)))
+}

@@ -1,0 +1,308 @@
+//! `NameState`: coordinates and speeds by name, and the way to and from configurations and speeds, which costs nothing.
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+use syn::ext::IdentExt;
+
+use crate::model::{CoordinateKind, InChart, Motion, SpeedKind};
+
+use super::derived::{Derived, KernelGenerics};
+
+/// One field of a state.
+pub struct Part {
+    pub ident: Ident,
+    pub kind: PartKind,
+    /// What it is, in words.
+    pub said: String,
+}
+
+/// What a field of a state is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum PartKind {
+    Scalar,
+    /// This many numbers.
+    Vector(usize),
+    Rotation,
+    Pose,
+    Plane,
+}
+
+impl Part {
+    fn new(ident: Ident, kind: PartKind, said: impl Into<String>) -> Self {
+        Self { ident, kind, said: said.into() }
+    }
+
+    /// How many numbers of a vector it is.
+    fn size(&self) -> usize {
+        if let PartKind::Vector(size) = self.kind { size } else { 1 }
+    }
+
+    fn ty(&self, private: &TokenStream, ty: &TokenStream) -> TokenStream {
+        match self.kind {
+            PartKind::Scalar => ty.clone(),
+            PartKind::Vector(size) => quote!(#private::SVector<#ty, #size>),
+            PartKind::Rotation => quote!(#private::UnitQuaternion<#ty>),
+            PartKind::Pose => quote!(#private::Isometry3<#ty>),
+            PartKind::Plane => quote!(#private::Isometry2<#ty>),
+        }
+    }
+
+    /// `craft: Isometry3`, for people.
+    pub fn shown(&self) -> String {
+        match self.kind {
+            PartKind::Scalar => self.ident.to_string(),
+            PartKind::Vector(size) => format!("{}: Vector{size}", self.ident),
+            PartKind::Rotation => format!("{}: UnitQuaternion", self.ident),
+            PartKind::Pose => format!("{}: Isometry3", self.ident),
+            PartKind::Plane => format!("{}: Isometry2", self.ident),
+        }
+    }
+}
+
+/// The name of the type.
+pub fn state_name(derived: &Derived<'_, '_>) -> Ident {
+    format_ident!("{}State", derived.item().ident)
+}
+
+/// Coordinates, then speeds, each in their order, with different names.
+pub fn parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 2] {
+    let mut all = [coordinates(derived), speeds(derived)];
+    let mut taken: Vec<String> = Vec::new();
+    for part in all.iter_mut().flatten() {
+        let word = part.ident.unraw().to_string();
+        let numbered = (2..).map(|n| format!("{word}_{n}"));
+        let free = std::iter::once(word.clone()).chain(numbered).find(|name| !taken.contains(name));
+        let free = free.unwrap_or_default();
+        if free != word {
+            part.ident = Ident::new(&free, part.ident.span());
+        }
+        taken.push(free);
+    }
+    all
+}
+
+fn coordinates(derived: &Derived<'_, '_>) -> Vec<Part> {
+    let model = derived.subject.model;
+    let named = |word: &str| Ident::new(word, Span::call_site());
+    let mut parts = Vec::new();
+    if let Some(own) = model.in_chart {
+        match (own.coordinate_words(), own.motion) {
+            (Some(words), _) => {
+                let part = |word: &String| Part::new(named(word), PartKind::Scalar, "a coordinate of the chart");
+                parts.extend(words.iter().map(part));
+            }
+            (None, Motion::Free) => parts.push(Part::new(named("pose"), PartKind::Pose, "R and b of the body")),
+            (None, Motion::FixedPoint) => {
+                parts.push(Part::new(named("rotation"), PartKind::Rotation, "R of the body"));
+            }
+            (None, Motion::Planar) => {
+                parts.push(Part::new(named("pose"), PartKind::Plane, "angle and place of the body in the plane"));
+            }
+        }
+    }
+    parts.extend(model.coordinates.iter().map(|coordinate| {
+        let (kind, said) = match coordinate.kind {
+            CoordinateKind::Scalar => (PartKind::Scalar, "coordinate"),
+            CoordinateKind::Pose => (PartKind::Pose, "coordinate: an element of SE(3)"),
+            CoordinateKind::Rotation => (PartKind::Rotation, "coordinate: an element of SO(3)"),
+        };
+        Part::new(coordinate.ident.clone(), kind, said)
+    }));
+    parts
+}
+
+/// Speeds as they are declared; without `speeds` the rates of the coordinates. Of those that constraints determine none.
+fn speeds(derived: &Derived<'_, '_>) -> Vec<Part> {
+    let model = derived.subject.model;
+    let mut all: Vec<Part> = Vec::new();
+    for word in model.in_chart.map(InChart::speed_words).unwrap_or_default() {
+        match all.last_mut().filter(|last| last.ident == word) {
+            Some(last) => last.kind = PartKind::Vector(last.size() + 1),
+            None => all.push(Part::new(Ident::new(&word, Span::call_site()), PartKind::Scalar, "speed of the chart")),
+        }
+    }
+    match &model.speeds {
+        Some(speeds) => all.extend(speeds.iter().map(|speed| match speed.kind {
+            SpeedKind::Scalar => Part::new(speed.ident.clone(), PartKind::Scalar, "speed"),
+            SpeedKind::Vector => Part::new(speed.ident.clone(), PartKind::Vector(3), "speed"),
+        })),
+        None => all.extend(model.coordinates.iter().flat_map(|q| {
+            let word = q.ident.unraw();
+            let part = |end: &str, kind, said: &str| Part::new(format_ident!("{}_{}", word, end), kind, said);
+            let turns =
+                || part("omega", PartKind::Vector(3), &format!("angular velocity of `{word}`, in its own axes"));
+            match q.kind {
+                CoordinateKind::Scalar => vec![part("dot", PartKind::Scalar, &format!("rate of `{word}`"))],
+                CoordinateKind::Rotation => vec![turns()],
+                CoordinateKind::Pose => {
+                    let moves = format!("velocity of `{word}`, in its own axes");
+                    vec![part("u", PartKind::Vector(3), &moves), turns()]
+                }
+            }
+        })),
+    }
+    kept(derived, all)
+}
+
+/// The speeds that stay where constraints are solved for the others: whole vectors, or single components.
+fn kept(derived: &Derived<'_, '_>, all: Vec<Part>) -> Vec<Part> {
+    let kept = &derived.subject.kept_speeds;
+    let mut next = 0;
+    let mut parts = Vec::new();
+    for part in all {
+        let own: Vec<usize> = (0..part.size()).filter(|k| kept.contains(&(next + k))).collect();
+        next += part.size();
+        if own.len() == part.size() {
+            parts.push(part);
+            continue;
+        }
+        parts.extend(own.into_iter().map(|k| {
+            let ident = format_ident!("{}_{}", part.ident.unraw(), ["x", "y", "z"][k % 3]);
+            Part::new(ident, PartKind::Scalar, format!("component {k} of `{}`", part.ident))
+        }));
+    }
+    parts
+}
+
+/// The type, and what it implements.
+pub fn state(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
+    let all = parts(derived);
+    let (conversions, traits) = (conversions(derived, &all), traits(derived, &all));
+    [declaration(derived, &all), quote!(#conversions #traits)]
+}
+
+fn declaration(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
+    let (private, ty) = (derived.private(), derived.scalar().ty());
+    let (name, kernel, visibility) = (state_name(derived), derived.kernel_name(), derived.item().visibility);
+    let KernelGenerics { declared, .. } = derived.kernel_generics();
+    let fields = all.iter().flatten().map(|part| {
+        let (ident, ty, said) = (&part.ident, part.ty(&private, &ty), &part.said);
+        quote!(#[doc = #said] pub #ident: #ty)
+    });
+    let documentation = format!(
+        "Coordinates and speeds of [`{kernel}`] by name.\n\n`{name} {{ … }}` has them in any order, `..Default::default()` \
+         those that are zero; `q()` and `z()` are what kernels and runs take, `{name}::of(&q, &z)` is the way back."
+    );
+    quote! {
+        #[doc = #documentation]
+        #[allow(non_camel_case_types, dead_code)]
+        #visibility struct #name #declared { #(#fields),* }
+    }
+}
+
+/// To and from configurations and speeds.
+fn conversions(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
+    let (private, name, kernel) = (derived.private(), state_name(derived), derived.kernel_name());
+    let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
+    let visibility = derived.item().visibility;
+    let system = quote!(<#kernel #used as #private::GaussSystem>);
+    let of = conversion_from(derived, all);
+    let (q, z) = (configuration_of(derived, &all[0]), speeds_of(derived, &all[1]));
+    quote! {
+        #[automatically_derived]
+        #[allow(dead_code)]
+        impl #bounded #name #used {
+            /// The state that has this configuration and these speeds.
+            #[inline(always)]
+            #visibility fn of(__q: &#system::Configuration, __speeds: &#system::Speeds) -> Self { #of }
+
+            /// The configuration.
+            #[inline(always)]
+            #visibility fn q(&self) -> #system::Configuration { #q }
+
+            /// The speeds, in their order.
+            #[inline(always)]
+            #visibility fn z(&self) -> #system::Speeds { #z }
+        }
+    }
+}
+
+/// Written out: what is derived would ask scalars for more than configurations do.
+fn traits(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
+    let name = state_name(derived);
+    let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
+    let (title, rest) = (name.unraw().to_string(), at_rest(derived, all));
+    let shown = all.iter().flatten().map(|Part { ident, .. }| {
+        let word = ident.unraw().to_string();
+        quote!(.field(#word, &self.#ident))
+    });
+    quote! {
+        #[automatically_derived]
+        impl #bounded ::core::clone::Clone for #name #used {
+            #[inline(always)]
+            fn clone(&self) -> Self { *self }
+        }
+
+        #[automatically_derived]
+        impl #bounded ::core::marker::Copy for #name #used {}
+
+        #[automatically_derived]
+        impl #bounded ::core::fmt::Debug for #name #used {
+            fn fmt(&self, __f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                __f.debug_struct(#title)#(#shown)*.finish()
+            }
+        }
+
+        #[automatically_derived]
+        impl #bounded ::core::default::Default for #name #used {
+            /// At rest; coordinates are zero, rotations and poses those of the observer's frame.
+            #[inline]
+            fn default() -> Self { #rest }
+        }
+    }
+}
+
+/// A literal of the state, from the factors of q and the components of z.
+fn conversion_from(derived: &Derived<'_, '_>, [coordinates, speeds]: &[Vec<Part>; 2]) -> TokenStream {
+    let private = derived.private();
+    let places = derived.subject.places_of_coordinates(&private);
+    let of_q = coordinates.iter().zip(places).map(|(Part { ident, .. }, place)| quote!(#ident: #place));
+    let mut next = 0_usize;
+    let of_z = speeds.iter().map(|part| {
+        let components: Vec<usize> = (next..next + part.size()).collect();
+        next += part.size();
+        let ident = &part.ident;
+        match part.kind {
+            PartKind::Scalar => quote!(#ident: __z[#(#components)*]),
+            _ => quote!(#ident: #private::vector([#(__z[#components]),*])),
+        }
+    });
+    quote! {
+        let __z = #private::components(__speeds);
+        Self { #(#of_q,)* #(#of_z),* }
+    }
+}
+
+fn configuration_of(derived: &Derived<'_, '_>, coordinates: &[Part]) -> TokenStream {
+    let values = coordinates.iter().map(|Part { ident, .. }| quote!(self.#ident)).collect::<Vec<_>>();
+    derived.subject.configuration_of(&derived.private(), &values)
+}
+
+fn speeds_of(derived: &Derived<'_, '_>, speeds: &[Part]) -> TokenStream {
+    let private = derived.private();
+    let components = speeds.iter().flat_map(|part| {
+        let ident = &part.ident;
+        let component = |k: usize| match part.kind {
+            PartKind::Scalar => quote!(self.#ident),
+            _ => quote!(#private::components(&self.#ident)[#k]),
+        };
+        (0..part.size()).map(component).collect::<Vec<_>>()
+    });
+    quote!(#private::vector([#(#components),*]))
+}
+
+fn at_rest(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
+    let (private, ty, real) = (derived.private(), derived.scalar().ty(), derived.scalar().real);
+    let zero = quote!(<#ty as #real>::zero());
+    let fields = all.iter().flatten().map(|part| {
+        let ident = &part.ident;
+        match part.kind {
+            PartKind::Scalar => quote!(#ident: #zero),
+            PartKind::Vector(size) => quote!(#ident: #private::vector([#zero; #size])),
+            PartKind::Rotation => quote!(#ident: #private::unturned()),
+            PartKind::Pose => quote!(#ident: #private::unmoved()),
+            PartKind::Plane => quote!(#ident: #private::unmoved_in_plane()),
+        }
+    });
+    quote!(Self { #(#fields),* })
+}

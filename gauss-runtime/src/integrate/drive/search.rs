@@ -1,0 +1,248 @@
+//! The search for events within a step.
+
+use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::control::Control;
+use crate::integrate::drive::zero::{below_zero, least_of_cubic, locate};
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::state::{Rates, State};
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// Which passages through zero are events, in the order of integration: a run backwards meets a function that grows with time
+/// as falling.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Crossing {
+    /// From below zero to zero or above.
+    Rising,
+    /// From above zero to zero or below.
+    Falling,
+    /// Both.
+    Any,
+}
+
+impl Crossing {
+    /// A value of zero before is none: what starts on zero has left it, or is there by an event that was seen.
+    pub(in crate::integrate) fn between(self, before: f64, after: f64) -> bool {
+        let rising = before < 0.0 && after >= 0.0;
+        let falling = before > 0.0 && after <= 0.0;
+        match self {
+            Self::Rising => rising,
+            Self::Falling => falling,
+            Self::Any => rising || falling,
+        }
+    }
+}
+
+/// A function of time, configuration and quasi-velocities.
+pub(in crate::integrate) type Function<'a, S> = &'a dyn Fn(
+    <S as GaussSystem>::Scalar,
+    &<S as GaussSystem>::Configuration,
+    &<S as GaussSystem>::Speeds,
+) -> <S as GaussSystem>::Scalar;
+
+/// The first lane of an event's function. It may be infinite, as on the way through a pole.
+pub(in crate::integrate) fn value<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    function: Function<'_, S>,
+    state: &State<S>,
+) -> Result<f64, IntegrationErrorKind> {
+    let z = problem.speeds(state.t, &state.q, &state.y);
+    let value = function(state.t, &state.q, &z).lane(0);
+    if value.is_nan() { Err(IntegrationErrorKind::NonFinite { part: Part::Event }) } else { Ok(value) }
+}
+
+/// Whether two values are both below zero, or both above.
+pub(in crate::integrate) fn same_side(a: f64, b: f64) -> bool {
+    a < 0.0 && b < 0.0 || a > 0.0 && b > 0.0
+}
+
+/// A step with the derivatives at its ends.
+pub(in crate::integrate) struct Made<'a, S: GaussSystem> {
+    pub(in crate::integrate) before: (&'a State<S>, &'a Rates<S>),
+    pub(in crate::integrate) after: (&'a State<S>, &'a Rates<S>),
+}
+
+/// The parts into which a step is divided where the cubic between its ends is looked at, and where a series is.
+const PARTS: (usize, usize) = (2, 32);
+
+/// The part of a step over which slopes are measured.
+const SHORT: f64 = 1.0 / 1024.0;
+
+/// A step that is searched.
+pub(in crate::integrate) struct Looking<'a, S: GaussSystem, P, C> {
+    control: &'a C,
+    problem: &'a P,
+    made: &'a Made<'a, S>,
+    resolution: f64,
+    parts: usize,
+}
+
+impl<'a, S, P, C> Looking<'a, S, P, C>
+where
+    S: GaussSystem,
+    P: Problem<System = S>,
+    C: Control<S>,
+{
+    pub(in crate::integrate) fn of(control: &'a C, problem: &'a P, made: &'a Made<'a, S>) -> Self {
+        let (from, to) = (made.before.0.t.lane(0), made.after.0.t.lane(0));
+        let unit = S::Scalar::EPSILON.max(f64::EPSILON);
+        // The part of a step that changes its end by four roundings of the time, at least of the step itself.
+        let resolution = 4.0 * unit * (from.abs().max(to.abs()) / (to - from).abs()).max(1.0);
+        Self { control, problem, made, resolution, parts: if C::LONG_STEPS { PARTS.1 } else { PARTS.0 } }
+    }
+
+    pub(in crate::integrate) fn length(&self) -> S::Scalar {
+        self.made.after.0.t - self.made.before.0.t
+    }
+
+    /// The state that the method reaches at a part of the step.
+    pub(in crate::integrate) fn reach(&self, part: f64) -> Result<State<S>, IntegrationErrorKind> {
+        // The end of the step itself is that of the run, whose time is not the sum of lengths.
+        if part >= 1.0 {
+            return Ok(*self.made.after.0);
+        }
+        let (state, rates) = self.made.before;
+        self.control.within(self.problem, state, rates, self.length() * S::Scalar::from_f64(part))
+    }
+
+    /// The first event behind a point of the step with the value there: its part, and the value at it.
+    pub(in crate::integrate) fn first(
+        &self,
+        function: Function<'_, S>,
+        crossing: Crossing,
+        from: (f64, f64),
+    ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
+        if !self.suspicious(function, from)? {
+            return Ok(None);
+        }
+        let along = |part: f64| value(self.problem, function, &self.reach(part)?);
+        let mut glance = self.glances();
+        let mut slope = |from: f64, to: f64| -> Result<f64, IntegrationErrorKind> {
+            let mut at = |part: f64| value(self.problem, function, &glance(part)?);
+            Ok((at(to)? - at(from)?) / (to - from))
+        };
+        let mut a = from;
+        for k in 1..=self.parts {
+            let part = k as f64 / self.parts as f64;
+            if part <= a.0 {
+                continue;
+            }
+            let b = (part, along(part)?);
+            // There and back between these two.
+            if same_side(a.1, b.1) {
+                let sign = a.1.signum();
+                let short = SHORT * (b.0 - a.0);
+                let falls = sign * slope(a.0, a.0 + short)? < 0.0 && sign * slope(b.0 - short, b.0)? > 0.0;
+                if falls && let Some((x, beyond)) = below_zero(|part| Ok(sign * along(part)?), a.0, b.0)? {
+                    let x = (x, sign * beyond);
+                    if let Some(found) = self.between(&along, crossing, a, x)? {
+                        return Ok(Some(found));
+                    }
+                    a = x;
+                }
+            }
+            if let Some(found) = self.between(&along, crossing, a, b)? {
+                return Ok(Some(found));
+            }
+            a = b;
+        }
+        Ok(None)
+    }
+
+    /// The event between two points, if it is one.
+    fn between(
+        &self,
+        along: &impl Fn(f64) -> Result<f64, IntegrationErrorKind>,
+        crossing: Crossing,
+        a: (f64, f64),
+        b: (f64, f64),
+    ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
+        if !crossing.between(a.1, b.1) {
+            return Ok(None);
+        }
+        // Where it is zero at last, whatever sign the rounding there has.
+        let zero = |part: f64| (part, if b.1 == 0.0 { 0.0 } else { b.1.signum() * f64::MIN_POSITIVE });
+        Ok(locate(along, a, b, self.resolution)?.map(zero))
+    }
+
+    /// Whether the curve between the ends of the step shows a sign, or comes so near to zero within, that it is worth a search.
+    fn suspicious(&self, function: Function<'_, S>, from: (f64, f64)) -> Result<bool, IntegrationErrorKind> {
+        let mut glance = self.glances();
+        let mut at = |part: f64| value(self.problem, function, &glance(part)?);
+        let (mut a, mut on_curve) = (from, at(from.0)?);
+        for k in 1..=self.parts {
+            let part = k as f64 / self.parts as f64;
+            if part <= a.0 {
+                continue;
+            }
+            let b = (part, at(part)?);
+            // What was zero before has left it.
+            if a.1 != 0.0 && !same_side(a.1, b.1) || !b.1.is_finite() {
+                return Ok(true);
+            }
+            let width = b.0 - a.0;
+            let (sign, short) = (b.1.signum(), SHORT * width);
+            let leaves = sign * (at(a.0 + short)? - on_curve) / SHORT;
+            let comes = sign * (b.1 - at(b.0 - short)?) / SHORT;
+            // Its slopes lead towards zero from both sides.
+            if leaves < 0.0 && comes > 0.0 {
+                let least = least_of_cubic([sign * a.1, sign * b.1], [leaves, comes]);
+                if least < 0.1 * a.1.abs().max(b.1.abs()) {
+                    return Ok(true);
+                }
+            }
+            (a, on_curve) = (b, b.1);
+        }
+        Ok(false)
+    }
+
+    /// States within the step for a first look: the series where steps are long, else the cubic between the ends.
+    fn glances(&self) -> impl FnMut(f64) -> Result<State<S>, IntegrationErrorKind> {
+        let (before, rates) = self.made.before;
+        let length = self.length();
+        let mut along = C::LONG_STEPS.then(|| self.control.along(self.problem, before, rates));
+        let cubic = (!C::LONG_STEPS).then(|| Cubic::of(self.made));
+        move |part| match (&mut along, &cubic) {
+            (Some(along), _) => along(length * S::Scalar::from_f64(part)),
+            (None, Some(cubic)) => Ok(cubic.at(part)),
+            (None, None) => Ok(*before),
+        }
+    }
+}
+
+/// The cubic through the states at the ends of a step with the derivatives there: in the algebra at the start, where q is
+/// `q₀ ∘ exp(σ)` and `σ̇ = dexp_inv(σ, V)`.
+struct Cubic<'a, S: GaussSystem> {
+    made: &'a Made<'a, S>,
+    h: S::Scalar,
+    change: Rates<S>,
+    end: Rates<S>,
+}
+
+impl<'a, S: GaussSystem> Cubic<'a, S> {
+    fn of(made: &'a Made<'a, S>) -> Self {
+        let ((from, _), (to, rates)) = (made.before, made.after);
+        let configuration = from.q.difference(&to.q);
+        let end = S::Configuration::dexp_inv(&configuration, &rates.configuration);
+        Self {
+            made,
+            h: to.t - from.t,
+            change: Rates { configuration, variables: to.y.add_scaled(-S::Scalar::one(), &from.y) },
+            end: Rates { configuration: end, variables: rates.variables },
+        }
+    }
+
+    fn at(&self, part: f64) -> State<S> {
+        let (from, rates) = self.made.before;
+        let rest = 1.0 - part;
+        let number = S::Scalar::from_f64;
+        let value = number(part * part * (1.0 + 2.0 * rest));
+        let (left, right) = (number(part * rest * rest) * self.h, number(-part * part * rest) * self.h);
+        let sigma = self.change.configuration.scale(value);
+        let sigma = sigma.add_scaled(left, &rates.configuration).add_scaled(right, &self.end.configuration);
+        let y = from.y.add_scaled(value, &self.change.variables);
+        let y = y.add_scaled(left, &rates.variables).add_scaled(right, &self.end.variables);
+        State { t: number(part).fma(self.h, from.t), q: from.q.retract(&sigma), y }
+    }
+}
