@@ -100,17 +100,17 @@ impl Doubled {
         guess + (self * (-guess).exp() - Self::new(1.0))
     }
 
+    /// By series near zero, where the exponentials cancel.
     fn tanh(self) -> Self {
-        let one = Self::new(1.0);
-        if self.high.abs() < 0.1 {
+        if self.high.abs() < 0.5 {
             let square = self * self;
-            return Self::series(self, square, 1, 2) / Self::series(one, square, 0, 2);
+            return Self::series(self, square, 1, 2) / Self::series(Self::new(1.0), square, 0, 2);
         }
-        if self.high.abs() > 300.0 {
-            return Self::new(self.high.tanh());
+        if self.high.abs() > 80.0 {
+            return Self::new(self.high.signum());
         }
-        let square = self.times(2.0).exp();
-        (square - one) / (square + one)
+        let (up, down) = (self.exp(), (-self).exp());
+        (up - down) / (up + down)
     }
 
     fn sqrt(self) -> Self {
@@ -178,7 +178,9 @@ impl Scalar for Doubled {
     fn call_with(self, function: BinaryFunction, other: Self) -> Self {
         match function {
             BinaryFunction::Atan2 => self.atan2(other),
-            BinaryFunction::Powf => (self.ln() * other).exp(),
+            BinaryFunction::Powf if other.high == 0.0 => Self::new(1.0),
+            BinaryFunction::Powf if self.high == 0.0 => Self::new(self.high.powf(other.high)),
+            BinaryFunction::Powf => (other * self.ln()).exp(),
             BinaryFunction::Min => {
                 if self > other {
                     other
@@ -319,6 +321,7 @@ mod tests {
                 }
                 agree("sqrt", x.call(Function::Sqrt), p.call(Function::Sqrt));
                 agree("ln", x.call(Function::Ln) + Doubled::new(100.0), p.call(Function::Ln) + Precise::number(100.0));
+                agree("tanh", x.call(Function::Tanh), p.call(Function::Tanh));
                 agree("atan2", x.call_with(BinaryFunction::Atan2, -third), p.call_with(BinaryFunction::Atan2, -t));
                 if x.high <= 600.0 {
                     let (found, expected) = (x.call(Function::Exp), p.call(Function::Exp));

@@ -33,10 +33,11 @@ pub use drive::control::{Control, DEFAULT_LIMIT, Emit, Taken};
 pub use drive::fixed::Fixed;
 #[cfg(feature = "alloc")]
 pub(crate) use drive::fixed::number_of_steps;
+pub use drive::observer::Observer;
 #[cfg(feature = "alloc")]
 pub(crate) use drive::projection::accept;
 pub use drive::search::Crossing;
-pub use drive::simulation::{Observer, Simulation};
+pub use drive::simulation::Simulation;
 pub use drive::summary::{End, Summary};
 #[cfg(feature = "alloc")]
 pub use drive::table::Table;

@@ -4,10 +4,10 @@ use core::ops::ControlFlow;
 
 use crate::integrate::drive::control::{Control, Taken};
 use crate::integrate::drive::event::{Events, Outcome, Watch};
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::observer::Observer;
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::search::Made;
-#[cfg(feature = "alloc")]
-use crate::integrate::drive::simulation::Observer;
 use crate::integrate::drive::summary::Summary;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::trajectory::{EventSample, Kept};

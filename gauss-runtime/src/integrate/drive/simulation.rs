@@ -7,6 +7,7 @@ use crate::integrate::drive::adaptive::Adaptive;
 use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
 use crate::integrate::drive::event::{Events, NoEvents, Then, Watched};
 use crate::integrate::drive::fixed::Fixed;
+use crate::integrate::drive::observer::{Callback, Observer, Unobserved};
 use crate::integrate::drive::run::{Run, Seen};
 use crate::integrate::drive::search::Crossing;
 use crate::integrate::drive::summary::End;
@@ -23,35 +24,6 @@ use crate::system::GaussSystem;
 /// Nothing is chosen yet; [`Simulation::fixed_step`] or [`Simulation::adaptive`] comes next.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Undecided;
-
-/// Sees the samples of a run as they come.
-pub trait Observer<S: GaussSystem> {
-    /// One sample, in the order of integration.
-    fn see(&mut self, sample: &Sample<S>);
-
-    /// An event, by its number, before the sample that ends its step.
-    fn event(&mut self, number: usize, sample: &Sample<S>) {
-        let _ = (number, sample);
-    }
-}
-
-/// Nobody looks.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Unobserved;
-
-impl<S: GaussSystem> Observer<S> for Unobserved {
-    fn see(&mut self, _: &Sample<S>) {}
-}
-
-/// A function that is called with every sample.
-#[derive(Clone, Copy, Debug)]
-pub struct Callback<G>(G);
-
-impl<S: GaussSystem, G: FnMut(&Sample<S>)> Observer<S> for Callback<G> {
-    fn see(&mut self, sample: &Sample<S>) {
-        (self.0)(sample);
-    }
-}
 
 /// A run in preparation.
 ///
