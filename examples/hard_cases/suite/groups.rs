@@ -27,7 +27,7 @@ fn angles(effort: Effort) -> Vec<f64> {
 fn sum(x: DoubleDouble, first: DoubleDouble, ratio: impl Fn(f64) -> (f64, f64)) -> DoubleDouble {
     let (mut total, mut term) = (DoubleDouble::ZERO, first);
     for n in 0..40 {
-        total = total + term;
+        total += term;
         let (p, q) = ratio(f64::from(n));
         term = term * x * DoubleDouble::from(p) / DoubleDouble::from(q);
     }

@@ -165,7 +165,7 @@ impl Body {
                 rows: std::array::from_fn(|i| plus(c.rows[i], scaled(h, sum.rows[i]))),
                 place: plus(c.place, scaled(h, sum.place)),
             });
-            left = left - h;
+            left -= h;
         }
         now
     }
@@ -217,7 +217,7 @@ impl Body {
                 }
                 for (n, row) in series[i].rows.into_iter().enumerate() {
                     rows[n] = plus(rows[n], cross(row, omega));
-                    place[n] = place[n] + dot(row, u);
+                    place[n] += dot(row, u);
                 }
             }
             let share = DoubleDouble::ONE / DoubleDouble::from((k + 1) as f64);
