@@ -67,7 +67,7 @@ fn vehicle(spoil: impl FnOnce(&mut Vehicle)) -> Vehicle {
 
 /// What `kernel()` and `warnings()` say.
 fn given() -> Vec<(&'static str, &'static str, String)> {
-    let kernel = |spoil: fn(&mut Vehicle)| vehicle(spoil).kernel().err().expect("refused").to_string();
+    let kernel = |spoil: fn(&mut Vehicle)| vehicle(spoil).kernel().expect_err("refused").to_string();
     let warning = |spoil: fn(&mut Vehicle)| vehicle(spoil).warnings().to_string();
     vec![
         ("the inertia about the centre of mass", "center: [0, 0, 0.5]", kernel(|v| v.center.z = 0.5)),
