@@ -2,7 +2,7 @@
 
 use gauss_runtime::prelude::*;
 
-const POINTS: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
+const POINTS: [[f64; 2]; 2] = [[0.0, 1.0], [1.0, 0.0]];
 
 fn lift(x: f64) -> f64 {
     x * x
@@ -30,13 +30,6 @@ struct OutsideDomains {
 #[derive(GaussDynamics)]
 #[gauss(coordinates(x), particle(mass = 1, position = [x, 0, 0]), drive(x = lift(x)))]
 struct Undeclared {
-    k: f64,
-}
-
-/// Points that are not in order.
-#[derive(GaussDynamics)]
-#[gauss(coordinates(x), particle(mass = 1, position = [x, 0, 0]), table(line, points = POINTS), drive(x = line(x)))]
-struct Unordered {
     k: f64,
 }
 

@@ -111,6 +111,11 @@ const RICHER: [(usize, usize); 14] = [
     (9, 10),
 ];
 
+/// Chart, method, and two scenes of which the poorer is given the dearer form, because the cheaper one loses digits there: the
+/// loss of every form is measured scene by scene.
+const DEARER_FOR_ACCURACY: [[&str; 4]; 1] =
+    [["hybrid", "acceleration", "principal axes, full added mass", "everything"]];
+
 #[test]
 fn a_feature_never_makes_a_method_cheaper() {
     type Method = (&'static str, fn(&Operations) -> OperationCount);
@@ -127,8 +132,10 @@ fn a_feature_never_makes_a_method_cheaper() {
     for (poorer, richer) in RICHER.map(|(a, b)| (&scenes[a], &scenes[b])) {
         for (chart, (a, b)) in CHARTS.iter().zip(poorer.charts.iter().zip(&richer.charts)) {
             for (method, count) in methods {
-                if count(a).total() > count(b).total() {
-                    let (poorer, richer, a, b) = (poorer.name, richer.name, count(a), count(b));
+                let (poorer, richer, a, b) = (poorer.name, richer.name, count(a), count(b));
+                // What is listed has to be so.
+                let listed = DEARER_FOR_ACCURACY.contains(&[*chart, method, poorer, richer]);
+                if (a.total() > b.total()) != listed {
                     writeln!(wrong, "{chart} {method}: `{poorer}` costs {a}, `{richer}` {b}").expect("a string");
                 }
             }

@@ -24,7 +24,7 @@ struct Door {
 }
 
 # fn main() -> Result<(), Box<dyn std::error::Error>> {
-let leaf = RigidBody { mass: 20.0, center_of_mass: Vector3::new(0.4, 0.0, 0.0), inertia: Matrix3::from_diagonal_element(6.0) };
+let leaf = RigidBody { mass: 20.0, center_of_mass: Vector3::new(0.4, 0.0, 0.0), inertia: Matrix3::from_diagonal(&Vector3::new(1.6, 6.0, 7.0)) };
 let kernel = Door { door: leaf, spring: 50.0, damper: 5e4 }.kernel()?;
 let (open, at_rest) = (SVector::from([1.2]), SVector::from([0.0]));
 

@@ -35,7 +35,8 @@ mod tests {
     #[test]
     fn they_differ_and_are_configurations() {
         for q in samples::<(Isometry3<f64>, SVector<f64, 2>)>() {
-            assert!((q.0.rotation.as_ref().norm() - 1.0).abs() < 1e-15 && q.is_finite());
+            // What `renormalise` leaves alone is within 4ε of the square, and the norm has its own roundings.
+            assert!((q.0.rotation.as_ref().norm() - 1.0).abs() < 4.0 * f64::EPSILON && q.is_finite());
             assert!(q.1[0] != q.1[1] && q.0.rotation.angle() > 0.1);
         }
     }
