@@ -110,7 +110,7 @@ fn door() -> Outcome<()> {
     let leaf = RigidBody {
         mass: 20.0,
         center_of_mass: Vector3::new(0.4, 0.0, 0.0),
-        inertia: Matrix3::from_diagonal_element(6.0),
+        inertia: Matrix3::from_diagonal(&Vector3::new(1.6, 6.0, 7.0)),
     };
     let door = Door { leaf, spring: 50.0, damper: 5e4 };
     let kernel = door.kernel()?;

@@ -155,8 +155,14 @@ pub(crate) fn tangent<T: Real>(q: [T; 4], change: [T; 4]) -> [T; 3] {
 #[inline]
 pub fn renormalise<T: Real>(rotation: &UnitQuaternion<T>) -> UnitQuaternion<T> {
     let q = quaternion(rotation);
-    let factor = norm_factor(defect(q));
-    unit_quaternion(q.map(|c| c.fma(factor, c)))
+    let far = |q: [T; 4]| (0..T::LANES).any(|i| defect(q).lane(i).abs() > 0.5);
+    let brought = |q: [T; 4]| {
+        let factor = norm_factor(defect(q));
+        q.map(|c| c.fma(factor, c))
+    };
+    let once = brought(q);
+    // From far away the factor is −1 and a little, whose rounding is left.
+    unit_quaternion(if far(q) { brought(once) } else { once })
 }
 
 /// `1/√(1 − defect) − 1`; to first order where the second order is below rounding, and 0 where the defect is the rounding of four
