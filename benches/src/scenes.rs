@@ -73,8 +73,14 @@ macro_rules! pendulum {
         #[derive(Clone, Copy, GaussDynamics)]
         #[gauss(
             $coordinates,
-            body(upper, rotation = rotation_y(-a), mass = m1, center_of_mass = [0, 0, -c1], inertia = i1),
-            body($lower, $($place)+, mass = m2, center_of_mass = [0, 0, -c2], inertia = i2),
+            body(
+                upper, rotation = rotation_y(-a),
+                mass = m1, center_of_mass = [0, 0, -c1], inertia_about_center_of_mass = i1
+            ),
+            body(
+                $lower, $($place)+,
+                mass = m2, center_of_mass = [0, 0, -c2], inertia_about_center_of_mass = i2
+            ),
         )]
         pub struct $name {
             m1: f64,
@@ -90,8 +96,7 @@ macro_rules! pendulum {
 
         impl $name {
             fn new() -> Self {
-                let about_hinge = |(mass, distance, moment): numbers::Link| (mass, distance, moment + mass * distance * distance);
-                let ((m1, c1, i1), (m2, c2, i2)) = (about_hinge(numbers::UPPER), about_hinge(numbers::LOWER));
+                let ((m1, c1, i1), (m2, c2, i2)) = (numbers::UPPER, numbers::LOWER);
                 Self { m1, c1, i1, m2, c2, i2, length: numbers::LENGTH, g: G }
             }
         }
@@ -119,12 +124,15 @@ pendulum!(
 #[gauss(
     coordinates(x, theta),
     particle(mass = cart, position = [x, 0, 0]),
-    body(pole, position = [x, 0, 0], rotation = rotation_y(theta), mass = m, center_of_mass = [0, 0, distance], inertia = moment),
+    body(
+        pole, position = [x, 0, 0], rotation = rotation_y(theta),
+        mass = m, center_of_mass = [0, 0, distance], inertia_about_center_of_mass = moment
+    ),
 )]
 pub struct CartPole {
     cart: f64,
     m: f64,
-    /// About the hinge.
+    /// About the centre of mass.
     moment: f64,
     distance: f64,
     #[gauss(gravity)]
@@ -331,7 +339,6 @@ pub fn jointed_pendulum() -> Result<JointedPendulumKernel, ParameterError> {
 /// Never, for the parameters of the scenes.
 pub fn cart_pole() -> Result<CartPoleKernel, ParameterError> {
     let (m, distance, moment) = numbers::POLE;
-    let moment = moment + m * distance * distance;
     CartPole { cart: numbers::CART, m, moment, distance, g: G }.kernel()
 }
 
