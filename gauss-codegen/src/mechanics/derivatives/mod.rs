@@ -3,3 +3,4 @@
 pub mod component_rates;
 pub mod linearize;
 pub mod regressor;
+pub mod rigid;
