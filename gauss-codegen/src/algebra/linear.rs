@@ -244,6 +244,16 @@ impl<'g> Factored<'g> {
         Self { blocks: connected_blocks(matrix).into_iter().map(factored).collect() }
     }
 
+    /// From the order of elimination and, below the diagonal and on it, what is left of each column when its turn comes.
+    pub fn of_columns(order: Vec<usize>, rest: Vec<Vec<Expr<'g>>>) -> Self {
+        Self { blocks: vec![FactoredBlock { order, rest }] }
+    }
+
+    /// The unknowns in the order of elimination.
+    pub fn order(&self) -> Vec<usize> {
+        self.blocks.iter().flat_map(|block| &block.order).copied().collect()
+    }
+
     /// x with `matrix · x = right`.
     pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let mut solution = right.to_vec();

@@ -1,13 +1,12 @@
 //! Systems of bodies and particles: the Gauss condition (3.3), (3.4) summed over all of them,
 //! and every method of their kernels.
 
-use crate::algebra::{Expr, Factored, Map, solve_pairs, solve_symmetric};
+use crate::algebra::{Expr, Map, solve_pairs, solve_symmetric};
 
 use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::arrangements::orthogonal::Elements;
 use crate::mechanics::constraints::multipliers::Constraints;
-use crate::mechanics::derivatives::rigid::{Motion, Rates};
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::kinematics::vector::{Vector, is_zero};
 use crate::mechanics::links::link::Link;
@@ -21,7 +20,7 @@ use crate::mechanics::tidy::{compact, sums, tidy};
 /// that do not, where a free body must be among them.
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
-const DENSE: usize = 10;
+pub const DENSE: usize = 10;
 /// Degrees of freedom up to which C is also orthogonalised as a sum of squares: beyond, that would be a third of the time
 /// of an expansion.
 const SQUARES: usize = 6;
@@ -33,7 +32,7 @@ pub struct System<'g> {
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
     /// What acts on links, fields among it.
-    loads: Loads<'g>,
+    pub(in crate::mechanics) loads: Loads<'g>,
     pub constraints: Constraints<'g>,
     /// Links that nothing else moves with.
     pub free: Vec<FreeLink<'g>>,
@@ -371,7 +370,7 @@ impl<'g> System<'g> {
     }
 
     /// Of the potential, and of what acts elsewhere than on links.
-    fn other_forces(&self) -> Vec<Expr<'g>> {
+    pub(in crate::mechanics) fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
         let acting = self.forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
         let potential = potential_of_forces(&scene.elements).unwrap_or_else(|| scene.graph.zero());
@@ -389,7 +388,7 @@ impl<'g> System<'g> {
 
     /// ∂C/∂ż of the unconstrained C at ż = ζ, and ζ: what links that float have of the accelerations at ż = 0, along
     /// speeds that no constraint mentions.
-    fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
+    pub(in crate::mechanics) fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
         let held = |speed: usize| self.constraints.jacobian.iter().any(|row| !row[speed].is_zero());
         let held: Vec<bool> = (0..self.scene.speeds.len()).map(held).collect();
         let (rows, taken) = self.scene.tree.floating_residual(inertia, &self.loads, &held);
@@ -411,32 +410,6 @@ impl<'g> System<'g> {
         }
         let forces = self.constraints.forces(&self.acceleration(arrangement).1);
         arrangement.residual.iter().zip(forces).map(|(r, f)| *r - f).collect()
-    }
-
-    /// ż and its derivatives along each of the directions: `−A⁻¹ ∂(∂C/∂ż)` at fixed ż, in the ways that are worth trying. None where the
-    /// residual is not that of links alone.
-    pub fn accelerations_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
-        let tree = &self.scene.tree;
-        if !self.constraints.is_empty() || self.only_body().is_some() {
-            return Vec::new();
-        }
-        let factored = Factored::new(&self.matrix);
-        let negative = |rows: &[Expr<'g>]| -> Vec<Expr<'g>> { rows.iter().map(|r| -*r).collect() };
-        let nothing = tree.links.iter().map(|link| (link.frame.zero(), [self.scene.graph.zero(); 3])).collect();
-        let acting = sums(&tree.acted_on_by(&self.loads.forces, nothing), &self.other_forces());
-        let ways = tree.inertias(self.is_long()).iter().filter_map(|&inertia| {
-            let [rows, taken] = self.floating(inertia);
-            let rates = sums(&factored.solve(&negative(&rows)), &taken);
-            let speed_rates = &self.scene.speed_rates;
-            let motion = Motion::new(tree, &self.loads, &self.along, speed_rates, &rates, inertia)?;
-            let derivatives = motion.derivatives(directions).into_iter().zip(directions).map(|(change, direction)| {
-                let rows = change.residual.iter().zip(&acting);
-                let right: Vec<Expr<'g>> = rows.map(|(r, f)| f.derivative(direction) - *r).collect();
-                sums(&factored.solve(&right), &change.taken)
-            });
-            Some(std::iter::once(rates.clone()).chain(derivatives).collect())
-        });
-        ways.collect()
     }
 
     /// ż in all of the ways in which it is formed.
