@@ -48,6 +48,8 @@ fn further_arguments(method: Method) -> &'static [ArgumentKind] {
         Method::VelocityCorrection => &[Speeds, Residuals],
         Method::MassMatrix
         | Method::PotentialEnergy
+        | Method::Pose
+        | Method::PoseByConfiguration
         | Method::Regularity
         | Method::PositionResidual
         | Method::InertialParameters => &[],

@@ -146,6 +146,17 @@ impl<'g> Subject<'_, 'g> {
         nested(groups, |a, b| quote!((#a, #b)))
     }
 
+    /// The configuration with all groups at the identity and all scalars zero.
+    pub fn unmoved(&self, private: &TokenStream) -> TokenStream {
+        let values = self.coordinates().iter().map(|coordinate| match coordinate {
+            Coordinate::Scalar(_) => quote!(<Self::Scalar as #private::Real>::zero()),
+            Coordinate::Rotation(_) => quote!(#private::unturned()),
+            Coordinate::Pose(..) => quote!(#private::unmoved()),
+            Coordinate::Plane { .. } => quote!(#private::unmoved_in_plane()),
+        });
+        self.configuration_of(private, &values.collect::<Vec<_>>())
+    }
+
     /// The components of an increment of the configuration, in the order of the coordinates, as its type.
     pub fn tangent(&self, private: &TokenStream, outputs: &[TokenStream]) -> TokenStream {
         let mut groups = Vec::new();
