@@ -110,7 +110,8 @@ fn the_same_programs_as_from_tokens() {
 }
 
 fn mistakes(scene: &Scene) -> Vec<Mistake> {
-    Derivation::of_scene(scene).err().expect("a mistake")
+    let Err(mistakes) = Derivation::of_scene(scene) else { panic!("no mistake in\n{}", scene.source()) };
+    mistakes
 }
 
 /// The clauses of all mistakes, in the order in which they are found.

@@ -13,19 +13,19 @@ pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let six = quote!(#private::SVector<Self::Scalar, 6>);
     let placed = match derived.has(Method::Pose) {
         true => placed_by_coordinates(derived),
-        false => placed_by_chart(derived, &six)?,
+        false => placed_by_chart(derived)?,
     };
-    let twist = derived.function(Method::BodyTwist, quote!(__z: &Self::Speeds), six.clone());
-    let momentum = derived.function(Method::BodyMomentum, quote!(__z: &Self::Speeds), six);
+    let twist = derived.function(Method::BodyTwist, six.clone());
+    let momentum = derived.function(Method::BodyMomentum, six);
     Some(derived.implementation(quote!(RigidBodySystem), quote!(#placed #twist #momentum)))
 }
 
 /// Of one body in a chart, or where its pose is the only coordinate: both ways are known.
-fn placed_by_chart(derived: &Derived<'_, '_>, six: &TokenStream) -> Option<TokenStream> {
+fn placed_by_chart(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     derived.subject.system.rigid_body()?;
     let (pose, configuration) = pose_bodies(derived, derived.subject.model.one_body())?;
     let private = derived.private();
-    let speeds = derived.function(Method::Speeds, quote!(__twist: &#six), quote!(Self::Speeds));
+    let speeds = derived.function(Method::Speeds, quote!(Self::Speeds));
     Some(quote! {
         #[inline]
         fn pose(&self, __t: Self::Scalar, __q: &Self::Configuration) -> #private::Isometry3<Self::Scalar> {

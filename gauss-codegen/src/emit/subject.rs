@@ -218,19 +218,15 @@ impl<'g> Subject<'_, 'g> {
         }
     }
 
-    /// The methods of constrained systems: method, arguments after `t` and `q`, result.
-    pub fn constraint_methods(&self, private: &TokenStream) -> Vec<(Method, TokenStream, TokenStream)> {
-        let tangent = quote!(<Self::Configuration as #private::Configuration>::Tangent);
-        vec![
-            (Method::Multipliers, quote!(__z: &Self::Speeds, __input: &Self::Input), quote!(Self::Multipliers)),
-            (Method::PositionResidual, quote!(), quote!(Self::Multipliers)),
-            (Method::VelocityResidual, quote!(__z: &Self::Speeds), quote!(Self::Multipliers)),
-            (Method::PositionCorrection, quote!(__residual: &Self::Multipliers), tangent),
-            (
-                Method::VelocityCorrection,
-                quote!(__z: &Self::Speeds, __residual: &Self::Multipliers),
-                quote!(Self::Speeds),
-            ),
+    /// The methods of constrained systems with their results.
+    pub fn constraint_methods(&self, private: &TokenStream) -> [(Method, TokenStream); 5] {
+        let multipliers = quote!(Self::Multipliers);
+        [
+            (Method::Multipliers, multipliers.clone()),
+            (Method::PositionResidual, multipliers.clone()),
+            (Method::VelocityResidual, multipliers),
+            (Method::PositionCorrection, quote!(<Self::Configuration as #private::Configuration>::Tangent)),
+            (Method::VelocityCorrection, quote!(Self::Speeds)),
         ]
     }
 }
