@@ -12,7 +12,7 @@ use crate::mechanics::kinematics::vector::{Vector, is_zero};
 use crate::mechanics::links::link::Link;
 use crate::mechanics::links::tree::Inertia;
 use crate::mechanics::loads::account::account_formulas;
-use crate::mechanics::loads::forces::{Action, Force, Loads, forces_of, potential_of, potential_of_forces};
+use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Lettering, SystemScene};
 use crate::mechanics::tidy::{compact, sums, tidy};
 
@@ -190,15 +190,8 @@ impl<'g> System<'g> {
             }
             return general;
         };
-        let mut of_body = Arranged::of_body(self, body);
+        let of_body = Arranged::of_body(self, body);
         if self.constraints.is_empty() {
-            // The wrench of a field about O is a difference of large terms far from its centre: the tide is not.
-            if self.scene.elements.iter().any(|element| matches!(element.action, Action::Field(_))) {
-                let general = self.arranged_in_general();
-                of_body.acceleration.extend(general.acceleration);
-                of_body.residual.extend(general.residual);
-                of_body.momentum_rate.extend(general.momentum_rate);
-            }
             return of_body;
         }
         // Multipliers are found together with the accelerations.
