@@ -21,9 +21,8 @@ use crate::mechanics::tidy::{compact, sums, tidy};
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 const DENSE: usize = 10;
-/// Degrees of freedom up to which C is also orthogonalised as a sum of squares: beyond, that would be a third of the time
-/// of an expansion.
-const SQUARES: usize = 6;
+/// Degrees of freedom up to which C is also orthogonalised as a sum of squares: its program grows with their square.
+const SQUARES: usize = 12;
 
 /// A system with what its equations are made of.
 pub struct System<'g> {

@@ -123,7 +123,8 @@ pub struct Weight<'g> {
     pub effective_moment: Triple<'g>,
 }
 
-/// Weight and buoyancy, and the weight in a field that is uniform over the matter.
+/// Weight and buoyancy, and the weight in a field that is uniform over the matter: where the translation is eliminated it
+/// leaves the balance of torques before numbers are put in.
 #[derive(Default)]
 pub struct Weights<'g> {
     pub gravity: Option<Weight<'g>>,
