@@ -105,7 +105,7 @@ impl Loss {
     }
 
     fn is_tolerable(&self) -> bool {
-        self.worst() <= TOLERABLE && self.0.first().is_none_or(|loss| *loss <= ORDINARY)
+        self.worst() <= TOLERABLE && self.median() <= ORDINARY
     }
 
     /// Worst and median, up to the next of 1, 2 and 5 times a power of ten: nothing at all where nothing was tried.
@@ -179,9 +179,8 @@ const FACTOR: f64 = 32.0;
 /// those of 106 digits are 2⁻⁷⁴ of a change, and some of either are small by chance.
 const VANISHING: f64 = 1.0 / 1024.0;
 
-/// Three decimal places may go at an extreme state where keeping them costs a quarter more: nobody pays for them who
-/// has ordinary numbers. With ordinary ones, as the first state has, one may: where more do, numbers in the scene see
-/// to it.
+/// Three decimal places may go at an extreme state where keeping them costs a quarter more: nobody pays for them who has
+/// ordinary numbers. One may at half of the states: where more do, it is the scene that is extreme, not the state.
 const TOLERABLE: f64 = 1e3;
 const ORDINARY: f64 = 10.0;
 

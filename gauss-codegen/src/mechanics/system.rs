@@ -21,8 +21,9 @@ use crate::mechanics::tidy::{compact, sums, tidy};
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 const DENSE: usize = 10;
-/// Degrees of freedom up to which C is also orthogonalised as a sum of squares: its program grows with their square.
-const SQUARES: usize = 12;
+/// Degrees of freedom up to which C is also orthogonalised as a sum of squares, and where a link floats, which may be light:
+/// its program grows with their square, and beyond that would be a third of the time of an expansion.
+const SQUARES: [usize; 2] = [6, 12];
 
 /// A system with what its equations are made of.
 pub struct System<'g> {
@@ -444,7 +445,9 @@ impl<'g> System<'g> {
     /// C as a sum of squares, where several speeds share it. Where a speed turns a root and moves its O as well, as those of
     /// twists about Ω do, the squares are not of what is relative.
     fn elements(&self) -> Option<Elements<'_, 'g>> {
-        let few = (2..=SQUARES).contains(&self.scene.speeds.len()) && self.only_body().is_none();
+        let [held, floating] = SQUARES;
+        let most = if self.scene.tree.floats() { floating } else { held };
+        let few = (2..=most).contains(&self.scene.speeds.len()) && self.only_body().is_none();
         let still = |a: &Vector<'g>| is_zero(&a.body) && is_zero(&a.space);
         let about_far_pole = |link: &Link<'g>| {
             let rows = link.linear_rows.iter().zip(&link.angular_rows);
