@@ -1,10 +1,11 @@
 //! The pipeline on one screen: parse → translate → derive → lower → emit.
 
 use proc_macro2::TokenStream;
+use quote::quote;
 use syn::DeriveInput;
 
 use crate::algebra::Graph;
-use crate::emit::{Derived, Equations, emit};
+use crate::emit::{Derived, Equations, emit, file};
 use crate::formulation::Formulation;
 use crate::lowering::lower;
 use crate::mistakes::{most_operations, refuse_exhausted};
@@ -16,7 +17,10 @@ use crate::translate::Translator;
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
-    derive(input, |derived| Ok(emit(derived, &Equations::of(derived))))
+    derive(input, |derived| {
+        let (code, file) = (emit(derived, &Equations::of(derived)), file(derived));
+        Ok(quote!(#code #file))
+    })
 }
 
 /// Derives one struct, and hands everything that is known of it to whoever writes it down.
