@@ -113,7 +113,7 @@
 ///
 /// # Robots from their files
 ///
-/// With the feature `urdf` of gauss-runtime a file says what moves, and the struct needs no fields:
+/// With the features `urdf` and `mjcf` of gauss-runtime a file says what moves, and the struct needs no fields:
 ///
 /// ```text
 /// #[derive(GaussDynamics)]
@@ -127,7 +127,8 @@
 /// | clause | meaning |
 /// |---|---|
 /// | `urdf = "robots/arm.urdf"` | links and joints of this file, whose path is relative to the folder of the package. An edit of it compiles the struct anew; meshes are not looked for |
-/// | `base = fixed`, `base = floating` | the root is at Ω, which is the default, or moves freely: then the first coordinate is `base: Pose`, with the twist of the root in its own axes for speeds, linear before angular |
+/// | `mjcf = "robots/arm.xml"` | the same of an MJCF file |
+/// | `base = fixed`, `base = floating` | of a URDF: the root is at Ω, which is the default, or moves freely: then the first coordinate is `base: Pose`, with the twist of the root in its own axes for speeds, linear before angular |
 /// | `inputs = all`, `none`, `transmissions` | an effort of every joint that turns or slides, which is the default, of none, or of those that a transmission names |
 /// | `friction = smooth(w)`, `none` | dry friction f as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
 /// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; without it they do not act |
@@ -139,6 +140,13 @@
 /// no coordinate. A link is a body of its name, in the axes of the file; one without a moving joint is a frame, and what it weighs is
 /// added to the link that it is fixed to. Coordinates and inputs have the order of the file. What acts is called `efforts`,
 /// `joint_damping`, `joint_friction`, and `elbow_limits`. A file says nothing of `gravity`: without the clause or a field nothing weighs.
+///
+/// Of MJCF there are read: bodies, joints of all kinds, several in a body, about anchors, with references, damping, dry friction,
+/// springs (`elbow_spring`), armature and ranges; inertials; classes of defaults; angles and Euler sequences of the compiler; sites as
+/// frames; gravity, where the struct says none; equalities of joints that are linear, and points in common as constraints. Joints with
+/// an actuator have an effort for an input, whatever its gears. Not read are masses of geoms, contacts, tendons and includes. A ball
+/// is a `Rotation`, a free joint a `Pose`. Armature is two rotors `elbow_rotor` and `elbow_rotor_back` without mass, which turn against
+/// each other, so that they have an energy and no momentum.
 ///
 /// Names that are no identifiers, or taken, are changed: the page of the kernel lists these and what else is to be known, with the
 /// lines. What acts in the file and not in the equations is a warning of the compiler as well. Numbers of the file are literals.

@@ -376,3 +376,76 @@ fn a_file_is_as_good_as_clauses() {
         assert_eq!(a, b, "{method}");
     }
 }
+
+#[derive(GaussDynamics)]
+#[gauss(mjcf = "robots/linkage.xml")]
+struct Linkage;
+
+/// The same in clauses: one rotor for the armature, the joints that share a body as one rotation.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(yaw, pitch, socket: Rotation),
+    input(yaw_effort),
+    body(
+        arm,
+        position = [0, 0, 0.9] + rotation_y(pi / 2) * rotation_z(yaw) * rotation_y(pitch - pi / 18) * [-0.1, 0, 0],
+        rotation = rotation_y(pi / 2) * rotation_z(yaw) * rotation_y(pitch - pi / 18)
+    ),
+    body(
+        bob, parent = arm, position = [0.6, 0, 0], rotation = socket, mass = 0.5, center_of_mass = [0.1, 0, 0.05],
+        inertia_about_center_of_mass = [1e-3, 1e-4, 0, 2e-3, 0, 2e-3]
+    ),
+    body(cart, position = [5.2 + yaw / 2, 0, 0], mass = 1.0, inertia = 1.0),
+    body(rotor, rotation = rotation_z(pitch), mass = 0.0, inertia = [0, 0, 0.02]),
+    spring(along = pitch, stiffness = 3.0, length = pi / 6),
+    damping = 0.05 * (1.25 * rate(yaw) * rate(yaw) + rate(pitch) * rate(pitch)),
+    drive(yaw = yaw_effort),
+    gravity = 9.81
+)]
+struct LinkageInClauses {
+    #[gauss(body)]
+    arm: RigidBody<f64, AboutCenterOfMass<f64>>,
+}
+
+#[test]
+fn a_mechanism_of_many_joints() {
+    let turn = UnitQuaternion::from_quaternion(Quaternion::new(0.9, 0.1, -0.2, 0.3));
+    let r = *turn.to_rotation_matrix().matrix();
+    let inertia = r * Matrix3::from_diagonal(&Vector3::new(0.01, 0.02, 0.025)) * r.transpose();
+    let arm = RigidBody::about_center_of_mass(2.0, Vector3::new(0.3, 0.0, 0.0), inertia);
+    let (clauses, file) = (LinkageInClauses { arm }.kernel().unwrap(), Linkage.kernel().unwrap());
+    assert_eq!(size_of_val(&file), 0);
+    for k in 1..6 {
+        let part = |n: i32| (f64::from(n * k)).sin();
+        let q = (UnitQuaternion::from_euler_angles(part(1), part(2), part(3)), SVector::from([part(4), part(5)]));
+        let z = SVector::from([part(6), part(7), part(8), part(9), part(10)]);
+        let input = SVector::from([part(11)]);
+        let [a, b] = [file.mass_matrix(0.0, &q), clauses.mass_matrix(0.0, &q)];
+        assert!((a - b).amax() <= 200.0 * EPSILON * b.amax(), "{a} {b}");
+        let condition = b.norm() * b.try_inverse().unwrap().norm();
+        let [a, b] = [file.acceleration(0.0, &q, &z, &input), clauses.acceleration(0.0, &q, &z, &input)];
+        assert!((a - b).amax() <= 500.0 * EPSILON * condition * b.amax(), "{a} {b}");
+    }
+}
+
+#[derive(GaussDynamics)]
+#[gauss(mjcf = "robots/loop.xml")]
+struct Loop;
+
+/// The point that both links have at rest is common to them; what is free falls.
+#[test]
+fn a_point_in_common() {
+    let kernel = Loop.kernel().unwrap();
+    let at = |angles: [f64; 3]| (Isometry3::identity(), SVector::from(angles));
+    let residual = kernel.position_residual(0.0, &at([0.0; 3]));
+    assert!(residual.amax() <= 4.0 * EPSILON, "{residual}");
+    // Both cranks turned alike, the coupler stays level.
+    let turned = kernel.position_residual(0.0, &at([0.3, -0.3, 0.3]));
+    assert!(turned.amax() <= 4.0 * EPSILON, "{turned}");
+    // One crank alone: its end moves from 0.2 k₃ to 0.2 (sin, 0, cos).
+    let apart = kernel.position_residual(0.0, &at([0.0, 0.0, 0.3]));
+    assert!((apart.norm() - 0.4 * 0.15_f64.sin()).abs() <= 8.0 * EPSILON, "{apart}");
+    let fall = kernel.acceleration(0.0, &at([0.3, -0.3, 0.3]), &SVector::zeros(), &());
+    let of_drone = fall.fixed_rows::<6>(3);
+    assert!((of_drone - SVector::<f64, 6>::from([0.0, 0.0, -1.62, 0.0, 0.0, 0.0])).amax() <= 4.0 * EPSILON, "{fall}");
+}

@@ -29,6 +29,7 @@ pub struct Derivation {
     constants: Program,
     programs: Vec<Program>,
     accuracy: Vec<(String, [f64; 2])>,
+    remarks: Vec<String>,
     equations: Equations,
     rust: TokenStream,
 }
@@ -65,7 +66,9 @@ impl Derivation {
         let rust = emit(derived, &equations);
         let losses = derived.formulas.iter().zip(&derived.kernel.losses);
         let accuracy = losses.map(|(formula, loss)| (formula.method.name().to_owned(), loss.rounded())).collect();
-        Ok(Self { name: ident.unraw().to_string(), constants, programs, accuracy, equations, rust })
+        let described = derived.subject.model.described.iter();
+        let remarks = described.flat_map(|file| &file.remarks).map(|remark| remark.text.clone()).collect();
+        Ok(Self { name: ident.unraw().to_string(), constants, programs, accuracy, remarks, equations, rust })
     }
 
     /// The name of the struct.
@@ -93,6 +96,11 @@ impl Derivation {
     /// its last place does.
     pub fn accuracy(&self) -> &[(String, [f64; 2])] {
         &self.accuracy
+    }
+
+    /// Of a robot from a file what is to be known of it: names that are changed, what does not act.
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
     }
 
     /// The equations of motion: a page of plain text, or one LaTeX environment.

@@ -1,6 +1,6 @@
 //! The file that a scene comes from: named, so that an edit compiles the struct anew; what of it does not act.
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 
 use crate::model::{Described, Remark};
@@ -12,10 +12,10 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
     let Some(Described { path, span, remarks, .. }) = &derived.subject.model.described else {
         return TokenStream::new();
     };
-    // The compiler warns of what is deprecated, in the words of its note; macros have no other way to.
+    // The compiler warns of what is deprecated, in the words of its note; macros have no other way to. Only at a token of the user's:
+    // what a macro brings along is not warned of.
     let warning = |Remark { text, .. }: &Remark| {
-        let at = span.resolved_at(Span::mixed_site());
-        quote_spanned!(at=> const _: () = {
+        quote_spanned!(*span=> const _: () = {
             #[deprecated(note = #text)]
             const IGNORED: () = ();
             IGNORED

@@ -1,4 +1,4 @@
-//! Clauses about a robot that a file describes: `urdf = "…"` with `base = fixed | floating`, `inputs = all | none | transmissions`,
+//! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`, `inputs = all | none | transmissions`,
 //! `friction = smooth(width) | none`, `limits = stop(…) | none`, `parameters = inertial`.
 
 use super::arguments;
@@ -34,6 +34,7 @@ pub struct File {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     Urdf,
+    Mjcf,
 }
 
 /// Whether the root is held or moves freely.
@@ -75,7 +76,8 @@ pub enum RobotTopic {
 }
 
 /// The clauses that name a file.
-pub const FILES: &Table<RobotTopic> = &[("urdf", RobotTopic::File(Format::Urdf))];
+pub const FILES: &Table<RobotTopic> =
+    &[("urdf", RobotTopic::File(Format::Urdf)), ("mjcf", RobotTopic::File(Format::Mjcf))];
 
 /// Those that say what is made of it.
 pub const OPTIONS: &Table<RobotTopic> = &[

@@ -4,19 +4,19 @@ use proc_macro2::Ident;
 use quote::format_ident;
 use syn::ext::IdentExt;
 
-use super::description::{Description, Fault, Inertial, Joint, JointKind, Note};
+use super::description::{Closure, Description, Fault, Inertial, Joint, JointKind, Note};
 use super::joints::Writer;
 use super::names::Names;
 use super::source;
-use super::structure::Structure;
+use super::structure::{Coupling, Structure};
 use crate::model::language::context::Context;
 use crate::model::language::declarations;
-use crate::model::language::fields::Reader;
-use crate::model::language::robots::{Base, File, Friction, Inputs, Limits, RobotClauses};
+use crate::model::language::fields::{ReadField, Reader};
+use crate::model::language::robots::{Base, File, Format, Friction, Inputs, Limits, RobotClauses};
 use crate::model::language::statements::Statements;
 use crate::model::scene::clauses::{
-    BodyClause, Coefficients, Coordinate, CoordinateKind, Extent, ForceClause, ForceKind, Given, GivenValue, InputKind,
-    InputName, Speed, SpeedKind,
+    BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceClause,
+    ForceKind, Given, GivenValue, InputKind, InputName, Speed, SpeedKind,
 };
 use crate::model::scene::described::{Described, Remark};
 use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
@@ -33,6 +33,9 @@ pub fn compose(
     context: &mut Context,
 ) -> Option<Described> {
     let file = clauses.file.as_ref()?;
+    if file.format == Format::Mjcf && clauses.base.is_some() {
+        context.error(file.span, "an MJCF file says by <freejoint/> what moves freely; remove `base`");
+    }
     let path = source::path(file);
     let read = source::text(&path).map_err(|message| vec![message]).and_then(|text| {
         let said =
@@ -78,6 +81,7 @@ struct Robot<'a> {
     links: Vec<Ident>,
     /// The mass data of the link are those of a field.
     in_field: Vec<bool>,
+    gravity_in_field: bool,
     notes: Vec<Note>,
 }
 
@@ -97,7 +101,11 @@ impl<'a> Robot<'a> {
         let coordinates: Vec<Vec<Coordinate>> =
             all().map(|(k, joint)| if own(k) { coordinates(joint, &mut names) } else { Vec::new() }).collect();
         let inputs = all().map(|(k, joint)| {
-            let driven = match clauses.inputs.unwrap_or(Inputs::All) {
+            let driven = match clauses.inputs.unwrap_or(if description.only_driven {
+                Inputs::Transmissions
+            } else {
+                Inputs::All
+            }) {
                 Inputs::All => true,
                 Inputs::None => false,
                 Inputs::Transmissions => description.driven.contains(&joint.name),
@@ -112,15 +120,26 @@ impl<'a> Robot<'a> {
         let inputs = inputs.collect();
         let links: Vec<Ident> =
             description.links.iter().map(|link| names.identifier(&link.name, "link", link.at)).collect();
-        let is_field = |name: &Ident| {
-            let body = |role: Role| role == Role::Body;
-            reader.fields.iter().any(|f| f.role.as_ref().is_some_and(|claim| body(claim.role)) && *f.ident == *name)
-        };
-        let in_field = links.iter().map(is_field).collect();
+        let plays = |field: &ReadField<'_>, role: Role| field.role.as_ref().is_some_and(|claim| claim.role == role);
+        let bodies = || reader.fields.iter().filter(|field| plays(field, Role::Body));
+        let in_field = links.iter().map(|name| bodies().any(|field| field.ident == name)).collect();
+        let gravity_in_field = reader.fields.iter().any(|field| plays(field, Role::Gravity));
         let mut notes = description.notes.clone();
         notes.append(&mut names.notes);
         let writer = Writer { span: file.span };
-        Robot { clauses, description, structure, writer, base, coordinates, inputs, links, in_field, notes }
+        Robot {
+            clauses,
+            description,
+            structure,
+            writer,
+            base,
+            coordinates,
+            inputs,
+            links,
+            in_field,
+            gravity_in_field,
+            notes,
+        }
     }
 
     /// Whether a link moves at all.
@@ -191,7 +210,10 @@ impl<'a> Robot<'a> {
             declarations::before(&mut statements.inputs, inputs, "input", span);
         }
         let bodies: Vec<BodyClause> = (0..self.links.len()).map(|link| self.body(link)).collect();
-        statements.bodies.splice(0..0, bodies);
+        statements.bodies.splice(0..0, bodies.into_iter().chain(self.rotors()));
+        statements.constraints.splice(0..0, self.closures());
+        let given = statements.given.iter().any(|given| given.role == Role::Gravity);
+        statements.given.extend(self.gravity().filter(|_| !given && !self.gravity_in_field));
         let forces = self.forces();
         statements.forces.splice(0..0, forces);
         self.notes.sort_by_key(|note| note.at);
@@ -241,9 +263,10 @@ impl<'a> Robot<'a> {
         (speeds, rates)
     }
 
-    /// The coordinates that a joint moves by, those of the one that it follows.
-    fn values(&self, joint: usize) -> Vec<Expression> {
+    /// The coordinates that a joint moves by, those of the one that it follows, from a `start`.
+    fn values(&self, joint: usize, start: f64) -> Vec<Expression> {
         let coupling = self.structure.coupling_of[joint];
+        let coupling = Coupling { offset: coupling.offset - start, ..coupling };
         match self.coordinates[coupling.joint].as_slice() {
             [leader] => vec![self.writer.coupled(&leader.ident, &coupling)],
             all => all.iter().map(|q| self.writer.name(&q.ident)).collect(),
@@ -257,7 +280,8 @@ impl<'a> Robot<'a> {
                 let written = &self.description.joints[joint];
                 match (written.kind, self.coordinates[joint].as_slice()) {
                     (JointKind::Floating, [pose]) => writer.floating(written, &pose.ident),
-                    _ => writer.placed(written, &self.values(joint)),
+                    (JointKind::Ball, [rotation]) => writer.ball(written, &rotation.ident),
+                    _ => writer.placed(written, &self.values(joint, written.reference)),
                 }
             }
             (None, Some(base)) => {
@@ -326,6 +350,7 @@ impl<'a> Robot<'a> {
         }
         let damping = self.damping().map(|function| named("joint_damping", ForceKind::Dissipation(function)));
         forces.extend(damping);
+        forces.extend(self.springs());
         let (friction, mut notes) = self.friction();
         if !friction.is_empty() {
             forces.push(named("joint_friction", ForceKind::Drive { rates: friction }));
@@ -358,6 +383,89 @@ impl<'a> Robot<'a> {
                 writer.times(factor, writer.times(rate.clone(), rate))
             });
         terms.reduce(|a, b| writer.plus(a, b))
+    }
+
+    fn springs(&self) -> Vec<ForceClause> {
+        let writer = self.writer;
+        let springs = self.scalar_joints().filter(|(_, joint, ..)| joint.stiffness > 0.0);
+        let spring = |(index, joint, q, _): (usize, &Joint, &Ident, f64)| {
+            let along = self.values(index, 0.0).into_iter().next()?;
+            let stiffness = writer.number(joint.stiffness);
+            let length = (joint.rest != 0.0).then(|| writer.number(joint.rest));
+            let kind = ForceKind::Spring { extent: Extent::Along(along), stiffness, length, damping: None };
+            let own = self.structure.coupling_of[index].joint == index;
+            let name = own.then(|| format_ident!("{}_spring", q.unraw(), span = writer.span));
+            Some(ForceClause { name, kind, span: writer.span })
+        };
+        springs.filter_map(spring).collect()
+    }
+
+    /// The inertia of a joint alone: two rotors without mass that turn as far, one each way, so that what they add to the momentum of
+    /// the robot is nothing.
+    fn rotors(&self) -> Vec<BodyClause> {
+        let writer = self.writer;
+        let rotor = |(index, joint, q, _): (usize, &Joint, &Ident, f64)| {
+            let value = self.values(index, 0.0).into_iter().next()?;
+            let zero = || writer.number(0.0);
+            let moments = writer.vector([zero(), zero(), writer.number(joint.armature / 2.0)]);
+            let given = |role: Role, e: Expression| Given {
+                role,
+                shape: Shape::Other,
+                value: GivenValue::Expression(e),
+                span: writer.span,
+            };
+            let rotor = |end: &str, angle: Expression| BodyClause {
+                name: Some(format_ident!("{}_rotor{}", q.unraw(), end, span = writer.span)),
+                massless: false,
+                parent: None,
+                position: None,
+                rotation: Some(writer.call(FunctionName::RotationZ, vec![angle])),
+                given: vec![given(Role::Mass, zero()), given(Role::Inertia, moments.clone())],
+                span: writer.span,
+            };
+            Some([rotor("", value.clone()), rotor("_back", writer.negative(value))])
+        };
+        let armed = self.scalar_joints().filter(|(_, joint, ..)| joint.armature > 0.0);
+        armed.filter_map(rotor).flatten().collect()
+    }
+
+    /// Links that have a point in common.
+    fn closures(&self) -> Vec<ConstraintClause> {
+        let writer = self.writer;
+        let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
+        let closure = |closure: &Closure| {
+            let [first, second] = [index(&closure.links[0])?, index(&closure.links[1])?];
+            let other = self.structure.opposite(self.description, [first, second], &closure.anchor);
+            let [a, b] = [(first, &closure.anchor), (second, &other)].map(|(link, point)| {
+                let origin = writer.property(&self.links[link], Property::Position);
+                match writer.triple(point) {
+                    Some(point) => {
+                        let rotation = writer.property(&self.links[link], Property::Rotation);
+                        writer.plus(origin, writer.times(rotation, point))
+                    }
+                    None => origin,
+                }
+            });
+            let expression = writer.binary(BinaryOperator::Subtract, a, b);
+            Some(ConstraintClause { kind: ConstraintKind::Position, expression, vector: false, span: writer.span })
+        };
+        self.description.closures.iter().filter_map(closure).collect()
+    }
+
+    /// The acceleration of free fall, where neither a field nor a clause of the struct says it.
+    fn gravity(&self) -> Option<Given> {
+        let writer = self.writer;
+        let value = match self.description.gravity? {
+            [0.0, 0.0, 0.0] => return None,
+            [0.0, 0.0, g] => writer.number(-g),
+            g => writer.triple(&g)?,
+        };
+        Some(Given {
+            role: Role::Gravity,
+            shape: Shape::Other,
+            value: GivenValue::Expression(value),
+            span: writer.span,
+        })
     }
 
     /// −f v/√(v² + w²) of every joint with dry friction, where a width is said.
@@ -404,7 +512,7 @@ impl<'a> Robot<'a> {
             return (Vec::new(), self.clauses.limits.is_none().then_some(note));
         };
         let stop = |(index, joint, ..): &(usize, &Joint, &Ident, f64)| {
-            let along = self.values(*index).into_iter().next()?;
+            let along = self.values(*index, 0.0).into_iter().next()?;
             let [least, most] = joint.limits.map(|limit| limit.map(|limit| writer.number(limit)));
             let (stiffness, width, damping) = (stiffness.clone(), width.clone(), damping.clone());
             let kind = ForceKind::Stop { extent: Extent::Along(along), least, most, stiffness, width, damping };
@@ -424,7 +532,11 @@ fn coordinates(joint: &Joint, names: &mut Names) -> Vec<Coordinate> {
         JointKind::Planar => &["_x", "_y", "_theta"],
         _ => &[""],
     };
-    let kind = if joint.kind == JointKind::Floating { CoordinateKind::Pose } else { CoordinateKind::Scalar };
+    let kind = match joint.kind {
+        JointKind::Floating => CoordinateKind::Pose,
+        JointKind::Ball => CoordinateKind::Rotation,
+        _ => CoordinateKind::Scalar,
+    };
     let coordinate = |end: &&str| {
         let ident = match *end {
             "" => names.identifier(&joint.name, "joint", joint.at),

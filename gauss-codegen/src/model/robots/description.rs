@@ -31,8 +31,14 @@ pub struct Description {
     pub links: Vec<Link>,
     /// In the order of the file.
     pub joints: Vec<Joint>,
-    /// Joints that a transmission drives, where the format has those.
+    /// Joints that a transmission or an actuator drives.
     pub driven: Vec<String>,
+    /// The others are driven by nothing.
+    pub only_driven: bool,
+    /// Links that are joined beside the tree.
+    pub closures: Vec<Closure>,
+    /// The acceleration of free fall in observer's axes, where the file says so.
+    pub gravity: Option<Triple>,
     pub notes: Vec<Note>,
 }
 
@@ -75,6 +81,45 @@ pub struct Joint {
     pub damping: f64,
     /// The force of dry friction.
     pub friction: f64,
+    /// Force by coordinate beyond the rest of a spring.
+    pub stiffness: f64,
+    pub rest: f64,
+    /// Inertia of the joint alone, such as that of a rotor behind gears.
+    pub armature: f64,
+    /// The value of the coordinate where nothing is turned or moved.
+    pub reference: f64,
+}
+
+impl Joint {
+    /// Without laws and limits, at the origin of its parent.
+    pub fn new(name: String, at: At, kind: JointKind, parent: String, child: String) -> Joint {
+        Joint {
+            name,
+            at,
+            kind,
+            parent,
+            child,
+            position: [0.0; 3],
+            rotation: Rotation::none(),
+            axis: [0.0, 0.0, 1.0],
+            mimic: None,
+            limits: [None; 2],
+            damping: 0.0,
+            friction: 0.0,
+            stiffness: 0.0,
+            rest: 0.0,
+            armature: 0.0,
+            reference: 0.0,
+        }
+    }
+}
+
+/// Two links that have a point in common, which is at `anchor` in the axes of the first.
+#[derive(Clone, Debug)]
+pub struct Closure {
+    pub at: At,
+    pub links: [String; 2],
+    pub anchor: Triple,
 }
 
 /// How a joint moves.
@@ -87,6 +132,8 @@ pub enum JointKind {
     Sliding,
     /// Two ways and a turn in the plane normal to the axis.
     Planar,
+    /// About the origin.
+    Ball,
     Floating,
 }
 

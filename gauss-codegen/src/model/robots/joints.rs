@@ -128,6 +128,12 @@ impl Writer {
         }
     }
 
+    /// The same of a joint whose coordinate is a rotation.
+    pub fn ball(self, joint: &Joint, rotation: &Ident) -> [Option<Expression>; 2] {
+        let factors = self.constant(&joint.rotation).into_iter().chain([self.name(rotation)]).collect();
+        [self.triple(&joint.position), self.product(factors)]
+    }
+
     /// The same of a joint whose coordinate is a pose.
     pub fn floating(self, joint: &Joint, pose: &Ident) -> [Option<Expression>; 2] {
         let (position, rotation) = (self.property(pose, Property::Position), self.property(pose, Property::Rotation));

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `description` | links and joints as plain data, whatever the format, with the places in the file |
 //! | `rotation` | constant rotations, inertias in other axes |
-//! | `xml`, `urdf` | a format → a description |
+//! | `xml`, `urdf`, `mjcf` | a format → a description |
 //! | `structure` | what must hold between links and joints; what moves with what |
 //! | `names` | names of the file → identifiers |
 //! | `joints` | a joint → position and rotation of its link |
@@ -12,15 +12,19 @@
 //! | `source` | the file: where it is, what is read |
 
 mod clauses;
+#[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
 mod description;
 mod joints;
+#[cfg(feature = "mjcf")]
+mod mjcf;
 mod names;
+#[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
 mod rotation;
 mod source;
 mod structure;
 #[cfg(feature = "urdf")]
 mod urdf;
-#[cfg(feature = "urdf")]
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
 mod xml;
 
 pub use clauses::compose;

@@ -24,6 +24,17 @@ impl Rotation {
         Rotation { angles, matrix }
     }
 
+    pub fn from_matrix(r: &Matrix) -> Rotation {
+        let across = r[2][1].hypot(r[2][2]);
+        let pitch = (-r[2][0]).atan2(across);
+        // Where the first and the last turn are about one axis, one of them is enough.
+        let angles = match across > RESIDUE {
+            true => [r[2][1].atan2(r[2][2]), pitch, r[1][0].atan2(r[0][0])],
+            false => [0.0, pitch, (-r[0][1]).atan2(r[1][1])],
+        };
+        Rotation::from_angles(angles)
+    }
+
     pub fn none() -> Rotation {
         Rotation::from_angles([0.0; 3])
     }
@@ -47,7 +58,7 @@ pub fn sine_and_cosine(angle: f64) -> [f64; 2] {
 }
 
 /// The turn about an axis of the frame.
-fn about(axis: usize, angle: f64) -> Matrix {
+pub fn about(axis: usize, angle: f64) -> Matrix {
     let [sine, cosine] = sine_and_cosine(angle);
     let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut matrix = [[0.0; 3]; 3];
@@ -97,6 +108,17 @@ mod tests {
         let rotation = Rotation::from_angles([-FRAC_PI_2, 2.2e-16, std::f64::consts::PI]);
         assert_eq!(rotation.matrix, [[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]]);
         assert_eq!(settled(1.5708), 1.5708);
+    }
+
+    #[test]
+    fn matrices_and_back() {
+        for angles in [[0.1, 0.2, -0.3], [0.0, FRAC_PI_2, 0.7], [3.0, -1.0, 2.0], [0.0, 0.0, -FRAC_PI_2]] {
+            let rotation = Rotation::from_angles(angles);
+            let again = Rotation::from_matrix(&rotation.matrix);
+            for (a, b) in rotation.matrix.iter().flatten().zip(again.matrix.iter().flatten()) {
+                assert!((a - b).abs() <= 4.0 * f64::EPSILON, "{angles:?}");
+            }
+        }
     }
 
     #[test]

@@ -27,11 +27,15 @@ pub fn read(format: Format, text: &str) -> Result<Description, Vec<Fault>> {
         Format::Urdf => super::urdf::read(text),
         #[cfg(not(feature = "urdf"))]
         Format::Urdf => Err(without("urdf", text)),
+        #[cfg(feature = "mjcf")]
+        Format::Mjcf => super::mjcf::read(text),
+        #[cfg(not(feature = "mjcf"))]
+        Format::Mjcf => Err(without("mjcf", text)),
     }
 }
 
 /// A reader that is not compiled in.
-#[cfg(not(feature = "urdf"))]
+#[cfg(not(all(feature = "urdf", feature = "mjcf")))]
 fn without(feature: &str, _: &str) -> Vec<Fault> {
     let message = format!("such files are read with the feature `{feature}` of gauss-runtime; add it in Cargo.toml");
     vec![Fault { at: At::default(), message }]

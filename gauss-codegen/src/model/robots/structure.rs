@@ -38,8 +38,18 @@ impl Structure {
         for name in &description.driven {
             if !description.joints.iter().any(|joint| joint.name == *name) {
                 let message = unknown("joint", name, description.joints.iter().map(|joint| joint.name.as_str()));
-                faults
-                    .push(Fault { at: At { line: 1, column: 1 }, message: format!("a transmission drives {message}") });
+                faults.push(Fault {
+                    at: At { line: 1, column: 1 },
+                    message: format!("a transmission or an actuator drives {message}"),
+                });
+            }
+        }
+        for closure in &description.closures {
+            let strangers =
+                closure.links.iter().filter(|name| !description.links.iter().any(|link| link.name == **name));
+            for name in strangers {
+                let said = unknown("link", name, description.links.iter().map(|link| link.name.as_str()));
+                faults.push(Fault { at: closure.at, message: format!("a point is common to {said}") });
             }
         }
         let root = if faults.is_empty() { root(description, &parent_of, &mut faults) } else { None };
@@ -68,11 +78,28 @@ impl Structure {
             if joint.kind != JointKind::Fixed {
                 break;
             }
-            let moved = turned(&joint.rotation.matrix, &place.0);
-            place = (std::array::from_fn(|i| joint.position[i] + moved[i]), multiply(&joint.rotation.matrix, &place.1));
+            place = hung(joint, place);
             owner = parent;
         }
         (self.owner_of[link], self.place_in_owner[link]) = (owner, place);
+    }
+
+    /// Where a link is in the axes of the root while no joint is turned or moved.
+    fn at_rest(&self, description: &Description, link: usize) -> (Triple, Matrix) {
+        let (mut link, mut place) = (link, ([0.0; 3], Rotation::none().matrix));
+        while let (Some(joint), Some(parent)) = (self.joint_of[link], self.parent_of[link]) {
+            place = hung(&description.joints[joint], place);
+            link = parent;
+        }
+        place
+    }
+
+    /// The point of the second link that coincides with a point of the first while no joint is turned or moved.
+    pub fn opposite(&self, description: &Description, [first, second]: [usize; 2], point: &Triple) -> Triple {
+        let [(a, r), (b, s)] = [first, second].map(|link| self.at_rest(description, link));
+        let turned = turned(&r, point);
+        let apart: Triple = std::array::from_fn(|i| a[i] + turned[i] - b[i]);
+        std::array::from_fn(|i| (0..3).map(|k| s[k][i] * apart[k]).sum())
     }
 
     /// The mass data of what moves as one with a link, but for the links that are `apart`; `None` without any.
@@ -88,6 +115,12 @@ impl Structure {
             all => Some(sum(all)),
         }
     }
+}
+
+/// A place in the axes of the parent of a joint that is neither turned nor moved.
+fn hung(joint: &Joint, (position, matrix): (Triple, Matrix)) -> (Triple, Matrix) {
+    let moved = turned(&joint.rotation.matrix, &position);
+    (std::array::from_fn(|i| joint.position[i] + moved[i]), multiply(&joint.rotation.matrix, &matrix))
 }
 
 /// Mass data in the axes of another link.
@@ -153,7 +186,7 @@ fn parents(description: &Description, faults: &mut Vec<Fault>) -> (Vec<Option<us
         if let Some(earlier) = joint_of[child] {
             let earlier: &Joint = &description.joints[earlier];
             let message = format!(
-                "the link `{}` hangs by the joint `{}` and by `{}` in line {}; in a URDF each has one parent: remove one, and \
+                "the link `{}` hangs by the joint `{}` and by `{}` in line {}; in a file each has one parent: remove one, and \
                  write the other as a `constraint(…)` of the struct",
                 joint.child, joint.name, earlier.name, earlier.at.line
             );

@@ -122,7 +122,8 @@ fn joint<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Joint> {
     };
     let (name, kind, parent, child, axis) = (name?, kind?, parent?, child?, axis?);
     let at = reading.at(node);
-    Some(Joint { name, at, kind, parent, child, position, rotation, axis, mimic, limits, damping, friction })
+    let joint = Joint::new(name, at, kind, parent, child);
+    Some(Joint { position, rotation, axis, mimic, limits, damping, friction, ..joint })
 }
 
 fn kind<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<JointKind> {

@@ -11,8 +11,12 @@ struct Scratch(PathBuf);
 
 impl Scratch {
     fn new(text: &str) -> Self {
+        Self::called(text, "urdf")
+    }
+
+    fn called(text: &str, end: &str) -> Self {
         static NEXT: AtomicUsize = AtomicUsize::new(0);
-        let name = format!("gauss-{}-{}.urdf", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
+        let name = format!("gauss-{}-{}.{end}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
         let path = std::env::temp_dir().join(name);
         std::fs::write(&path, text).expect("a folder for files that do not stay");
         Self(path)
@@ -21,7 +25,8 @@ impl Scratch {
     /// The struct, with further clauses and fields.
     fn of(&self, clauses: &str, fields: &str) -> String {
         let fields = if fields.is_empty() { ";".to_owned() } else { format!("{{ {fields} }}") };
-        format!("#[gauss(urdf = {:?} {clauses})] struct Robot {fields}", self.0)
+        let word = if self.0.extension().is_some_and(|end| end == "xml") { "mjcf" } else { "urdf" };
+        format!("#[gauss({word} = {:?} {clauses})] struct Robot {fields}", self.0)
     }
 }
 
@@ -192,7 +197,7 @@ fn mistakes_of_structure() {
         (
             joint("a", "revolute", "base", "one", "") + &joint("b", "fixed", "base", "one", "") + &link("one"),
             vec![
-                "4:1: the link `one` hangs by the joint `b` and by `a` in line 3; in a URDF each has one parent: remove one, \
+                "4:1: the link `one` hangs by the joint `b` and by `a` in line 3; in a file each has one parent: remove one, \
                  and write the other as a `constraint(…)` of the struct",
             ],
         ),
@@ -252,7 +257,7 @@ fn mistakes_of_elements() {
     let zero = arm("").replace("0 0 1", "0 0 0");
     assert_eq!(
         mistakes(&zero, "", ""),
-        ["3:85: <axis>: the axis of <joint name=\"elbow\"> is zero and has no direction"]
+        ["3:77: <axis>: the axis of <joint name=\"elbow\"> is zero and has no direction"]
     );
 }
 
@@ -282,4 +287,72 @@ fn mistakes_of_clauses() {
     assert!(error.to_string().starts_with("`urdf` is the path of a file from the folder of the package"), "{error}");
     let error = read("#[gauss(base = fixed)] struct Robot { m: f64 }").map(|_| ()).expect_err("no file");
     assert!(error.to_string().starts_with("unknown clause `base`"), "{error}");
+}
+
+#[cfg(feature = "mjcf")]
+mod mjcf {
+    use super::{Scratch, read};
+
+    const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
+
+    /// What is said of a file with this inside its body: mistakes, or remarks.
+    fn said(inside: &str, clauses: &str) -> Vec<String> {
+        let text = format!("<mujoco>\n<worldbody><body name=\"arm\">{INERTIAL}\n{inside}\n</mujoco>");
+        let file = Scratch::called(&text, "xml");
+        let place = format!("{}:", file.0.to_string_lossy());
+        let texts: Vec<String> = match read(&file.of(clauses, "")) {
+            Ok(model) => model.described.expect("a file").remarks.into_iter().map(|remark| remark.text).collect(),
+            Err(error) => error.into_iter().map(|mistake| mistake.to_string()).collect(),
+        };
+        texts.into_iter().map(|text| text.replace(&place, "")).collect()
+    }
+
+    #[test]
+    fn what_is_told_and_refused() {
+        let hinge = "<joint name=\"hinge\"/></body></worldbody>";
+        let cases = [
+            (hinge.to_owned(), "", None),
+            (format!("{hinge}<tendon/>"), "", Some("3:41: <tendon> is not read")),
+            (
+                format!("{hinge}<actuator><position joint=\"hinge\"/></actuator>"),
+                "",
+                Some("3:51: the input of <position> is the effort of its joint: gains and gears are left to it"),
+            ),
+            (
+                format!("{hinge}<actuator><motor joint=\"hing\"/></actuator>"),
+                "",
+                Some("1:1: a transmission or an actuator drives `hing`, which is no joint; did you mean `hinge`?"),
+            ),
+            (
+                "<joint type=\"hing\"/></body></worldbody>".to_owned(),
+                "",
+                Some("3:1: <joint>: a joint is free, ball, slide or hinge, found `hing`"),
+            ),
+            (
+                "<joint axis=\"0 0 0\"/></body></worldbody>".to_owned(),
+                "",
+                Some("3:1: <joint>: its axis is zero and has no direction"),
+            ),
+            (
+                "<freejoint/></body></worldbody>".to_owned(),
+                ", base = floating",
+                Some("an MJCF file says by <freejoint/> what moves freely; remove `base`"),
+            ),
+            (
+                format!("{hinge}<equality><weld body1=\"arm\"/></equality>"),
+                "",
+                Some("3:51: the equality <weld> does not act"),
+            ),
+            (
+                "<joint/><body><geom/><joint/></body></body></worldbody>".to_owned(),
+                "",
+                Some(
+                    "3:9: the link `body_2` moves, and neither it nor what hangs on it has an <inertial>; add one, or fix its joint",
+                ),
+            ),
+        ];
+        for (inside, clauses, expected) in cases {
+            assert_eq!(said(&inside, clauses), expected.into_iter().collect::<Vec<_>>(), "{inside}");
+        }
+    }
 }
