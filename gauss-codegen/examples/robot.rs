@@ -1,7 +1,9 @@
-//! What a robot costs, from its file: `cargo run --release --example robot -- path/to.urdf [CLAUSE…] [--write FILE.rs]`.
+//! What a robot costs, from its file: `cargo run --release --example robot -- path/to.urdf [CLAUSE…] [--write
+//! FILE.rs]`.
 //!
-//! Clauses are those that stand beside the file in `#[gauss(…)]`, such as `base=floating gravity=9.81 linearize`. With `--write` the
-//! struct and what the derive makes of it become a source file, which needs gauss-runtime and no macro.
+//! Clauses are those that stand beside the file in `#[gauss(…)]`, such as `base=floating gravity=9.81 linearize`.
+//! With `--write` the struct and what the derive makes of it become a source file, which needs gauss-runtime and no
+//! macro.
 
 use std::fmt::Write;
 use std::path::Path;

@@ -1,5 +1,5 @@
-//! Robots from their files: what they do at states that Pinocchio computed, and against mass matrices and weights that are summed
-//! link by link from the numbers of the file.
+//! Robots from their files: what they do at states that Pinocchio computed, and against mass matrices and weights
+//! that are summed link by link from the numbers of the file.
 
 use std::fs;
 use std::path::Path;
@@ -52,8 +52,9 @@ fn vector<const N: usize>(value: &Value) -> SVector<f64, N> {
 
 /// Kinetic energy, acceleration and inverse dynamics at one state.
 ///
-/// Both programs add some hundred products for every entry of A and of the forces, and solve by a factorisation that is backward
-/// stable: forces agree within that many roundings of the largest term, accelerations within as many times the condition of A.
+/// Both programs add some hundred products for every entry of A and of the forces, and solve by a factorisation that
+/// is backward stable: forces agree within that many roundings of the largest term, accelerations within as many
+/// times the condition of A.
 fn check<S, const N: usize>(kernel: &S, q: &S::Configuration, input: &S::Input, state: &Value)
 where
     S: GaussSystem<Scalar = f64, Speeds = SVector<f64, N>, MassMatrix = SMatrix<f64, N, N>>,
@@ -152,7 +153,8 @@ struct Moved {
 }
 
 impl Moved {
-    /// A link that hangs on this one, turned by `angle` about `axis` or moved along it; `rate` is that of each coordinate.
+    /// A link that hangs on this one, turned by `angle` about `axis` or moved along it; `rate` is that of each
+    /// coordinate.
     fn hung(&self, xyz: [f64; 3], rpy: [f64; 3], axis: Vector3<f64>, [turn, way]: [f64; 2], rate: [f64; 2]) -> Moved {
         let origin =
             Isometry3::from_parts(Vector3::from(xyz).into(), UnitQuaternion::from_euler_angles(rpy[0], rpy[1], rpy[2]));
@@ -175,7 +177,8 @@ impl Moved {
     }
 }
 
-/// The links of gripper.urdf that move, with mass, centre of mass, and inertia about it turned by the angles of its frame.
+/// The links of gripper.urdf that move, with mass, centre of mass, and inertia about it turned by the angles of its
+/// frame.
 fn hand([elbow, left]: [f64; 2]) -> Vec<(Moved, f64, Vector3<f64>, Matrix3<f64>)> {
     let still = Moved { pose: Isometry3::identity(), rates: [[Vector3::zeros(); 2]; 2] };
     let x = Vector3::x();

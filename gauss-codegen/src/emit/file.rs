@@ -7,13 +7,14 @@ use crate::model::{Described, Remark};
 
 use super::derived::Derived;
 
-/// Beside what is derived, where it is compiled: the file as a constant that nobody reads, and a warning for everything that acts in it and not in the equations.
+/// Beside what is derived, where it is compiled: the file as a constant that nobody reads, and a warning for
+/// everything that acts in it and not in the equations.
 pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
     let Some(Described { path, span, remarks, .. }) = &derived.subject.model.described else {
         return TokenStream::new();
     };
-    // The compiler warns of what is deprecated, in the words of its note; macros have no other way to. Only at a token of the user's:
-    // what a macro brings along is not warned of.
+    // The compiler warns of what is deprecated, in the words of its note; macros have no other way to. Only at a
+    // token of the user's: what a macro brings along is not warned of.
     let warning = |Remark { text, .. }: &Remark| {
         quote_spanned!(*span=> const _: () = {
             #[deprecated(note = #text)]

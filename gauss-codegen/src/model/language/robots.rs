@@ -1,4 +1,5 @@
-//! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`, `inputs = all | none | transmissions`,
+//! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`, `inputs
+//! = all | none | transmissions`,
 //! `friction = smooth(width) | none`, `limits = stop(…) | none`, `parameters = inertial`.
 
 use super::arguments;
@@ -152,7 +153,10 @@ fn read_file(format: Format, clause: &Clause, context: &mut Context) -> Option<F
     let Some(path) = text.map(|text| text.value()).filter(|path| !path.is_empty()) else {
         context.error(
             span,
-            format!("`{name}` is the path of a file from the folder of the package, in quotes; write `{name} = \"robots/arm.urdf\"`"),
+            format!(
+                "`{name}` is the path of a file from the folder of the package, in quotes; write `{name} = \
+             \"robots/arm.urdf\"`"
+            ),
         );
         return None;
     };

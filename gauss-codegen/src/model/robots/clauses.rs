@@ -25,7 +25,8 @@ use crate::model::scene::roles::{Role, Shape};
 /// What the free root of a robot moves by.
 const BASE: &str = "base";
 
-/// Puts what the file of the clauses says before what the struct says; `None` without a file, or where it is wrong, which is noted.
+/// Puts what the file of the clauses says before what the struct says; `None` without a file, or where it is wrong,
+/// which is noted.
 pub fn compose(
     clauses: &RobotClauses,
     reader: &Reader<'_>,
@@ -362,7 +363,8 @@ impl<'a> Robot<'a> {
         forces
     }
 
-    /// Joints with one coordinate, each with that of the joint that it follows, and how many times its rate is that one's.
+    /// Joints with one coordinate, each with that of the joint that it follows, and how many times its rate is that
+    /// one's.
     fn scalar_joints(&self) -> impl Iterator<Item = (usize, &Joint, &Ident, f64)> {
         self.description.joints.iter().enumerate().filter_map(|(index, joint)| {
             let coupling = self.structure.coupling_of[index];
@@ -400,8 +402,8 @@ impl<'a> Robot<'a> {
         springs.filter_map(spring).collect()
     }
 
-    /// The inertia of a joint alone: two rotors without mass that turn as far, one each way, so that what they add to the momentum of
-    /// the robot is nothing.
+    /// The inertia of a joint alone: two rotors without mass that turn as far, one each way, so that what they add to
+    /// the momentum of the robot is nothing.
     fn rotors(&self) -> Vec<BodyClause> {
         let writer = self.writer;
         let rotor = |(index, joint, q, _): (usize, &Joint, &Ident, f64)| {
@@ -478,7 +480,8 @@ impl<'a> Robot<'a> {
                 Some(Friction::None) => continue,
                 None => {
                     let text = format!(
-                        "the dry friction of the joint `{}` does not act; write `friction = smooth(width)` for a law that is \
+                        "the dry friction of the joint `{}` does not act; write `friction = smooth(width)` for a \
+                         law that is \
                          smooth over this width of its rate, or `friction = none`",
                         joint.name
                     );

@@ -105,8 +105,8 @@ impl Writer {
         if coupling.offset == 0.0 { scaled } else { self.plus(scaled, self.number(coupling.offset)) }
     }
 
-    /// Position and rotation of the link of a joint, relative to its parent; `coordinates` are those that it moves by, one or,
-    /// in a plane, three.
+    /// Position and rotation of the link of a joint, relative to its parent; `coordinates` are those that it moves
+    /// by, one or, in a plane, three.
     pub fn placed(self, joint: &Joint, coordinates: &[Expression]) -> [Option<Expression>; 2] {
         let fixed = self.constant(&joint.rotation);
         match (joint.kind, coordinates) {

@@ -1,4 +1,5 @@
-//! What must hold between links and joints, and what follows: which link hangs on which, what moves as one, who is mimicked.
+//! What must hold between links and joints, and what follows: which link hangs on which, what moves as one, who is
+//! mimicked.
 
 use super::description::{At, Description, Fault, Inertial, Joint, JointKind};
 use super::rotation::{Matrix, Rotation, Triple, multiply, turned, turned_tensor};
@@ -186,7 +187,8 @@ fn parents(description: &Description, faults: &mut Vec<Fault>) -> (Vec<Option<us
         if let Some(earlier) = joint_of[child] {
             let earlier: &Joint = &description.joints[earlier];
             let message = format!(
-                "the link `{}` hangs by the joint `{}` and by `{}` in line {}; in a file each has one parent: remove one, and \
+                "the link `{}` hangs by the joint `{}` and by `{}` in line {}; in a file each has one parent: \
+                 remove one, and \
                  write the other as a `constraint(…)` of the struct",
                 joint.child, joint.name, earlier.name, earlier.at.line
             );

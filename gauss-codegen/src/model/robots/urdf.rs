@@ -79,7 +79,10 @@ fn origin<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> (Triple, Rotatio
             reading.note(
                 origin,
                 false,
-                format!("the angle {angle} is taken as it is written, {off:.1e} from a quarter turn; more digits would save operations"),
+                format!(
+                    "the angle {angle} is taken as it is written, {off:.1e} from a quarter turn; more digits \
+                 would save operations"
+                ),
             );
         }
     }

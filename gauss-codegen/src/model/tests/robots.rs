@@ -121,7 +121,8 @@ fn every_kind_of_joint() {
 #[test]
 fn clauses_of_the_struct_come_after_those_of_the_file() {
     let text = arm("");
-    let clauses = ", coordinates(slider), body(block, position = [slider, 0, 0], mass = 1.0, inertia = 1.0), input(push), \
+    let clauses = ", coordinates(slider), body(block, position = [slider, 0, 0], mass = 1.0, inertia = 1.0), \
+     input(push), \
          spring(from = arm.position, to = block.position, stiffness = k), drive(slider = push), limit = 9000";
     let read = model(&text, clauses, "k: f64");
     let names: Vec<String> = read.coordinates.iter().map(|q| q.ident.to_string()).collect();
@@ -140,9 +141,8 @@ fn mass_data_from_fields() {
     assert_eq!(model(&text, "", "#[gauss(body)] arm: RigidBody<f64>").bodies[1].given.len(), 0);
     assert_eq!(
         mistakes(&text, ", parameters = inertial", ""),
-        [
-            "with `parameters = inertial` the mass data of links are fields with their names; add `#[gauss(body)] arm: RigidBody<f64>`"
-        ]
+        ["with `parameters = inertial` the mass data of links are fields with their names; add `#[gauss(body)] \
+             arm: RigidBody<f64>`"]
     );
 }
 
@@ -153,7 +153,8 @@ fn what_is_told() {
         remarks(&arm("<dynamics friction=\"0.2\"/><limit lower=\"-1\" upper=\"1\"/>"), ""),
         [
             told(
-                "3:1: the dry friction of the joint `elbow` does not act; write `friction = smooth(width)` for a law that is \
+                "3:1: the dry friction of the joint `elbow` does not act; write `friction = smooth(width)` for a \
+                 law that is \
                  smooth over this width of its rate, or `friction = none`",
                 true
             ),
@@ -168,7 +169,8 @@ fn what_is_told() {
     assert_eq!(
         remarks(&arm("<origin rpy=\"1.5708 0 0\"/>"), ""),
         [told(
-            "3:96: the angle 1.5708 is taken as it is written, -3.7e-6 from a quarter turn; more digits would save operations",
+            "3:96: the angle 1.5708 is taken as it is written, -3.7e-6 from a quarter turn; more digits would save \
+             operations",
             false
         )]
     );
@@ -197,7 +199,8 @@ fn mistakes_of_structure() {
         (
             joint("a", "revolute", "base", "one", "") + &joint("b", "fixed", "base", "one", "") + &link("one"),
             vec![
-                "4:1: the link `one` hangs by the joint `b` and by `a` in line 3; in a file each has one parent: remove one, \
+                "4:1: the link `one` hangs by the joint `b` and by `a` in line 3; in a file each has one parent: \
+                 remove one, \
                  and write the other as a `constraint(…)` of the struct",
             ],
         ),
@@ -219,7 +222,8 @@ fn mistakes_of_structure() {
         (
             joint("a", "revolute", "base", "one", "") + "<link name=\"one\"/>",
             vec![
-                "4:1: the link `one` moves, and neither it nor what hangs on it has an <inertial>; add one, or fix its joint",
+                "4:1: the link `one` moves, and neither it nor what hangs on it has an <inertial>; add one, or fix \
+                 its joint",
             ],
         ),
     ];
@@ -245,7 +249,8 @@ fn mistakes_of_elements() {
         (
             "<robot><joint name=\"j\" type=\"hinge\"><parent link=\"a\"/><origin xyz=\"0 0\"/></joint></robot>",
             vec![
-                "1:8: <joint name=\"j\">: a joint is revolute, continuous, prismatic, fixed, floating or planar, found `hinge`",
+                "1:8: <joint name=\"j\">: a joint is revolute, continuous, prismatic, fixed, floating or planar, \
+                 found `hinge`",
                 "1:8: <joint name=\"j\">: <child link=\"…\"/> is missing",
                 "1:68: <origin>: `xyz` is 3 numbers, found `0 0`",
             ],
@@ -347,7 +352,8 @@ mod mjcf {
                 "<joint/><body><geom/><joint/></body></body></worldbody>".to_owned(),
                 "",
                 Some(
-                    "3:9: the link `body_2` moves, and neither it nor what hangs on it has an <inertial>; add one, or fix its joint",
+                    "3:9: the link `body_2` moves, and neither it nor what hangs on it has an <inertial>; add one, \
+                     or fix its joint",
                 ),
             ),
         ];

@@ -34,7 +34,8 @@ impl<'a> Classes<'a> {
         }
     }
 
-    /// The element that has an attribute: `node`, or the nearest default of its class, or of that of the body that it is in.
+    /// The element that has an attribute: `node`, or the nearest default of its class, or of that of the body that it
+    /// is in.
     pub fn carrier(&self, node: Node<'a, 'a>, tag: &str, name: &str, class: Option<&str>) -> Option<Node<'a, 'a>> {
         if node.attribute(name).is_some() {
             return Some(node);

@@ -1,7 +1,7 @@
 //! MJCF → description, as <https://mujoco.readthedocs.io/en/stable/XMLreference.html> has it.
 //!
-//! Of several joints in a body all but the last have a link of their own, without mass; so has one whose anchor is not the origin of
-//! its body, which is then fixed to it.
+//! Of several joints in a body all but the last have a link of their own, without mass; so has one whose anchor is
+//! not the origin of its body, which is then fixed to it.
 
 mod classes;
 mod rotations;
