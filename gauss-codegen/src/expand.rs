@@ -66,6 +66,19 @@ mod tests {
          struct Bowl { m: f64 }",
     ];
 
+    /// A frame that turns with `b` carries a body; the other body that turns with `b` is not free by itself.
+    #[test]
+    fn speeds_that_move_frames_move_what_hangs_on_them() {
+        let source = "#[gauss(coordinates(a, b), frame(turned, rotation = rotation_z(a)),
+             frame(tilted, parent = turned, rotation = rotation_y(b)),
+             body(arm, parent = tilted, mass = 1.0, inertia = [1, 2, 3]),
+             body(rotor, rotation = rotation_z(b), mass = 1.0, inertia = [1, 1, 1]))]
+         struct Geared {}";
+        let input: DeriveInput = syn::parse_str(source).expect("a struct");
+        // Every row is held to the Gauss condition.
+        expand(&input).expect("equations of motion");
+    }
+
     /// Wherever the last node is made, the derivation ends with one message and without a panic.
     #[test]
     fn what_is_too_large_is_refused_wherever_that_is_found() {
