@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational, Set};
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, Printed};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, Formula, Linearization, Method, Regressor};
 use crate::model::{Model, Scalar};
@@ -39,6 +39,8 @@ pub struct Derived<'a, 'g> {
     pub linearization: Option<&'a Linearization<'g>>,
     /// The numbers of fields.
     pub parameters: &'a [Parameter<'g>],
+    /// The equations for people, as text and in LaTeX.
+    pub printed: &'a [Printed; 2],
     /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
     pub regressor: Option<&'a Regressor<'g>>,
 }
@@ -103,6 +105,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             kernel,
             linearization: formulation.linearization.as_ref(),
             parameters: &formulation.parameters,
+            printed: &formulation.printed,
             regressor: formulation.regressor.as_ref(),
         })
     }

@@ -62,7 +62,6 @@ pub use loads::fields::entrained;
 pub use loads::forces::{Action, Element, Force};
 pub use loads::observed::Observed;
 pub use matter::body::{Assigned, Body, BodyShape, ParameterSymbol};
-pub use print::equations::Page;
 pub use print::names::Name;
 pub use scene::{Coordinate, Lettering, SystemScene};
 pub use system::System;

@@ -141,6 +141,11 @@ impl<'g> System<'g> {
         grouped(&self.scene.tree.mass_matrix())
     }
 
+    /// Forgets what is kept for later because several equations are made of it.
+    pub fn forget(&mut self) {
+        self.free.iter_mut().for_each(FreeLink::forget);
+    }
+
     /// The free link that is all of the system.
     pub fn only_body(&self) -> Option<&FreeLink<'g>> {
         match self.free.as_slice() {

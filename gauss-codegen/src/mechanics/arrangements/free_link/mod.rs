@@ -226,6 +226,11 @@ impl<'g> FreeLink<'g> {
         self.linear_rows.iter().chain(&self.angular_rows).flatten().all(|e| e.as_number().is_some())
     }
 
+    /// Forgets what was formed.
+    pub fn forget(&mut self) {
+        self.formed = Formed::default();
+    }
+
     /// The balance in all the ways that are worth trying.
     pub fn balances(&self) -> &[Balance<'g>] {
         self.formed.balances.get_or_init(|| {
