@@ -20,7 +20,7 @@ use crate::mechanics::tidy::{compact, sums, tidy};
 /// that do not, where a free body must be among them.
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
-const DENSE: usize = 10;
+pub const DENSE: usize = 10;
 /// Degrees of freedom up to which C is also orthogonalised as a sum of squares, and where a link floats, which may be light:
 /// its program grows with their square, and beyond that would be a third of the time of an expansion.
 const SQUARES: [usize; 2] = [6, 12];
@@ -32,7 +32,7 @@ pub struct System<'g> {
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
     /// What acts on links, fields among it.
-    loads: Loads<'g>,
+    pub(in crate::mechanics) loads: Loads<'g>,
     pub constraints: Constraints<'g>,
     /// Links that nothing else moves with.
     pub free: Vec<FreeLink<'g>>,
@@ -164,15 +164,12 @@ impl<'g> System<'g> {
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
         let mut formulas = vec![single(Method::Kinematics, self.scene.kinematics.clone())];
         formulas.extend(self.arranged().into_formulas());
-        formulas.extend(self.rigid_body().into_iter().flat_map(|body| {
-            let mut formulas = vec![
-                single(Method::BodyTwist, body.kinematics.body_twist().to_vec()),
-                single(Method::Speeds, body.speeds_of_twist()),
-                single(Method::BodyMomentum, body.body_momentum()),
-            ];
+        if let Some(body) = self.rigid_body() {
+            formulas.push(single(Method::BodyTwist, body.kinematics.body_twist().to_vec()));
+            formulas.push(single(Method::Speeds, body.speeds_of_twist()));
+            formulas.push(single(Method::BodyMomentum, body.body_momentum()));
             formulas.extend(body.regularity().map(|outputs| single(Method::Regularity, outputs)));
-            formulas
-        }));
+        }
         if !self.constraints.is_empty() {
             formulas.extend(self.constraint_formulas());
         }
@@ -363,7 +360,7 @@ impl<'g> System<'g> {
     }
 
     /// Of the potential, and of what acts elsewhere than on links.
-    fn other_forces(&self) -> Vec<Expr<'g>> {
+    pub(in crate::mechanics) fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
         let acting = self.forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
         let potential = potential_of_forces(&scene.elements).unwrap_or_else(|| scene.graph.zero());
@@ -381,7 +378,7 @@ impl<'g> System<'g> {
 
     /// ∂C/∂ż of the unconstrained C at ż = ζ, and ζ: what links that float have of the accelerations at ż = 0, along
     /// speeds that no constraint mentions.
-    fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
+    pub(in crate::mechanics) fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
         let held = |speed: usize| self.constraints.jacobian.iter().any(|row| !row[speed].is_zero());
         let held: Vec<bool> = (0..self.scene.speeds.len()).map(held).collect();
         let (rows, taken) = self.scene.tree.floating_residual(inertia, &self.loads, &held);

@@ -8,6 +8,7 @@ use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};
 use super::context::Context;
 use super::given;
+use super::robots::{self, FILES, RobotClauses};
 use super::role_words::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
 use super::words::{self, Table};
@@ -29,6 +30,8 @@ pub struct Clauses {
     pub statements: Statements,
     /// Some clause says what else moves than the body of a chart.
     pub own: bool,
+    /// A file that says so, and what is made of it.
+    pub robot: RobotClauses,
 }
 
 /// Clauses of the struct.
@@ -94,59 +97,31 @@ enum Written {
 pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> Clauses {
     let clauses = attributes::clauses(attributes, Owner::Struct, context);
     let meant = |clause: &Clause| statements::meant(&clause.word());
-    let own = clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
+    let beside_file = clauses.iter().any(|clause| FILES.iter().any(|(file, _)| *file == clause.word()));
+    let own = beside_file || clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
     let of_chart = clauses.iter().find(|clause| ["chart", "motion"].contains(&clause.word().as_str()));
     let of_chart = of_chart.map(|clause| clause.name.clone()).filter(|_| own || has_body);
     let in_chart = of_chart.is_some() || !(own || has_body);
     let has_coordinates = clauses.iter().any(|clause| meant(clause) == Some(Statement::Coordinates));
     let mut statements = Statements::new(in_chart, has_coordinates);
-    let mut charts = Vec::new();
-    let mut motion = None;
-    let mut runtime = None;
-    let mut wanted = Wanted::default();
-    let mut first: Vec<(Topic, String)> = Vec::new();
+    let mut topics = Topics::default();
+    let mut robot = RobotClauses::default();
     for clause in clauses {
         let word = clause.word();
         if STATEMENTS.iter().any(|(name, _)| *name == word) {
             statements.read(&clause, context);
-            continue;
-        }
-        if let Some(role) = given::role(&word).filter(|_| !given::belongs_to_field(&clause)) {
+        } else if let Some(role) = given::role(&word).filter(|_| !given::belongs_to_field(&clause)) {
             given::read(role, &clause, &mut statements.given, context);
-            continue;
-        }
-        let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) else {
-            refuse(&clause, &word, own, context);
-            statements.miss(&clause);
-            continue;
-        };
-        if let Some((_, earlier)) = first.iter().find(|(other, _)| *other == topic) {
-            context.error(
-                clause.name.span(),
-                format!("`{word}` is given twice; it was given first as `{earlier}`: keep one of the two"),
-            );
+        } else if let Some(topic) = robots::topic(&word, beside_file) {
+            robot.read(topic, &clause, context);
+        } else if let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) {
+            topics.read(topic, &clause, context);
         } else {
-            first.push((topic, clause.written()));
-        }
-        // Of clauses given twice the first counts, but mistakes in the second are found all the same.
-        match topic {
-            Topic::Chart => charts.push(read_chart(&clause, context)),
-            Topic::Motion => motion = motion.or(Some(read_motion(&clause, context))),
-            Topic::Runtime => runtime = runtime.or(Some(read_runtime(&clause, context))),
-            Topic::Taylor => {
-                wanted.taylor.get_or_insert(clause.name.clone());
-                check_alone(&clause, context);
-            }
-            Topic::Linearize => {
-                wanted.linearize = true;
-                wanted.by_parameters |= names_parameters(&clause, context);
-            }
-            Topic::Regressor => {
-                wanted.regressor.get_or_insert(clause.name.clone());
-                check_alone(&clause, context);
-            }
+            refuse(&clause, &word, own, beside_file, context);
+            statements.miss(&clause);
         }
     }
+    let Topics { charts, motion, runtime, wanted, .. } = topics;
     // A clause left out means its default; a clause that could not be read is known to be unknown.
     let motion = motion.unwrap_or(Some(Motion::Free));
     let mut chart = None;
@@ -159,11 +134,58 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     let in_chart = in_chart.then_some(InChart { chart, motion });
     statements.of_chart = of_chart;
     statements.speeds_of_chart = in_chart.map_or_else(Vec::new, InChart::speed_words);
-    Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own }
+    Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own, robot }
+}
+
+/// What the clauses say that stand once; `Some(None)` where one could not be read.
+#[derive(Default)]
+struct Topics {
+    charts: Vec<Option<Written>>,
+    motion: Option<Option<Motion>>,
+    runtime: Option<Option<Path>>,
+    wanted: Wanted,
+    /// The topics of clauses so far, each with the clause.
+    first: Vec<(Topic, String)>,
+}
+
+impl Topics {
+    /// Of clauses given twice the first counts, but mistakes in the second are found all the same.
+    fn read(&mut self, topic: Topic, clause: &Clause, context: &mut Context) {
+        if let Some((_, earlier)) = self.first.iter().find(|(other, _)| *other == topic) {
+            let message =
+                format!("`{}` is given twice; it was given first as `{earlier}`: keep one of the two", clause.word());
+            context.error(clause.name.span(), message);
+        } else {
+            self.first.push((topic, clause.written()));
+        }
+        match topic {
+            Topic::Chart => self.charts.push(read_chart(clause, context)),
+            Topic::Motion => {
+                let motion = read_motion(clause, context);
+                self.motion = self.motion.or(Some(motion));
+            }
+            Topic::Runtime => {
+                let runtime = read_runtime(clause, context);
+                self.runtime = self.runtime.take().or(Some(runtime));
+            }
+            Topic::Taylor => {
+                self.wanted.taylor.get_or_insert(clause.name.clone());
+                check_alone(clause, context);
+            }
+            Topic::Linearize => {
+                self.wanted.linearize = true;
+                self.wanted.by_parameters |= names_parameters(clause, context);
+            }
+            Topic::Regressor => {
+                self.wanted.regressor.get_or_insert(clause.name.clone());
+                check_alone(clause, context);
+            }
+        }
+    }
 }
 
 /// Notes why a clause is none of the struct's.
-fn refuse(clause: &Clause, word: &str, own: bool, context: &mut Context) {
+fn refuse(clause: &Clause, word: &str, own: bool, beside_file: bool, context: &mut Context) {
     let span = clause.name.span();
     let message = if word == UNIT {
         "units are those of fields and inputs; write `#[gauss(unit = \"N\")]` on a field, or `input(thrust = \"N\")`"
@@ -185,7 +207,7 @@ fn refuse(clause: &Clause, word: &str, own: bool, context: &mut Context) {
         format!("`{word}` is a motion; write `motion = {word}`")
     } else if ROTATIONS.iter().any(|(name, _)| *name == word) {
         format!("`{word}` is a rotation chart; write `chart = jet({word})`")
-    } else if let Some((name, _)) = words::nearest(word, CLAUSES) {
+    } else if let Some(name) = words::nearest(word, CLAUSES).map(|(name, _)| name).or(robots::near(word, beside_file)) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
     } else if let Some((name, _)) = words::nearest(word, STATEMENTS) {
         format!("unknown clause `{word}`; did you mean `{name}`?")

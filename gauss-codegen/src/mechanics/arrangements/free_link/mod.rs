@@ -11,7 +11,7 @@ mod momenta;
 use crate::algebra::{Expr, Map, Solver, Substitution};
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
-use crate::mechanics::links::link::{Link, Matter};
+use crate::mechanics::links::link::Matter;
 use crate::mechanics::loads::forces::Loads;
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::print::names::Name;
@@ -126,9 +126,12 @@ fn own_kinematics<'g>(scene: &SystemScene<'g>, k: usize) -> Option<(Vec<usize>, 
         return None;
     }
     let block: Vec<usize> = (0..scene.speeds.len()).filter(|&z| link.is_moved_by(z)).collect();
-    let heavy = |link: &Link<'g>| !matches!(link.matter, Matter::Nothing);
-    let others = scene.tree.links.iter().enumerate().filter(|(other, link)| *other != k && heavy(link));
-    if block.is_empty() || others.into_iter().any(|(_, other)| block.iter().any(|&z| other.is_moved_by(z))) {
+    let links = &scene.tree.links;
+    let heavy = |&other: &usize| other != k && !matches!(links[other].matter, Matter::Nothing);
+    // What moves a frame moves the matter that hangs on it.
+    let with_ancestors = |other: usize| std::iter::successors(Some(other), |&at| links[at].parent);
+    let mut moving = (0..links.len()).filter(heavy).flat_map(with_ancestors);
+    if block.is_empty() || moving.any(|at| block.iter().any(|&z| links[at].is_moved_by(z))) {
         return None;
     }
     let at_rest: Map<u32, Expr<'g>> = scene.speeds.iter().map(|z| (z.key(), scene.graph.zero())).collect();
