@@ -43,10 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let second = Splitting::with(&top, Scheme::STRANG, |moments| MoserVeselov::of_order(moments, 2))?;
     runs.print("splitting 2 (symplectic)", Fixed::by(second, STEP))?;
     runs.print("variational 2", Fixed::by(Variational, STEP))?;
-    println!(
-        "\nEnergies that swing do so with the square of the step, without drift. The iterations of the variational"
-    );
-    println!("method end with errors of one sign, of a few 1e-19 a step.");
+    println!("\nEnergies that swing do so with the square of the step, without drift.");
     Ok(())
 }
 

@@ -122,7 +122,7 @@ pub fn far_center(effort: Effort) -> Measures {
     let hybrid = DriftingHybrid { mass, center, inertia }.kernel()?;
     let about_g = Central { mass, center, inertia: central }.kernel()?;
     let hybrid_about_g = CentralHybrid { mass, center, inertia: central }.kernel()?;
-    Ok([
+    let runs = [
         ("I about G, body axes, order 8", end(&about_g, VelocityForm, tight(), &start, duration)),
         ("the same, momenta", end(&about_g, MomentumForm, tight(), &start, duration)),
         ("I about G, hybrid, order 8", end(&hybrid_about_g, VelocityForm, tight(), &start, duration)),
@@ -131,15 +131,19 @@ pub fn far_center(effort: Effort) -> Measures {
         ("the same, momenta", end(&left, MomentumForm, tight(), &start, duration)),
         ("hybrid, order 8", end(&hybrid, VelocityForm, tight(), &start, duration)),
         ("hybrid, momenta", end(&hybrid, MomentumForm, tight(), &start, duration)),
-    ]
-    .into_iter()
-    .map(|(method, found)| {
+    ];
+    let steps = |k: usize| runs[k].1.as_ref().map_or(f64::INFINITY, |(_, steps)| *steps as f64);
+    let more = [(4, "body axes"), (6, "hybrid")].map(|(k, method)| {
+        Measure::new("steps by momenta, for one by velocities", method, steps(k + 1) / steps(k), 2.0)
+            .because("the form should not matter")
+    });
+    let errors = runs.into_iter().map(|(method, found)| {
         let (reached, note) = judged(found, |state| state.distance(&last));
         Measure::new(format!("{duration} s: worst relative error"), method, reached, 1e-12)
             .naive(format!("6×6 solve about O, RK4, h = {h:e}"), typed)
             .note(format!("{note}; one rounding of I_O: {floor:.0e}"))
-    })
-    .collect())
+    });
+    Ok(errors.chain(more).collect())
 }
 
 pub fn needle(effort: Effort) -> Measures {

@@ -1,6 +1,7 @@
 //! The suite of hard cases: what is measured, what a naive program gets, the target, and the figure reached.
 
 mod bodies;
+mod digits;
 mod groups;
 mod long_runs;
 mod measure;
@@ -37,7 +38,7 @@ const fn case(name: &'static str, about: &'static str, run: Run) -> Case {
 }
 
 /// All of them, in the order of the report.
-pub const CASES: [Case; 20] = [
+pub const CASES: [Case; 25] = [
     case("small_angles", "exp and its inverse derivative near the identity", groups::small_angles),
     case("half_turn", "logarithms near half a turn, where the cosine says nothing", groups::half_turn),
     case("many_turns", "attitudes beyond 2π, where dexp⁻¹ has a pole", groups::many_turns),
@@ -52,6 +53,11 @@ pub const CASES: [Case; 20] = [
     case("far_center", "a centre of mass 50 body sizes from O", bodies::far_center),
     case("needle", "moments of inertia 1 : 1e6", bodies::needle),
     case("light_body", "a light body in a heavy fluid: a nearly singular mass matrix", bodies::light_body),
+    case("differences", "small differences of large numbers, as they are written", digits::differences),
+    case("orbit", "a craft and its wheel in orbit: 1e-6 rad/s² beside 8 m/s²", digits::orbit),
+    case("heavy_load", "masses 1 : 1e6 on links that are nearly in line", digits::heavy_load),
+    case("free_fall", "a base that falls: gravity moves none of its joints", digits::free_fall),
+    case("near_gimbal_lock", "a solution that divides by 1 − sin² near its zero", digits::near_gimbal_lock),
     case("unit_quaternion", "the norm of quaternions over many steps", long_runs::unit_quaternion),
     case("energy", "energy and momentum over many steps", long_runs::energy),
     case("rolling", "constraints over many steps", long_runs::rolling),

@@ -81,8 +81,9 @@ where
                 break;
             }
         }
-        let z = system.velocity(t, &q, &end);
-        let reached = State { t, q, y: problem.variables(t, &q, &z) };
+        // There and back momenta would be multiplied by I (1/I), the same rounding in every step.
+        let y = problem.of_momentum(t, &q, &end);
+        let reached = State { t, q, y };
         check_chart(problem.system(), state, &reached)?;
         if !(reached.q.is_finite() && reached.y.is_finite()) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
