@@ -19,6 +19,8 @@
 /// | `taylor` | alone: power series of the motion in time as well, for the integrator `Taylor`; of smooth systems without inputs | none |
 /// | `linearize` | alone, also of systems: the kernel implements `LinearizedSystem`, exact derivatives of the equations by state, time and input; `linearize(parameters)`: by the parameters, too (`ParametricSystem`) | not written: several times the code of the accelerations |
 /// | `regressor` | alone, also of systems: the kernel implements `InertialRegressor`, the forces of inertia as a linear function of inertial parameters | not written |
+/// | `frames` | `frames(tool, left_foot)`: names of bodies and frames, also of systems: the kernel implements `FramedSystem`, pose, twist, Jacobian and acceleration of each, and there is an enum `NameFrame` of them | not written |
+/// | `methods` | words, also of systems: `centroidal`, centre of mass and momenta about it (`CentroidalSystem`); `nonlinear_effects`, inverse dynamics at ż = 0 as a program of its own; `gravity_torques`, what holds the weight (`GravityTorques`) | not written |
 /// | `crate` | where the runtime is, when it has another name | `::gauss_runtime` |
 ///
 /// # The fields: `#[gauss(role)]`
@@ -69,6 +71,23 @@
 /// Without `speeds` the speeds are called after their coordinates: `angle_dot` of a scalar, `craft_u` and `craft_omega` of a pose,
 /// `attitude_omega` of a rotation. Charts have `pose` (`rotation` about a fixed point) and `u`, `xi` or `b_dot` with `omega`; jet charts
 /// `b1`, `psi` …, `b1_dot`, `psi_dot` …. Of a vector of which `independent` keeps a component that is called `w_x`.
+///
+/// # Frames
+///
+/// `frames(tool, hull)` has methods written for bodies and frames of the scene; in a chart its body is `body`. Names stay as they are:
+///
+/// ```text
+/// let pose = kernel.pose_of(ArmFrame::tool, t, &q);            // b and R, as the observer sees them
+/// let twist = kernel.twist_of(ArmFrame::tool, t, &q, &z);      // (u, ω): of the origin, in the axes of the frame
+/// let jacobian = kernel.jacobian_of(ArmFrame::tool, t, &q);    // (u, ω) = J z
+/// let bias = kernel.bias_of(ArmFrame::tool, t, &q, &z);        // (a, ω̇) = J ż + bias, a the acceleration of the origin
+/// let all = kernel.frames(t, &q, &z);                          // of all frames at once: all[ArmFrame::tool].twist
+/// ```
+///
+/// Components are in the axes of the frame, the pole is its origin; `gauss_runtime::frames` turns them into observer's axes and moves
+/// the pole. Each method is a program of its own, `OPERATIONS.of_frames` says what it costs. Forces at a frame that arrive at run
+/// time are a wrench on it, one element with its power: `input(contact: Wrench), wrench(ground, body = left_foot, force =
+/// contact.force, torque = contact.torque)`, in the axes of the frame at its origin.
 ///
 /// # What kernels refuse, and warnings
 ///

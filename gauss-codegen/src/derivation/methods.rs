@@ -2,7 +2,7 @@
 
 use crate::emit::Derived;
 use crate::kernel;
-use crate::mechanics::Method;
+use crate::mechanics::{FrameQuantity, Method};
 use crate::program::{ArgumentKind, Function, Instruction, Operand, Program, Results};
 
 use super::signature::{Signature, Unbound};
@@ -30,19 +30,25 @@ fn with(further: &[ArgumentKind]) -> Vec<ArgumentKind> {
 fn further_arguments(method: Method) -> &'static [ArgumentKind] {
     use ArgumentKind::{Accelerations, Inputs, Momenta, Residuals, Speeds, Twist};
     match method {
-        Method::Acceleration | Method::Multipliers | Method::Powers | Method::ElementForces | Method::SuppliedPower => {
-            &[Speeds, Inputs]
-        }
+        Method::Acceleration
+        | Method::Multipliers
+        | Method::Powers
+        | Method::ElementForces
+        | Method::SuppliedPower
+        | Method::NonlinearEffects => &[Speeds, Inputs],
         Method::Kinematics
         | Method::Momentum
         | Method::KineticEnergy
         | Method::BodyTwist
         | Method::BodyMomentum
         | Method::VelocityResidual
-        | Method::ComponentRates => &[Speeds],
+        | Method::ComponentRates
+        | Method::CentroidalMomentum
+        | Method::CentroidalBias => &[Speeds],
         Method::Velocity => &[Momenta],
         Method::MomentumRate => &[Momenta, Inputs],
         Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces => &[Speeds, Accelerations, Inputs],
+        Method::OfFrame(FrameQuantity::Twist | FrameQuantity::Bias, _) | Method::Frames => &[Speeds],
         Method::Speeds => &[Twist],
         Method::PositionCorrection => &[Residuals],
         Method::VelocityCorrection => &[Speeds, Residuals],
@@ -50,7 +56,12 @@ fn further_arguments(method: Method) -> &'static [ArgumentKind] {
         | Method::PotentialEnergy
         | Method::Regularity
         | Method::PositionResidual
-        | Method::InertialParameters => &[],
+        | Method::InertialParameters
+        | Method::TotalMass
+        | Method::CenterOfMass
+        | Method::CentroidalMatrix
+        | Method::GravityTorques
+        | Method::OfFrame(FrameQuantity::Pose | FrameQuantity::Jacobian, _) => &[],
     }
 }
 
@@ -61,13 +72,16 @@ fn of_method<'g>(
     code: &kernel::Program<'g>,
 ) -> Result<Program, Unbound> {
     // `expand` makes the series, this the rates that they are made from.
-    let name = if method == Method::ComponentRates { "component_rates" } else { method.name() };
+    let name = if method == Method::ComponentRates { "component_rates" } else { &derived.name_of(method) };
     let (rows, arguments) = (derived.degrees_of_freedom(), with(further_arguments(method)));
     let results = |rows: usize, columns: usize| vec![Results::new(name, rows, columns)];
     let count = code.outputs.len();
     match method {
         Method::MassMatrix | Method::ElementForces => {
             signature.program(name, &arguments, code, results(rows, count / rows))
+        }
+        Method::OfFrame(FrameQuantity::Jacobian, _) | Method::CentroidalMatrix => {
+            signature.program(name, &arguments, code, results(6, rows))
         }
         Method::Regularity => signature.program(name, &arguments, &regularity(code), results(1, 1)),
         _ => signature.program(name, &arguments, code, results(count, 1)),

@@ -70,8 +70,9 @@ fn methods(derived: &Derived<'_, '_>) -> TokenStream {
         (Method::PotentialEnergy, quote!(), &scalar),
         (Method::GaussResidual, acceleration.clone(), &speeds),
         (Method::ConstraintFunction, acceleration, &scalar),
-        (Method::Kinematics, z, &tangent),
+        (Method::Kinematics, z.clone(), &tangent),
         (Method::Regularity, quote!(), &scalar),
+        (Method::NonlinearEffects, quote!(#z, #input), &speeds),
     ];
     let written = methods.into_iter().filter(|(method, ..)| derived.has(*method));
     written.map(|(method, arguments, result)| derived.function(method, arguments, result.clone())).collect()

@@ -10,7 +10,7 @@
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
-//! `state` (coordinates and speeds by name), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
+//! `state` (coordinates and speeds by name), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
 //! where there are mistakes.
 
 use proc_macro2::TokenStream;
@@ -25,6 +25,7 @@ mod description;
 mod documentation;
 mod fallback;
 mod forced;
+mod framed;
 mod gauss_system;
 mod inertia;
 mod kernel;
@@ -46,6 +47,7 @@ mod system_tests;
 mod taylor;
 #[cfg(test)]
 mod tests;
+mod whole;
 
 pub use derived::Derived;
 pub use documentation::Equations;
@@ -65,10 +67,13 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let linearized = linearized::linearized_system(derived);
     let parametric = parametric::parametric_system(derived);
     let regressor = regressor::inertial_regressor(derived);
+    let whole = whole::of_the_whole(derived);
+    let [frames, framed] = framed::framed_system(derived);
     let [state, conversions] = state::state(derived);
     quote! {
         #kernel
         #state
+        #frames
 
         const _: () = {
             #tables
@@ -83,6 +88,8 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
             #linearized
             #parametric
             #regressor
+            #framed
+            #whole
         };
     }
 }

@@ -12,7 +12,8 @@
 //! - `derivatives`: what the equations are differentiated along; the regressor; rates of all numbers of a state.
 //! - `print`: the equations for people.
 //!
-//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several arrangements. `tidy` is what is multiplied out
+//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several arrangements; `frames` what is asked of
+//! single links, `whole` what is asked of all together. `tidy` is what is multiplied out
 //! where that is short.
 
 mod arrangements;
@@ -20,6 +21,7 @@ mod check;
 mod constraints;
 mod derivatives;
 mod formula;
+mod frames;
 mod kinematics;
 mod links;
 mod loads;
@@ -38,6 +40,7 @@ mod system;
 #[cfg(test)]
 pub mod tests;
 mod tidy;
+mod whole;
 
 pub use arrangements::balance::KineticMatrix;
 #[cfg(test)]
@@ -48,7 +51,7 @@ pub use constraints::elimination::{Elimination, Obstacle};
 pub use constraints::multipliers::Constraints;
 pub use derivatives::linearize::Linearization;
 pub use derivatives::regressor::{InertialParameters, Regressor};
-pub use formula::{Formula, Method};
+pub use formula::{Formula, FrameQuantity, Method};
 pub use kinematics::chart::ChartedBody;
 pub use kinematics::rotation::{about_axis, poisson, rotation_of_quaternion};
 pub use kinematics::turn::Turn;

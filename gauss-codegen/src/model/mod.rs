@@ -33,5 +33,5 @@ pub use scene::clauses::{
     FunctionClause, FunctionKind, Given, GivenValue, InputKind, InputName, ParticleClause, SpeedKind, SpeedPart,
 };
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
-pub use scene::model::{Field, Model, Scalar};
+pub use scene::model::{Field, Model, Scalar, WantedMethod};
 pub use scene::roles::{Role, Shape};

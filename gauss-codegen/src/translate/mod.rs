@@ -186,6 +186,12 @@ impl<'a, 'g> Translator<'a, 'g> {
         self.links_of_clauses.clone()
     }
 
+    /// The links of the frames that are asked for, in their order.
+    pub fn links_of_frames(&self) -> Vec<usize> {
+        let link = |name: &Ident| self.links.get(&name.unraw().to_string()).copied();
+        self.model.wanted.frames.iter().filter_map(link).collect()
+    }
+
     /// All speeds, as they are declared.
     pub fn speeds(&self) -> &[Expr<'g>] {
         &self.declared.speeds

@@ -179,6 +179,11 @@ fn chains() -> Vec<Scene> {
         ("structure top".into(), structures::top("")),
         ("structure arm".into(), structures::arm("")),
         ("structure arm linearize".into(), structures::arm(", linearize")),
+        (
+            "structure arm frames".into(),
+            structures::arm(", frames(b3, b6), methods(centroidal, nonlinear_effects, gravity_torques)"),
+        ),
+        ("structure torpedo frames".into(), structures::torpedo(", frames(body)")),
     ];
     for n in [2, 3, 4, 5, 6, 8, 10, 14] {
         scenes.push((format!("chain of {n} in the plane; relative"), structures::planar(n, true)));

@@ -117,7 +117,7 @@ impl<'g> Tree<'g> {
     }
 
     /// Adds to every link what hangs on it, moved to its pole.
-    fn gathered(&self, mut pairs: Pairs<'g>) -> Pairs<'g> {
+    pub fn gathered(&self, mut pairs: Pairs<'g>) -> Pairs<'g> {
         for k in (0..self.links.len()).rev() {
             let Some(parent) = self.links[k].parent else { continue };
             let (linear, angular) = self.carried(k, &pairs[k].0.body, &pairs[k].1);
@@ -227,7 +227,7 @@ impl<'g> Tree<'g> {
     /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm`, the fluid's share and
     /// the loads, with ż by its rates in `along`.
     pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia, loads: &Loads<'g>) -> Vec<Expr<'g>> {
-        self.balance(along, inertia, loads, &self.accelerations(along, loads, None))
+        self.balance(along, inertia, loads, &self.accelerations(along, Some(loads), None))
     }
 
     /// The same at ż = ζ, seen by observers who move with the links that float, and ζ. Speeds of which `held` is true
@@ -245,7 +245,7 @@ impl<'g> Tree<'g> {
     /// `a_O − g` and ω̇ of every link at ż = ζ for these observers, and ζ.
     pub fn floating_accelerations(&self, loads: &Loads<'g>, held: &[bool]) -> (Pairs<'g>, Vec<Expr<'g>>) {
         let mut taken = vec![self.graph.zero(); self.speeds.len()];
-        (self.accelerations(&self.rates, loads, Some((held, &mut taken))), taken)
+        (self.accelerations(&self.rates, Some(loads), Some((held, &mut taken))), taken)
     }
 
     fn balance(
@@ -299,12 +299,17 @@ impl<'g> Tree<'g> {
         self.links[k].parent.map_or(k, |parent| self.root_of(parent))
     }
 
+    /// a_O and ω̇ of every link at ż = 0.
+    pub fn bias_accelerations(&self) -> Pairs<'g> {
+        self.accelerations(&self.rates, None, None)
+    }
+
     /// `a_O − g` and ω̇ of every link; a uniform field is an acceleration of the observer, and so is what links that
-    /// float have at ż = 0, unless the speed is held: it is written down.
+    /// float have at ż = 0, unless the speed is held: it is written down. Without loads there is no field.
     fn accelerations(
         &self,
         along: &Map<u32, Expr<'g>>,
-        loads: &Loads<'g>,
+        loads: Option<&Loads<'g>>,
         mut observers: Option<(&[bool], &mut [Expr<'g>])>,
     ) -> Pairs<'g> {
         let mut accelerations: Pairs<'g> = Vec::with_capacity(self.links.len());
@@ -314,7 +319,7 @@ impl<'g> Tree<'g> {
                 None => {
                     let omega = frame.body_vector(link.angular_velocity);
                     let a = frame.derivative(&link.velocity, along, &omega).map(Expr::group);
-                    let fields = self.gravity.into_iter().chain(loads.field_on(k));
+                    let fields = loads.into_iter().flat_map(|loads| self.gravity.into_iter().chain(loads.field_on(k)));
                     let a = fields.fold(a, |a, g| a.minus(&frame.space_vector(g)));
                     (a, link.angular_velocity.map(|e| e.derivative(along).group()))
                 }

@@ -2,11 +2,12 @@
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
 //! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `regressor` alone;
-//! `linearize` alone or as `linearize(parameters)`.
+//! `linearize` alone or as `linearize(parameters)`; `frames(name, …)`; `methods(word, …)`.
 
 use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};
 use super::context::Context;
+use super::declarations;
 use super::given;
 use super::role_words::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
@@ -39,6 +40,8 @@ pub const CLAUSES: &Table<Topic> = &[
     ("taylor", Topic::Taylor),
     ("linearize", Topic::Linearize),
     ("regressor", Topic::Regressor),
+    ("frames", Topic::Frames),
+    ("methods", Topic::Methods),
 ];
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -49,6 +52,8 @@ pub enum Topic {
     Taylor,
     Linearize,
     Regressor,
+    Frames,
+    Methods,
 }
 
 /// `None` stands for `jet`, which needs to know the motion.
@@ -93,7 +98,9 @@ enum Written {
 /// clause and no field, as with `has_body`, says what moves.
 pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> Clauses {
     let clauses = attributes::clauses(attributes, Owner::Struct, context);
-    let meant = |clause: &Clause| statements::meant(&clause.word());
+    // A clause of its own is no misspelling of another: `frames` is not `frame`.
+    let own_word = |word: &str| CLAUSES.iter().any(|(name, _)| *name == word);
+    let meant = |clause: &Clause| statements::meant(&clause.word()).filter(|_| !own_word(&clause.word()));
     let own = clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
     let of_chart = clauses.iter().find(|clause| ["chart", "motion"].contains(&clause.word().as_str()));
     let of_chart = of_chart.map(|clause| clause.name.clone()).filter(|_| own || has_body);
@@ -145,6 +152,8 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
                 wanted.regressor.get_or_insert(clause.name.clone());
                 check_alone(&clause, context);
             }
+            Topic::Methods => wanted.methods.extend(declarations::read_methods(&clause, context)),
+            Topic::Frames => wanted.frames.extend(declarations::read_frames(&clause, context)),
         }
     }
     // A clause left out means its default; a clause that could not be read is known to be unknown.
@@ -191,7 +200,7 @@ fn refuse(clause: &Clause, word: &str, own: bool, context: &mut Context) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
     } else if own {
         format!(
-            "unknown clause `{word}`; expected {}, `crate`, `taylor`, `linearize` or `regressor`",
+            "unknown clause `{word}`; expected {}, `crate`, `taylor`, `linearize`, `regressor`, `frames` or `methods`",
             words::list(STATEMENTS).replace(" or ", ", ")
         )
     } else {

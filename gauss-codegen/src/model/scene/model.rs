@@ -146,6 +146,21 @@ pub struct Wanted {
     pub by_parameters: bool,
     /// `regressor`, where it is written: the coefficients of the inertial parameters.
     pub regressor: Option<Ident>,
+    /// `frames(…)`: bodies and frames whose poses and velocities are methods, by their names, each once.
+    pub frames: Vec<Ident>,
+    /// `methods(…)`: what is asked of the system as a whole, each once.
+    pub methods: Vec<WantedMethod>,
+}
+
+/// A method, or several that belong together, that a kernel has on request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WantedMethod {
+    /// Momenta about the centre of mass.
+    Centroidal,
+    /// Inverse dynamics at ż = 0.
+    NonlinearEffects,
+    /// What holds weight and buoyancy.
+    GravityTorques,
 }
 
 /// The number type that kernels compute with.
