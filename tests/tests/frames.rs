@@ -233,6 +233,44 @@ charted!(plane_left: PlaneLeft PlaneLeftSensor, [left_invariant], planar, Isomet
 charted!(plane_right: PlaneRight PlaneRightSensor, [right_invariant], planar, Isometry2::<f64>::identity());
 charted!(plane_jet: PlaneJet PlaneJetSensor, [jet], planar, SVector::<f64, 3>::zeros());
 
+/// A wrench at a frame, whose six numbers arrive at run time.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(base: Pose, knee),
+    body(hull, pose = base, mass = 5, center_of_mass = [0.1, 0, 0], inertia = [1, 1.2, 1.5]),
+    body(leg, parent = hull, position = [0.2, 0.1, 0], rotation = rotation_y(knee), mass = 1,
+         center_of_mass = [0, 0, -0.2], inertia = [0.1, 0.1, 0.02]),
+    frame(foot, parent = leg, position = [0, 0, -0.5], rotation = rotation_x(0.3)),
+    frames(foot),
+    input(contact: Wrench),
+    wrench(ground, body = foot, force = contact.force, torque = contact.torque),
+)]
+struct Leg<T> {
+    #[gauss(gravity)]
+    g: T,
+}
+
+#[test]
+fn wrenches_at_frames_act_by_the_jacobian_and_have_their_power() {
+    let kernel = Leg { g: Bounded::from_f64(9.81) }.kernel().unwrap();
+    let mut random = Random(2);
+    let origin = (Isometry3::<f64>::identity(), SVector::from([0.4]));
+    let t = Bounded::zero();
+    for _ in 0..8 {
+        let q = random_configuration(&origin, &mut random);
+        let z = SVector::from([(); 7].map(|()| Bounded::from_f64(random.number())));
+        let contact = SVector::from([(); 6].map(|()| Bounded::from_f64(random.number())));
+        let jacobian = kernel.jacobian_of(LegFrame::foot, t, &q);
+        let paired =
+            |column: &[Bounded]| column.iter().zip(contact.iter()).fold(Bounded::zero(), |sum, (&a, &b)| sum + a * b);
+        let force = kernel.generalised_force("ground", t, &q, &z, &contact).expect("the ground acts");
+        let expected: Vec<Bounded> = (0..7).map(|k| paired(&[0, 1, 2, 3, 4, 5].map(|i| jacobian[(i, k)]))).collect();
+        equal("generalised force", &list(&force), &expected).unwrap();
+        let power = kernel.power("ground", t, &q, &z, &contact).expect("the ground acts");
+        equal("power", &[power], &[paired(&list(&kernel.twist_of(LegFrame::foot, t, &q, &z)))]).unwrap();
+    }
+}
+
 /// Without `chart` and `motion` the body moves in the chart that is the default, also where frames are asked for.
 #[derive(GaussDynamics)]
 #[gauss(frames(body), methods(centroidal))]

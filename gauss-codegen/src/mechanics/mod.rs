@@ -64,6 +64,7 @@ pub use loads::fields::entrained;
 pub use loads::forces::{Action, Element, Force};
 pub use loads::observed::Observed;
 pub use matter::body::{Assigned, Body, BodyShape, ParameterSymbol};
+pub use matter::rotor::Rotor;
 pub use print::equations::Page;
 pub use print::names::Name;
 pub use scene::{Coordinate, Lettering, SystemScene};

@@ -176,6 +176,7 @@ fn assembled(
         medium: statements.medium.and_then(|(_, velocity)| velocity),
         attractions: statements.attractions,
         forces: statements.forces,
+        armatures: statements.armatures,
         functions: statements.functions,
         formal: statements.formal,
     })

@@ -251,6 +251,7 @@ impl<'a, 'g> Translator<'a, 'g> {
                 turns: Vec::new(),
             });
         }
+        tree.rotors = self.rotors(&tree)?;
         let elements = match (model.one_body(), self.chart.clone()) {
             (Some(_), Some(chart)) => self.elements_on(&chart)?,
             _ => self.elements(&tree)?,

@@ -12,6 +12,7 @@ use crate::mechanics::links::regroup::regroup;
 use crate::mechanics::loads::forces::{Force, Loads};
 use crate::mechanics::matter::body::Body;
 use crate::mechanics::matter::moments::Moments;
+use crate::mechanics::matter::rotor::{Rotor, add_projected};
 
 /// A linear and an angular part at the pole O of each link: momenta, forces or accelerations.
 pub type Pairs<'g> = Vec<(Vector<'g>, Triple<'g>)>;
@@ -36,6 +37,8 @@ pub struct Tree<'g> {
     /// Acceleration of free fall, observer's axes.
     pub gravity: Option<Triple<'g>>,
     floating: Vec<Option<Floating<'g>>>,
+    /// Inertia of rates, beside that of the links.
+    pub rotors: Vec<Rotor<'g>>,
 }
 
 impl<'g> Tree<'g> {
@@ -54,7 +57,8 @@ impl<'g> Tree<'g> {
         let about_it = |turn: &Turn<'g>| turn.axis_and_angle().is_some_and(|(own, _)| Some(own) == axis);
         let dry = placements.iter().all(|p| !matches!(&p.matter, Matter::Body(body) if body.added_mass.is_some()));
         let planar = axis.filter(|_| chained && dry && turns.all(about_it));
-        let mut tree = Self { graph, links: Vec::new(), planar, speeds, rates, gravity, floating: Vec::new() };
+        let mut tree =
+            Self { graph, links: Vec::new(), planar, speeds, rates, gravity, floating: Vec::new(), rotors: Vec::new() };
         placements.into_iter().for_each(|placement| tree.hang(placement));
         tree
     }
@@ -89,6 +93,11 @@ impl<'g> Tree<'g> {
 
     fn speeds(&self) -> std::ops::Range<usize> {
         0..self.speeds.len()
+    }
+
+    /// ∂q̇/∂z^α of a rotor.
+    pub fn row_of(&self, rotor: &Rotor<'g>, speed: usize) -> Expr<'g> {
+        rotor.row(self.speeds[speed])
     }
 
     pub fn speed_count(&self) -> usize {
@@ -148,7 +157,8 @@ impl<'g> Tree<'g> {
 
     /// p_α = ∂T/∂z^α.
     pub fn momentum(&self) -> Vec<Expr<'g>> {
-        self.projected(&self.gathered(self.momenta()))
+        let momenta = self.projected(&self.gathered(self.momenta()));
+        add_projected(&self.rotors, &self.speeds, momenta, Rotor::momentum)
     }
 
     /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of the
@@ -187,6 +197,12 @@ impl<'g> Tree<'g> {
             }
         }
         self.add_carried_fluid(&mut matrix);
+        for rotor in &self.rotors {
+            let rows: Vec<Expr<'g>> = self.speeds.iter().map(|&z| rotor.row(z)).collect();
+            for (row, column) in (0..n).flat_map(|column| (0..=column).map(move |row| (row, column))) {
+                matrix[row][column] = matrix[row][column] + rotor.inertia * rows[row] * rows[column];
+            }
+        }
         for row in 0..n {
             for column in 0..row {
                 matrix[row][column] = matrix[column][row];
@@ -263,7 +279,8 @@ impl<'g> Tree<'g> {
             *linear = linear.minus(&force).map(Expr::group);
             *angular = subtract(angular, &torque).map(Expr::group);
         }
-        self.projected(&self.gathered(pairs))
+        let rows = self.projected(&self.gathered(pairs));
+        add_projected(&self.rotors, &self.speeds, rows, |rotor| rotor.force(along))
     }
 
     /// `R·a_α + M_O·o_α` of what acts on links.
@@ -440,6 +457,11 @@ impl<'g> Tree<'g> {
                 bracket[k] = bracket[k] + frame.dot(q, &a) + dot(gamma, &o) + turned;
             }
         }
+        for rotor in &self.rotors {
+            for (k, &speed) in self.speeds.iter().enumerate() {
+                bracket[k] = bracket[k] + rotor.momentum() * rotor.row(speed).derivative(&self.rates);
+            }
+        }
         bracket
     }
 
@@ -480,7 +502,8 @@ impl<'g> Tree<'g> {
         let links = self.links.iter().zip(self.momenta());
         let terms =
             links.map(|(link, (q, gamma))| link.frame.dot(&q, &link.velocity) + dot(&gamma, &link.angular_velocity));
-        terms.fold(self.graph.zero(), |sum, e| sum + e)
+        let links = terms.fold(self.graph.zero(), |sum, e| sum + e);
+        self.rotors.iter().fold(links, |sum, rotor| sum + rotor.momentum() * rotor.rate)
     }
 
     /// Of weight and buoyancy: `−ĝ·Σ∫x̂ dm`, the first moments gathered at the roots. All matter counts, also what keeps

@@ -63,6 +63,8 @@ pub struct Model {
     pub attractions: Vec<Attraction>,
     /// What acts besides gravity and the potential, in the order in which it is written.
     pub forces: Vec<ForceClause>,
+    /// Inertia of the rates of scalar coordinates: a scalar of fields and numbers for each.
+    pub armatures: Vec<(Ident, Expression)>,
     /// Functions of one number that the user gives.
     pub functions: Vec<FunctionClause>,
     /// Bodies whose principal moments need not obey the triangle inequality; `None`: all of them.

@@ -126,7 +126,11 @@ fn own_kinematics<'g>(scene: &SystemScene<'g>, k: usize) -> Option<(Vec<usize>, 
     let block: Vec<usize> = (0..scene.speeds.len()).filter(|&z| link.is_moved_by(z)).collect();
     let heavy = |link: &Link<'g>| !matches!(link.matter, Matter::Nothing);
     let others = scene.tree.links.iter().enumerate().filter(|(other, link)| *other != k && heavy(link));
-    if block.is_empty() || others.into_iter().any(|(_, other)| block.iter().any(|&z| other.is_moved_by(z))) {
+    let geared = |&z: &usize| scene.tree.rotors.iter().any(|rotor| !rotor.row(scene.speeds[z]).is_zero());
+    if block.is_empty()
+        || block.iter().any(geared)
+        || others.into_iter().any(|(_, other)| block.iter().any(|&z| other.is_moved_by(z)))
+    {
         return None;
     }
     let at_rest: Map<u32, Expr<'g>> = scene.speeds.iter().map(|z| (z.key(), scene.graph.zero())).collect();

@@ -180,7 +180,7 @@ fn charts_without_a_body_and_unknown_clauses() {
             "foo",
             "unknown clause `foo`; expected `coordinates`, `speeds`, `kinematics`, `body`, `frame`, \
              `particle`, `point`, `constraint`, `independent`, `potential`, `input`, `force`, `torque`, \
-             `wrench`, `drive`, `spring`, `stop`, `drag`, `damping`, `medium`, `central_gravity`, `define`, `function`, `table`, `waive`, `limit`, \
+             `wrench`, `drive`, `spring`, `stop`, `drag`, `friction`, `armature`, `damping`, `medium`, `central_gravity`, `define`, `function`, `table`, `waive`, `limit`, \
              `crate`, `taylor`, `linearize`, `regressor`, `frames` or `methods`",
         )],
     );
