@@ -6,6 +6,7 @@ use syn::ext::IdentExt;
 
 use crate::mechanics::{FrameQuantity, Method};
 
+use super::arguments::{arguments_of, declared};
 use super::derived::Derived;
 
 /// Operations of the methods, frame by frame.
@@ -73,14 +74,14 @@ fn system(derived: &Derived<'_, '_>) -> TokenStream {
     let (name, count) = (name_of_frames(derived), derived.frames().len());
     let jacobian = quote!(#private::SMatrix<#ty, 6, #n>);
     let six = quote!(#private::SVector<#ty, 6>);
-    let speeds = quote!(__z: &Self::Speeds);
     let methods = [
-        (FrameQuantity::Pose, quote!(), quote!(#private::IsometryMatrix3<#ty>)),
-        (FrameQuantity::Twist, speeds.clone(), six.clone()),
-        (FrameQuantity::Jacobian, quote!(), jacobian.clone()),
-        (FrameQuantity::Bias, speeds.clone(), six),
+        (FrameQuantity::Pose, quote!(#private::IsometryMatrix3<#ty>)),
+        (FrameQuantity::Twist, six.clone()),
+        (FrameQuantity::Jacobian, jacobian.clone()),
+        (FrameQuantity::Bias, six),
     ];
-    let methods = methods.map(|(quantity, arguments, result)| method(derived, quantity, &arguments, &result));
+    let methods = methods.map(|(quantity, result)| method(derived, quantity, &result));
+    let arguments = declared(&private, arguments_of(Method::Frames));
     let (instructions, outputs) = derived.computed(derived.program(Method::Frames));
     let size = outputs.len() / count;
     let all = outputs.chunks(size).map(|of_frame| {
@@ -98,7 +99,7 @@ fn system(derived: &Derived<'_, '_>) -> TokenStream {
         type Frames = #private::ByFrame<#name, #private::FrameMotion<#ty, #jacobian>, #count>;
         #(#methods)*
         #[inline]
-        fn frames(&self, __t: Self::Scalar, __q: &Self::Configuration, #speeds) -> Self::Frames {
+        fn frames(&self, __t: Self::Scalar, __q: &Self::Configuration, #(#arguments),*) -> Self::Frames {
             #instructions
             #private::ByFrame::new([#(#all),*])
         }
@@ -107,19 +108,16 @@ fn system(derived: &Derived<'_, '_>) -> TokenStream {
 }
 
 /// One quantity of any frame.
-fn method(
-    derived: &Derived<'_, '_>,
-    quantity: FrameQuantity,
-    arguments: &TokenStream,
-    result: &TokenStream,
-) -> TokenStream {
+fn method(derived: &Derived<'_, '_>, quantity: FrameQuantity, result: &TokenStream) -> TokenStream {
     let enumeration = name_of_frames(derived);
     let arms = derived.frames().iter().enumerate().map(|(number, frame)| {
         let (instructions, outputs) = derived.computed(derived.program(Method::OfFrame(quantity, number)));
         let value = made(derived, quantity, &outputs);
         quote!(#enumeration::#frame => { #instructions #value })
     });
-    let name = format_ident!("{}", Method::OfFrame(quantity, 0).name());
+    let of_first = Method::OfFrame(quantity, 0);
+    let (name, arguments) =
+        (format_ident!("{}", of_first.name()), declared(&derived.private(), arguments_of(of_first)));
     quote! {
         #[inline]
         fn #name(
@@ -127,7 +125,7 @@ fn method(
             __frame: Self::Frame,
             __t: Self::Scalar,
             __q: &Self::Configuration,
-            #arguments
+            #(#arguments),*
         ) -> #result {
             match __frame { #(#arms),* }
         }

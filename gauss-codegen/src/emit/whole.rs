@@ -11,7 +11,7 @@ use super::derived::Derived;
 pub fn of_the_whole(derived: &Derived<'_, '_>) -> TokenStream {
     let centroidal = derived.has(Method::TotalMass).then(|| centroidal(derived));
     let torques = derived.has(Method::GravityTorques).then(|| {
-        let method = derived.function(Method::GravityTorques, quote!(), quote!(Self::Speeds));
+        let method = derived.function(Method::GravityTorques, quote!(Self::Speeds));
         derived.implementation(quote!(GravityTorques), method)
     });
     quote!(#centroidal #torques)
@@ -19,15 +19,15 @@ pub fn of_the_whole(derived: &Derived<'_, '_>) -> TokenStream {
 
 fn centroidal(derived: &Derived<'_, '_>) -> TokenStream {
     let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
-    let (speeds, six) = (quote!(__z: &Self::Speeds), quote!(#private::SVector<#ty, 6>));
+    let six = quote!(#private::SVector<#ty, 6>);
     let mass = derived.method_body(Method::TotalMass);
     let methods = [
-        (Method::CenterOfMass, quote!(), quote!(#private::SVector<#ty, 3>)),
-        (Method::CentroidalMomentum, speeds.clone(), six.clone()),
-        (Method::CentroidalMatrix, quote!(), quote!(Self::CentroidalMatrix)),
-        (Method::CentroidalBias, speeds, six),
+        (Method::CenterOfMass, quote!(#private::SVector<#ty, 3>)),
+        (Method::CentroidalMomentum, six.clone()),
+        (Method::CentroidalMatrix, quote!(Self::CentroidalMatrix)),
+        (Method::CentroidalBias, six),
     ];
-    let methods = methods.map(|(method, arguments, result)| derived.function(method, arguments, result));
+    let methods = methods.map(|(method, result)| derived.function(method, result));
     let items = quote! {
         type CentroidalMatrix = #private::SMatrix<#ty, 6, #n>;
         type CenterJacobian = #private::SMatrix<#ty, 3, #n>;

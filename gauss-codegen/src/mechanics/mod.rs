@@ -12,9 +12,9 @@
 //! - `derivatives`: what the equations are differentiated along; the regressor; rates of all numbers of a state.
 //! - `print`: the equations for people.
 //!
-//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several arrangements; `frames` what is asked of
-//! single links, `whole` what is asked of all together. `tidy` is what is multiplied out
-//! where that is short.
+//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several
+//! arrangements; `one_body` where it is the only one, `frames` what is asked of single links, `whole` of all together. `tidy`
+//! is what is multiplied out where that is short.
 
 mod arrangements;
 mod check;
@@ -26,6 +26,7 @@ mod kinematics;
 mod links;
 mod loads;
 mod matter;
+mod one_body;
 mod print;
 #[cfg(test)]
 mod proof;
