@@ -1,10 +1,11 @@
 //! The pipeline on one screen: parse → translate → derive → lower → emit.
 
 use proc_macro2::TokenStream;
+use quote::quote;
 use syn::DeriveInput;
 
 use crate::algebra::Graph;
-use crate::emit::{Derived, Equations, emit};
+use crate::emit::{Derived, Equations, emit, file};
 use crate::formulation::Formulation;
 use crate::lowering::lower;
 use crate::mistakes::{most_operations, refuse_exhausted};
@@ -16,7 +17,10 @@ use crate::translate::Translator;
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
-    derive(input, |derived| Ok(emit(derived, &Equations::of(derived))))
+    derive(input, |derived| {
+        let (code, file) = (emit(derived, &Equations::of(derived)), file(derived));
+        Ok(quote!(#code #file))
+    })
 }
 
 /// Derives one struct, and hands everything that is known of it to whoever writes it down.
@@ -61,6 +65,19 @@ mod tests {
              potential = ln(1 + x * x) / (2 + sin(y)), central_gravity(mu = m))]
          struct Bowl { m: f64 }",
     ];
+
+    /// A frame that turns with `b` carries a body; the other body that turns with `b` is not free by itself.
+    #[test]
+    fn speeds_that_move_frames_move_what_hangs_on_them() {
+        let source = "#[gauss(coordinates(a, b), frame(turned, rotation = rotation_z(a)),
+             frame(tilted, parent = turned, rotation = rotation_y(b)),
+             body(arm, parent = tilted, mass = 1.0, inertia = [1, 2, 3]),
+             body(rotor, rotation = rotation_z(b), mass = 1.0, inertia = [1, 1, 1]))]
+         struct Geared {}";
+        let input: DeriveInput = syn::parse_str(source).expect("a struct");
+        // Every row is held to the Gauss condition.
+        expand(&input).expect("equations of motion");
+    }
 
     /// Wherever the last node is made, the derivation ends with one message and without a panic.
     #[test]

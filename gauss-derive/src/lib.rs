@@ -45,7 +45,7 @@
 /// Instead of fields the same words can be clauses of the struct: `mass = 2.0, inertia = [a, a, c], center_of_mass = [0, 0, l]`,
 /// expressions of numbers and fields without a role; `added_mass` is a list of six, or a field that is a `Vector6` or a `Matrix6`.
 /// Numbers that they determine are computed when the code is generated (unless the scalar is a type parameter), and zeros and
-/// equal moments leave it.
+/// equal moments leave it. A list of six is a full inertia, `[xx, xy, xz, yy, yz, zz]`.
 ///
 /// # Configurations and order of z
 ///
@@ -131,6 +131,47 @@
 /// | `independent(v, w.x)` | the speeds that stay, or components of them, when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
 /// | `waive(triangle_inequality)` | see above |
 /// | `limit = 50000` | the most operations that the generated code may have, also of one body |
+///
+/// # Robots from their files
+///
+/// With the features `urdf` and `mjcf` of gauss-runtime a file says what moves, and the struct needs no fields:
+///
+/// ```text
+/// #[derive(GaussDynamics)]
+/// #[gauss(urdf = "robots/arm.urdf", gravity = 9.81)]
+/// struct Arm;
+///
+/// let kernel = Arm.kernel()?;
+/// let start = ArmState { elbow: 0.3, ..Default::default() };
+/// ```
+///
+/// | clause | meaning |
+/// |---|---|
+/// | `urdf = "robots/arm.urdf"` | links and joints of this file, whose path is relative to the folder of the package. An edit of it compiles the struct anew; meshes are not looked for |
+/// | `mjcf = "robots/arm.xml"` | the same of an MJCF file |
+/// | `base = fixed`, `base = floating` | of a URDF: the root is at Ω, which is the default, or moves freely: then the first coordinate is `base: Pose`, with the twist of the root in its own axes for speeds, linear before angular |
+/// | `inputs = all`, `none`, `transmissions` | an effort of every joint that turns or slides, which is the default, of none, or of those that a transmission names |
+/// | `friction = smooth(w)`, `none` | dry friction f as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
+/// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; without it they do not act |
+/// | `parameters = inertial` | the mass data of every link that moves are fields `#[gauss(body)] upper_arm: RigidBody<f64>`; such fields can also be there for some links alone |
+///
+/// The file becomes clauses, and those of the struct come after them: more bodies, coordinates, forces, constraints, inputs, fields. Its
+/// names are names of expressions. A joint that turns or slides is a scalar coordinate `elbow`, with an input `elbow_effort` in N m or N;
+/// a planar one `slide_x`, `slide_y`, `slide_theta` in the plane normal to its axis; a floating one a pose. One that mimics another has
+/// no coordinate. A link is a body of its name, in the axes of the file; one without a moving joint is a frame, and what it weighs is
+/// added to the link that it is fixed to. Coordinates and inputs have the order of the file. What acts is called `efforts`,
+/// `joint_damping`, `joint_friction`, and `elbow_limits`. A file says nothing of `gravity`: without the clause or a field nothing weighs.
+///
+/// Of MJCF there are read: bodies, joints of all kinds, several in a body, about anchors, with references, damping, dry friction,
+/// springs (`elbow_spring`), armature and ranges; inertials; classes of defaults; angles and Euler sequences of the compiler; sites as
+/// frames; gravity, where the struct says none; equalities of joints that are linear, and points in common as constraints. Joints with
+/// an actuator have an effort for an input, whatever its gears. Not read are masses of geoms, contacts, tendons and includes. A ball
+/// is a `Rotation`, a free joint a `Pose`. Armature is two rotors `elbow_rotor` and `elbow_rotor_back` without mass, which turn against
+/// each other, so that they have an energy and no momentum.
+///
+/// Names that are no identifiers, or taken, are changed: the page of the kernel lists these and what else is to be known, with the
+/// lines. What acts in the file and not in the equations is a warning of the compiler as well. Numbers of the file are literals.
+/// Mistakes in the file are shown at its name, with line and column: `robots/arm.urdf:12:3: …`.
 ///
 /// # What acts
 ///

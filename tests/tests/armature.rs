@@ -108,6 +108,7 @@ pair!(of_what_floats: GearedCart BesideCart, SVector::from([0.3, 1.0, -0.4]), [
 
 // So many joints that they are eliminated link by link.
 pair!(of_a_long_chain: GearedChain BesideChain, SVector::from([0.3, -0.4, 0.2, 0.1, 0.5, -0.3]), [
+    linearize,
     coordinates(a0, a1, a2, a3, a4, a5),
     body(b0, rotation = rotation_z(a0), mass = 2, center_of_mass = [0.1, 0, 0.2], inertia = [1, 1, 0.5]),
     body(b1, parent = b0, position = [0.3, 0, 0], rotation = rotation_y(a1), mass = 1, center_of_mass = [0, 0.1, 0.3],
@@ -125,6 +126,24 @@ pair!(of_a_long_chain: GearedChain BesideChain, SVector::from([0.3, -0.4, 0.2, 0
     particle(mass = 0.2, position = [a2, 0, 0]), particle(mass = a, position = [a3, 0, 0]),
     particle(mass = 0.1, position = [a4, 0, 0]), particle(mass = a, position = [a5, 0, 0])
 ]);
+
+/// Derivatives, too: by recursion over the links where there are armatures, by another way where particles share the speeds.
+#[test]
+fn derivatives_of_a_long_chain() {
+    let [a, g] = [Bounded::from_f64(0.3), Bounded::from_f64(9.81)];
+    let (geared, beside) = (GearedChain { a, g }.kernel().unwrap(), BesideChain { a, g }.kernel().unwrap());
+    let mut random = Random(9);
+    for _ in 0..4 {
+        let mut draw = || SVector::<Bounded, 6>::from([(); 6].map(|()| Bounded::from_f64(random.number())));
+        let (q, z) = (draw(), draw());
+        let [ours, theirs] = [
+            geared.linearize(Bounded::zero(), &q, &z, &()).by_state,
+            beside.linearize(Bounded::zero(), &q, &z, &()).by_state,
+        ];
+        equal("derivatives", ours.as_slice(), theirs.as_slice()).unwrap();
+        assert!(ours.iter().all(|x| x.bound < 1e-8 * (1.0 + x.value.abs())));
+    }
+}
 
 /// A wheel that nothing but friction brakes.
 #[derive(GaussDynamics)]

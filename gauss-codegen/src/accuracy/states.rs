@@ -1,5 +1,6 @@
-//! States of a scene that reach what makes digits cancel: numbers of many sizes, both sides of differences close to each other, angles near
-//! quarter turns and far outside, bodies far from Ω, fast spins. All are physical, and the same in every run.
+//! States of a scene that reach what makes digits cancel: numbers of many sizes, both sides of differences close to
+//! each other, angles near quarter turns and far outside, bodies far from Ω, fast spins. All are physical, and the same
+//! in every run.
 
 use crate::algebra::{Evaluation, Expr, Function, Map, NodeView, Notation, Rational, print};
 use crate::mechanics::{Action, Body, Coordinate, Force, Matter, System};
@@ -197,7 +198,8 @@ impl<'g> States<'_, 'g> {
 }
 
 impl<'g> States<'_, 'g> {
-    /// Makes the terms of a sum cancel but for a small part, by one of its symbols: as they are, or with what else is in it far away.
+    /// Makes the terms of a sum cancel but for a small part, by one of its symbols: as they are, or with what else is
+    /// in it far away.
     fn bring_together(
         &self,
         difference: &[(Rational, Expr<'g>)],

@@ -39,8 +39,8 @@ impl Tape {
         Self { code: Code { instructions, outputs }, places }
     }
 
-    /// Its outputs, with values of symbols by their keys; numbers that double precision cannot hold are multiplied by what `nudge` gives for
-    /// their place in the list.
+    /// Its outputs, with values of symbols by their keys; numbers that double precision cannot hold are multiplied by
+    /// what `nudge` gives for their place in the list.
     pub fn run<N: Number>(&self, symbols: &Map<u32, N>, nudge: impl Fn(usize) -> Option<N>) -> Vec<N> {
         let value = |(k, place): (usize, &Place)| match *place {
             Place::Symbol(key) => symbols.get(&key).copied().unwrap_or(N::number(f64::NAN)),

@@ -1,5 +1,5 @@
-//! The loss of programs at sample states: their error beside results in 106 binary digits, in units of what a change of every input and
-//! parameter in its last place does to these.
+//! The loss of programs at sample states: their error beside results in 106 binary digits, in units of what a change of
+//! every input and parameter in its last place does to these.
 
 use crate::algebra::{Doubled, Evaluation, Expr, Function, Map, Number, Scalar};
 use crate::program::Code;
@@ -20,8 +20,8 @@ pub struct Point {
 }
 
 impl Point {
-    /// Symbols, numbers that tell how they are changed, and their values. Those of each of `units` are scaled to have the norm 1;
-    /// `definitions` are symbols that stand for expressions of the others.
+    /// Symbols, numbers that tell how they are changed, and their values. Those of each of `units` are scaled to have
+    /// the norm 1; `definitions` are symbols that stand for expressions of the others.
     pub fn new<'g>(values: &[(u32, u64, f64)], units: &[Vec<Expr<'g>>], definitions: &Map<u32, Expr<'g>>) -> Self {
         let whole = |mut point: Map<u32, Doubled>| {
             for unit in units {
@@ -51,8 +51,8 @@ fn norm(unit: &[Expr<'_>], point: &Map<u32, Doubled>) -> Doubled {
     squares.fold(Doubled::number(0.0), |sum, square| sum + square).call(Function::Sqrt)
 }
 
-/// 1 and a change of the mean square one, which depends on the name or the place and on the number of the change. Changes of one size would leave out
-/// what two of them cancel in.
+/// 1 and a change of the mean square one, which depends on the name or the place and on the number of the change.
+/// Changes of one size would leave out what two of them cancel in.
 fn factor(place: u64, n: u64) -> Doubled {
     let share = 2.0 * Random::new(place.wrapping_mul(CHANGES).wrapping_add(n)).fraction() - 1.0;
     Doubled::number(1.0) + Doubled::number(CHANGE * 3.0_f64.sqrt() * share)
@@ -104,6 +104,10 @@ impl Loss {
         sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
     }
 
+    fn is_tolerable(&self) -> bool {
+        self.worst() <= TOLERABLE && self.median() <= ORDINARY
+    }
+
     /// Worst and median, up to the next of 1, 2 and 5 times a power of ten: nothing at all where nothing was tried.
     pub fn rounded(&self) -> [f64; 2] {
         [self.worst(), self.median()].map(|loss| {
@@ -140,8 +144,8 @@ impl Trial {
         }
     }
 
-    /// The losses of programs that should compute the same, beside the best of them in 106 binary digits: what it loses of 53 it has to
-    /// spare there, unless that is nearly all.
+    /// The losses of programs that should compute the same, beside the best of them in 106 binary digits: what it loses
+    /// of 53 it has to spare there, unless that is nearly all.
     pub fn losses(&self, programs: &[&Code<Expr<'_>>]) -> Vec<Loss> {
         let tapes: Vec<Tape> = programs.iter().map(|program| Tape::new(program)).collect();
         let mut best = 0;
@@ -167,26 +171,28 @@ impl Trial {
     }
 }
 
-/// How many times the loss of the best a program may have at a state, and what loss may be had anyhow. The errors of n roundings that do not
-/// amplify each other add up to some √n, and now and then to the one or to n: of programs of up to a thousand operations two that are equally
-/// good differ by that much, and at the next state the other way round.
+/// How many times the loss of the best a program may have at a state, and what loss may be had anyhow. The errors of n
+/// roundings that do not amplify each other add up to some √n, and now and then to the one or to n: of programs of up
+/// to a thousand operations two that are equally good differ by that much, and at the next state the other way round.
 const FACTOR: f64 = 32.0;
-/// Results below this share of the error of double precision vanish identically: of terms whose roundings are 2⁻⁵³, those of 106 digits are 2⁻⁷⁴
-/// of a change, and some of either are small by chance.
+/// Results below this share of the error of double precision vanish identically: of terms whose roundings are 2⁻⁵³,
+/// those of 106 digits are 2⁻⁷⁴ of a change, and some of either are small by chance.
 const VANISHING: f64 = 1.0 / 1024.0;
 
-/// Three decimal places may go where keeping them costs a quarter more: nobody pays for them who has ordinary numbers.
+/// Three decimal places may go at an extreme state where keeping them costs a quarter more: nobody pays for them who has
+/// ordinary numbers. One may at half of the states: where more do, it is the scene that is extreme, not the state.
 const TOLERABLE: f64 = 1e3;
+const ORDINARY: f64 = 10.0;
 
-/// Of programs with their costs the one that is taken: the cheapest that keeps the digits; or, where that is dear, the cheapest that loses no
-/// more than three decimal places anywhere.
+/// Of programs with their costs the one that is taken: the cheapest that keeps the digits; or, where that is dear, the
+/// cheapest whose loss is tolerable.
 pub fn taken(losses: &[Loss], costs: &[u32]) -> usize {
     let cheapest = |flags: Vec<bool>| {
         let allowed = costs.iter().zip(flags).enumerate().filter(|(_, (_, allowed))| *allowed);
         allowed.map(|(k, (cost, _))| (k, *cost)).min_by_key(|(_, cost)| *cost)
     };
     let (best, cost) = cheapest(accurate(losses)).expect("a function has at least one arrangement");
-    match cheapest(losses.iter().map(|loss| loss.worst() <= TOLERABLE).collect()) {
+    match cheapest(losses.iter().map(Loss::is_tolerable).collect()) {
         Some((other, less)) if 5 * less < 4 * cost => other,
         _ => best,
     }
@@ -194,11 +200,11 @@ pub fn taken(losses: &[Loss], costs: &[u32]) -> usize {
 
 /// Which programs may be taken.
 pub fn usable(losses: &[Loss]) -> Vec<bool> {
-    accurate(losses).into_iter().zip(losses).map(|(accurate, loss)| accurate || loss.worst() <= TOLERABLE).collect()
+    accurate(losses).into_iter().zip(losses).map(|(accurate, loss)| accurate || loss.is_tolerable()).collect()
 }
 
-/// Which programs keep the digits: at every state not much more is lost than by the best there. Where each of them loses somewhere what another
-/// keeps, those that come closest, within the same factor.
+/// Which programs keep the digits: at every state not much more is lost than by the best there. Where each of them
+/// loses somewhere what another keeps, those that come closest, within the same factor.
 fn accurate(losses: &[Loss]) -> Vec<bool> {
     let states = losses.first().map_or(0, |loss| loss.0.len());
     let least = |state: usize| losses.iter().map(|loss| loss.0[state]).fold(f64::INFINITY, f64::min);
@@ -236,7 +242,8 @@ impl Point {
         let sizes = squares.into_iter().zip(&values).map(|(square, value)| value.to_f64().abs() + square.sqrt());
         let mut sizes: Vec<f64> = sizes.collect();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
-        // What vanishes whatever the numbers are has no size of its own, but that of the roundings of the longer numbers.
+        // What vanishes whatever the numbers are has no size of its own, but that of the roundings of the longer
+        // numbers.
         for (k, size) in sizes.iter_mut().enumerate() {
             let error =
                 found.iter().map(|found| (Doubled::number(found[k]) - values[k]).to_f64().abs()).fold(0.0, f64::max);

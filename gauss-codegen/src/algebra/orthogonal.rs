@@ -2,12 +2,14 @@
 
 use super::graph::Expr;
 
-/// `½ Σ_i w_i (Σ_j B_ij x_j + a_i)² − f·x` with positive weights, to be minimised without ever forming `Bᵀ W B`:
-/// modified Gram–Schmidt on the columns, those with the fewest entries first, which for trees fills nothing.
+/// `½ Σ_i w_i (Σ_j B_ij x_j + a_i)² + g_i Σ_j B_ij x_j − f·x` with positive weights, to be minimised without ever
+/// forming `Bᵀ W B`: modified Gram–Schmidt on the columns, those with the fewest entries first, which for trees fills
+/// nothing.
 ///
 /// What a heavy row leaves of a column, once a column with a large entry there is taken out of it, is small as it
 /// should be, and light rows keep their digits beside it; in a sum over all rows they are lost (Björck, Numerical
-/// Methods for Least Squares Problems, 1996, 4.4).
+/// Methods for Least Squares Problems, 1996, 4.4). Forces g on rows are held against w a of the same row for the same
+/// reason: heavy ones leave a light rest there.
 pub struct LeastSquares<'g> {
     rows: Vec<Vec<Expr<'g>>>,
     steps: Vec<Step<'g>>,
@@ -19,6 +21,7 @@ struct Step<'g> {
     entries: Vec<Expr<'g>>,
     /// Times the weights.
     weighted: Vec<Expr<'g>>,
+    weights: Vec<Expr<'g>>,
     /// Of its square.
     inverse: Expr<'g>,
     /// What it has in later columns.
@@ -28,6 +31,18 @@ struct Step<'g> {
 impl<'g> Step<'g> {
     fn share_in(&self, other: &[Expr<'g>]) -> Expr<'g> {
         (weighted_sum(&self.weighted, other) * self.inverse).group()
+    }
+
+    /// The same of offsets with forces on their rows.
+    fn share_in_offsets(&self, offsets: &[Expr<'g>], acting: &[Expr<'g>]) -> Expr<'g> {
+        let zero = self.inverse.graph().zero();
+        let along = (0..offsets.len()).fold(zero, |sum, i| {
+            sum + match acting[i].is_zero() {
+                true => self.weighted[i] * offsets[i],
+                false => self.entries[i] * (self.weights[i] * offsets[i] + acting[i]).group(),
+            }
+        });
+        (along.group() * self.inverse).group()
     }
 
     fn taken_from(&self, other: &mut [Expr<'g>], share: Expr<'g>) {
@@ -54,7 +69,7 @@ impl<'g> LeastSquares<'g> {
             let entries = columns[column].clone();
             let weighted: Vec<Expr<'g>> = entries.iter().zip(weights).map(|(b, w)| (*b * *w).group()).collect();
             let inverse = weighted_sum(&weighted, &entries).recip().group();
-            let mut step = Step { column, entries, weighted, inverse, shares: Vec::new() };
+            let mut step = Step { column, entries, weighted, weights: weights.to_vec(), inverse, shares: Vec::new() };
             for &j in &left {
                 let share = step.share_in(&columns[j]);
                 if !share.is_zero() {
@@ -68,11 +83,11 @@ impl<'g> LeastSquares<'g> {
     }
 
     /// x where it is least.
-    pub fn solve(&self, offsets: &[Expr<'g>], forces: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    pub fn solve(&self, offsets: &[Expr<'g>], acting: &[Expr<'g>], forces: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let (mut offsets, mut forces) = (offsets.to_vec(), forces.to_vec());
         let mut solution = Vec::with_capacity(forces.len());
         for step in &self.steps {
-            let share = step.share_in(&offsets);
+            let share = step.share_in_offsets(&offsets, acting);
             step.taken_from(&mut offsets, share);
             let force = forces[step.column];
             solution.push((step.column, (force * step.inverse - share).group()));
@@ -87,14 +102,14 @@ impl<'g> LeastSquares<'g> {
 
     /// x once more from what is left of the rows: where these nearly vanish with large offsets, as accelerations of a
     /// heavy load do at the end of light links, their digits are in what is left.
-    pub fn refined(&self, offsets: &[Expr<'g>], forces: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let first = self.solve(offsets, forces);
+    pub fn refined(&self, offsets: &[Expr<'g>], acting: &[Expr<'g>], forces: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let first = self.solve(offsets, acting, forces);
         let left = self
             .rows
             .iter()
             .zip(offsets)
             .map(|(row, offset)| row.iter().zip(&first).fold(*offset, |sum, (b, x)| sum + *b * *x).group());
-        let second = self.solve(&left.collect::<Vec<_>>(), forces);
+        let second = self.solve(&left.collect::<Vec<_>>(), acting, forces);
         first.iter().zip(second).map(|(x, more)| (*x + more).group()).collect()
     }
 }
@@ -189,9 +204,10 @@ mod tests {
                 let graph = Graph::new();
                 let chain = Chain::new(&graph, &masses, &angles);
                 let forces = vec![graph.zero(); 3];
+                let nothing = vec![graph.zero(); chain.rows.len()];
                 let squares = LeastSquares::new(chain.rows.clone(), &chain.weights);
                 // A few roundings of each of some ten terms, in units of one rounding of each of the twenty numbers.
-                let loss = chain.loss(&squares.refined(&chain.offsets, &forces));
+                let loss = chain.loss(&squares.refined(&chain.offsets, &nothing, &forces));
                 assert!(loss < 30.0, "{masses:?} {angles:?}: {loss:e}");
                 lost = lost.max(chain.loss(&by_normal_equations(&chain, graph.zero())));
             }

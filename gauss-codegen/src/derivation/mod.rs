@@ -29,6 +29,8 @@ pub struct Derivation {
     name: String,
     constants: Program,
     programs: Vec<Program>,
+    accuracy: Vec<(String, [f64; 2])>,
+    remarks: Vec<String>,
     equations: Equations,
     rust: TokenStream,
 }
@@ -71,7 +73,11 @@ impl Derivation {
         let programs = programs(derived, &signature).map_err(|malformed| refused(&malformed))?;
         let equations = Equations::of(derived);
         let rust = emit(derived, &equations);
-        Ok(Self { name: ident.unraw().to_string(), constants, programs, equations, rust })
+        let losses = derived.formulas.iter().zip(&derived.kernel.losses);
+        let accuracy = losses.map(|(formula, loss)| (formula.method.name().to_owned(), loss.rounded())).collect();
+        let described = derived.subject.model.described.iter();
+        let remarks = described.flat_map(|file| &file.remarks).map(|remark| remark.text.clone()).collect();
+        Ok(Self { name: ident.unraw().to_string(), constants, programs, accuracy, remarks, equations, rust })
     }
 
     /// The name of the struct.
@@ -93,6 +99,17 @@ impl Derivation {
     /// The program of one method.
     pub fn program(&self, method: &str) -> Option<&Program> {
         self.programs.iter().find(|program| program.name == method)
+    }
+
+    /// What each method loses to rounding at sample states, at most and in the middle, in units of what a change of every argument in
+    /// its last place does.
+    pub fn accuracy(&self) -> &[(String, [f64; 2])] {
+        &self.accuracy
+    }
+
+    /// Of a robot from a file what is to be known of it: names that are changed, what does not act.
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
     }
 
     /// The equations of motion: a page of plain text, or one LaTeX environment.

@@ -31,6 +31,10 @@ pub fn assigned_local(
             });
             quote!(let #name = { #compute [#(#rows),*] };)
         }
+        // The upper triangle of an inertia, row by row.
+        [xx, xy, xz, yy, yz, zz] if assigned.quantity != Role::AddedMass => {
+            quote!(let #name = { #compute [[#xx, #xy, #xz], [#xy, #yy, #yz], [#xz, #yz, #zz]] };)
+        }
         values => quote!(let #name = { #compute [#(#values),*] };),
     }
 }
@@ -98,7 +102,11 @@ pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream
             None => quote!(let #c = [#zero; 3];),
         });
         read.extend(assigned_local(derived, &moments, inertia, symbols));
-        let shape = if inertia.values.len() == 1 { Shape::Scalar } else { Shape::Vector3 };
+        let shape = match inertia.values.len() {
+            1 => Shape::Scalar,
+            3 => Shape::Vector3,
+            _ => Shape::Matrix3,
+        };
         let rows = inertia_rows(&ty, derived, shape, &moments);
         read.extend(quote!(let #tensor = #rows;));
         let check = named_body(derived, name, inertia.quantity.word(), [&m, &c, &tensor], central.is_some());

@@ -125,6 +125,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
     }
     out.push_str(&states(derived));
     out.push_str(&acting(derived));
+    out.push_str(&super::file::documentation(derived));
     out.push_str(
         "\n# Cost and rounding\n\nThe loss is the largest error of double precision at sample states (median), in units of what a change of \
          every parameter and argument in its last place does.\n\n| method | operations | loss, at most |\n|---|---|---|\n",

@@ -7,6 +7,7 @@
 //! | `parameters`, `locals`, `assigned`, `inertia`, `laws` | the parameters read, checked, and turned into constants; `warnings()` |
 //! | `subject`, `chart`, `pose` | what is derived: its configuration, its constraints; charts by name; configurations as poses |
 //! | `documentation` | equations and costs as text, LaTeX and rustdoc |
+//! | `file` | the file that a robot was read from, and warnings of what it says in vain |
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
@@ -24,6 +25,7 @@ mod derived;
 mod description;
 mod documentation;
 mod fallback;
+mod file;
 mod forced;
 mod framed;
 mod gauss_system;
@@ -53,6 +55,7 @@ pub use arguments::{OF_EQUATIONS, OF_REGRESSOR, arguments_of};
 pub use derived::Derived;
 pub use documentation::Equations;
 pub use fallback::fallback;
+pub use file::file;
 
 /// The whole output of the derive.
 pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {

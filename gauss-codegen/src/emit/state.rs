@@ -185,7 +185,7 @@ fn declaration(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
     );
     quote! {
         #[doc = #documentation]
-        #[allow(non_camel_case_types, dead_code)]
+        #[allow(non_camel_case_types, non_snake_case, dead_code)]
         #visibility struct #name #declared { #(#fields),* }
     }
 }

@@ -12,7 +12,7 @@ use crate::mechanics::kinematics::vector::{Vector, is_zero};
 use crate::mechanics::links::link::Link;
 use crate::mechanics::links::tree::Inertia;
 use crate::mechanics::loads::account::account_formulas;
-use crate::mechanics::loads::forces::{Action, Force, Loads, forces_of, potential_of, potential_of_forces};
+use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Lettering, SystemScene};
 use crate::mechanics::tidy::{compact, sums, tidy};
 
@@ -20,10 +20,10 @@ use crate::mechanics::tidy::{compact, sums, tidy};
 /// that do not, where a free body must be among them.
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
-const DENSE: usize = 10;
-/// Degrees of freedom up to which C is also orthogonalised as a sum of squares: beyond, that would be a third of the time
-/// of an expansion.
-const SQUARES: usize = 6;
+pub const DENSE: usize = 10;
+/// Degrees of freedom up to which C is also orthogonalised as a sum of squares, and where a link floats, which may be light:
+/// its program grows with their square, and beyond that would be a third of the time of an expansion.
+const SQUARES: [usize; 2] = [6, 12];
 
 /// A system with what its equations are made of.
 pub struct System<'g> {
@@ -32,7 +32,7 @@ pub struct System<'g> {
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
     /// What acts on links, fields among it.
-    loads: Loads<'g>,
+    pub(in crate::mechanics) loads: Loads<'g>,
     pub constraints: Constraints<'g>,
     /// Links that nothing else moves with.
     pub free: Vec<FreeLink<'g>>,
@@ -187,15 +187,8 @@ impl<'g> System<'g> {
             }
             return general;
         };
-        let mut of_body = Arranged::of_body(self, body);
+        let of_body = Arranged::of_body(self, body);
         if self.constraints.is_empty() {
-            // The wrench of a field about O is a difference of large terms far from its centre: the tide is not.
-            if self.scene.elements.iter().any(|element| matches!(element.action, Action::Field(_))) {
-                let general = self.arranged_in_general();
-                of_body.acceleration.extend(general.acceleration);
-                of_body.residual.extend(general.residual);
-                of_body.momentum_rate.extend(general.momentum_rate);
-            }
             return of_body;
         }
         // Multipliers are found together with the accelerations.
@@ -367,7 +360,7 @@ impl<'g> System<'g> {
     }
 
     /// Of the potential, and of what acts elsewhere than on links.
-    fn other_forces(&self) -> Vec<Expr<'g>> {
+    pub(in crate::mechanics) fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
         let acting = self.forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
         let potential = potential_of_forces(&scene.elements).unwrap_or_else(|| scene.graph.zero());
@@ -385,7 +378,7 @@ impl<'g> System<'g> {
 
     /// ∂C/∂ż of the unconstrained C at ż = ζ, and ζ: what links that float have of the accelerations at ż = 0, along
     /// speeds that no constraint mentions.
-    fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
+    pub(in crate::mechanics) fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
         let held = |speed: usize| self.constraints.jacobian.iter().any(|row| !row[speed].is_zero());
         // What a rotor needs besides is no acceleration of the observer.
         let geared = |speed: usize| self.scene.tree.rotors.iter().any(|r| !r.row(self.scene.speeds[speed]).is_zero());
@@ -451,7 +444,9 @@ impl<'g> System<'g> {
     /// C as a sum of squares, where several speeds share it. Where a speed turns a root and moves its O as well, as those of
     /// twists about Ω do, the squares are not of what is relative.
     fn elements(&self) -> Option<Elements<'_, 'g>> {
-        let few = (2..=SQUARES).contains(&self.scene.speeds.len()) && self.only_body().is_none();
+        let [held, floating] = SQUARES;
+        let most = if self.scene.tree.floats() { floating } else { held };
+        let few = (2..=most).contains(&self.scene.speeds.len()) && self.only_body().is_none();
         let still = |a: &Vector<'g>| is_zero(&a.body) && is_zero(&a.space);
         let about_far_pole = |link: &Link<'g>| {
             let rows = link.linear_rows.iter().zip(&link.angular_rows);

@@ -7,7 +7,7 @@ use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::Statements;
 use crate::model::language::struct_clauses::Clauses;
 use crate::model::language::words::{same, word};
-use crate::model::names::expressions::{self, ENTRY};
+use crate::model::names::expressions;
 use crate::model::names::places::Place;
 use crate::model::names::{declared, definitions, kinds, naming};
 use crate::model::scene::charts::InChart;
@@ -87,7 +87,8 @@ fn check_expressions(
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions::all(statements) {
         // Of constraints and mass data the kind is needed as well.
-        let later = matches!(place, Place::Constraint(_) | Place::Given(_)) || place == ENTRY;
+        let later = matches!(place, Place::Constraint(_) | Place::Given(_))
+            || [Role::AddedMass, Role::Inertia].map(expressions::entry).contains(&place);
         if !later {
             kinds::check(expression, place, &scope, context);
         }
@@ -179,6 +180,7 @@ fn assembled(
         armatures: statements.armatures,
         functions: statements.functions,
         formal: statements.formal,
+        described: None,
     })
 }
 

@@ -12,6 +12,7 @@
 //! | `names` | `declared` names and their meanings, the `places` of expressions and the `kinds` of their values, definitions written out |
 //! | `units` | dimensions of expressions, and which are needed where |
 //! | `checks` | what must hold between fields, of mass data, of coordinates and speeds, bodies, constraints and what acts |
+//! | `robots` | files that describe robots → clauses |
 //! | `assembly` | clauses and fields put together: every check in order, then the model |
 
 mod assembly;
@@ -19,6 +20,7 @@ mod checks;
 mod language;
 mod names;
 mod parse;
+mod robots;
 mod scene;
 #[cfg(test)]
 mod tests;
@@ -32,6 +34,7 @@ pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceAxes, ForceClause, ForceKind,
     FunctionClause, FunctionKind, Given, GivenValue, InputKind, InputName, ParticleClause, SpeedKind, SpeedPart,
 };
+pub use scene::described::{Described, Remark};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 pub use scene::model::{Field, Model, Scalar, WantedMethod};
 pub use scene::roles::{Role, Shape};

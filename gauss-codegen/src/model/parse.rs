@@ -3,8 +3,11 @@
 use crate::model::assembly;
 use crate::model::language::context::Context;
 use crate::model::language::{fields, nesting, struct_clauses};
+use crate::model::robots;
 use crate::model::scene::model::Model;
 use proc_macro2::TokenStream;
+use syn::punctuated::Punctuated;
+use syn::token::Brace;
 use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics};
 
 /// The item of a derive, if it is not nested deeper than can be read.
@@ -24,22 +27,34 @@ pub fn item(tokens: TokenStream) -> Result<DeriveInput, Error> {
 /// All mistakes of the struct combined, each at the token that is wrong.
 pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     let mut context = Context::default();
-    let clauses = struct_clauses::read(&input.attrs, fields::any_body(input), &mut context);
+    let mut clauses = struct_clauses::read(&input.attrs, fields::any_body(input), &mut context);
     check_generics(&input.generics, &mut context);
-    let model = named_fields(input, &mut context).and_then(|named| {
+    let none = FieldsNamed { brace_token: Brace::default(), named: Punctuated::new() };
+    let without = clauses.robot.file.is_some().then_some(&none);
+    let model = named_fields(input, without, &mut context).and_then(|named| {
         let reader = fields::read(named, &input.generics, clauses.own, &mut context);
-        assembly::model(input, clauses, reader, &mut context)
+        let described = robots::compose(&clauses.robot, &reader, &mut clauses.statements, &mut context);
+        let model = assembly::model(input, clauses, reader, &mut context)?;
+        Some(Model { described, ..model })
     });
     context.finish(model)
 }
 
-/// The fields of a struct with named fields; anything else is a mistake at its name.
-fn named_fields<'a>(input: &'a DeriveInput, context: &mut Context) -> Option<&'a FieldsNamed> {
+/// The fields of a struct with named fields, or none of a unit struct where it can be `without`; anything else is a mistake at its
+/// name.
+fn named_fields<'a>(
+    input: &'a DeriveInput,
+    without: Option<&'a FieldsNamed>,
+    context: &mut Context,
+) -> Option<&'a FieldsNamed> {
     let found = match &input.data {
         Data::Struct(data) => match &data.fields {
             Fields::Named(named) => return Some(named),
             Fields::Unnamed(_) => "a tuple struct",
-            Fields::Unit => "a unit struct",
+            Fields::Unit => match without {
+                Some(none) => return Some(none),
+                None => "a unit struct",
+            },
         },
         Data::Enum(_) => "an enum",
         Data::Union(_) => "a union",

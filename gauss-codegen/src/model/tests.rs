@@ -6,6 +6,8 @@ mod charts;
 mod clauses;
 mod given;
 mod items;
+#[cfg(feature = "urdf")]
+mod robots;
 mod roles;
 mod systems;
 mod units;

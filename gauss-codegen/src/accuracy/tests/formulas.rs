@@ -1,4 +1,5 @@
-//! Scenes whose results are known in closed form, without a difference that cancels: what is left are the roundings of some dozen operations.
+//! Scenes whose results are known in closed form, without a difference that cancels: what is left are the roundings of
+//! some dozen operations.
 
 use crate::algebra::Map;
 use crate::emit::Derived;
@@ -8,7 +9,8 @@ use crate::mechanics::{Coordinate, Method};
 /// Roundings of each of so many operations, all of one sign.
 const OPERATIONS: f64 = 24.0;
 
-/// A method of a scene at scalars and their speeds, as its kernel computes it; of accelerations, at rest if no others are given.
+/// A method of a scene at scalars and their speeds, as its kernel computes it; of accelerations, at rest if no others
+/// are given.
 fn computed(clauses: &str, method: Method, q: &[f64], z: &[f64]) -> Vec<f64> {
     let source = format!("#[gauss({clauses})] struct Scene {{}}");
     let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
@@ -50,8 +52,8 @@ fn a_particle_on_a_power_of_a_difference() {
     }
 }
 
-/// z = h (d² + y²)², d = x − c: ∇z = 4 h s (d, y), s = d² + y²; z̈ along the motion is 4 h (s |v|² + 2 (d ẋ + y ẏ)²), and the rows are
-/// `a + ∇z (∇z·a + z̈ + g) = 0`.
+/// z = h (d² + y²)², d = x − c: ∇z = 4 h s (d, y), s = d² + y²; z̈ along the motion is 4 h (s |v|² + 2 (d ẋ + y ẏ)²),
+/// and the rows are `a + ∇z (∇z·a + z̈ + g) = 0`.
 #[test]
 fn a_particle_in_a_bowl() {
     for c in [10.0, 100.0, 1e3, 1e4] {
@@ -102,7 +104,8 @@ fn a_particle_near_the_origin_of_polar_coordinates() {
     }
 }
 
-/// A sphere in yaw, pitch and roll, whose angular momentum stands still: `ψ̈ = (θ̇ φ̇ + sin θ θ̇ ψ̇)/cos θ`, without `1 − sin²`.
+/// A sphere in yaw, pitch and roll, whose angular momentum stands still: `ψ̈ = (θ̇ φ̇ + sin θ θ̇ ψ̇)/cos θ`, without
+/// `1 − sin²`.
 #[test]
 fn a_sphere_near_gimbal_lock() {
     for near in [1e-3, 1e-6] {

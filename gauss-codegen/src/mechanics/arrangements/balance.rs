@@ -114,12 +114,41 @@ fn multiple_of_identity<'g>(entries: &[Vec<Expr<'g>>], axes: &[usize]) -> Option
     axes.iter().all(|&i| axes.iter().all(|&j| fits(i, j))).then_some(lambda)
 }
 
-/// Weight and buoyancy: resultant `effective_mass ĝ` and torque about O `effective_moment × ĝ`.
+/// Weight and buoyancy, or the weight of matter alone: resultant `effective_mass ĝ` and torque about O `effective_moment × ĝ`.
+#[derive(Clone, Copy)]
 pub struct Weight<'g> {
     pub gravity: Triple<'g>,
     pub effective_mass: Expr<'g>,
     /// Body axes.
     pub effective_moment: Triple<'g>,
+}
+
+/// Weight and buoyancy, and the weight in a field that is uniform over the matter: where the translation is eliminated it
+/// leaves the balance of torques before numbers are put in.
+#[derive(Default)]
+pub struct Weights<'g> {
+    pub gravity: Option<Weight<'g>>,
+    pub field: Option<Weight<'g>>,
+}
+
+impl<'g> Weights<'g> {
+    fn iter(&self) -> impl Iterator<Item = &Weight<'g>> {
+        self.gravity.iter().chain(&self.field)
+    }
+
+    /// With the formal components of each acceleration.
+    fn with<'a>(&'a self, formal: &'a Formal<'g>) -> impl Iterator<Item = (&'a Weight<'g>, &'a Triple<'g>)> {
+        let gravity = self.gravity.iter().map(|weight| (weight, &formal.gravity));
+        gravity.chain(self.field.iter().map(|weight| (weight, &formal.field)))
+    }
+
+    pub fn resultant(&self, frame: &Frame<'g>) -> Vector<'g> {
+        self.iter().fold(frame.zero(), |sum, weight| sum.plus(&weight.resultant(frame)))
+    }
+
+    pub fn torque(&self, frame: &Frame<'g>, axes: Axes) -> Triple<'g> {
+        self.iter().fold(frame.zero().body, |sum, weight| add(&sum, &weight.torque(frame, axes)))
+    }
 }
 
 impl<'g> Weight<'g> {
@@ -131,6 +160,11 @@ impl<'g> Weight<'g> {
             effective_moment = subtract(&effective_moment, &scale(mass, &center));
         }
         Some(Self { gravity, effective_mass, effective_moment })
+    }
+
+    /// Of all matter, in a field that is uniform over it.
+    pub fn of_matter(body: &Body<'g>, field: Triple<'g>) -> Self {
+        Self { gravity: field, effective_mass: body.mass, effective_moment: body.first_moment() }
     }
 
     pub fn resultant(&self, frame: &Frame<'g>) -> Vector<'g> {
@@ -155,8 +189,9 @@ impl<'g> Weight<'g> {
 pub struct Formal<'g> {
     pub u: Triple<'g>,
     pub omega: Triple<'g>,
-    /// ĝ.
+    /// ĝ, and the acceleration of a field.
     pub gravity: Triple<'g>,
+    pub field: Triple<'g>,
     /// What else acts: its resultant, the parts that are given in body and in observer's axes, and its torque about O.
     pub force: Triple<'g>,
     pub observed_force: Triple<'g>,
@@ -182,6 +217,7 @@ impl<'g> Formal<'g> {
             u: on(&kinematics.linear_axes(), "u", "u"),
             omega: on(&kinematics.angular_axes(), "ω", "\\omega"),
             gravity: on(&[0, 1, 2], "gb", "\\hat g"),
+            field: on(&[0, 1, 2], "γ", "\\gamma"),
             force: on(&there(&load.force.body), "R", "R"),
             observed_force: on(&whole(&load.force.space), "Rb", "\\hat R"),
             torque: on(&there(&torque), "M", "M"),
@@ -192,26 +228,25 @@ impl<'g> Formal<'g> {
     pub fn realisation(
         &self,
         kinematics: &Kinematics<'g>,
-        weight: Option<&Weight<'g>>,
+        weights: &Weights<'g>,
         load: &Wrench<'g>,
     ) -> Substitution<'g> {
         let frame = &kinematics.frame;
         let u = frame.resolve(&kinematics.velocity, Axes::Body);
         let omega = frame.resolve(&kinematics.angular_velocity, Axes::Body);
-        let zero = frame.zero();
-        let gravity = weight.map_or(zero.body, |w| frame.resolve(&frame.space_vector(w.gravity), Axes::Body));
         let observed = frame.resolve(&frame.space_vector(load.force.space), Axes::Body);
         let torque = frame.resolve(&load.torque, Axes::Body);
         let mut map = Map::default();
+        let in_body = |w: &Weight<'g>| frame.resolve(&frame.space_vector(w.gravity), Axes::Body);
+        let accelerations = weights.with(self).map(|(weight, formal)| (formal, in_body(weight)));
         let pairs = [
             (&self.u, u),
             (&self.omega, omega),
-            (&self.gravity, gravity),
             (&self.force, load.force.body),
             (&self.observed_force, observed),
             (&self.torque, torque),
         ];
-        for (formal, real) in pairs {
+        for (formal, real) in accelerations.chain(pairs) {
             map.extend(formal.iter().zip(real).filter(|(f, _)| !f.is_zero()).map(|(f, r)| (f.key(), r.group())));
         }
         Substitution::new(map)
@@ -259,12 +294,12 @@ pub struct Balance<'g> {
 pub fn solve_balance<'g>(
     kinematics: &Kinematics<'g>,
     matrix: &KineticMatrix<'g>,
-    weight: Option<&Weight<'g>>,
+    weights: &Weights<'g>,
     load: &Wrench<'g>,
     formal: &Formal<'g>,
     arrangement: Arrangement,
 ) -> Balance<'g> {
-    let unsolved = Unsolved::new(kinematics, matrix, weight, load, formal, arrangement);
+    let unsolved = Unsolved::new(kinematics, matrix, weights, load, formal, arrangement);
     match matrix.isotropic {
         Some(mu) => unsolved.translation_first(mu),
         None => unsolved.at_once(),
@@ -275,7 +310,7 @@ pub fn solve_balance<'g>(
 struct Unsolved<'a, 'g> {
     kinematics: &'a Kinematics<'g>,
     matrix: &'a KineticMatrix<'g>,
-    weight: Option<&'a Weight<'g>>,
+    weights: &'a Weights<'g>,
     load: &'a Wrench<'g>,
     formal: &'a Formal<'g>,
     arrangement: Arrangement,
@@ -292,7 +327,7 @@ impl<'a, 'g> Unsolved<'a, 'g> {
     fn new(
         kinematics: &'a Kinematics<'g>,
         matrix: &'a KineticMatrix<'g>,
-        weight: Option<&'a Weight<'g>>,
+        weights: &'a Weights<'g>,
         load: &'a Wrench<'g>,
         formal: &'a Formal<'g>,
         arrangement: Arrangement,
@@ -300,8 +335,8 @@ impl<'a, 'g> Unsolved<'a, 'g> {
         let frame = &kinematics.frame;
         let zero = frame.zero().body;
         let omega = frame.body_vector(formal.omega);
-        let torque = weight.map_or(zero, |w| cross(&w.effective_moment, &formal.gravity));
-        let torque = add(&torque, &formal.torque);
+        let torques = weights.with(formal).map(|(w, acceleration)| cross(&w.effective_moment, acceleration));
+        let torque = add(&torques.fold(zero, |sum, torque| add(&sum, &torque)), &formal.torque);
         let coupling = matrix.block(0, 3, &formal.omega).map(Expr::group);
         let momentum = add(&matrix.block(0, 0, &formal.u), &matrix.block(0, 3, &formal.omega)).map(Expr::group);
         let gamma = matrix.angular_momentum(&formal.u, &formal.omega).map(Expr::group);
@@ -314,12 +349,13 @@ impl<'a, 'g> Unsolved<'a, 'g> {
         let angular_rate = frame.derivative(&frame.body_vector(gamma), &still, &omega).body;
         let angular_bias = subtract(&add(&angular_rate, &cross(&formal.u, &momentum)), &torque);
         let angular_bias = tidied(arrangement, angular_bias);
-        let weight_in_body = weight.map_or(zero, |w| scale(w.effective_mass, &formal.gravity));
+        let in_body = weights.with(formal).map(|(w, acceleration)| scale(w.effective_mass, acceleration));
+        let weight_in_body = in_body.fold(zero, |sum, weight| add(&sum, &weight));
         let observed_in_body = add(&weight_in_body, &formal.observed_force);
         Self {
             kinematics,
             matrix,
-            weight,
+            weights,
             load,
             formal,
             arrangement,
@@ -388,10 +424,8 @@ impl<'a, 'g> Unsolved<'a, 'g> {
     fn observed(&self, per_mass: Expr<'g>, in_body: Triple<'g>) -> Vector<'g> {
         let frame = &self.kinematics.frame;
         let observed = frame.body_vector(in_body);
-        let linear = match self.weight {
-            Some(w) => observed.plus(&w.resultant(frame).times(per_mass)),
-            None => observed,
-        };
+        let accelerations = self.weights.iter().map(|w| w.resultant(frame).times(per_mass));
+        let linear = accelerations.fold(observed, |sum, acceleration| sum.plus(&acceleration));
         linear.plus(&frame.space_vector(self.load.force.space).times(per_mass))
     }
 

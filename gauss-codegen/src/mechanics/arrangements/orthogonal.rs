@@ -4,10 +4,10 @@
 
 use crate::algebra::{Expr, LeastSquares};
 
-use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, dot};
+use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, dot, subtract};
 use crate::mechanics::links::link::{Link, Matter};
-use crate::mechanics::links::tree::{Pairs, Tree};
-use crate::mechanics::loads::forces::Loads;
+use crate::mechanics::links::tree::Tree;
+use crate::mechanics::loads::forces::{Force, Loads};
 
 /// Elements of inertia.
 pub struct Elements<'a, 'g> {
@@ -17,18 +17,17 @@ pub struct Elements<'a, 'g> {
     forms: Vec<(usize, Form<'g>)>,
 }
 
-/// A component of the motion of a link, working axes: of the velocity of G, or a combination of those of the angular
-/// velocity.
+/// A component of the motion of a link, working axes: of the velocity of G, or of Lᵀω with its row of factors.
 enum Form<'g> {
     Center(usize, Triple<'g>),
-    Turn(Triple<'g>),
+    Turn(usize, Triple<'g>),
 }
 
 impl<'g> Form<'g> {
     fn of(&self, linear: &Triple<'g>, angular: &Triple<'g>) -> Expr<'g> {
         match self {
             Form::Center(axis, center) => linear[*axis] + cross(angular, center)[*axis],
-            Form::Turn(factors) => dot(factors, angular),
+            Form::Turn(_, factors) => dot(factors, angular),
         }
     }
 }
@@ -58,7 +57,8 @@ impl<'a, 'g> Elements<'a, 'g> {
 
     /// z with `A z = right`.
     pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        self.squares.solve(&vec![self.tree.graph.zero(); self.forms.len()], right)
+        let nothing = vec![self.tree.graph.zero(); self.forms.len()];
+        self.squares.solve(&nothing, &nothing, right)
     }
 
     /// ż, from what acts elsewhere than on links and by no field.
@@ -75,52 +75,62 @@ impl<'a, 'g> Elements<'a, 'g> {
                     let turning = cross(w, &cross(w, center).map(Expr::group));
                     add(&a, &add(&cross(alpha, center), &turning))[*axis].group()
                 }
-                Form::Turn(_) => form.of(&a, alpha).group(),
+                Form::Turn(..) => form.of(&a, alpha).group(),
             }
         };
         let offsets: Vec<Expr<'g>> = self.forms.iter().map(offset).collect();
-        let forces = tree.acted_on_by(&loads.forces, self.gyroscopic());
-        let forces: Vec<Expr<'g>> = forces.iter().zip(others).map(|(own, other)| (*own + *other).group()).collect();
+        let acting = self.acting(&loads.forces);
+        let forces: Vec<Expr<'g>> = others.iter().map(|e| e.group()).collect();
         let rates = match forces.len() {
-            0..=2 => self.squares.solve(&offsets, &forces),
-            _ => self.squares.refined(&offsets, &forces),
+            0..=2 => self.squares.solve(&offsets, &acting, &forces),
+            _ => self.squares.refined(&offsets, &acting, &forces),
         };
         rates.iter().zip(&taken).map(|(rate, own)| *rate + *own).collect()
     }
 
-    /// −ω × I_G ω on every link.
-    fn gyroscopic(&self) -> Pairs<'g> {
+    /// `ω × I_G ω` and what acts on links, element by element: with `I_G = L D Lᵀ` a torque τ about G is that of `L⁻¹τ`
+    /// along `Lᵀω`.
+    fn acting(&self, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
         let tree = self.tree;
-        let on = |link: &Link<'g>| {
-            let w = &link.angular_velocity;
-            let torque = match central_inertia(link).filter(|_| link.works_in_body_axes()) {
-                Some(inertia) => {
-                    let spin: Triple<'g> = std::array::from_fn(|i| dot(&inertia[i], w).group());
-                    cross(&spin, w).map(Expr::group)
-                }
-                // About one axis: along it.
-                None => [tree.graph.zero(); 3],
-            };
-            (link.frame.zero(), torque)
+        let mut wrenches: Vec<(Triple<'g>, Triple<'g>)> =
+            tree.links.iter().map(|link| ([tree.graph.zero(); 3], gyroscopic(link))).collect();
+        for (k, force, torque) in forces.iter().filter_map(|force| force.load(&tree.links)) {
+            let link = &tree.links[k];
+            let (linear, angular) = &mut wrenches[k];
+            let force = link.frame.resolve(&force, Axes::Body).map(Expr::group);
+            let torque = subtract(&torque, &cross(&center_of(link), &force));
+            *linear = subtract(linear, &force);
+            *angular = subtract(angular, &torque).map(Expr::group);
+        }
+        for (k, (_, angular)) in wrenches.iter_mut().enumerate() {
+            for (_, form) in forms_of(tree, k) {
+                let Form::Turn(own, factors) = form else { continue };
+                let others = (own + 1..3).filter(|&i| !factors[i].is_zero());
+                others.for_each(|i| angular[i] = (angular[i] - factors[i] * angular[own]).group());
+            }
+        }
+        let of = |(k, form): &(usize, Form<'g>)| match form {
+            Form::Center(axis, _) => wrenches[*k].0[*axis].group(),
+            Form::Turn(axis, _) => wrenches[*k].1[*axis],
         };
-        tree.links.iter().map(on).collect()
+        self.forms.iter().map(of).collect()
     }
 }
 
 /// The elements of one link, with their weights.
 fn forms_of<'g>(tree: &Tree<'g>, k: usize) -> Vec<(Expr<'g>, Form<'g>)> {
     let (graph, link) = (tree.graph, &tree.links[k]);
-    let none = [graph.zero(); 3];
-    let (mass, center) = match &link.matter {
+    let mass = match &link.matter {
         Matter::Nothing => return Vec::new(),
-        Matter::Particle(mass) => (*mass, none),
-        Matter::Body(body) => (body.mass, link.in_working_axes(&body.center_of_mass, Axes::Body).map(Expr::group)),
+        Matter::Particle(mass) => *mass,
+        Matter::Body(body) => body.mass,
     };
+    let center = center_of(link);
     let mut forms: Vec<_> = (0..3).map(|axis| (mass, Form::Center(axis, center))).collect();
     let Some(inertia) = central_inertia(link) else { return forms };
     if let Some(axis) = tree.planar_axis() {
         let unit = std::array::from_fn(|i| if i == axis { graph.one() } else { graph.zero() });
-        forms.push((inertia[axis][axis], Form::Turn(unit)));
+        forms.push((inertia[axis][axis], Form::Turn(axis, unit)));
         return forms;
     }
     // I_G = L D Lᵀ: Σ D_j (Lᵀω)_j².
@@ -140,9 +150,25 @@ fn forms_of<'g>(tree: &Tree<'g>, k: usize) -> Vec<(Expr<'g>, Form<'g>)> {
                 }
             }
         }
-        forms.push((pivot, Form::Turn(factors)));
+        forms.push((pivot, Form::Turn(j, factors)));
     }
     forms
+}
+
+/// G from O, working axes.
+fn center_of<'g>(link: &Link<'g>) -> Triple<'g> {
+    let none = [link.frame.graph.zero(); 3];
+    link.body().map_or(none, |body| link.in_working_axes(&body.center_of_mass, Axes::Body).map(Expr::group))
+}
+
+/// `ω × I_G ω` of a link; about one axis there is none.
+fn gyroscopic<'g>(link: &Link<'g>) -> Triple<'g> {
+    let w = &link.angular_velocity;
+    let Some(inertia) = central_inertia(link).filter(|_| link.works_in_body_axes()) else {
+        return [link.frame.graph.zero(); 3];
+    };
+    let spin: Triple<'g> = std::array::from_fn(|i| dot(&inertia[i], w).group());
+    cross(w, &spin).map(Expr::group)
 }
 
 /// I_G of a body, body axes.

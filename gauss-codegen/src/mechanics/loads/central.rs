@@ -109,12 +109,13 @@ impl<'g> CentralField<'g> {
         let expansion = Expansion::new(self.mu, &link.moments);
         let arm = self.arm_in_body(link);
         let energy: Expr<'g> = expansion.energies.into_iter().sum();
-        energy.substitute(&expansion.at(&arm, inverse_length(&arm)))
+        // The distance does not change while the body turns.
+        energy.substitute(&expansion.at(&arm, inverse_length(&self.arm(link))))
     }
 
     /// γ = −∇φ.
     fn at(&self, arm: &Triple<'g>) -> Triple<'g> {
-        scale((-self.mu * inverse_length(arm).powi(3)).group(), arm).map(Expr::group)
+        scale((-self.mu * inverse_length(arm).powi(3)).group(), arm)
     }
 
     /// What the field does to a link beside what it does to the pole: the difference of the accelerations, and what the
@@ -163,14 +164,14 @@ fn inverse_length<'g>(a: &Triple<'g>) -> Expr<'g> {
     dot(a, a).group().sqrt().recip().group()
 }
 
-/// The link that all matter on a root hangs on, where there is more than one with matter.
+/// The link that all matter on a root hangs on, or is.
 fn pole_of(tree: &Tree<'_>, root: usize) -> Option<usize> {
     let heavy = |k: &usize| !matches!(tree.links[*k].matter, Matter::Nothing);
     let own: Vec<usize> = (0..tree.links.len()).filter(|&k| tree.root_of(k) == root).filter(heavy).collect();
     let path = |k: usize| -> Vec<usize> { std::iter::successors(Some(k), |&k| tree.links[k].parent).collect() };
     let (first, others) = own.split_first()?;
     let shared = |k: &usize| others.iter().all(|&other| path(other).contains(k));
-    if others.is_empty() { None } else { path(*first).into_iter().find(shared) }
+    path(*first).into_iter().find(shared)
 }
 
 /// O of a link from that of one it hangs on, observer's axes.

@@ -44,6 +44,16 @@ pub struct Field<'g> {
     pub loads: Loads<'g>,
 }
 
+impl<'g> Field<'g> {
+    /// With other expressions in place of those that it is made of.
+    pub fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
+        let uniform = self.loads.uniform.iter().map(|&(root, field)| (root, field.map(&f)));
+        let forces = self.loads.forces.iter().map(|force| force.map(&f));
+        let loads = Loads { forces: forces.collect(), uniform: uniform.collect() };
+        Self { potential: f(self.potential), rest: f(self.rest), loads }
+    }
+}
+
 /// What acts on links.
 #[derive(Clone, Default)]
 pub struct Loads<'g> {

@@ -6,7 +6,7 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::rotation::poisson;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector};
-use crate::mechanics::loads::forces::{Action, Element, Field, Force};
+use crate::mechanics::loads::forces::{Action, Element, Force};
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::print::names::Name;
 
@@ -57,9 +57,13 @@ impl<'g> Observed<'g> {
         let real = |e: Expr<'g>| e.substitute(&replacement);
         let element = |element: &Element<'g>| {
             let (action, wrench) = match &element.action {
-                Action::Potential(potential) | Action::Field(Field { potential, .. }) => {
+                Action::Potential(potential) => {
                     let wrench = self.dual(potential.derivative(&self.rates)).map(|e| -e);
                     (Action::Potential(real(*potential)), wrench)
+                }
+                Action::Field(field) => {
+                    let wrench = self.dual(field.potential.derivative(&self.rates)).map(|e| -e);
+                    (Action::Field(field.map(real)), wrench)
                 }
                 Action::Forces(forces) => {
                     let wrenches = forces.iter().map(|force| self.wrench_of(force));

@@ -7,7 +7,7 @@ use crate::model::language::kind::Kind;
 use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::{Statement, Statements};
 use crate::model::language::words::same;
-use crate::model::names::expressions::ENTRY;
+use crate::model::names::expressions;
 use crate::model::names::kinds;
 use crate::model::names::places::Place;
 use crate::model::names::scope::Scope;
@@ -146,9 +146,10 @@ pub fn check(list: &mut [Given], alone: bool, fields: &[ReadField<'_>], scope: &
                 continue;
             }
             GivenValue::Coefficients(Coefficients::Diagonal(entries)) => {
-                given.shape = Shape::Vector6;
+                // Of an inertia the upper triangle, row by row.
+                given.shape = if given.role == Role::AddedMass { Shape::Vector6 } else { Shape::Matrix3 };
                 for entry in entries {
-                    kinds::check(entry, ENTRY, scope, context);
+                    kinds::check(entry, expressions::entry(given.role), scope, context);
                 }
                 continue;
             }

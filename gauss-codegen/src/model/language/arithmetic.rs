@@ -8,7 +8,7 @@ use super::functions::{FUNCTIONS, Function, PROPERTIES};
 use super::{attributes, chains, nesting, number, words};
 use crate::model::scene::clauses::Coefficients;
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName};
-use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::ext::IdentExt;
 use syn::punctuated::Punctuated;
@@ -46,6 +46,16 @@ fn nested(owner: &str) -> String {
         "`{owner}` is nested more than {} levels deep; name parts of it by `define(…)`, or write it with fewer",
         nesting::DEEPEST
     )
+}
+
+/// Whether the tokens are `[xx, xy, xz, yy, yz, zz]`.
+pub fn is_list_of_six(tokens: &[TokenTree]) -> bool {
+    match attributes::flat(tokens.iter().cloned().collect()).as_slice() {
+        [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => {
+            attributes::pieces(group.stream(), "", &mut Context::default()).len() == 6
+        }
+        _ => false,
+    }
 }
 
 /// Reads the tokens of the coefficients of a drag: a list of six, or the name of a field.

@@ -19,6 +19,12 @@ pub struct Names<N> {
     pub complete: bool,
 }
 
+/// Puts names before those of a clause, which is called `word` where there is none.
+pub fn before<N>(clause: &mut Option<Names<N>>, names: Vec<N>, word: &str, span: Span) {
+    let empty = || Names { clause: Ident::new(word, span), names: Vec::new(), complete: true };
+    clause.get_or_insert_with(empty).names.splice(0..0, names);
+}
+
 /// `kinematics(x = …)`.
 pub struct Kinematics {
     pub clause: Ident,

@@ -25,6 +25,9 @@ pub fn read(role: Role, clause: &Clause, list: &mut Vec<Given>, context: &mut Co
     let Some(tokens) = arguments::equals(clause, example, context) else { return };
     let value = match role {
         Role::AddedMass => arithmetic::read_coefficients(word, tokens, context).map(GivenValue::Coefficients),
+        Role::Inertia | Role::CentralInertia if arithmetic::is_list_of_six(tokens) => {
+            arithmetic::read_coefficients(word, tokens, context).map(GivenValue::Coefficients)
+        }
         _ => arithmetic::read(word, tokens, context).map(GivenValue::Expression),
     };
     if let Some(value) = value {

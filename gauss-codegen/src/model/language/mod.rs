@@ -15,6 +15,7 @@ pub mod nesting;
 pub mod number;
 pub mod own_functions;
 pub mod placements;
+pub mod robots;
 pub mod role_words;
 pub mod shapes;
 pub mod statements;

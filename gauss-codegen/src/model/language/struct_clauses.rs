@@ -9,6 +9,7 @@ use super::attributes::{self, Clause, Content, Owner, Word};
 use super::context::Context;
 use super::declarations;
 use super::given;
+use super::robots::{self, FILES, RobotClauses};
 use super::role_words::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
 use super::words::{self, Table};
@@ -30,6 +31,8 @@ pub struct Clauses {
     pub statements: Statements,
     /// Some clause says what else moves than the body of a chart.
     pub own: bool,
+    /// A file that says so, and what is made of it.
+    pub robot: RobotClauses,
 }
 
 /// Clauses of the struct.
@@ -101,23 +104,27 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     // A clause of its own is no misspelling of another: `frames` is not `frame`.
     let own_word = |word: &str| CLAUSES.iter().any(|(name, _)| *name == word);
     let meant = |clause: &Clause| statements::meant(&clause.word()).filter(|_| !own_word(&clause.word()));
-    let own = clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
+    let beside_file = clauses.iter().any(|clause| FILES.iter().any(|(file, _)| *file == clause.word()));
+    let own = beside_file || clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
     let of_chart = clauses.iter().find(|clause| ["chart", "motion"].contains(&clause.word().as_str()));
     let of_chart = of_chart.map(|clause| clause.name.clone()).filter(|_| own || has_body);
     let in_chart = of_chart.is_some() || !(own || has_body);
     let has_coordinates = clauses.iter().any(|clause| meant(clause) == Some(Statement::Coordinates));
     let mut statements = Statements::new(in_chart, has_coordinates);
     let mut topics = Topics::default();
+    let mut robot = RobotClauses::default();
     for clause in clauses {
         let word = clause.word();
         if STATEMENTS.iter().any(|(name, _)| *name == word) {
             statements.read(&clause, context);
         } else if let Some(role) = given::role(&word).filter(|_| !given::belongs_to_field(&clause)) {
             given::read(role, &clause, &mut statements.given, context);
+        } else if let Some(topic) = robots::topic(&word, beside_file) {
+            robot.read(topic, &clause, context);
         } else if let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) {
             topics.read(topic, &clause, context);
         } else {
-            refuse(&clause, &word, own, context);
+            refuse(&clause, &word, own, beside_file, context);
             statements.miss(&clause);
         }
     }
@@ -134,7 +141,7 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     let in_chart = in_chart.then_some(InChart { chart, motion });
     statements.of_chart = of_chart;
     statements.speeds_of_chart = in_chart.map_or_else(Vec::new, InChart::speed_words);
-    Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own }
+    Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own, robot }
 }
 
 /// What the clauses say that stand once; `Some(None)` where one could not be read.
@@ -187,7 +194,7 @@ impl Topics {
 }
 
 /// Notes why a clause is none of the struct's.
-fn refuse(clause: &Clause, word: &str, own: bool, context: &mut Context) {
+fn refuse(clause: &Clause, word: &str, own: bool, beside_file: bool, context: &mut Context) {
     let span = clause.name.span();
     let message = if word == UNIT {
         "units are those of fields and inputs; write `#[gauss(unit = \"N\")]` on a field, or `input(thrust = \"N\")`"
@@ -209,7 +216,7 @@ fn refuse(clause: &Clause, word: &str, own: bool, context: &mut Context) {
         format!("`{word}` is a motion; write `motion = {word}`")
     } else if ROTATIONS.iter().any(|(name, _)| *name == word) {
         format!("`{word}` is a rotation chart; write `chart = jet({word})`")
-    } else if let Some((name, _)) = words::nearest(word, CLAUSES) {
+    } else if let Some(name) = words::nearest(word, CLAUSES).map(|(name, _)| name).or(robots::near(word, beside_file)) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
     } else if let Some((name, _)) = words::nearest(word, STATEMENTS) {
         format!("unknown clause `{word}`; did you mean `{name}`?")

@@ -5,6 +5,7 @@ use crate::model::language::statements::Statements;
 use crate::model::language::words::same;
 use crate::model::scene::clauses::{Coefficients, Extent, ForceClause, ForceKind, Given, GivenValue};
 use crate::model::scene::expression::Expression;
+use crate::model::scene::roles::Role;
 use proc_macro2::Ident;
 
 /// Every expression, with its place; those of constraints come after the others.
@@ -107,7 +108,7 @@ impl Given {
     pub fn expressions(&self) -> Vec<(Place, &Expression)> {
         match &self.value {
             GivenValue::Expression(value) => vec![(Place::Given(self.role), value)],
-            GivenValue::Coefficients(value) => value.entries().map(|entry| (ENTRY, entry)).collect(),
+            GivenValue::Coefficients(value) => value.entries().map(|e| (entry(self.role), e)).collect(),
         }
     }
 
@@ -120,8 +121,10 @@ impl Given {
     }
 }
 
-/// Where an entry of an added mass stands.
-pub const ENTRY: Place = Place::Constant { word: "entry", noun: "an added mass" };
+/// Where an entry of an added mass, or of an inertia, stands.
+pub fn entry(role: Role) -> Place {
+    Place::Constant { word: "entry", noun: if role == Role::AddedMass { "an added mass" } else { "an inertia" } }
+}
 
 impl ForceClause {
     /// Its expressions, with their places.

@@ -2,6 +2,7 @@
 
 pub mod charts;
 pub mod clauses;
+pub mod described;
 pub mod expression;
 pub mod model;
 pub mod roles;

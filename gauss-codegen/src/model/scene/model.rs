@@ -6,6 +6,7 @@ use super::clauses::{
     Attraction, BodyClause, Coefficients, ConstraintClause, Coordinate, ForceClause, FunctionClause, Given, GivenValue,
     InputName, ParticleClause, PointClause, Speed, SpeedPart,
 };
+use super::described::Described;
 use super::expression::Expression;
 use super::roles::{Role, Shape};
 use syn::ext::IdentExt;
@@ -69,6 +70,8 @@ pub struct Model {
     pub functions: Vec<FunctionClause>,
     /// Bodies whose principal moments need not obey the triangle inequality; `None`: all of them.
     pub formal: Vec<Option<Ident>>,
+    /// The file that describes the robot, whose clauses come before those of the struct.
+    pub described: Option<Described>,
 }
 
 impl Model {

@@ -2,41 +2,47 @@
 
 use crate::algebra::Expr;
 use crate::mechanics::kinematics::vector::{Triple, cross, is_zero};
-use crate::mechanics::loads::forces::{Action, Element, Field, Force, Loads};
+use crate::mechanics::loads::forces::{Action, Element, Force, Loads};
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 
 use super::FreeLink;
 
 impl<'g> FreeLink<'g> {
-    /// The wrench of an element on this link: by what is known of it, by the derivatives of a potential along the pose, else as the dual
+    /// The wrench of an element on this link, without what is a uniform field: by what is known of it, by the derivatives of a potential along the pose, else as the dual
     /// of its generalised forces.
     pub fn wrench_of(&self, scene: &SystemScene<'g>, element: &Element<'g>) -> Wrench<'g> {
         let nothing = Wrench::zero(scene.graph);
-        if let Some((link, wrench)) = &element.on_link {
+        if let Some((link, wrench)) = &element.on_link.filter(|_| !matches!(element.action, Action::Field(_))) {
             return if *link == self.link { *wrench } else { nothing };
         }
         match &element.action {
-            Action::Potential(potential) | Action::Field(Field { potential, .. }) => {
-                self.along_pose(scene, *potential).unwrap_or_else(|| {
-                    let power = potential.derivative(&scene.rates);
-                    self.dual(self.kinematics.speeds.iter().map(|&z| -power.partial(z)).collect())
-                })
-            }
-            Action::Forces(forces) => {
-                let wrenches = forces.iter().map(|force| match force {
-                    Force::OnLink { link, .. } if *link == self.link => {
-                        force.wrench(&self.kinematics.frame).unwrap_or(nothing)
-                    }
-                    Force::OnLink { .. } => self.dual(self.of_block(&scene.tree.loads(&Loads::of_forces(&[*force])))),
-                    _ => match force.generalised(&scene.speeds, &scene.rates) {
-                        Some(rows) => self.dual(self.of_block(&rows)),
-                        None => nothing,
-                    },
-                });
-                wrenches.fold(nothing, |sum, wrench| sum.plus(&wrench))
+            Action::Potential(potential) => self.of_potential(scene, *potential),
+            Action::Forces(forces) => self.of_forces(scene, forces),
+            Action::Field(field) => {
+                self.of_potential(scene, field.rest).plus(&self.of_forces(scene, &field.loads.forces))
             }
         }
+    }
+
+    fn of_potential(&self, scene: &SystemScene<'g>, potential: Expr<'g>) -> Wrench<'g> {
+        self.along_pose(scene, potential).unwrap_or_else(|| {
+            let power = potential.derivative(&scene.rates);
+            self.dual(self.kinematics.speeds.iter().map(|&z| -power.partial(z)).collect())
+        })
+    }
+
+    fn of_forces(&self, scene: &SystemScene<'g>, forces: &[Force<'g>]) -> Wrench<'g> {
+        let nothing = Wrench::zero(scene.graph);
+        let wrenches = forces.iter().map(|force| match force {
+            Force::OnLink { link, .. } if *link == self.link => force.wrench(&self.kinematics.frame).unwrap_or(nothing),
+            Force::OnLink { .. } => self.dual(self.of_block(&scene.tree.loads(&Loads::of_forces(&[*force])))),
+            _ => match force.generalised(&scene.speeds, &scene.rates) {
+                Some(rows) => self.dual(self.of_block(&rows)),
+                None => nothing,
+            },
+        });
+        wrenches.fold(nothing, |sum, wrench| sum.plus(&wrench))
     }
 
     fn of_block(&self, rows: &[Expr<'g>]) -> Vec<Expr<'g>> {

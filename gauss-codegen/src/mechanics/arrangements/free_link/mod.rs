@@ -11,13 +11,15 @@ mod momenta;
 use crate::algebra::{Expr, Map, Solver, Substitution};
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
-use crate::mechanics::links::link::{Link, Matter};
+use crate::mechanics::links::link::Matter;
+use crate::mechanics::loads::forces::Loads;
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::print::names::Name;
 use crate::mechanics::scene::{Coordinate, SystemScene};
+use crate::mechanics::tidy::sums;
 
 use crate::mechanics::arrangements::balance::{
-    ARRANGEMENTS, Arrangement, Balance, Formal, KineticMatrix, LinearAcceleration, Weight, solve_balance,
+    ARRANGEMENTS, Arrangement, Balance, Formal, KineticMatrix, LinearAcceleration, Weight, Weights, solve_balance,
 };
 
 /// Terms that a volume of partial angular velocities may have on the way to its normal form.
@@ -42,8 +44,8 @@ pub struct FreeLink<'g> {
     /// Its configuration is given by scalar coordinates.
     pub in_coordinates: bool,
     pub matrix: KineticMatrix<'g>,
-    pub weight: Option<Weight<'g>>,
-    /// What acts beside weight and buoyancy: its wrench about O.
+    pub weights: Weights<'g>,
+    /// What else acts: its wrench about O.
     load: Wrench<'g>,
     /// Formal arguments: momenta p, and a twist of O in body axes.
     pub momenta: Vec<Expr<'g>>,
@@ -74,7 +76,7 @@ struct Formed<'g> {
 #[derive(Clone, Copy)]
 struct Terms<'a, 'g> {
     matrix: &'a KineticMatrix<'g>,
-    weight: Option<&'a Weight<'g>>,
+    weights: &'a Weights<'g>,
     load: &'a Wrench<'g>,
     /// What the formal components of the balance are.
     realisation: &'a Substitution<'g>,
@@ -124,13 +126,14 @@ fn own_kinematics<'g>(scene: &SystemScene<'g>, k: usize) -> Option<(Vec<usize>, 
         return None;
     }
     let block: Vec<usize> = (0..scene.speeds.len()).filter(|&z| link.is_moved_by(z)).collect();
-    let heavy = |link: &Link<'g>| !matches!(link.matter, Matter::Nothing);
-    let others = scene.tree.links.iter().enumerate().filter(|(other, link)| *other != k && heavy(link));
+    let links = &scene.tree.links;
+    let heavy = |&other: &usize| other != k && !matches!(links[other].matter, Matter::Nothing);
+    // What moves a frame moves the matter that hangs on it.
+    let with_ancestors = |other: usize| std::iter::successors(Some(other), |&at| links[at].parent);
+    let mut moving = (0..links.len()).filter(heavy).flat_map(with_ancestors);
     let geared = |&z: &usize| scene.tree.rotors.iter().any(|rotor| !rotor.row(scene.speeds[z]).is_zero());
-    if block.is_empty()
-        || block.iter().any(geared)
-        || others.into_iter().any(|(_, other)| block.iter().any(|&z| other.is_moved_by(z)))
-    {
+    let others_too = moving.any(|at| block.iter().any(|&z| links[at].is_moved_by(z)));
+    if block.is_empty() || block.iter().any(geared) || others_too {
         return None;
     }
     let at_rest: Map<u32, Expr<'g>> = scene.speeds.iter().map(|z| (z.key(), scene.graph.zero())).collect();
@@ -182,7 +185,7 @@ impl<'g> FreeLink<'g> {
         let from_momenta = Solver::with_blocks_up_to(transpose, COUPLED)?;
         let angular_axes: Vec<usize> = angular.iter().map(|k| k + 3).collect();
         let matrix = KineticMatrix::new(graph, body, &linear, &angular_axes);
-        let weight = Weight::new(body);
+        let weights = Weights { gravity: Weight::new(body), field: None };
         let nothing = Wrench::zero(graph);
         let formal = Formal::new(&kinematics, &nothing);
         let twist = std::array::from_fn(|k| {
@@ -198,7 +201,7 @@ impl<'g> FreeLink<'g> {
             kinematics,
             in_coordinates: scene.coordinates.iter().all(|q| matches!(q, Coordinate::Scalar(_))),
             matrix,
-            weight,
+            weights,
             load: nothing,
             momenta,
             twist,
@@ -213,6 +216,9 @@ impl<'g> FreeLink<'g> {
             let wrenches = scene.elements.iter().map(|element| free.wrench_of(scene, element));
             free.load = wrenches.fold(nothing, |sum, wrench| sum.plus(&wrench));
             free.formal = Formal::new(&free.kinematics, &free.load);
+            let root = scene.tree.root_of(link);
+            let field = Loads::of(&scene.elements).field_on(root);
+            free.weights.field = field.map(|gravity| Weight::of_matter(body, gravity));
         }
         Some(free)
     }
@@ -240,19 +246,21 @@ impl<'g> FreeLink<'g> {
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
         let load = Wrench::zero(self.kinematics.frame.graph);
         let formal = Formal::new(&self.kinematics, &load);
-        let (matrix, weight) = (&self.matrix, self.weight.as_ref());
+        let (matrix, weights) = (&self.matrix, &Weights { gravity: self.weights.gravity, field: None });
         let realisation = OnceCell::new();
         let residual = |arrangement| {
-            let balance = solve_balance(&self.kinematics, matrix, weight, &load, &formal, arrangement);
-            let realisation = realisation.get_or_init(|| formal.realisation(&self.kinematics, weight, &load));
-            self.residual_of(&Terms { matrix, weight, load: &load, realisation }, &balance)
+            let balance = solve_balance(&self.kinematics, matrix, weights, &load, &formal, arrangement);
+            let realisation = realisation.get_or_init(|| formal.realisation(&self.kinematics, weights, &load));
+            self.residual_of(&Terms { matrix, weights, load: &load, realisation }, &balance)
         };
         [Arrangement::Structured, Arrangement::Collected].map(residual).into()
     }
 
     /// `R·a_α + M_O·o_α` of what acts beside weight and buoyancy.
     pub fn load_forces(&self) -> Vec<Expr<'g>> {
-        self.project_wrench(&self.load)
+        let rows = self.project_wrench(&self.load);
+        let field = self.weights.field.map(|field| self.project_wrench(&self.wrench_of_weight(&field)));
+        field.map_or(rows.clone(), |field| sums(&rows, &field))
     }
 
     /// Whether Q has parts of u and of ω that turn together: then their sum is turned once.
@@ -337,12 +345,9 @@ impl<'g> FreeLink<'g> {
     /// R·a_α + M_O·o_α.
     pub fn generalised_forces(&self) -> Vec<Expr<'g>> {
         let frame = &self.kinematics.frame;
-        let pair = match &self.weight {
-            Some(w) => Pair {
-                linear: frame.resolve(&w.resultant(frame), self.linear_in),
-                angular: w.torque(frame, self.angular_in),
-            },
-            None => Pair { linear: self.zero(), angular: self.zero() },
+        let pair = Pair {
+            linear: frame.resolve(&self.weights.resultant(frame), self.linear_in),
+            angular: self.weights.torque(frame, self.angular_in),
         };
         let load = self.resolve(&self.load.force, &self.load.torque);
         let named = |a: &Triple<'g>, b: &Triple<'g>| if is_zero(b) { *a } else { add(a, &b.map(Expr::group)) };
@@ -350,7 +355,7 @@ impl<'g> FreeLink<'g> {
     }
 
     fn balance(&self, arrangement: Arrangement) -> Balance<'g> {
-        solve_balance(&self.kinematics, &self.matrix, self.weight.as_ref(), &self.load, &self.formal, arrangement)
+        solve_balance(&self.kinematics, &self.matrix, &self.weights, &self.load, &self.formal, arrangement)
     }
 
     /// ż from the balance in body axes, through the rate of the kinematics.
@@ -416,16 +421,18 @@ impl<'g> FreeLink<'g> {
     /// Of weight and buoyancy.
     pub fn potential_energy(&self) -> Expr<'g> {
         let frame = &self.kinematics.frame;
-        self.weight.as_ref().map_or(frame.graph.zero(), |w| w.potential(frame, &self.kinematics.position))
+        self.weights.gravity.map_or(frame.graph.zero(), |w| w.potential(frame, &self.kinematics.position))
     }
 
     /// The wrench of weight and buoyancy.
     pub fn weight_wrench(&self) -> Option<Wrench<'g>> {
+        self.weights.gravity.map(|weight| self.wrench_of_weight(&weight))
+    }
+
+    fn wrench_of_weight(&self, weight: &Weight<'g>) -> Wrench<'g> {
         let frame = &self.kinematics.frame;
-        self.weight.as_ref().map(|w| Wrench {
-            force: w.resultant(frame),
-            torque: self.vector(self.angular_in, w.torque(frame, self.angular_in)),
-        })
+        let torque = self.vector(self.angular_in, weight.torque(frame, self.angular_in));
+        Wrench { force: weight.resultant(frame), torque }
     }
 
     /// The power of a wrench.
@@ -441,12 +448,12 @@ impl<'g> FreeLink<'g> {
     }
 
     fn terms(&self) -> Terms<'_, 'g> {
-        let (weight, realisation) = (self.weight.as_ref(), self.realisation());
-        Terms { matrix: &self.matrix, weight, load: &self.load, realisation }
+        let (weights, realisation) = (&self.weights, self.realisation());
+        Terms { matrix: &self.matrix, weights, load: &self.load, realisation }
     }
 
     fn realisation(&self) -> &Substitution<'g> {
-        let real = || self.formal.realisation(&self.kinematics, self.weight.as_ref(), &self.load);
+        let real = || self.formal.realisation(&self.kinematics, &self.weights, &self.load);
         self.formed.realisation.get_or_init(real)
     }
 
@@ -463,8 +470,7 @@ impl<'g> FreeLink<'g> {
         let coupling = terms.matrix.block(0, 3, &alpha);
         let (linear, u_rate) = match terms.matrix.isotropic {
             Some(mu) => {
-                let weight = terms.weight.map_or(frame.zero(), |w| w.resultant(frame));
-                let weight = weight.plus(&frame.space_vector(terms.load.force.space));
+                let weight = terms.weights.resultant(frame).plus(&frame.space_vector(terms.load.force.space));
                 let in_body = add(&coupling, &bias(balance.linear_bias));
                 (a.times(mu).plus(&frame.body_vector(in_body)).minus(&weight), self.in_body(&a))
             }

@@ -1,0 +1,97 @@
+//! What a robot costs, from its file: `cargo run --release --example robot -- path/to.urdf [CLAUSE…] [--write
+//! FILE.rs]`.
+//!
+//! Clauses are those that stand beside the file in `#[gauss(…)]`, such as `base=floating gravity=9.81 linearize`.
+//! With `--write` the struct and what the derive makes of it become a source file, which needs gauss-runtime and no
+//! macro.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use gauss_codegen::Derivation;
+use quote::{format_ident, quote};
+
+const USAGE: &str = "robot FILE [CLAUSE…] [--write FILE.rs], such as: robot arm.urdf gravity=9.81 --write arm.rs";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match run(&arguments) {
+        Ok(text) => {
+            print!("{text}");
+            ExitCode::SUCCESS
+        }
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &[String]) -> Result<String, String> {
+    let (file, rest) = arguments.split_first().ok_or(USAGE)?;
+    let (clauses, target) = match rest {
+        [clauses @ .., flag, target] if flag == "--write" => (clauses, Some(target)),
+        clauses => (clauses, None),
+    };
+    let word = if file.ends_with(".xml") || file.ends_with(".mjcf") { "mjcf" } else { "urdf" };
+    let path = std::path::absolute(file).map_err(|error| format!("{file}: {error}"))?;
+    let name = name(&path);
+    let clauses: String = clauses.iter().map(|clause| format!(", {clause}")).collect();
+    let source = format!("#[gauss({word} = {path:?}{clauses})] struct {name};");
+    let start = Instant::now();
+    let item = syn::parse_str(&source).map_err(|error| format!("{error}\n{USAGE}"))?;
+    // The path from the folder of a package means nothing here; the one that was given does.
+    let shown = |text: String| text.replace(&*path.to_string_lossy(), file);
+    let derivation = Derivation::new(&item).map_err(|mistakes| shown(said(&mistakes)))?;
+    let mut out = shown(table(&derivation, start.elapsed().as_secs_f64()));
+    if let Some(target) = target {
+        std::fs::write(target, written(&derivation, file)?).map_err(|error| format!("{target}: {error}"))?;
+        let _ = writeln!(out, "\nThe kernel is in {target}.");
+    }
+    Ok(out)
+}
+
+/// `TwoFingers` from `two-fingers.urdf`.
+fn name(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let words = stem.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let name: String = words.map(|word| word[..1].to_uppercase() + &word[1..]).collect();
+    if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("Robot{name}") }
+}
+
+fn said(mistakes: &syn::Error) -> String {
+    mistakes.into_iter().map(|mistake| mistake.to_string()).collect::<Vec<_>>().join("\n")
+}
+
+fn table(derivation: &Derivation, seconds: f64) -> String {
+    let mut out = format!("{}: ", derivation.name());
+    if let Some(acceleration) = derivation.program("acceleration") {
+        let _ = writeln!(out, "{} degrees of freedom, derived in {seconds:.1} s\n", acceleration.code.outputs.len());
+    }
+    for remark in derivation.remarks() {
+        let _ = writeln!(out, "- {remark}");
+    }
+    let _ = writeln!(out, "\n{:<22}{:<56}loss, at most (in the middle)", "method", "operations");
+    for program in derivation.programs() {
+        let loss = derivation.accuracy().iter().find(|(name, _)| *name == program.name);
+        let loss = loss.map(|(_, [worst, median])| format!("{worst} ({median})")).unwrap_or_default();
+        let _ = writeln!(out, "{:<22}{:<56}{loss}", program.name, program.code.counts().to_string());
+    }
+    out
+}
+
+/// The struct, and its kernel as the derive writes it.
+fn written(derivation: &Derivation, file: &str) -> Result<String, String> {
+    let (name, code) = (format_ident!("{}", derivation.name()), derivation.rust());
+    let item = quote! {
+        /// A robot.
+        pub struct #name;
+
+        #code
+    };
+    let file = format!("{file} of gauss-codegen");
+    let parsed = syn::parse2(item).map_err(|error| format!("{file}: {error}"))?;
+    Ok(format!("// Made from {file}: do not edit.\n\n{}", prettyplease::unparse(&parsed)))
+}

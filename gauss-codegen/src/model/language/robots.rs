@@ -1,0 +1,233 @@
+//! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`, `inputs
+//! = all | none | transmissions`,
+//! `friction = smooth(width) | none`, `limits = stop(…) | none`, `parameters = inertial`.
+
+use super::arguments;
+use super::arithmetic;
+use super::attributes::{self, Clause, Content, Owner};
+use super::context::Context;
+use super::words::{self, Table};
+use crate::model::scene::expression::Expression;
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
+use syn::LitStr;
+
+/// What the clauses say, as far as they are read.
+#[derive(Default)]
+pub struct RobotClauses {
+    pub file: Option<File>,
+    pub base: Option<Base>,
+    pub inputs: Option<Inputs>,
+    pub friction: Option<Friction>,
+    pub limits: Option<Limits>,
+    /// The word `parameters` of `parameters = inertial`.
+    pub inertial: Option<Ident>,
+}
+
+/// `urdf = "robots/arm.urdf"`.
+pub struct File {
+    pub format: Format,
+    /// As it is written.
+    pub path: String,
+    /// The string.
+    pub span: Span,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    Urdf,
+    Mjcf,
+}
+
+/// Whether the root is held or moves freely.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Base {
+    Fixed,
+    Floating,
+}
+
+/// Which joints have an input.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Inputs {
+    All,
+    None,
+    Transmissions,
+}
+
+/// What becomes of dry friction.
+pub enum Friction {
+    /// Force times v/√(v² + w²), with this w.
+    Smooth(Expression),
+    None,
+}
+
+/// What becomes of the limits of joints.
+pub enum Limits {
+    Stop { stiffness: Expression, width: Expression, damping: Option<Expression> },
+    None,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum RobotTopic {
+    File(Format),
+    Base,
+    Inputs,
+    Friction,
+    Limits,
+    Parameters,
+}
+
+/// The clauses that name a file.
+pub const FILES: &Table<RobotTopic> =
+    &[("urdf", RobotTopic::File(Format::Urdf)), ("mjcf", RobotTopic::File(Format::Mjcf))];
+
+/// Those that say what is made of it.
+pub const OPTIONS: &Table<RobotTopic> = &[
+    ("base", RobotTopic::Base),
+    ("inputs", RobotTopic::Inputs),
+    ("friction", RobotTopic::Friction),
+    ("limits", RobotTopic::Limits),
+    ("parameters", RobotTopic::Parameters),
+];
+
+const BASES: &Table<Base> = &[("fixed", Base::Fixed), ("floating", Base::Floating)];
+const INPUTS: &Table<Inputs> =
+    &[("all", Inputs::All), ("none", Inputs::None), ("transmissions", Inputs::Transmissions)];
+const FRICTION: &Table<bool> = &[("smooth", true), ("none", false)];
+const LIMITS: &Table<bool> = &[("stop", true), ("none", false)];
+const STOP: &Table<()> = &[("stiffness", ()), ("width", ()), ("damping", ())];
+const PARAMETERS: &Table<()> = &[("inertial", ())];
+
+/// The clause that a word is, if it is one of these: of options only beside a file.
+pub fn topic(word: &str, beside_file: bool) -> Option<RobotTopic> {
+    let options = if beside_file { OPTIONS } else { &[] };
+    FILES.iter().chain(options).find(|(name, _)| *name == word).map(|&(_, topic)| topic)
+}
+
+/// The nearest of them to a misspelt word.
+pub fn near(word: &str, beside_file: bool) -> Option<&'static str> {
+    let options = if beside_file { OPTIONS } else { &[] };
+    let all: Vec<(&'static str, RobotTopic)> = FILES.iter().chain(options).copied().collect();
+    words::nearest(word, &all).map(|(name, _)| name)
+}
+
+impl RobotClauses {
+    pub fn read(&mut self, topic: RobotTopic, clause: &Clause, context: &mut Context) {
+        let twice = match topic {
+            RobotTopic::File(_) => self.file.is_some(),
+            RobotTopic::Base => self.base.is_some(),
+            RobotTopic::Inputs => self.inputs.is_some(),
+            RobotTopic::Friction => self.friction.is_some(),
+            RobotTopic::Limits => self.limits.is_some(),
+            RobotTopic::Parameters => self.inertial.is_some(),
+        };
+        if twice {
+            let name = &clause.name;
+            context.error(name.span(), format!("`{name}` is given twice; keep one of the two"));
+        }
+        match topic {
+            RobotTopic::File(format) => self.file = self.file.take().or(read_file(format, clause, context)),
+            RobotTopic::Base => self.base = self.base.or(read_word("base", clause, BASES, context)),
+            RobotTopic::Inputs => self.inputs = self.inputs.or(read_word("inputs", clause, INPUTS, context)),
+            RobotTopic::Friction => self.friction = self.friction.take().or(read_friction(clause, context)),
+            RobotTopic::Limits => self.limits = self.limits.take().or(read_limits(clause, context)),
+            RobotTopic::Parameters => {
+                let read = read_word("parameters", clause, PARAMETERS, context);
+                self.inertial = self.inertial.take().or(read.map(|()| clause.name.clone()));
+            }
+        }
+    }
+}
+
+fn read_file(format: Format, clause: &Clause, context: &mut Context) -> Option<File> {
+    let name = &clause.name;
+    let tokens = match &clause.value {
+        Content::Malformed => return None,
+        Content::Equals(tokens) => attributes::flat(tokens.iter().cloned().collect()),
+        Content::Absent | Content::Brackets(_) => Vec::new(),
+    };
+    let text = match tokens.as_slice() {
+        [TokenTree::Literal(literal)] => syn::parse_str::<LitStr>(&literal.to_string()).ok(),
+        _ => None,
+    };
+    let span = tokens.first().map_or(name.span(), attributes::start);
+    let Some(path) = text.map(|text| text.value()).filter(|path| !path.is_empty()) else {
+        context.error(
+            span,
+            format!(
+                "`{name}` is the path of a file from the folder of the package, in quotes; write `{name} = \
+             \"robots/arm.urdf\"`"
+            ),
+        );
+        return None;
+    };
+    Some(File { format, path, span })
+}
+
+fn read_word<T: Copy>(noun: &str, clause: &Clause, table: &Table<T>, context: &mut Context) -> Option<T> {
+    let word = clause.bare_word(table, context)?;
+    let meaning = words::resolve(&format!("`{noun}`"), &word.ident, table, context).ok()?;
+    if let Some(arguments) = word.arguments {
+        refuse_brackets(&arguments, &word.ident, noun, context);
+        return None;
+    }
+    Some(meaning)
+}
+
+fn refuse_brackets(group: &Group, word: &Ident, noun: &str, context: &mut Context) {
+    context.error(group.span_open(), format!("`{word}` takes nothing in brackets; write `{noun} = {word}`"));
+}
+
+/// A word, and what is in its brackets if it takes some.
+fn read_law(clause: &Clause, table: &Table<bool>, example: &str, context: &mut Context) -> Option<Option<Group>> {
+    let word = clause.bare_word(table, context)?;
+    let takes = words::resolve(&format!("`{}`", clause.name), &word.ident, table, context).ok()?;
+    match (takes, word.arguments) {
+        (false, None) => Some(None),
+        (false, Some(group)) => {
+            refuse_brackets(&group, &word.ident, &clause.word(), context);
+            None
+        }
+        (true, Some(group)) if group.delimiter() == Delimiter::Parenthesis && !group.stream().is_empty() => {
+            Some(Some(group))
+        }
+        (true, _) => {
+            context.error(
+                word.ident.span(),
+                format!("`{}` says nothing; write `{} = {example}`", word.ident, clause.name),
+            );
+            None
+        }
+    }
+}
+
+fn read_friction(clause: &Clause, context: &mut Context) -> Option<Friction> {
+    let Some(group) = read_law(clause, FRICTION, "smooth(0.01)", context)? else { return Some(Friction::None) };
+    let tokens: Vec<TokenTree> = group.stream().into_iter().collect();
+    arithmetic::read("friction", &tokens, context).map(Friction::Smooth)
+}
+
+fn read_limits(clause: &Clause, context: &mut Context) -> Option<Limits> {
+    const EXAMPLE: &str = "stop(stiffness = 1e4, width = 0.01)";
+    let Some(group) = read_law(clause, LIMITS, EXAMPLE, context)? else { return Some(Limits::None) };
+    let owner = Owner::Action { word: "stop", example: "an argument such as `stiffness = 1e4`" };
+    let (arguments, _) = arguments::arguments(&group, owner, context);
+    let (mut stiffness, mut width, mut damping) = (None, None, None);
+    let mut given = Vec::new();
+    for argument in &arguments {
+        if !arguments::known(argument, "stop", STOP, &mut given, context) {
+            continue;
+        }
+        let place = match argument.word().as_str() {
+            "stiffness" => &mut stiffness,
+            "width" => &mut width,
+            _ => &mut damping,
+        };
+        *place = arguments::value(argument, "0.01", context).or(place.take());
+    }
+    for word in ["stiffness", "width"] {
+        if !given.iter().any(|name| name == word) {
+            context.error(clause.name.span(), format!("stops at limits need `{word}`; write `limits = {EXAMPLE}`"));
+        }
+    }
+    Some(Limits::Stop { stiffness: stiffness?, width: width?, damping })
+}

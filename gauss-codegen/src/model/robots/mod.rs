@@ -1,0 +1,30 @@
+//! Robots from their files: `urdf = "…"` and `mjcf = "…"` become the clauses that a user would have written.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `description` | links and joints as plain data, whatever the format, with the places in the file |
+//! | `rotation` | constant rotations, inertias in other axes |
+//! | `xml`, `urdf`, `mjcf` | a format → a description |
+//! | `structure` | what must hold between links and joints; what moves with what |
+//! | `names` | names of the file → identifiers |
+//! | `joints` | a joint → position and rotation of its link |
+//! | `clauses` | a description → clauses, before those of the struct |
+//! | `source` | the file: where it is, what is read |
+
+mod clauses;
+#[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
+mod description;
+mod joints;
+#[cfg(feature = "mjcf")]
+mod mjcf;
+mod names;
+#[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
+mod rotation;
+mod source;
+mod structure;
+#[cfg(feature = "urdf")]
+mod urdf;
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+mod xml;
+
+pub use clauses::compose;

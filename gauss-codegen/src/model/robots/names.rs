@@ -1,0 +1,74 @@
+//! Names of a file as identifiers, each with one meaning.
+
+use proc_macro2::{Ident, Span};
+
+use super::description::{At, Note};
+use crate::model::language::words::UNNAMED;
+use crate::model::names::naming::is_reserved;
+
+/// Identifiers that are taken.
+pub struct Names {
+    span: Span,
+    taken: Vec<String>,
+    pub notes: Vec<Note>,
+}
+
+impl Names {
+    pub fn new(span: Span) -> Self {
+        Self { span, taken: Vec::new(), notes: Vec::new() }
+    }
+
+    /// The identifier of a name, which differs from it where it is none or is taken: then `noun` is added, or a number.
+    pub fn identifier(&mut self, name: &str, noun: &str, at: At) -> Ident {
+        let free = self.free(name, noun);
+        if free != name {
+            let text = format!("the {noun} `{name}` is called `{free}`");
+            self.notes.push(Note { at, text, ignored: false });
+        }
+        free
+    }
+
+    /// The identifier of a name that is not in the file.
+    pub fn chosen(&mut self, name: &str) -> Ident {
+        self.free(name, "coordinate")
+    }
+
+    fn free(&mut self, name: &str, noun: &str) -> Ident {
+        let mut word: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+        if !word.starts_with(|c: char| c.is_alphabetic() || c == '_') || word.trim_matches('_').is_empty() {
+            word = format!("{noun}_{word}");
+        }
+        let numbered = (2..).map(|n| format!("{word}_{n}"));
+        let candidates = [word.clone(), format!("{word}_{noun}")].into_iter().chain(numbered);
+        let free = candidates.into_iter().find(|word| self.is_free(word)).unwrap_or_default();
+        self.taken.push(free.clone());
+        Ident::new(&free, self.span)
+    }
+
+    fn is_free(&self, word: &str) -> bool {
+        let taken = self.taken.iter().any(|taken| taken == word);
+        !taken && word != UNNAMED && !is_reserved(word) && syn::parse_str::<Ident>(word).is_ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers() {
+        let mut names = Names::new(Span::call_site());
+        let mut of = |name: &str, noun: &str| names.identifier(name, noun, At::default()).to_string();
+        assert_eq!(of("elbow", "joint"), "elbow");
+        assert_eq!(of("elbow", "link"), "elbow_link");
+        assert_eq!(of("elbow", "link"), "elbow_2");
+        assert_eq!(of("left foot/toe-1", "link"), "left_foot_toe_1");
+        assert_eq!(of("1", "joint"), "joint_1");
+        assert_eq!(of("type", "joint"), "type_joint");
+        assert_eq!(of("body", "link"), "body_link");
+        assert_eq!(of("pi", "joint"), "pi_joint");
+        assert_eq!(of("LF_HAA", "joint"), "LF_HAA");
+        assert_eq!(of("-", "joint"), "joint__");
+        assert_eq!(names.notes.len(), 8);
+    }
+}

@@ -1,0 +1,130 @@
+//! Constant rotations, and what they turn, in double precision.
+
+use std::f64::consts::FRAC_PI_2;
+
+pub type Triple = [f64; 3];
+pub type Matrix = [Triple; 3];
+
+/// What is nearer to zero than this is what rounding left of a zero, where lengths are one.
+const RESIDUE: f64 = 1e-15;
+
+/// R = R_z(yaw) R_y(pitch) R_x(roll).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation {
+    /// Roll, pitch, yaw.
+    pub angles: Triple,
+    pub matrix: Matrix,
+}
+
+impl Rotation {
+    /// From angles about the fixed axes, first to third.
+    pub fn from_angles(angles: Triple) -> Rotation {
+        let angles = angles.map(settled);
+        let matrix = multiply(&about(2, angles[2]), &multiply(&about(1, angles[1]), &about(0, angles[0])));
+        Rotation { angles, matrix }
+    }
+
+    pub fn from_matrix(r: &Matrix) -> Rotation {
+        let across = r[2][1].hypot(r[2][2]);
+        let pitch = (-r[2][0]).atan2(across);
+        // Where the first and the last turn are about one axis, one of them is enough.
+        let angles = match across > RESIDUE {
+            true => [r[2][1].atan2(r[2][2]), pitch, r[1][0].atan2(r[0][0])],
+            false => [0.0, pitch, (-r[0][1]).atan2(r[1][1])],
+        };
+        Rotation::from_angles(angles)
+    }
+
+    pub fn none() -> Rotation {
+        Rotation::from_angles([0.0; 3])
+    }
+}
+
+/// Sums of halves of π, and zero, without what rounding left of them.
+pub fn settled(angle: f64) -> f64 {
+    let quarters = (angle / FRAC_PI_2).round();
+    let exact = quarters * FRAC_PI_2;
+    if (angle - exact).abs() <= RESIDUE * (1.0 + exact.abs()) { exact } else { angle }
+}
+
+/// Sine and cosine, exact at quarters of a turn.
+pub fn sine_and_cosine(angle: f64) -> [f64; 2] {
+    let quarters = (angle / FRAC_PI_2).round();
+    if angle == quarters * FRAC_PI_2 {
+        let at = |k: f64| [0.0, 1.0, 0.0, -1.0][(quarters + k).rem_euclid(4.0) as usize];
+        return [at(0.0), at(1.0)];
+    }
+    [angle.sin(), angle.cos()]
+}
+
+/// The turn about an axis of the frame.
+pub fn about(axis: usize, angle: f64) -> Matrix {
+    let [sine, cosine] = sine_and_cosine(angle);
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut matrix = [[0.0; 3]; 3];
+    matrix[axis][axis] = 1.0;
+    (matrix[j][j], matrix[k][k]) = (cosine, cosine);
+    (matrix[j][k], matrix[k][j]) = (-sine, sine);
+    matrix
+}
+
+pub fn multiply(a: &Matrix, b: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+pub fn turned(matrix: &Matrix, v: &Triple) -> Triple {
+    std::array::from_fn(|i| (0..3).map(|j| matrix[i][j] * v[j]).sum())
+}
+
+/// R I Rᵀ.
+pub fn turned_tensor(matrix: &Matrix, tensor: &Matrix) -> Matrix {
+    let half = multiply(matrix, tensor);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            // Once for both of two entries: the result is symmetric to the last bit.
+            let (i, j) = (i.min(j), i.max(j));
+            (0..3).map(|k| half[i][k] * matrix[j][k]).sum()
+        })
+    })
+}
+
+/// The vector with length one, what rounding left of zeros removed; `None` without a direction.
+pub fn direction(v: Triple) -> Option<Triple> {
+    let largest = v.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return None;
+    }
+    let scaled = v.map(|c| c / largest);
+    let length = scaled.iter().map(|c| c * c).sum::<f64>().sqrt();
+    Some(scaled.map(|c| c / length).map(|c| if c.abs() <= RESIDUE { 0.0 } else { c }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quarters_of_a_turn_are_exact() {
+        let rotation = Rotation::from_angles([-FRAC_PI_2, 2.2e-16, std::f64::consts::PI]);
+        assert_eq!(rotation.matrix, [[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]]);
+        assert_eq!(settled(1.5708), 1.5708);
+    }
+
+    #[test]
+    fn matrices_and_back() {
+        for angles in [[0.1, 0.2, -0.3], [0.0, FRAC_PI_2, 0.7], [3.0, -1.0, 2.0], [0.0, 0.0, -FRAC_PI_2]] {
+            let rotation = Rotation::from_angles(angles);
+            let again = Rotation::from_matrix(&rotation.matrix);
+            for (a, b) in rotation.matrix.iter().flatten().zip(again.matrix.iter().flatten()) {
+                assert!((a - b).abs() <= 4.0 * f64::EPSILON, "{angles:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn directions() {
+        assert_eq!(direction([0.0, 0.0, -2.0]), Some([0.0, 0.0, -1.0]));
+        assert_eq!(direction([0.0; 3]), None);
+        assert_eq!(direction([1e-300, 0.0, 0.0]), Some([1.0, 0.0, 0.0]));
+    }
+}

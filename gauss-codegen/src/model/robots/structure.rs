@@ -1,0 +1,287 @@
+//! What must hold between links and joints, and what follows: which link hangs on which, what moves as one, who is
+//! mimicked.
+
+use super::description::{At, Description, Fault, Inertial, Joint, JointKind};
+use super::rotation::{Matrix, Rotation, Triple, multiply, turned, turned_tensor};
+use crate::model::language::words;
+
+/// The tree of a description whose parts fit together. Indices are those of its links and joints.
+pub struct Structure {
+    pub root: usize,
+    /// The joint that a link hangs by; `None` of the root.
+    pub joint_of: Vec<Option<usize>>,
+    pub parent_of: Vec<Option<usize>>,
+    /// The link that each moves as one with: itself, if its joint moves.
+    pub owner_of: Vec<usize>,
+    /// Where each is in the axes of its owner.
+    place_in_owner: Vec<(Triple, Matrix)>,
+    /// What the coordinate of each joint is: that of a joint, times a number, and another.
+    pub coupling_of: Vec<Coupling>,
+}
+
+/// `multiplier` times the coordinate of `joint`, and `offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    pub joint: usize,
+    pub multiplier: f64,
+    pub offset: f64,
+}
+
+impl Structure {
+    /// # Errors
+    /// Everything that does not fit, each where it is written.
+    pub fn new(description: &Description) -> Result<Structure, Vec<Fault>> {
+        let mut faults = Vec::new();
+        refuse_twice("link", description.links.iter().map(|link| (&link.name, link.at)), &mut faults);
+        refuse_twice("joint", description.joints.iter().map(|joint| (&joint.name, joint.at)), &mut faults);
+        let (joint_of, parent_of) = parents(description, &mut faults);
+        let coupling_of = couplings(description, &mut faults);
+        for name in &description.driven {
+            if !description.joints.iter().any(|joint| joint.name == *name) {
+                let message = unknown("joint", name, description.joints.iter().map(|joint| joint.name.as_str()));
+                faults.push(Fault {
+                    at: At { line: 1, column: 1 },
+                    message: format!("a transmission or an actuator drives {message}"),
+                });
+            }
+        }
+        for closure in &description.closures {
+            let strangers =
+                closure.links.iter().filter(|name| !description.links.iter().any(|link| link.name == **name));
+            for name in strangers {
+                let said = unknown("link", name, description.links.iter().map(|link| link.name.as_str()));
+                faults.push(Fault { at: closure.at, message: format!("a point is common to {said}") });
+            }
+        }
+        let root = if faults.is_empty() { root(description, &parent_of, &mut faults) } else { None };
+        let Some(root) = root else { return Err(faults) };
+        let count = description.links.len();
+        let origin = ([0.0; 3], Rotation::none().matrix);
+        let mut structure = Structure {
+            root,
+            joint_of,
+            parent_of,
+            owner_of: (0..count).collect(),
+            place_in_owner: vec![origin; count],
+            coupling_of,
+        };
+        for link in 0..count {
+            structure.settle(description, link);
+        }
+        Ok(structure)
+    }
+
+    /// Which link this one moves as one with. Circles have been refused.
+    fn settle(&mut self, description: &Description, link: usize) {
+        let (mut owner, mut place) = (link, ([0.0; 3], Rotation::none().matrix));
+        while let (Some(joint), Some(parent)) = (self.joint_of[owner], self.parent_of[owner]) {
+            let joint = &description.joints[joint];
+            if joint.kind != JointKind::Fixed {
+                break;
+            }
+            place = hung(joint, place);
+            owner = parent;
+        }
+        (self.owner_of[link], self.place_in_owner[link]) = (owner, place);
+    }
+
+    /// Where a link is in the axes of the root while no joint is turned or moved.
+    fn at_rest(&self, description: &Description, link: usize) -> (Triple, Matrix) {
+        let (mut link, mut place) = (link, ([0.0; 3], Rotation::none().matrix));
+        while let (Some(joint), Some(parent)) = (self.joint_of[link], self.parent_of[link]) {
+            place = hung(&description.joints[joint], place);
+            link = parent;
+        }
+        place
+    }
+
+    /// The point of the second link that coincides with a point of the first while no joint is turned or moved.
+    pub fn opposite(&self, description: &Description, [first, second]: [usize; 2], point: &Triple) -> Triple {
+        let [(a, r), (b, s)] = [first, second].map(|link| self.at_rest(description, link));
+        let turned = turned(&r, point);
+        let apart: Triple = std::array::from_fn(|i| a[i] + turned[i] - b[i]);
+        std::array::from_fn(|i| (0..3).map(|k| s[k][i] * apart[k]).sum())
+    }
+
+    /// The mass data of what moves as one with a link, but for the links that are `apart`; `None` without any.
+    pub fn merged(&self, description: &Description, owner: usize, apart: impl Fn(usize) -> bool) -> Option<Inertial> {
+        let own = |&link: &usize| self.owner_of[link] == owner && !apart(link);
+        let all: Vec<Inertial> = (0..description.links.len())
+            .filter(own)
+            .filter_map(|link| Some(placed(description.links[link].inertial?, &self.place_in_owner[link])))
+            .collect();
+        match all.as_slice() {
+            [] => None,
+            [one] => Some(*one),
+            all => Some(sum(all)),
+        }
+    }
+}
+
+/// A place in the axes of the parent of a joint that is neither turned nor moved.
+fn hung(joint: &Joint, (position, matrix): (Triple, Matrix)) -> (Triple, Matrix) {
+    let moved = turned(&joint.rotation.matrix, &position);
+    (std::array::from_fn(|i| joint.position[i] + moved[i]), multiply(&joint.rotation.matrix, &matrix))
+}
+
+/// Mass data in the axes of another link.
+fn placed(own: Inertial, (position, matrix): &(Triple, Matrix)) -> Inertial {
+    if *matrix == Rotation::none().matrix && *position == [0.0; 3] {
+        return own;
+    }
+    let center = turned(matrix, &own.center);
+    Inertial {
+        mass: own.mass,
+        center: std::array::from_fn(|i| position[i] + center[i]),
+        inertia: turned_tensor(matrix, &own.inertia),
+    }
+}
+
+fn sum(all: &[Inertial]) -> Inertial {
+    let mass: f64 = all.iter().map(|part| part.mass).sum();
+    let weighted = |i: usize| all.iter().map(|part| part.mass * part.center[i]).sum::<f64>();
+    let center: Triple = if mass > 0.0 { std::array::from_fn(|i| weighted(i) / mass) } else { [0.0; 3] };
+    let mut inertia = [[0.0; 3]; 3];
+    for part in all {
+        let arm: Triple = std::array::from_fn(|i| part.center[i] - center[i]);
+        let square: f64 = arm.iter().map(|c| c * c).sum();
+        for i in 0..3 {
+            for j in 0..3 {
+                let diagonal = if i == j { square } else { 0.0 };
+                inertia[i][j] += part.inertia[i][j] + part.mass * (diagonal - arm[i] * arm[j]);
+            }
+        }
+    }
+    Inertial { mass, center, inertia }
+}
+
+fn refuse_twice<'a>(noun: &str, names: impl Iterator<Item = (&'a String, At)>, faults: &mut Vec<Fault>) {
+    let mut known: Vec<(&String, At)> = Vec::new();
+    for (name, at) in names {
+        match known.iter().find(|(earlier, _)| *earlier == name) {
+            Some((_, first)) => faults.push(Fault {
+                at,
+                message: format!("a second {noun} is called `{name}`, the first is in line {}; rename one", first.line),
+            }),
+            None => known.push((name, at)),
+        }
+    }
+}
+
+/// Of each link the joint that it hangs by, and its parent.
+fn parents(description: &Description, faults: &mut Vec<Fault>) -> (Vec<Option<usize>>, Vec<Option<usize>>) {
+    let count = description.links.len();
+    let (mut joint_of, mut parent_of): (Vec<Option<usize>>, Vec<Option<usize>>) =
+        (vec![None; count], vec![None; count]);
+    let find = |name: &String| description.links.iter().position(|link| link.name == *name);
+    for (index, joint) in description.joints.iter().enumerate() {
+        let ends = [&joint.parent, &joint.child].map(|name| {
+            let link = find(name);
+            if link.is_none() {
+                let said = unknown("link", name, description.links.iter().map(|link| link.name.as_str()));
+                faults.push(Fault { at: joint.at, message: format!("the joint `{}` joins {said}", joint.name) });
+            }
+            link
+        });
+        let [Some(parent), Some(child)] = ends else { continue };
+        if let Some(earlier) = joint_of[child] {
+            let earlier: &Joint = &description.joints[earlier];
+            let message = format!(
+                "the link `{}` hangs by the joint `{}` and by `{}` in line {}; in a file each has one parent: \
+                 remove one, and \
+                 write the other as a `constraint(…)` of the struct",
+                joint.child, joint.name, earlier.name, earlier.at.line
+            );
+            faults.push(Fault { at: joint.at, message });
+            continue;
+        }
+        (joint_of[child], parent_of[child]) = (Some(index), Some(parent));
+    }
+    (joint_of, parent_of)
+}
+
+/// The link that all others hang on.
+fn root(description: &Description, parent_of: &[Option<usize>], faults: &mut Vec<Fault>) -> Option<usize> {
+    let links = &description.links;
+    for start in 0..links.len() {
+        let mut link = start;
+        // As many steps as there are links lead to the root, or around.
+        for _ in 0..links.len() {
+            link = parent_of[link].unwrap_or(link);
+        }
+        if parent_of[link].is_some() {
+            let mut circle = vec![link];
+            while let Some(next) = parent_of[circle[circle.len() - 1]].filter(|next| *next != link) {
+                circle.push(next);
+            }
+            let first = circle.iter().copied().min_by_key(|&member| links[member].at).unwrap_or(link);
+            let names: Vec<String> = circle.iter().map(|&member| format!("`{}`", links[member].name)).collect();
+            let message = format!("links hang on each other in a circle: {}", names.join(" on "));
+            faults.push(Fault { at: links[first].at, message });
+            return None;
+        }
+    }
+    let roots: Vec<usize> = (0..links.len()).filter(|&link| parent_of[link].is_none()).collect();
+    match roots.as_slice() {
+        [] => faults.push(Fault { at: At { line: 1, column: 1 }, message: "there are no links".into() }),
+        [_] => {}
+        [first, others @ ..] => faults.extend(others.iter().map(|&other| Fault {
+            at: links[other].at,
+            message: format!(
+                "the link `{}` hangs on nothing, and so does `{}` in line {}; join the two",
+                links[other].name, links[*first].name, links[*first].at.line
+            ),
+        })),
+    }
+    roots.first().copied().filter(|_| faults.is_empty())
+}
+
+/// What the coordinate of each joint is.
+fn couplings(description: &Description, faults: &mut Vec<Fault>) -> Vec<Coupling> {
+    let joints = &description.joints;
+    let scalar = |kind: JointKind| matches!(kind, JointKind::Turning | JointKind::Sliding);
+    (0..joints.len())
+        .map(|index| {
+            let mut coupling = Coupling { joint: index, multiplier: 1.0, offset: 0.0 };
+            for _ in 0..=joints.len() {
+                let joint = &joints[coupling.joint];
+                let Some(mimic) = &joint.mimic else { return coupling };
+                let leader = joints.iter().position(|other| other.name == mimic.joint);
+                let message = match leader {
+                    None => {
+                        let others = joints.iter().filter(|other| other.name != joint.name);
+                        unknown("joint", &mimic.joint, others.map(|other| other.name.as_str()))
+                    }
+                    Some(leader) if !scalar(joints[leader].kind) || !scalar(joint.kind) => {
+                        format!("`{}`, and only joints with one coordinate mimic each other", mimic.joint)
+                    }
+                    Some(leader) => {
+                        coupling.offset += coupling.multiplier * mimic.offset;
+                        coupling.multiplier *= mimic.multiplier;
+                        coupling.joint = leader;
+                        continue;
+                    }
+                };
+                // Of a joint that mimics one with a mistake nothing more is said.
+                if coupling.joint == index {
+                    faults
+                        .push(Fault { at: mimic.at, message: format!("the joint `{}` mimics {message}", joint.name) });
+                }
+                return coupling;
+            }
+            let joint = &joints[index];
+            faults
+                .push(Fault { at: joint.at, message: format!("the joint `{}` mimics itself, by others", joint.name) });
+            coupling
+        })
+        .collect()
+}
+
+/// `` `elbw`, which is no joint; did you mean `elbow`? ``
+fn unknown<'a>(noun: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
+    let table: Vec<(&str, ())> = known.map(|name| (name, ())).collect();
+    match words::nearest(name, &table) {
+        Some((near, ())) => format!("`{name}`, which is no {noun}; did you mean `{near}`?"),
+        None => format!("`{name}`, which is no {noun} of this file"),
+    }
+}

@@ -1,0 +1,454 @@
+//! Robots from their files: what they do at states that Pinocchio computed, and against mass matrices and weights
+//! that are summed link by link from the numbers of the file.
+
+use std::fs;
+use std::path::Path;
+
+use gauss_codegen::Derivation;
+use gauss_runtime::prelude::*;
+use serde_json::Value;
+
+const EPSILON: f64 = f64::EPSILON;
+
+#[derive(GaussDynamics)]
+#[gauss(urdf = "robots/panda.urdf", gravity = 9.81)]
+struct Panda;
+
+/// The efforts of the joints come first, then what the base is pushed with.
+#[derive(GaussDynamics)]
+#[gauss(
+    urdf = "robots/anymal.urdf",
+    base = floating,
+    gravity = 9.81,
+    input(push: Wrench),
+    wrench(push, body = base_link, force = push.force, torque = push.torque)
+)]
+struct Anymal;
+
+#[derive(GaussDynamics)]
+#[gauss(
+    urdf = "robots/talos.urdf",
+    base = floating,
+    gravity = 9.81,
+    input(push: Wrench),
+    wrench(push, body = base_link, force = push.force, torque = push.torque)
+)]
+struct Talos;
+
+/// The states of a robot and what Pinocchio found there.
+fn states(name: &str) -> Vec<Value> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("robots").join(format!("{name}.json"));
+    let robot: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    robot["states"].as_array().unwrap().clone()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+fn vector<const N: usize>(value: &Value) -> SVector<f64, N> {
+    SVector::from_iterator(numbers(value))
+}
+
+/// Kinetic energy, acceleration and inverse dynamics at one state.
+///
+/// Both programs add some hundred products for every entry of A and of the forces, and solve by a factorisation that
+/// is backward stable: forces agree within that many roundings of the largest term, accelerations within as many
+/// times the condition of A.
+fn check<S, const N: usize>(kernel: &S, q: &S::Configuration, input: &S::Input, state: &Value)
+where
+    S: GaussSystem<Scalar = f64, Speeds = SVector<f64, N>, MassMatrix = SMatrix<f64, N, N>>,
+{
+    let z: SVector<f64, N> = vector(&state["v"]);
+    let matrix = kernel.mass_matrix(0.0, q);
+    let energy = state["kinetic_energy"].as_f64().unwrap();
+    let roundings = 500.0 * EPSILON;
+    assert!((kernel.kinetic_energy(0.0, q, &z) - energy).abs() <= roundings * energy);
+    assert!((0.5 * z.dot(&(matrix * z)) - energy).abs() <= roundings * energy);
+    let condition = matrix.norm() * matrix.try_inverse().unwrap().norm();
+    let (found, expected) = (kernel.acceleration(0.0, q, &z, input), vector::<N>(&state["acceleration"]));
+    let error = (found - expected).amax();
+    assert!(
+        error <= roundings * condition * expected.amax(),
+        "{error:e} of {} at condition {condition:e}",
+        expected.amax()
+    );
+    // Without the inputs: what the joints and the base must be driven with for this acceleration.
+    let driven = kernel.inverse_dynamics(0.0, q, &z, &z, input);
+    let tau: SVector<f64, N> = vector(&state["tau"]);
+    let expected = vector::<N>(&state["inverse_dynamics_at_v_as_acceleration"]) - tau;
+    let error = (driven - expected).amax();
+    assert!(error <= roundings * (expected.amax() + tau.amax()), "{error:e} of {}", expected.amax());
+}
+
+#[test]
+fn an_arm_with_two_fingers() {
+    let kernel = Panda.kernel().unwrap();
+    assert_eq!(size_of_val(&kernel), 0);
+    for state in states("panda") {
+        check(&kernel, &vector::<9>(&state["q"]), &vector::<9>(&state["tau"]), &state);
+    }
+}
+
+/// (x, y, z, quaternion with its real part last, joints), and the efforts of the joints before the wrench on the base.
+fn floating<const N: usize, const I: usize>(state: &Value) -> ((Isometry3<f64>, SVector<f64, N>), SVector<f64, I>) {
+    let q = numbers(&state["q"]);
+    let quaternion = UnitQuaternion::from_quaternion(Quaternion::new(q[6], q[3], q[4], q[5]));
+    let pose = Isometry3::from_parts(Vector3::new(q[0], q[1], q[2]).into(), quaternion);
+    let tau = numbers(&state["tau"]);
+    let input = SVector::from_iterator(tau[6..].iter().chain(&tau[..6]).copied());
+    ((pose, SVector::from_iterator(q[7..].iter().copied())), input)
+}
+
+#[test]
+fn a_quadruped() {
+    let kernel = Anymal.kernel().unwrap();
+    assert_eq!(size_of_val(&kernel), 0);
+    for state in states("anymal") {
+        let (q, input) = floating::<12, 18>(&state);
+        check(&kernel, &q, &input, &state);
+    }
+}
+
+#[test]
+fn a_biped() {
+    let kernel = Talos.kernel().unwrap();
+    assert_eq!(size_of_val(&kernel), 0);
+    for state in states("talos") {
+        let (q, input) = floating::<32, 38>(&state);
+        check(&kernel, &q, &input, &state);
+    }
+}
+
+#[derive(GaussDynamics)]
+#[gauss(
+    urdf = "robots/gripper.urdf",
+    gravity = 9.81,
+    friction = smooth(width),
+    limits = stop(stiffness = 1e4, width = 1e-3),
+    point(pad, body = left_finger, at = [0, 0, 0.04])
+)]
+struct Gripper {
+    width: f64,
+}
+
+/// The same with mass data in fields: links that are fixed to these are then bodies of their own.
+#[derive(GaussDynamics)]
+#[gauss(urdf = "robots/gripper.urdf", gravity = 9.81, friction = none, limits = none, parameters = inertial)]
+struct LoadedGripper {
+    #[gauss(body)]
+    upper_arm: RigidBody<f64, AboutCenterOfMass<f64>>,
+    #[gauss(body)]
+    left_finger: RigidBody<f64>,
+    #[gauss(body)]
+    right_finger: RigidBody<f64>,
+}
+
+/// A link of the hand: its pose, and how it moves with each of the two coordinates.
+#[derive(Clone, Copy)]
+struct Moved {
+    pose: Isometry3<f64>,
+    /// Velocity of the point of the link that is at Ω, and angular velocity, observer's axes.
+    rates: [[Vector3<f64>; 2]; 2],
+}
+
+impl Moved {
+    /// A link that hangs on this one, turned by `angle` about `axis` or moved along it; `rate` is that of each
+    /// coordinate.
+    fn hung(&self, xyz: [f64; 3], rpy: [f64; 3], axis: Vector3<f64>, [turn, way]: [f64; 2], rate: [f64; 2]) -> Moved {
+        let origin =
+            Isometry3::from_parts(Vector3::from(xyz).into(), UnitQuaternion::from_euler_angles(rpy[0], rpy[1], rpy[2]));
+        let frame = self.pose * origin;
+        let axis = axis.normalize();
+        let pose = frame * Isometry3::from_parts((axis * way).into(), UnitQuaternion::from_scaled_axis(axis * turn));
+        let along = frame.rotation * axis;
+        let mut rates = self.rates;
+        // The elbow turns, the fingers slide.
+        for (k, (own, rate)) in rates.iter_mut().zip(rate).enumerate() {
+            let [linear, angular] = if k == 1 {
+                [along * rate, Vector3::zeros()]
+            } else {
+                [frame.translation.vector.cross(&along) * rate, along * rate]
+            };
+            own[0] += linear;
+            own[1] += angular;
+        }
+        Moved { pose, rates }
+    }
+}
+
+/// The links of gripper.urdf that move, with mass, centre of mass, and inertia about it turned by the angles of its
+/// frame.
+fn hand([elbow, left]: [f64; 2]) -> Vec<(Moved, f64, Vector3<f64>, Matrix3<f64>)> {
+    let still = Moved { pose: Isometry3::identity(), rates: [[Vector3::zeros(); 2]; 2] };
+    let x = Vector3::x();
+    let plate = still.hung([0.1, 0.0, 0.2], [0.0, 0.0, 0.3], x, [0.0; 2], [0.0; 2]);
+    let arm = plate.hung([0.0, 0.0, 0.1], [0.2, -0.4, 0.7], Vector3::new(1.0, 2.0, -2.0), [elbow, 0.0], [1.0, 0.0]);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let palm = arm.hung([0.0, 0.02, 0.4], [quarter, 0.0, 0.4], x, [0.0; 2], [0.0; 2]);
+    let finger =
+        |way: f64, rate: f64| palm.hung([0.0, 0.0, 0.05], [0.0, 0.0, 0.785], Vector3::y(), [0.0, way], [0.0, rate]);
+    let turned = |rpy: [f64; 3], inertia: Matrix3<f64>| {
+        let r = *UnitQuaternion::from_euler_angles(rpy[0], rpy[1], rpy[2]).to_rotation_matrix().matrix();
+        r * inertia * r.transpose()
+    };
+    let upper = Matrix3::new(0.02, 0.001, -0.002, 0.001, 0.025, 0.0005, -0.002, 0.0005, 0.01);
+    let slender = Matrix3::from_diagonal(&Vector3::new(1e-5, 1e-5, 2e-6));
+    let of_palm = Matrix3::from_diagonal(&Vector3::new(0.0004, 0.0005, 0.0003));
+    vec![
+        (arm, 1.5, Vector3::new(0.05, 0.01, 0.2), turned([0.5, 0.1, -0.3], upper)),
+        (palm, 0.4, Vector3::new(0.0, 0.0, 0.03), turned([0.0, 0.2, 0.0], of_palm)),
+        (finger(left, 1.0), 0.05, Vector3::new(0.0, 0.01, 0.02), slender),
+        (finger(-0.5 * left - 0.01, -0.5), 0.05, Vector3::new(0.0, -0.01, 0.02), slender),
+    ]
+}
+
+/// A and the weight's potential energy, summed over the links.
+fn summed(q: [f64; 2]) -> (SMatrix<f64, 2, 2>, f64) {
+    let (mut matrix, mut potential) = (SMatrix::<f64, 2, 2>::zeros(), 0.0);
+    for (link, mass, center, inertia) in hand(q) {
+        let at = link.pose.rotation * center + link.pose.translation.vector;
+        let r = *link.pose.rotation.to_rotation_matrix().matrix();
+        let inertia = r * inertia * r.transpose();
+        let velocity = |k: usize| link.rates[k][0] + link.rates[k][1].cross(&at);
+        for i in 0..2 {
+            for j in 0..2 {
+                matrix[(i, j)] +=
+                    mass * velocity(i).dot(&velocity(j)) + link.rates[i][1].dot(&(inertia * link.rates[j][1]));
+            }
+        }
+        potential += mass * 9.81 * at.z;
+    }
+    (matrix, potential)
+}
+
+const STATES: [[f64; 2]; 3] = [[0.0, 0.0], [0.7, 0.02], [-1.2, 0.035]];
+
+/// Rotated inertial frames, an axis of no frame, links that are fixed to others, and a joint that mimics another.
+#[test]
+fn a_hand_as_its_numbers_say() {
+    let kernel = Gripper { width: 0.01 }.kernel().unwrap();
+    let zero = kernel.potential_energy(0.0, &SVector::from([0.5, 0.02])) - summed([0.5, 0.02]).1;
+    for q in STATES {
+        let (matrix, potential) = summed(q);
+        let found = kernel.mass_matrix(0.0, &SVector::from(q));
+        // Some fifty products for each link and entry, of sizes up to those of the diagonal.
+        let size = (matrix[(0, 0)] * matrix[(1, 1)]).sqrt().max(matrix[(0, 0)]);
+        assert!((found - matrix).amax() <= 200.0 * EPSILON * size, "{found} {matrix}");
+        // Stops push a little before their limits, by less than their stiffness times the square of their width.
+        let difference = kernel.potential_energy(0.0, &SVector::from(q)) - potential - zero;
+        assert!(difference.abs() <= 1e4 * 1e-6, "{difference:e}");
+    }
+    // Far beyond a limit the stop is a spring.
+    let q = SVector::from([2.0 + 0.5, 0.02]);
+    let rest = kernel.acceleration(0.0, &q, &SVector::zeros(), &SVector::zeros());
+    let force = kernel.mass_matrix(0.0, &q) * rest;
+    assert!((force[0] + 0.5e4).abs() < 30.0, "{force}");
+}
+
+/// −f v/√(v² + w²) − d v in the elbow; of the two fingers, which are dampers, d₁ v + d₂ v/4.
+#[test]
+fn friction_and_damping() {
+    let (kernel, q) = (Gripper { width: 0.01 }.kernel().unwrap(), SVector::from([0.3, 0.02]));
+    for [v, w] in [[0.02, 0.3], [-2.0, -0.1]] {
+        let z = SVector::from([v, w]);
+        let input = SVector::from([0.7, -0.4]);
+        let of = |name: &str| kernel.generalised_force(name, 0.0, &q, &z, &input).unwrap();
+        assert_eq!(of("efforts"), input);
+        let damping = of("joint_damping");
+        assert!(
+            (damping[0] + 0.3 * v).abs() <= 4.0 * EPSILON && (damping[1] + 2.25 * w).abs() <= 4.0 * EPSILON,
+            "{damping}"
+        );
+        let friction = of("joint_friction");
+        assert!((friction[0] + 0.2 * v / v.hypot(0.01)).abs() <= 4.0 * EPSILON && friction[1] == 0.0, "{friction}");
+    }
+}
+
+fn about_origin(mass: f64, center_of_mass: Vector3<f64>, inertia: Matrix3<f64>) -> RigidBody<f64> {
+    let c = center_of_mass;
+    let inertia = inertia + (Matrix3::identity() * c.dot(&c) - c * c.transpose()) * mass;
+    RigidBody { mass, center_of_mass, inertia }
+}
+
+#[test]
+fn mass_data_in_fields() {
+    let slender = Matrix3::from_diagonal(&Vector3::new(1e-5, 1e-5, 2e-6));
+    let all = hand([0.0, 0.0]);
+    let loaded = LoadedGripper {
+        upper_arm: RigidBody::about_center_of_mass(all[0].1, all[0].2, all[0].3),
+        left_finger: about_origin(0.05, Vector3::new(0.0, 0.01, 0.02), slender),
+        right_finger: about_origin(0.05, Vector3::new(0.0, -0.01, 0.02), slender),
+    };
+    let (loaded, plain) = (loaded.kernel().unwrap(), Gripper { width: 0.01 }.kernel().unwrap());
+    for q in STATES.map(SVector::from) {
+        let (a, b) = (loaded.mass_matrix(0.0, &q), plain.mass_matrix(0.0, &q));
+        assert!((a - b).amax() <= 200.0 * EPSILON * b.amax(), "{a} {b}");
+    }
+}
+
+/// Inputs of the two joints that transmissions drive; the tips are joined by clauses of the struct.
+#[derive(GaussDynamics)]
+#[gauss(
+    urdf = "robots/five_bar.urdf",
+    gravity = 9.81,
+    inputs = transmissions,
+    constraint(position = dot(left_tip.position - right_tip.position, [1, 0, 0])),
+    constraint(position = dot(left_tip.position - right_tip.position, [0, 0, 1])),
+    particle(mass = 0.1, position = [0, 0, 0], parent = left_tip)
+)]
+struct FiveBar;
+
+/// Symmetric and symmetrically driven, it moves symmetrically; the tips stay together.
+#[test]
+fn a_closed_loop() {
+    let kernel = FiveBar.kernel().unwrap();
+    // Cranks straight up, rods inward: 0.1 = 0.3 sin(angle).
+    let angle = (1.0_f64 / 3.0).asin();
+    let q = SVector::from([0.0, angle, 0.0, -angle]);
+    assert!(kernel.position_residual(0.0, &q).amax() <= 4.0 * EPSILON);
+    let input = SVector::from([0.3, -0.3]);
+    let found = kernel.acceleration(0.0, &q, &SVector::zeros(), &input);
+    let size = found.amax();
+    assert!(size > 0.1, "{found}");
+    assert!(
+        (found[0] + found[2]).abs() <= 1e3 * EPSILON * size && (found[1] + found[3]).abs() <= 1e3 * EPSILON * size,
+        "{found}"
+    );
+}
+
+/// The file and the clauses that say the same give the same programs.
+#[test]
+fn a_file_is_as_good_as_clauses() {
+    let file = "#[gauss(urdf = \"robots/panda.urdf\", gravity = 9.81)] struct Panda;";
+    let file: syn::DeriveInput = syn::parse_str(file).unwrap();
+    let derived = Derivation::new(&file).unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("robots/panda.json");
+    let robot: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let (mut coordinates, mut efforts, mut bodies) = (Vec::new(), Vec::new(), String::new());
+    for link in robot["links"].as_array().unwrap() {
+        let name = link["name"].as_str().unwrap();
+        coordinates.push(name.to_owned());
+        efforts.push(format!("{name} = {name}_effort"));
+        let parent = link["parent"].as_str().map_or(String::new(), |parent| format!("parent = {parent}_link,"));
+        let row = numbers(&link["rotation"][0]);
+        let turn = match (numbers(&link["rotation"][2])[1], row[1]) {
+            (-1.0, _) => "rotation_x(-pi / 2) *",
+            (1.0, _) => "rotation_x(pi / 2) *",
+            (_, 0.0) => "",
+            _ => "rotation_z(-0.7853981633974484) *",
+        };
+        let [x, y, z]: [f64; 3] = numbers(&link["position"]).try_into().unwrap();
+        let (position, rotation) = if link["joint"] == "prismatic" {
+            let axis = numbers(&link["axis"]);
+            let way = if axis[1] > 0.0 { name.to_owned() } else { format!("-{name}") };
+            let along = format!("[0.7071067811865476 * {way}, 0.7071067811865475 * {way}, {z:?}]");
+            (along, turn.trim_end_matches('*').to_owned())
+        } else {
+            (format!("[{x:?}, {y:?}, {z:?}]"), format!("{turn} rotation_z({name})"))
+        };
+        let moments = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]
+            .map(|entry| format!("{:?}", link["inertia_about_center_of_mass"][entry].as_f64().unwrap()));
+        let diagonal = [1, 2, 4].iter().all(|&k| moments[k] == "0.0");
+        let moments = if diagonal { vec![&moments[0], &moments[3], &moments[5]] } else { moments.iter().collect() };
+        let moments: Vec<&str> = moments.into_iter().map(String::as_str).collect();
+        let [cx, cy, cz]: [f64; 3] = numbers(&link["center_of_mass"]).try_into().unwrap();
+        let center = if [cx, cy, cz] == [0.0; 3] {
+            String::new()
+        } else {
+            format!("center_of_mass = [{cx:?}, {cy:?}, {cz:?}],")
+        };
+        bodies += &format!(
+            "body({name}_link, {parent} position = {position}, rotation = {rotation}, mass = {:?}, {center} \
+             inertia_about_center_of_mass = [{}]),",
+            link["mass"].as_f64().unwrap(),
+            moments.join(", "),
+        );
+    }
+    let inputs: Vec<String> = coordinates.iter().map(|name| format!("{name}_effort")).collect();
+    let written = format!(
+        "#[gauss(coordinates({}), input({}), {bodies} drive(efforts, {}), gravity = 9.81)] struct Panda {{}}",
+        coordinates.join(", "),
+        inputs.join(", "),
+        efforts.join(", "),
+    );
+    let written: syn::DeriveInput = syn::parse_str(&written).unwrap();
+    let written = Derivation::new(&written).unwrap();
+    for method in ["acceleration", "mass_matrix", "gauss_residual"] {
+        let [a, b] = [&derived, &written].map(|d| d.program(method).map(|program| program.code.instructions.len()));
+        assert_eq!(a, b, "{method}");
+    }
+}
+
+#[derive(GaussDynamics)]
+#[gauss(mjcf = "robots/linkage.xml")]
+struct Linkage;
+
+/// The same in clauses: one rotor for the armature, the joints that share a body as one rotation.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(yaw, pitch, socket: Rotation),
+    input(yaw_effort),
+    body(
+        arm,
+        position = [0, 0, 0.9] + rotation_y(pi / 2) * rotation_z(yaw) * rotation_y(pitch - pi / 18) * [-0.1, 0, 0],
+        rotation = rotation_y(pi / 2) * rotation_z(yaw) * rotation_y(pitch - pi / 18)
+    ),
+    body(
+        bob, parent = arm, position = [0.6, 0, 0], rotation = socket, mass = 0.5, center_of_mass = [0.1, 0, 0.05],
+        inertia_about_center_of_mass = [1e-3, 1e-4, 0, 2e-3, 0, 2e-3]
+    ),
+    body(cart, position = [5.2 + yaw / 2, 0, 0], mass = 1.0, inertia = 1.0),
+    body(rotor, rotation = rotation_z(pitch), mass = 0.0, inertia = [0, 0, 0.02]),
+    spring(along = pitch, stiffness = 3.0, length = pi / 6),
+    damping = 0.05 * (1.25 * rate(yaw) * rate(yaw) + rate(pitch) * rate(pitch)),
+    drive(yaw = yaw_effort),
+    gravity = 9.81
+)]
+struct LinkageInClauses {
+    #[gauss(body)]
+    arm: RigidBody<f64, AboutCenterOfMass<f64>>,
+}
+
+#[test]
+fn a_mechanism_of_many_joints() {
+    let turn = UnitQuaternion::from_quaternion(Quaternion::new(0.9, 0.1, -0.2, 0.3));
+    let r = *turn.to_rotation_matrix().matrix();
+    let inertia = r * Matrix3::from_diagonal(&Vector3::new(0.01, 0.02, 0.025)) * r.transpose();
+    let arm = RigidBody::about_center_of_mass(2.0, Vector3::new(0.3, 0.0, 0.0), inertia);
+    let (clauses, file) = (LinkageInClauses { arm }.kernel().unwrap(), Linkage.kernel().unwrap());
+    assert_eq!(size_of_val(&file), 0);
+    for k in 1..6 {
+        let part = |n: i32| (f64::from(n * k)).sin();
+        let q = (UnitQuaternion::from_euler_angles(part(1), part(2), part(3)), SVector::from([part(4), part(5)]));
+        let z = SVector::from([part(6), part(7), part(8), part(9), part(10)]);
+        let input = SVector::from([part(11)]);
+        let [a, b] = [file.mass_matrix(0.0, &q), clauses.mass_matrix(0.0, &q)];
+        assert!((a - b).amax() <= 200.0 * EPSILON * b.amax(), "{a} {b}");
+        let condition = b.norm() * b.try_inverse().unwrap().norm();
+        let [a, b] = [file.acceleration(0.0, &q, &z, &input), clauses.acceleration(0.0, &q, &z, &input)];
+        assert!((a - b).amax() <= 500.0 * EPSILON * condition * b.amax(), "{a} {b}");
+    }
+}
+
+#[derive(GaussDynamics)]
+#[gauss(mjcf = "robots/loop.xml")]
+struct Loop;
+
+/// The point that both links have at rest is common to them; what is free falls.
+#[test]
+fn a_point_in_common() {
+    let kernel = Loop.kernel().unwrap();
+    let at = |angles: [f64; 3]| (Isometry3::identity(), SVector::from(angles));
+    let residual = kernel.position_residual(0.0, &at([0.0; 3]));
+    assert!(residual.amax() <= 4.0 * EPSILON, "{residual}");
+    // Both cranks turned alike, the coupler stays level.
+    let turned = kernel.position_residual(0.0, &at([0.3, -0.3, 0.3]));
+    assert!(turned.amax() <= 4.0 * EPSILON, "{turned}");
+    // One crank alone: its end moves from 0.2 k₃ to 0.2 (sin, 0, cos).
+    let apart = kernel.position_residual(0.0, &at([0.0, 0.0, 0.3]));
+    assert!((apart.norm() - 0.4 * 0.15_f64.sin()).abs() <= 8.0 * EPSILON, "{apart}");
+    let fall = kernel.acceleration(0.0, &at([0.3, -0.3, 0.3]), &SVector::zeros(), &());
+    let of_drone = fall.fixed_rows::<6>(3);
+    assert!((of_drone - SVector::<f64, 6>::from([0.0, 0.0, -1.62, 0.0, 0.0, 0.0])).amax() <= 4.0 * EPSILON, "{fall}");
+}
