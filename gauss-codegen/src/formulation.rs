@@ -6,7 +6,7 @@ use crate::mechanics::{
     check_system_against_definition, rotation_of_quaternion,
 };
 use crate::mistakes::{eliminate, refuse_curved_kinematics, refuse_idle_speeds, system_faults};
-use crate::model::Model;
+use crate::model::{Model, WantedMethod};
 use crate::translate::{Parameter, Translator, parameters};
 
 /// A system with its formulas.
@@ -61,6 +61,14 @@ impl<'g> Formulation<'g> {
         };
         if model.wanted.taylor.is_some() {
             formulas.push(system.component_rates(&quaternions, &formulas));
+        }
+        formulas.extend(system.frame_formulas(&translator.links_of_frames()));
+        for method in &model.wanted.methods {
+            match method {
+                WantedMethod::Centroidal => formulas.extend(system.centroidal_formulas()),
+                WantedMethod::NonlinearEffects => formulas.push(system.nonlinear_effects(&formulas)),
+                WantedMethod::GravityTorques => formulas.push(system.gravity_torques()),
+            }
         }
         formulas.extend(regressor.iter().flat_map(|regressor: &Regressor<'g>| regressor.formulas.clone()));
         let units = units_of(&system, &quaternions);

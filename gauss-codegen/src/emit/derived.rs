@@ -10,6 +10,7 @@ use crate::mechanics::{Account, Formula, Linearization, Method, Regressor};
 use crate::model::{Model, Scalar};
 use crate::program::ArgumentKind;
 use crate::translate::{DragMatrix, Law, Parameter, Translator};
+use syn::ext::IdentExt;
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, arguments_of, declare, declared, variable};
@@ -160,6 +161,19 @@ impl<'a, 'g> Derived<'a, 'g> {
         &self.kernel.functions[position.expect("a method that is written was derived")]
     }
 
+    /// What a method is called: of a frame with its name, `pose_of_tool`.
+    pub fn name_of(&self, method: Method) -> String {
+        match method {
+            Method::OfFrame(_, frame) => format!("{}_{}", method.name(), self.frames()[frame].unraw()),
+            _ => method.name().to_owned(),
+        }
+    }
+
+    /// The names of the frames that are asked for.
+    pub fn frames(&self) -> &'a [Ident] {
+        &self.subject.model.wanted.frames
+    }
+
     pub fn has(&self, method: Method) -> bool {
         self.formulas.iter().any(|f| f.method == method)
     }
@@ -239,11 +253,17 @@ impl<'a, 'g> Derived<'a, 'g> {
         let (private, speeds) = (self.private(), self.speeds());
         let (instructions, outputs) = self.computed(self.program(method));
         let result = match method {
-            Method::KineticEnergy | Method::PotentialEnergy | Method::ConstraintFunction | Method::SuppliedPower => {
-                quote!(#(#outputs)*)
-            }
+            Method::KineticEnergy
+            | Method::PotentialEnergy
+            | Method::ConstraintFunction
+            | Method::SuppliedPower
+            | Method::TotalMass => quote!(#(#outputs)*),
             Method::MassMatrix | Method::ElementForces => {
                 let rows = outputs.chunks(outputs.len() / speeds.len()).map(|row| quote!([#(#row),*]));
+                quote!(#private::matrix([#(#rows),*]))
+            }
+            Method::CentroidalMatrix => {
+                let rows = outputs.chunks(speeds.len()).map(|row| quote!([#(#row),*]));
                 quote!(#private::matrix([#(#rows),*]))
             }
             // The volume over the product of the lengths.

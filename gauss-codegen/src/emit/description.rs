@@ -9,6 +9,7 @@ use crate::mechanics::{Formula, Method};
 
 use super::derived::Derived;
 use super::documentation::{DERIVATIVES, Equations};
+use super::framed::frame_operations;
 
 pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let private = derived.private();
@@ -54,5 +55,7 @@ fn operations(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
     let whole = whole.map(|(name, program)| count(name, program.counts()));
     let derivatives = DERIVATIVES.into_iter().zip(kernel.derivatives());
     let derivatives = derivatives.filter_map(|(name, program)| Some(count(name, program?.counts())));
-    whole.chain(methods).chain(derivatives).collect()
+    let asked_for = Method::ASKED_FOR.into_iter().filter(|method| derived.has(*method));
+    let asked_for = asked_for.map(|method| count(method.name(), derived.program(method).counts()));
+    whole.chain(methods).chain(derivatives).chain(asked_for).chain(frame_operations(derived)).collect()
 }

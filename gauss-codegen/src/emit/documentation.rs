@@ -4,6 +4,7 @@ use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
 use crate::formulation::Printed;
+use crate::mechanics::Method;
 use crate::model::{InChart, InputKind, Role};
 
 use super::chart::{chart_name, motion_name};
@@ -134,7 +135,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         let [worst, median] = loss.rounded();
         let warning = if worst > MUCH { ": **digits are lost**" } else { "" };
         let loss = if worst > 0.0 { format!("{worst} ({median}){warning}") } else { String::new() };
-        out.push_str(&format!("| `{}` | {} | {loss} |\n", formula.method.name(), program.counts()));
+        out.push_str(&format!("| `{}` | {} | {loss} |\n", said(derived, formula.method), program.counts()));
     }
     out.push_str(&format!("| `evaluate` | {} | |\n", derived.kernel.joined.counts()));
     for (name, program) in DERIVATIVES.into_iter().zip(derived.kernel.derivatives()) {
@@ -143,6 +144,14 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         }
     }
     out
+}
+
+/// What a method is called, as it is called: `pose_of(tool)`.
+fn said(derived: &Derived<'_, '_>, method: Method) -> String {
+    match method {
+        Method::OfFrame(_, frame) => format!("{}({})", method.name(), derived.frames()[frame].unraw()),
+        _ => method.name().to_owned(),
+    }
 }
 
 /// What a configuration and speeds are made of, in words and in a call.

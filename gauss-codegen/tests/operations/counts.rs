@@ -15,7 +15,7 @@ pub struct Row {
 }
 
 /// Methods whose costs are pinned; what else `OPERATIONS` has serves checks.
-const PINNED: [&str; 12] = [
+const PINNED: [&str; 18] = [
     "acceleration",
     "momentum",
     "velocity",
@@ -28,6 +28,12 @@ const PINNED: [&str; 12] = [
     "linearize",
     "by_parameters",
     "regressor",
+    "frames",
+    "centroidal_momentum",
+    "centroidal_matrix",
+    "centroidal_bias",
+    "nonlinear_effects",
+    "gravity_torques",
 ];
 
 /// Of `kernel()`, which runs once.
