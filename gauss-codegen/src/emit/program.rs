@@ -14,6 +14,9 @@ pub struct ScalarTokens<'a> {
     pub scalar: &'a Scalar,
     /// `::gauss_runtime::real::Real`.
     pub real: TokenStream,
+    /// A product and a sum. For primitive types a function of its own: compilers look for an implementation at every call of a
+    /// trait's, which was half of the time in which they checked types.
+    pub fma: TokenStream,
     /// `::gauss_runtime::__private::apart`.
     pub apart: TokenStream,
     /// Functions of the user's own.
@@ -159,7 +162,7 @@ fn statement(
     symbols: &Map<u32, TokenStream>,
     scalar: &ScalarTokens<'_>,
 ) -> TokenStream {
-    let real = &scalar.real;
+    let (real, fma) = (&scalar.real, &scalar.fma);
     let write = |o: &Operand<'_>| operand(o, symbols, scalar);
     let name = value(k);
     match instruction {
@@ -169,11 +172,11 @@ fn statement(
         Operation::Divide(a, b) => binary(&name, &write(a), &quote!(/), &write(b)),
         Operation::MultiplyAdd(a, b, c) => {
             let (a, b, c) = (write(a), write(b), write(c));
-            quote!(let #name = #real::fma(#a, #b, #c);)
+            quote!(let #name = #fma(#a, #b, #c);)
         }
         Operation::MultiplySubtract(a, b, c) => {
             let (a, b, c) = (write(a), write(b), write(c));
-            quote!(let #name = #real::fma(-#a, #b, #c);)
+            quote!(let #name = #fma(-#a, #b, #c);)
         }
         Operation::Negate(a) => {
             let a = write(a);
