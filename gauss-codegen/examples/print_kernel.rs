@@ -6,13 +6,14 @@
 //! | `latex` | the equations as one LaTeX environment |
 //! | `program` | the programs, one instruction a line; `program=acceleration` one of them |
 //! | `c` | a source file in C99 |
-//! | `rust` | what the derive writes, in one line |
+//! | `rust` | what the derive writes |
+//! | `functions` | functions of `f64` in Rust that need nothing else |
 
 use std::process::ExitCode;
 
 use gauss_codegen::{Derivation, Notation, targets};
 
-const USAGE: &str = "print_kernel FILE NAME [--as text|latex|program|program=METHOD|c|rust]";
+const USAGE: &str = "print_kernel FILE NAME [--as text|latex|program|program=METHOD|c|rust|functions]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -49,9 +50,15 @@ fn print(file: &str, name: &str, form: &str) -> Result<String, String> {
             program.ok_or_else(|| format!("{name} has no method {method}"))
         }
         ("c", "") => Ok(targets::c::source(&derivation)),
-        ("rust", "") => Ok(format!("{}\n", derivation.rust())),
+        ("rust", "") => pretty(derivation.rust().clone()),
+        ("functions", "") => pretty(targets::rust::source(&derivation)),
         _ => Err(USAGE.to_owned()),
     }
+}
+
+fn pretty(code: proc_macro2::TokenStream) -> Result<String, String> {
+    let file = syn::parse2(code).map_err(|error| format!("what was written is no Rust: {error}"))?;
+    Ok(prettyplease::unparse(&file))
 }
 
 /// Every mistake with its place.

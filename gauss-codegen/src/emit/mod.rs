@@ -2,7 +2,7 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `program` | instructions as `let` statements |
+//! | `program` | the dialect of Rust that kernels are written in |
 //! | `arguments` | where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel |
 //! | `parameters`, `locals`, `assigned`, `inertia`, `laws` | the parameters read, checked, and turned into constants; `warnings()` |
 //! | `subject`, `chart`, `pose` | what is derived: its configuration, its constraints; charts by name; configurations as poses |

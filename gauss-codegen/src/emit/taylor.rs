@@ -25,7 +25,9 @@ use crate::kernel::{Operand, Operation, Program};
 use crate::mechanics::{Coordinate, Method};
 
 use super::derived::Derived;
-use super::program::{Kept, ScalarTokens, in_blocks, operand, statements_kept};
+use crate::targets::rust::{Kept, in_blocks, operand, statements};
+
+use super::program::{KernelDialect, ScalarTokens};
 
 /// The number of lanes is a multiple of this: the runtime sums them in packs.
 const PACK: usize = 4;
@@ -85,7 +87,7 @@ impl<'a, 'g> Order<'a, 'g> {
 
     /// Order 0.
     fn first(&self, o: &Operand<'g>) -> TokenStream {
-        operand(o, self.names, self.scalar)
+        operand(o, &KernelDialect { symbols: self.names, scalar: self.scalar })
     }
 
     /// Order k; `None` where it is zero.
@@ -365,7 +367,8 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (ty, real, zero) = (scalar.ty(), &scalar.real, quote!(__zero));
     let program = derived.program(Method::ComponentRates);
     let variables = Variables::of(derived, program);
-    let (instructions, rates) = statements_kept(program, &variables.first, &scalar, Kept::Everything);
+    let (instructions, rates) =
+        statements(program, &KernelDialect { symbols: &variables.first, scalar: &scalar }, Kept::Everything);
     let mut order = Order::new(program, &variables, &scalar);
     let line = order.line();
     let of_order: Vec<TokenStream> =

@@ -20,6 +20,8 @@ use crate::algebra::{BinaryFunction, Function, Notation, OwnFunction, Rational};
 use crate::derivation::Derivation;
 use crate::program::{Argument, ArgumentKind, Input, Instruction, Operand, Program, Results};
 
+use super::{header, is_handed_over, only_scalar, snake};
+
 /// Stands before the first function: the sign, which the library of C lacks. Zero of zero, NaN of NaN.
 const SIGNUM: &str = "static double gauss_signum(double x)\n{\n    return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x;\n}\n";
 
@@ -55,7 +57,7 @@ pub fn declarations(derivation: &Derivation) -> String {
 
 /// One function, with what it takes, gives and costs in a comment.
 pub fn function(program: &Program, prefix: &str) -> String {
-    let mut out = comment(&header(program));
+    let mut out = comment(&header(program, |result| result_name(program, result)));
     write!(out, "{}\n{{\n", signature(program, prefix)).ok();
     let read = program.code.inputs();
     for (index, argument) in program.arguments.iter().enumerate().filter(|(_, argument)| is_handed_over(argument)) {
@@ -80,14 +82,6 @@ pub fn function(program: &Program, prefix: &str) -> String {
     out
 }
 
-fn is_handed_over(argument: &Argument) -> bool {
-    !argument.components.is_empty()
-}
-
-fn only_scalar(program: &Program) -> bool {
-    matches!(program.results.as_slice(), [result] if result.is_scalar())
-}
-
 /// Results of the same name as an argument, and as the function itself, are kept apart from them.
 fn result_name(program: &Program, result: &Results) -> String {
     let taken = program.arguments.iter().any(|argument| argument.name == result.name);
@@ -110,28 +104,6 @@ fn signature(program: &Program, prefix: &str) -> String {
     let one_line = if all.is_empty() { "void".to_owned() } else { all.join(", ") };
     let lines = if one_line.len() <= LINE { one_line } else { format!("\n    {}", all.join(",\n    ")) };
     format!("{kind} {prefix}_{}({lines})", program.name)
-}
-
-fn header(program: &Program) -> String {
-    let mut out = String::new();
-    for argument in program.arguments.iter().filter(|argument| is_handed_over(argument)) {
-        let Argument { kind, name, components } = argument;
-        match kind {
-            ArgumentKind::Time | ArgumentKind::Constants => writeln!(out, "{name}: {kind}").ok(),
-            _ => writeln!(out, "{name}: {kind} {}", components.join(", ")).ok(),
-        };
-    }
-    for result in &program.results {
-        let (name, Results { rows, columns, .. }) = (result_name(program, result), result);
-        match (only_scalar(program), columns) {
-            (true, _) => writeln!(out, "returns {name}").ok(),
-            (_, 1) if *rows == 1 => writeln!(out, "{name}: a number").ok(),
-            (_, 1) => writeln!(out, "{name}: {rows} numbers").ok(),
-            _ => writeln!(out, "{name}: {rows} rows of {columns}").ok(),
-        };
-    }
-    writeln!(out, "operations: {}", program.code.counts()).ok();
-    out
 }
 
 /// What must not end a comment early does not.
@@ -236,16 +208,4 @@ fn fraction(value: Rational) -> String {
         Some((numerator, denominator)) => format!("({:?} / {:?})", numerator as f64, denominator as f64),
         None => literal(value.to_f64()),
     }
-}
-
-/// `HeavyTop` becomes `heavy_top`; what no name in C can have is `_`.
-fn snake(name: &str) -> String {
-    let mut out = String::new();
-    for c in name.chars() {
-        if c.is_uppercase() && !out.is_empty() && !out.ends_with('_') {
-            out.push('_');
-        }
-        out.extend(if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }.to_lowercase());
-    }
-    out
 }

@@ -133,24 +133,21 @@ fn read_names<N, K: Copy>(
             }
             None => (rest, None),
         };
-        match rest {
-            [TokenTree::Punct(point), TokenTree::Ident(axis)]
-                if point.as_char() == '.'
-                    && let Some(kind) = language.component =>
-            {
+        match (rest, language.component) {
+            ([TokenTree::Punct(point), TokenTree::Ident(axis)], Some(kind)) if point.as_char() == '.' => {
                 match read_component(&ident, axis, context) {
                     Some(component) => names.names.push(make(ident, kind(component), unit)),
                     None => names.complete = false,
                 }
             }
-            [] => names.names.push(make(ident, language.scalar, unit)),
-            [TokenTree::Punct(colon), ty @ ..] if colon.as_char() == ':' => {
+            ([], _) => names.names.push(make(ident, language.scalar, unit)),
+            ([TokenTree::Punct(colon), ty @ ..], _) if colon.as_char() == ':' => {
                 match read_kind(&ident, colon.span(), ty, language, context) {
                     Some(kind) => names.names.push(make(ident, kind, unit)),
                     None => names.complete = false,
                 }
             }
-            [other, ..] => {
+            ([other, ..], _) => {
                 context.error(
                     attributes::start(other),
                     format!(

@@ -1,0 +1,257 @@
+//! Instructions as `let` statements of Rust: no loops, no branches, no allocation.
+//!
+//! What inputs, numbers and functions are called is the [`Dialect`]: kernels read symbols and are generic over the scalar
+//! (`emit`), functions that stand alone read arrays of `f64` ([`plain`]).
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational};
+use crate::program::{Code, Instruction, Operand};
+
+mod plain;
+
+pub use plain::source;
+
+/// How what code works on is written.
+pub(crate) trait Dialect<S> {
+    /// An input.
+    fn input(&self, input: S) -> TokenStream;
+    /// A number, exactly where the scalar can hold it.
+    fn number(&self, value: &Rational) -> TokenStream;
+    /// Where functions of numbers are: `sin_cos`, `fma` and so on are looked for in it.
+    fn functions(&self) -> TokenStream;
+    /// The function of a product and a sum.
+    fn fma(&self) -> TokenStream {
+        let functions = self.functions();
+        quote!(#functions::fma)
+    }
+    /// A function of the user's own, or a derivative of it.
+    fn own_function(&self, own: OwnFunction) -> TokenStream;
+    /// What calls a closure as a function of its own, which the compiler keeps apart; nothing: programs stay whole.
+    fn apart(&self) -> Option<TokenStream>;
+}
+
+/// Name of the result of an instruction. Underscores keep it apart from constants of the user's, which a `let` must not
+/// shadow.
+fn value(k: usize) -> Ident {
+    format_ident!("__v{}", k, span = Span::mixed_site())
+}
+
+fn sine(k: usize) -> Ident {
+    format_ident!("__s{}", k, span = Span::mixed_site())
+}
+
+fn cosine(k: usize) -> Ident {
+    format_ident!("__c{}", k, span = Span::mixed_site())
+}
+
+/// How an operand is written.
+pub(crate) fn operand<S: Copy>(operand: &Operand<S>, dialect: &impl Dialect<S>) -> TokenStream {
+    match *operand {
+        Operand::Input(input) => dialect.input(input),
+        Operand::Number(n) => dialect.number(&n),
+        Operand::Value(k) => {
+            let name = value(k);
+            quote!(#name)
+        }
+        Operand::Sine(k) => {
+            let name = sine(k);
+            quote!(#name)
+        }
+        Operand::Cosine(k) => {
+            let name = cosine(k);
+            quote!(#name)
+        }
+    }
+}
+
+/// Instructions in a row. Every `let` is a scope within that of the one before it, and compilers recurse into them: thousands overflow
+/// their stacks. Longer programs are written in blocks that hand on what later ones need.
+const BLOCK: usize = 256;
+
+/// Instructions up to which a program is one function for the compiler, whose time grows faster than the function does.
+const WHOLE: usize = 16_384;
+
+/// Instructions of each function that a longer program is split into.
+const PART: usize = 8 * BLOCK;
+
+/// What of the results of a program has a name afterwards.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kept {
+    /// What the program itself reads, and its outputs.
+    AsRead,
+    /// All of it.
+    Everything,
+}
+
+/// The statements of a program, and its outputs as expressions.
+pub(crate) fn statements<S: Copy>(
+    code: &Code<S>,
+    dialect: &impl Dialect<S>,
+    kept: Kept,
+) -> (TokenStream, Vec<TokenStream>) {
+    let read = pairs_read(code, kept);
+    let instructions = code.instructions.iter().enumerate();
+    let written = instructions.map(|(k, instruction)| statement(k, instruction, read[k], dialect)).collect();
+    (in_functions(code, kept, written, dialect), code.outputs.iter().map(|output| operand(output, dialect)).collect())
+}
+
+/// One instruction; of a sine and a cosine what is read.
+fn statement<S: Copy>(
+    k: usize,
+    instruction: &Instruction<S>,
+    [sine_read, cosine_read]: [bool; 2],
+    dialect: &impl Dialect<S>,
+) -> TokenStream {
+    let (real, fma) = (dialect.functions(), dialect.fma());
+    let write = |o: &Operand<S>| operand(o, dialect);
+    let name = value(k);
+    match instruction {
+        Instruction::Add(a, b) => binary(&name, &write(a), &quote!(+), &write(b)),
+        Instruction::Subtract(a, b) => binary(&name, &write(a), &quote!(-), &write(b)),
+        Instruction::Multiply(a, b) => binary(&name, &write(a), &quote!(*), &write(b)),
+        Instruction::Divide(a, b) => binary(&name, &write(a), &quote!(/), &write(b)),
+        Instruction::MultiplyAdd(a, b, c) => {
+            let (a, b, c) = (write(a), write(b), write(c));
+            quote!(let #name = #fma(#a, #b, #c);)
+        }
+        Instruction::MultiplySubtract(a, b, c) => {
+            let (a, b, c) = (write(a), write(b), write(c));
+            quote!(let #name = #fma(-#a, #b, #c);)
+        }
+        Instruction::Negate(a) => {
+            let a = write(a);
+            quote!(let #name = -#a;)
+        }
+        Instruction::Call(Function::Own(own), a) => {
+            let (a, function) = (write(a), dialect.own_function(*own));
+            quote!(let #name = #function(#a);)
+        }
+        Instruction::Call(function, a) => {
+            let (a, function) = (write(a), function_name(*function));
+            quote!(let #name = #real::#function(#a);)
+        }
+        Instruction::Binary(function, a, b) => {
+            let (a, b) = (write(a), write(b));
+            let function = match function {
+                BinaryFunction::Atan2 => quote!(atan2),
+                BinaryFunction::Min => quote!(min),
+                BinaryFunction::Max => quote!(max),
+                BinaryFunction::Powf => quote!(powf),
+            };
+            quote!(let #name = #real::#function(#a, #b);)
+        }
+        Instruction::SineCosine(a) => {
+            let (a, s, c) = (write(a), sine(k), cosine(k));
+            let s = if sine_read { quote!(#s) } else { quote!(_) };
+            let c = if cosine_read { quote!(#c) } else { quote!(_) };
+            quote!(let (#s, #c) = #real::sin_cos(#a);)
+        }
+    }
+}
+
+/// Whether the sine and the cosine of each instruction are read.
+fn pairs_read<S: Copy>(code: &Code<S>, kept: Kept) -> Vec<[bool; 2]> {
+    let mut read = vec![[kept == Kept::Everything; 2]; code.instructions.len()];
+    for operand in code.operands() {
+        match operand {
+            Operand::Sine(k) => read[k][0] = true,
+            Operand::Cosine(k) => read[k][1] = true,
+            _ => {}
+        }
+    }
+    read
+}
+
+/// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.
+fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<TokenStream>> {
+    // Values, sines and cosines by the index of their instruction.
+    let mut read = vec![BTreeSet::new(); code.instructions.len()];
+    let mut note = |operand: Operand<S>, reader: usize| {
+        if let Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) = operand
+            && k / size < reader
+        {
+            let kind = match operand {
+                Operand::Sine(_) => 1,
+                Operand::Cosine(_) => 2,
+                _ => 0,
+            };
+            read[k].insert(kind);
+        }
+    };
+    for (k, instruction) in code.instructions.iter().enumerate() {
+        instruction.operands().for_each(|operand| note(operand, k / size));
+        if kept == Kept::Everything {
+            match instruction {
+                Instruction::SineCosine(_) => [Operand::Sine(k), Operand::Cosine(k)].map(|o| note(o, usize::MAX)),
+                _ => [note(Operand::Value(k), usize::MAX); 2],
+            };
+        }
+    }
+    code.outputs.iter().for_each(|operand| note(*operand, usize::MAX));
+    let names = [value, sine, cosine];
+    let named = |(k, kinds): (usize, BTreeSet<usize>)| {
+        let name = |kind: usize| {
+            let name = names[kind](k);
+            quote!(#name)
+        };
+        kinds.into_iter().map(name).collect()
+    };
+    read.into_iter().enumerate().map(named).collect()
+}
+
+/// Statements in blocks; of long programs in functions, each with some blocks, which the compiler does not put together again.
+fn in_functions<S: Copy>(
+    code: &Code<S>,
+    kept: Kept,
+    written: Vec<TokenStream>,
+    dialect: &impl Dialect<S>,
+) -> TokenStream {
+    let mut statements: Vec<_> = handed_on(code, kept, BLOCK).into_iter().zip(written).collect();
+    let Some(apart) = dialect.apart().filter(|_| statements.len() > WHOLE) else {
+        return in_blocks(statements);
+    };
+    let handed_on = handed_on(code, kept, PART);
+    let parts = handed_on.chunks(PART).map(|names| {
+        let names: Vec<_> = names.iter().flatten().collect();
+        let rest = statements.split_off(PART.min(statements.len()));
+        let part = in_blocks(std::mem::replace(&mut statements, rest));
+        quote!(let (#(#names,)*) = #apart(|| { #part (#(#names,)*) });)
+    });
+    parts.collect()
+}
+
+/// Statements, each with the names that are read behind its block: one after the other, or block by block where there are many.
+pub(crate) fn in_blocks(statements: Vec<(Vec<TokenStream>, TokenStream)>) -> TokenStream {
+    if statements.len() <= BLOCK {
+        return statements.into_iter().map(|(_, statement)| statement).collect();
+    }
+    let blocks = statements.chunks(BLOCK).map(|block| {
+        let names: Vec<_> = block.iter().flat_map(|(names, _)| names).collect();
+        let statements = block.iter().map(|(_, statement)| statement);
+        quote!(let (#(#names,)*) = { #(#statements)* (#(#names,)*) };)
+    });
+    blocks.collect()
+}
+
+fn function_name(function: Function) -> Ident {
+    let name = match function {
+        Function::Sin => "sin",
+        Function::Cos => "cos",
+        Function::Exp => "exp",
+        Function::Ln => "ln",
+        Function::Sqrt => "sqrt",
+        Function::Abs => "abs",
+        Function::Signum => "signum",
+        Function::Tanh => "tanh",
+        Function::Own(_) => unreachable!("functions of the user's own have paths"),
+    };
+    Ident::new(name, Span::call_site())
+}
+
+fn binary(name: &Ident, a: &TokenStream, operator: &TokenStream, b: &TokenStream) -> TokenStream {
+    quote!(let #name = #a #operator #b;)
+}
