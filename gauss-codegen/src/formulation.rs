@@ -36,6 +36,7 @@ impl<'g> Formulation<'g> {
         let mut formulas = system.formulas();
         check_system_against_definition(&system, &formulas)
             .map_err(|faults| system_faults(model, translator, &system, &faults))?;
+        formulas.extend(system.formulas_of_one_body().into_iter().flatten());
         if let Some(elimination) = &elimination {
             let accelerations = formulas.iter_mut().find(|formula| formula.method == Method::Acceleration);
             accelerations.into_iter().for_each(|formula| formula.arrangements.extend(elimination.accelerations()));

@@ -14,6 +14,7 @@ mod mechanics;
 mod mistakes;
 mod model;
 pub mod program;
+pub mod scene;
 pub mod targets;
 mod translate;
 
@@ -22,3 +23,4 @@ pub use derivation::Derivation;
 pub use emit::fallback;
 pub use expand::expand;
 pub use model::item;
+pub use scene::{Clause, Field, Mistake, Scene, Value};

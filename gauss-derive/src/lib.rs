@@ -5,7 +5,8 @@
 #![warn(missing_docs)]
 
 /// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()`, the `NameKernel` that
-/// implements `GaussSystem` and `RigidBodySystem`, `Name::warnings()`, and `NameState`: coordinates and speeds by name.
+/// implements `GaussSystem`, `Name::warnings()`, and `NameState`: coordinates and speeds by name. Where the only matter is one body,
+/// however its coordinates and speeds are written, the kernel implements `RigidBodySystem`, and `convert` carries states to others.
 ///
 /// # The struct: `#[gauss(…)]`
 ///

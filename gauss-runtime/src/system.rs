@@ -301,7 +301,9 @@ impl<T> RigidBody<T, AboutCenterOfMass<T>> {
     }
 }
 
-/// A system that is one rigid body: its variables as a pose and a twist, whatever the chart.
+/// A system whose only matter is one rigid body: its variables as a pose and a twist, whatever they are.
+///
+/// Bodies in charts, and bodies with coordinates and speeds of their own, also with fewer degrees of freedom or constraints.
 ///
 /// Frames: F = {Ω, k₁ k₂ k₃} of the observer, F′ = {O, e₁ e₂ e₃} of the body.
 pub trait RigidBodySystem: GaussSystem {
@@ -318,11 +320,34 @@ pub trait RigidBodySystem: GaussSystem {
     /// The momentum (Q, Γ_O) of body and fluid: components in the body frame e, pole O.
     fn body_momentum(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> SVector<Self::Scalar, 6>;
 
-    /// The configuration with the given pose.
+    /// A configuration with the given pose at t = 0: see [`configuration_at`](Self::configuration_at).
     ///
     /// # Errors
     /// When the pose is singular for the coordinates, or the motion does not have it.
-    fn configuration(&self, pose: &Isometry3<Self::Scalar>) -> Result<Self::Configuration, ChartError>;
+    #[inline]
+    fn configuration(&self, pose: &Isometry3<Self::Scalar>) -> Result<Self::Configuration, ChartError> {
+        self.configuration_at(Self::Scalar::zero(), pose)
+    }
+
+    /// A configuration with the given pose at time t. In a chart there is one, up to full turns of angles. Coordinates of the
+    /// scene's own are found by Newton's method, from zero first; where several have that pose, it is one of them.
+    ///
+    /// # Errors
+    /// When the pose is singular for the coordinates, the motion does not have it, or nothing is found.
+    fn configuration_at(
+        &self,
+        t: Self::Scalar,
+        pose: &Isometry3<Self::Scalar>,
+    ) -> Result<Self::Configuration, ChartError>;
+
+    /// How well a twist determines the speeds here: 1 where the twists of all speeds are orthogonal, 0 where some of them
+    /// depend on the others, as in polar coordinates at the pole. 1 in charts, which have their
+    /// [`regularity`](GaussSystem::regularity).
+    #[inline]
+    fn determinacy(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar {
+        let _ = (t, q);
+        Self::Scalar::one()
+    }
 
     /// The momentum (Q̂, Γ̂_Ω) of body and fluid: components in the observer frame k, pole Ω.
     ///

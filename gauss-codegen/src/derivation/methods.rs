@@ -1,6 +1,6 @@
 //! The programs of a kernel, method by method: arguments, code, what the outputs are.
 
-use crate::emit::Derived;
+use crate::emit::{Derived, OF_EQUATIONS, OF_REGRESSOR, arguments_of};
 use crate::kernel;
 use crate::mechanics::Method;
 use crate::program::{ArgumentKind, Function, Instruction, Operand, Program, Results};
@@ -26,34 +26,6 @@ fn with(further: &[ArgumentKind]) -> Vec<ArgumentKind> {
     [ALWAYS.as_slice(), further].concat()
 }
 
-/// The arguments of a method after those that every method has.
-fn further_arguments(method: Method) -> &'static [ArgumentKind] {
-    use ArgumentKind::{Accelerations, Inputs, Momenta, Residuals, Speeds, Twist};
-    match method {
-        Method::Acceleration | Method::Multipliers | Method::Powers | Method::ElementForces | Method::SuppliedPower => {
-            &[Speeds, Inputs]
-        }
-        Method::Kinematics
-        | Method::Momentum
-        | Method::KineticEnergy
-        | Method::BodyTwist
-        | Method::BodyMomentum
-        | Method::VelocityResidual
-        | Method::ComponentRates => &[Speeds],
-        Method::Velocity => &[Momenta],
-        Method::MomentumRate => &[Momenta, Inputs],
-        Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces => &[Speeds, Accelerations, Inputs],
-        Method::Speeds => &[Twist],
-        Method::PositionCorrection => &[Residuals],
-        Method::VelocityCorrection => &[Speeds, Residuals],
-        Method::MassMatrix
-        | Method::PotentialEnergy
-        | Method::Regularity
-        | Method::PositionResidual
-        | Method::InertialParameters => &[],
-    }
-}
-
 fn of_method<'g>(
     derived: &Derived<'_, 'g>,
     signature: &Signature<'g>,
@@ -62,7 +34,7 @@ fn of_method<'g>(
 ) -> Result<Program, Unbound> {
     // `expand` makes the series, this the rates that they are made from.
     let name = if method == Method::ComponentRates { "component_rates" } else { method.name() };
-    let (rows, arguments) = (derived.degrees_of_freedom(), with(further_arguments(method)));
+    let (rows, arguments) = (derived.degrees_of_freedom(), with(arguments_of(method)));
     let results = |rows: usize, columns: usize| vec![Results::new(name, rows, columns)];
     let count = code.outputs.len();
     match method {
@@ -93,7 +65,7 @@ fn evaluate<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<
         Results::new("kinetic_energy", 1, 1),
         Results::new("potential_energy", 1, 1),
     ];
-    let arguments = with(&[ArgumentKind::Speeds, ArgumentKind::Inputs]);
+    let arguments = with(OF_EQUATIONS);
     signature.program("evaluate", &arguments, &derived.kernel.joined, results)
 }
 
@@ -106,7 +78,7 @@ fn linearize<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option
         Results::new("by_time", states, 1),
         Results::new("by_input", states, inputs),
     ];
-    let arguments = with(&[ArgumentKind::Speeds, ArgumentKind::Inputs]);
+    let arguments = with(OF_EQUATIONS);
     Some(signature.program("linearize", &arguments, &by_rows(code, &results), results))
 }
 
@@ -114,14 +86,14 @@ fn by_parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Op
     let (linearization, code) = derived.linearization.zip(derived.kernel.by_parameters.as_ref())?;
     let states = linearization.increments + linearization.speeds;
     let results = vec![Results::new("by_parameters", states, derived.parameters.len())];
-    let arguments = with(&[ArgumentKind::Speeds, ArgumentKind::Inputs]);
+    let arguments = with(OF_EQUATIONS);
     Some(signature.program("by_parameters", &arguments, &by_rows(code, &results), results))
 }
 
 fn regressor<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
     let (regressor, code) = derived.regressor.zip(derived.kernel.regressor.as_ref())?;
     let results = vec![Results::new("regressor", derived.degrees_of_freedom(), regressor.parameters.len())];
-    let arguments = with(&[ArgumentKind::Speeds, ArgumentKind::Accelerations]);
+    let arguments = with(OF_REGRESSOR);
     Some(signature.program("regressor", &arguments, &by_rows(code, &results), results))
 }
 

@@ -18,6 +18,7 @@ use crate::emit::{Derived, Equations, emit};
 use crate::expand::derive;
 use crate::mistakes::bug;
 use crate::program::Program;
+use crate::scene::{Mistake, Scene};
 
 use methods::programs;
 use signature::Signature;
@@ -52,6 +53,14 @@ impl Derivation {
             return Err(syn::Error::new(proc_macro2::Span::call_site(), message));
         };
         Self::new(&item.clone().into())
+    }
+
+    /// The same of a scene that is written in Rust.
+    ///
+    /// # Errors
+    /// Every mistake of the scene, each with the clause or the field that is wrong.
+    pub fn of_scene(scene: &Scene) -> Result<Self, Vec<Mistake>> {
+        Self::new(&scene.item()?).map_err(|mistakes| scene.located(&mistakes))
     }
 
     fn of(derived: &Derived<'_, '_>) -> syn::Result<Self> {

@@ -1,10 +1,12 @@
-//! Where the symbols of a program come from: the arguments of a method taken apart, the fields of the kernel.
+//! The arguments of every function of a kernel, and where the symbols of a program come from: these taken apart, the fields of the kernel.
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map};
 use crate::kernel::Program;
+use crate::mechanics::Method;
+use crate::program::ArgumentKind;
 
 /// An array of scalars and the symbols that its elements are.
 pub struct Argument<'g> {
@@ -32,4 +34,77 @@ pub fn declare(program: &Program<'_>, arguments: &[Argument<'_>], names: &mut Ma
         statements.extend(quote!(let [#(#elements),*] = #array;));
     }
     statements
+}
+
+/// The arguments that a method has after time and configuration.
+pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
+    use ArgumentKind::{Accelerations, Inputs, Momenta, Residuals, Speeds, Twist};
+    match method {
+        Method::Acceleration | Method::Multipliers | Method::Powers | Method::ElementForces | Method::SuppliedPower => {
+            OF_EQUATIONS
+        }
+        Method::Kinematics
+        | Method::Momentum
+        | Method::KineticEnergy
+        | Method::BodyTwist
+        | Method::BodyMomentum
+        | Method::VelocityResidual
+        | Method::ComponentRates => &[Speeds],
+        Method::Velocity => &[Momenta],
+        Method::MomentumRate => &[Momenta, Inputs],
+        Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces => &[Speeds, Accelerations, Inputs],
+        Method::Speeds => &[Twist],
+        Method::PositionCorrection => &[Residuals],
+        Method::VelocityCorrection => &[Speeds, Residuals],
+        Method::MassMatrix
+        | Method::PotentialEnergy
+        | Method::Pose
+        | Method::PoseByConfiguration
+        | Method::Regularity
+        | Method::PositionResidual
+        | Method::InertialParameters => &[],
+    }
+}
+
+/// Those of the equations at a state: of `evaluate`, `linearize` and `by_parameters` as well.
+pub const OF_EQUATIONS: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Inputs];
+/// Those of `regressor`.
+pub const OF_REGRESSOR: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Accelerations];
+
+/// `__z: &Self::Speeds`, …: as methods declare them.
+pub fn declared(private: &TokenStream, kinds: &[ArgumentKind]) -> Vec<TokenStream> {
+    let one = |kind: &ArgumentKind| {
+        let (name, ty) = (variable(*kind), argument_type(private, *kind));
+        quote!(#name: #ty)
+    };
+    kinds.iter().map(one).collect()
+}
+
+/// What an argument is called in generated code.
+pub fn variable(kind: ArgumentKind) -> Ident {
+    let name = match kind {
+        ArgumentKind::Parameters => "__parameters",
+        ArgumentKind::Constants => "self",
+        ArgumentKind::Time => "__t",
+        ArgumentKind::Configuration => "__q",
+        ArgumentKind::Speeds => "__z",
+        ArgumentKind::Momenta => "__p",
+        ArgumentKind::Accelerations => "__acceleration",
+        ArgumentKind::Twist => "__twist",
+        ArgumentKind::Residuals => "__residual",
+        ArgumentKind::Inputs => "__input",
+    };
+    Ident::new(name, Span::call_site())
+}
+
+fn argument_type(private: &TokenStream, kind: ArgumentKind) -> TokenStream {
+    match kind {
+        ArgumentKind::Parameters | ArgumentKind::Constants => quote!(&Self),
+        ArgumentKind::Time => quote!(Self::Scalar),
+        ArgumentKind::Configuration => quote!(&Self::Configuration),
+        ArgumentKind::Speeds | ArgumentKind::Momenta | ArgumentKind::Accelerations => quote!(&Self::Speeds),
+        ArgumentKind::Twist => quote!(&#private::SVector<Self::Scalar, 6>),
+        ArgumentKind::Residuals => quote!(&Self::Multipliers),
+        ArgumentKind::Inputs => quote!(&Self::Input),
+    }
 }

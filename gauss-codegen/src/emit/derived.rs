@@ -1,17 +1,18 @@
 //! Everything known about one derive when code is written, and what all implementations of traits are made with.
 
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational, Set};
 use crate::formulation::Formulation;
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, Formula, Linearization, Method, Regressor};
 use crate::model::{Model, Scalar};
+use crate::program::ArgumentKind;
 use crate::translate::{DragMatrix, Law, Parameter, Translator};
 use syn::{Generics, Path, Visibility};
 
-use super::arguments::{Argument, declare};
+use super::arguments::{Argument, arguments_of, declare, declared, variable};
 use super::program::{ScalarTokens, statements};
 use super::subject::Subject;
 
@@ -217,15 +218,19 @@ impl<'a, 'g> Derived<'a, 'g> {
         let mut names = self.constant_names(program);
         names.insert(self.subject.system.scene.time.key(), quote!(__t));
         let mut arguments = self.subject.configuration_arguments(&self.private());
-        let vector = |name: TokenStream, symbols: &[Expr<'g>]| self.vector_argument(name, symbols);
-        arguments.push(vector(quote!(__z), speeds));
-        arguments.push(vector(quote!(__p), momenta));
-        arguments.push(vector(quote!(__acceleration), speed_rates));
-        if !twist.is_empty() {
-            arguments.push(vector(quote!(__twist), twist));
+        for (kind, symbols) in [
+            (ArgumentKind::Speeds, speeds),
+            (ArgumentKind::Momenta, momenta),
+            (ArgumentKind::Accelerations, speed_rates),
+            (ArgumentKind::Twist, twist),
+            (ArgumentKind::Residuals, residuals),
+            (ArgumentKind::Inputs, inputs),
+        ] {
+            // Of a system that is no body in a chart there are no twists to be read.
+            if kind != ArgumentKind::Twist || !symbols.is_empty() {
+                arguments.push(self.vector_argument(variable(kind).into_token_stream(), symbols));
+            }
         }
-        arguments.push(vector(quote!(__residual), residuals));
-        arguments.push(vector(quote!(__input), inputs));
         let mut written = declare(program, &arguments, &mut names);
         let (instructions, outputs) = statements(program, &names, &self.scalar());
         written.extend(instructions);
@@ -259,12 +264,13 @@ impl<'a, 'g> Derived<'a, 'g> {
         self.speeds().len()
     }
 
-    /// A method of a trait: its arguments after `t` and `q`, its result.
-    pub fn function(&self, method: Method, arguments: TokenStream, result: TokenStream) -> TokenStream {
+    /// A method of a trait, with its result.
+    pub fn function(&self, method: Method, result: TokenStream) -> TokenStream {
         let (function, body) = (Ident::new(method.name(), Span::call_site()), self.method_body(method));
+        let arguments = declared(&self.private(), arguments_of(method));
         quote! {
             #[inline]
-            fn #function(&self, __t: Self::Scalar, __q: &Self::Configuration, #arguments) -> #result { #body }
+            fn #function(&self, __t: Self::Scalar, __q: &Self::Configuration, #(#arguments),*) -> #result { #body }
         }
     }
 

@@ -19,10 +19,9 @@ pub fn forced_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         let damper = (conservative && account.outside.is_some()).then(|| quote!(.with_damper()));
         quote!(#private::Element::new(#name, #conservative) #damper)
     });
-    let arguments = quote!(__z: &Self::Speeds, __input: &Self::Input);
-    let powers = derived.function(Method::Powers, arguments.clone(), quote!(Self::Powers));
-    let forces = derived.function(Method::ElementForces, arguments.clone(), quote!(Self::ElementForces));
-    let supplied = derived.function(Method::SuppliedPower, arguments, quote!(Self::Scalar));
+    let powers = derived.function(Method::Powers, quote!(Self::Powers));
+    let forces = derived.function(Method::ElementForces, quote!(Self::ElementForces));
+    let supplied = derived.function(Method::SuppliedPower, quote!(Self::Scalar));
     let items = quote! {
         type Powers = #private::SVector<#ty, #count>;
         type ElementForces = #private::SMatrix<#ty, #n, #count>;

@@ -6,6 +6,7 @@ use quote::quote;
 use crate::kernel::Smoothness;
 use crate::mechanics::Method;
 
+use super::arguments::{OF_EQUATIONS, declared};
 use super::constrained::projection;
 use super::derived::Derived;
 
@@ -56,30 +57,29 @@ fn smoothness(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 
 fn methods(derived: &Derived<'_, '_>) -> TokenStream {
     let private = derived.private();
-    let [z, p, input] = [quote!(__z: &Self::Speeds), quote!(__p: &Self::Speeds), quote!(__input: &Self::Input)];
-    let acceleration = quote!(__z: &Self::Speeds, __acceleration: &Self::Speeds, __input: &Self::Input);
     let [speeds, matrix, scalar] = [quote!(Self::Speeds), quote!(Self::MassMatrix), quote!(Self::Scalar)];
     let tangent = quote!(<Self::Configuration as #private::Configuration>::Tangent);
     let methods = [
-        (Method::Acceleration, quote!(#z, #input), &speeds),
-        (Method::Momentum, z.clone(), &speeds),
-        (Method::Velocity, p.clone(), &speeds),
-        (Method::MomentumRate, quote!(#p, #input), &speeds),
-        (Method::MassMatrix, quote!(), &matrix),
-        (Method::KineticEnergy, z.clone(), &scalar),
-        (Method::PotentialEnergy, quote!(), &scalar),
-        (Method::GaussResidual, acceleration.clone(), &speeds),
-        (Method::ConstraintFunction, acceleration, &scalar),
-        (Method::Kinematics, z, &tangent),
-        (Method::Regularity, quote!(), &scalar),
+        (Method::Acceleration, &speeds),
+        (Method::Momentum, &speeds),
+        (Method::Velocity, &speeds),
+        (Method::MomentumRate, &speeds),
+        (Method::MassMatrix, &matrix),
+        (Method::KineticEnergy, &scalar),
+        (Method::PotentialEnergy, &scalar),
+        (Method::GaussResidual, &speeds),
+        (Method::ConstraintFunction, &scalar),
+        (Method::Kinematics, &tangent),
+        (Method::Regularity, &scalar),
     ];
-    let written = methods.into_iter().filter(|(method, ..)| derived.has(*method));
-    written.map(|(method, arguments, result)| derived.function(method, arguments, result.clone())).collect()
+    let written = methods.into_iter().filter(|(method, _)| derived.has(*method));
+    written.map(|(method, result)| derived.function(method, result.clone())).collect()
 }
 
 /// `evaluate`: q̇, ż and the energies at once.
 fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
     let private = derived.private();
+    let arguments = declared(&private, OF_EQUATIONS);
     let (instructions, outputs) = derived.computed(&derived.kernel.joined);
     let (configuration, rest) = outputs.split_at(derived.program(Method::Kinematics).outputs.len());
     let (speeds, energies) = rest.split_at(derived.degrees_of_freedom());
@@ -90,8 +90,7 @@ fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
             &self,
             __t: Self::Scalar,
             __q: &Self::Configuration,
-            __z: &Self::Speeds,
-            __input: &Self::Input,
+            #(#arguments,)*
         ) -> #private::Evaluated<Self> {
             #instructions
             let [__kinetic, __potential] = [#(#energies),*];

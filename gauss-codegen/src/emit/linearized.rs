@@ -8,6 +8,7 @@ use quote::quote;
 use crate::algebra::Rational;
 use crate::kernel::{Operand, Program};
 
+use super::arguments::{OF_EQUATIONS, declared};
 use super::derived::Derived;
 
 /// The implementation, where it is asked for.
@@ -15,6 +16,7 @@ pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (linearization, program) = derived.linearization.zip(derived.kernel.tangents.as_ref())?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (states, inputs) = (linearization.increments + linearization.speeds, linearization.inputs);
+    let arguments = declared(&private, OF_EQUATIONS);
     let (instructions, outputs) = derived.computed(program);
     // Outputs are the rates, and then their derivatives, one column of the matrices after the other.
     let (of_states, of_time, of_inputs) = (1..states + 1, states + 1, states + 2..states + 2 + inputs);
@@ -30,8 +32,7 @@ pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
                 &self,
                 __t: Self::Scalar,
                 __q: &Self::Configuration,
-                __z: &Self::Speeds,
-                __input: &Self::Input,
+                #(#arguments,)*
             ) -> Self::Linearization {
                 #instructions
                 #private::Linearization {

@@ -3,7 +3,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `program` | the dialect of Rust that kernels are written in |
-//! | `arguments` | where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel |
+//! | `arguments` | the arguments of every function of a kernel; where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel |
 //! | `parameters`, `locals`, `assigned`, `inertia`, `laws` | the parameters read, checked, and turned into constants; `warnings()` |
 //! | `subject`, `chart`, `pose` | what is derived: its configuration, its constraints; charts by name; configurations as poses |
 //! | `documentation` | equations and costs as text, LaTeX and rustdoc |
@@ -47,6 +47,7 @@ mod taylor;
 #[cfg(test)]
 mod tests;
 
+pub use arguments::{OF_EQUATIONS, OF_REGRESSOR, arguments_of};
 pub use derived::Derived;
 pub use documentation::Equations;
 pub use fallback::fallback;

@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::arguments::{OF_EQUATIONS, declared};
 use super::derived::Derived;
 use super::linearized::{pattern, rows};
 
@@ -12,6 +13,7 @@ pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (states, count) = (linearization.increments + linearization.speeds, derived.parameters.len());
     let names = derived.parameters.iter().map(|parameter| &parameter.name);
+    let arguments = declared(&private, OF_EQUATIONS);
     let (instructions, outputs) = derived.computed(program);
     let (matrix, pattern) = (rows(&outputs, states, 0..count), pattern(program, states, 0..count));
     let items = quote! {
@@ -22,8 +24,7 @@ pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
                 &self,
                 __t: Self::Scalar,
                 __q: &Self::Configuration,
-                __z: &Self::Speeds,
-                __input: &Self::Input,
+                #(#arguments,)*
             ) -> Self::ByParameters {
                 #instructions
                 #private::matrix([#(#matrix),*])

@@ -5,6 +5,7 @@ use quote::quote;
 
 use crate::mechanics::Method;
 
+use super::arguments::{OF_REGRESSOR, arguments_of, declared};
 use super::derived::Derived;
 use super::linearized::{pattern, rows};
 
@@ -14,6 +15,8 @@ pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (rates, count) = (derived.degrees_of_freedom(), regressor.parameters.len());
     let names = regressor.parameters.iter().map(|parameter| &parameter.name);
+    let arguments = declared(&private, OF_REGRESSOR);
+    let of_forces = declared(&private, arguments_of(Method::OtherForces));
     let (instructions, outputs) = derived.computed(program);
     let (matrix, pattern) = (rows(&outputs, rates, 0..count), pattern(program, rates, 0..count));
     let (parameters, forces) =
@@ -27,8 +30,7 @@ pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
                 &self,
                 __t: Self::Scalar,
                 __q: &Self::Configuration,
-                __z: &Self::Speeds,
-                __acceleration: &Self::Speeds,
+                #(#arguments,)*
             ) -> Self::Regressor {
                 #instructions
                 #private::matrix([#(#matrix),*])
@@ -40,9 +42,7 @@ pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
                 &self,
                 __t: Self::Scalar,
                 __q: &Self::Configuration,
-                __z: &Self::Speeds,
-                __acceleration: &Self::Speeds,
-                __input: &Self::Input,
+                #(#of_forces,)*
             ) -> Self::Speeds {
                 #forces
             }

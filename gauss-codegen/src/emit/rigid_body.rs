@@ -1,4 +1,4 @@
-//! `RigidBodySystem`: the configuration as a pose, twist and momentum in body axes; of one body in a chart, and where its pose is the only coordinate.
+//! `RigidBodySystem`: the configuration as a pose, twist and momentum in body axes; of every system whose only matter is one body.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -9,28 +9,82 @@ use super::derived::Derived;
 use super::pose::pose_bodies;
 
 pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    derived.subject.system.rigid_body()?;
-    let (pose, configuration_of_pose) = pose_bodies(derived, derived.subject.model.one_body())?;
     let private = derived.private();
     let six = quote!(#private::SVector<Self::Scalar, 6>);
-    let twist = derived.function(Method::BodyTwist, quote!(__z: &Self::Speeds), six.clone());
-    let speeds = derived.function(Method::Speeds, quote!(__twist: &#six), quote!(Self::Speeds));
-    let momentum = derived.function(Method::BodyMomentum, quote!(__z: &Self::Speeds), six);
-    let items = quote! {
+    let placed = match derived.has(Method::Pose) {
+        true => placed_by_coordinates(derived),
+        false => placed_by_chart(derived)?,
+    };
+    let twist = derived.function(Method::BodyTwist, six.clone());
+    let momentum = derived.function(Method::BodyMomentum, six);
+    Some(derived.implementation(quote!(RigidBodySystem), quote!(#placed #twist #momentum)))
+}
+
+/// Of one body in a chart, or where its pose is the only coordinate: both ways are known.
+fn placed_by_chart(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    derived.subject.system.rigid_body()?;
+    let (pose, configuration) = pose_bodies(derived, derived.subject.model.one_body())?;
+    let private = derived.private();
+    let speeds = derived.function(Method::Speeds, quote!(Self::Speeds));
+    Some(quote! {
         #[inline]
         fn pose(&self, __t: Self::Scalar, __q: &Self::Configuration) -> #private::Isometry3<Self::Scalar> {
             #pose
         }
         #[inline]
-        fn configuration(
+        fn configuration_at(
             &self,
+            __t: Self::Scalar,
             __pose: &#private::Isometry3<Self::Scalar>,
         ) -> ::core::result::Result<Self::Configuration, #private::ChartError> {
-            #configuration_of_pose
+            #configuration
         }
-        #twist
         #speeds
-        #momentum
-    };
-    Some(derived.implementation(quote!(RigidBodySystem), items))
+    })
+}
+
+/// Of one body with coordinates of its own: the way back is found, by what these do to the pose.
+fn placed_by_coordinates(derived: &Derived<'_, '_>) -> TokenStream {
+    let (private, speeds) = (derived.private(), derived.degrees_of_freedom());
+    let start = derived.subject.unmoved(&derived.private());
+    let (instructions, pose) = derived.computed(derived.program(Method::Pose));
+    let (rotation, position) = pose.split_at(9);
+    let rows = rotation.chunks(3).map(|row| quote!([#(#row),*]));
+    let (by_configuration, columns) = derived.computed(derived.program(Method::PoseByConfiguration));
+    let columns: Vec<_> = columns.chunks(6).map(|column| quote!([#(#column),*])).collect();
+    let increments = columns.len();
+    quote! {
+        #[inline]
+        fn pose(&self, __t: Self::Scalar, __q: &Self::Configuration) -> #private::Isometry3<Self::Scalar> {
+            #instructions
+            #private::pose_from_rows([#(#rows),*], [#(#position),*])
+        }
+        fn configuration_at(
+            &self,
+            __t: Self::Scalar,
+            __pose: &#private::Isometry3<Self::Scalar>,
+        ) -> ::core::result::Result<Self::Configuration, #private::ChartError> {
+            #private::configuration_of_pose::<Self, #increments>(
+                self,
+                __t,
+                __pose,
+                #start,
+                |__q: &Self::Configuration| {
+                    #by_configuration
+                    [#(#columns),*]
+                },
+            )
+        }
+        fn speeds(
+            &self,
+            __t: Self::Scalar,
+            __q: &Self::Configuration,
+            __twist: &#private::SVector<Self::Scalar, 6>,
+        ) -> Self::Speeds {
+            #private::speeds_of_twist::<Self, #speeds>(self, __t, __q, __twist)
+        }
+        fn determinacy(&self, __t: Self::Scalar, __q: &Self::Configuration) -> Self::Scalar {
+            #private::determinacy_of_speeds::<Self, #speeds>(self, __t, __q)
+        }
+    }
 }

@@ -146,6 +146,17 @@ impl<'g> Subject<'_, 'g> {
         nested(groups, |a, b| quote!((#a, #b)))
     }
 
+    /// The configuration with all groups at the identity and all scalars zero.
+    pub fn unmoved(&self, private: &TokenStream) -> TokenStream {
+        let values = self.coordinates().iter().map(|coordinate| match coordinate {
+            Coordinate::Scalar(_) => quote!(<Self::Scalar as #private::Real>::zero()),
+            Coordinate::Rotation(_) => quote!(#private::unturned()),
+            Coordinate::Pose(..) => quote!(#private::unmoved()),
+            Coordinate::Plane { .. } => quote!(#private::unmoved_in_plane()),
+        });
+        self.configuration_of(private, &values.collect::<Vec<_>>())
+    }
+
     /// The components of an increment of the configuration, in the order of the coordinates, as its type.
     pub fn tangent(&self, private: &TokenStream, outputs: &[TokenStream]) -> TokenStream {
         let mut groups = Vec::new();
@@ -207,19 +218,15 @@ impl<'g> Subject<'_, 'g> {
         }
     }
 
-    /// The methods of constrained systems: method, arguments after `t` and `q`, result.
-    pub fn constraint_methods(&self, private: &TokenStream) -> Vec<(Method, TokenStream, TokenStream)> {
-        let tangent = quote!(<Self::Configuration as #private::Configuration>::Tangent);
-        vec![
-            (Method::Multipliers, quote!(__z: &Self::Speeds, __input: &Self::Input), quote!(Self::Multipliers)),
-            (Method::PositionResidual, quote!(), quote!(Self::Multipliers)),
-            (Method::VelocityResidual, quote!(__z: &Self::Speeds), quote!(Self::Multipliers)),
-            (Method::PositionCorrection, quote!(__residual: &Self::Multipliers), tangent),
-            (
-                Method::VelocityCorrection,
-                quote!(__z: &Self::Speeds, __residual: &Self::Multipliers),
-                quote!(Self::Speeds),
-            ),
+    /// The methods of constrained systems with their results.
+    pub fn constraint_methods(&self, private: &TokenStream) -> [(Method, TokenStream); 5] {
+        let multipliers = quote!(Self::Multipliers);
+        [
+            (Method::Multipliers, multipliers.clone()),
+            (Method::PositionResidual, multipliers.clone()),
+            (Method::VelocityResidual, multipliers),
+            (Method::PositionCorrection, quote!(<Self::Configuration as #private::Configuration>::Tangent)),
+            (Method::VelocityCorrection, quote!(Self::Speeds)),
         ]
     }
 }

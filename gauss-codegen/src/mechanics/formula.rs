@@ -24,6 +24,10 @@ pub enum Method {
     BodyTwist,
     Speeds,
     BodyMomentum,
+    /// R, row by row, and b of the only body; the twist (u, ω) that each component of an increment of the configuration makes.
+    /// Only where the configuration is not that pose in a chart of its own.
+    Pose,
+    PoseByConfiguration,
     /// det ∂ω/∂q̇ and the product of the squared lengths of its columns; only in charts with a singularity.
     Regularity,
     /// φ of positions, and on the level of velocities; what cancels them to first order. Only with constraints.
@@ -58,6 +62,8 @@ impl Method {
             Method::BodyTwist => "body_twist",
             Method::Speeds => "speeds",
             Method::BodyMomentum => "body_momentum",
+            Method::Pose => "pose",
+            Method::PoseByConfiguration => "pose_by_configuration",
             Method::Regularity => "regularity",
             Method::Multipliers => "multipliers",
             Method::PositionResidual => "position_residual",

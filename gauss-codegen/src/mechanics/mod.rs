@@ -12,7 +12,7 @@
 //! - `derivatives`: what the equations are differentiated along; the regressor; rates of all numbers of a state.
 //! - `print`: the equations for people.
 //!
-//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several arrangements. `tidy` is what is multiplied out
+//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several arrangements; `one_body` where it is the only one. `tidy` is what is multiplied out
 //! where that is short.
 
 mod arrangements;
@@ -24,6 +24,7 @@ mod kinematics;
 mod links;
 mod loads;
 mod matter;
+mod one_body;
 mod print;
 #[cfg(test)]
 mod proof;

@@ -164,15 +164,12 @@ impl<'g> System<'g> {
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
         let mut formulas = vec![single(Method::Kinematics, self.scene.kinematics.clone())];
         formulas.extend(self.arranged().into_formulas());
-        formulas.extend(self.rigid_body().into_iter().flat_map(|body| {
-            let mut formulas = vec![
-                single(Method::BodyTwist, body.kinematics.body_twist().to_vec()),
-                single(Method::Speeds, body.speeds_of_twist()),
-                single(Method::BodyMomentum, body.body_momentum()),
-            ];
+        if let Some(body) = self.rigid_body() {
+            formulas.push(single(Method::BodyTwist, body.kinematics.body_twist().to_vec()));
+            formulas.push(single(Method::Speeds, body.speeds_of_twist()));
+            formulas.push(single(Method::BodyMomentum, body.body_momentum()));
             formulas.extend(body.regularity().map(|outputs| single(Method::Regularity, outputs)));
-            formulas
-        }));
+        }
         if !self.constraints.is_empty() {
             formulas.extend(self.constraint_formulas());
         }

@@ -1,9 +1,10 @@
-//! No two files import each other, by whatever way round.
+//! No two files import each other, by whatever way round; no function is longer than a screen.
 //!
 //! Of every file the names are looked up that it takes from others: in `use` declarations and in paths, through
 //! re-exports to the file that defines them. A module that only hands on is seen through; tests do not count.
 
 mod components;
+mod functions;
 mod modules;
 mod references;
 
@@ -11,6 +12,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use components::components;
+use functions::{Function, functions};
 use modules::Modules;
 use references::imports;
 
@@ -43,4 +45,32 @@ fn no_files_import_each_other_in_a_circle() {
         }
     }
     assert!(found.is_empty(), "\n{found}");
+}
+
+/// Lines that a function may have between its braces.
+const LINES: usize = 60;
+
+/// Longer ones, and why they are: each is a table, a match whose arms are messages and nothing else.
+const TABLES: [(&str, &str, &str); 4] = [
+    ("gauss-codegen", "model/names/places.rs", "refusal"),
+    ("gauss-codegen", "model/names/places.rs", "mismatch"),
+    ("gauss-runtime", "error.rs", "fmt"),
+    ("gauss-runtime", "integrate/problem/error.rs", "fmt"),
+];
+
+#[test]
+fn no_function_is_longer_than_a_screen() {
+    let mut tables = TABLES.to_vec();
+    let mut found = String::new();
+    for package in ["gauss-codegen", "gauss-derive", "gauss-runtime"] {
+        let modules = Modules::of(&here().join("..").join(package).join("src"));
+        for Function { file, name, lines } in functions(&modules).into_iter().filter(|one| one.lines > LINES) {
+            match tables.iter().position(|table| *table == (package, file.as_str(), name.as_str())) {
+                Some(table) => drop(tables.remove(table)),
+                None => found += &format!("{package}: {file}: {name} has {lines} lines\n"),
+            }
+        }
+    }
+    assert!(found.is_empty(), "\n{found}");
+    assert!(tables.is_empty(), "no longer long: {tables:?}");
 }

@@ -13,11 +13,12 @@ use crate::triple::norm;
 /// the distance from a singularity of the coordinates, which at √ε is refused).
 ///
 /// Both kernels should describe the same body with the same O; nothing else is asked of them, so this also converts between
-/// a velocity chart of the free motion and any chart of a planar motion or of one with a fixed point. Poses and twists of
-/// the supported charts do not depend on time; they are evaluated at t = 0.
+/// a velocity chart of the free motion and any chart of a planar motion or of one with a fixed point, and between charts and
+/// coordinates of a scene's own. At t = 0, which only matters where something is moved as a function of time:
+/// [`convert_at`].
 ///
 /// # Errors
-/// - [`ChartError::Singular`] when the pose is a singular point of the target's coordinates;
+/// - [`ChartError::Singular`] and [`ChartError::Undetermined`] when the pose is a singular point of the target's coordinates;
 /// - [`ChartError::Inexpressible`] when the target motion cannot have the pose or the twist beyond rounding;
 /// - [`ChartError::NonFinite`] when the state has an infinite or undefined component.
 pub fn convert<A, B>(
@@ -30,17 +31,36 @@ where
     A: RigidBodySystem,
     B: RigidBodySystem<Scalar = A::Scalar>,
 {
-    let t = A::Scalar::zero();
+    convert_at(A::Scalar::zero(), from, q, z, to)
+}
+
+/// [`convert`] at time t, where something is moved as a function of time.
+///
+/// # Errors
+/// Those of [`convert`].
+pub fn convert_at<A, B>(
+    t: A::Scalar,
+    from: &A,
+    q: &A::Configuration,
+    z: &A::Speeds,
+    to: &B,
+) -> Result<(B::Configuration, B::Speeds), ChartError>
+where
+    A: RigidBodySystem,
+    B: RigidBodySystem<Scalar = A::Scalar>,
+{
     let (pose, twist) = (from.pose(t, q), from.body_twist(t, q, z));
     if !Configuration::is_finite(&pose) || !VectorSpace::is_finite(&twist) {
         return Err(ChartError::NonFinite);
     }
-    let configuration = to.configuration(&pose)?;
-    refuse_near_singularity(to, &configuration, &pose)?;
+    let configuration = to.configuration_at(t, &pose)?;
+    refuse_near_singularity(t, to, &configuration, &pose)?;
+    refuse_undetermined(to.determinacy(t, &configuration))?;
     let speeds = to.speeds(t, &configuration, &twist);
     if !configuration.is_finite() || !speeds.is_finite() {
         return Err(ChartError::NonFinite);
     }
+    let (configuration, speeds) = admitted(t, to, configuration, speeds, &pose)?;
 
     // Projecting on the target's twists and going back must change nothing but the last digits. Their unit is set by the
     // largest number on the way: the twist, z itself (large near gimbal lock), and b × ω (large far from Ω).
@@ -48,31 +68,68 @@ where
     let [_, _, _, wx, wy, wz] = twist.data.0[0];
     let lever = norm(&pose.translation.vector.data.0[0]) * norm(&[wx, wy, wz]);
     let scale = twist.max_norm().max(speeds.max_norm()).max(z.max_norm()).max(lever);
-    let allowed = 64.0 * A::Scalar::EPSILON * scale;
     for index in 0..6 {
         let excess = twist.component(index) - back.component(index);
-        for lane in 0..A::Scalar::LANES {
-            let value = excess.lane(lane);
-            // Written so that a NaN is refused too.
-            if !matches!(
-                value.abs().partial_cmp(&allowed),
-                Some(core::cmp::Ordering::Less | core::cmp::Ordering::Equal)
-            ) {
-                return Err(ChartError::Inexpressible { rule: MotionRule::Twist { index }, value });
-            }
-        }
+        refuse_beyond(64.0 * A::Scalar::EPSILON * scale, excess, MotionRule::Twist { index })?;
     }
     Ok((configuration, speeds))
 }
 
+/// Refuses a value that is larger than rounding.
+fn refuse_beyond<T: Real>(allowed: f64, value: T, rule: MotionRule) -> Result<(), ChartError> {
+    for lane in 0..T::LANES {
+        let value = value.lane(lane);
+        // Written so that a NaN is refused too.
+        if !matches!(value.abs().partial_cmp(&allowed), Some(core::cmp::Ordering::Less | core::cmp::Ordering::Equal)) {
+            return Err(ChartError::Inexpressible { rule, value });
+        }
+    }
+    Ok(())
+}
+
+/// The state that the constraints of the target admit: this one up to rounding, or none.
+fn admitted<B: RigidBodySystem>(
+    t: B::Scalar,
+    to: &B,
+    configuration: B::Configuration,
+    speeds: B::Speeds,
+    pose: &Isometry3<B::Scalar>,
+) -> Result<(B::Configuration, B::Speeds), ChartError> {
+    if !B::CONSTRAINED {
+        return Ok((configuration, speeds));
+    }
+    let rule = MotionRule::Constraints;
+    let projected = to.project(t, &configuration, &speeds);
+    let (configuration, speeds) =
+        projected.map_err(|error| ChartError::Inexpressible { rule, value: error.residual })?;
+    let moved = Configuration::difference(&to.pose(t, &configuration), pose);
+    let scale = 1.0 + norm(&pose.translation.vector.data.0[0]);
+    for index in 0..6 {
+        refuse_beyond(64.0 * B::Scalar::EPSILON * scale, moved.component(index), rule)?;
+    }
+    Ok((configuration, speeds))
+}
+
+/// Speeds lose digits like its reciprocal, as near the singularity of a chart.
+fn refuse_undetermined<T: Real>(determinacy: T) -> Result<(), ChartError> {
+    for lane in 0..T::LANES {
+        let determinacy = determinacy.lane(lane);
+        if determinacy <= Real::sqrt(T::EPSILON) {
+            return Err(ChartError::Undetermined { determinacy });
+        }
+    }
+    Ok(())
+}
+
 /// Velocities lose digits like 1/distance: at a regularity of √ε half of them are gone.
 fn refuse_near_singularity<B: RigidBodySystem>(
+    t: B::Scalar,
     to: &B,
     q: &B::Configuration,
     pose: &Isometry3<B::Scalar>,
 ) -> Result<(), ChartError> {
     let Chart::Jet(chart) = B::CHART else { return Ok(()) };
-    let regularity = to.regularity(B::Scalar::zero(), q);
+    let regularity = to.regularity(t, q);
     for lane in 0..B::Scalar::LANES {
         let distance = regularity.lane(lane).abs();
         if distance <= Real::sqrt(B::Scalar::EPSILON) {

@@ -91,7 +91,7 @@ macro_rules! kinematic_body {
             fn body_momentum(&self, t: f64, q: &$configuration, z: &Self::Speeds) -> V6 {
                 self.body_twist(t, q, z)
             }
-            fn configuration(&self, pose: &Isometry3<f64>) -> Result<$configuration, ChartError> {
+            fn configuration_at(&self, _: f64, pose: &Isometry3<f64>) -> Result<$configuration, ChartError> {
                 $configuration_of(pose)
             }
         }

@@ -29,6 +29,11 @@ pub enum ChartError {
         /// The quantity that should vanish: a length, a sine, or a component of the twist, in the user's units.
         value: f64,
     },
+    /// The twist does not determine the speeds at this pose: the coordinates are singular there.
+    Undetermined {
+        /// [`RigidBodySystem::determinacy`](crate::system::RigidBodySystem::determinacy): 0 at the singularity.
+        determinacy: f64,
+    },
     /// A component of the state is infinite or NaN.
     NonFinite,
 }
@@ -52,6 +57,10 @@ pub enum MotionRule {
         /// 0 … 5.
         index: usize,
     },
+    /// The coordinates of the target must have the pose; the value is what is left, an angle or a length.
+    Pose,
+    /// The constraints of the target must hold; the value is what is left of them, or how far the state is from where they do.
+    Constraints,
 }
 
 impl fmt::Display for MotionRule {
@@ -67,6 +76,12 @@ impl fmt::Display for MotionRule {
                 "the target motion cannot have component {} of the body twist, so the excess must be 0",
                 ["u1", "u2", "u3", "ω1", "ω2", "ω3"].get(*index).unwrap_or(&"?")
             ),
+            Self::Pose => {
+                f.write_str("no coordinates of the target with this pose were found, so the distance from it must be 0")
+            }
+            Self::Constraints => {
+                f.write_str("the state must satisfy the constraints of the target, so what is left of them must be 0")
+            }
         }
     }
 }
@@ -84,6 +99,11 @@ impl fmt::Display for ChartError {
                 "the axes {axes:?} are not a sequence of Euler angles: each is 0, 1 or 2, and neighbours differ"
             ),
             Self::Inexpressible { rule, value } => write!(f, "{rule}, but it is {value:e}"),
+            Self::Undetermined { determinacy } => write!(
+                f,
+                "the twist does not determine the speeds here, to {determinacy:e} of their size: the coordinates are \
+                 singular; use others, or a chart without angles"
+            ),
             Self::NonFinite => f.write_str("the state has an infinite or undefined component"),
         }
     }

@@ -10,7 +10,7 @@ pub mod rotation;
 
 use core::fmt;
 
-pub use conversion::convert;
+pub use conversion::{convert, convert_at};
 pub use error::{ChartError, MotionRule};
 
 /// The kind of quasi-velocities z (or coordinate velocities) of a system.

@@ -6,6 +6,7 @@
 mod check;
 mod containers;
 mod eigenvalues;
+mod one_body;
 mod poses;
 mod samples;
 mod warnings;
@@ -27,6 +28,7 @@ pub use check::ParameterCheck;
 pub use containers::{components, entries, isometry2, isometry3, matrix, product, quaternion, vector};
 pub(crate) use eigenvalues::eigenvalues;
 pub use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, UnitQuaternion};
+pub use one_body::{configuration_of_pose, determinacy_of_speeds, pose_from_rows, speeds_of_twist};
 pub use poses::{
     chart_of_pose, free_pose, plane_chart_of_pose, plane_of_pose, pose_from_quaternion, pose_of_chart, pose_of_plane,
     pose_of_plane_chart, pose_of_rotation, pose_of_rotation_chart, rotation_chart_of_pose, rotation_of_pose, unmoved,

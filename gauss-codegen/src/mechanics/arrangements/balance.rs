@@ -264,97 +264,166 @@ pub fn solve_balance<'g>(
     formal: &Formal<'g>,
     arrangement: Arrangement,
 ) -> Balance<'g> {
-    let frame = &kinematics.frame;
-    let zero = frame.zero();
-    let tidy = |a: Triple<'g>| match arrangement {
-        Arrangement::Structured => a,
-        _ => a.map(|e| e.collected(LIMIT)),
-    };
-    let fold = |e: Expr<'g>| if arrangement == Arrangement::Folded { e.collected(LIMIT) } else { e };
-    let omega = frame.body_vector(formal.omega);
-    let torque = weight.map_or(zero.body, |w| cross(&w.effective_moment, &formal.gravity));
-    let torque = add(&torque, &formal.torque);
-    let coupling = matrix.block(0, 3, &formal.omega).map(Expr::group);
-    let q = add(&matrix.block(0, 0, &formal.u), &matrix.block(0, 3, &formal.omega)).map(Expr::group);
-    let gamma = matrix.angular_momentum(&formal.u, &formal.omega).map(Expr::group);
-    // Rates of the formal components while the unknowns are zero: u̇ = a − ω × u when the unknown is a = dv_O/dt.
-    let mut still = Map::default();
-    if matrix.isotropic.is_some() {
-        let drift = cross(&formal.u, &formal.omega);
-        still.extend(formal.u.iter().zip(drift).map(|(u, rate)| (u.key(), rate)));
+    let unsolved = Unsolved::new(kinematics, matrix, weight, load, formal, arrangement);
+    match matrix.isotropic {
+        Some(mu) => unsolved.translation_first(mu),
+        None => unsolved.at_once(),
     }
-    let angular_rate = frame.derivative(&frame.body_vector(gamma), &still, &omega).body;
-    let angular_bias = tidy(subtract(&add(&angular_rate, &cross(&formal.u, &q)), &torque));
-    let angular_axes = kinematics.angular_axes();
-    let pick = |a: &Triple<'g>, axes: &[usize]| -> Vec<Expr<'g>> { axes.iter().map(|&k| a[k]).collect() };
-    let spread = |values: &[Expr<'g>], axes: &[usize]| -> Triple<'g> {
-        let mut a = zero.body;
+}
+
+/// The balance before its accelerations are known.
+struct Unsolved<'a, 'g> {
+    kinematics: &'a Kinematics<'g>,
+    matrix: &'a KineticMatrix<'g>,
+    weight: Option<&'a Weight<'g>>,
+    load: &'a Wrench<'g>,
+    formal: &'a Formal<'g>,
+    arrangement: Arrangement,
+    omega: Vector<'g>,
+    /// M₁₂ ω, and Q.
+    coupling: Triple<'g>,
+    momentum: Triple<'g>,
+    angular_bias: Triple<'g>,
+    /// Weight and what else acts in observer's axes, seen in body axes.
+    observed_in_body: Triple<'g>,
+}
+
+impl<'a, 'g> Unsolved<'a, 'g> {
+    fn new(
+        kinematics: &'a Kinematics<'g>,
+        matrix: &'a KineticMatrix<'g>,
+        weight: Option<&'a Weight<'g>>,
+        load: &'a Wrench<'g>,
+        formal: &'a Formal<'g>,
+        arrangement: Arrangement,
+    ) -> Self {
+        let frame = &kinematics.frame;
+        let zero = frame.zero().body;
+        let omega = frame.body_vector(formal.omega);
+        let torque = weight.map_or(zero, |w| cross(&w.effective_moment, &formal.gravity));
+        let torque = add(&torque, &formal.torque);
+        let coupling = matrix.block(0, 3, &formal.omega).map(Expr::group);
+        let momentum = add(&matrix.block(0, 0, &formal.u), &matrix.block(0, 3, &formal.omega)).map(Expr::group);
+        let gamma = matrix.angular_momentum(&formal.u, &formal.omega).map(Expr::group);
+        // Rates of the formal components while the unknowns are zero: u̇ = a − ω × u when the unknown is a = dv_O/dt.
+        let mut still = Map::default();
+        if matrix.isotropic.is_some() {
+            let drift = cross(&formal.u, &formal.omega);
+            still.extend(formal.u.iter().zip(drift).map(|(u, rate)| (u.key(), rate)));
+        }
+        let angular_rate = frame.derivative(&frame.body_vector(gamma), &still, &omega).body;
+        let angular_bias = subtract(&add(&angular_rate, &cross(&formal.u, &momentum)), &torque);
+        let angular_bias = tidied(arrangement, angular_bias);
+        let weight_in_body = weight.map_or(zero, |w| scale(w.effective_mass, &formal.gravity));
+        let observed_in_body = add(&weight_in_body, &formal.observed_force);
+        Self {
+            kinematics,
+            matrix,
+            weight,
+            load,
+            formal,
+            arrangement,
+            omega,
+            coupling,
+            momentum,
+            angular_bias,
+            observed_in_body,
+        }
+    }
+
+    fn tidy(&self, a: Triple<'g>) -> Triple<'g> {
+        tidied(self.arrangement, a)
+    }
+
+    fn spread(&self, values: &[Expr<'g>], axes: &[usize]) -> Triple<'g> {
+        let mut a = self.kinematics.frame.zero().body;
         axes.iter().zip(values).for_each(|(&k, v)| a[k] = *v);
         a
-    };
-    let solved = |matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]| -> Vec<Expr<'g>> {
-        if arrangement == Arrangement::Eliminated {
+    }
+
+    /// −matrix⁻¹ right.
+    fn solved(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        if self.arrangement == Arrangement::Eliminated {
             let right: Vec<Expr<'g>> = right.iter().map(|e| -*e).collect();
             return solve_symmetric(matrix, &right).into_iter().map(Expr::group).collect();
         }
+        let fold = |e: Expr<'g>| if self.arrangement == Arrangement::Folded { e.collected(LIMIT) } else { e };
         let inverse = inverse_of_symmetric(matrix);
         inverse.iter().map(|row| fold(-row.iter().zip(right).map(|(m, r)| *m * *r).sum::<Expr<'g>>()).group()).collect()
-    };
-    let weight_in_body = weight.map_or(zero.body, |w| scale(w.effective_mass, &formal.gravity));
-    let observed_in_body = add(&weight_in_body, &formal.observed_force);
-    match matrix.isotropic {
-        // Translation eliminated first: a = (R − bias − M₁₂ ω̇)/μ.
-        Some(mu) => {
-            let turning = frame.derivative(&frame.body_vector(coupling), &Map::default(), &omega).body;
-            let linear_bias = tidy(subtract(&turning, &formal.force));
-            let per_mass = mu.recip();
-            let inner = scale(per_mass, &subtract(&linear_bias, &observed_in_body));
-            let schur = schur_complement(matrix, per_mass, &angular_axes);
-            let reduced = tidy(subtract(&angular_bias, &matrix.block(3, 0, &inner)));
-            let angular = spread(&solved(&schur, &pick(&reduced, &angular_axes)), &angular_axes);
-            if arrangement == Arrangement::Whole {
-                // (Q + M₁₂ ω̇)/μ and its like: what is divided by μ is constant.
-                let momentum = add(&formal.u, &matrix.scaled_block(per_mass, 0, 3, &formal.omega)).map(Expr::group);
-                let turning = frame.derivative(&frame.body_vector(momentum), &Map::default(), &omega).body;
-                let acting = scale(per_mass, &add(&observed_in_body, &formal.force));
-                let rest = add(&turning, &matrix.scaled_block(per_mass, 0, 3, &angular));
-                let linear = LinearAcceleration::Relative(subtract(&acting, &rest).map(Expr::group));
-                return Balance { linear_bias, angular_bias, linear, angular };
-            }
-            let rest = add(&linear_bias, &matrix.block(0, 3, &angular));
-            let in_body = scale(-per_mass, &rest.map(Expr::group));
-            let observed = frame.body_vector(in_body);
-            let linear = match weight {
-                Some(w) => observed.plus(&w.resultant(frame).times(per_mass)),
-                None => observed,
-            };
-            let linear = linear.plus(&frame.space_vector(load.force.space).times(per_mass));
-            let body_part = match linear.body {
-                a if is_zero(&a) => a,
-                a => a.map(Expr::group),
-            };
-            Balance {
-                linear_bias,
-                angular_bias,
-                linear: LinearAcceleration::Observed(Vector { body: body_part, ..linear }),
-                angular,
-            }
+    }
+
+    /// Translation eliminated first: a = (R − bias − M₁₂ ω̇)/μ.
+    fn translation_first(&self, mu: Expr<'g>) -> Balance<'g> {
+        let Self { kinematics, matrix, formal, omega, angular_bias, observed_in_body, .. } = *self;
+        let frame = &kinematics.frame;
+        let angular_axes = kinematics.angular_axes();
+        let turning = frame.derivative(&frame.body_vector(self.coupling), &Map::default(), &omega).body;
+        let linear_bias = self.tidy(subtract(&turning, &formal.force));
+        let per_mass = mu.recip();
+        let inner = scale(per_mass, &subtract(&linear_bias, &observed_in_body));
+        let schur = schur_complement(matrix, per_mass, &angular_axes);
+        let reduced = self.tidy(subtract(&angular_bias, &matrix.block(3, 0, &inner)));
+        let angular = self.spread(&self.solved(&schur, &picked(&reduced, &angular_axes)), &angular_axes);
+        if self.arrangement == Arrangement::Whole {
+            // (Q + M₁₂ ω̇)/μ and its like: what is divided by μ is constant.
+            let momentum = add(&formal.u, &matrix.scaled_block(per_mass, 0, 3, &formal.omega)).map(Expr::group);
+            let turning = frame.derivative(&frame.body_vector(momentum), &Map::default(), &omega).body;
+            let acting = scale(per_mass, &add(&observed_in_body, &formal.force));
+            let rest = add(&turning, &matrix.scaled_block(per_mass, 0, 3, &angular));
+            let linear = LinearAcceleration::Relative(subtract(&acting, &rest).map(Expr::group));
+            return Balance { linear_bias, angular_bias, linear, angular };
         }
-        None => {
-            let linear_rate = frame.derivative(&frame.body_vector(q), &Map::default(), &omega).body;
-            let linear_bias = tidy(subtract(&linear_rate, &add(&observed_in_body, &formal.force)));
-            let mut right = pick(&linear_bias, &kinematics.linear_axes());
-            right.extend(pick(&angular_bias, &angular_axes));
-            let solution = solved(&matrix.submatrix(&kinematics.active), &right);
-            let (linear, angular) = solution.split_at(kinematics.linear_axes().len());
-            Balance {
-                linear_bias,
-                angular_bias,
-                linear: LinearAcceleration::Relative(spread(linear, &kinematics.linear_axes())),
-                angular: spread(angular, &angular_axes),
-            }
+        let rest = add(&linear_bias, &matrix.block(0, 3, &angular));
+        let in_body = scale(-per_mass, &rest.map(Expr::group));
+        let linear = self.observed(per_mass, in_body);
+        let body_part = match linear.body {
+            a if is_zero(&a) => a,
+            a => a.map(Expr::group),
+        };
+        let linear = LinearAcceleration::Observed(Vector { body: body_part, ..linear });
+        Balance { linear_bias, angular_bias, linear, angular }
+    }
+
+    /// An acceleration in body axes, and what acts in observer's.
+    fn observed(&self, per_mass: Expr<'g>, in_body: Triple<'g>) -> Vector<'g> {
+        let frame = &self.kinematics.frame;
+        let observed = frame.body_vector(in_body);
+        let linear = match self.weight {
+            Some(w) => observed.plus(&w.resultant(frame).times(per_mass)),
+            None => observed,
+        };
+        linear.plus(&frame.space_vector(self.load.force.space).times(per_mass))
+    }
+
+    /// u̇ and ω̇ together.
+    fn at_once(&self) -> Balance<'g> {
+        let Self { kinematics, formal, angular_bias, .. } = *self;
+        let (frame, angular_axes, linear_axes) =
+            (&kinematics.frame, kinematics.angular_axes(), kinematics.linear_axes());
+        let linear_rate = frame.derivative(&frame.body_vector(self.momentum), &Map::default(), &self.omega).body;
+        let linear_bias = self.tidy(subtract(&linear_rate, &add(&self.observed_in_body, &formal.force)));
+        let mut right = picked(&linear_bias, &linear_axes);
+        right.extend(picked(&angular_bias, &angular_axes));
+        let solution = self.solved(&self.matrix.submatrix(&kinematics.active), &right);
+        let (linear, angular) = solution.split_at(linear_axes.len());
+        Balance {
+            linear_bias,
+            angular_bias,
+            linear: LinearAcceleration::Relative(self.spread(linear, &linear_axes)),
+            angular: self.spread(angular, &angular_axes),
         }
     }
+}
+
+fn tidied(arrangement: Arrangement, a: Triple<'_>) -> Triple<'_> {
+    match arrangement {
+        Arrangement::Structured => a,
+        _ => a.map(|e| e.collected(LIMIT)),
+    }
+}
+
+fn picked<'g>(a: &Triple<'g>, axes: &[usize]) -> Vec<Expr<'g>> {
+    axes.iter().map(|&k| a[k]).collect()
 }
 
 /// `M₂₂ − M₂₁ M₁₂/μ` on the axes of rotation: the inertia that is left when the translation is eliminated.

@@ -10,7 +10,7 @@ use crate::kernel::{ByParameters, Differentiated, Direction, Equation};
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::kinematics::rotation::poisson;
 use crate::mechanics::kinematics::vector::Triple;
-use crate::mechanics::scene::Coordinate;
+use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::system::System;
 
 /// What is differentiated: V, component by component in the order of increments, then ż.
@@ -27,6 +27,55 @@ pub struct Linearization<'g> {
     momenta: Vec<Expr<'g>>,
     /// Accelerations are those that constraints admit.
     constrained: bool,
+}
+
+/// The components of an increment of the configuration: elements of groups come first, then all scalars.
+pub struct Increments<'g> {
+    /// What the configuration is moved along, component by component.
+    pub directions: Vec<Direction<'g>>,
+    /// Where each of them is in ψ, which is in the order of the coordinates.
+    pub order: Vec<usize>,
+}
+
+impl<'g> Increments<'g> {
+    pub fn of(scene: &SystemScene<'g>) -> Self {
+        let graph = scene.graph;
+        let (mut groups, mut scalars) = (Vec::new(), Vec::new());
+        let (mut of_groups, mut of_scalars) = (Vec::new(), Vec::new());
+        let mut component = 0;
+        for coordinate in &scene.coordinates {
+            let own = component..component + coordinate.size();
+            component = own.end;
+            let directions = along(graph, coordinate);
+            match coordinate {
+                Coordinate::Scalar(_) => {
+                    scalars.extend(directions);
+                    of_scalars.extend(own);
+                }
+                _ => {
+                    groups.extend(directions);
+                    of_groups.extend(own);
+                }
+            }
+        }
+        groups.extend(scalars);
+        of_groups.extend(of_scalars);
+        Self { directions: groups, order: of_groups }
+    }
+}
+
+/// One coordinate along each component of its increment.
+fn along<'g>(graph: &'g Graph, coordinate: &Coordinate<'g>) -> Vec<Direction<'g>> {
+    match coordinate {
+        Coordinate::Scalar(q) => vec![vec![(*q, graph.one())]],
+        Coordinate::Rotation(rotation) => along_rotation(graph, rotation),
+        Coordinate::Pose(rotation, position) => along_pose(graph, rotation, position),
+        Coordinate::Plane { turn: [cosine, sine], position: [b1, b2] } => vec![
+            vec![(*b1, *cosine), (*b2, *sine)],
+            vec![(*b1, -*sine), (*b2, *cosine)],
+            vec![(*cosine, -*sine), (*sine, *cosine)],
+        ],
+    }
 }
 
 impl<'g> Linearization<'g> {
@@ -54,51 +103,19 @@ impl<'g> Linearization<'g> {
     pub fn new(system: &System<'g>, formulas: &[Formula<'g>]) -> Self {
         let scene = &system.scene;
         let graph = scene.graph;
-        let (mut groups, mut scalars) = (Vec::new(), Vec::new());
-        // Elements of groups come first in an increment, then all scalars; ψ is in the order of the coordinates.
-        let (mut of_groups, mut of_scalars) = (Vec::new(), Vec::new());
-        let mut component = 0;
-        for coordinate in &scene.coordinates {
-            let own = component..component + coordinate.size();
-            component = own.end;
-            match coordinate {
-                Coordinate::Scalar(q) => {
-                    scalars.push(vec![(*q, graph.one())]);
-                    of_scalars.extend(own);
-                }
-                Coordinate::Rotation(rotation) => {
-                    groups.extend(along_rotation(graph, rotation));
-                    of_groups.extend(own);
-                }
-                Coordinate::Pose(rotation, position) => {
-                    groups.extend(along_pose(graph, rotation, position));
-                    of_groups.extend(own);
-                }
-                Coordinate::Plane { turn: [cosine, sine], position: [b1, b2] } => {
-                    groups.extend([
-                        vec![(*b1, *cosine), (*b2, *sine)],
-                        vec![(*b1, -*sine), (*b2, *cosine)],
-                        vec![(*cosine, -*sine), (*sine, *cosine)],
-                    ]);
-                    of_groups.extend(own);
-                }
-            }
-        }
-        groups.extend(scalars);
-        of_groups.extend(of_scalars);
+        let Increments { mut directions, order } = Increments::of(scene);
+        let increments = directions.len();
         let arrangements_of = |method: Method| -> &[Vec<Expr<'g>>] {
             let formula = formulas.iter().find(|formula| formula.method == method);
             &formula.expect("every kernel has kinematics and accelerations").arrangements
         };
         let kinematics = &arrangements_of(Method::Kinematics)[0];
-        let velocity: Vec<Expr<'g>> = of_groups.iter().map(|&k| kinematics[k]).collect();
+        let velocity: Vec<Expr<'g>> = order.iter().map(|&k| kinematics[k]).collect();
         let arrangements = arrangements_of(Method::Acceleration).iter();
         let arrangements = arrangements.map(|outputs| velocity.iter().chain(outputs).copied().collect()).collect();
         let alone = |symbols: &[Expr<'g>]| -> Vec<Direction<'g>> {
             symbols.iter().map(|&symbol| vec![(symbol, graph.one())]).collect()
         };
-        let increments = groups.len();
-        let mut directions = groups;
         directions.extend(alone(&scene.speeds));
         directions.push(vec![(scene.time, graph.one())]);
         directions.extend(alone(&scene.inputs));
@@ -107,7 +124,7 @@ impl<'g> Linearization<'g> {
             increments,
             speeds: scene.speeds.len(),
             inputs: scene.inputs.len(),
-            order: of_groups,
+            order,
             speed_rates: scene.speed_rates.clone(),
             momenta: scene.momenta.clone(),
             constrained: !system.constraints.is_empty(),

@@ -88,6 +88,21 @@ impl<'g> ChartedBody<'g> {
     }
 }
 
+/// What the speeds and the momenta of a chart are called; the axes of the linear and of the angular ones.
+struct Letters {
+    speeds: Vec<Name>,
+    momenta: Vec<Name>,
+    axes: [Axes; 2],
+}
+
+/// (R, M) where the momenta are (Q, Γ), with the same hats.
+fn force_name(momentum: &Name) -> Name {
+    Name::new(
+        &momentum.text.replace('Γ', "M").replace('Q', "R"),
+        &momentum.latex.replace("\\Gamma", "M").replace('Q', "R"),
+    )
+}
+
 struct Builder<'g> {
     graph: &'g Graph,
     motion: Motion,
@@ -135,44 +150,15 @@ impl<'g> Builder<'g> {
         position: Triple<'g>,
         active: Vec<usize>,
     ) -> ChartedBody<'g> {
-        let (graph, zero, one) = (self.graph, self.graph.zero(), self.graph.one());
-        let planar = self.motion == Motion::Planar;
-        let rotation: [Triple<'g>; 3] = if planar {
-            let cos = self.variable("cos(θ)", "\\cos\\vartheta");
-            let sin = self.variable("sin(θ)", "\\sin\\vartheta");
-            [[cos, -sin, zero], [sin, cos, zero], [zero, zero, one]]
-        } else {
-            std::array::from_fn(|i| {
-                std::array::from_fn(|j| {
-                    self.variable(&format!("R{}{}", i + 1, j + 1), &format!("R_{{{}{}}}", i + 1, j + 1))
-                })
-            })
-        };
-        let moving: Vec<Expr<'g>> =
-            if planar { vec![rotation[0][0], rotation[1][0]] } else { rotation.iter().flatten().copied().collect() };
-
-        let (u, omega, q, gamma) =
-            (Name::new("u", "u"), Name::new("ω", "\\omega"), Name::new("Q", "Q"), Name::new("Γ", "\\Gamma"));
-        // About k₃ = e₃ an angular velocity needs no hat.
-        let omega_hat = if planar { omega.clone() } else { omega.hat() };
-        let (names, momenta, axes_linear, axes_angular) = match self.chart {
-            Chart::LeftInvariant => ([u, omega], [q, gamma], Axes::Body, Axes::Body),
-            Chart::RightInvariant => {
-                ([Name::new("ξ", "\\xi").hat(), omega_hat], [q.hat(), gamma.hat()], Axes::Space, Axes::Space)
-            }
-            _ => ([Name::new("b", "b").dot(), omega], [q.hat(), gamma], Axes::Space, Axes::Body),
-        };
-        let named = |[linear, angular]: [&Name; 2]| -> Vec<Name> {
-            let angular = rotations.iter().map(|&i| if planar { angular.clone() } else { angular.index(i) });
-            translations.iter().map(|&i| linear.index(i)).chain(angular).collect()
-        };
-        let speed_names = named([&names[0], &names[1]]);
+        let (graph, zero) = (self.graph, self.graph.zero());
+        let frame = Frame { graph, rotation: self.rotation() };
+        let Letters { speeds: speed_names, momenta: momentum_names, axes: [axes_linear, axes_angular] } =
+            self.letters(translations, rotations);
         let speeds: Vec<Expr<'g>> = speed_names.iter().map(|name| self.symbol(name)).collect();
         let (mut linear, mut angular) = ([zero; 3], [zero; 3]);
         translations.iter().zip(&speeds).for_each(|(&i, z)| linear[i] = *z);
         rotations.iter().zip(&speeds[translations.len()..]).for_each(|(&i, z)| angular[i] = *z);
 
-        let frame = Frame { graph, rotation };
         let vector = |axes: Axes, a: Triple<'g>| match axes {
             Axes::Body => frame.body_vector(a),
             Axes::Space => frame.space_vector(a),
@@ -186,37 +172,17 @@ impl<'g> Builder<'g> {
             }
             _ => vector(axes_linear, linear),
         };
-        // ψ: Ṙ = R [ω]× = [ω̂]× R (Poisson), ḃ = v_O.
-        let mut rates = Map::default();
-        let turn = cross_matrix(&angular);
-        for (i, row) in rotation.iter().enumerate() {
-            for (j, entry) in row.iter().enumerate() {
-                let terms = (0..3).map(|k| match axes_angular {
-                    Axes::Body => rotation[i][k] * turn[k][j],
-                    Axes::Space => turn[i][k] * rotation[k][j],
-                });
-                let rate: Expr<'g> = terms.sum();
-                if moving.contains(entry) {
-                    rates.insert(entry.key(), rate);
-                }
-            }
-        }
+        // ψ: Ṙ = R [ω]×, ḃ = v_O.
+        let mut rates = self.rates_of_rotation(&frame.rotation, axes_angular, &angular);
         let in_space = frame.resolve(&velocity, Axes::Space);
         for &i in translations {
             rates.insert(position[i].key(), in_space[i]);
         }
-        let momentum_names = named([&momenta[0], &momenta[1]]);
-        // (R, M) where the momenta are (Q, Γ), with the same hats.
-        let force = |name: &Name| {
-            Name::new(
-                &name.text.replace('Γ', "M").replace('Q', "R"),
-                &name.latex.replace("\\Gamma", "M").replace('Q', "R"),
-            )
-        };
-        let force_names = momentum_names.iter().map(force).collect();
+        let force_names = momentum_names.iter().map(force_name).collect();
+        let rotation = &frame.rotation;
         let coordinate = match self.motion {
-            Motion::Free => Coordinate::Pose(rotation, position),
-            Motion::FixedPoint => Coordinate::Rotation(rotation),
+            Motion::Free => Coordinate::Pose(*rotation, position),
+            Motion::FixedPoint => Coordinate::Rotation(*rotation),
             Motion::Planar => {
                 Coordinate::Plane { turn: [rotation[0][0], rotation[1][0]], position: [position[0], position[1]] }
             }
@@ -231,6 +197,65 @@ impl<'g> Builder<'g> {
             momentum_names,
             force_names,
         }
+    }
+
+    /// R, by its entries; in the plane by cos θ and sin θ.
+    fn rotation(&self) -> [Triple<'g>; 3] {
+        let (zero, one) = (self.graph.zero(), self.graph.one());
+        if self.motion == Motion::Planar {
+            let cos = self.variable("cos(θ)", "\\cos\\vartheta");
+            let sin = self.variable("sin(θ)", "\\sin\\vartheta");
+            return [[cos, -sin, zero], [sin, cos, zero], [zero, zero, one]];
+        }
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                self.variable(&format!("R{}{}", i + 1, j + 1), &format!("R_{{{}{}}}", i + 1, j + 1))
+            })
+        })
+    }
+
+    /// What speeds and momenta are called, and in which axes they are.
+    fn letters(&self, translations: &[usize], rotations: &[usize]) -> Letters {
+        let planar = self.motion == Motion::Planar;
+        let (u, omega, q, gamma) =
+            (Name::new("u", "u"), Name::new("ω", "\\omega"), Name::new("Q", "Q"), Name::new("Γ", "\\Gamma"));
+        // About k₃ = e₃ an angular velocity needs no hat.
+        let omega_hat = if planar { omega.clone() } else { omega.hat() };
+        let (names, momenta, axes) = match self.chart {
+            Chart::LeftInvariant => ([u, omega], [q, gamma], [Axes::Body, Axes::Body]),
+            Chart::RightInvariant => {
+                ([Name::new("ξ", "\\xi").hat(), omega_hat], [q.hat(), gamma.hat()], [Axes::Space, Axes::Space])
+            }
+            _ => ([Name::new("b", "b").dot(), omega], [q.hat(), gamma], [Axes::Space, Axes::Body]),
+        };
+        let named = |[linear, angular]: [&Name; 2]| -> Vec<Name> {
+            let angular = rotations.iter().map(|&i| if planar { angular.clone() } else { angular.index(i) });
+            translations.iter().map(|&i| linear.index(i)).chain(angular).collect()
+        };
+        Letters { speeds: named(names.each_ref()), momenta: named(momenta.each_ref()), axes }
+    }
+
+    /// Ṙ = R [ω]× = [ω̂]× R (Poisson), of the entries that are symbols.
+    fn rates_of_rotation(&self, rotation: &[Triple<'g>; 3], axes: Axes, angular: &Triple<'g>) -> Map<u32, Expr<'g>> {
+        let moving: Vec<Expr<'g>> = match self.motion {
+            Motion::Planar => vec![rotation[0][0], rotation[1][0]],
+            _ => rotation.iter().flatten().copied().collect(),
+        };
+        let mut rates = Map::default();
+        let turn = cross_matrix(angular);
+        for (i, row) in rotation.iter().enumerate() {
+            for (j, entry) in row.iter().enumerate() {
+                let terms = (0..3).map(|k| match axes {
+                    Axes::Body => rotation[i][k] * turn[k][j],
+                    Axes::Space => turn[i][k] * rotation[k][j],
+                });
+                let rate: Expr<'g> = terms.sum();
+                if moving.contains(entry) {
+                    rates.insert(entry.key(), rate);
+                }
+            }
+        }
+        rates
     }
 
     /// z = q̇ for coordinates q of the configuration space: ω is read off Ṙ = R [ω]×.

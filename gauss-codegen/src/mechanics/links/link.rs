@@ -75,6 +75,49 @@ pub struct Link<'g> {
     pub moments: Moments<'g>,
 }
 
+impl<'g> Joint<'g> {
+    /// Between working axes: those of the bodies, or k throughout where everything moves in the plane.
+    fn in_working_axes(&self, graph: &'g Graph, parent: Option<&Link<'g>>, planar: bool) -> Self {
+        match parent {
+            _ if !planar => self.clone(),
+            None => Self { turns: Vec::new(), ..self.clone() },
+            Some(p) => {
+                let turned = |a: &Triple<'g>| grouped(Frame { graph, rotation: p.rotation }.to_space(a));
+                let (offset, offset_rate) = (turned(&self.offset), turned(&self.offset_rate));
+                Self { turns: Vec::new(), offset, offset_rate }
+            }
+        }
+    }
+}
+
+/// Where a link is and how it moves; its own velocity is what its parent does not give it.
+struct Moved<'g> {
+    position: Triple<'g>,
+    velocity: Vector<'g>,
+    angular_velocity: Triple<'g>,
+    own_velocity: Vector<'g>,
+}
+
+impl<'g> Moved<'g> {
+    /// With its parent. In the plane its own angular velocity is added.
+    fn with(parent: &Link<'g>, frame: &Frame<'g>, joint: &Joint<'g>, planar: Option<&Triple<'g>>) -> Self {
+        let angular_velocity = match planar {
+            Some(spin) => add(&parent.angular_velocity, spin),
+            None => angular_velocity(&joint.turns, &parent.angular_velocity),
+        };
+        let u = parent.frame.resolve(&parent.velocity, Axes::Body);
+        let carried = grouped(add(&u, &add(&cross(&parent.angular_velocity, &joint.offset), &joint.offset_rate)));
+        let position = add(&parent.position, &grouped(parent.frame.to_space(&joint.offset)));
+        let velocity = frame.body_vector(inward(&joint.turns, &carried));
+        let own_velocity = frame.body_vector(inward(&joint.turns, &joint.offset_rate));
+        Self { position, velocity, angular_velocity, own_velocity }
+    }
+}
+
+fn grouped(a: Triple<'_>) -> Triple<'_> {
+    a.map(Expr::group)
+}
+
 impl<'g> Link<'g> {
     pub fn new(
         graph: &'g Graph,
@@ -87,14 +130,13 @@ impl<'g> Link<'g> {
         let Placement { matter, parent: index, position: offset, velocity: known, angular_velocity: known_spin, turns } =
             placement;
         let turns = Turn::merged(turns, rates);
-        let grouped = |a: Triple<'g>| a.map(Expr::group);
-        let turned = |r, turn: &Turn<'g>| product(&r, &turn.matrix).map(grouped);
         // In the plane angles add up; else rotations are multiplied.
         let whole = planar.map(|axis| {
             let before = parent.and_then(|p| p.planar.as_ref()).into_iter();
             let angles = before.chain(&turns).filter_map(Turn::axis_and_angle).map(|(_, angle)| angle);
             Turn::about(graph, axis, angles.fold(graph.zero(), |sum, angle| sum + angle), rates)
         });
+        let turned = |r, turn: &Turn<'g>| product(&r, &turn.matrix).map(grouped);
         let rotation = match &whole {
             Some(turn) => turn.matrix,
             None => turns.iter().fold(parent.map_or_else(|| identity(graph), |p| p.rotation), turned),
@@ -105,32 +147,14 @@ impl<'g> Link<'g> {
             Some(velocity) if is_zero(&velocity.space) => velocity.body,
             _ => inward(&own_joint.turns, &own_joint.offset_rate),
         };
-        let joint = match parent {
-            _ if planar.is_none() => own_joint.clone(),
-            None => Joint { turns: Vec::new(), ..own_joint.clone() },
-            Some(p) => {
-                let turned = |a: &Triple<'g>| grouped(Frame { graph, rotation: p.rotation }.to_space(a));
-                let (offset, offset_rate) = (turned(&own_joint.offset), turned(&own_joint.offset_rate));
-                Joint { turns: Vec::new(), offset, offset_rate }
-            }
-        };
+        let joint = own_joint.in_working_axes(graph, parent, planar.is_some());
         let frame = Frame { graph, rotation: if planar.is_some() { identity(graph) } else { rotation } };
-        let (position, velocity, omega, own_velocity) = match parent {
+        let Moved { position, velocity, angular_velocity: omega, own_velocity } = match parent {
             None => {
                 let velocity = known.unwrap_or_else(|| frame.space_vector(joint.offset_rate));
-                (offset, velocity, spin, velocity)
+                Moved { position: offset, velocity, angular_velocity: spin, own_velocity: velocity }
             }
-            Some(p) => {
-                let omega = match planar {
-                    Some(_) => add(&p.angular_velocity, &spin),
-                    None => angular_velocity(&joint.turns, &p.angular_velocity),
-                };
-                let u = p.frame.resolve(&p.velocity, Axes::Body);
-                let carried = grouped(add(&u, &add(&cross(&p.angular_velocity, &joint.offset), &joint.offset_rate)));
-                let position = add(&p.position, &grouped(p.frame.to_space(&joint.offset)));
-                let velocity = frame.body_vector(inward(&joint.turns, &carried));
-                (position, velocity, omega, frame.body_vector(inward(&joint.turns, &joint.offset_rate)))
-            }
+            Some(parent) => Moved::with(parent, &frame, &joint, planar.is_some().then_some(&spin)),
         };
         let named = |e: Expr<'g>| compact(e).group();
         let linear_rows = speeds.iter().map(|&z| own_velocity.partial(z).map(named)).collect();

@@ -81,32 +81,8 @@ fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, cont
             Some(field) if is_body(field) => {}
             // Its role is wrong, which is noted.
             Some(_) if reader.meant.contains(&Role::Body) => {}
-            Some(field) => {
-                let problem = match &field.role {
-                    Some(claim) => format!("is the {} of a body, not a body", claim.role.word().replace('_', " ")),
-                    None => "has no role".into(),
-                };
-                context.error(
-                    name.span(),
-                    format!(
-                        "the body `{name}` takes its mass data from the field `{name}`, which {problem}; \
-                         write `#[gauss(body)] {name}: RigidBody<{scalar}>`"
-                    ),
-                );
-            }
-            None => {
-                let near = words::nearest(&name.unraw().to_string(), &table);
-                let remedy = match near {
-                    Some((near, ())) => {
-                        meant.push(near.into());
-                        format!("did you mean `{near}`?")
-                    }
-                    None => format!(
-                        "add `#[gauss(body)] {name}: RigidBody<{scalar}>`, or `mass = …` and `inertia = …` to the clause"
-                    ),
-                };
-                context.error(name.span(), format!("the body `{name}` has no field with its mass data; {remedy}"));
-            }
+            Some(field) => refuse_no_body(name, field, scalar, context),
+            None => meant.extend(refuse_no_field(name, &table, scalar, context)),
         }
     }
     if statements.missed_any(&[Statement::Body]) {
@@ -127,6 +103,34 @@ fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, cont
             );
         }
     }
+}
+
+/// The field of the body is something else.
+fn refuse_no_body(name: &Ident, field: &ReadField<'_>, scalar: &str, context: &mut Context) {
+    let problem = match &field.role {
+        Some(claim) => format!("is the {} of a body, not a body", claim.role.word().replace('_', " ")),
+        None => "has no role".into(),
+    };
+    context.error(
+        name.span(),
+        format!(
+            "the body `{name}` takes its mass data from the field `{name}`, which {problem}; \
+             write `#[gauss(body)] {name}: RigidBody<{scalar}>`"
+        ),
+    );
+}
+
+/// The body has no field. Gives back the one that is meant, among those that no body has.
+fn refuse_no_field(name: &Ident, table: &[(&str, ())], scalar: &str, context: &mut Context) -> Option<String> {
+    let near = words::nearest(&name.unraw().to_string(), table).map(|(near, ())| near.to_owned());
+    let remedy = match &near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => {
+            format!("add `#[gauss(body)] {name}: RigidBody<{scalar}>`, or `mass = …` and `inertia = …` to the clause")
+        }
+    };
+    context.error(name.span(), format!("the body `{name}` has no field with its mass data; {remedy}"));
+    near
 }
 
 /// The body or frame called `name`.

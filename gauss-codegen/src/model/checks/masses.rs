@@ -37,25 +37,7 @@ pub fn check_roles(
     // An accelerating medium pushes the displaced mass as gravity does.
     let pushed = statements.medium.is_some();
     let known = |role: Role| known(role) || (role == Role::Gravity && pushed);
-    let bodies = statements.massive().count();
-    // Of several unnamed bodies none is meant to have the roles: they must get names first.
-    if let (Some(clause), [false, false]) = (&statements.of_chart, [Role::Mass, Role::Inertia].map(known)) {
-        let [mass, inertia] = [Role::Mass, Role::Inertia].map(|role| role.example(scalar));
-        context.error(
-            clause.span(),
-            format!(
-                "`{clause}` moves a body without a name, and `{}` has no mass data of one; add `{mass}` and `{inertia}`, \
-                 or remove `{clause}`: what else moves is said by `coordinates` and `speeds`",
-                input.ident
-            ),
-        );
-    } else if statements.in_chart || (statements.has_unnamed_body() && bodies == 1 && !uncertain) {
-        for role in [Role::Mass, Role::Inertia] {
-            if !known(role) {
-                field_shapes::missing_role(input, role, scalar, context);
-            }
-        }
-    }
+    check_unnamed(input, statements, known, scalar, uncertain, context);
     for claim in reader.fields.iter().filter_map(|field| field.role.as_ref()) {
         field_shapes::check_companion(claim.role, claim.span, known, scalar, context);
     }
@@ -67,19 +49,55 @@ pub fn check_roles(
     if uncertain || statements.missed_any(&[Statement::Body, Statement::Particle]) {
         return;
     }
-    if bodies == 0 && statements.particles.is_empty() {
-        let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
-        let body_field = reader.fields.iter().any(|field| field.role.as_ref().is_some_and(|c| c.role == Role::Body));
-        // Of a field without its clause, or a role without its body, it is said there what to add.
-        if !body_field {
-            context.error(
-                span,
-                "the system has no body and no particle, so nothing in it has mass; \
-                 add `body(position = […], rotation = …)` or `particle(mass = …, position = […])`",
-            );
-        }
-        return;
+    if statements.massive().count() == 0 && statements.particles.is_empty() {
+        refuse_massless(input, statements, reader, context);
+    } else {
+        refuse_ownerless(statements, reader, context);
     }
+}
+
+/// The body without a name has a mass and an inertia.
+fn check_unnamed(
+    input: &DeriveInput,
+    statements: &Statements,
+    known: impl Fn(Role) -> bool,
+    scalar: &str,
+    uncertain: bool,
+    context: &mut Context,
+) {
+    // Of several unnamed bodies none is meant to have the roles: they must get names first.
+    let alone = statements.has_unnamed_body() && statements.massive().count() == 1;
+    if let (Some(clause), [false, false]) = (&statements.of_chart, [Role::Mass, Role::Inertia].map(&known)) {
+        let [mass, inertia] = [Role::Mass, Role::Inertia].map(|role| role.example(scalar));
+        context.error(
+            clause.span(),
+            format!(
+                "`{clause}` moves a body without a name, and `{}` has no mass data of one; add `{mass}` and `{inertia}`, \
+                 or remove `{clause}`: what else moves is said by `coordinates` and `speeds`",
+                input.ident
+            ),
+        );
+    } else if statements.in_chart || (alone && !uncertain) {
+        for role in [Role::Mass, Role::Inertia].into_iter().filter(|role| !known(*role)) {
+            field_shapes::missing_role(input, role, scalar, context);
+        }
+    }
+}
+
+/// Nothing in the system has mass. Of a field without its clause, or a role without its body, it is said there what to add.
+fn refuse_massless(input: &DeriveInput, statements: &Statements, reader: &Reader<'_>, context: &mut Context) {
+    let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
+    if !reader.fields.iter().any(|field| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body)) {
+        context.error(
+            span,
+            "the system has no body and no particle, so nothing in it has mass; \
+             add `body(position = […], rotation = …)` or `particle(mass = …, position = […])`",
+        );
+    }
+}
+
+/// Mass data of a body without a name, where there is none.
+fn refuse_ownerless(statements: &Statements, reader: &Reader<'_>, context: &mut Context) {
     for given in statements.given.iter().filter(|given| given.role != Role::Gravity) {
         let word = given.role.word();
         context.error(

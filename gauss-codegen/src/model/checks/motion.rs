@@ -1,6 +1,7 @@
 //! What must hold between coordinates, speeds and kinematics.
 
 use crate::model::language::context::Context;
+use crate::model::language::declarations::{Kinematics, Names};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, same};
 use crate::model::names::naming::is_reserved;
@@ -14,43 +15,59 @@ use syn::ext::IdentExt;
 pub fn check_kinematics(statements: &Statements, uncertain: bool, context: &mut Context) {
     let coordinates = statements.coordinates.as_ref();
     if statements.in_chart && coordinates.is_none() {
-        let speeds = statements.speeds.iter().map(|speeds| &speeds.clause);
-        for clause in speeds.chain(statements.kinematics.iter().map(|kinematics| &kinematics.clause)) {
-            context.error(
-                clause.span(),
-                format!(
-                    "the chart has speeds and kinematics of its own, and `{clause}` is of coordinates beside it; add \
-                     `coordinates(…)` of what else moves, remove `{clause}`, or remove `chart` and `motion`"
-                ),
-            );
-        }
-        return;
+        return refuse_beside_chart(statements, context);
     }
-    match (&statements.speeds, &statements.kinematics) {
-        (None, None) => {}
-        (Some(speeds), None) => {
-            if !uncertain {
-                let equations: Vec<String> = coordinates.iter().flat_map(|names| &names.names).map(equation).collect();
-                let equations = if equations.is_empty() { "x = …".into() } else { equations.join(", ") };
-                context.error(
-                    speeds.clause.span(),
-                    format!("`speeds` do not say how the coordinates change; add `kinematics({equations})`"),
-                );
-            }
-            return;
-        }
-        (None, Some(kinematics)) => {
-            if !uncertain {
-                context.error(
-                    kinematics.clause.span(),
-                    "`kinematics` needs `speeds`, which it expresses the rates of the coordinates in; \
-                     add `speeds(…)`, or remove `kinematics` to have these rates for speeds",
-                );
-            }
-        }
-        (Some(_), Some(_)) => {}
+    if !uncertain {
+        refuse_half(statements, coordinates, context);
     }
     let (Some(kinematics), Some(coordinates)) = (&statements.kinematics, coordinates) else { return };
+    let meant = refuse_strangers(statements, kinematics, coordinates, context);
+    if kinematics.complete && statements.speeds.is_some() {
+        refuse_missing(kinematics, coordinates, &meant, context);
+    }
+}
+
+/// A chart alone has speeds and kinematics of its own.
+fn refuse_beside_chart(statements: &Statements, context: &mut Context) {
+    let speeds = statements.speeds.iter().map(|speeds| &speeds.clause);
+    for clause in speeds.chain(statements.kinematics.iter().map(|kinematics| &kinematics.clause)) {
+        context.error(
+            clause.span(),
+            format!(
+                "the chart has speeds and kinematics of its own, and `{clause}` is of coordinates beside it; add \
+                 `coordinates(…)` of what else moves, remove `{clause}`, or remove `chart` and `motion`"
+            ),
+        );
+    }
+}
+
+/// Speeds and kinematics come together.
+fn refuse_half(statements: &Statements, coordinates: Option<&Names<Coordinate>>, context: &mut Context) {
+    match (&statements.speeds, &statements.kinematics) {
+        (Some(speeds), None) => {
+            let equations: Vec<String> = coordinates.iter().flat_map(|names| &names.names).map(equation).collect();
+            let equations = if equations.is_empty() { "x = …".into() } else { equations.join(", ") };
+            context.error(
+                speeds.clause.span(),
+                format!("`speeds` do not say how the coordinates change; add `kinematics({equations})`"),
+            );
+        }
+        (None, Some(kinematics)) => context.error(
+            kinematics.clause.span(),
+            "`kinematics` needs `speeds`, which it expresses the rates of the coordinates in; \
+             add `speeds(…)`, or remove `kinematics` to have these rates for speeds",
+        ),
+        (None, None) | (Some(_), Some(_)) => {}
+    }
+}
+
+/// Each equation is that of a coordinate, and the only one of it. Gives back the coordinates that misspelt ones mean.
+fn refuse_strangers(
+    statements: &Statements,
+    kinematics: &Kinematics,
+    coordinates: &Names<Coordinate>,
+    context: &mut Context,
+) -> Vec<String> {
     let table: Vec<(String, ())> = coordinates.names.iter().map(|name| (name.ident.unraw().to_string(), ())).collect();
     let table: Vec<(&str, ())> = table.iter().map(|(name, ())| (name.as_str(), ())).collect();
     let mut meant: Vec<String> = Vec::new();
@@ -77,19 +94,18 @@ pub fn check_kinematics(statements: &Statements, uncertain: bool, context: &mut 
             context.error(name.span(), format!("`{word}` {problem}; {remedy}"));
         }
     }
-    if !kinematics.complete || statements.speeds.is_none() {
-        return;
-    }
+    meant
+}
+
+/// Each coordinate has an equation, but those that misspelt ones mean.
+fn refuse_missing(kinematics: &Kinematics, coordinates: &Names<Coordinate>, meant: &[String], context: &mut Context) {
     for (index, coordinate) in coordinates.names.iter().enumerate() {
         let Coordinate { ident, .. } = coordinate;
         let word = ident.unraw().to_string();
         // A name that must change, or go, needs no kinematics yet.
         let refused =
             is_reserved(&word) || coordinates.names[..index].iter().any(|earlier| same(&earlier.ident, ident));
-        if refused {
-            continue;
-        }
-        if !kinematics.rates.iter().any(|(name, _)| same(name, ident)) && !meant.contains(&word) {
+        if !refused && !kinematics.rates.iter().any(|(name, _)| same(name, ident)) && !meant.contains(&word) {
             let equation = equation(coordinate);
             context.error(
                 ident.span(),

@@ -61,46 +61,7 @@ pub fn read<'a>(named: &'a FieldsNamed, generics: &Generics, system: bool, conte
             context.error(ident.span(), "a field has a name, and `_` is none; write one");
             continue;
         }
-        let mut role: Option<Claim> = None;
-        let mut unit: Option<(String, Span)> = None;
-        for clause in attributes::clauses(&field.attrs, Owner::Field, context) {
-            if clause.word() == UNIT {
-                if unit.is_some() {
-                    let message = format!("the unit of the field `{ident}` is given twice; keep one of the two");
-                    context.error(clause.name.span(), message);
-                }
-                let tokens = match &clause.value {
-                    Content::Malformed => continue,
-                    Content::Equals(tokens) => tokens.clone(),
-                    Content::Absent | Content::Brackets(_) => Vec::new(),
-                };
-                unit = unit.or(arguments::read_unit(&clause.name, &tokens, clause.name.span(), context));
-                continue;
-            }
-            let Some(claim) = reader.claim(&clause, context) else {
-                continue;
-            };
-            match &role {
-                None => role = Some(claim),
-                Some(first) if first.role == claim.role => context.error(
-                    claim.span,
-                    format!("`{}` is written twice on the field `{ident}`; write it once", claim.role.word()),
-                ),
-                Some(first) => {
-                    context.error(
-                        claim.span,
-                        format!(
-                            "the field `{ident}` has two roles, first `{}` and now `{}`; a field plays one role: \
-                             make a second field for `{}`",
-                            first.role.word(),
-                            claim.role.word(),
-                            claim.role.word()
-                        ),
-                    );
-                    reader.meant.push(claim.role);
-                }
-            }
-        }
+        let (role, unit) = reader.role_and_unit(ident, &field.attrs, context);
         let reading = shapes::read(&field.ty, generics);
         let unit = unit.filter(|(unit, span)| match wrong_unit(ident, role.as_ref(), &reading, unit) {
             Some(message) => {
@@ -131,6 +92,54 @@ pub fn any_body(input: &DeriveInput) -> bool {
 }
 
 impl Reader<'_> {
+    /// What the attributes of a field say: of roles the first, of units the first that is well.
+    fn role_and_unit(
+        &mut self,
+        ident: &Ident,
+        attributes: &[Attribute],
+        context: &mut Context,
+    ) -> (Option<Claim>, Option<(String, Span)>) {
+        let (mut role, mut unit) = (None, None);
+        for clause in attributes::clauses(attributes, Owner::Field, context) {
+            if clause.word() == UNIT {
+                if unit.is_some() {
+                    let message = format!("the unit of the field `{ident}` is given twice; keep one of the two");
+                    context.error(clause.name.span(), message);
+                }
+                let tokens = match &clause.value {
+                    Content::Malformed => continue,
+                    Content::Equals(tokens) => tokens.clone(),
+                    Content::Absent | Content::Brackets(_) => Vec::new(),
+                };
+                unit = unit.or(arguments::read_unit(&clause.name, &tokens, clause.name.span(), context));
+                continue;
+            }
+            let Some(claim) = self.claim(&clause, context) else { continue };
+            match &role {
+                None => role = Some(claim),
+                Some(first) => self.refuse_second(ident, first, &claim, context),
+            }
+        }
+        (role, unit)
+    }
+
+    /// A field plays one role, and says so once.
+    fn refuse_second(&mut self, ident: &Ident, first: &Claim, claim: &Claim, context: &mut Context) {
+        let [earlier, word] = [first.role.word(), claim.role.word()];
+        if first.role == claim.role {
+            context.error(claim.span, format!("`{word}` is written twice on the field `{ident}`; write it once"));
+            return;
+        }
+        context.error(
+            claim.span,
+            format!(
+                "the field `{ident}` has two roles, first `{earlier}` and now `{word}`; a field plays one role: \
+                 make a second field for `{word}`"
+            ),
+        );
+        self.meant.push(claim.role);
+    }
+
     /// The role that a clause gives to its field.
     fn claim(&mut self, clause: &Clause, context: &mut Context) -> Option<Claim> {
         let word = clause.word();

@@ -100,53 +100,21 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     let in_chart = of_chart.is_some() || !(own || has_body);
     let has_coordinates = clauses.iter().any(|clause| meant(clause) == Some(Statement::Coordinates));
     let mut statements = Statements::new(in_chart, has_coordinates);
-    let mut charts = Vec::new();
-    let mut motion = None;
-    let mut runtime = None;
-    let mut wanted = Wanted::default();
-    let mut first: Vec<(Topic, String)> = Vec::new();
+    let mut topics = Topics::default();
     for clause in clauses {
         let word = clause.word();
         if STATEMENTS.iter().any(|(name, _)| *name == word) {
             statements.read(&clause, context);
-            continue;
-        }
-        if let Some(role) = given::role(&word).filter(|_| !given::belongs_to_field(&clause)) {
+        } else if let Some(role) = given::role(&word).filter(|_| !given::belongs_to_field(&clause)) {
             given::read(role, &clause, &mut statements.given, context);
-            continue;
-        }
-        let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) else {
+        } else if let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) {
+            topics.read(topic, &clause, context);
+        } else {
             refuse(&clause, &word, own, context);
             statements.miss(&clause);
-            continue;
-        };
-        if let Some((_, earlier)) = first.iter().find(|(other, _)| *other == topic) {
-            context.error(
-                clause.name.span(),
-                format!("`{word}` is given twice; it was given first as `{earlier}`: keep one of the two"),
-            );
-        } else {
-            first.push((topic, clause.written()));
-        }
-        // Of clauses given twice the first counts, but mistakes in the second are found all the same.
-        match topic {
-            Topic::Chart => charts.push(read_chart(&clause, context)),
-            Topic::Motion => motion = motion.or(Some(read_motion(&clause, context))),
-            Topic::Runtime => runtime = runtime.or(Some(read_runtime(&clause, context))),
-            Topic::Taylor => {
-                wanted.taylor.get_or_insert(clause.name.clone());
-                check_alone(&clause, context);
-            }
-            Topic::Linearize => {
-                wanted.linearize = true;
-                wanted.by_parameters |= names_parameters(&clause, context);
-            }
-            Topic::Regressor => {
-                wanted.regressor.get_or_insert(clause.name.clone());
-                check_alone(&clause, context);
-            }
         }
     }
+    let Topics { charts, motion, runtime, wanted, .. } = topics;
     // A clause left out means its default; a clause that could not be read is known to be unknown.
     let motion = motion.unwrap_or(Some(Motion::Free));
     let mut chart = None;
@@ -160,6 +128,53 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     statements.of_chart = of_chart;
     statements.speeds_of_chart = in_chart.map_or_else(Vec::new, InChart::speed_words);
     Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own }
+}
+
+/// What the clauses say that stand once; `Some(None)` where one could not be read.
+#[derive(Default)]
+struct Topics {
+    charts: Vec<Option<Written>>,
+    motion: Option<Option<Motion>>,
+    runtime: Option<Option<Path>>,
+    wanted: Wanted,
+    /// The topics of clauses so far, each with the clause.
+    first: Vec<(Topic, String)>,
+}
+
+impl Topics {
+    /// Of clauses given twice the first counts, but mistakes in the second are found all the same.
+    fn read(&mut self, topic: Topic, clause: &Clause, context: &mut Context) {
+        if let Some((_, earlier)) = self.first.iter().find(|(other, _)| *other == topic) {
+            let message =
+                format!("`{}` is given twice; it was given first as `{earlier}`: keep one of the two", clause.word());
+            context.error(clause.name.span(), message);
+        } else {
+            self.first.push((topic, clause.written()));
+        }
+        match topic {
+            Topic::Chart => self.charts.push(read_chart(clause, context)),
+            Topic::Motion => {
+                let motion = read_motion(clause, context);
+                self.motion = self.motion.or(Some(motion));
+            }
+            Topic::Runtime => {
+                let runtime = read_runtime(clause, context);
+                self.runtime = self.runtime.take().or(Some(runtime));
+            }
+            Topic::Taylor => {
+                self.wanted.taylor.get_or_insert(clause.name.clone());
+                check_alone(clause, context);
+            }
+            Topic::Linearize => {
+                self.wanted.linearize = true;
+                self.wanted.by_parameters |= names_parameters(clause, context);
+            }
+            Topic::Regressor => {
+                self.wanted.regressor.get_or_insert(clause.name.clone());
+                check_alone(clause, context);
+            }
+        }
+    }
 }
 
 /// Notes why a clause is none of the struct's.
