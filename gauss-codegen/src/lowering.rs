@@ -32,7 +32,7 @@ pub fn lower<'g>(
     let by_parameters = linearization.as_ref().filter(|_| model.wanted.by_parameters);
     let wanted = Derivatives {
         by_state: linearization.as_ref().map(|l| &l.differentiated),
-        units: if by_parameters.is_some() { &formulation.units } else { &[] },
+        units: if linearization.is_some() { &formulation.units } else { &[] },
         by_parameters: by_parameters.map(|linearization| linearization.by_parameters(formulas, &parameters)),
         regressor: regressor.as_ref().map(|r| &r.differentiated),
     };

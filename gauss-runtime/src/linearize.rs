@@ -11,7 +11,8 @@ use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// A system whose equations come with their derivatives, the same instructions differentiated one by one.
+/// A system whose equations come with their derivatives: the same instructions differentiated one by one, or, where that is shorter,
+/// −A⁻¹ times the derivatives of the forces at fixed accelerations.
 ///
 /// The state moves by (σ, δz): `q ∘ exp(σ)` as everywhere in this crate (seen from the body: for a pose its first three components
 /// move O along body axes, the last three turn about them), and `z + δz`. Rates are (V, ż), with V the velocity of the

@@ -100,6 +100,32 @@ pub fn arm(clauses: &str) -> String {
     format!("#[gauss({links}{clauses})] struct Arm {{ {bodies} #[gauss(gravity)] g: f64 }}")
 }
 
+/// A walker on four legs of three joints each, driven at every joint; joint origins are those of ANYmal B (ANYbotics, public description, BSD
+/// 3-clause). With further clauses, each after a comma.
+pub fn quadruped(clauses: &str) -> String {
+    let (mut names, mut bodies, mut actions) = (Vec::new(), String::new(), String::new());
+    for (leg, [x, y]) in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].into_iter().enumerate() {
+        let origins = [[0.277 * x, 0.116 * y, 0.0], [0.0635 * x, 0.041 * y, 0.0], [0.0, 0.109 * y, -0.25]];
+        for (joint, [a, b, c]) in origins.into_iter().enumerate() {
+            let (k, axis) = (3 * leg + joint, if joint == 0 { "x" } else { "y" });
+            let parent = if joint == 0 { "base".to_owned() } else { format!("b{}", k - 1) };
+            names.push(k);
+            bodies += &format!(
+                ", body(b{k}, parent = {parent}, position = [{a}, {b}, {c}], rotation = rotation_{axis}(q{k}))"
+            );
+            actions += &format!(", drive(q{k} = u{k})");
+        }
+    }
+    let list = |f: &dyn Fn(&usize) -> String| names.iter().map(f).collect::<Vec<_>>().join(", ");
+    let (angles, torques) = (list(&|k| format!("q{k}")), list(&|k| format!("u{k}")));
+    let fields = list(&|k| format!("#[gauss(body)] b{k}: RigidBody<f64>"));
+    format!(
+        "#[gauss(coordinates(pose: Pose, {angles}), input({torques}), body(base, position = pose.position, \
+         rotation = pose.rotation){bodies}{actions}{clauses})] struct Quadruped {{ #[gauss(body)] base: RigidBody<f64>, \
+         {fields}, #[gauss(gravity)] g: f64 }}"
+    )
+}
+
 /// Bodies that hang on a trunk that is free in space, one on the other in each limb, by hinges; with further clauses, each after a
 /// comma. A limb is the limb at whose end it begins, if any, and the axes of its hinges.
 fn limbs(name: &str, limbs: &[(Option<usize>, &str)], clauses: &str) -> String {
@@ -123,11 +149,6 @@ fn limbs(name: &str, limbs: &[(Option<usize>, &str)], clauses: &str) -> String {
          #[gauss(body)] trunk: RigidBody<f64>, {bodies} #[gauss(gravity)] g: f64 }}",
         names("q", count as usize)
     )
-}
-
-/// A trunk with four legs of three hinges: 18 speeds.
-pub fn quadruped(clauses: &str) -> String {
-    limbs("Quadruped", &[(None, "xyy"); 4], clauses)
 }
 
 /// A trunk with legs of six hinges, a waist of three, and at its end two arms of seven and a neck: 36 speeds.

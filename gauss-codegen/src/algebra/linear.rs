@@ -215,35 +215,102 @@ fn solve_by_blocks<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>], first_last:
     let mut solution = right.to_vec();
     for block in connected_blocks(matrix) {
         let order = elimination_order(matrix, &block, first_last);
-        let n = order.len();
-        let mut rest: Vec<Vec<Expr<'g>>> =
-            order.iter().map(|&i| order.iter().map(|&j| matrix[i.min(j)][i.max(j)]).collect()).collect();
         let mut x: Vec<Expr<'g>> = order.iter().map(|&i| right[i].group()).collect();
-        for k in 0..n {
-            let pivot_inverse = rest[k][k].group().recip();
-            for i in k + 1..n {
-                if rest[i][k].is_zero() {
-                    continue;
-                }
-                let factor = rest[i][k] * pivot_inverse;
+        let block = FactoredBlock::eliminating(matrix, order, &mut x);
+        block.substitute_back(&mut x);
+        block.put(x, &mut solution);
+    }
+    solution
+}
+
+/// A symmetric positive definite matrix as LDLᵀ, for many right-hand sides: [`solve_symmetric`] of each.
+pub struct Factored<'g> {
+    blocks: Vec<FactoredBlock<'g>>,
+}
+
+/// Unknowns that are coupled, in the order of elimination, and what is left of each column when its turn comes.
+struct FactoredBlock<'g> {
+    order: Vec<usize>,
+    rest: Vec<Vec<Expr<'g>>>,
+}
+
+impl<'g> Factored<'g> {
+    pub fn new(matrix: &[Vec<Expr<'g>>]) -> Self {
+        let factored = |block: Vec<usize>| {
+            let mut nothing = vec![matrix[0][0].graph().zero(); block.len()];
+            let order = elimination_order(matrix, &block, matrix.len());
+            FactoredBlock::eliminating(matrix, order, &mut nothing)
+        };
+        Self { blocks: connected_blocks(matrix).into_iter().map(factored).collect() }
+    }
+
+    /// From the order of elimination and, below the diagonal and on it, what is left of each column when its turn comes.
+    pub fn of_columns(order: Vec<usize>, rest: Vec<Vec<Expr<'g>>>) -> Self {
+        Self { blocks: vec![FactoredBlock { order, rest }] }
+    }
+
+    /// The unknowns in the order of elimination.
+    pub fn order(&self) -> Vec<usize> {
+        self.blocks.iter().flat_map(|block| &block.order).copied().collect()
+    }
+
+    /// x with `matrix · x = right`.
+    pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let mut solution = right.to_vec();
+        for block in &self.blocks {
+            let mut x: Vec<Expr<'g>> = block.order.iter().map(|&i| right[i].group()).collect();
+            (0..x.len()).for_each(|k| block.eliminate(k, &mut x));
+            block.substitute_back(&mut x);
+            block.put(x, &mut solution);
+        }
+        solution
+    }
+}
+
+impl<'g> FactoredBlock<'g> {
+    /// Together with a right-hand side.
+    fn eliminating(matrix: &[Vec<Expr<'g>>], order: Vec<usize>, x: &mut [Expr<'g>]) -> Self {
+        let rest = order.iter().map(|&i| order.iter().map(|&j| matrix[i.min(j)][i.max(j)]).collect()).collect();
+        let mut block = Self { order, rest };
+        for k in 0..x.len() {
+            let below = block.below(k);
+            for &(i, factor) in &below {
                 x[i] = (x[i] - factor * x[k]).group();
                 for j in k + 1..=i {
-                    if !rest[j][k].is_zero() {
-                        rest[i][j] = (rest[i][j] - factor * rest[j][k]).group();
+                    if !block.rest[j][k].is_zero() {
+                        block.rest[i][j] = (block.rest[i][j] - factor * block.rest[j][k]).group();
                     }
                 }
             }
         }
+        block
+    }
+
+    /// By what multiples a row is taken away from those after it.
+    fn below(&self, k: usize) -> Vec<(usize, Expr<'g>)> {
+        let pivot_inverse = self.rest[k][k].group().recip();
+        let rows = (k + 1..self.order.len()).filter(|&i| !self.rest[i][k].is_zero());
+        rows.map(|i| (i, self.rest[i][k] * pivot_inverse)).collect()
+    }
+
+    fn eliminate(&self, k: usize, x: &mut [Expr<'g>]) {
+        for (i, factor) in self.below(k) {
+            x[i] = (x[i] - factor * x[k]).group();
+        }
+    }
+
+    fn substitute_back(&self, x: &mut [Expr<'g>]) {
+        let (n, rest) = (x.len(), &self.rest);
         for k in (0..n).rev() {
             let known = (k + 1..n).filter(|&i| !rest[i][k].is_zero()).map(|i| rest[i][k] * x[i]);
             let numerator = known.fold(x[k], |sum, e| sum - e).group();
             x[k] = numerator * rest[k][k].group().recip();
         }
-        for (&i, value) in order.iter().zip(x) {
-            solution[i] = value;
-        }
     }
-    solution
+
+    fn put(&self, x: Vec<Expr<'g>>, solution: &mut [Expr<'g>]) {
+        self.order.iter().zip(x).for_each(|(&i, value)| solution[i] = value);
+    }
 }
 
 /// The unknown with the fewest neighbours among those left, again and again; its neighbours then are neighbours of each

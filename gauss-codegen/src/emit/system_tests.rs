@@ -120,7 +120,7 @@ fn long_programs_are_split_into_functions() {
     };
     let parts = |count: usize| generate(&chain(count)).to_string().matches(":: apart").count();
     assert_eq!(parts(4), 0);
-    assert!(parts(13) > 4);
+    assert!(parts(20) > 4);
 }
 
 /// Weight is an element like others.

@@ -16,6 +16,8 @@ pub struct Differentiated<'g> {
     /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of their own.
     pub defined: Vec<Expr<'g>>,
     pub directions: Vec<Direction<'g>>,
+    /// The outputs and then their derivatives, direction by direction, in forms of their own.
+    pub derived: Vec<Vec<Expr<'g>>>,
 }
 
 /// What is differentiated beside the functions of a kernel.
@@ -24,7 +26,7 @@ pub struct Derivatives<'a, 'g> {
     /// Outputs that are wanted together with their derivatives.
     pub by_state: Option<&'a Differentiated<'g>>,
     /// Symbols that are the components of one unit vector or quaternion, and so on: equations are solved for the accelerations with
-    /// the help of that, so points at which derivatives by parameters are checked must have it, too.
+    /// the help of that, so points at which derivatives are checked must have it, too.
     pub units: &'a [Vec<Expr<'g>>],
     /// Velocities and accelerations by the parameters.
     pub by_parameters: Option<ByParameters<'a, 'g>>,
@@ -98,7 +100,29 @@ impl<'g> Differentiated<'g> {
         let losses: Vec<Loss> = of_usable.iter().map(|(_, loss, _)| loss.clone()).collect();
         let costs: Vec<u32> = of_usable.iter().map(|(program, ..)| program.cost().total()).collect();
         let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
+        let program = self.cheaper(program, hoister, trial);
         (program, Expected { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&self.directions), kept })
+    }
+}
+
+impl<'g> Differentiated<'g> {
+    /// A program of derivatives, or what has a form of its own and costs less. Of roots, whose slope may be infinite, only programs know what
+    /// their derivatives are where nothing changes.
+    fn cheaper(&self, program: Program<'g>, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Program<'g> {
+        let most = program.cost().total();
+        if program.counts().roots > 0 {
+            return program;
+        }
+        let derived = self.derived.iter().map(|outputs| Program::lower(&hoister.hoist(outputs)).with_signs_led_back());
+        let mut programs: Vec<Program<'g>> = derived.filter(|derived| derived.cost().total() < most).collect();
+        if programs.is_empty() {
+            return program;
+        }
+        programs.push(program);
+        trial.define(hoister.constants());
+        let losses = trial.losses(&programs.iter().collect::<Vec<_>>());
+        let costs: Vec<u32> = programs.iter().map(|program| program.cost().total()).collect();
+        programs.swap_remove(taken(&losses, &costs))
     }
 }
 

@@ -262,6 +262,7 @@ fn what_is_defined_moves_by_its_own_rates() {
         arrangements: vec![outputs.clone()],
         defined: vec![r, s],
         directions: vec![vec![(r, -s), (s, r)], vec![(y, graph.one())]],
+        derived: Vec::new(),
     };
     let by_state = Derivatives { by_state: Some(&wanted), ..Derivatives::default() };
     let kernel = Kernel::lower(

@@ -6,9 +6,11 @@
 //! - `scene`: its scene, from which the derive makes programs.
 //! - `witness`: its particles, (3.1) and the constraints at a state. Shares with the derive only what is given: functions,
 //!   ψ, the places of links.
+//! - `derivatives`: the recursion against dual numbers through the accelerations.
 //! - `expectation`: what each method of the kernel should compute, and what its roundings are measured by.
 
 mod dense;
+mod derivatives;
 mod expectation;
 mod fluid;
 mod numbers;

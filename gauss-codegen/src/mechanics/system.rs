@@ -20,7 +20,7 @@ use crate::mechanics::tidy::{compact, sums, tidy};
 /// that do not, where a free body must be among them.
 const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
-const DENSE: usize = 10;
+pub const DENSE: usize = 10;
 /// Degrees of freedom up to which C is also orthogonalised as a sum of squares: beyond, that would be a third of the time
 /// of an expansion.
 const SQUARES: usize = 6;
@@ -32,7 +32,7 @@ pub struct System<'g> {
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
     /// What acts on links, fields among it.
-    loads: Loads<'g>,
+    pub(in crate::mechanics) loads: Loads<'g>,
     pub constraints: Constraints<'g>,
     /// Links that nothing else moves with.
     pub free: Vec<FreeLink<'g>>,
@@ -367,7 +367,7 @@ impl<'g> System<'g> {
     }
 
     /// Of the potential, and of what acts elsewhere than on links.
-    fn other_forces(&self) -> Vec<Expr<'g>> {
+    pub(in crate::mechanics) fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
         let acting = self.forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
         let potential = potential_of_forces(&scene.elements).unwrap_or_else(|| scene.graph.zero());
@@ -385,7 +385,7 @@ impl<'g> System<'g> {
 
     /// ∂C/∂ż of the unconstrained C at ż = ζ, and ζ: what links that float have of the accelerations at ż = 0, along
     /// speeds that no constraint mentions.
-    fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
+    pub(in crate::mechanics) fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
         let held = |speed: usize| self.constraints.jacobian.iter().any(|row| !row[speed].is_zero());
         let held: Vec<bool> = (0..self.scene.speeds.len()).map(held).collect();
         let (rows, taken) = self.scene.tree.floating_residual(inertia, &self.loads, &held);

@@ -179,6 +179,7 @@ fn chains() -> Vec<Scene> {
         ("structure top".into(), structures::top("")),
         ("structure arm".into(), structures::arm("")),
         ("structure arm linearize".into(), structures::arm(", linearize")),
+        ("structure quadruped linearize".into(), structures::quadruped(", linearize, limit = 100000")),
     ];
     for n in [2, 3, 4, 5, 6, 8, 10, 14] {
         scenes.push((format!("chain of {n} in the plane; relative"), structures::planar(n, true)));

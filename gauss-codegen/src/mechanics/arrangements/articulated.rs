@@ -8,7 +8,7 @@
 //! This is Gaussian elimination in an order that never forms A, and the *articulated-body inertia* of a link (Featherstone,
 //! Rigid Body Dynamics Algorithms, chapter 7) is what the elimination leaves at it.
 
-use crate::algebra::{Expr, Rational};
+use crate::algebra::{Expr, Factored, Rational};
 
 use crate::mechanics::kinematics::turn::{Turn, inward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, cross_matrix, dot, subtract};
@@ -74,16 +74,42 @@ impl<'a, 'g> Articulated<'a, 'g> {
         Some(Self { tree, joints, pivots })
     }
 
-    /// x with A x = right: with y = T x for the speeds of the joints, `A = Tᵀ A_y T`.
+    /// x with A x = right.
     pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let combinations: Vec<Vec<(usize, Rational)>> = self.joints.iter().map(|j| j.combination.clone()).collect();
-        let mut columns: Vec<Vec<(usize, Rational)>> = vec![Vec::new(); right.len()];
-        for (joint, combination) in combinations.iter().enumerate() {
+        self.combinations().solve(right, |right| self.solve_joints(right))
+    }
+
+    fn combinations(&self) -> Combinations {
+        let rows: Vec<Vec<(usize, Rational)>> = self.joints.iter().map(|j| j.combination.clone()).collect();
+        let mut columns: Vec<Vec<(usize, Rational)>> = vec![Vec::new(); rows.len()];
+        for (joint, combination) in rows.iter().enumerate() {
             combination.iter().for_each(|&(speed, c)| columns[speed].push((joint, c)));
         }
-        let solvable = "the order of substitution was found when the joints were";
-        let right = substituted(&columns, right).expect(solvable);
-        substituted(&combinations, &self.solve_joints(&right)).expect(solvable)
+        Combinations { rows, columns }
+    }
+
+    /// A as LDLᵀ in the speeds of the joints: what is left of a column is the response of its joint, carried to the joints
+    /// that it hangs on. For many right-hand sides: each is solved for without a motion of any link.
+    pub fn factored(&self) -> JointFactors<'g> {
+        let links = &self.tree.links;
+        let sequence: Vec<(usize, &Pivot<'g>)> =
+            (0..links.len()).rev().flat_map(|k| self.pivots[k].iter().map(move |pivot| (k, pivot))).collect();
+        let zero = self.tree.graph.zero();
+        let mut rest = vec![vec![zero; sequence.len()]; sequence.len()];
+        for (column, &(from, pivot)) in sequence.iter().enumerate() {
+            let (mut at, mut response) = (from, pivot.response);
+            loop {
+                for (row, (_, other)) in sequence.iter().enumerate().skip(column).filter(|(_, (k, _))| *k == at) {
+                    rest[row][column] = pair(&other.row, &response).group();
+                }
+                let Some(parent) = links[at].parent else { break };
+                let (linear, angular) = self.tree.carried(at, &response.0, &response.1);
+                response = (linear.map(Expr::group), angular.map(Expr::group));
+                at = parent;
+            }
+        }
+        let order = sequence.iter().map(|(_, pivot)| pivot.speed).collect();
+        JointFactors { combinations: self.combinations(), factored: Factored::of_columns(order, rest) }
     }
 
     /// y with A_y y = right.
@@ -126,6 +152,39 @@ impl<'a, 'g> Articulated<'a, 'g> {
             motions.push(motion);
         }
         solution
+    }
+}
+
+/// The speeds of the joints in terms of the user's: y = T x, `A = Tᵀ A_y T`.
+struct Combinations {
+    rows: Vec<Vec<(usize, Rational)>>,
+    columns: Vec<Vec<(usize, Rational)>>,
+}
+
+impl Combinations {
+    fn solve<'g>(&self, right: &[Expr<'g>], joints: impl Fn(&[Expr<'g>]) -> Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+        let solvable = "the order of substitution was found when the joints were";
+        let right = substituted(&self.columns, right).expect(solvable);
+        substituted(&self.rows, &joints(&right)).expect(solvable)
+    }
+}
+
+/// A, factored joint by joint.
+pub struct JointFactors<'g> {
+    combinations: Combinations,
+    factored: Factored<'g>,
+}
+
+impl<'g> JointFactors<'g> {
+    /// x with A x = right.
+    pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        self.combinations.solve(right, |right| self.factored.solve(right))
+    }
+
+    /// The order of elimination, where the speeds of the joints are the user's.
+    pub fn order(&self) -> Option<Vec<usize>> {
+        let own = |joint: usize| self.combinations.rows[joint] == [(joint, Rational::one())];
+        (0..self.combinations.rows.len()).all(own).then(|| self.factored.order())
     }
 }
 

@@ -7,6 +7,7 @@
 use crate::algebra::{Expr, Graph};
 use crate::kernel::{ByParameters, Differentiated, Direction, Equation};
 
+use crate::mechanics::derivatives::rigid::Rates;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::kinematics::rotation::poisson;
 use crate::mechanics::kinematics::vector::Triple;
@@ -119,8 +120,9 @@ impl<'g> Linearization<'g> {
         directions.extend(alone(&scene.speeds));
         directions.push(vec![(scene.time, graph.one())]);
         directions.extend(alone(&scene.inputs));
+        let derived = derived(system, &velocity, &directions);
         Self {
-            differentiated: Differentiated { arrangements, defined: system.defined(), directions },
+            differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived },
             increments,
             speeds: scene.speeds.len(),
             inputs: scene.inputs.len(),
@@ -130,6 +132,17 @@ impl<'g> Linearization<'g> {
             constrained: !system.constraints.is_empty(),
         }
     }
+}
+
+/// V and ż, and then their derivatives along each of the directions, where these have forms of their own.
+fn derived<'g>(system: &System<'g>, velocity: &[Expr<'g>], directions: &[Direction<'g>]) -> Vec<Vec<Expr<'g>>> {
+    let rates = |direction: &Direction<'g>| direction.iter().map(|(symbol, rate)| (symbol.key(), *rate)).collect();
+    let directions: Vec<Rates<'g>> = directions.iter().map(rates).collect();
+    let of_velocity = |direction: &Rates<'g>| velocity.iter().map(|v| v.derivative(direction)).collect();
+    let velocities: Vec<Vec<Expr<'g>>> =
+        std::iter::once(velocity.to_vec()).chain(directions.iter().map(of_velocity)).collect();
+    let ways = system.accelerations_with_derivatives(&directions).into_iter();
+    ways.map(|way| velocities.iter().zip(&way).flat_map(|(v, a)| v.iter().chain(a)).copied().collect()).collect()
 }
 
 impl<'g> System<'g> {

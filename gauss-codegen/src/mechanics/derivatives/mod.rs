@@ -1,5 +1,7 @@
 //! What the equations are differentiated along, and rates of all numbers of a state.
 
 pub mod component_rates;
+pub mod implicit;
 pub mod linearize;
 pub mod regressor;
+pub mod rigid;

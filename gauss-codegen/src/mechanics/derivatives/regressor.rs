@@ -133,7 +133,11 @@ impl<'a, 'g> InertialParameters<'a, 'g> {
             Formula { method: Method::OtherForces, arrangements: arrangements.iter().map(rest).collect() },
         ];
         let directions = list.iter().map(|parameter| vec![(parameter.symbol, graph.one())]).collect();
-        Regressor { differentiated: Differentiated { arrangements, defined, directions }, formulas, parameters: list }
+        Regressor {
+            differentiated: Differentiated { arrangements, defined, directions, derived: Vec::new() },
+            formulas,
+            parameters: list,
+        }
     }
 }
 

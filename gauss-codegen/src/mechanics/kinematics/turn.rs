@@ -2,7 +2,7 @@
 
 use crate::algebra::{Expr, Graph, Map, Rational};
 
-use crate::mechanics::kinematics::rotation::about_axis;
+use crate::mechanics::kinematics::rotation::{about_axis, poisson};
 use crate::mechanics::kinematics::vector::{Frame, Triple, add, cross};
 
 /// A turn of the axes, and how fast it goes on.
@@ -34,6 +34,28 @@ impl<'g> Turn<'g> {
         let matrix = std::array::from_fn(|i| std::array::from_fn(|j| self.matrix[j][i]));
         let spin = self.vector(&self.spin).map(|e| -e);
         Self { matrix, spin, about: self.about.map(|(axis, angle)| (axis, -angle)) }
+    }
+
+    /// By what angles it is turned on in a direction, in the turned axes: the axial vector of RᵀδR, where R is orthogonal.
+    pub fn displacement(&self, direction: &Map<u32, Expr<'g>>) -> Triple<'g> {
+        let graph = self.spin[0].graph();
+        let unit =
+            |axis: usize| -> Triple<'g> { std::array::from_fn(|i| if i == axis { graph.one() } else { graph.zero() }) };
+        if let Some((axis, angle)) = self.about {
+            let rate = angle.derivative(direction).group();
+            return unit(axis).map(|e| e * rate);
+        }
+        let rates = self.matrix.map(|row| row.map(|e| e.derivative(direction)));
+        // Of a coordinate the axes are the directions.
+        let along = |axis: &usize| {
+            let expected = poisson(&self.matrix, &unit(*axis));
+            expected.zip(rates.iter().flatten()).all(|((_, expected), rate)| expected == *rate)
+        };
+        if let Some(axis) = (0..3).find(along) {
+            return unit(axis);
+        }
+        let entry = |i: usize, j: usize| (0..3).map(|l| self.matrix[l][i] * rates[l][j]).sum::<Expr<'g>>().group();
+        [entry(2, 1), entry(0, 2), entry(1, 0)]
     }
 
     /// A product of turns with neighbours about one axis put together.
@@ -93,6 +115,35 @@ impl<'g> Turn<'g> {
         for i in [a, b] {
             turned[axis][i] = rows[i].group();
             turned[i][axis] = turned[axis][i];
+        }
+        turned
+    }
+
+    /// Any tensor of the turned axes, in those before. About an axis its part in the plane of the turn is a multiple of 1, one of
+    /// the quarter turn, and a symmetric part that turns twice as far, as in [`tensor`](Self::tensor).
+    pub fn mixed(&self, y: &[Triple<'g>; 3]) -> [Triple<'g>; 3] {
+        let transposed =
+            |m: &[Triple<'g>; 3]| -> [Triple<'g>; 3] { std::array::from_fn(|i| std::array::from_fn(|j| m[j][i])) };
+        let Some((axis, _)) = self.about else {
+            let rows = y.map(|row| self.vector(&row).map(Expr::group));
+            return transposed(&transposed(&rows).map(|column| self.vector(&column).map(Expr::group)));
+        };
+        let zero = y[0][0].graph().zero();
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (cos, sin) = (self.matrix[a][a], self.matrix[b][a]);
+        let w = (sin * (y[a][a] - y[b][b]).group() + cos * (y[a][b] + y[b][a]).group()).group();
+        let mut turned = *y;
+        turned[a][a] = y[a][a] - sin * w;
+        turned[b][b] = y[b][b] + sin * w;
+        turned[a][b] = cos * w - y[b][a];
+        turned[b][a] = cos * w - y[a][b];
+        let beside = |e: &dyn Fn(usize) -> Expr<'g>| {
+            self.vector(&std::array::from_fn(|i| if i == axis { zero } else { e(i) })).map(Expr::group)
+        };
+        let (row, column) = (beside(&|i| y[axis][i]), beside(&|i| y[i][axis]));
+        for i in [a, b] {
+            turned[axis][i] = row[i];
+            turned[i][axis] = column[i];
         }
         turned
     }

@@ -91,6 +91,10 @@ impl<'g> Tree<'g> {
         0..self.speeds.len()
     }
 
+    pub fn speed(&self, k: usize) -> Expr<'g> {
+        self.speeds[k]
+    }
+
     pub fn speed_count(&self) -> usize {
         self.speeds.len()
     }
@@ -246,6 +250,20 @@ impl<'g> Tree<'g> {
     pub fn floating_accelerations(&self, loads: &Loads<'g>, held: &[bool]) -> (Pairs<'g>, Vec<Expr<'g>>) {
         let mut taken = vec![self.graph.zero(); self.speeds.len()];
         (self.accelerations(&self.rates, loads, Some((held, &mut taken))), taken)
+    }
+
+    /// `a_O − g` and ω̇ of every link, and the forces of inertia of all that hangs on it, at its O.
+    pub fn forces_of_inertia(
+        &self,
+        along: &Map<u32, Expr<'g>>,
+        inertia: Inertia,
+        loads: &Loads<'g>,
+    ) -> (Pairs<'g>, Pairs<'g>) {
+        let accelerations = self.accelerations(along, loads, None);
+        let of_links = self.links.iter().zip(&accelerations);
+        let forces = of_links.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
+        let forces = self.gathered(forces);
+        (accelerations, forces)
     }
 
     fn balance(

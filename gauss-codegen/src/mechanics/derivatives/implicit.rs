@@ -1,0 +1,109 @@
+//! ż as the root of ∂C/∂ż, and its derivatives: `−A⁻¹ ∂(∂C/∂ż)` at fixed ż, with A factored once.
+
+use crate::algebra::{Expr, Factored};
+
+use crate::mechanics::arrangements::articulated::{Articulated, JointFactors};
+use crate::mechanics::derivatives::rigid::{Motion, Rates};
+use crate::mechanics::links::tree::Inertia;
+use crate::mechanics::system::{DENSE, System};
+use crate::mechanics::tidy::sums;
+
+/// A, ready for right-hand sides.
+enum Factors<'g> {
+    Dense(Factored<'g>),
+    /// By what an elimination link by link leaves at each joint: no large terms are taken from one another.
+    Joints(JointFactors<'g>),
+}
+
+impl<'g> Factors<'g> {
+    /// The ways that are worth trying.
+    fn of(system: &System<'g>) -> Vec<Self> {
+        let articulated = if system.is_long() { Articulated::new(&system.scene.tree) } else { None };
+        let mut ways: Vec<Self> = articulated.iter().map(|a| Self::Joints(a.factored())).collect();
+        if ways.is_empty() || system.scene.speeds.len() <= DENSE {
+            ways.push(Self::Dense(Factored::new(&system.matrix)));
+        }
+        ways
+    }
+
+    fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        match self {
+            Self::Dense(factored) => factored.solve(right),
+            Self::Joints(joints) => joints.solve(right),
+        }
+    }
+
+    /// The order of elimination, where the unknowns are those of the system.
+    fn order(&self) -> Option<Vec<usize>> {
+        match self {
+            Self::Dense(factored) => Some(factored.order()),
+            Self::Joints(joints) => joints.order(),
+        }
+    }
+
+    /// Solutions for many right-hand sides. Of columns of A⁻¹ entries above its diagonal are those below.
+    fn solve_each(&self, rights: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
+        let mut solutions: Vec<Vec<Expr<'g>>> = rights.iter().map(|right| self.solve(right)).collect();
+        let units: Vec<(usize, usize)> =
+            rights.iter().enumerate().filter_map(|(k, right)| Some((k, unit(right)?))).collect();
+        // What is eliminated first is found last, and nothing else needs it.
+        let turns: Vec<usize> = self.order().into_iter().flatten().collect();
+        let turn = |unknown: usize| turns.iter().position(|&other| other == unknown);
+        for &(k, row) in &units {
+            for &(other, unknown) in &units {
+                if turn(row) < turn(unknown) {
+                    solutions[other][row] = solutions[k][unknown];
+                }
+            }
+        }
+        solutions
+    }
+}
+
+/// The number of the only entry other than 0, which is 1.
+fn unit(right: &[Expr<'_>]) -> Option<usize> {
+    let mut there = (0..right.len()).filter(|&k| !right[k].is_zero());
+    let first = there.next().filter(|&k| right[k] == right[k].graph().one())?;
+    there.next().is_none().then_some(first)
+}
+
+impl<'g> System<'g> {
+    /// ż and its derivatives along each of the directions, in the ways that are worth trying. None where the residual is not that of
+    /// links alone.
+    pub fn accelerations_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
+        if !self.constraints.is_empty() || self.only_body().is_some() {
+            return Vec::new();
+        }
+        let (tree, zero) = (&self.scene.tree, self.scene.graph.zero());
+        let nothing = tree.links.iter().map(|link| (link.frame.zero(), [zero; 3])).collect();
+        let acting = sums(&tree.acted_on_by(&self.loads.forces, nothing), &self.other_forces());
+        let acting: Vec<Vec<Expr<'g>>> =
+            directions.iter().map(|direction| acting.iter().map(|f| f.derivative(direction)).collect()).collect();
+        let factors = Factors::of(self);
+        let inertias = tree.inertias(self.is_long()).iter();
+        let ways = inertias.flat_map(|&inertia| factors.iter().map(move |factors| (inertia, factors)));
+        ways.filter_map(|(inertia, factors)| self.by_recursion(inertia, factors, directions, &acting)).collect()
+    }
+
+    fn by_recursion(
+        &self,
+        inertia: Inertia,
+        factors: &Factors<'g>,
+        directions: &[Rates<'g>],
+        acting: &[Vec<Expr<'g>>],
+    ) -> Option<Vec<Vec<Expr<'g>>>> {
+        let [rows, taken] = self.floating(inertia);
+        let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
+        let rates = sums(&factors.solve(&right), &taken);
+        let speed_rates = &self.scene.speed_rates;
+        let motion = Motion::new(&self.scene.tree, &self.loads, &self.along, speed_rates, &rates, inertia)?;
+        let changes = motion.derivatives(directions);
+        let difference = |(f, r): (&Expr<'g>, &Expr<'g>)| *f - *r;
+        let rights = changes.iter().zip(acting);
+        let rights: Vec<Vec<Expr<'g>>> =
+            rights.map(|(change, f)| f.iter().zip(&change.residual).map(difference).collect()).collect();
+        let solutions = factors.solve_each(&rights).into_iter().zip(&changes);
+        let derivatives = solutions.map(|(solution, change)| sums(&solution, &change.taken));
+        Some(std::iter::once(rates).chain(derivatives).collect())
+    }
+}

@@ -1,0 +1,406 @@
+//! Derivatives of ∂C/∂ż of links by recursion: whatever displaces a joint moves all that hangs on it rigidly.
+//!
+//! Changes are taken as a link sees them, δ̂y = δy − Φ × y with its turn Φ. In a link that hangs on a displaced joint nothing
+//! changes then but how the whole moves: its angular velocity by W, and the accelerations of its points by
+//! `e + α′ × x + 2 W × (v_P − v_O)`. So the change of the forces of inertia of all that hangs there is linear in (e, α′, W), and the
+//! coefficients are moments that are gathered once: m, ∫x dm, ∫x xᵀ dm, and with y = v_P − v_O ∫y dm, ∫y xᵀ dm. Beyond the joint, toward
+//! the root, all of it acts as one force, turned and moved with the joint.
+//!
+//! The same holds along a speed or time, where joints are not displaced but move in another way. Branches that do not meet have
+//! nothing in common, and no term. (With joints of one degree of freedom, and partial derivatives by angles, these are the sums of Singh, Russell &
+//! Wensing, Efficient analytical derivatives of rigid body dynamics using spatial vector algebra, 2022.)
+
+use crate::algebra::{Expr, Map, Rational, Substitution};
+
+use crate::mechanics::kinematics::turn::{inward, outward};
+use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, cross_matrix, dot, is_zero, scale};
+use crate::mechanics::links::floating::Floating;
+use crate::mechanics::links::link::Link;
+use crate::mechanics::links::tree::{Inertia, Pairs, Tree};
+use crate::mechanics::loads::forces::Loads;
+use crate::mechanics::matter::moments::Moments;
+
+/// Rates of symbols, by their keys.
+pub type Rates<'g> = Map<u32, Expr<'g>>;
+
+/// A linear and an angular part.
+type Pair<'g> = (Triple<'g>, Triple<'g>);
+
+/// What one joint adds to the changes of all that hangs on it.
+struct Change<'g> {
+    /// Turn of the link and displacement of its O beyond its parent's, in its axes.
+    turn: Triple<'g>,
+    shift: Triple<'g>,
+    /// e, α′ and 2W.
+    linear: Triple<'g>,
+    angular: Triple<'g>,
+    twice_spin: Triple<'g>,
+}
+
+/// Moments of all that hangs on a link, about its O: of its matter, and with velocities relative to O.
+#[derive(Clone)]
+struct Gathered<'g> {
+    moments: Moments<'g>,
+    /// ∫y dm and ∫y xᵀ dm.
+    momentum: Triple<'g>,
+    mixed: [Triple<'g>; 3],
+}
+
+/// A row of ∂C/∂ż as a linear function of a change of all that hangs on a link.
+struct Row<'g> {
+    linear: Triple<'g>,
+    angular: Triple<'g>,
+    twice_spin: Triple<'g>,
+}
+
+/// The motion whose residual is differentiated.
+pub struct Motion<'a, 'g> {
+    tree: &'a Tree<'g>,
+    loads: &'a Loads<'g>,
+    /// Rates of t, q and z, with symbols for ż.
+    along: &'a Rates<'g>,
+    /// ż in place of its symbols.
+    solved: Substitution<'g>,
+    /// Of all links, with ż.
+    accelerations: Pairs<'g>,
+    /// Inertia of all that hangs on a link, at its O.
+    forces: Vec<Pair<'g>>,
+    gathered: Vec<Gathered<'g>>,
+    floating: Vec<Option<Floating<'g>>>,
+}
+
+/// The derivatives along one direction.
+pub struct Derivative<'g> {
+    /// Rows of ∂C/∂ż, but for what `taken` has of it.
+    pub residual: Vec<Expr<'g>>,
+    /// What speeds of links that float take of the change of their accelerations at once.
+    pub taken: Vec<Expr<'g>>,
+}
+
+impl<'a, 'g> Motion<'a, 'g> {
+    /// At the accelerations `solved`, which stand for `speed_rates` in `along`. `None` where fluid moves with links.
+    pub fn new(
+        tree: &'a Tree<'g>,
+        loads: &'a Loads<'g>,
+        along: &'a Rates<'g>,
+        speed_rates: &[Expr<'g>],
+        solved: &[Expr<'g>],
+        inertia: Inertia,
+    ) -> Option<Self> {
+        let wet = |link: &Link<'g>| link.body().is_some_and(|b| b.added_mass.is_some() || b.displaced.is_some());
+        if tree.links.iter().any(wet) {
+            return None;
+        }
+        let values: Rates<'g> = speed_rates.iter().zip(solved).map(|(dz, value)| (dz.key(), value.group())).collect();
+        let substituted = |rate: &Expr<'g>| values.get(&rate.key()).copied().unwrap_or(*rate);
+        let with_values: Rates<'g> = along.iter().map(|(&key, rate)| (key, substituted(rate))).collect();
+        let (accelerations, forces) = tree.forces_of_inertia(&with_values, inertia, loads);
+        let body = |(k, (linear, angular)): (usize, (Vector<'g>, Triple<'g>))| {
+            (tree.links[k].frame.resolve(&linear, Axes::Body), angular)
+        };
+        let forces = forces.into_iter().enumerate().map(body).collect();
+        let gathered = gathered(tree);
+        let floating = Floating::of(&tree.links, tree.speed_count());
+        let solved = Substitution::new(values);
+        Some(Self { tree, loads, along, solved, accelerations, forces, gathered, floating })
+    }
+
+    /// Along each of the directions, rates of symbols.
+    pub fn derivatives(&self, directions: &[Rates<'g>]) -> Vec<Derivative<'g>> {
+        let (tree, zero) = (self.tree, self.tree.graph.zero());
+        let count = tree.speed_count();
+        let nothing = || Derivative { residual: vec![zero; count], taken: vec![zero; count] };
+        let mut derivatives: Vec<Derivative<'g>> = directions.iter().map(|_| nothing()).collect();
+        let along_each = directions.iter().zip(&mut derivatives);
+        let changes: Vec<Vec<Option<Change<'g>>>> =
+            along_each.map(|(d, out)| self.changes(d, &mut out.taken)).collect();
+        for k in 0..tree.links.len() {
+            for speed in (0..count).filter(|&speed| tree.links[k].is_moved_by(speed)) {
+                self.add_from_above(k, speed, &changes, &mut derivatives);
+            }
+        }
+        for ((direction, changes), out) in directions.iter().zip(&changes).zip(&mut derivatives) {
+            self.add_from_below(direction, changes, &mut out.residual);
+        }
+        derivatives
+    }
+
+    /// Of every joint that changes.
+    fn changes(&self, direction: &Rates<'g>, taken: &mut [Expr<'g>]) -> Vec<Option<Change<'g>>> {
+        (0..self.tree.links.len()).map(|k| self.change(k, direction, taken)).collect()
+    }
+
+    fn change(&self, k: usize, direction: &Rates<'g>, taken: &mut [Expr<'g>]) -> Option<Change<'g>> {
+        let link = &self.tree.links[k];
+        let own = self.displacement(link, direction);
+        let mut change = match link.parent {
+            None => self.change_of_root(k, own, direction),
+            Some(parent) => self.change_below(k, parent, own, direction),
+        };
+        if let Some(Some(floating)) = self.floating.get(k)
+            && !is_zero(&change.linear)
+        {
+            let held = vec![false; taken.len()];
+            let mut rates = vec![self.tree.graph.zero(); taken.len()];
+            let rest = floating.taken_from(link, &link.frame.body_vector(change.linear), &held, &mut rates);
+            taken.iter_mut().zip(rates).for_each(|(sum, rate)| *sum = *sum + rate);
+            change.linear = link.frame.resolve(&rest, Axes::Body);
+        }
+        let parts = [&change.turn, &change.shift, &change.linear, &change.angular, &change.twice_spin];
+        let changes = parts.into_iter().any(|part| !is_zero(part));
+        changes.then_some(change)
+    }
+
+    /// The turn of a link beyond its parent's, in its axes, and the displacement of its O in its parent's.
+    fn displacement(&self, link: &Link<'g>, direction: &Rates<'g>) -> Pair<'g> {
+        let none = [self.tree.graph.zero(); 3];
+        let turns = &link.own_joint.turns;
+        let turn =
+            turns.iter().fold(none, |sum, turn| add(&turn.back(&sum), &turn.displacement(direction)).map(Expr::group));
+        (turn, link.own_joint.offset.map(|e| self.rate(e, direction)))
+    }
+
+    /// A derivative at the ż of the motion.
+    fn rate(&self, e: Expr<'g>, direction: &Rates<'g>) -> Expr<'g> {
+        self.solved.of(e.derivative(direction)).group()
+    }
+
+    /// The change of a vector as the link sees it, which is turned by as much.
+    fn seen(&self, link: &Link<'g>, a: &Vector<'g>, turn: &Triple<'g>, direction: &Rates<'g>) -> Triple<'g> {
+        let rate = |part: &Triple<'g>| part.map(|e| self.rate(e, direction));
+        let frame = &link.frame;
+        let left_behind = frame.resolve(&Vector { body: [self.tree.graph.zero(); 3], space: a.space }, Axes::Body);
+        let left_behind = if link.works_in_body_axes() { left_behind } else { add(&left_behind, &a.body) };
+        let change = frame.resolve(&Vector { body: rate(&a.body), space: rate(&a.space) }, Axes::Body);
+        add(&change, &cross(&self.triple(left_behind), turn)).map(Expr::group)
+    }
+
+    fn triple(&self, a: Triple<'g>) -> Triple<'g> {
+        a.map(|e| self.solved.of(e).group())
+    }
+
+    fn change_of_root(&self, k: usize, (turn, shift): Pair<'g>, direction: &Rates<'g>) -> Change<'g> {
+        let link = &self.tree.links[k];
+        let frame = &link.frame;
+        let omega = &link.angular_velocity;
+        let observed = frame.derivative(&link.velocity, self.along, &frame.body_vector(*omega));
+        let fields = self.tree.gravity.into_iter().chain(self.loads.field_on(k));
+        let a = fields.fold(observed, |a, g| a.minus(&frame.space_vector(g)));
+        let spin = self.seen(link, &frame.body_vector(*omega), &turn, direction);
+        let alpha = omega.map(|e| e.derivative(self.along));
+        let turning = self.seen(link, &frame.body_vector(alpha), &turn, direction);
+        Change {
+            turn,
+            shift,
+            linear: self.seen(link, &a, &turn, direction),
+            angular: add(&turning, &cross(omega, &spin)).map(Expr::group),
+            twice_spin: twice(&spin),
+        }
+    }
+
+    /// That of a joint between two links.
+    fn change_below(&self, k: usize, parent: usize, (turn, shift): Pair<'g>, direction: &Rates<'g>) -> Change<'g> {
+        let (link, above) = (&self.tree.links[k], &self.tree.links[parent]);
+        let turns = &link.joint.turns;
+        let named = |a: Triple<'g>| a.map(Expr::group);
+        let above_axes = |a: &Triple<'g>| named(above.in_working_axes(a, Axes::Body));
+        let alpha_above = &self.accelerations[parent].1;
+        // The motion of the parent, in the axes of the link.
+        let (omega, alpha) = (inward(turns, &above.angular_velocity), inward(turns, alpha_above));
+        let rate = |a: &Triple<'g>| a.map(|e| self.rate(e, direction));
+        let spin_rate = link.spin.map(|e| e.derivative(self.along));
+        let (more_spin, more_spin_rate) = (rate(&link.spin), rate(&spin_rate));
+        let offset_rate = &link.own_joint.offset_rate;
+        let more_rate = above_axes(&rate(offset_rate));
+        let more_acceleration = above_axes(&rate(&offset_rate.map(|e| e.derivative(self.along))));
+        let shift = above_axes(&shift);
+        let turned = named(cross(&omega, &turn));
+        let spin = named(add(&turned, &more_spin));
+        let both = add(&omega, &link.angular_velocity);
+        let angular =
+            [cross(&alpha, &turn), cross(&omega, &turned), named(cross(&named(both), &more_spin)), more_spin_rate];
+        let angular = angular.iter().skip(1).fold(angular[0], |sum, part| add(&sum, part));
+        let moved =
+            |w: &Triple<'g>, alpha: &Triple<'g>, r: &Triple<'g>| add(&cross(alpha, r), &cross(w, &named(cross(w, r))));
+        let own = add(&moved(&above.angular_velocity, alpha_above, &shift), &more_acceleration);
+        let own = add(&own, &twice(&named(cross(&above.angular_velocity, &more_rate))));
+        let acceleration = link.frame.resolve(&self.accelerations[k].0, Axes::Body);
+        let linear = add(&cross(&acceleration, &turn), &inward(turns, &named(own)));
+        Change {
+            turn,
+            shift: inward(turns, &shift),
+            linear: named(linear),
+            angular: named(angular),
+            twice_spin: twice(&spin),
+        }
+    }
+
+    /// What changes of a link and of its ancestors do to one row of the link.
+    fn add_from_above(
+        &self,
+        k: usize,
+        speed: usize,
+        changes: &[Vec<Option<Change<'g>>>],
+        derivatives: &mut [Derivative<'g>],
+    ) {
+        let links = &self.tree.links;
+        let link = &links[k];
+        let own = (link.frame.resolve(&link.linear_rows[speed], Axes::Body), link.angular_rows[speed]);
+        let (linear, angular) = link.momentum(&self.gathered[k].moments, &link.linear_rows[speed], &own.1);
+        let linear = link.frame.resolve(&linear, Axes::Body);
+        let mut row = Row { linear, angular, twice_spin: self.gathered[k].response(&own) };
+        let mut at = k;
+        loop {
+            for (changes, out) in changes.iter().zip(&mut *derivatives) {
+                if let Some(change) = &changes[at] {
+                    out.residual[speed] = out.residual[speed] + row.times(change);
+                }
+            }
+            let Some(parent) = links[at].parent else { break };
+            row = self.row_above(at, parent, &row);
+            at = parent;
+        }
+    }
+
+    /// The same function of a change of the parent.
+    fn row_above(&self, k: usize, parent: usize, row: &Row<'g>) -> Row<'g> {
+        let (linear, angular) = self.tree.carried(k, &row.linear, &row.angular);
+        let turns = &self.tree.links[k].joint.turns;
+        let (linear, angular) = (linear.map(Expr::group), angular.map(Expr::group));
+        let spin = outward(turns, &row.twice_spin);
+        let spin = add(&spin, &cross(&relative_velocity(self.tree, k, parent), &linear)).map(Expr::group);
+        Row { linear, angular, twice_spin: spin }
+    }
+
+    /// What changes of joints do to the rows of the links that they hang on, and changes of partial velocities to their own.
+    fn add_from_below(&self, direction: &Rates<'g>, changes: &[Option<Change<'g>>], residual: &mut [Expr<'g>]) {
+        let links = &self.tree.links;
+        let mut pending: Vec<Option<Pair<'g>>> = vec![None; links.len()];
+        for k in (0..links.len()).rev() {
+            let link = &links[k];
+            for speed in (0..residual.len()).filter(|&speed| link.is_moved_by(speed)) {
+                if let Some((linear, angular)) = &pending[k] {
+                    let linear = link.frame.body_vector(*linear);
+                    residual[speed] = residual[speed] + link.project(speed, &linear, angular);
+                }
+                let (a, o) = self.change_of_row(link, speed, direction, changes[k].as_ref());
+                residual[speed] = residual[speed] + dot(&a, &self.forces[k].0) + dot(&o, &self.forces[k].1);
+            }
+            let Some(parent) = link.parent else { continue };
+            let own = changes[k].as_ref().map(|change| self.gathered[k].force(change, &self.forces[k]));
+            let Some((linear, angular)) = sum(pending[k], own) else { continue };
+            let (linear, angular) = self.tree.carried(k, &linear, &angular);
+            pending[parent] = sum(pending[parent], Some((linear.map(Expr::group), angular.map(Expr::group))));
+        }
+    }
+
+    /// As the link sees it.
+    fn change_of_row(
+        &self,
+        link: &Link<'g>,
+        speed: usize,
+        direction: &Rates<'g>,
+        change: Option<&Change<'g>>,
+    ) -> Pair<'g> {
+        let z = self.tree.speed(speed);
+        let none = [self.tree.graph.zero(); 3];
+        if link.parent.is_none() {
+            let turn = change.map_or(none, |change| change.turn);
+            let seen = |a: &Vector<'g>| self.seen(link, a, &turn, direction);
+            return (seen(&link.linear_rows[speed]), seen(&link.frame.body_vector(link.angular_rows[speed])));
+        }
+        let rate = |a: &Triple<'g>| link.in_working_axes(&a.map(|e| self.rate(e.partial(z), direction)), Axes::Body);
+        (rate(&link.velocity_beyond), link.spin.map(|e| self.rate(e.partial(z), direction)))
+    }
+}
+
+impl<'g> Gathered<'g> {
+    /// Of a link by itself: y = ω × x.
+    fn of(link: &Link<'g>) -> Self {
+        let (omega, moments) = (&link.angular_velocity, link.moments);
+        let turn = cross_matrix(omega);
+        let mixed = std::array::from_fn(|i| {
+            std::array::from_fn(|j| (0..3).map(|l| turn[i][l] * moments.second[l][j]).sum::<Expr<'g>>().group())
+        });
+        Self { moments, momentum: cross(omega, &moments.first).map(Expr::group), mixed }
+    }
+
+    /// ∂(row)/∂(2W), of a partial velocity (a, o): `∫y dm × a + tr(∫y xᵀ dm) o − (∫x yᵀ dm) o`.
+    fn response(&self, (a, o): &Pair<'g>) -> Triple<'g> {
+        let pushed = cross(&self.momentum, a);
+        let mixed = &self.mixed;
+        std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let own = (mixed[j][j] + mixed[k][k]).group() * o[i] - mixed[j][i] * o[j] - mixed[k][i] * o[k];
+            (pushed[i] + own).group()
+        })
+    }
+
+    /// What a change of the joint does to the forces that it hands on, about the O that is displaced; `forces` are those of now.
+    fn force(&self, change: &Change<'g>, forces: &Pair<'g>) -> Pair<'g> {
+        let Moments { mass, first, .. } = self.moments;
+        let inertia = self.moments.inertia();
+        let mixed = &self.mixed;
+        let (e, alpha, spin) = (&change.linear, &change.angular, &change.twice_spin);
+        let linear =
+            [scale(mass, e), cross(alpha, &first), cross(spin, &self.momentum), cross(&change.turn, &forces.0)];
+        let turning = std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            (mixed[j][j] + mixed[k][k]).group() * spin[i] - mixed[i][j] * spin[j] - mixed[i][k] * spin[k]
+        });
+        let tensor = inertia.map(|row| dot(&row.map(Expr::group), alpha));
+        let angular =
+            [cross(&first, e), tensor, turning, cross(&change.turn, &forces.1), cross(&change.shift, &forces.0)];
+        let total = |parts: &[Triple<'g>]| -> Triple<'g> {
+            parts[1..].iter().fold(parts[0], |sum, part| add(&sum, part)).map(Expr::group)
+        };
+        (total(&linear), total(&angular))
+    }
+}
+
+impl<'g> Row<'g> {
+    fn times(&self, change: &Change<'g>) -> Expr<'g> {
+        let spin = dot(&self.twice_spin, &change.twice_spin);
+        dot(&self.linear, &change.linear) + dot(&self.angular, &change.angular) + spin
+    }
+}
+
+/// Of all links, leaves first.
+fn gathered<'g>(tree: &Tree<'g>) -> Vec<Gathered<'g>> {
+    let mut gathered: Vec<Gathered<'g>> = tree.links.iter().map(Gathered::of).collect();
+    for k in (0..tree.links.len()).rev() {
+        let link = &tree.links[k];
+        let Some(parent) = link.parent else { continue };
+        let turns = &link.joint.turns;
+        let (r, d) = (&link.joint.offset, relative_velocity(tree, k, parent));
+        let below = gathered[k].clone();
+        let moments = below.moments.turned(turns).shifted(r);
+        let momentum = outward(turns, &below.momentum);
+        let mixed = turns.iter().rev().fold(below.mixed, |mixed, turn| turn.mixed(&mixed));
+        let (mass, first) = (moments.mass, moments.first.map(Expr::group));
+        let above = &mut gathered[parent];
+        above.mixed = std::array::from_fn(|i| {
+            std::array::from_fn(|j| (above.mixed[i][j] + mixed[i][j] + d[i] * first[j] + momentum[i] * r[j]).group())
+        });
+        above.momentum = add(&above.momentum, &add(&momentum, &scale(mass, &d))).map(Expr::group);
+        above.moments = above.moments.plus(&moments).map(Expr::group);
+    }
+    gathered
+}
+
+/// v_O of a link beyond its parent's, in the parent's axes.
+fn relative_velocity<'g>(tree: &Tree<'g>, k: usize, parent: usize) -> Triple<'g> {
+    let joint = &tree.links[k].joint;
+    add(&cross(&tree.links[parent].angular_velocity, &joint.offset), &joint.offset_rate).map(Expr::group)
+}
+
+fn twice<'g>(a: &Triple<'g>) -> Triple<'g> {
+    a.map(|e| e.scale(Rational::from_integer(2)))
+}
+
+fn sum<'g>(a: Option<Pair<'g>>, b: Option<Pair<'g>>) -> Option<Pair<'g>> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some((add(&a.0, &b.0).map(Expr::group), add(&a.1, &b.1).map(Expr::group))),
+        (a, b) => a.or(b),
+    }
+}
