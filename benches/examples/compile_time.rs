@@ -16,14 +16,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-/// A structure: its name, its source with further clauses, a value of it, a configuration, the number of speeds and the input.
+/// A structure: its name, its source with further clauses, a value of it, a configuration and the number of speeds.
 struct Structure {
     name: &'static str,
     source: fn(&str) -> String,
     value: &'static str,
     configuration: &'static str,
     speeds: usize,
-    input: &'static str,
 }
 
 const STRUCTURES: [Structure; 6] = [
@@ -33,7 +32,6 @@ const STRUCTURES: [Structure; 6] = [
         value: "FreeBody { mass: 2.0, inertia: Vector3::new(1.0, 2.0, 2.5) }",
         configuration: "Isometry3::<f64>::identity()",
         speeds: 6,
-        input: "()",
     },
     Structure {
         name: "torpedo",
@@ -43,7 +41,6 @@ const STRUCTURES: [Structure; 6] = [
                 tail: Vector3::new(-0.6, 0.0, 0.0), lift: -9.0 }",
         configuration: "Isometry3::<f64>::identity()",
         speeds: 6,
-        input: "()",
     },
     Structure {
         name: "top",
@@ -51,7 +48,6 @@ const STRUCTURES: [Structure; 6] = [
         value: "Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.5), inertia: Vector3::new(1.0, 1.2, 0.3), g: 9.81 }",
         configuration: "Vector3::new(0.1, 0.5, 0.2)",
         speeds: 3,
-        input: "()",
     },
     Structure {
         name: "arm",
@@ -60,17 +56,15 @@ const STRUCTURES: [Structure; 6] = [
                 Arm { b0: b, b1: b, b2: b, b3: b, b4: b, b5: b, b6: b, g: 9.81 } }",
         configuration: "SVector::<f64, 7>::repeat(0.3)",
         speeds: 7,
-        input: "()",
     },
     Structure {
-        name: "quadruped",
-        source: |clauses| structures::quadruped(&format!("{clauses}, limit = 1000000")),
+        name: "walker",
+        source: structures::walker,
         value: "{ let b = RigidBody { mass: 1.0, center_of_mass: Vector3::zeros(), inertia: Matrix3::identity() }; \
-                Quadruped { base: b, b0: b, b1: b, b2: b, b3: b, b4: b, b5: b, b6: b, b7: b, b8: b, b9: b, b10: b, b11: b, \
+                Walker { trunk: b, b0: b, b1: b, b2: b, b3: b, b4: b, b5: b, b6: b, b7: b, b8: b, b9: b, b10: b, b11: b, \
                 g: 9.81 } }",
         configuration: "(Isometry3::<f64>::identity(), SVector::<f64, 12>::repeat(0.3))",
         speeds: 18,
-        input: "SVector::<f64, 12>::zeros()",
     },
     Structure {
         name: "humanoid",
@@ -81,7 +75,6 @@ const STRUCTURES: [Structure; 6] = [
                 b27: b, b28: b, b29: b, g: 9.81 } }",
         configuration: "(Isometry3::<f64>::identity(), SVector::<f64, 30>::repeat(0.3))",
         speeds: 36,
-        input: "()",
     },
 ];
 
@@ -92,10 +85,7 @@ const USES: [(&str, &str); 4] = [
     ("without", ""),
     ("plain", "black_box(kernel.acceleration(0.0, &q, &z, &()));"),
     ("linearize", "black_box(kernel.acceleration(0.0, &q, &z, &())); black_box(kernel.linearize(0.0, &q, &z, &()));"),
-    (
-        "taylor",
-        "black_box(Simulation::new(&kernel).input(|_, _: &_, _: &_| INPUT).taylor(1e-9, 1e-9).run_to_end(q, z, 0.0..1.0)).ok();",
-    ),
+    ("taylor", "black_box(Simulation::new(&kernel).taylor(1e-9, 1e-9).run_to_end(q, z, 0.0..1.0)).ok();"),
 ];
 
 const PROFILES: [&str; 2] = ["dev", "release"];
@@ -107,8 +97,6 @@ fn program(structure: &Structure, usage: &str, calls: &str) -> String {
         _ => "",
     };
     let source = (structure.source)(clauses);
-    let input = structure.input;
-    let calls = calls.replace("&()", &format!("&{input}")).replace("INPUT", input);
     let Structure { value, configuration, speeds, .. } = structure;
     let head = "#![allow(dead_code, unused_imports)]\nuse std::hint::black_box;\nuse gauss_runtime::prelude::*;\n";
     let state = format!("let (q, z) = black_box(({configuration}, SVector::<f64, {speeds}>::repeat(0.1)));");

@@ -151,6 +151,11 @@ fn limbs(name: &str, limbs: &[(Option<usize>, &str)], clauses: &str) -> String {
     )
 }
 
+/// A trunk with four legs of three hinges that nothing drives: 18 speeds.
+pub fn walker(clauses: &str) -> String {
+    limbs("Walker", &[(None, "xyy"); 4], clauses)
+}
+
 /// A trunk with legs of six hinges, a waist of three, and at its end two arms of seven and a neck: 36 speeds.
 pub fn humanoid(clauses: &str) -> String {
     let (leg, arm) = ((None, "zxyyyx"), (Some(2), "yxzyzyx"));
