@@ -16,6 +16,12 @@ pub trait Described {
 
     /// What each method loses to rounding.
     const ACCURACY: Accuracy = Accuracy::NONE;
+
+    /// What the numbers are called that a configuration consists of, in their order; nothing where they have no names.
+    const COORDINATE_NAMES: &'static [&'static str] = &[];
+
+    /// What the speeds are called, component by component; nothing where they have no names.
+    const SPEED_NAMES: &'static [&'static str] = &[];
 }
 
 /// The equations of motion as printed by the derivation.

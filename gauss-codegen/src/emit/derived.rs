@@ -139,10 +139,16 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     pub fn scalar(&self) -> ScalarTokens<'a> {
-        let private = self.private();
+        let (private, scalar) = (self.private(), self.item().scalar);
+        let fma = match scalar {
+            Scalar::F64 => quote!(#private::fma_f64),
+            Scalar::F32 => quote!(#private::fma_f32),
+            Scalar::Parameter(_) => quote!(#private::Real::fma),
+        };
         ScalarTokens {
-            scalar: self.item().scalar,
+            scalar,
             real: quote!(#private::Real),
+            fma,
             apart: quote!(#private::apart),
             functions: &self.subject.model.functions,
         }

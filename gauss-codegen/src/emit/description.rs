@@ -10,10 +10,12 @@ use crate::mechanics::{Formula, Method};
 use super::derived::Derived;
 use super::documentation::{DERIVATIVES, Equations};
 use super::framed::frame_operations;
+use super::state::component_names;
 
 pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let private = derived.private();
     let (Equations { text, latex }, operations, losses) = (equations, operations(derived), losses(derived));
+    let [coordinates, speeds] = component_names(derived);
     let items = quote! {
         const EQUATIONS: #private::Equations = #private::Equations::new(#text, #latex);
         const OPERATIONS: #private::Operations = {
@@ -26,6 +28,8 @@ pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStrea
             #(__accuracy.#losses;)*
             __accuracy
         };
+        const COORDINATE_NAMES: &'static [&'static str] = &[#(#coordinates),*];
+        const SPEED_NAMES: &'static [&'static str] = &[#(#speeds),*];
     };
     derived.implementation(quote!(Described), items)
 }

@@ -45,6 +45,18 @@ pub fn apart<R>(part: impl FnOnce() -> R) -> R {
     part()
 }
 
+/// [`Real::fma`] of a type that is known.
+#[inline(always)]
+pub fn fma_f64(a: f64, b: f64, c: f64) -> f64 {
+    Real::fma(a, b, c)
+}
+
+/// [`Real::fma`] of a type that is known.
+#[inline(always)]
+pub fn fma_f32(a: f32, b: f32, c: f32) -> f32 {
+    Real::fma(a, b, c)
+}
+
 #[cfg(test)]
 mod tests {
     /// The derive makes the name from its own version, which is that of this crate: both are pinned to each other.
