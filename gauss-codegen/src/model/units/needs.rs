@@ -159,20 +159,7 @@ impl Checker<'_> {
                 self.constant(Some(width), "width", constants.as_ref(), 1);
                 self.constant(damping.as_ref(), "damping", constants.as_ref(), 2);
             }
-            ForceKind::Friction { extent, viscous, dry, width } => {
-                let constants = self.extent("friction", extent);
-                self.constant(viscous.as_ref(), "viscous part", constants.as_ref(), 2);
-                // Units of the force, and of the rate.
-                let derived = |pair: [usize; 2], combine: fn(Dimension, Dimension) -> Option<Dimension>| {
-                    let (noun, units) = constants.as_ref()?;
-                    let dimension = combine(units[pair[0]].1, units[pair[1]].1)?;
-                    let unit = (dimension.to_string(), dimension);
-                    Some((noun.clone(), [unit.clone(), unit.clone(), unit]))
-                };
-                self.constant(dry.as_ref(), "dry part", derived([0, 1], Dimension::times).as_ref(), 0);
-                let rate = |extent: Dimension, _| extent.over(Dimension::TIME);
-                self.constant(width.as_ref(), "width", derived([1, 1], rate).as_ref(), 0);
-            }
+            ForceKind::Friction { extent, viscous, dry, width } => self.friction(extent, viscous, dry, width),
             ForceKind::Drag { linear, quadratic, .. } => {
                 let both = [("linear", linear), ("quadratic", quadratic)];
                 for ((word, coefficients), units) in both.into_iter().zip(COEFFICIENTS) {
@@ -186,6 +173,28 @@ impl Checker<'_> {
             }
             ForceKind::Dissipation(function) => self.require(function, &Need::new("a dissipation function is", POWER)),
         }
+    }
+
+    /// Viscous: force over rate; dry: force; its width: a rate.
+    fn friction(
+        &mut self,
+        extent: &Extent,
+        viscous: &Option<Expression>,
+        dry: &Option<Expression>,
+        width: &Option<Expression>,
+    ) {
+        let constants = self.extent("friction", extent);
+        self.constant(viscous.as_ref(), "viscous part", constants.as_ref(), 2);
+        // Units of the force, and of the rate.
+        let derived = |pair: [usize; 2], combine: fn(Dimension, Dimension) -> Option<Dimension>| {
+            let (noun, units) = constants.as_ref()?;
+            let dimension = combine(units[pair[0]].1, units[pair[1]].1)?;
+            let unit = (dimension.to_string(), dimension);
+            Some((noun.clone(), [unit.clone(), unit.clone(), unit]))
+        };
+        self.constant(dry.as_ref(), "dry part", derived([0, 1], Dimension::times).as_ref(), 0);
+        let rate = |extent: Dimension, _| extent.over(Dimension::TIME);
+        self.constant(width.as_ref(), "width", derived([1, 1], rate).as_ref(), 0);
     }
 
     /// What the constants of `noun` are needed in, if that is known: stiffness, the extent itself, damping.
