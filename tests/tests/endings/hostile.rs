@@ -275,11 +275,14 @@ fn tuning_batches_and_adapters() {
             match bead.project(t, &q, &z) {
                 Ok((q, z)) => {
                     let (position, velocity) = (bead.position_residual(t, &q), bead.velocity_residual(t, &q, &z));
-                    // Half of the digits, of whatever size the coordinates are: rounding is all that may be left.
-                    let size = 1.0 + a.abs() + q.amax();
-                    assert!(finite(&q) && position.norm() <= 1e-8 * size, "{position} at {q}");
-                    let speed = (1.0 + a.abs()) * (1.0 + z.amax());
-                    assert!(finite(&z) && velocity.norm() <= 1e-8 * speed, "{velocity} at {q}, {z}");
+                    assert!(finite(&q) && finite(&z), "{q}, {z}");
+                    // Beyond, doubles do not know the phase of a sine, and nothing can be resolved.
+                    if q.amax() < 1e6 && a.abs() < 1e6 {
+                        // Some thousand roundings of what is added up.
+                        let rounding = 1e-12 * (1.0 + a.abs()) * (1.0 + q.amax());
+                        assert!(position.amax() <= rounding, "{position} at {q}");
+                        assert!(velocity.amax() <= rounding * (1.0 + z.amax()), "{velocity} at {q}, {z}");
+                    }
                 }
                 Err(error) => assert!(!error.to_string().is_empty()),
             }
