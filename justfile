@@ -31,6 +31,11 @@ operations:
 times *options:
     cargo run --release -p gauss-benches --example gate_times -- {{options}}
 
+# Mutations of scenes, chosen by what they reach: needs a nightly compiler and `cargo install cargo-fuzz`.
+fuzz:
+    mkdir -p fuzz/corpus
+    cargo +nightly fuzz run -s none derive fuzz/corpus fuzz/seeds -- -max_len=8192 -timeout=60 -rss_limit_mb=2048
+
 # How long a derive takes with an unoptimised macro.
 expansion:
     cargo run --profile unoptimised --example expansion_time

@@ -1,10 +1,11 @@
-//! What a derive adds to `cargo build`: `cargo run --release -p gauss-benches --example compile_time [-- ROUNDS]`.
+//! What a derive adds to `cargo build`: `cargo run --release -p gauss-benches --example compile_time [-- ROUNDS [STRUCTURE…]]`.
 //!
 //! Programs are written to `target/compile_time`, each with one structure, and built with Cargo's own profiles `dev` and `release`. A program without
 //! the derive has the same struct and calls nothing of it; with the derive it makes a kernel and calls `acceleration`, with `linearize` that too, with
 //! `taylor` it runs a trajectory by power series instead, which compiles that integrator as well. Dependencies are compiled before anything is timed,
 //! and nothing is kept from build to build but them. Quoted is the median over the rounds, in which all programs of a structure take turns, of the
-//! difference to the program without the derive in the same round, with the range of the middle half.
+//! difference to the program without the derive in the same round, with the range of the middle half. The trees, which take long,
+//! are built where they are asked for by name.
 
 #[path = "../../gauss-codegen/examples/structures/mod.rs"]
 mod structures;
@@ -24,7 +25,7 @@ struct Structure {
     speeds: usize,
 }
 
-const STRUCTURES: [Structure; 4] = [
+const STRUCTURES: [Structure; 6] = [
     Structure {
         name: "free_body",
         source: structures::free_body,
@@ -56,7 +57,29 @@ const STRUCTURES: [Structure; 4] = [
         configuration: "SVector::<f64, 7>::repeat(0.3)",
         speeds: 7,
     },
+    Structure {
+        name: "walker",
+        source: structures::walker,
+        value: "{ let b = RigidBody { mass: 1.0, center_of_mass: Vector3::zeros(), inertia: Matrix3::identity() }; \
+                Walker { trunk: b, b0: b, b1: b, b2: b, b3: b, b4: b, b5: b, b6: b, b7: b, b8: b, b9: b, b10: b, b11: b, \
+                g: 9.81 } }",
+        configuration: "(Isometry3::<f64>::identity(), SVector::<f64, 12>::repeat(0.3))",
+        speeds: 18,
+    },
+    Structure {
+        name: "humanoid",
+        source: structures::humanoid,
+        value: "{ let b = RigidBody { mass: 1.0, center_of_mass: Vector3::zeros(), inertia: Matrix3::identity() }; \
+                Humanoid { trunk: b, b0: b, b1: b, b2: b, b3: b, b4: b, b5: b, b6: b, b7: b, b8: b, b9: b, b10: b, b11: b, b12: b, \
+                b13: b, b14: b, b15: b, b16: b, b17: b, b18: b, b19: b, b20: b, b21: b, b22: b, b23: b, b24: b, b25: b, b26: b, \
+                b27: b, b28: b, b29: b, g: 9.81 } }",
+        configuration: "(Isometry3::<f64>::identity(), SVector::<f64, 30>::repeat(0.3))",
+        speeds: 36,
+    },
 ];
+
+/// What is built without being asked for.
+const SHORT: [&str; 4] = ["free_body", "torpedo", "top", "arm"];
 
 const USES: [(&str, &str); 4] = [
     ("without", ""),
@@ -141,11 +164,18 @@ fn quarters(mut values: Vec<f64>) -> [f64; 3] {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let rounds: usize = std::env::args().nth(1).map_or(Ok(5), |rounds| rounds.parse())?;
+    let mut arguments = std::env::args().skip(1);
+    let rounds: usize = arguments.next().map_or(Ok(5), |rounds| rounds.parse())?;
+    let wanted: Vec<String> = arguments.collect();
+    let is_wanted = |structure: &&Structure| {
+        let name = structure.name;
+        if wanted.is_empty() { SHORT.contains(&name) } else { wanted.iter().any(|wanted| wanted == name) }
+    };
+    let chosen: Vec<&Structure> = STRUCTURES.iter().filter(is_wanted).collect();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/compile_time");
     write(&folder)?;
     for profile in PROFILES {
-        for structure in &STRUCTURES {
+        for structure in &chosen {
             for (usage, _) in USES {
                 build(&folder, &format!("{}_{usage}", structure.name), profile)?;
             }
@@ -155,7 +185,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "seconds of `cargo build` without the derive, and what it adds: median of {rounds} rounds (middle half)\n"
     );
     println!("| structure | profile | without | plain | linearize | taylor |\n|---|---|---|---|---|---|");
-    for structure in &STRUCTURES {
+    for structure in &chosen {
         for profile in PROFILES {
             let mut seconds: [Vec<f64>; USES.len()] = Default::default();
             for _ in 0..rounds {

@@ -13,7 +13,7 @@ fn a_thrown_robot_keeps_its_spin() {
     let kernel = Quadruped { k: 60.0, c: 1.0 }.kernel().unwrap();
     let start = thrown();
     let path = Simulation::new(&kernel).adaptive(1e-10, 1e-11).run(start.q(), start.z(), 0.0..0.5).unwrap();
-    let [first, last] = [&path[0], path.last()].map(|sample| Whole::of(&kernel, sample));
+    let [first, last] = [path.first(), path.last()].map(|sample| Whole::of(&kernel, sample));
     let fallen = first.momentum - Vector3::z() * (G * first.mass * 0.5);
     assert!((last.momentum - fallen).norm() < 1e-8 * first.momentum.norm());
     assert!((last.spin - first.spin).norm() < 1e-8 * first.spin.norm());

@@ -1,12 +1,12 @@
 //! From a model to formulas: the system, checked against the definition, and all that is asked of it.
 
-use crate::algebra::{Expr, Graph, Map};
+use crate::algebra::{Expr, Graph, Map, Notation};
 use crate::mechanics::{
     Constraints, Coordinate, Elimination, Formula, InertialParameters, Linearization, Method, Regressor, System,
     check_system_against_definition, rotation_of_quaternion,
 };
 use crate::mistakes::{eliminate, refuse_curved_kinematics, refuse_idle_speeds, system_faults};
-use crate::model::Model;
+use crate::model::{Model, WantedMethod};
 use crate::translate::{Parameter, Translator, parameters};
 
 /// A system with its formulas.
@@ -21,6 +21,8 @@ pub struct Formulation<'g> {
     pub regressor: Option<Regressor<'g>>,
     /// The numbers of fields.
     pub parameters: Vec<Parameter<'g>>,
+    /// The equations for people, as text and in LaTeX.
+    pub printed: [Printed; 2],
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate, and the entries of R in terms of them.
     pub quaternions: Vec<Option<[Expr<'g>; 4]>>,
     pub definitions: Map<u32, Expr<'g>>,
@@ -32,7 +34,8 @@ impl<'g> Formulation<'g> {
     /// # Errors
     /// What only the derivation finds wrong with a system.
     pub fn of(model: &Model, translator: &mut Translator<'_, 'g>) -> syn::Result<Self> {
-        let Reduced { system, elimination, values, kept } = Reduced::of(model, translator)?;
+        let Reduced { mut system, elimination, values, kept } = Reduced::of(model, translator)?;
+        let printed = printed(&mut system);
         let mut formulas = system.formulas();
         check_system_against_definition(&system, &formulas)
             .map_err(|faults| system_faults(model, translator, &system, &faults))?;
@@ -59,6 +62,14 @@ impl<'g> Formulation<'g> {
         if model.wanted.taylor.is_some() {
             formulas.push(system.component_rates(&quaternions, &formulas));
         }
+        formulas.extend(system.frame_formulas(&translator.links_of_frames()));
+        for method in &model.wanted.methods {
+            match method {
+                WantedMethod::Centroidal => formulas.extend(system.centroidal_formulas()),
+                WantedMethod::NonlinearEffects => formulas.push(system.nonlinear_effects(&formulas)),
+                WantedMethod::GravityTorques => formulas.push(system.gravity_torques()),
+            }
+        }
         formulas.extend(regressor.iter().flat_map(|regressor: &Regressor<'g>| regressor.formulas.clone()));
         let units = units_of(&system, &quaternions);
         Ok(Self {
@@ -68,6 +79,7 @@ impl<'g> Formulation<'g> {
             linearization,
             regressor,
             parameters,
+            printed,
             quaternions,
             definitions,
             units,
@@ -83,6 +95,22 @@ impl<'g> Formulation<'g> {
     pub fn can_drift(&self) -> bool {
         self.elimination.as_ref().map_or(!self.system.constraints.is_empty(), Elimination::can_drift)
     }
+}
+
+/// Headings, each with its lines.
+pub type Printed = Vec<(String, Vec<String>)>;
+
+/// The equations as text and in LaTeX, before anything else is made of the system, and nothing is left of it: in which order
+/// the terms of a sum come depends on what was made before, and what is multiplied out on how much. So what is printed
+/// depends on the scene alone, and what is derived not on printing.
+fn printed(system: &mut System<'_>) -> [Printed; 2] {
+    system.forget();
+    let printed = system.scene.graph.aside(|| {
+        let page = system.equations();
+        [Notation::Text, Notation::Latex].map(|notation| page.print(notation))
+    });
+    system.forget();
+    printed
 }
 
 /// A system with the speeds that are left, of all declared ones with their values.

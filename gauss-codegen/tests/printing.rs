@@ -105,3 +105,26 @@ fn a_scene_is_printed_as_it_was_before() {
         assert_eq!(first.rust().to_string(), second.rust().to_string());
     }
 }
+
+/// And whatever else is asked of the scene: derivatives are derived before equations are printed.
+#[test]
+fn what_else_is_wanted_changes_nothing_in_the_equations() {
+    let scene = |wanted: &str| {
+        let source = format!(
+            "#[gauss(coordinates(a, b), body(one, rotation = rotation_y(a)), {wanted}
+                body(two, parent = one, position = [l, 0, 0], rotation = rotation_y(b)), drive(b = -k * rate(b)))]
+             struct Arms {{
+                #[gauss(body)] one: RigidBody<f64>, #[gauss(body)] two: RigidBody<f64>, l: f64, k: f64,
+                #[gauss(gravity)] g: f64,
+             }}"
+        );
+        Derivation::of_source(&source, "Arms").expect("a valid scene")
+    };
+    let alone = scene("");
+    for wanted in ["linearize,", "linearize(parameters),", "regressor,", "taylor,", "taylor, regressor, linearize,"] {
+        let derivation = scene(wanted);
+        for notation in [Notation::Text, Notation::Latex] {
+            assert_eq!(derivation.equations(notation), alone.equations(notation), "{wanted}");
+        }
+    }
+}

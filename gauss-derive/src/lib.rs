@@ -20,6 +20,8 @@
 /// | `taylor` | alone: power series of the motion in time as well, for the integrator `Taylor`; of smooth systems without inputs | none |
 /// | `linearize` | alone, also of systems: the kernel implements `LinearizedSystem`, exact derivatives of the equations by state, time and input; `linearize(parameters)`: by the parameters, too (`ParametricSystem`) | not written: several times the code of the accelerations |
 /// | `regressor` | alone, also of systems: the kernel implements `InertialRegressor`, the forces of inertia as a linear function of inertial parameters | not written |
+/// | `frames` | `frames(tool, left_foot)`: names of bodies and frames, also of systems: the kernel implements `FramedSystem`, pose, twist, Jacobian and acceleration of each, and there is an enum `NameFrame` of them | not written |
+/// | `methods` | words, also of systems: `centroidal`, centre of mass and momenta about it (`CentroidalSystem`); `nonlinear_effects`, inverse dynamics at ż = 0 as a program of its own; `gravity_torques`, what holds the weight (`GravityTorques`) | not written |
 /// | `crate` | where the runtime is, when it has another name | `::gauss_runtime` |
 ///
 /// # The fields: `#[gauss(role)]`
@@ -71,6 +73,23 @@
 /// `attitude_omega` of a rotation. Charts have `pose` (`rotation` about a fixed point) and `u`, `xi` or `b_dot` with `omega`; jet charts
 /// `b1`, `psi` …, `b1_dot`, `psi_dot` …. Of a vector of which `independent` keeps a component that is called `w_x`.
 ///
+/// # Frames
+///
+/// `frames(tool, hull)` has methods written for bodies and frames of the scene; in a chart its body is `body`. Names stay as they are:
+///
+/// ```text
+/// let pose = kernel.pose_of(ArmFrame::tool, t, &q);            // b and R, as the observer sees them
+/// let twist = kernel.twist_of(ArmFrame::tool, t, &q, &z);      // (u, ω): of the origin, in the axes of the frame
+/// let jacobian = kernel.jacobian_of(ArmFrame::tool, t, &q);    // (u, ω) = J z
+/// let bias = kernel.bias_of(ArmFrame::tool, t, &q, &z);        // (a, ω̇) = J ż + bias, a the acceleration of the origin
+/// let all = kernel.frames(t, &q, &z);                          // of all frames at once: all[ArmFrame::tool].twist
+/// ```
+///
+/// Components are in the axes of the frame, the pole is its origin; `gauss_runtime::frames` turns them into observer's axes and moves
+/// the pole. Each method is a program of its own, `OPERATIONS.of_frames` says what it costs. Forces at a frame that arrive at run
+/// time are a wrench on it, one element with its power: `input(contact: Wrench), wrench(ground, body = left_foot, force =
+/// contact.force, torque = contact.torque)`, in the axes of the frame at its origin.
+///
 /// # What kernels refuse, and warnings
 ///
 /// `kernel()` refuses what no body, spring or stop has: numbers that are not finite; masses, moments of inertia, displaced masses and
@@ -108,6 +127,7 @@
 /// | `particle(mass = m, position = […], parent = other)` | a point with mass; the position in observer's axes from Ω, or in the axes of the parent from its O |
 /// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |
 /// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once |
+/// | `armature(elbow = a, wrist = 2 * a)` | inertia of the rates of scalar coordinates, ½ a q̇² in T: rotors behind gears, of which a coordinate feels the inertia times the square of the ratio. It has no weight, and counts in no centre of mass and no momentum of the whole |
 /// | `independent(v, w.x)` | the speeds that stay, or components of them, when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
 /// | `waive(triangle_inequality)` | see above |
 /// | `limit = 50000` | the most operations that the generated code may have, also of one body |
@@ -174,6 +194,7 @@
 /// | `spring(name, from = …, to = …, stiffness = k, length = l, damping = c)` | a spring with a damper between two points, observer's axes from Ω; `length`, at which it is without force, and `damping` are 0 by default. It is one element: its power is that of both |
 /// | `spring(name, along = theta, stiffness = k, length = l, damping = c)` | the same along any scalar of coordinates and time, such as the angle of a joint |
 /// | `stop(name, along = theta, least = a, most = b, stiffness = k, width = e, damping = c)`, `stop(name, from = …, to = …, …)` | pushes back what leaves the limits, of which one is enough, by k s²/√(x² + e²) with s = (x + √(x² + e²))/2 and x the distance beyond the limit: k x far beyond it. It sets in before: ¼ k e at the limit, 0.03 k e at −e, k e⁴/16\|x\|³ far before; all of it is smooth, so that power series and large steps go through |
+/// | `friction(name, along = theta, viscous = d, dry = f, width = w)`, `friction(name, from = …, to = …, …)` | −d ẋ − f ẋ/√(ẋ² + w²) along a scalar of coordinates and time, or the distance of two points: viscous and dry friction, one of which is enough. The dry part is f far beyond the width, 0.7 f at it, and smooth: what it holds creeps, by the rate w F/√(f² − F²) under a force F |
 /// | `damping = expr` | Rayleigh's dissipation function: its negative partial derivatives by z are generalised forces |
 /// | `point(name, body = other, at = […])` | as above |
 /// | `function(lift, derivative = lift_slope, second = …)`, `function(lift = aero::lift, derivative = …)` | a smooth function of one number, `lift(x)` in expressions, that is written in Rust: `fn(f64) -> f64`, of a generic scalar `fn<T: Real>(T) -> T`. The derivative is needed in potentials, constraints and `linearize`, where the second may be |

@@ -16,6 +16,12 @@ pub trait Described {
 
     /// What each method loses to rounding.
     const ACCURACY: Accuracy = Accuracy::NONE;
+
+    /// What the numbers are called that a configuration consists of, in their order; nothing where they have no names.
+    const COORDINATE_NAMES: &'static [&'static str] = &[];
+
+    /// What the speeds are called, component by component; nothing where they have no names.
+    const SPEED_NAMES: &'static [&'static str] = &[];
 }
 
 /// The equations of motion as printed by the derivation.
@@ -133,6 +139,46 @@ pub struct Operations {
     pub by_parameters: OperationCount,
     /// Of [`InertialRegressor::regressor`](crate::identification::InertialRegressor::regressor).
     pub regressor: OperationCount,
+    /// Of [`FramedSystem::frames`](crate::frames::FramedSystem::frames).
+    pub frames: OperationCount,
+    /// Of [`CentroidalSystem::center_of_mass`](crate::centroidal::CentroidalSystem::center_of_mass).
+    pub center_of_mass: OperationCount,
+    /// Of [`CentroidalSystem::centroidal_momentum`](crate::centroidal::CentroidalSystem::centroidal_momentum).
+    pub centroidal_momentum: OperationCount,
+    /// Of [`CentroidalSystem::centroidal_matrix`](crate::centroidal::CentroidalSystem::centroidal_matrix).
+    pub centroidal_matrix: OperationCount,
+    /// Of [`CentroidalSystem::centroidal_bias`](crate::centroidal::CentroidalSystem::centroidal_bias).
+    pub centroidal_bias: OperationCount,
+    /// Of [`GaussSystem::nonlinear_effects`](crate::system::GaussSystem::nonlinear_effects), where it is a program of its own.
+    pub nonlinear_effects: OperationCount,
+    /// Of [`GravityTorques::gravity_torques`](crate::centroidal::GravityTorques::gravity_torques).
+    pub gravity_torques: OperationCount,
+    /// Of the other methods of [`FramedSystem`](crate::frames::FramedSystem), frame by frame in their order.
+    pub of_frames: &'static [FrameOperations],
+}
+
+/// What it costs to ask for one frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct FrameOperations {
+    /// The name of the frame.
+    pub name: &'static str,
+    /// Of `pose_of`.
+    pub pose: OperationCount,
+    /// Of `twist_of`.
+    pub twist: OperationCount,
+    /// Of `jacobian_of`.
+    pub jacobian: OperationCount,
+    /// Of `bias_of`.
+    pub bias: OperationCount,
+}
+
+impl FrameOperations {
+    /// From the costs of pose, twist, Jacobian and bias.
+    #[must_use]
+    pub const fn new(name: &'static str, [pose, twist, jacobian, bias]: [OperationCount; 4]) -> Self {
+        Self { name, pose, twist, jacobian, bias }
+    }
 }
 
 impl Operations {
@@ -157,6 +203,14 @@ impl Operations {
             linearize: none,
             by_parameters: none,
             regressor: none,
+            frames: none,
+            center_of_mass: none,
+            centroidal_momentum: none,
+            centroidal_matrix: none,
+            centroidal_bias: none,
+            nonlinear_effects: none,
+            gravity_torques: none,
+            of_frames: &[],
         }
     };
 }
@@ -190,11 +244,21 @@ impl fmt::Display for Operations {
             ("linearize", self.linearize),
             ("by_parameters", self.by_parameters),
             ("regressor", self.regressor),
+            ("frames", self.frames),
+            ("center_of_mass", self.center_of_mass),
+            ("centroidal_momentum", self.centroidal_momentum),
+            ("centroidal_matrix", self.centroidal_matrix),
+            ("centroidal_bias", self.centroidal_bias),
+            ("nonlinear_effects", self.nonlinear_effects),
+            ("gravity_torques", self.gravity_torques),
         ];
         for (name, count) in others {
             if count != OperationCount::default() {
                 write!(f, "\n{name:<20}{count}")?;
             }
+        }
+        for FrameOperations { name, pose, twist, jacobian, bias } in self.of_frames {
+            write!(f, "\n{name:<20}pose {pose}; twist {twist}; jacobian {jacobian}; bias {bias}")?;
         }
         Ok(())
     }

@@ -97,6 +97,11 @@ impl fmt::Display for Violation {
                      is {value}); choose units in which the parameters are nearer to 1"
                 )
             }
+            Rule::PositiveMass if *value == 0.0 => write!(
+                f,
+                "`{field}` is 0: a body that is alone has a mass, also where it has added mass; give the mass of the body \
+                 in your units"
+            ),
             Rule::PositiveMass => {
                 write!(
                     f,

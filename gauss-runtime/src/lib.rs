@@ -8,6 +8,9 @@
 //! | [`condition`](mod@condition) | how well a mass matrix can be inverted |
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): what acts, element by element; powers and the balance of energy |
+//! | [`frames`] | [`FramedSystem`](frames::FramedSystem): poses, velocities and Jacobians of frames by name |
+//! | [`centroidal`] | [`CentroidalSystem`](centroidal::CentroidalSystem): centre of mass, momenta about it; gravity torques |
+//! | [`operational`] | the inertia that a frame shows, and the mass matrix factored |
 //! | [`linearize`] | [`LinearizedSystem`](linearize::LinearizedSystem): exact derivatives by state, time and input |
 //! | [`configuration`] | groups as configurations, linear spaces of increments |
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
@@ -55,6 +58,7 @@ pub mod adapters;
 #[cfg(feature = "alloc")]
 pub mod batch;
 pub mod bounded;
+pub mod centroidal;
 pub mod chart;
 pub mod condition;
 pub mod configuration;
@@ -64,11 +68,13 @@ pub mod description;
 mod dual;
 pub mod error;
 pub mod forces;
+pub mod frames;
 pub mod identification;
 pub mod integrate;
 pub mod lie;
 pub mod linearize;
 pub mod monitor;
+pub mod operational;
 pub mod prelude;
 pub mod real;
 pub mod series;

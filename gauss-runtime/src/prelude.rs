@@ -6,12 +6,14 @@ pub use gauss_derive::GaussDynamics;
 
 pub use crate::accuracy::Accuracy;
 pub use crate::bounded::Bounded;
+pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::{ConstrainedSystem, ProjectionError};
 pub use crate::description::{Described, Equations, OperationCount, Operations};
 pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
+pub use crate::frames::{FrameName, FramedSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;

@@ -142,6 +142,21 @@ pub trait GaussSystem {
         self.gauss_residual(t, q, z, acceleration, input)
     }
 
+    /// Inverse dynamics at ż = 0: the generalised force beside everything that the scene models with which no speed changes, weight,
+    /// centrifugal and Coriolis forces among it. So `A ż + nonlinear_effects` is the force that must act besides.
+    ///
+    /// With `methods(nonlinear_effects)` it is a program of its own, cheaper than that at any ż.
+    #[inline]
+    fn nonlinear_effects(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Speeds {
+        self.inverse_dynamics(t, q, z, &Self::Speeds::zero(), input)
+    }
+
     /// Gauss' constraint function C (3.1) at the given ż, up to a term that does not depend on ż: least at the true
     /// acceleration, among those that the constraints admit.
     fn constraint_function(

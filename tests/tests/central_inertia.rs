@@ -125,11 +125,42 @@ fn bodies_of_a_system() {
     assert!((given.mass_matrix(0.0, &q) - known.mass_matrix(0.0, &q)).norm() < ROUNDING);
 }
 
+#[derive(GaussDynamics)]
+#[gauss(chart = hybrid, waive(triangle_inequality))]
+struct FormalAboutG {
+    #[gauss(mass)]
+    m: f64,
+    #[gauss(center_of_mass)]
+    c: Vector3<f64>,
+    #[gauss(inertia_about_center_of_mass)]
+    i: Matrix3<f64>,
+}
+
+#[derive(GaussDynamics)]
+#[gauss(coordinates(a), body(arm, rotation = rotation_y(a)), waive(triangle_inequality))]
+struct FormalArm {
+    #[gauss(body)]
+    arm: RigidBody<f64, AboutCenterOfMass<f64>>,
+}
+
 #[test]
 fn inertia_that_no_body_has_is_refused() {
     let i = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 3.0));
     let error = AboutG { m: M, c: C.into(), i, g: 9.0 }.kernel().expect_err("1 + 1 < 3");
     assert!(error.to_string().contains("`i`") && error.to_string().contains("centre of mass"), "{error}");
+    // Of a body in a system by its name, about the same point.
+    let good = RigidBody::about_center_of_mass(M, C.into(), Matrix3::identity());
+    let [no_body, negative] = [[1.0, 1.0, 3.0], [1.0, -1.0, 1.0]]
+        .map(|i| RigidBody::about_center_of_mass(M, C.into(), Matrix3::from_diagonal(&Vector3::from(i))));
+    for (lower, rule) in [(no_body, "exceeds the sum"), (negative, "no body has a negative one")] {
+        let error = Arms { upper: good, lower, g: 9.0 }.kernel().expect_err(rule).to_string();
+        assert!(error.contains("`lower.inertia`") && error.contains(rule), "{error}");
+    }
+    // Waived by name, there and here; what is negative is refused all the same.
+    let formal = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 3.0));
+    assert!(FormalArm { arm: no_body }.kernel().is_ok() && FormalArm { arm: negative }.kernel().is_err());
+    assert!(FormalAboutG { m: M, c: C.into(), i: formal }.kernel().is_ok());
+    assert!(FormalAboutG { m: M, c: C.into(), i: -formal }.kernel().is_err());
     // Far from O nothing speaks against it.
     let i = Matrix3::from_diagonal(&Vector3::new(1e-3, 1e-3, 1e-3));
     assert!(AboutG { m: M, c: [1e6, -2e6, 3e6].into(), i, g: 9.0 }.kernel().is_ok());

@@ -63,6 +63,7 @@ fn a_body_is_accepted() {
 fn each_rule_has_its_own_error() {
     let found = only(|v| v.weight = 0.0);
     assert_eq!((found.field, found.value, found.rule), ("weight", 0.0, Rule::PositiveMass));
+    assert!(found.to_string().contains("also where it has added mass"), "{found}");
     let found = only(|v| v.weight = -3.0);
     assert_eq!((found.field, found.value, found.rule), ("weight", -3.0, Rule::PositiveMass));
     let found = only(|v| v.water = -0.5);

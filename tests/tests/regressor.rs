@@ -289,6 +289,58 @@ macro_rules! of_system {
     };
 }
 
+/// Added mass in clauses: a matrix that is a field, and numbers of which some are multiples of others.
+#[derive(GaussDynamics)]
+#[gauss(
+    regressor,
+    coordinates(base: Pose, elbow),
+    body(hull, position = base.position, rotation = base.rotation, added_mass = fluid, displaced_mass = displaced),
+    body(arm, parent = hull, position = [0.4, 0, 0.1], rotation = rotation_z(elbow), added_mass = [a, b, 2 * b, 0, c, 0.5]),
+    medium(velocity = [0.3, 0.1 * t, 0])
+)]
+struct Manipulator<T> {
+    #[gauss(body)]
+    hull: RigidBody<T>,
+    #[gauss(body)]
+    arm: RigidBody<T>,
+    fluid: Matrix6<T>,
+    displaced: T,
+    a: T,
+    b: T,
+    c: T,
+    #[gauss(gravity)]
+    g: T,
+}
+
+fn fluid(scale: f64) -> Matrix6<Bounded> {
+    let entry = |i: usize, j: usize| if i == j { 1.0 + 0.2 * i as f64 } else { 0.02 * (1 + i + j) as f64 };
+    Matrix6::from(std::array::from_fn(|i| std::array::from_fn(|j| number(scale * entry(i, j)))))
+}
+
+of_system!(residuals a_manipulator_in_a_fluid: Manipulator ManipulatorKernel, |random: &mut Random| {
+    (pose(random), coordinates::<1>(random))
+}, {
+    hull: |s| rigid(s, 0.1),
+    arm: |s| rigid(s, -0.2),
+    fluid: fluid,
+    displaced: |_| number(1.9),
+    a: |s| number(0.3 * s),
+    b: |s| number(0.5 * s),
+    c: |s| number(0.2 * s),
+    g: |_| number(9.8),
+});
+
+/// The added mass of a field is 21 parameters, those of the other body are the fields in its list; the number is none.
+#[test]
+fn added_mass_in_clauses_is_among_the_parameters() {
+    let names = ManipulatorKernel::<f64>::INERTIAL_PARAMETERS;
+    assert_eq!(names.iter().filter(|name| name.starts_with("fluid[")).count(), 21);
+    for name in ["a", "b", "c"] {
+        assert_eq!(names.iter().filter(|other| **other == name).count(), 1, "{names:?}");
+    }
+    assert_eq!(names.len(), 2 * 10 + 21 + 3);
+}
+
 /// Elements of both groups and a scalar.
 #[derive(GaussDynamics)]
 #[gauss(

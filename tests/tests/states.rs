@@ -145,6 +145,35 @@ fn components_stay_independent() {
     assert_eq!(twist, SVector::from([0.0, 0.0, 0.0, 0.3, 0.5, 0.6]));
 }
 
+/// Tables call every number by name, in the order in which configurations have them.
+#[test]
+fn columns_of_tables_have_names() {
+    assert_eq!(
+        MixedKernel::<f64>::COORDINATE_NAMES.join(" "),
+        "craft_i craft_j craft_k craft_w craft_x craft_y craft_z attitude_i attitude_j attitude_k attitude_w before between after"
+    );
+    assert_eq!(
+        MixedKernel::<f64>::SPEED_NAMES.join(" "),
+        "first u_x u_y u_z w_x w_y w_z second omega_x omega_y omega_z third"
+    );
+    assert_eq!(SolvedKernel::SPEED_NAMES, ["w_x", "w_y"]);
+    let kernel = Mixed { m: 1.0 }.kernel().expect("two bodies and a particle");
+    let state = MixedState { before: 0.1, after: 0.3, craft: pose(), third: -3.0, ..MixedState::default() };
+    let run = Simulation::new(&kernel).fixed_step(0.125).run(state.q(), state.z(), 0.0..0.125).expect("one step");
+    let table = run.table().state();
+    assert_eq!(
+        table.names().len(),
+        1 + MixedKernel::<f64>::COORDINATE_NAMES.len() + MixedKernel::<f64>::SPEED_NAMES.len()
+    );
+    let first = |name: &str| table.get(name).map(|column| column[0]);
+    let turn = state.craft.rotation;
+    for (name, value) in
+        [("before", 0.1), ("after", 0.3), ("craft_z", 3.0), ("craft_i", turn.i), ("craft_w", turn.w), ("third", -3.0)]
+    {
+        assert_eq!(first(name), Some(value), "{name}");
+    }
+}
+
 /// Velocities of points, poses and rotations, and of what is placed by a pose, are the same numbers.
 #[derive(GaussDynamics)]
 #[gauss(

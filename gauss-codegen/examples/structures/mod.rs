@@ -125,3 +125,39 @@ pub fn quadruped(clauses: &str) -> String {
          {fields}, #[gauss(gravity)] g: f64 }}"
     )
 }
+
+/// Bodies that hang on a trunk that is free in space, one on the other in each limb, by hinges; with further clauses, each after a
+/// comma. A limb is the limb at whose end it begins, if any, and the axes of its hinges.
+fn limbs(name: &str, limbs: &[(Option<usize>, &str)], clauses: &str) -> String {
+    let mut links = String::from("body(trunk, pose = base)");
+    let (mut count, mut ends) = (0_u32, Vec::<String>::new());
+    for (at, axes) in limbs {
+        let mut parent = at.map_or_else(|| "trunk".to_owned(), |limb| ends[limb].clone());
+        for axis in axes.chars() {
+            let place = [0, 3, 6].map(|k| 0.05 + 0.01 * f64::from((7 * count + k) % 11));
+            links += &format!(
+                ", body(b{count}, parent = {parent}, position = {place:.2?}, rotation = rotation_{axis}(q{count}))"
+            );
+            parent = format!("b{count}");
+            count += 1;
+        }
+        ends.push(parent);
+    }
+    let bodies: String = (0..count).map(|k| format!("#[gauss(body)] b{k}: RigidBody<f64>, ")).collect();
+    format!(
+        "#[gauss(coordinates(base: Pose, {}), {links}{clauses}, limit = 1000000)] struct {name} {{ \
+         #[gauss(body)] trunk: RigidBody<f64>, {bodies} #[gauss(gravity)] g: f64 }}",
+        names("q", count as usize)
+    )
+}
+
+/// A trunk with four legs of three hinges that nothing drives: 18 speeds.
+pub fn walker(clauses: &str) -> String {
+    limbs("Walker", &[(None, "xyy"); 4], clauses)
+}
+
+/// A trunk with legs of six hinges, a waist of three, and at its end two arms of seven and a neck: 36 speeds.
+pub fn humanoid(clauses: &str) -> String {
+    let (leg, arm) = ((None, "zxyyyx"), (Some(2), "yxzyzyx"));
+    limbs("Humanoid", &[leg, leg, (None, "zxy"), arm, arm, (Some(2), "z")], clauses)
+}

@@ -11,6 +11,7 @@ const SIZE: [usize; 2] = [60, 3_000_000];
 const TERMS: u64 = 1_000_000;
 
 /// What is left.
+#[derive(Clone)]
 pub(super) struct Budget {
     /// Nodes and edges, and how many there may be.
     size: Cell<usize>,
@@ -34,6 +35,12 @@ impl Budget {
     #[cfg(test)]
     pub(super) fn restrict(&self, size: usize) {
         self.most.set(size);
+    }
+
+    /// Gives back what was taken since.
+    pub(super) fn restore(&self, earlier: &Self) {
+        self.size.set(earlier.size.get());
+        self.terms.set(earlier.terms.get());
     }
 
     pub(super) fn is_exhausted(&self) -> bool {

@@ -162,6 +162,25 @@ impl Graph {
         Expr { graph: self, id }
     }
 
+    /// What comes of some work, without the expressions that it makes: the graph is afterwards what it was before. Nothing
+    /// that is kept may refer to them.
+    pub fn aside<R: 'static>(&self, work: impl FnOnce() -> R) -> R {
+        let (nodes, symbols, functions) =
+            (self.nodes.borrow().len(), self.symbols.borrow().len(), self.functions.borrow().len());
+        let (budget, undefined) = (self.budget.clone(), self.undefined.get());
+        let result = work();
+        let mut index = self.index.borrow_mut();
+        for node in self.nodes.borrow_mut().drain(nodes..) {
+            index.remove(&node);
+        }
+        self.traits.borrow_mut().truncate(nodes);
+        self.symbols.borrow_mut().truncate(symbols);
+        self.functions.borrow_mut().truncate(functions);
+        self.budget.restore(&budget);
+        self.undefined.set(undefined);
+        result
+    }
+
     fn traits_of(&self, node: &Node) -> Traits {
         let known = self.traits.borrow();
         let part = |id: Id| known[id as usize];
@@ -184,6 +203,16 @@ impl Graph {
     /// The longest way from a node down to a symbol or a number.
     pub(super) fn depth(&self, id: Id) -> u32 {
         self.traits.borrow()[id as usize].depth
+    }
+
+    /// True of symbols and numbers.
+    pub(super) fn is_leaf(&self, id: Id) -> bool {
+        matches!(self.nodes.borrow()[id as usize], Node::Symbol(_) | Node::Number(_))
+    }
+
+    /// True when every symbol in it is constant.
+    pub(super) fn is_constant(&self, id: Id) -> bool {
+        self.traits.borrow()[id as usize].constant
     }
 
     pub(super) fn node(&self, id: Id) -> Node {
@@ -334,7 +363,7 @@ impl Graph {
     }
 
     /// The rational content of a sum: greatest common divisor of the coefficients, with the sign of the first.
-    fn content(&self, terms: &[(Rational, Id)]) -> Rational {
+    pub(super) fn content(&self, terms: &[(Rational, Id)]) -> Rational {
         let mut content = Rational::zero();
         for &(c, _) in terms {
             content = content.common_divisor(c);
@@ -343,7 +372,7 @@ impl Graph {
     }
 
     /// Powers that all terms have in common.
-    fn common_factors(&self, terms: &[(Rational, Id)]) -> Vec<(Id, i32)> {
+    pub(super) fn common_factors(&self, terms: &[(Rational, Id)]) -> Vec<(Id, i32)> {
         let nodes = self.nodes.borrow();
         let mut common = match &nodes[terms[0].1 as usize] {
             Node::Product(factors) => factors.to_vec(),
@@ -398,187 +427,6 @@ impl Graph {
             };
         }
         self.intern(Node::Call(function, argument.id))
-    }
-}
-
-impl<'g> Expr<'g> {
-    pub fn graph(self) -> &'g Graph {
-        self.graph
-    }
-
-    /// The index of the node: a name for maps, smaller for what was built earlier.
-    pub fn key(self) -> u32 {
-        self.id
-    }
-
-    pub fn view(self) -> NodeView<'g> {
-        let at = |id| self.graph.expr(id);
-        match self.graph.node(self.id) {
-            Node::Number(value) => NodeView::Number(value),
-            Node::Symbol(symbol) => NodeView::Symbol(symbol),
-            Node::Sum(terms) => NodeView::Sum(terms.iter().map(|&(c, id)| (c, at(id))).collect()),
-            Node::Product(factors) => NodeView::Product(factors.iter().map(|&(id, n)| (at(id), n)).collect()),
-            Node::Call(function, id) => NodeView::Call(function, at(id)),
-            Node::Binary(function, a, b) => NodeView::Binary(function, at(a), at(b)),
-            Node::Group(id) => NodeView::Group(at(id)),
-            Node::Opaque(id) => NodeView::Opaque(at(id)),
-        }
-    }
-
-    pub fn as_number(self) -> Option<Rational> {
-        match &self.graph.nodes.borrow()[self.id as usize] {
-            Node::Number(value) => Some(*value),
-            _ => None,
-        }
-    }
-
-    pub fn is_zero(self) -> bool {
-        self.id == ZERO
-    }
-
-    pub fn powi(self, exponent: i32) -> Self {
-        self.graph.product(Rational::one(), [(self, exponent)])
-    }
-
-    pub fn recip(self) -> Self {
-        self.powi(-1)
-    }
-
-    pub fn scale(self, factor: Rational) -> Self {
-        if self.id == ZERO || factor.is_one() {
-            return self;
-        }
-        let mut terms = Vec::new();
-        self.graph.push_term(&mut terms, factor, self.id);
-        self.graph.collected_sum(terms)
-    }
-
-    /// self + factor · other.
-    pub(super) fn plus_multiple(self, factor: Rational, other: Self) -> Self {
-        if other.id == ZERO {
-            return self;
-        }
-        if self.id == ZERO {
-            return other.scale(factor);
-        }
-        let mut terms = Vec::with_capacity(4);
-        self.graph.push_term(&mut terms, Rational::one(), self.id);
-        self.graph.push_term(&mut terms, factor, other.id);
-        self.graph.collected_sum(terms)
-    }
-
-    pub fn half(self) -> Self {
-        self.scale(Rational::new(1, 2))
-    }
-
-    pub fn sin(self) -> Self {
-        self.graph.call(Function::Sin, self)
-    }
-
-    pub fn cos(self) -> Self {
-        self.graph.call(Function::Cos, self)
-    }
-
-    pub fn exp(self) -> Self {
-        self.graph.call(Function::Exp, self)
-    }
-
-    pub fn ln(self) -> Self {
-        self.graph.call(Function::Ln, self)
-    }
-
-    pub fn sqrt(self) -> Self {
-        self.graph.call(Function::Sqrt, self)
-    }
-
-    pub fn abs(self) -> Self {
-        self.graph.call(Function::Abs, self)
-    }
-
-    /// √((1 − x)(1 + x)): the other leg of a right triangle with the hypotenuse 1; no digits cancel where the triangle is thin.
-    pub fn leg(self) -> Self {
-        let one = self.graph.one();
-        ((one - self).group() * (one + self).group()).sqrt()
-    }
-
-    pub fn binary(self, function: BinaryFunction, other: Self) -> Self {
-        self.graph.intern(Node::Binary(function, self.id, other.id))
-    }
-
-    /// The same value as a quantity of its own: sums around it do not take it apart, so it is computed once. Factors
-    /// that all its terms share are pulled out first, which lets a mass cancel later.
-    pub fn group(self) -> Self {
-        let Node::Sum(terms) = self.graph.node(self.id) else { return self };
-        if terms.len() < 2 {
-            return self;
-        }
-        let common = self.graph.common_factors(&terms);
-        let content = self.graph.content(&terms);
-        if common.is_empty() && content.is_one() {
-            return self.graph.intern(Node::Group(self.id));
-        }
-        let common: Vec<_> = common.into_iter().map(|(id, n)| (self.graph.expr(id), n)).collect();
-        let divisor = self.graph.product(content, common.iter().copied());
-        let inverse = divisor.recip();
-        let primitive = self.graph.sum(terms.iter().map(|&(c, id)| (c, self.graph.expr(id) * inverse)));
-        divisor * self.graph.intern(Node::Group(primitive.id))
-    }
-
-    /// The same value as a group, whatever it is; for passes that rebuild expressions.
-    pub fn group_as_is(self) -> Self {
-        match self.graph.node(self.id) {
-            Node::Sum(terms) if terms.len() > 1 => self.graph.intern(Node::Group(self.id)),
-            _ => self,
-        }
-    }
-
-    /// True when it is its own normal form for a reason that can be seen: a sum of products of symbols.
-    pub fn is_normal(self) -> bool {
-        let leaf = |id: Id| matches!(self.graph.node(id), Node::Symbol(_) | Node::Opaque(_));
-        let monomial = |id: Id| match self.graph.node(id) {
-            Node::Product(factors) => factors.iter().all(|&(f, _)| leaf(f)),
-            Node::Number(_) => true,
-            _ => leaf(id),
-        };
-        match self.graph.node(self.id) {
-            Node::Sum(terms) => terms.iter().all(|&(_, id)| monomial(id)),
-            _ => monomial(self.id),
-        }
-    }
-
-    /// The largest power, of either sign, among the factors of a product.
-    pub fn largest_exponent(self) -> u32 {
-        match self.graph.node(self.split_coefficient().1.id) {
-            Node::Product(factors) => factors.iter().map(|(_, n)| n.unsigned_abs()).max().unwrap_or(0),
-            _ => 1,
-        }
-    }
-
-    /// A number times something without one: `6·a·b` is 6 and `a·b`.
-    pub fn split_coefficient(self) -> (Rational, Self) {
-        match self.graph.node(self.id) {
-            Node::Number(value) => (value, self.graph.one()),
-            Node::Sum(terms) if terms.len() == 1 => (terms[0].0, self.graph.expr(terms[0].1)),
-            _ => (Rational::one(), self),
-        }
-    }
-
-    /// The same constant as a quantity of its own that even the normal form does not look into.
-    pub fn opaque(self) -> Self {
-        match self.graph.node(self.id) {
-            Node::Number(_) | Node::Symbol(_) | Node::Opaque(_) => self,
-            _ => self.graph.intern(Node::Opaque(self.id)),
-        }
-    }
-
-    /// True of symbols and numbers.
-    pub fn is_leaf(self) -> bool {
-        matches!(self.graph.nodes.borrow()[self.id as usize], Node::Symbol(_) | Node::Number(_))
-    }
-
-    /// True when every symbol in it is constant.
-    pub fn is_constant(self) -> bool {
-        self.graph.traits.borrow()[self.id as usize].constant
     }
 }
 

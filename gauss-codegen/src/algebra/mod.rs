@@ -13,6 +13,7 @@ mod cosines;
 mod differentiate;
 mod doubled;
 mod evaluate;
+mod expression;
 mod function;
 mod graph;
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::emit::{Derived, OF_EQUATIONS, OF_REGRESSOR, arguments_of};
 use crate::kernel;
-use crate::mechanics::Method;
+use crate::mechanics::{FrameQuantity, Method};
 use crate::program::{ArgumentKind, Function, Instruction, Operand, Program, Results};
 
 use super::signature::{Signature, Unbound};
@@ -33,13 +33,16 @@ fn of_method<'g>(
     code: &kernel::Program<'g>,
 ) -> Result<Program, Unbound> {
     // `expand` makes the series, this the rates that they are made from.
-    let name = if method == Method::ComponentRates { "component_rates" } else { method.name() };
+    let name = if method == Method::ComponentRates { "component_rates" } else { &derived.name_of(method) };
     let (rows, arguments) = (derived.degrees_of_freedom(), with(arguments_of(method)));
     let results = |rows: usize, columns: usize| vec![Results::new(name, rows, columns)];
     let count = code.outputs.len();
     match method {
         Method::MassMatrix | Method::ElementForces => {
             signature.program(name, &arguments, code, results(rows, count / rows))
+        }
+        Method::OfFrame(FrameQuantity::Jacobian, _) | Method::CentroidalMatrix => {
+            signature.program(name, &arguments, code, results(6, rows))
         }
         Method::Regularity => signature.program(name, &arguments, &regularity(code), results(1, 1)),
         _ => signature.program(name, &arguments, code, results(count, 1)),

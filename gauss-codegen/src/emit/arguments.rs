@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map};
 use crate::kernel::Program;
-use crate::mechanics::Method;
+use crate::mechanics::{FrameQuantity, Method};
 use crate::program::ArgumentKind;
 
 /// An array of scalars and the symbols that its elements are.
@@ -40,16 +40,23 @@ pub fn declare(program: &Program<'_>, arguments: &[Argument<'_>], names: &mut Ma
 pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
     use ArgumentKind::{Accelerations, Inputs, Momenta, Residuals, Speeds, Twist};
     match method {
-        Method::Acceleration | Method::Multipliers | Method::Powers | Method::ElementForces | Method::SuppliedPower => {
-            OF_EQUATIONS
-        }
+        Method::Acceleration
+        | Method::Multipliers
+        | Method::Powers
+        | Method::ElementForces
+        | Method::SuppliedPower
+        | Method::NonlinearEffects => OF_EQUATIONS,
         Method::Kinematics
         | Method::Momentum
         | Method::KineticEnergy
         | Method::BodyTwist
         | Method::BodyMomentum
         | Method::VelocityResidual
-        | Method::ComponentRates => &[Speeds],
+        | Method::ComponentRates
+        | Method::OfFrame(FrameQuantity::Twist | FrameQuantity::Bias, _)
+        | Method::Frames
+        | Method::CentroidalMomentum
+        | Method::CentroidalBias => &[Speeds],
         Method::Velocity => &[Momenta],
         Method::MomentumRate => &[Momenta, Inputs],
         Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces => &[Speeds, Accelerations, Inputs],
@@ -62,7 +69,12 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::PoseByConfiguration
         | Method::Regularity
         | Method::PositionResidual
-        | Method::InertialParameters => &[],
+        | Method::InertialParameters
+        | Method::OfFrame(FrameQuantity::Pose | FrameQuantity::Jacobian, _)
+        | Method::TotalMass
+        | Method::CenterOfMass
+        | Method::CentroidalMatrix
+        | Method::GravityTorques => &[],
     }
 }
 

@@ -4,12 +4,13 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational, Set};
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, Printed};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, Formula, Linearization, Method, Regressor};
 use crate::model::{Model, Scalar};
 use crate::program::ArgumentKind;
 use crate::translate::{DragMatrix, Law, Parameter, Translator};
+use syn::ext::IdentExt;
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, arguments_of, declare, declared, variable};
@@ -39,6 +40,8 @@ pub struct Derived<'a, 'g> {
     pub linearization: Option<&'a Linearization<'g>>,
     /// The numbers of fields.
     pub parameters: &'a [Parameter<'g>],
+    /// The equations for people, as text and in LaTeX.
+    pub printed: &'a [Printed; 2],
     /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
     pub regressor: Option<&'a Regressor<'g>>,
 }
@@ -103,6 +106,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             kernel,
             linearization: formulation.linearization.as_ref(),
             parameters: &formulation.parameters,
+            printed: &formulation.printed,
             regressor: formulation.regressor.as_ref(),
         })
     }
@@ -135,10 +139,16 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     pub fn scalar(&self) -> ScalarTokens<'a> {
-        let private = self.private();
+        let (private, scalar) = (self.private(), self.item().scalar);
+        let fma = match scalar {
+            Scalar::F64 => quote!(#private::fma_f64),
+            Scalar::F32 => quote!(#private::fma_f32),
+            Scalar::Parameter(_) => quote!(#private::Real::fma),
+        };
         ScalarTokens {
-            scalar: self.item().scalar,
+            scalar,
             real: quote!(#private::Real),
+            fma,
             apart: quote!(#private::apart),
             functions: &self.subject.model.functions,
         }
@@ -155,6 +165,19 @@ impl<'a, 'g> Derived<'a, 'g> {
     pub fn program(&self, method: Method) -> &Program<'g> {
         let position = self.formulas.iter().position(|f| f.method == method);
         &self.kernel.functions[position.expect("a method that is written was derived")]
+    }
+
+    /// What a method is called: of a frame with its name, `pose_of_tool`.
+    pub fn name_of(&self, method: Method) -> String {
+        match method {
+            Method::OfFrame(_, frame) => format!("{}_{}", method.name(), self.frames()[frame].unraw()),
+            _ => method.name().to_owned(),
+        }
+    }
+
+    /// The names of the frames that are asked for.
+    pub fn frames(&self) -> &'a [Ident] {
+        &self.subject.model.wanted.frames
     }
 
     pub fn has(&self, method: Method) -> bool {
@@ -236,11 +259,17 @@ impl<'a, 'g> Derived<'a, 'g> {
         let (private, speeds) = (self.private(), self.speeds());
         let (instructions, outputs) = self.computed(self.program(method));
         let result = match method {
-            Method::KineticEnergy | Method::PotentialEnergy | Method::ConstraintFunction | Method::SuppliedPower => {
-                quote!(#(#outputs)*)
-            }
+            Method::KineticEnergy
+            | Method::PotentialEnergy
+            | Method::ConstraintFunction
+            | Method::SuppliedPower
+            | Method::TotalMass => quote!(#(#outputs)*),
             Method::MassMatrix | Method::ElementForces => {
                 let rows = outputs.chunks(outputs.len() / speeds.len()).map(|row| quote!([#(#row),*]));
+                quote!(#private::matrix([#(#rows),*]))
+            }
+            Method::CentroidalMatrix => {
+                let rows = outputs.chunks(speeds.len()).map(|row| quote!([#(#row),*]));
                 quote!(#private::matrix([#(#rows),*]))
             }
             // The volume over the product of the lengths.

@@ -9,10 +9,13 @@ use crate::mechanics::{Formula, Method};
 
 use super::derived::Derived;
 use super::documentation::{DERIVATIVES, Equations};
+use super::framed::frame_operations;
+use super::state::component_names;
 
 pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let private = derived.private();
     let (Equations { text, latex }, operations, losses) = (equations, operations(derived), losses(derived));
+    let [coordinates, speeds] = component_names(derived);
     let items = quote! {
         const EQUATIONS: #private::Equations = #private::Equations::new(#text, #latex);
         const OPERATIONS: #private::Operations = {
@@ -25,6 +28,8 @@ pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStrea
             #(__accuracy.#losses;)*
             __accuracy
         };
+        const COORDINATE_NAMES: &'static [&'static str] = &[#(#coordinates),*];
+        const SPEED_NAMES: &'static [&'static str] = &[#(#speeds),*];
     };
     derived.implementation(quote!(Described), items)
 }
@@ -54,5 +59,7 @@ fn operations(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
     let whole = whole.map(|(name, program)| count(name, program.counts()));
     let derivatives = DERIVATIVES.into_iter().zip(kernel.derivatives());
     let derivatives = derivatives.filter_map(|(name, program)| Some(count(name, program?.counts())));
-    whole.chain(methods).chain(derivatives).collect()
+    let asked_for = Method::ASKED_FOR.into_iter().filter(|method| derived.has(*method));
+    let asked_for = asked_for.map(|method| count(method.name(), derived.program(method).counts()));
+    whole.chain(methods).chain(derivatives).chain(asked_for).chain(frame_operations(derived)).collect()
 }

@@ -3,7 +3,8 @@
 use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
-use crate::mechanics::Page;
+use crate::formulation::Printed;
+use crate::mechanics::Method;
 use crate::model::{InChart, InputKind, Role};
 
 use super::chart::{chart_name, motion_name};
@@ -18,14 +19,13 @@ pub struct Equations {
 }
 
 impl Equations {
-    /// Printed once for all that is said of them: a second time the terms of a sum can come in another order.
     pub fn of(derived: &Derived<'_, '_>) -> Self {
-        let page = derived.subject.system.equations();
-        Equations { text: text(derived, &page), latex: latex(&page) }
+        let [text_lines, latex_lines] = derived.printed;
+        Equations { text: text(derived, text_lines), latex: latex(latex_lines) }
     }
 }
 
-fn text(derived: &Derived<'_, '_>, page: &Page<'_>) -> String {
+fn text(derived: &Derived<'_, '_>, printed: &Printed) -> String {
     let mut out = format!(
         "{}: {}
 ",
@@ -43,16 +43,16 @@ fn text(derived: &Derived<'_, '_>, page: &Page<'_>) -> String {
             if derived.subject.model.one_body().is_some() { "; x̂ = R x + b" } else { "" }
         ));
     }
-    for (title, lines) in page.print(Notation::Text) {
+    for (title, lines) in printed {
         out.push_str(&format!("\n{title}\n"));
         lines.iter().for_each(|line| out.push_str(&format!("  {line}\n")));
     }
     out
 }
 
-fn latex(page: &Page<'_>) -> String {
+fn latex(printed: &Printed) -> String {
     let mut out = String::from("\\begin{align*}\n");
-    for (title, lines) in page.print(Notation::Latex) {
+    for (title, lines) in printed {
         out.push_str(&format!("&\\text{{{title}}} \\\\\n"));
         lines.iter().for_each(|line| out.push_str(&format!("{} \\\\\n", line.replacen(" = ", " &= ", 1))));
     }
@@ -135,7 +135,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         let [worst, median] = loss.rounded();
         let warning = if worst > MUCH { ": **digits are lost**" } else { "" };
         let loss = if worst > 0.0 { format!("{worst} ({median}){warning}") } else { String::new() };
-        out.push_str(&format!("| `{}` | {} | {loss} |\n", formula.method.name(), program.counts()));
+        out.push_str(&format!("| `{}` | {} | {loss} |\n", said(derived, formula.method), program.counts()));
     }
     out.push_str(&format!("| `evaluate` | {} | |\n", derived.kernel.joined.counts()));
     for (name, program) in DERIVATIVES.into_iter().zip(derived.kernel.derivatives()) {
@@ -144,6 +144,14 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         }
     }
     out
+}
+
+/// What a method is called, as it is called: `pose_of(tool)`.
+fn said(derived: &Derived<'_, '_>, method: Method) -> String {
+    match method {
+        Method::OfFrame(_, frame) => format!("{}({})", method.name(), derived.frames()[frame].unraw()),
+        _ => method.name().to_owned(),
+    }
 }
 
 /// What a configuration and speeds are made of, in words and in a call.

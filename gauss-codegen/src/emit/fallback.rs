@@ -4,7 +4,7 @@
 //! code that uses it. `NameKernel` is a type that contains the first mistake instead, as the length of an array: the compiler
 //! reports that one and is silent about whatever depends on it.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use syn::{DeriveInput, Error};
 
@@ -22,7 +22,16 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
         Some(scalar) => (quote!(<#scalar>), quote!(#scalar)),
         None => (quote!(), quote!(())),
     };
+    let frames = asks_for_frames(input).then(|| {
+        let frames = format_ident!("{}Frame", ident);
+        let of_f64 = scalar.map(|_| quote!(<::core::primitive::f64>));
+        quote! {
+            #[allow(non_camel_case_types, dead_code)]
+            #vis type #frames = #name #of_f64;
+        }
+    });
     quote! {
+        #frames
         #[allow(non_camel_case_types, dead_code)]
         #vis type #name #declared = [#element; #first];
         #[allow(non_camel_case_types, dead_code)]
@@ -39,4 +48,11 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
             }
         };
     }
+}
+
+/// Whether `frames(…)` is among the clauses, wherever the mistakes are.
+fn asks_for_frames(input: &DeriveInput) -> bool {
+    let attributes = input.attrs.iter().filter_map(|attribute| attribute.meta.require_list().ok());
+    let mut tokens = attributes.flat_map(|list| list.tokens.clone());
+    tokens.any(|token| matches!(token, TokenTree::Ident(word) if word == "frames"))
 }

@@ -71,6 +71,7 @@ fn methods(derived: &Derived<'_, '_>) -> TokenStream {
         (Method::ConstraintFunction, &scalar),
         (Method::Kinematics, &tangent),
         (Method::Regularity, &scalar),
+        (Method::NonlinearEffects, &speeds),
     ];
     let written = methods.into_iter().filter(|(method, _)| derived.has(*method));
     written.map(|(method, result)| derived.function(method, result.clone())).collect()

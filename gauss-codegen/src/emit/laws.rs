@@ -24,12 +24,15 @@ pub fn checked(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> To
             LawKind::Stiffness => quote!(stiffness),
             LawKind::Width => quote!(width),
             LawKind::Limits => quote!(limits),
+            LawKind::NonNegative => quote!(non_negative),
             LawKind::Damping | LawKind::Attraction => quote!(finite),
             LawKind::Dissipation => return None,
         };
         let (compute, values) = statements(&Program::lower(&law.values), symbols, &derived.scalar());
         Some(match law.kind {
-            LawKind::Stiffness | LawKind::Width => quote!({ #compute __check.#check(#said, #(#values)*); }),
+            LawKind::Stiffness | LawKind::Width | LawKind::NonNegative => {
+                quote!({ #compute __check.#check(#said, #(#values)*); })
+            }
             LawKind::Limits => quote!({ #compute __check.#check(#said, [#(#values),*]); }),
             _ => quote!({ #compute __check.#check(#said, &[#(#values),*]); }),
         })
@@ -81,7 +84,7 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             LawKind::Damping => (quote!(damping), law.values.clone()),
             LawKind::Attraction => (quote!(center), law.values.clone()),
             LawKind::Dissipation => (quote!(dissipation), in_states(law.values[0], symbols)),
-            LawKind::Stiffness | LawKind::Width | LawKind::Limits => return None,
+            LawKind::Stiffness | LawKind::Width | LawKind::Limits | LawKind::NonNegative => return None,
         };
         let (compute, values) = of_parameters(derived, symbols, &values)?;
         Some(match law.kind {

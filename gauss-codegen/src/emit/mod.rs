@@ -11,7 +11,7 @@
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
-//! `state` (coordinates and speeds by name), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
+//! `state` (coordinates and speeds by name), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
 //! where there are mistakes.
 
 use proc_macro2::TokenStream;
@@ -27,6 +27,7 @@ mod documentation;
 mod fallback;
 mod file;
 mod forced;
+mod framed;
 mod gauss_system;
 mod inertia;
 mod kernel;
@@ -48,6 +49,7 @@ mod system_tests;
 mod taylor;
 #[cfg(test)]
 mod tests;
+mod whole;
 
 pub use arguments::{OF_EQUATIONS, OF_REGRESSOR, arguments_of};
 pub use derived::Derived;
@@ -69,10 +71,13 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let linearized = linearized::linearized_system(derived);
     let parametric = parametric::parametric_system(derived);
     let regressor = regressor::inertial_regressor(derived);
+    let whole = whole::of_the_whole(derived);
+    let [frames, framed] = framed::framed_system(derived);
     let [state, conversions] = state::state(derived);
     quote! {
         #kernel
         #state
+        #frames
 
         const _: () = {
             #tables
@@ -87,6 +92,8 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
             #linearized
             #parametric
             #regressor
+            #framed
+            #whole
         };
     }
 }

@@ -13,6 +13,9 @@ pub struct ScalarTokens<'a> {
     pub scalar: &'a Scalar,
     /// `::gauss_runtime::real::Real`.
     pub real: TokenStream,
+    /// A product and a sum. For primitive types a function of its own: compilers look for an implementation at every call of a
+    /// trait's, which was half of the time in which they checked types.
+    pub fma: TokenStream,
     /// `::gauss_runtime::__private::apart`.
     pub apart: TokenStream,
     /// Functions of the user's own.
@@ -89,6 +92,10 @@ impl<'g> Dialect<Expr<'g>> for KernelDialect<'_> {
 
     fn functions(&self) -> TokenStream {
         self.scalar.real.clone()
+    }
+
+    fn fma(&self) -> TokenStream {
+        self.scalar.fma.clone()
     }
 
     /// By its path, or as a method of a table.

@@ -47,6 +47,20 @@ impl Part {
         }
     }
 
+    /// The names of the numbers that it consists of, in the order of `Configuration::components`.
+    fn names(&self) -> Vec<String> {
+        let word = self.ident.unraw().to_string();
+        let ends: &[&str] = match self.kind {
+            PartKind::Scalar => return vec![word],
+            PartKind::Vector(3) => &["x", "y", "z"],
+            PartKind::Vector(size) => return (1..=size).map(|k| format!("{word}_{k}")).collect(),
+            PartKind::Rotation => &["i", "j", "k", "w"],
+            PartKind::Pose => &["i", "j", "k", "w", "x", "y", "z"],
+            PartKind::Plane => &["cos", "sin", "x", "y"],
+        };
+        ends.iter().map(|end| format!("{word}_{end}")).collect()
+    }
+
     /// `craft: Isometry3`, for people.
     pub fn shown(&self) -> String {
         match self.kind {
@@ -79,6 +93,13 @@ pub fn parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 2] {
         taken.push(free);
     }
     all
+}
+
+/// What every number of a state is called: those of the configuration, scalars behind all others, and the speeds.
+pub fn component_names(derived: &Derived<'_, '_>) -> [Vec<String>; 2] {
+    let [mut coordinates, speeds] = parts(derived);
+    coordinates.sort_by_key(|part| part.kind == PartKind::Scalar);
+    [coordinates, speeds].map(|parts| parts.iter().flat_map(Part::names).collect())
 }
 
 fn coordinates(derived: &Derived<'_, '_>) -> Vec<Part> {

@@ -164,7 +164,7 @@ impl<'a, 'g> Order<'a, 'g> {
 
     /// The statements of one instruction.
     fn statement(&mut self, k: usize, instruction: &Operation<'g>) -> TokenStream {
-        let real = self.scalar.real.clone();
+        let fma = self.scalar.fma.clone();
         let (zero, w, v0) = (self.zero(), named("w", k), self.first(&Operand::Value(k)));
         let value = match instruction {
             Operation::Add(..)
@@ -175,7 +175,7 @@ impl<'a, 'g> Order<'a, 'g> {
             | Operation::MultiplySubtract(..) => {
                 let mut sum = Sum::default();
                 self.gather(instruction, false, &mut sum);
-                sum.write(&real).unwrap_or(zero)
+                sum.write(&fma).unwrap_or(zero)
             }
             Operation::Divide(a, b) => self.quotient(k, a, b),
             Operation::Call(Function::Sqrt, a) => {
@@ -187,13 +187,13 @@ impl<'a, 'g> Order<'a, 'g> {
                 let (a0, ak) = (self.first(a), self.coefficient(a).unwrap_or(zero));
                 let reciprocal = self.reciprocal(k, &a0);
                 let sum = self.lane(quote!(#w * __order), ak.clone());
-                quote!(#real::fma(-__over, #sum, #ak) * #reciprocal)
+                quote!(#fma(-__over, #sum, #ak) * #reciprocal)
             }
             Operation::Call(Function::Tanh, a) => return self.tangent(k, a),
             Operation::Call(_, a) => {
                 let ak = self.coefficient(a).unwrap_or(zero);
                 let sum = self.lane(quote!(#ak * __order), w.clone());
-                quote!(#real::fma(__over, #sum, #ak * #v0))
+                quote!(#fma(__over, #sum, #ak * #v0))
             }
             Operation::SineCosine(a) => return self.sine_cosine(k, a),
             Operation::Binary(BinaryFunction::Atan2, y, x) => return self.angle(k, y, x),
@@ -202,7 +202,7 @@ impl<'a, 'g> Order<'a, 'g> {
                 let reciprocal = self.reciprocal(k, &a0);
                 let up = self.lane(quote!(#ak * __order), w.clone());
                 let down = self.lane(quote!(#w * __order), ak.clone());
-                quote!((#p * #real::fma(__over, #up, #ak * #v0) - __over * #down) * #reciprocal)
+                quote!((#p * #fma(__over, #up, #ak * #v0) - __over * #down) * #reciprocal)
             }
             Operation::Binary(..) => {
                 let message = "bug in gauss-derive: a function without a power series";
@@ -213,46 +213,46 @@ impl<'a, 'g> Order<'a, 'g> {
     }
 
     fn quotient(&mut self, k: usize, a: &Operand<'g>, b: &Operand<'g>) -> TokenStream {
-        let (real, w, v0, divisor) =
-            (self.scalar.real.clone(), named("w", k), self.first(&Operand::Value(k)), self.first(b));
+        let (fma, w, v0, divisor) =
+            (self.scalar.fma.clone(), named("w", k), self.first(&Operand::Value(k)), self.first(b));
         let reciprocal = self.reciprocal(k, &divisor);
         let ak = self.coefficient(a).unwrap_or(self.zero());
         match self.coefficient(b) {
             Some(bk) => {
                 let sum = self.lane(w, bk.clone());
-                quote!(#real::fma(-#v0, #bk, #ak - #sum) * #reciprocal)
+                quote!(#fma(-#v0, #bk, #ak - #sum) * #reciprocal)
             }
             None => quote!(#ak * #reciprocal),
         }
     }
 
     fn sine_cosine(&mut self, k: usize, a: &Operand<'g>) -> TokenStream {
-        let (real, ak) = (self.scalar.real.clone(), self.coefficient(a).unwrap_or(self.zero()));
+        let (fma, ak) = (self.scalar.fma.clone(), self.coefficient(a).unwrap_or(self.zero()));
         let (s0, c0) = (self.first(&Operand::Sine(k)), self.first(&Operand::Cosine(k)));
         let (s, c) = (named("ws", k), named("wc", k));
         let with_cosine = self.lane(quote!(#ak * __order), c.clone());
         let with_sine = self.lane(quote!(#ak * __order), s.clone());
         quote! {
-            let #s = #real::fma(__over, #with_cosine, #ak * #c0);
-            let #c = -#real::fma(__over, #with_sine, #ak * #s0);
+            let #s = #fma(__over, #with_cosine, #ak * #c0);
+            let #c = -#fma(__over, #with_sine, #ak * #s0);
         }
     }
 
     /// w = tanh a, r = 1 − w².
     fn tangent(&mut self, k: usize, a: &Operand<'g>) -> TokenStream {
-        let (real, w, rk) = (self.scalar.real.clone(), named("w", k), named("wr", k));
+        let (fma, w, rk) = (self.scalar.fma.clone(), named("w", k), named("wr", k));
         let (w0, ak) = (self.first(&Operand::Value(k)), self.coefficient(a).unwrap_or(self.zero()));
         let with_rest = self.lane(quote!(#ak * __order), rk.clone());
         let squares = self.lane(w.clone(), w.clone());
         quote! {
-            let #w = #real::fma(__over, #with_rest, #ak * #real::fma(-#w0, #w0, __one));
-            let #rk = -#real::fma(#w0 + #w0, #w, #squares);
+            let #w = #fma(__over, #with_rest, #ak * #fma(-#w0, #w0, __one));
+            let #rk = -#fma(#w0 + #w0, #w, #squares);
         }
     }
 
     /// atan2(y, x).
     fn angle(&mut self, k: usize, y: &Operand<'g>, x: &Operand<'g>) -> TokenStream {
-        let (real, w, rk) = (self.scalar.real.clone(), named("w", k), named("wr", k));
+        let (fma, w, rk) = (self.scalar.fma.clone(), named("w", k), named("wr", k));
         let (x0, y0) = (self.first(x), self.first(y));
         let [xk, yk] = [x, y].map(|o| self.coefficient(o).unwrap_or(self.zero()));
         let reciprocal = self.reciprocal(k, &quote!((#x0 * #x0 + #y0 * #y0)));
@@ -263,7 +263,7 @@ impl<'a, 'g> Order<'a, 'g> {
         let known = self.lane(quote!(#w * __order), rk.clone());
         quote! {
             let #rk = #x_squares + #y_squares + ((#x0 + #x0) * #xk + (#y0 + #y0) * #yk);
-            let #w = #real::fma(__over, #forward - #back - #known, #yk * #x0 - #xk * #y0) * #reciprocal;
+            let #w = #fma(__over, #forward - #back - #known, #yk * #x0 - #xk * #y0) * #reciprocal;
         }
     }
 
@@ -282,20 +282,20 @@ struct Sum {
 
 impl Sum {
     /// A tree, since the sums of one order wait for one another: two products and a term at each leaf.
-    fn write(self, real: &TokenStream) -> Option<TokenStream> {
+    fn write(self, fma: &TokenStream) -> Option<TokenStream> {
         let mut terms = self.terms.into_iter();
         let mut leaves: Vec<TokenStream> = Vec::new();
         let mut products = self.products.into_iter();
         while let Some((a, b)) = products.next() {
             let inner = match products.next() {
                 Some((c, d)) => Some(match terms.next() {
-                    Some(term) => quote!(#real::fma(#c, #d, #term)),
+                    Some(term) => quote!(#fma(#c, #d, #term)),
                     None => quote!(#c * #d),
                 }),
                 None => terms.next(),
             };
             leaves.push(match inner {
-                Some(inner) => quote!(#real::fma(#a, #b, #inner)),
+                Some(inner) => quote!(#fma(#a, #b, #inner)),
                 None => quote!(#a * #b),
             });
         }

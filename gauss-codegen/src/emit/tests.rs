@@ -129,6 +129,7 @@ fn literals_read_back_as_what_they_are() {
     let scalar = |scalar: &'static Scalar| ScalarTokens {
         scalar,
         real: TokenStream::new(),
+        fma: TokenStream::new(),
         apart: TokenStream::new(),
         functions: &[],
     };

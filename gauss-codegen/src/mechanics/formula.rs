@@ -40,9 +40,63 @@ pub enum Method {
     /// π, and the generalised forces that are no part of Y π; only where the regressor is wanted.
     InertialParameters,
     OtherForces,
+    /// Of one frame that is asked for, by its number; of all of them, one after the other.
+    OfFrame(FrameQuantity, usize),
+    Frames,
+    /// Of all matter, by words of `methods(…)`: its mass and centre, momenta about that, and what they depend on.
+    TotalMass,
+    CenterOfMass,
+    CentroidalMomentum,
+    CentroidalMatrix,
+    CentroidalBias,
+    /// ∂C/∂ż at ż = 0; what holds weight and buoyancy.
+    NonlinearEffects,
+    GravityTorques,
+}
+
+/// What is asked of a frame. Components are in its own axes, the pole is its origin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum FrameQuantity {
+    /// b and R, row by row, in observer's axes.
+    Pose,
+    /// u and ω.
+    Twist,
+    /// ∂(u, ω)/∂z, row by row.
+    Jacobian,
+    /// The acceleration of the origin and ω̇ at ż = 0.
+    Bias,
+}
+
+impl FrameQuantity {
+    /// All of them, in their order.
+    pub const ALL: [Self; 4] = [Self::Pose, Self::Twist, Self::Jacobian, Self::Bias];
+
+    fn name(self) -> &'static str {
+        match self {
+            FrameQuantity::Pose => "pose_of",
+            FrameQuantity::Twist => "twist_of",
+            FrameQuantity::Jacobian => "jacobian_of",
+            FrameQuantity::Bias => "bias_of",
+        }
+    }
 }
 
 impl Method {
+    /// Those of [`System::centroidal_formulas`](crate::mechanics::System::centroidal_formulas).
+    pub const CENTROIDAL: [Self; 5] =
+        [Self::TotalMass, Self::CenterOfMass, Self::CentroidalMomentum, Self::CentroidalMatrix, Self::CentroidalBias];
+
+    /// What a kernel has on request, but single frames.
+    pub const ASKED_FOR: [Self; 7] = [
+        Self::Frames,
+        Self::CenterOfMass,
+        Self::CentroidalMomentum,
+        Self::CentroidalMatrix,
+        Self::CentroidalBias,
+        Self::NonlinearEffects,
+        Self::GravityTorques,
+    ];
+
     /// What callers want at once.
     pub const EVALUATED: [Self; 4] = [Self::Kinematics, Self::Acceleration, Self::KineticEnergy, Self::PotentialEnergy];
 
@@ -76,6 +130,15 @@ impl Method {
             Method::SuppliedPower => "supplied_power",
             Method::InertialParameters => "inertial_parameters",
             Method::OtherForces => "other_forces",
+            Method::OfFrame(quantity, _) => quantity.name(),
+            Method::Frames => "frames",
+            Method::TotalMass => "total_mass",
+            Method::CenterOfMass => "center_of_mass",
+            Method::CentroidalMomentum => "centroidal_momentum",
+            Method::CentroidalMatrix => "centroidal_matrix",
+            Method::CentroidalBias => "centroidal_bias",
+            Method::NonlinearEffects => "nonlinear_effects",
+            Method::GravityTorques => "gravity_torques",
         }
     }
 }

@@ -12,14 +12,16 @@
 //! - `derivatives`: what the equations are differentiated along; the regressor; rates of all numbers of a state.
 //! - `print`: the equations for people.
 //!
-//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several arrangements; `one_body` where it is the only one. `tidy` is what is multiplied out
-//! where that is short.
+//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several
+//! arrangements; `one_body` where it is the only one, `frames` what is asked of single links, `whole` of all together. `tidy`
+//! is what is multiplied out where that is short.
 
 mod arrangements;
 mod check;
 mod constraints;
 mod derivatives;
 mod formula;
+mod frames;
 mod kinematics;
 mod links;
 mod loads;
@@ -39,6 +41,7 @@ mod system;
 #[cfg(test)]
 pub mod tests;
 mod tidy;
+mod whole;
 
 pub use arrangements::balance::KineticMatrix;
 #[cfg(test)]
@@ -49,7 +52,7 @@ pub use constraints::elimination::{Elimination, Obstacle};
 pub use constraints::multipliers::Constraints;
 pub use derivatives::linearize::Linearization;
 pub use derivatives::regressor::{InertialParameters, Regressor};
-pub use formula::{Formula, Method};
+pub use formula::{Formula, FrameQuantity, Method};
 pub use kinematics::chart::ChartedBody;
 pub use kinematics::rotation::{about_axis, poisson, rotation_of_quaternion};
 pub use kinematics::turn::Turn;
@@ -62,7 +65,7 @@ pub use loads::fields::entrained;
 pub use loads::forces::{Action, Element, Force};
 pub use loads::observed::Observed;
 pub use matter::body::{Assigned, Body, BodyShape, ParameterSymbol};
-pub use print::equations::Page;
+pub use matter::rotor::Rotor;
 pub use print::names::Name;
 pub use scene::{Coordinate, Lettering, SystemScene};
 pub use system::System;

@@ -141,6 +141,11 @@ impl<'g> System<'g> {
         grouped(&self.scene.tree.mass_matrix())
     }
 
+    /// Forgets what is kept for later because several equations are made of it.
+    pub fn forget(&mut self) {
+        self.free.iter_mut().for_each(FreeLink::forget);
+    }
+
     /// The free link that is all of the system.
     pub fn only_body(&self) -> Option<&FreeLink<'g>> {
         match self.free.as_slice() {
@@ -380,7 +385,9 @@ impl<'g> System<'g> {
     /// speeds that no constraint mentions.
     pub(in crate::mechanics) fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
         let held = |speed: usize| self.constraints.jacobian.iter().any(|row| !row[speed].is_zero());
-        let held: Vec<bool> = (0..self.scene.speeds.len()).map(held).collect();
+        // What a rotor needs besides is no acceleration of the observer.
+        let geared = |speed: usize| self.scene.tree.rotors.iter().any(|r| !r.row(self.scene.speeds[speed]).is_zero());
+        let held: Vec<bool> = (0..self.scene.speeds.len()).map(|speed| held(speed) || geared(speed)).collect();
         let (rows, taken) = self.scene.tree.floating_residual(inertia, &self.loads, &held);
         [self.without_others(rows), taken]
     }
@@ -451,7 +458,7 @@ impl<'g> System<'g> {
             link.parent.is_none() && rows.into_iter().any(|(a, o)| !still(a) && !is_zero(o))
         };
         let relative = !self.scene.tree.links.iter().any(about_far_pole);
-        (few && relative).then(|| Elements::new(&self.scene.tree)).flatten()
+        (few && relative && self.scene.tree.rotors.is_empty()).then(|| Elements::new(&self.scene.tree)).flatten()
     }
 
     /// z from p = A z + p(z = 0).

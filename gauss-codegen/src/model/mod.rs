@@ -36,5 +36,5 @@ pub use scene::clauses::{
 };
 pub use scene::described::{Described, Remark};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
-pub use scene::model::{Field, Model, Scalar};
+pub use scene::model::{Field, Model, Scalar, WantedMethod};
 pub use scene::roles::{Role, Shape};

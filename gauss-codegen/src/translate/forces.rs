@@ -8,7 +8,7 @@ use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
-use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Tree, entrained};
+use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, entrained};
 use crate::model::{Coefficients, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Property};
 
 use super::drag::DragMatrix;
@@ -111,6 +111,9 @@ impl<'g> Translator<'_, 'g> {
                 let value = self.scalar(function, tree)?;
                 self.note(LawKind::Dissipation, (name, ""), function, vec![value]);
                 vec![Force::Dissipation(value)]
+            }
+            ForceKind::Friction { extent, viscous, dry, width } => {
+                vec![self.friction(name, extent, [viscous.as_ref(), dry.as_ref(), width.as_ref()], tree)?]
             }
             ForceKind::Spring { extent, stiffness, length, damping } => {
                 return self.spring(name, extent, stiffness, [length.as_ref(), damping.as_ref()], tree);
@@ -306,6 +309,38 @@ impl<'g> Translator<'_, 'g> {
 
     fn link(&self, name: &Ident) -> syn::Result<usize> {
         self.links.get(&name.unraw().to_string()).copied().ok_or_else(|| bug(name.span()))
+    }
+
+    /// Inertia of rates, of which note is taken.
+    pub(super) fn rotors(&self, tree: &Tree<'g>) -> syn::Result<Vec<Rotor<'g>>> {
+        let rotor = |(coordinate, inertia): &(Ident, Expression)| -> syn::Result<Rotor<'g>> {
+            let said = coordinate.unraw().to_string();
+            let inertia = self.constant(LawKind::NonNegative, ("armature", &said), inertia, tree)?;
+            Ok(Rotor { rate: self.rate_of_coordinate(coordinate)?, inertia })
+        };
+        self.model.armatures.iter().map(rotor).collect()
+    }
+
+    /// `−(d ẋ + f ẋ/√(ẋ² + w²))` along ẋ, of which the part with f is dry friction.
+    fn friction(
+        &self,
+        name: &str,
+        extent: &Extent,
+        [viscous, dry, width]: [Option<&Expression>; 3],
+        tree: &Tree<'g>,
+    ) -> syn::Result<Force<'g>> {
+        let rate = self.extent(extent, tree)?.0.derivative(&self.rates).group();
+        let mut force = self.graph.zero();
+        if let Some(viscous) = viscous {
+            force = force - self.constant(LawKind::Damping, (name, "viscous"), viscous, tree)? * rate;
+        }
+        if let (Some(dry), Some(width)) = (dry, width) {
+            let dry = self.constant(LawKind::NonNegative, (name, "dry"), dry, tree)?;
+            let width = self.constant(LawKind::Width, (name, "width"), width, tree)?;
+            let length = (rate.powi(2) + width.powi(2)).group().sqrt();
+            force = force - dry * rate * length.recip();
+        }
+        Ok(Force::OnRate { rate, force })
     }
 
     /// ψ of a scalar coordinate.

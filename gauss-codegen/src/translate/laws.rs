@@ -23,6 +23,8 @@ pub enum LawKind {
     Limits,
     /// A coefficient of a spring or a stop.
     Damping,
+    /// An armature, or the level of dry friction.
+    NonNegative,
     /// A whole dissipation function, of the state too.
     Dissipation,
     /// A gravitational parameter.

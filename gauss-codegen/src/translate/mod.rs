@@ -186,6 +186,12 @@ impl<'a, 'g> Translator<'a, 'g> {
         self.links_of_clauses.clone()
     }
 
+    /// The links of the frames that are asked for, in their order.
+    pub fn links_of_frames(&self) -> Vec<usize> {
+        let link = |name: &Ident| self.links.get(&name.unraw().to_string()).copied();
+        self.model.wanted.frames.iter().filter_map(link).collect()
+    }
+
     /// All speeds, as they are declared.
     pub fn speeds(&self) -> &[Expr<'g>] {
         &self.declared.speeds
@@ -245,6 +251,7 @@ impl<'a, 'g> Translator<'a, 'g> {
                 turns: Vec::new(),
             });
         }
+        tree.rotors = self.rotors(&tree)?;
         let elements = match (model.one_body(), self.chart.clone()) {
             (Some(_), Some(chart)) => self.elements_on(&chart)?,
             _ => self.elements(&tree)?,

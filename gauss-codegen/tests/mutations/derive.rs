@@ -6,10 +6,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use gauss_codegen::{expand, fallback, item};
-use proc_macro2::TokenStream;
-
 use super::corpus::Corpus;
+use super::fault::fault;
 
 /// Half of what the compiler has for a macro.
 const STACK: usize = 4 << 20;
@@ -56,20 +54,4 @@ fn computed(begun: Instant) -> Duration {
 fn say(line: &str) {
     let mut out = std::io::stdout().lock();
     writeln!(out, "\n{line}").and_then(|()| out.flush()).expect("somebody listens");
-}
-
-fn fault(tokens: TokenStream) -> Option<String> {
-    let input = item(tokens).ok()?;
-    let code = match expand(&input) {
-        Ok(code) => code,
-        Err(mistakes) => {
-            let blame =
-                mistakes.clone().into_iter().find(|mistake| mistake.to_string().contains("bug in gauss-derive"));
-            if let Some(blame) = blame {
-                return Some(blame.to_string().replace('\n', " "));
-            }
-            fallback(&input, &mistakes)
-        }
-    };
-    syn::parse2::<syn::File>(code).err().map(|error| format!("no Rust: {error}"))
 }

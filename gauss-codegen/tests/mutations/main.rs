@@ -7,6 +7,7 @@
 
 mod corpus;
 mod derive;
+mod fault;
 mod mutate;
 mod random;
 mod scenes;

@@ -15,7 +15,7 @@ pub struct Row {
 }
 
 /// Methods whose costs are pinned; what else `OPERATIONS` has serves checks.
-const PINNED: [&str; 12] = [
+const PINNED: [&str; 18] = [
     "acceleration",
     "momentum",
     "velocity",
@@ -28,6 +28,12 @@ const PINNED: [&str; 12] = [
     "linearize",
     "by_parameters",
     "regressor",
+    "frames",
+    "centroidal_momentum",
+    "centroidal_matrix",
+    "centroidal_bias",
+    "nonlinear_effects",
+    "gravity_torques",
 ];
 
 /// Of `kernel()`, which runs once.
@@ -189,7 +195,7 @@ impl Chain {
                 let cycles = cycles(&name);
                 let argument = |argument: &Expr, chain: &mut Self| match argument {
                     // The negation of a product is part of the instruction that adds it.
-                    Expr::Unary(unary) if name.ends_with("Real::fma") => chain.of(&unary.expr),
+                    Expr::Unary(unary) if function(&name) == Some("fma") => chain.of(&unary.expr),
                     other => chain.of(other),
                 };
                 cycles + call.args.iter().map(|a| argument(a, self)).max().unwrap_or(0)
@@ -210,9 +216,15 @@ impl Chain {
     }
 }
 
+/// The function of the scalar that is called by that path: one of its trait, or a product and a sum of a type that is known.
+fn function(path: &str) -> Option<&str> {
+    let known = || ["fma_f64", "fma_f32"].iter().any(|name| path.ends_with(name)).then_some("fma");
+    path.rsplit_once("Real::").map(|(_, function)| function).or_else(known)
+}
+
 /// Of a function of the scalar; all others only hand on.
 fn cycles(name: &str) -> u32 {
-    let Some((_, function)) = name.rsplit_once("Real::") else { return 0 };
+    let Some(function) = function(name) else { return 0 };
     match function {
         "fma" | "abs" | "signum" | "min" | "max" => 4,
         "sqrt" => 15,

@@ -179,6 +179,15 @@ fn chains() -> Vec<Scene> {
         ("structure top".into(), structures::top("")),
         ("structure arm".into(), structures::arm("")),
         ("structure arm linearize".into(), structures::arm(", linearize")),
+        (
+            "structure arm frames".into(),
+            structures::arm(", frames(b3, b6), methods(centroidal, nonlinear_effects, gravity_torques)"),
+        ),
+        (
+            "structure arm geared".into(),
+            structures::arm(", armature(q0 = 0.1, q1 = 0.1, q2 = 0.1, q3 = 0.1, q4 = 0.1)"),
+        ),
+        ("structure torpedo frames".into(), structures::torpedo(", frames(body)")),
         ("structure quadruped linearize".into(), structures::quadruped(", linearize, limit = 100000")),
     ];
     for n in [2, 3, 4, 5, 6, 8, 10, 14] {

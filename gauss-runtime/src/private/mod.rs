@@ -12,12 +12,14 @@ mod samples;
 mod warnings;
 
 pub use crate::accuracy::{Accuracy, Loss};
+pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
 pub use crate::configuration::Configuration;
 pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};
-pub use crate::description::{Described, Equations, OperationCount, Operations};
+pub use crate::description::{Described, Equations, FrameOperations, OperationCount, Operations};
 pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
+pub use crate::frames::{ByFrame, FrameMotion, FrameName, FramedSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 pub use crate::linearize::{Linearization, LinearizedSystem};
 pub use crate::real::Real;
@@ -27,12 +29,12 @@ pub use crate::table::{Cubic, Linear};
 pub use check::ParameterCheck;
 pub use containers::{components, entries, isometry2, isometry3, matrix, product, quaternion, vector};
 pub(crate) use eigenvalues::eigenvalues;
-pub use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, UnitQuaternion};
+pub use nalgebra::{Isometry2, Isometry3, IsometryMatrix3, SMatrix, SVector, UnitQuaternion};
 pub use one_body::{configuration_of_pose, determinacy_of_speeds, pose_from_rows, speeds_of_twist};
 pub use poses::{
-    chart_of_pose, free_pose, plane_chart_of_pose, plane_of_pose, pose_from_quaternion, pose_of_chart, pose_of_plane,
-    pose_of_plane_chart, pose_of_rotation, pose_of_rotation_chart, rotation_chart_of_pose, rotation_of_pose, unmoved,
-    unmoved_in_plane, unturned,
+    center_jacobian, chart_of_pose, frame_pose, free_pose, plane_chart_of_pose, plane_of_pose, pose_from_quaternion,
+    pose_of_chart, pose_of_plane, pose_of_plane_chart, pose_of_rotation, pose_of_rotation_chart,
+    rotation_chart_of_pose, rotation_of_pose, unmoved, unmoved_in_plane, unturned,
 };
 pub use samples::{sample_time, samples};
 pub use warnings::WarningCheck;
@@ -41,6 +43,18 @@ pub use warnings::WarningCheck;
 #[inline(never)]
 pub fn apart<R>(part: impl FnOnce() -> R) -> R {
     part()
+}
+
+/// [`Real::fma`] of a type that is known.
+#[inline(always)]
+pub fn fma_f64(a: f64, b: f64, c: f64) -> f64 {
+    Real::fma(a, b, c)
+}
+
+/// [`Real::fma`] of a type that is known.
+#[inline(always)]
+pub fn fma_f32(a: f32, b: f32, c: f32) -> f32 {
+    Real::fma(a, b, c)
 }
 
 #[cfg(test)]

@@ -1,13 +1,27 @@
 //! Poses of the body from configurations of every motion and chart, and configurations from poses.
 
-use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
+use nalgebra::{Isometry2, Isometry3, IsometryMatrix3, Rotation3, SMatrix, SVector, UnitQuaternion};
 
 use crate::chart::rotation::{coordinates_of_rotation, rotation_from_coordinates};
 use crate::chart::{ChartError, MotionRule, RotationChart};
 use crate::configuration::Configuration;
 use crate::lie::{se2, se3};
+use crate::private::containers::matrix;
 use crate::real::Real;
 use crate::triple::{quaternion, triple, unit_quaternion};
+
+/// The Jacobian of the centre of mass, from the centroidal momentum matrix.
+#[inline]
+pub fn center_jacobian<T: Real, const N: usize>(matrix: &SMatrix<T, 6, N>, mass: T) -> SMatrix<T, 3, N> {
+    SMatrix::from_fn(|i, k| matrix[(i, k)] / mass)
+}
+
+/// The pose of a frame, from b and the rows of R.
+#[inline(always)]
+pub fn frame_pose<T: Real>(position: [T; 3], rows: [[T; 3]; 3]) -> IsometryMatrix3<T> {
+    let rotation = Rotation3::from_matrix_unchecked(matrix(rows));
+    IsometryMatrix3 { rotation, translation: SVector::from(position).into() }
+}
 
 /// R = 1.
 #[inline]

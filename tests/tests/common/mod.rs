@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `dual` | a scalar that carries its derivative |
 //! | `body` | a derived kernel of any chart and scalar; its flow in dual numbers |
+//! | `groups` | configurations of several factors, random ones |
 //! | `parameters` | random bodies |
 //! | `states` | random poses and twists |
 //! | `scenes` | macros that stamp derived structs |
@@ -15,6 +16,7 @@
 pub mod agreement;
 pub mod body;
 pub mod dual;
+pub mod groups;
 pub mod parameters;
 #[macro_use]
 pub mod scenes;

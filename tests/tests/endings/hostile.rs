@@ -5,13 +5,16 @@ use proptest::test_runner::{Config, TestRunner};
 
 use gauss_runtime::adapters::FlatSystem;
 use gauss_runtime::batch::{Batch, States};
+use gauss_runtime::configuration::Configuration;
 use gauss_runtime::integrate::{
     Compensated, Composed, Composition, Control, EnergyMomentum, FreeFlow, Method, Rkmk, Scheme, Splitting, Variational,
 };
 use gauss_runtime::prelude::*;
 use gauss_tests::watchdog::within;
 
-use crate::scenes::{Angles, GenericTop, GenericTopKernel, Pendulum, PendulumKernel, Spring, Top, TopKernel, one};
+use crate::scenes::{
+    Angles, Bead, Driven, GenericTop, GenericTopKernel, Inclined, Pendulum, PendulumKernel, Spring, Top, TopKernel, one,
+};
 
 /// What numbers can be. Beside each other they make steps of which a run is refused, or has few: not the millions that somebody
 /// who asks for them gets.
@@ -96,6 +99,10 @@ fn judge<K: GaussSystem<Scalar = f64>>(
         }
     }
     assert!(path.table().energies_are_as_many_as(path.len()));
+}
+
+fn finite<C: Configuration>(part: &C) -> bool {
+    part.is_finite()
 }
 
 /// Rows of a table.
@@ -258,6 +265,50 @@ fn tuning_batches_and_adapters() {
             assert!((0..7).all(|i| states.get(i).1.iter().all(|x| x.is_finite())));
         }
         let _ = Batch::new(&kernel).accelerations(h, &states);
+    });
+    each("projections, conversions and derivatives", |n| {
+        let [t, x, y, u, v, h, a, ..] = n;
+        let (q, z) = (SVector::from([x, y]), SVector::from([u, v]));
+        // What `kernel()` accepts is no reason to hang either.
+        for a in [0.5, a] {
+            let Ok(bead) = (Bead { a }).kernel() else { continue };
+            match bead.project(t, &q, &z) {
+                Ok((q, z)) => {
+                    let (position, velocity) = (bead.position_residual(t, &q), bead.velocity_residual(t, &q, &z));
+                    // Half of the digits, of whatever size the coordinates are: rounding is all that may be left.
+                    let size = 1.0 + a.abs() + q.amax();
+                    assert!(finite(&q) && position.norm() <= 1e-8 * size, "{position} at {q}");
+                    let speed = (1.0 + a.abs()) * (1.0 + z.amax());
+                    assert!(finite(&z) && velocity.norm() <= 1e-8 * speed, "{velocity} at {q}, {z}");
+                }
+                Err(error) => assert!(!error.to_string().is_empty()),
+            }
+            let _ = bead.linearize(t, &q, &z, &one(v));
+        }
+        let driven = Driven { g: 9.81 }.kernel().expect("a pendulum");
+        match CommutatorFree4.step_linearized(&driven, t, &one(x), &one(u), &one(v), h) {
+            Ok(step) => assert!(finite(&step.q) && finite(&step.z), "{:?}", (step.q, step.z)),
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
+        let (top, inclined) = (top(), Inclined::toy().kernel().expect("a top"));
+        if let Ok((angles, rates)) = convert(&top, &UnitQuaternion::identity(), &Vector3::new(x, y, u), &inclined) {
+            assert!(finite(&angles) && finite(&rates));
+        }
+        let turned = convert(&inclined, &Vector3::new(x, y, u), &Vector3::new(v, h, a), &top);
+        if let Ok((attitude, spin)) = turned {
+            assert!(finite(&attitude) && finite(&spin));
+        }
+    });
+    each("tables", |n| {
+        let [q, z, start, end, a, b, c, ..] = n;
+        let kernel = pendulum();
+        let run = Simulation::new(&kernel).adaptive(1e-6, 1e-6).max_steps(2000);
+        let (path, _) = run.attempt(one(q), one(z), start..end);
+        if let Ok(samples) = path.at_times([a, b, c]) {
+            assert!(samples.iter().all(|sample| finite(&sample.q)));
+        }
+        let table = path.table();
+        assert!(table.to_string().lines().count() > path.len());
     });
     each("flat systems and balances", |n| {
         let [t, q, z, a, b, ..] = n;

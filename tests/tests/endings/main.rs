@@ -9,7 +9,7 @@ use gauss_runtime::integrate::{DEFAULT_LIMIT, Part, Summary};
 use gauss_runtime::prelude::*;
 use gauss_tests::watchdog::within;
 
-use scenes::{Angles, Inclined, Pendulum, Rodrigues, Slider, Spring, Top, one};
+use scenes::{Angles, Comet, Inclined, Moon, Pendulum, Rodrigues, Slider, Spring, Top, one};
 
 /// Seconds in which each of these runs ends, on a slow machine that does other things too.
 const SOON: u64 = 60;
@@ -192,6 +192,36 @@ fn what_overflows_is_an_error() {
     assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step }, "{error}");
     // e^(100 t) has a square that overflows when 200 t > 709.
     assert!((3.5..3.6).contains(&error.time), "{error}");
+}
+
+/// Attraction is infinite there: no run begins at a centre, or passes through it.
+#[test]
+fn at_a_centre_of_attraction_runs_end() {
+    within(SOON, "at the centre", || {
+        let comet = Comet { mu: 1.0 }.kernel().expect("a comet");
+        let run = Simulation::new(&comet);
+        let (centre, away, still) = (SVector::zeros(), SVector::from([1.0, 0.0]), SVector::zeros());
+        let moon = Moon { mass: 1.0, inertia: Vector3::new(1e-3, 1e-3, 1e-3), mu: 1.0 }.kernel().expect("a moon");
+        let body = Simulation::new(&moon);
+        let pose = |x: f64| Isometry3::translation(x, 0.0, 0.0);
+        for error in [
+            refusal(run.adaptive(1e-9, 1e-9).attempt(centre, still, 0.0..2.0)),
+            refusal(run.fixed_step(0.125).attempt(centre, still, 0.0..2.0)),
+            refusal(body.adaptive(1e-9, 1e-9).attempt(pose(0.0), SVector::zeros(), 0.0..2.0)),
+            refusal(body.fixed_step(0.125).attempt(pose(0.0), SVector::zeros(), 0.0..2.0)),
+        ] {
+            assert!(matches!(error.kind, IntegrationErrorKind::NonFinite { .. }), "{error}");
+            assert_eq!(error.time, 0.0, "{error}");
+        }
+        // From rest at a distance of 1 it is there after π/√8.
+        let met = std::f64::consts::PI / 8.0_f64.sqrt();
+        for error in [
+            refusal(run.adaptive(1e-9, 1e-9).attempt(away, still, 0.0..2.0)),
+            refusal(body.adaptive(1e-9, 1e-9).attempt(pose(1.0), SVector::zeros(), 0.0..2.0)),
+        ] {
+            assert!((error.time - met).abs() < 1e-2, "{error}");
+        }
+    });
 }
 
 #[test]

@@ -112,6 +112,52 @@ pub struct Pendulum {
     pub g: f64,
 }
 
+/// A unit mass on the floor, on a curve of the user's, drawn by a force.
+#[derive(GaussDynamics)]
+#[gauss(
+    linearize,
+    coordinates(x, y),
+    particle(mass = 1, position = [x, y, 0]),
+    constraint(position = y - a * sin(x)),
+    input(push),
+    drive(x = push),
+)]
+pub struct Bead {
+    pub a: f64,
+}
+
+/// A pendulum of length 1 and mass 1 that a motor drives.
+#[derive(GaussDynamics)]
+#[gauss(
+    linearize,
+    coordinates(angle),
+    particle(mass = 1, position = [sin(angle), 0, -cos(angle)]),
+    input(torque),
+    drive(angle = torque),
+)]
+pub struct Driven {
+    #[gauss(gravity)]
+    pub g: f64,
+}
+
+/// A body in the field of a point that it can meet, in coordinates and in a chart.
+#[derive(GaussDynamics)]
+#[gauss(coordinates(x, y), particle(mass = 1, position = [x, y, 0]), central_gravity(mu = mu))]
+pub struct Comet {
+    pub mu: f64,
+}
+
+/// The same with extent.
+#[derive(GaussDynamics)]
+#[gauss(chart = hybrid, central_gravity(mu = mu))]
+pub struct Moon {
+    #[gauss(mass)]
+    pub mass: f64,
+    #[gauss(inertia)]
+    pub inertia: Vector3<f64>,
+    pub mu: f64,
+}
+
 /// A unit mass that rubs on the floor and is pulled.
 #[derive(GaussDynamics)]
 #[gauss(

@@ -41,6 +41,8 @@ struct Pivot<'g> {
     speed: usize,
     row: Pair<'g>,
     response: Pair<'g>,
+    /// What rotors add to the pivot.
+    armature: Expr<'g>,
     inverse: Expr<'g>,
 }
 
@@ -56,13 +58,14 @@ impl<'a, 'g> Articulated<'a, 'g> {
     pub fn new(tree: &'a Tree<'g>) -> Option<Self> {
         let dry = |link: &Link<'g>| link.body().is_none_or(|body| body.added_mass.is_none());
         let joints = joint_speeds(tree).filter(|_| tree.links.iter().all(dry))?;
+        let armatures = armatures(tree, &joints)?;
         let mut inertias: Vec<ArticulatedInertia<'g>> =
             tree.links.iter().map(|link| ArticulatedInertia::of(&link.moments)).collect();
         let mut pivots: Vec<Vec<Pivot<'g>>> = tree.links.iter().map(|_| Vec::new()).collect();
         for k in (0..tree.links.len()).rev() {
             let link = &tree.links[k];
             for (speed, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.link == k) {
-                let pivot = Pivot::new(speed, joint.row, &inertias[k]);
+                let pivot = Pivot::new(speed, joint.row, &inertias[k], armatures[speed]);
                 inertias[k] = inertias[k].without(&pivot);
                 pivots[k].push(pivot);
             }
@@ -107,6 +110,9 @@ impl<'a, 'g> Articulated<'a, 'g> {
                 response = (linear.map(Expr::group), angular.map(Expr::group));
                 at = parent;
             }
+        }
+        for (k, (_, pivot)) in sequence.iter().enumerate() {
+            rest[k][k] = (rest[k][k] + pivot.armature).group();
         }
         let order = sequence.iter().map(|(_, pivot)| pivot.speed).collect();
         JointFactors { combinations: self.combinations(), factored: Factored::of_columns(order, rest) }
@@ -213,6 +219,20 @@ fn joint_speeds<'g>(tree: &Tree<'g>) -> Option<Vec<JointSpeed<'g>>> {
     (joints.len() == count && substituted(&combinations, &zeros).is_some()).then_some(joints)
 }
 
+/// What rotors add to the pivot of each joint, if each turns with a single one.
+fn armatures<'g>(tree: &Tree<'g>, joints: &[JointSpeed<'g>]) -> Option<Vec<Expr<'g>>> {
+    let mut armatures = vec![tree.graph.zero(); joints.len()];
+    for rotor in &tree.rotors {
+        let moved = |speed: &usize| !tree.row_of(rotor, *speed).is_zero();
+        let [speed] = (0..tree.speed_count()).filter(moved).collect::<Vec<_>>().try_into().ok()?;
+        let own = |joint: &JointSpeed<'g>| joint.combination == [(speed, Rational::one())];
+        let shared = joints.iter().filter(|joint| joint.combination.iter().any(|(k, _)| *k == speed)).count();
+        let joint = joints.iter().position(own).filter(|_| shared == 1)?;
+        armatures[joint] = armatures[joint] + rotor.inertia * tree.row_of(rotor, speed).powi(2);
+    }
+    Some(armatures)
+}
+
 /// The number c with a = c·b.
 fn ratio<'g>(a: &Pair<'g>, b: &Pair<'g>) -> Option<Rational> {
     let mut ratio = None;
@@ -261,10 +281,10 @@ fn moved<'g>(a: &Pair<'g>, factor: Expr<'g>, b: &Pair<'g>) -> Pair<'g> {
 }
 
 impl<'g> Pivot<'g> {
-    fn new(speed: usize, row: Pair<'g>, inertia: &ArticulatedInertia<'g>) -> Self {
+    fn new(speed: usize, row: Pair<'g>, inertia: &ArticulatedInertia<'g>, armature: Expr<'g>) -> Self {
         let response = inertia.apply(&row);
-        let inverse = pair(&row, &response).group().recip();
-        Self { speed, row, response, inverse }
+        let inverse = (pair(&row, &response) + armature).group().recip();
+        Self { speed, row, response, armature, inverse }
     }
 }
 

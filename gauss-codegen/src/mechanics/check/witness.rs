@@ -119,6 +119,14 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
                 *row = *row + moments.integral(&a, &field(partial, k));
             }
         }
+        // Rotors: ∫a_P·w_α dm of matter on lines of their own.
+        let tree = &self.system.scene.tree;
+        for rotor in &tree.rotors {
+            let (inertia, rate) = (self.values([&rotor.inertia])[0], self.along(&flow, &[rotor.rate])[0]);
+            for (row, partial) in rows.iter_mut().zip(self.partials(&[rotor.rate])) {
+                *row = *row + inertia * rate * partial[0];
+            }
+        }
         for (row, fluid) in rows.iter_mut().zip(self.fluid(&flow)) {
             *row = *row + fluid;
         }

@@ -71,7 +71,7 @@ impl<'g> System<'g> {
     /// ż and its derivatives along each of the directions, in the ways that are worth trying. None where the residual is not that of
     /// links alone.
     pub fn accelerations_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
-        if !self.constraints.is_empty() || self.only_body().is_some() {
+        if !self.constraints.is_empty() || self.only_body().is_some() || !self.rotors_are_plain() {
             return Vec::new();
         }
         let (tree, zero) = (&self.scene.tree, self.scene.graph.zero());
@@ -83,6 +83,18 @@ impl<'g> System<'g> {
         let inertias = tree.inertias(self.is_long()).iter();
         let ways = inertias.flat_map(|&inertia| factors.iter().map(move |factors| (inertia, factors)));
         ways.filter_map(|(inertia, factors)| self.by_recursion(inertia, factors, directions, &acting)).collect()
+    }
+
+    /// Rotors add a constant multiple of ż to the residual, and nothing to what is taken at once where links float.
+    fn rotors_are_plain(&self) -> bool {
+        let (tree, speeds) = (&self.scene.tree, &self.scene.speeds);
+        tree.rotors.iter().all(|rotor| {
+            let rows: Vec<Expr<'g>> = speeds.iter().map(|&z| rotor.row(z)).collect();
+            let floats = (0..rows.len()).any(|k| !rows[k].is_zero() && tree.takes(k));
+            !floats
+                && rows.iter().all(|row| row.as_number().is_some())
+                && rotor.rate.derivative(&self.scene.rates).is_zero()
+        })
     }
 
     fn by_recursion(

@@ -45,6 +45,11 @@ impl<'g> Floating<'g> {
         floating
     }
 
+    /// Whether it is one of its speeds.
+    pub fn takes(&self, speed: usize) -> bool {
+        self.along.iter().any(|(own, ..)| *own == speed)
+    }
+
     /// What is left of the acceleration of O; what speeds that are not held take of it goes to their rates.
     pub fn taken_from(
         &self,

@@ -1,6 +1,8 @@
 //! Bodies, frames and particles, each relative to its parent, and sums over them by recursion.
 
+pub mod centroidal;
 pub mod floating;
+pub mod frames;
 pub mod link;
 pub mod regroup;
 pub mod tree;

@@ -12,6 +12,7 @@ use crate::mechanics::links::regroup::regroup;
 use crate::mechanics::loads::forces::{Force, Loads};
 use crate::mechanics::matter::body::Body;
 use crate::mechanics::matter::moments::Moments;
+use crate::mechanics::matter::rotor::{Rotor, add_projected};
 
 /// A linear and an angular part at the pole O of each link: momenta, forces or accelerations.
 pub type Pairs<'g> = Vec<(Vector<'g>, Triple<'g>)>;
@@ -36,6 +37,8 @@ pub struct Tree<'g> {
     /// Acceleration of free fall, observer's axes.
     pub gravity: Option<Triple<'g>>,
     floating: Vec<Option<Floating<'g>>>,
+    /// Inertia of rates, beside that of the links.
+    pub rotors: Vec<Rotor<'g>>,
 }
 
 impl<'g> Tree<'g> {
@@ -54,7 +57,8 @@ impl<'g> Tree<'g> {
         let about_it = |turn: &Turn<'g>| turn.axis_and_angle().is_some_and(|(own, _)| Some(own) == axis);
         let dry = placements.iter().all(|p| !matches!(&p.matter, Matter::Body(body) if body.added_mass.is_some()));
         let planar = axis.filter(|_| chained && dry && turns.all(about_it));
-        let mut tree = Self { graph, links: Vec::new(), planar, speeds, rates, gravity, floating: Vec::new() };
+        let mut tree =
+            Self { graph, links: Vec::new(), planar, speeds, rates, gravity, floating: Vec::new(), rotors: Vec::new() };
         placements.into_iter().for_each(|placement| tree.hang(placement));
         tree
     }
@@ -91,8 +95,18 @@ impl<'g> Tree<'g> {
         0..self.speeds.len()
     }
 
+    /// ∂q̇/∂z^α of a rotor.
+    pub fn row_of(&self, rotor: &Rotor<'g>, speed: usize) -> Expr<'g> {
+        rotor.row(self.speeds[speed])
+    }
+
     pub fn speed(&self, k: usize) -> Expr<'g> {
         self.speeds[k]
+    }
+
+    /// Whether links that float take of their accelerations by this speed.
+    pub fn takes(&self, speed: usize) -> bool {
+        self.floating.iter().flatten().any(|floating| floating.takes(speed))
     }
 
     pub fn speed_count(&self) -> usize {
@@ -121,7 +135,7 @@ impl<'g> Tree<'g> {
     }
 
     /// Adds to every link what hangs on it, moved to its pole.
-    fn gathered(&self, mut pairs: Pairs<'g>) -> Pairs<'g> {
+    pub fn gathered(&self, mut pairs: Pairs<'g>) -> Pairs<'g> {
         for k in (0..self.links.len()).rev() {
             let Some(parent) = self.links[k].parent else { continue };
             let (linear, angular) = self.carried(k, &pairs[k].0.body, &pairs[k].1);
@@ -152,7 +166,8 @@ impl<'g> Tree<'g> {
 
     /// p_α = ∂T/∂z^α.
     pub fn momentum(&self) -> Vec<Expr<'g>> {
-        self.projected(&self.gathered(self.momenta()))
+        let momenta = self.projected(&self.gathered(self.momenta()));
+        add_projected(&self.rotors, &self.speeds, momenta, Rotor::momentum)
     }
 
     /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of the
@@ -191,6 +206,12 @@ impl<'g> Tree<'g> {
             }
         }
         self.add_carried_fluid(&mut matrix);
+        for rotor in &self.rotors {
+            let rows: Vec<Expr<'g>> = self.speeds.iter().map(|&z| rotor.row(z)).collect();
+            for (row, column) in (0..n).flat_map(|column| (0..=column).map(move |row| (row, column))) {
+                matrix[row][column] = matrix[row][column] + rotor.inertia * rows[row] * rows[column];
+            }
+        }
         for row in 0..n {
             for column in 0..row {
                 matrix[row][column] = matrix[column][row];
@@ -231,7 +252,7 @@ impl<'g> Tree<'g> {
     /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm`, the fluid's share and
     /// the loads, with ż by its rates in `along`.
     pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia, loads: &Loads<'g>) -> Vec<Expr<'g>> {
-        self.balance(along, inertia, loads, &self.accelerations(along, loads, None))
+        self.balance(along, inertia, loads, &self.accelerations(along, Some(loads), None))
     }
 
     /// The same at ż = ζ, seen by observers who move with the links that float, and ζ. Speeds of which `held` is true
@@ -249,7 +270,7 @@ impl<'g> Tree<'g> {
     /// `a_O − g` and ω̇ of every link at ż = ζ for these observers, and ζ.
     pub fn floating_accelerations(&self, loads: &Loads<'g>, held: &[bool]) -> (Pairs<'g>, Vec<Expr<'g>>) {
         let mut taken = vec![self.graph.zero(); self.speeds.len()];
-        (self.accelerations(&self.rates, loads, Some((held, &mut taken))), taken)
+        (self.accelerations(&self.rates, Some(loads), Some((held, &mut taken))), taken)
     }
 
     /// `a_O − g` and ω̇ of every link, and the forces of inertia of all that hangs on it, at its O.
@@ -259,7 +280,7 @@ impl<'g> Tree<'g> {
         inertia: Inertia,
         loads: &Loads<'g>,
     ) -> (Pairs<'g>, Pairs<'g>) {
-        let accelerations = self.accelerations(along, loads, None);
+        let accelerations = self.accelerations(along, Some(loads), None);
         let of_links = self.links.iter().zip(&accelerations);
         let forces = of_links.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
         let forces = self.gathered(forces);
@@ -281,7 +302,8 @@ impl<'g> Tree<'g> {
             *linear = linear.minus(&force).map(Expr::group);
             *angular = subtract(angular, &torque).map(Expr::group);
         }
-        self.projected(&self.gathered(pairs))
+        let rows = self.projected(&self.gathered(pairs));
+        add_projected(&self.rotors, &self.speeds, rows, |rotor| rotor.force(along))
     }
 
     /// `R·a_α + M_O·o_α` of what acts on links.
@@ -317,12 +339,17 @@ impl<'g> Tree<'g> {
         self.links[k].parent.map_or(k, |parent| self.root_of(parent))
     }
 
+    /// a_O and ω̇ of every link at ż = 0.
+    pub fn bias_accelerations(&self) -> Pairs<'g> {
+        self.accelerations(&self.rates, None, None)
+    }
+
     /// `a_O − g` and ω̇ of every link; a uniform field is an acceleration of the observer, and so is what links that
-    /// float have at ż = 0, unless the speed is held: it is written down.
+    /// float have at ż = 0, unless the speed is held: it is written down. Without loads there is no field.
     fn accelerations(
         &self,
         along: &Map<u32, Expr<'g>>,
-        loads: &Loads<'g>,
+        loads: Option<&Loads<'g>>,
         mut observers: Option<(&[bool], &mut [Expr<'g>])>,
     ) -> Pairs<'g> {
         let mut accelerations: Pairs<'g> = Vec::with_capacity(self.links.len());
@@ -332,7 +359,7 @@ impl<'g> Tree<'g> {
                 None => {
                     let omega = frame.body_vector(link.angular_velocity);
                     let a = frame.derivative(&link.velocity, along, &omega).map(Expr::group);
-                    let fields = self.gravity.into_iter().chain(loads.field_on(k));
+                    let fields = loads.into_iter().flat_map(|loads| self.gravity.into_iter().chain(loads.field_on(k)));
                     let a = fields.fold(a, |a, g| a.minus(&frame.space_vector(g)));
                     (a, link.angular_velocity.map(|e| e.derivative(along).group()))
                 }
@@ -453,6 +480,11 @@ impl<'g> Tree<'g> {
                 bracket[k] = bracket[k] + frame.dot(q, &a) + dot(gamma, &o) + turned;
             }
         }
+        for rotor in &self.rotors {
+            for (k, &speed) in self.speeds.iter().enumerate() {
+                bracket[k] = bracket[k] + rotor.momentum() * rotor.row(speed).derivative(&self.rates);
+            }
+        }
         bracket
     }
 
@@ -493,7 +525,8 @@ impl<'g> Tree<'g> {
         let links = self.links.iter().zip(self.momenta());
         let terms =
             links.map(|(link, (q, gamma))| link.frame.dot(&q, &link.velocity) + dot(&gamma, &link.angular_velocity));
-        terms.fold(self.graph.zero(), |sum, e| sum + e)
+        let links = terms.fold(self.graph.zero(), |sum, e| sum + e);
+        self.rotors.iter().fold(links, |sum, rotor| sum + rotor.momentum() * rotor.rate)
     }
 
     /// Of weight and buoyancy: `−ĝ·Σ∫x̂ dm`, the first moments gathered at the roots. All matter counts, also what keeps

@@ -6,7 +6,6 @@ use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::loads::forces::{Action, Force, Loads};
 use crate::mechanics::loads::wrench::Wrench;
-use crate::mechanics::scene::Lettering;
 use crate::mechanics::system::System;
 use crate::mechanics::tidy::sums;
 
@@ -37,12 +36,9 @@ fn sorted(mut accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {
 }
 
 impl<'g> System<'g> {
-    /// One account for each element, with weight and buoyancy first; of a body in a chart none where nothing else acts.
+    /// One account for each element, with weight and buoyancy first.
     pub fn accounts(&self) -> Vec<Account<'g>> {
         let scene = &self.scene;
-        if scene.lettering == Lettering::Textbook && scene.elements.is_empty() && !self.driven {
-            return Vec::new();
-        }
         let potential = |name: &str, potential: Expr<'g>| Account {
             name: name.to_owned(),
             conservative: true,

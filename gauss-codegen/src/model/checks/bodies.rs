@@ -11,10 +11,10 @@ use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
 /// Checks the clauses and the fields of bodies against one another; `scalar` is what proposed types are made of.
-pub fn check(statements: &Statements, reader: &Reader<'_>, scalar: &str, context: &mut Context) {
+pub fn check(statements: &Statements, reader: &Reader<'_>, frames: &[Ident], scalar: &str, context: &mut Context) {
     check_names(statements, scalar, context);
     check_fields(statements, reader, scalar, context);
-    check_references(statements, context);
+    check_references(statements, frames, context);
     check_cycles(&statements.bodies, context);
 }
 
@@ -138,8 +138,9 @@ fn find(bodies: &[BodyClause], name: &Ident) -> Option<usize> {
     bodies.iter().position(|body| body.word() == word(name))
 }
 
-/// Parents, the bodies that points are fixed in, and those that forces act on, are bodies and frames of the system.
-fn check_references(statements: &Statements, context: &mut Context) {
+/// Parents, the bodies that points are fixed in, those that forces act on, and `frames` whose motion is asked for, are
+/// bodies and frames of the system.
+fn check_references(statements: &Statements, frames: &[Ident], context: &mut Context) {
     if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;
     }
@@ -153,6 +154,7 @@ fn check_references(statements: &Statements, context: &mut Context) {
     }
     references.extend(statements.points.iter().map(|point| (&point.body, None, None)));
     references.extend(statements.formal.iter().flatten().map(|body| (body, None, None)));
+    references.extend(frames.iter().map(|frame| (frame, None, None)));
     for clause in &statements.forces {
         references.extend(clause.kind.body().map(|body| (body, None, None)));
         if let ForceKind::Torque { body, reaction: Some(reaction), .. } = &clause.kind {

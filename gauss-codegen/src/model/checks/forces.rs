@@ -10,9 +10,12 @@ use proc_macro2::Ident;
 
 /// What names and numbers alone show: which coordinates are driven, reactions, limits.
 pub fn check(statements: &Statements, context: &mut Context) {
+    check_drive(&statements.armatures, ["given an armature twice", ARMATURE], statements, context);
     for clause in &statements.forces {
         match &clause.kind {
-            ForceKind::Drive { rates } => check_drive(rates, statements, context),
+            ForceKind::Drive { rates } => {
+                check_drive(rates, ["driven twice in one clause", "a drive acts on rates"], statements, context)
+            }
             ForceKind::Torque { body, reaction: Some(reaction), .. } if same(body, reaction) => context.error(
                 reaction.span(),
                 format!("the torque on `{body}` and its reaction on `{body}` cancel; name another body"),
@@ -36,19 +39,31 @@ pub fn check(statements: &Statements, context: &mut Context) {
     }
 }
 
-/// Scalar coordinates, each of them once.
-fn check_drive(rates: &[(Ident, Expression)], statements: &Statements, context: &mut Context) {
+/// What an armature does, in words.
+const ARMATURE: &str = "an armature turns with the rates";
+
+/// Scalar coordinates, each of them once; what is done to them, and what does it, in words.
+fn check_drive(
+    rates: &[(Ident, Expression)],
+    [done, doing]: [&str; 2],
+    statements: &Statements,
+    context: &mut Context,
+) {
     let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
     let scalars: Vec<String> =
         coordinates().filter(|q| q.kind == CoordinateKind::Scalar).map(|q| word(&q.ident)).collect();
     let table: Vec<(&str, ())> = scalars.iter().map(|name| (name.as_str(), ())).collect();
     for (index, (name, _)) in rates.iter().enumerate() {
         if rates[..index].iter().any(|(earlier, _)| same(earlier, name)) {
-            context.error(name.span(), format!("`{name}` is driven twice in one clause; write the sum of the two"));
+            context.error(name.span(), format!("`{name}` is {done}; write the sum of the two"));
             continue;
         }
         match coordinates().find(|q| same(&q.ident, name)).map(|q| q.kind) {
             Some(CoordinateKind::Scalar) => {}
+            Some(_) if doing == ARMATURE => context.error(
+                name.span(),
+                format!("`{name}` is no scalar coordinate, and {doing} of those; give a body its inertia instead"),
+            ),
             Some(CoordinateKind::Rotation) => context.error(
                 name.span(),
                 format!(
@@ -75,10 +90,7 @@ fn check_drive(rates: &[(Ident, Expression)], statements: &Statements, context: 
                     None if table.is_empty() => "write `force(…)` or `torque(…)`".into(),
                     None => format!("expected {}", words::list(&table)),
                 };
-                context.error(
-                    name.span(),
-                    format!("`{name}` {problem}, and a drive acts on rates of scalar coordinates; {remedy}"),
-                );
+                context.error(name.span(), format!("`{name}` {problem}, and {doing} of scalar coordinates; {remedy}"));
             }
             None => {}
         }
@@ -102,7 +114,7 @@ pub fn check_effect(statements: &Statements, context: &mut Context) {
                 }
                 format!("neither `{body}` nor `{reaction}` moves, so the torque does nothing; remove it")
             }
-            ForceKind::Spring { extent, .. } | ForceKind::Stop { extent, .. } if !extent.varies(&moving) => {
+            ForceKind::Spring { extent, .. } | ForceKind::Stop { extent, .. } | ForceKind::Friction { extent, .. } if !extent.varies(&moving) => {
                 let noun = clause.noun();
                 match extent {
                     Extent::Between { .. } => {

@@ -58,6 +58,13 @@ const SPRING: Form = Form {
     example: "from = …, to = …, stiffness = k",
     argument: "an argument such as `stiffness = k`",
 };
+const FRICTION: Form = Form {
+    noun: "friction law",
+    word: "friction",
+    arguments: &[("from", ()), ("to", ()), ("along", ()), ("viscous", ()), ("dry", ()), ("width", ())],
+    example: "along = …, viscous = d",
+    argument: "an argument such as `viscous = d`",
+};
 const STOP: Form = Form {
     noun: "stop",
     word: "stop",
@@ -83,6 +90,7 @@ const ATTRACTION: Form = Form {
 };
 const IN_MEDIUM: Owner = Owner::Action { word: "medium", example: "an argument such as `velocity = [c, 0, 0]`" };
 const IN_DRIVE: Owner = Owner::Action { word: "drive", example: "a generalised force such as `theta = -k * theta`" };
+const IN_ARMATURE: Owner = Owner::Action { word: "armature", example: "an inertia such as `theta = 0.1`" };
 const MEDIUM: &Table<()> = &[("velocity", ())];
 const AXES: &Table<ForceAxes> = &[("body", ForceAxes::Body), ("observer", ForceAxes::Observer)];
 
@@ -362,6 +370,39 @@ pub fn read_stop(clause: &Clause, context: &mut Context) -> Option<ForceClause> 
     let empty = least.is_none() && most.is_none();
     let kind = ForceKind::Stop { extent: extent?, least, most, stiffness: stiffness?, width: width?, damping };
     (!empty).then(|| element.clause(kind))
+}
+
+/// `friction(…)`; `None` if something is missing or wrong, which is noted.
+pub fn read_friction(clause: &Clause, context: &mut Context) -> Option<ForceClause> {
+    let element = Element::read(clause, &FRICTION, context)?;
+    let extent = element.extent(context);
+    let viscous = element.expression("viscous", "d", context);
+    let dry = element.expression("dry", "f", context);
+    let width = element.expression("width", "w", context);
+    element.require_one("viscous", "dry", "a coefficient; add `viscous = …`, `dry = …` with `width = …`", context);
+    if element.find("dry").is_some() {
+        element.require("width", "the speed over which the dry part sets in smoothly", "w", context);
+    } else if let Some(width) = element.find("width") {
+        context.error(width.name.span(), "the width is that of dry friction; add `dry = …`, or remove `width`");
+        return None;
+    }
+    let viscous = optional(element.find("viscous"), viscous)?;
+    let dry = optional(element.find("dry"), dry)?;
+    let width = optional(element.find("width"), width)?;
+    let whole = dry.is_some() == width.is_some() && (viscous.is_some() || dry.is_some());
+    let extent = extent?;
+    whole.then(|| element.clause(ForceKind::Friction { extent, viscous, dry, width }))
+}
+
+/// `armature(elbow = a, wrist = b)`: coordinates with the inertia of their rates. What is wrong is noted.
+pub fn read_armature(clause: &Clause, context: &mut Context) -> Vec<(Ident, Expression)> {
+    let Some(group) = brackets(clause, "theta = …", context) else { return Vec::new() };
+    let (arguments, _) = arguments::arguments(group, IN_ARMATURE, context);
+    let read = |argument: &Clause, context: &mut Context| match argument.value {
+        Content::Malformed => None,
+        _ => Some((argument.name.clone(), value(argument, "a", context)?)),
+    };
+    arguments.iter().filter_map(|argument| read(argument, context)).collect()
 }
 
 /// `central_gravity(…)`; `None` if something is missing or wrong, which is noted.

@@ -8,6 +8,7 @@ use super::placements;
 use super::words::{self, Table};
 use crate::model::scene::clauses::{Coordinate, CoordinateKind, InputKind, InputName, Speed, SpeedKind, SpeedPart};
 use crate::model::scene::expression::Expression;
+use crate::model::scene::model::WantedMethod;
 use proc_macro2::{Ident, Span, TokenTree};
 
 /// What a clause declares, in brackets.
@@ -86,6 +87,44 @@ pub fn read_independent(clause: &Clause, context: &mut Context) -> Names<SpeedPa
     let language =
         Language { noun: "speed", example: "v, omega", kinds: &[], scalar: None, units: false, component: Some(Some) };
     read_names(clause, &language, |ident, component, _| SpeedPart { ident, component }, context)
+}
+
+const METHODS: &Table<WantedMethod> = &[
+    ("centroidal", WantedMethod::Centroidal),
+    ("nonlinear_effects", WantedMethod::NonlinearEffects),
+    ("gravity_torques", WantedMethod::GravityTorques),
+];
+
+/// `methods(centroidal, gravity_torques)`: words, each once.
+pub fn read_methods(clause: &Clause, context: &mut Context) -> Vec<WantedMethod> {
+    let language =
+        Language { noun: "method", example: "centroidal", kinds: &[], scalar: (), units: false, component: None };
+    let names = read_names(clause, &language, |ident, (), _| ident, context);
+    let mut methods = Vec::new();
+    for name in names.names {
+        let Ok(method) = words::resolve("method", &name, METHODS, context) else { continue };
+        if methods.contains(&method) {
+            context.error(name.span(), format!("`{name}` is named twice; keep one of the two"));
+        } else {
+            methods.push(method);
+        }
+    }
+    methods
+}
+
+/// `frames(tool, left_foot)`: names of bodies and frames, each once.
+pub fn read_frames(clause: &Clause, context: &mut Context) -> Vec<Ident> {
+    let language = Language { noun: "frame", example: "tool", kinds: &[], scalar: (), units: false, component: None };
+    let names = read_names(clause, &language, |ident, (), _| ident, context);
+    let mut frames: Vec<Ident> = Vec::new();
+    for name in names.names {
+        if frames.iter().any(|earlier| words::same(earlier, &name)) {
+            context.error(name.span(), format!("`{name}` is named twice; keep one of the two"));
+        } else {
+            frames.push(name);
+        }
+    }
+    frames
 }
 
 /// `input(thrust = "N", wind: Vector3 = "m/s", gust: Wrench)`.

@@ -40,6 +40,8 @@ pub struct Statements {
     pub potential: Option<(Ident, Option<Expression>)>,
     pub inputs: Option<Names<InputName>>,
     pub forces: Vec<ForceClause>,
+    /// Coordinates with the inertia of their rates.
+    pub armatures: Vec<(Ident, Expression)>,
     pub definitions: Vec<Definition>,
     pub attractions: Vec<Attraction>,
     pub medium: Option<(Ident, Option<Expression>)>,
@@ -78,6 +80,8 @@ pub enum Statement {
     Wrench,
     Stop,
     Drag,
+    Friction,
+    Armature,
     Define,
     Medium,
     CentralGravity,
@@ -106,6 +110,8 @@ pub const STATEMENTS: &Table<Statement> = &[
     ("spring", Statement::Spring),
     ("stop", Statement::Stop),
     ("drag", Statement::Drag),
+    ("friction", Statement::Friction),
+    ("armature", Statement::Armature),
     ("damping", Statement::Damping),
     ("medium", Statement::Medium),
     ("central_gravity", Statement::CentralGravity),
@@ -302,6 +308,13 @@ impl Statements {
             Statement::Drive => self.forces.extend(actions::read_drive(clause, context)),
             Statement::Spring => self.forces.extend(actions::read_spring(clause, context)),
             Statement::Stop => self.forces.extend(actions::read_stop(clause, context)),
+            Statement::Friction => self.forces.extend(actions::read_friction(clause, context)),
+            Statement::Armature if in_chart && !self.has_coordinates => context.error(
+                clause.name.span(),
+                "an armature turns with a named coordinate, and those of a chart have no names; write \
+                 `coordinates(…)` of what else moves",
+            ),
+            Statement::Armature => self.armatures.extend(actions::read_armature(clause, context)),
             Statement::Drag => self.forces.extend(actions::read_drag(clause, in_chart, context)),
             Statement::Medium => {
                 let velocity = actions::read_medium(clause, context);

@@ -2,11 +2,12 @@
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
 //! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `regressor` alone;
-//! `linearize` alone or as `linearize(parameters)`.
+//! `linearize` alone or as `linearize(parameters)`; `frames(name, …)`; `methods(word, …)`.
 
 use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};
 use super::context::Context;
+use super::declarations;
 use super::given;
 use super::robots::{self, FILES, RobotClauses};
 use super::role_words::ROLES;
@@ -42,6 +43,8 @@ pub const CLAUSES: &Table<Topic> = &[
     ("taylor", Topic::Taylor),
     ("linearize", Topic::Linearize),
     ("regressor", Topic::Regressor),
+    ("frames", Topic::Frames),
+    ("methods", Topic::Methods),
 ];
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -52,6 +55,8 @@ pub enum Topic {
     Taylor,
     Linearize,
     Regressor,
+    Frames,
+    Methods,
 }
 
 /// `None` stands for `jet`, which needs to know the motion.
@@ -96,7 +101,9 @@ enum Written {
 /// clause and no field, as with `has_body`, says what moves.
 pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> Clauses {
     let clauses = attributes::clauses(attributes, Owner::Struct, context);
-    let meant = |clause: &Clause| statements::meant(&clause.word());
+    // A clause of its own is no misspelling of another: `frames` is not `frame`.
+    let own_word = |word: &str| CLAUSES.iter().any(|(name, _)| *name == word);
+    let meant = |clause: &Clause| statements::meant(&clause.word()).filter(|_| !own_word(&clause.word()));
     let beside_file = clauses.iter().any(|clause| FILES.iter().any(|(file, _)| *file == clause.word()));
     let own = beside_file || clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
     let of_chart = clauses.iter().find(|clause| ["chart", "motion"].contains(&clause.word().as_str()));
@@ -180,6 +187,8 @@ impl Topics {
                 self.wanted.regressor.get_or_insert(clause.name.clone());
                 check_alone(clause, context);
             }
+            Topic::Frames => self.wanted.frames.extend(declarations::read_frames(clause, context)),
+            Topic::Methods => self.wanted.methods.extend(declarations::read_methods(clause, context)),
         }
     }
 }
@@ -213,7 +222,7 @@ fn refuse(clause: &Clause, word: &str, own: bool, beside_file: bool, context: &m
         format!("unknown clause `{word}`; did you mean `{name}`?")
     } else if own {
         format!(
-            "unknown clause `{word}`; expected {}, `crate`, `taylor`, `linearize` or `regressor`",
+            "unknown clause `{word}`; expected {}, `crate`, `taylor`, `linearize`, `regressor`, `frames` or `methods`",
             words::list(STATEMENTS).replace(" or ", ", ")
         )
     } else {

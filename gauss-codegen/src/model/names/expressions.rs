@@ -37,6 +37,8 @@ pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {
         all.push((Place::Constant { word: "gravitational parameter", noun: "central gravity" }, &clause.mu));
         all.extend(clause.center.as_ref().map(|center| (Place::Center, center)));
     }
+    let armature = Place::Constant { word: "inertia", noun: "an armature" };
+    all.extend(statements.armatures.iter().map(|(_, inertia)| (armature, inertia)));
     for clause in &statements.forces {
         let on = clause.kind.body();
         for (place, expression) in clause.expressions() {
@@ -82,6 +84,7 @@ impl Statements {
             change(&mut clause.mu);
             clause.center.iter_mut().for_each(&mut *change);
         }
+        self.armatures.iter_mut().for_each(|(_, inertia)| change(inertia));
         self.forces.iter_mut().for_each(|clause| clause.kind.each_expression(change));
     }
 
@@ -153,6 +156,11 @@ impl ForceClause {
                 ];
                 extended("a stop", extent, &constants)
             }
+            ForceKind::Friction { extent, viscous, dry, width } => {
+                let constants =
+                    [("viscous part", viscous.as_ref()), ("dry part", dry.as_ref()), ("width", width.as_ref())];
+                extended("friction", extent, &constants)
+            }
             ForceKind::Drag { linear, quadratic, .. } => {
                 let entries = linear.iter().chain(quadratic).flat_map(Coefficients::entries);
                 entries.map(|entry| (Place::Coefficient, entry)).collect()
@@ -174,6 +182,7 @@ impl ForceKind {
             | ForceKind::Drive { .. }
             | ForceKind::Spring { .. }
             | ForceKind::Stop { .. }
+            | ForceKind::Friction { .. }
             | ForceKind::Dissipation(_) => None,
         }
     }
@@ -193,6 +202,10 @@ impl ForceKind {
             ForceKind::Stop { extent, least, most, stiffness, width, damping } => {
                 extent.each_expression(change);
                 [stiffness, width].into_iter().chain(least).chain(most).chain(damping).for_each(change);
+            }
+            ForceKind::Friction { extent, viscous, dry, width } => {
+                extent.each_expression(change);
+                viscous.iter_mut().chain(dry).chain(width).for_each(change);
             }
             ForceKind::Drag { linear, quadratic, .. } => {
                 linear.iter_mut().chain(quadratic).for_each(|coefficients| coefficients.each_expression(change));

@@ -107,7 +107,7 @@ mod tests {
     fn quarters_of_a_turn_are_exact() {
         let rotation = Rotation::from_angles([-FRAC_PI_2, 2.2e-16, std::f64::consts::PI]);
         assert_eq!(rotation.matrix, [[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]]);
-        assert_eq!(settled(1.5708), 1.5708);
+        assert_eq!(settled(1.571), 1.571);
     }
 
     #[test]

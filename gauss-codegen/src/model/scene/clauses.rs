@@ -299,6 +299,18 @@ pub enum ForceKind {
         /// Force by rate of the extent while beyond a limit; `None`: zero.
         damping: Option<Expression>,
     },
+    /// `friction(along = …, viscous = …, dry = …, width = …)` or `friction(from = …, to = …, …)`. Every constant is a scalar of
+    /// fields and numbers.
+    Friction {
+        /// What moves.
+        extent: Extent,
+        /// Force by rate of the extent; `None` only if there is a dry part.
+        viscous: Option<Expression>,
+        /// The force far beyond the width; `None` only if there is a viscous part.
+        dry: Option<Expression>,
+        /// The rate of the extent at which the dry part is 0.7 of its force; with that part alone.
+        width: Option<Expression>,
+    },
     /// `drag(body = …, linear = …, quadratic = …)`: against the velocity relative to the medium, pole O, body axes.
     Drag {
         /// The body or frame that it acts on.
@@ -384,6 +396,7 @@ impl ForceClause {
             ForceKind::Drive { .. } => "drive",
             ForceKind::Spring { .. } => "spring",
             ForceKind::Stop { .. } => "stop",
+            ForceKind::Friction { .. } => "friction",
             ForceKind::Drag { .. } => "drag",
             ForceKind::Dissipation(_) => "dissipation function",
         }

@@ -64,6 +64,8 @@ pub struct Model {
     pub attractions: Vec<Attraction>,
     /// What acts besides gravity and the potential, in the order in which it is written.
     pub forces: Vec<ForceClause>,
+    /// Inertia of the rates of scalar coordinates: a scalar of fields and numbers for each.
+    pub armatures: Vec<(Ident, Expression)>,
     /// Functions of one number that the user gives.
     pub functions: Vec<FunctionClause>,
     /// Bodies whose principal moments need not obey the triangle inequality; `None`: all of them.
@@ -149,6 +151,21 @@ pub struct Wanted {
     pub by_parameters: bool,
     /// `regressor`, where it is written: the coefficients of the inertial parameters.
     pub regressor: Option<Ident>,
+    /// `frames(…)`: bodies and frames whose poses and velocities are methods, by their names, each once.
+    pub frames: Vec<Ident>,
+    /// `methods(…)`: what is asked of the system as a whole, each once.
+    pub methods: Vec<WantedMethod>,
+}
+
+/// A method, or several that belong together, that a kernel has on request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WantedMethod {
+    /// Momenta about the centre of mass.
+    Centroidal,
+    /// Inverse dynamics at ż = 0.
+    NonlinearEffects,
+    /// What holds weight and buoyancy.
+    GravityTorques,
 }
 
 /// The number type that kernels compute with.

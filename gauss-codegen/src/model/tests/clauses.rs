@@ -187,7 +187,7 @@ fn struct_clauses() {
         "#[gauss(foo = 1)]",
         &[(
             "foo",
-            "unknown clause `foo`; expected `chart`, `motion`, `crate`, `taylor`, `linearize` or `regressor`, or what acts, such as `force(…)`",
+            "unknown clause `foo`; expected `chart`, `motion`, `crate`, `taylor`, `linearize`, `regressor`, `frames` or `methods`, or what acts, such as `force(…)`",
         )],
     );
     check_body("#[gauss(hybrid)]", &[("hybrid", "`hybrid` is a chart; write `chart = hybrid`")]);

@@ -57,7 +57,7 @@ fn several_at_once() {
             ("planer", "unknown motion `planer`; did you mean `planar`?"),
             (
                 "bogus",
-                "unknown clause `bogus`; expected `chart`, `motion`, `crate`, `taylor`, `linearize` or `regressor`, or what acts, such as `force(…)`",
+                "unknown clause `bogus`; expected `chart`, `motion`, `crate`, `taylor`, `linearize`, `regressor`, `frames` or `methods`, or what acts, such as `force(…)`",
             ),
             ("mas", "unknown role `mas`; did you mean `mass`?"),
             ("Matrix6<f64>", &format!("`inertia` cannot be a `Matrix6`; {INERTIA}")),

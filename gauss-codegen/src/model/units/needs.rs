@@ -113,6 +113,9 @@ impl Checker<'_> {
         if let Some((_, velocity)) = &statements.medium {
             self.optional(velocity, &Need::new("the velocity of the medium is", VELOCITY));
         }
+        for (_, inertia) in &statements.armatures {
+            self.value(inertia);
+        }
         for clause in &statements.attractions {
             self.require(&clause.mu, &Need::new("a gravitational parameter is", GRAVITATION));
             self.optional(&clause.center, &Need::new("a center of gravity is", LENGTH));
@@ -155,6 +158,20 @@ impl Checker<'_> {
                 self.constant(Some(stiffness), "stiffness", constants.as_ref(), 0);
                 self.constant(Some(width), "width", constants.as_ref(), 1);
                 self.constant(damping.as_ref(), "damping", constants.as_ref(), 2);
+            }
+            ForceKind::Friction { extent, viscous, dry, width } => {
+                let constants = self.extent("friction", extent);
+                self.constant(viscous.as_ref(), "viscous part", constants.as_ref(), 2);
+                // Units of the force, and of the rate.
+                let derived = |pair: [usize; 2], combine: fn(Dimension, Dimension) -> Option<Dimension>| {
+                    let (noun, units) = constants.as_ref()?;
+                    let dimension = combine(units[pair[0]].1, units[pair[1]].1)?;
+                    let unit = (dimension.to_string(), dimension);
+                    Some((noun.clone(), [unit.clone(), unit.clone(), unit]))
+                };
+                self.constant(dry.as_ref(), "dry part", derived([0, 1], Dimension::times).as_ref(), 0);
+                let rate = |extent: Dimension, _| extent.over(Dimension::TIME);
+                self.constant(width.as_ref(), "width", derived([1, 1], rate).as_ref(), 0);
             }
             ForceKind::Drag { linear, quadratic, .. } => {
                 let both = [("linear", linear), ("quadratic", quadratic)];

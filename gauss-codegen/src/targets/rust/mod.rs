@@ -23,6 +23,11 @@ pub(crate) trait Dialect<S> {
     fn number(&self, value: &Rational) -> TokenStream;
     /// Where functions of numbers are: `sin_cos`, `fma` and so on are looked for in it.
     fn functions(&self) -> TokenStream;
+    /// The function of a product and a sum.
+    fn fma(&self) -> TokenStream {
+        let functions = self.functions();
+        quote!(#functions::fma)
+    }
     /// A function of the user's own, or a derivative of it.
     fn own_function(&self, own: OwnFunction) -> TokenStream;
     /// What calls a closure as a function of its own, which the compiler keeps apart; nothing: programs stay whole.
@@ -101,7 +106,7 @@ fn statement<S: Copy>(
     [sine_read, cosine_read]: [bool; 2],
     dialect: &impl Dialect<S>,
 ) -> TokenStream {
-    let real = dialect.functions();
+    let (real, fma) = (dialect.functions(), dialect.fma());
     let write = |o: &Operand<S>| operand(o, dialect);
     let name = value(k);
     match instruction {
@@ -111,11 +116,11 @@ fn statement<S: Copy>(
         Instruction::Divide(a, b) => binary(&name, &write(a), &quote!(/), &write(b)),
         Instruction::MultiplyAdd(a, b, c) => {
             let (a, b, c) = (write(a), write(b), write(c));
-            quote!(let #name = #real::fma(#a, #b, #c);)
+            quote!(let #name = #fma(#a, #b, #c);)
         }
         Instruction::MultiplySubtract(a, b, c) => {
             let (a, b, c) = (write(a), write(b), write(c));
-            quote!(let #name = #real::fma(-#a, #b, #c);)
+            quote!(let #name = #fma(-#a, #b, #c);)
         }
         Instruction::Negate(a) => {
             let a = write(a);

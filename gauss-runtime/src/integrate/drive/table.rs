@@ -7,6 +7,7 @@ use alloc::vec::Vec;
 use alloc::{format, vec};
 
 use crate::configuration::{Configuration, VectorSpace};
+use crate::description::Described;
 use crate::forces::ForcedSystem;
 use crate::integrate::drive::trajectory::Trajectory;
 use crate::integrate::problem::error::IntegrationError;
@@ -99,12 +100,21 @@ impl<S: GaussSystem> Table<S> {
         self.with(names.map(String::from).to_vec(), |sample, put| function(sample).into_iter().for_each(put))
     }
 
-    /// The numbers that the state consists of: components of the configuration `q1`, `q2`, … (of a rotation the quaternion x, y, z,
-    /// w, then of a pose the place), and the quasi-velocities `z1`, `z2`, ….
+    /// The numbers that the state consists of, under the names of coordinates and speeds. Of a rotation they are those of its
+    /// quaternion (`turn_i`, `turn_j`, `turn_k`, `turn_w`), of a pose also the place (`craft_x`, `craft_y`, `craft_z`), in the
+    /// plane `pose_cos`, `pose_sin`, `pose_x`, `pose_y`. A system that has [no names](Described::COORDINATE_NAMES), as one written
+    /// by hand, has `q1`, `q2`, … and `z1`, `z2`, ….
     #[must_use]
-    pub fn state(self) -> Self {
+    pub fn state(self) -> Self
+    where
+        S: Described,
+    {
         let of_q = <<S::Configuration as Configuration>::Components as VectorSpace<S::Scalar>>::DIM;
-        let names = (1..=of_q).map(|i| format!("q{i}")).chain((1..=S::Speeds::DIM).map(|i| format!("z{i}")));
+        let named = |known: &'static [&'static str], letter: &'static str, count: usize| {
+            let name = move |i: usize| known.get(i).map_or_else(|| format!("{letter}{}", i + 1), |&name| name.into());
+            (0..count).map(name)
+        };
+        let names = named(S::COORDINATE_NAMES, "q", of_q).chain(named(S::SPEED_NAMES, "z", S::Speeds::DIM));
         self.with(names.collect(), |sample, put| {
             let components = sample.q.components();
             (0..of_q).for_each(|i| put(components.component(i)));
@@ -202,6 +212,8 @@ mod tests {
     use crate::testing::oscillator::{Oscillator, Viscous};
 
     type One = SVector<f64, 1>;
+
+    impl Described for Oscillator<Viscous> {}
 
     #[test]
     fn columns_have_names_and_csv_reads_back() {

@@ -131,7 +131,9 @@ fn own_kinematics<'g>(scene: &SystemScene<'g>, k: usize) -> Option<(Vec<usize>, 
     // What moves a frame moves the matter that hangs on it.
     let with_ancestors = |other: usize| std::iter::successors(Some(other), |&at| links[at].parent);
     let mut moving = (0..links.len()).filter(heavy).flat_map(with_ancestors);
-    if block.is_empty() || moving.any(|at| block.iter().any(|&z| links[at].is_moved_by(z))) {
+    let geared = |&z: &usize| scene.tree.rotors.iter().any(|rotor| !rotor.row(scene.speeds[z]).is_zero());
+    let others_too = moving.any(|at| block.iter().any(|&z| links[at].is_moved_by(z)));
+    if block.is_empty() || block.iter().any(geared) || others_too {
         return None;
     }
     let at_rest: Map<u32, Expr<'g>> = scene.speeds.iter().map(|z| (z.key(), scene.graph.zero())).collect();
@@ -224,6 +226,11 @@ impl<'g> FreeLink<'g> {
     /// Whether the speeds are components of the twist about O, in body or in observer's axes.
     pub fn has_constant_rows(&self) -> bool {
         self.linear_rows.iter().chain(&self.angular_rows).flatten().all(|e| e.as_number().is_some())
+    }
+
+    /// Forgets what was formed.
+    pub fn forget(&mut self) {
+        self.formed = Formed::default();
     }
 
     /// The balance in all the ways that are worth trying.

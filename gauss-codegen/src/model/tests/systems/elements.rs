@@ -66,6 +66,64 @@ fn accepted() {
 }
 
 #[test]
+fn friction_and_armatures() {
+    let model = system(&boat(
+        "friction(hinge, along = theta, viscous = k, dry = 2 * l, width = 0.1), \
+         friction(from = top, to = quay.position, dry = 1, width = k), friction(along = theta, viscous = 1), \
+         armature(theta = 2 * k)",
+    ));
+    assert_eq!(
+        model.forces.iter().map(shown).collect::<Vec<_>>(),
+        [
+            "friction hinge: along theta: k (Multiply 2 l) 1/10",
+            "friction -: top to quay.Position: - 1 k",
+            "friction -: along theta: 1 - -"
+        ]
+    );
+    let armatures: Vec<_> = model.armatures.iter().map(|(q, a)| (q.to_string(), show(a))).collect();
+    assert_eq!(armatures, [("theta".into(), "(Multiply 2 k)".into())]);
+    mistakes(
+        "friction(along = theta), friction(viscous = k), friction(along = theta, dry = k), \
+         friction(along = theta, viscous = k, width = l), friction(along = c, viscous = v, dry = top, width = k), \
+         armature(theta = k, theta = 1), armature(pose = k), armature(thta = k), armature(theta = v), armature(v = k)",
+        &[
+            ("friction", "a friction law needs a coefficient; add `viscous = …`, `dry = …` with `width = …` or both"),
+            (
+                "friction",
+                "a friction law needs what it acts along; add `from = …` and `to = …`, two points, or `along = …`, a scalar",
+            ),
+            ("friction", "a friction law needs the speed over which the dry part sets in smoothly; add `width = w`"),
+            ("width", "the width is that of dry friction; add `dry = …`, or remove `width`"),
+            ("v", "`v` varies, and the inertia of an armature is constant; write numbers and fields only"),
+            (
+                "c",
+                "what friction acts along is a scalar, found a vector; write one number such as an angle, or `from = …` \
+                 and `to = …` for the distance of two points",
+            ),
+            ("v", "`v` varies, and the viscous part of friction is constant; write numbers and fields only"),
+            ("top", "`top` varies, and the dry part of friction is constant; write numbers and fields only"),
+            ("theta", "`theta` is given an armature twice; write the sum of the two"),
+            (
+                "pose",
+                "`pose` is no scalar coordinate, and an armature turns with the rates of those; give a body its inertia \
+                 instead",
+            ),
+            (
+                "thta",
+                "`thta` is no coordinate, and an armature turns with the rates of scalar coordinates; did you mean \
+                 `theta`?",
+            ),
+            ("theta", "`theta` is given an armature twice; write the sum of the two"),
+            (
+                "v",
+                "`v` is a speed, not a coordinate, and an armature turns with the rates of scalar coordinates; expected \
+                 `theta`",
+            ),
+        ],
+    );
+}
+
+#[test]
 fn wrenches() {
     mistakes(
         "wrench(body = hull), wrench(force = c), wrench(body = hull, at = c, torque = c), wrench(body = hul, force = k), \

@@ -96,6 +96,9 @@ pub(super) fn shown(clause: &ForceClause) -> String {
             show(width),
             optional(damping)
         ),
+        ForceKind::Friction { extent, viscous, dry, width } => {
+            format!("{}: {} {} {}", extended(extent), optional(viscous), optional(dry), optional(width))
+        }
         ForceKind::Wrench { body, at, force, torque, axes: in_axes } => {
             format!("on {body} at {}: {} {} in {}", optional(at), optional(force), optional(torque), axes(*in_axes))
         }

@@ -180,8 +180,8 @@ fn charts_without_a_body_and_unknown_clauses() {
             "foo",
             "unknown clause `foo`; expected `coordinates`, `speeds`, `kinematics`, `body`, `frame`, \
              `particle`, `point`, `constraint`, `independent`, `potential`, `input`, `force`, `torque`, \
-             `wrench`, `drive`, `spring`, `stop`, `drag`, `damping`, `medium`, `central_gravity`, `define`, `function`, `table`, `waive`, `limit`, \
-             `crate`, `taylor`, `linearize` or `regressor`",
+             `wrench`, `drive`, `spring`, `stop`, `drag`, `friction`, `armature`, `damping`, `medium`, `central_gravity`, `define`, `function`, `table`, `waive`, `limit`, \
+             `crate`, `taylor`, `linearize`, `regressor`, `frames` or `methods`",
         )],
     );
     // A misspelt clause is not missing as well.

@@ -1,0 +1,159 @@
+//! `FramedSystem`: poses, twists, Jacobians and accelerations of the frames that are asked for, and their names.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+use syn::ext::IdentExt;
+
+use crate::mechanics::{FrameQuantity, Method};
+
+use super::arguments::{arguments_of, declared};
+use super::derived::Derived;
+
+/// Operations of the methods, frame by frame.
+pub fn frame_operations(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let private = derived.private();
+    let of = |(number, frame): (usize, &Ident)| {
+        let name = frame.unraw().to_string();
+        let counts = FrameQuantity::ALL.map(|quantity| {
+            let program = derived.program(Method::OfFrame(quantity, number));
+            derived.count(program.counts())
+        });
+        quote!(#private::FrameOperations::new(#name, [#(#counts),*]))
+    };
+    let all: Vec<TokenStream> = derived.frames().iter().enumerate().map(of).collect();
+    (!all.is_empty()).then(|| quote!(of_frames = &[#(#all),*]))
+}
+
+/// The name of the enum.
+pub fn name_of_frames(derived: &Derived<'_, '_>) -> Ident {
+    format_ident!("{}Frame", derived.item().ident)
+}
+
+/// The enum of names; the implementations.
+pub fn framed_system(derived: &Derived<'_, '_>) -> [Option<TokenStream>; 2] {
+    if derived.frames().is_empty() {
+        return [None, None];
+    }
+    let [names, named] = names(derived);
+    let system = system(derived);
+    [Some(names), Some(quote!(#named #system))]
+}
+
+fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
+    let (private, visibility) = (derived.private(), derived.item().visibility);
+    let (name, frames) = (name_of_frames(derived), derived.frames());
+    let words: Vec<String> = frames.iter().map(|frame| frame.unraw().to_string()).collect();
+    let said = words.iter().map(|word| format!("The body or frame `{word}`."));
+    let documentation = format!("Frames of [`{}`] whose motion its kernel says.", derived.item().ident);
+    let places = 0..frames.len();
+    let names = quote! {
+        #[doc = #documentation]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq, ::core::cmp::Eq, ::core::hash::Hash)]
+        #[allow(non_camel_case_types)]
+        #visibility enum #name { #(#[doc = #said] #frames),* }
+    };
+    let named = quote! {
+        #[automatically_derived]
+        impl #private::FrameName for #name {
+            const ALL: &'static [Self] = &[#(Self::#frames),*];
+            #[inline]
+            fn name(self) -> &'static ::core::primitive::str {
+                match self { #(Self::#frames => #words),* }
+            }
+            #[inline]
+            fn index(self) -> ::core::primitive::usize {
+                match self { #(Self::#frames => #places),* }
+            }
+        }
+    };
+    [names, named]
+}
+
+fn system(derived: &Derived<'_, '_>) -> TokenStream {
+    let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
+    let (name, count) = (name_of_frames(derived), derived.frames().len());
+    let jacobian = quote!(#private::SMatrix<#ty, 6, #n>);
+    let six = quote!(#private::SVector<#ty, 6>);
+    let methods = [
+        (FrameQuantity::Pose, quote!(#private::IsometryMatrix3<#ty>)),
+        (FrameQuantity::Twist, six.clone()),
+        (FrameQuantity::Jacobian, jacobian.clone()),
+        (FrameQuantity::Bias, six),
+    ];
+    let methods = methods.map(|(quantity, result)| method(derived, quantity, &result));
+    let arguments = declared(&private, arguments_of(Method::Frames));
+    let (instructions, outputs) = derived.computed(derived.program(Method::Frames));
+    let size = outputs.len() / count;
+    let all = outputs.chunks(size).map(|of_frame| {
+        let mut rest = of_frame;
+        let parts = FrameQuantity::ALL.map(|quantity| {
+            let (own, after) = rest.split_at(size_of(quantity, n));
+            rest = after;
+            made(derived, quantity, own)
+        });
+        quote!(#private::FrameMotion::new(#(#parts),*))
+    });
+    let items = quote! {
+        type Frame = #name;
+        type Jacobian = #jacobian;
+        type Frames = #private::ByFrame<#name, #private::FrameMotion<#ty, #jacobian>, #count>;
+        #(#methods)*
+        #[inline]
+        fn frames(&self, __t: Self::Scalar, __q: &Self::Configuration, #(#arguments),*) -> Self::Frames {
+            #instructions
+            #private::ByFrame::new([#(#all),*])
+        }
+    };
+    derived.implementation(quote!(FramedSystem), items)
+}
+
+/// One quantity of any frame.
+fn method(derived: &Derived<'_, '_>, quantity: FrameQuantity, result: &TokenStream) -> TokenStream {
+    let enumeration = name_of_frames(derived);
+    let arms = derived.frames().iter().enumerate().map(|(number, frame)| {
+        let (instructions, outputs) = derived.computed(derived.program(Method::OfFrame(quantity, number)));
+        let value = made(derived, quantity, &outputs);
+        quote!(#enumeration::#frame => { #instructions #value })
+    });
+    let of_first = Method::OfFrame(quantity, 0);
+    let (name, arguments) =
+        (format_ident!("{}", of_first.name()), declared(&derived.private(), arguments_of(of_first)));
+    quote! {
+        #[inline]
+        fn #name(
+            &self,
+            __frame: Self::Frame,
+            __t: Self::Scalar,
+            __q: &Self::Configuration,
+            #(#arguments),*
+        ) -> #result {
+            match __frame { #(#arms),* }
+        }
+    }
+}
+
+/// How many numbers a quantity has in a system of n speeds.
+fn size_of(quantity: FrameQuantity, n: usize) -> usize {
+    match quantity {
+        FrameQuantity::Pose => 12,
+        FrameQuantity::Twist | FrameQuantity::Bias => 6,
+        FrameQuantity::Jacobian => 6 * n,
+    }
+}
+
+/// Outputs as a value of the runtime.
+fn made(derived: &Derived<'_, '_>, quantity: FrameQuantity, outputs: &[TokenStream]) -> TokenStream {
+    let private = derived.private();
+    match quantity {
+        FrameQuantity::Pose => {
+            let (position, rows) = (&outputs[..3], outputs[3..].chunks(3));
+            let rows = rows.map(|row| quote!([#(#row),*]));
+            quote!(#private::frame_pose([#(#position),*], [#(#rows),*]))
+        }
+        FrameQuantity::Twist | FrameQuantity::Bias => quote!(#private::vector([#(#outputs),*])),
+        FrameQuantity::Jacobian => {
+            let rows = outputs.chunks(outputs.len() / 6).map(|row| quote!([#(#row),*]));
+            quote!(#private::matrix([#(#rows),*]))
+        }
+    }
+}

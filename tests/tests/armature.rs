@@ -1,0 +1,190 @@
+//! Armatures against particles that move on lines of their own, across gravity; friction of joints against its law and its power.
+
+mod common;
+
+use common::Bounded;
+use common::agreement::equal;
+use common::body::{Parts, list, speeds};
+use common::groups::{Random, random_configuration};
+use gauss_runtime::prelude::*;
+
+/// Two kernels of one configuration agree in every method.
+fn same<C, A, B>(origin: &C, a: &A, b: &B)
+where
+    C: Configuration<Scalar = f64> + Parts<f64>,
+    A: GaussSystem<Scalar = Bounded, Configuration: Parts<Bounded>, Input = ()>,
+    A::MassMatrix: std::ops::Index<(usize, usize), Output = Bounded>,
+    B: GaussSystem<
+            Scalar = Bounded,
+            Configuration = A::Configuration,
+            Speeds = A::Speeds,
+            MassMatrix = A::MassMatrix,
+            Input = (),
+        >,
+{
+    let mut random = Random(3);
+    for _ in 0..8 {
+        let q: A::Configuration = random_configuration(origin, &mut random);
+        let mut draw = |n: usize| -> Vec<Bounded> { (0..n).map(|_| Bounded::from_f64(random.number())).collect() };
+        let (z, rates, p, t): (A::Speeds, A::Speeds, A::Speeds, _) =
+            (speeds(&draw(A::DOF)), speeds(&draw(A::DOF)), speeds(&draw(A::DOF)), draw(1)[0]);
+        let pairs = [
+            ("acceleration", a.acceleration(t, &q, &z, &()), b.acceleration(t, &q, &z, &())),
+            ("momentum", a.momentum(t, &q, &z), b.momentum(t, &q, &z)),
+            ("velocity", a.velocity(t, &q, &p), b.velocity(t, &q, &p)),
+            ("momentum rate", a.momentum_rate(t, &q, &p, &()), b.momentum_rate(t, &q, &p, &())),
+            ("residual", a.gauss_residual(t, &q, &z, &rates, &()), b.gauss_residual(t, &q, &z, &rates, &())),
+        ];
+        for (what, ours, theirs) in pairs {
+            equal(what, &list(&ours), &list(&theirs)).unwrap();
+            let size = list(&ours).iter().fold(1.0_f64, |m, x| m.max(x.value.abs()));
+            assert!(list(&ours).iter().all(|x| x.bound < 1e-8 * size), "{what}: {ours:?}");
+        }
+        equal("energy", &[a.kinetic_energy(t, &q, &z)], &[b.kinetic_energy(t, &q, &z)]).unwrap();
+        let (ours, theirs) = (a.mass_matrix(t, &q), b.mass_matrix(t, &q));
+        for (i, k) in (0..A::DOF).flat_map(|i| (0..A::DOF).map(move |k| (i, k))) {
+            equal("mass matrix", &[ours[(i, k)]], &[theirs[(i, k)]]).unwrap();
+        }
+    }
+}
+
+macro_rules! pair {
+    ($test:ident: $geared:ident $beside:ident, $origin:expr, [$($scene:tt)+] [$($armature:tt)+] [$($particles:tt)+]) => {
+        pair!(@ $geared [$($scene)+] [$($armature)+]);
+        pair!(@ $beside [$($scene)+] [$($particles)+]);
+
+        #[test]
+        fn $test() {
+            let [a, g] = [Bounded::from_f64(0.3), Bounded::from_f64(9.81)];
+            same(&$origin, &$geared { a, g }.kernel().unwrap(), &$beside { a, g }.kernel().unwrap());
+        }
+    };
+    (@ $name:ident [$($scene:tt)+] [$($clauses:tt)+]) => {
+        #[derive(GaussDynamics)]
+        #[gauss($($scene)+, $($clauses)+)]
+        struct $name<T> {
+            a: T,
+            #[gauss(gravity)]
+            g: T,
+        }
+    };
+}
+
+pair!(in_space: Geared Beside, SVector::from([0.3, -0.4, 0.2]), [
+    coordinates(x, y, z),
+    body(b0, rotation = rotation_z(x), mass = 2, center_of_mass = [0.1, 0, 0.2], inertia = [1, 1, 0.5]),
+    body(b1, parent = b0, position = [0.3, 0, 0], rotation = rotation_y(y), mass = 1, center_of_mass = [0, 0.1, 0.3],
+         inertia = [0.5, 0.5, 0.2]),
+    body(b2, parent = b1, position = [0, 0, 0.5], rotation = rotation_x(z), mass = 0.5, center_of_mass = [0, 0.1, 0.3],
+         inertia = [0.2, 0.3, 0.2])
+] [armature(x = 0.2, z = 2 * a)] [
+    particle(mass = 0.2, position = [x, 0, 0]), particle(mass = 2 * a, position = [0, z, 0])
+]);
+
+pair!(in_the_plane: GearedPlane BesidePlane, SVector::from([0.3, -0.4]), [
+    coordinates(x, y),
+    body(b0, rotation = rotation_y(x), mass = 2, center_of_mass = [0, 0, 0.2], inertia = [1, 1, 0.5]),
+    body(b1, parent = b0, position = [0, 0, 0.5], rotation = rotation_y(y), mass = 1, center_of_mass = [0, 0, 0.3],
+         inertia = [0.5, 0.5, 0.2])
+] [armature(x = a, y = a * a)] [particle(mass = a, position = [x, 0, 0]), particle(mass = a * a, position = [0, y, 0])]);
+
+// Rates that depend on the configuration and on several speeds: what armatures add to A is not on its diagonal.
+pair!(of_quasi_velocities: GearedCraft BesideCraft,
+    (Isometry3::<f64>::identity(), SVector::from([0.4, 0.2])), [
+    coordinates(base: Pose, s, turn),
+    speeds(u: Vector3, w: Vector3, v, bend),
+    kinematics(base = twist(u, w), s = v + s * bend, turn = bend * cos(s) - 2 * v),
+    body(hull, pose = base, mass = 2, center_of_mass = [0.1, 0, 0.2], inertia = [1, 1, 0.5]),
+    body(arm, parent = hull, position = [s, 0, 0], rotation = rotation_y(turn), mass = 1, center_of_mass = [0, 0.1, 0.3],
+         inertia = [0.5, 0.5, 0.2])
+] [armature(turn = a, s = 0.1)] [particle(mass = a, position = [turn, 0, 0]), particle(mass = 0.1, position = [s, 0, 0])]);
+
+// A coordinate that moves a free body: it floats no more.
+pair!(of_what_floats: GearedCart BesideCart, SVector::from([0.3, 1.0, -0.4]), [
+    coordinates(x, y, turn),
+    body(cart, position = [x, 0, y], mass = 2, inertia = [0, 0, 0]),
+    body(pole, parent = cart, rotation = rotation_y(turn), mass = 1, center_of_mass = [0, 0, 0.3], inertia = [0.5, 0.5, 0.2])
+] [armature(x = a)] [particle(mass = a, position = [x, 0, 0])]);
+
+// So many joints that they are eliminated link by link.
+pair!(of_a_long_chain: GearedChain BesideChain, SVector::from([0.3, -0.4, 0.2, 0.1, 0.5, -0.3]), [
+    linearize,
+    coordinates(a0, a1, a2, a3, a4, a5),
+    body(b0, rotation = rotation_z(a0), mass = 2, center_of_mass = [0.1, 0, 0.2], inertia = [1, 1, 0.5]),
+    body(b1, parent = b0, position = [0.3, 0, 0], rotation = rotation_y(a1), mass = 1, center_of_mass = [0, 0.1, 0.3],
+         inertia = [0.5, 0.5, 0.2]),
+    body(b2, parent = b1, position = [0, 0, 0.5], rotation = rotation_x(a2), mass = 0.5, center_of_mass = [0, 0.1, 0.3],
+         inertia = [0.2, 0.3, 0.2]),
+    body(b3, parent = b2, position = [0, 0, 0.5], rotation = rotation_y(a3), mass = 0.5, center_of_mass = [0, 0.1, 0.3],
+         inertia = [0.2, 0.3, 0.2]),
+    body(b4, parent = b3, position = [0, 0, 0.5], rotation = rotation_x(a4), mass = 0.5, center_of_mass = [0, 0.1, 0.3],
+         inertia = [0.2, 0.3, 0.2]),
+    body(b5, parent = b4, position = [0, 0, 0.5], rotation = rotation_z(a5), mass = 0.5, center_of_mass = [0, 0.1, 0.3],
+         inertia = [0.2, 0.3, 0.2])
+] [armature(a0 = 0.1, a1 = a, a2 = 0.2, a3 = a, a4 = 0.1, a5 = a)] [
+    particle(mass = 0.1, position = [a0, 0, 0]), particle(mass = a, position = [a1, 0, 0]),
+    particle(mass = 0.2, position = [a2, 0, 0]), particle(mass = a, position = [a3, 0, 0]),
+    particle(mass = 0.1, position = [a4, 0, 0]), particle(mass = a, position = [a5, 0, 0])
+]);
+
+/// Derivatives, too: by recursion over the links where there are armatures, by another way where particles share the speeds.
+#[test]
+fn derivatives_of_a_long_chain() {
+    let [a, g] = [Bounded::from_f64(0.3), Bounded::from_f64(9.81)];
+    let (geared, beside) = (GearedChain { a, g }.kernel().unwrap(), BesideChain { a, g }.kernel().unwrap());
+    let mut random = Random(9);
+    for _ in 0..4 {
+        let mut draw = || SVector::<Bounded, 6>::from([(); 6].map(|()| Bounded::from_f64(random.number())));
+        let (q, z) = (draw(), draw());
+        let [ours, theirs] = [
+            geared.linearize(Bounded::zero(), &q, &z, &()).by_state,
+            beside.linearize(Bounded::zero(), &q, &z, &()).by_state,
+        ];
+        equal("derivatives", ours.as_slice(), theirs.as_slice()).unwrap();
+        assert!(ours.iter().all(|x| x.bound < 1e-8 * (1.0 + x.value.abs())));
+    }
+}
+
+/// A wheel that nothing but friction brakes.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(turn),
+    body(wheel, rotation = rotation_z(turn), mass = 1, inertia = [1, 1, j]),
+    armature(turn = 0.5),
+    friction(bearing, along = turn, viscous = d, dry = f, width = w),
+    friction(oil, along = turn, viscous = 0.25),
+)]
+struct Wheel {
+    j: f64,
+    d: f64,
+    f: f64,
+    w: f64,
+}
+
+#[test]
+fn friction_is_what_its_law_says() {
+    let wheel = Wheel { j: 1.5, d: 0.5, f: 2.0, w: 0.1 }.kernel().unwrap();
+    let q = SVector::from([0.3]);
+    for rate in [-3.0_f64, -0.1, 0.0, 0.05, 1.0] {
+        let z = SVector::from([rate]);
+        let dry = 2.0 * rate / (rate * rate + 0.01).sqrt();
+        // A few roundings of numbers of order 1.
+        let expected = -(0.75 * rate + dry) / 2.0;
+        assert!((wheel.acceleration(0.0, &q, &z, &())[0] - expected).abs() < 1e-15);
+        let power = wheel.power("bearing", 0.0, &q, &z, &()).unwrap();
+        assert!((power + (0.5 * rate + dry) * rate).abs() < 4e-15 && power <= 0.0);
+    }
+    // At the width it is 1/√2 of what it is far beyond.
+    let at_width = wheel.power("bearing", 0.0, &q, &SVector::from([0.1]), &()).unwrap();
+    assert!((at_width + 0.1 * (0.05 + 2.0 / 2.0_f64.sqrt())).abs() < 1e-15);
+    assert_eq!(WheelKernel::SMOOTHNESS, Smoothness::Smooth);
+}
+
+#[test]
+fn constants_are_checked() {
+    let refused = Wheel { j: 1.5, d: -0.5, f: -2.0, w: 0.0 }.kernel().unwrap_err();
+    let violations: Vec<&str> = refused.violations().iter().map(|violation| violation.field).collect();
+    assert_eq!(violations, ["f", "w"]);
+    let damping = Wheel { j: 1.5, d: -0.5, f: 2.0, w: 0.1 };
+    assert_eq!(damping.warnings().into_iter().count(), 1);
+}
