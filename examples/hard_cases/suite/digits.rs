@@ -201,7 +201,7 @@ pub fn heavy_load(_: Effort) -> Measures {
     let expected = [-g * a.sin() + second * sine, -(first + cosine * second) * sine];
     let found = Rods { light, heavy }.kernel()?.acceleration(0.0, &SVector::from([a, b]), &SVector::from([v, w]), &());
     let error = |found: [f64; 2]| worse(relative(found[0], expected[0]), relative(found[1], expected[1]));
-    // A ż = f, by Cramer's rule.
+    // A ż = f, by Cramer's rule; the difference of the angles is exact.
     let total = light + heavy;
     let f = [heavy * sine * w * w - total * g * a.sin(), -heavy * sine * v * v - heavy * g * b.sin()];
     let determinant = total * heavy - (heavy * cosine).powi(2);
@@ -217,7 +217,7 @@ pub fn heavy_load(_: Effort) -> Measures {
             target,
         )
         .because("what rounding the angles does")
-        .naive("Cramer's rule", error(typed)),
+        .naive("Cramer's rule, with the difference of the angles", error(typed)),
     ])
 }
 
