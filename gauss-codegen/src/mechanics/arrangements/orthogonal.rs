@@ -8,6 +8,7 @@ use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, dot, subtra
 use crate::mechanics::links::link::{Link, Matter};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::{Force, Loads};
+use crate::mechanics::tidy::sums;
 
 /// Elements of inertia.
 pub struct Elements<'a, 'g> {
@@ -80,12 +81,26 @@ impl<'a, 'g> Elements<'a, 'g> {
         };
         let offsets: Vec<Expr<'g>> = self.forms.iter().map(offset).collect();
         let acting = self.acting(&loads.forces);
-        let forces: Vec<Expr<'g>> = others.iter().map(|e| e.group()).collect();
+        let forces: Vec<Expr<'g>> =
+            sums(others, &self.acting_on_frames(&loads.forces)).iter().map(|e| e.group()).collect();
         let rates = match forces.len() {
             0..=2 => self.squares.solve(&offsets, &acting, &forces),
             _ => self.squares.refined(&offsets, &acting, &forces),
         };
         rates.iter().zip(&taken).map(|(rate, own)| *rate + *own).collect()
+    }
+
+    /// Generalised forces of what acts on links without mass, which have no elements.
+    fn acting_on_frames(&self, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
+        let (tree, zero) = (self.tree, self.tree.graph.zero());
+        let massless = |k: usize| matches!(tree.links[k].matter, Matter::Nothing);
+        let on_frame = |force: &&Force<'g>| force.load(&tree.links).is_some_and(|(k, ..)| massless(k));
+        let forces: Vec<Force<'g>> = forces.iter().filter(on_frame).cloned().collect();
+        if forces.is_empty() {
+            return vec![zero; tree.speed_count()];
+        }
+        let nothing = tree.links.iter().map(|link| (link.frame.zero(), [zero; 3])).collect();
+        tree.acted_on_by(&forces, nothing)
     }
 
     /// `ω × I_G ω` and what acts on links, element by element: with `I_G = L D Lᵀ` a torque τ about G is that of `L⁻¹τ`
