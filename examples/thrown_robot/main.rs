@@ -12,7 +12,7 @@ mod model;
 
 use model::{Arm, ArmKernel, G, Joints, Quadruped, QuadrupedKernel, Whole, efforts, thrown, wanted};
 
-const FLIGHT: f64 = 1.0;
+const FLIGHT: f64 = 0.8;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let [flight, spins] = throw()?;

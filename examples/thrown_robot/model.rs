@@ -59,7 +59,7 @@ pub fn thrown() -> QuadrupedState {
     QuadrupedState {
         base: Isometry3::translation(0.0, 0.0, 1.0),
         base_u: Vector3::new(2.0, 0.3, 4.0),
-        base_omega: Vector3::new(1.0, -4.0, 0.5),
+        base_omega: Vector3::new(3.0, -4.0, 0.5),
         LF_HAA: 0.5,
         LF_HFE: 0.7,
         LF_KFE: -1.4,
