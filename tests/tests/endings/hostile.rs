@@ -17,7 +17,7 @@ use crate::scenes::{
 };
 
 /// What numbers can be. Beside each other they make steps of which a run is refused, or has few: not the millions that somebody
-/// who asks for them gets.
+/// who asks for them gets: no two have a ratio of 10⁶ to 10⁸.
 const HOSTILE: [f64; 22] = [
     f64::NAN,
     f64::INFINITY,
@@ -25,7 +25,7 @@ const HOSTILE: [f64; 22] = [
     1e300,
     -1e300,
     1e154,
-    1e-300,
+    1e-290,
     5e-324,
     -5e-324,
     1e150,
