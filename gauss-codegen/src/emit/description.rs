@@ -28,8 +28,8 @@ pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStrea
             #(__accuracy.#losses;)*
             __accuracy
         };
-        const COORDINATE_NAMES: &'static [&'static str] = &[#(#coordinates),*];
-        const SPEED_NAMES: &'static [&'static str] = &[#(#speeds),*];
+        const COORDINATE_NAMES: &'static [&'static ::core::primitive::str] = &[#(#coordinates),*];
+        const SPEED_NAMES: &'static [&'static ::core::primitive::str] = &[#(#speeds),*];
     };
     derived.implementation(quote!(Described), items)
 }
