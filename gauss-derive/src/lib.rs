@@ -151,7 +151,7 @@
 /// | `mjcf = "robots/arm.xml"` | the same of an MJCF file |
 /// | `base = fixed`, `base = floating` | of a URDF: the root is at Ω, which is the default, or moves freely: then the first coordinate is `base: Pose`, with the twist of the root in its own axes for speeds, linear before angular |
 /// | `inputs = all`, `none`, `transmissions` | an effort of every joint that turns or slides, which is the default, of none, or of those that a transmission names |
-/// | `friction = smooth(w)`, `none` | dry friction f as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
+/// | `joint_friction = smooth(w)`, `none` | dry friction f as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
 /// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; without it they do not act |
 /// | `parameters = inertial` | the mass data of every link that moves are fields `#[gauss(body)] upper_arm: RigidBody<f64>`; such fields can also be there for some links alone |
 ///

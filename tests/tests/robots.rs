@@ -124,7 +124,7 @@ fn a_biped() {
 #[gauss(
     urdf = "robots/gripper.urdf",
     gravity = 9.81,
-    friction = smooth(width),
+    joint_friction = smooth(width),
     limits = stop(stiffness = 1e4, width = 1e-3),
     point(pad, body = left_finger, at = [0, 0, 0.04])
 )]
@@ -134,7 +134,7 @@ struct Gripper {
 
 /// The same with mass data in fields: links that are fixed to these are then bodies of their own.
 #[derive(GaussDynamics)]
-#[gauss(urdf = "robots/gripper.urdf", gravity = 9.81, friction = none, limits = none, parameters = inertial)]
+#[gauss(urdf = "robots/gripper.urdf", gravity = 9.81, joint_friction = none, limits = none, parameters = inertial)]
 struct LoadedGripper {
     #[gauss(body)]
     upper_arm: RigidBody<f64, AboutCenterOfMass<f64>>,

@@ -1,6 +1,6 @@
 //! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`, `inputs
 //! = all | none | transmissions`,
-//! `friction = smooth(width) | none`, `limits = stop(…) | none`, `parameters = inertial`.
+//! `joint_friction = smooth(width) | none`, `limits = stop(…) | none`, `parameters = inertial`.
 
 use super::arguments;
 use super::arithmetic;
@@ -84,7 +84,7 @@ pub const FILES: &Table<RobotTopic> =
 pub const OPTIONS: &Table<RobotTopic> = &[
     ("base", RobotTopic::Base),
     ("inputs", RobotTopic::Inputs),
-    ("friction", RobotTopic::Friction),
+    ("joint_friction", RobotTopic::Friction),
     ("limits", RobotTopic::Limits),
     ("parameters", RobotTopic::Parameters),
 ];

@@ -480,9 +480,9 @@ impl<'a> Robot<'a> {
                 Some(Friction::None) => continue,
                 None => {
                     let text = format!(
-                        "the dry friction of the joint `{}` does not act; write `friction = smooth(width)` for a \
+                        "the dry friction of the joint `{}` does not act; write `joint_friction = smooth(width)` for a \
                          law that is \
-                         smooth over this width of its rate, or `friction = none`",
+                         smooth over this width of its rate, or `joint_friction = none`",
                         joint.name
                     );
                     notes.push(Note { at: joint.at, text, ignored: true });

@@ -153,9 +153,9 @@ fn what_is_told() {
         remarks(&arm("<dynamics friction=\"0.2\"/><limit lower=\"-1\" upper=\"1\"/>"), ""),
         [
             told(
-                "3:1: the dry friction of the joint `elbow` does not act; write `friction = smooth(width)` for a \
+                "3:1: the dry friction of the joint `elbow` does not act; write `joint_friction = smooth(width)` for a \
                  law that is \
-                 smooth over this width of its rate, or `friction = none`",
+                 smooth over this width of its rate, or `joint_friction = none`",
                 true
             ),
             told(
@@ -164,7 +164,7 @@ fn what_is_told() {
             ),
         ]
     );
-    let laws = ", friction = smooth(0.01), limits = stop(stiffness = 1e3, width = 0.01)";
+    let laws = ", joint_friction = smooth(0.01), limits = stop(stiffness = 1e3, width = 0.01)";
     assert_eq!(remarks(&arm("<dynamics friction=\"0.2\"/><limit lower=\"-1\" upper=\"1\"/>"), laws), []);
     assert_eq!(
         remarks(&arm("<origin rpy=\"1.5708 0 0\"/>"), ""),
@@ -272,7 +272,7 @@ fn mistakes_of_clauses() {
     let cases = [
         (", base = flaoting", "unknown `base` `flaoting`; did you mean `floating`?"),
         (", bsae = fixed", "unknown clause `bsae`; did you mean `base`?"),
-        (", friction = smooth", "`smooth` says nothing; write `friction = smooth(0.01)`"),
+        (", joint_friction = smooth", "`smooth` says nothing; write `joint_friction = smooth(0.01)`"),
         (
             ", limits = stop(stiffness = 1.0)",
             "stops at limits need `width`; write `limits = stop(stiffness = 1e4, width = 0.01)`",
