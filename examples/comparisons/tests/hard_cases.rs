@@ -7,14 +7,13 @@ use gauss_runtime::prelude::*;
 
 /// What is short of its target: case, figure (its beginning), method (its beginning), and why. Whoever mends one
 /// takes it off.
-const SHORT: [(&str, &str, &str, &str); 13] = [
+const SHORT: [(&str, &str, &str, &str); 12] = [
     ("separatrix", "60 s", "order 8", "rounding at the flip grows afterwards: the exact flow has no steps to round"),
     ("separatrix", "60 s", "Gauss 6", "the same"),
     ("separatrix", "60 s", "power series", "the same, and ten times less of it"),
     ("fast_top", "150 rad/s, h", "order", "general methods resolve the spin, splitting does not need to"),
     ("fast_top", "50 rad/s, h", "order 8", "the same"),
     ("far_away", "10 s", "observer's axes, Ω, momenta", "(Q, Γ_Ω) and ξ̂ cancel at |b|: Ω should move with the body"),
-    ("fast_top", "50 rad/s, any step", "order 8, adaptive", "a tenth above: the roundings of 3400 steps"),
     (
         "needle",
         "2 s",

@@ -1,7 +1,7 @@
 //! Instructions as `let` statements of Rust: no loops, no branches, no allocation.
 //!
-//! What inputs, numbers and functions are called is the [`Dialect`]: kernels read symbols and are generic over the scalar
-//! (`emit`), functions that stand alone read arrays of `f64` ([`plain`]).
+//! What inputs, numbers and functions are called is its `Dialect`: kernels read symbols and are generic over the scalar
+//! (`emit`), functions that stand alone read arrays of `f64` (`plain`).
 
 use std::collections::BTreeSet;
 
