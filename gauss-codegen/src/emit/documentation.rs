@@ -159,16 +159,15 @@ fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
         sentences.push("Components with a hat are in the observer's axes k, those without in body axes e.".to_owned());
     }
     if derived.subject.model.one_body().is_some() {
-        let (momentum, both) = match has(&format!("Γ{HAT}")) {
-            true => (format!("(Q{HAT}, Γ{HAT})"), "Ω"),
-            false if has(&format!("Q{HAT}")) => (format!("(Q{HAT}, Γ)"), "O"),
-            false => ("(Q, Γ)".to_owned(), "O"),
-        };
+        let hats = ["Q", "Γ"].map(|letter| if has(&format!("{letter}{HAT}")) { "\u{302}" } else { "" });
+        let [linear, angular] = hats;
+        let both = if angular.is_empty() { "O" } else { "Ω" };
         if has("Γ") {
-            sentences.push(format!("{momentum} is the momentum about {both}."));
+            sentences.push(format!("(Q{linear}, Γ{angular}) is the momentum about {both}."));
         }
         if has("active forces") && !has("F_") {
-            sentences.push(format!("(R, M) is the resultant and the torque of the forces, about {both}."));
+            let forces = format!("(R{linear}, M{angular})");
+            sentences.push(format!("{forces} is the resultant and the torque of the forces, about {both}."));
         }
     }
     if has("p_") || has("F_") {
@@ -256,7 +255,7 @@ fn acting(derived: &Derived<'_, '_>) -> String {
         let kind = match (account.conservative, account.outside) {
             (true, Some(_)) => "in the potential energy, with a damper",
             (true, None) => "in the potential energy",
-            (false, _) => "",
+            (false, _) => "a force without a potential",
         };
         vec![account.name.to_string(), kind.to_owned()]
     });
