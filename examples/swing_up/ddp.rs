@@ -1,6 +1,8 @@
 //! Differential dynamic programming with derivatives of first order (iLQR): Tassa, Erez, Todorov, *Synthesis and stabilization of
 //! complex behaviors through online trajectory optimization*, IROS 2012.
 
+use std::time::{Duration, Instant};
+
 use crate::model::{Matrix, Plant, Vector};
 
 /// ½ Σ (uᵀ R u + (x − goal)ᵀ Q (x − goal)) and, at the end, ½ (x − goal)ᵀ F (x − goal); all three diagonal.
@@ -21,6 +23,8 @@ pub struct Plan<const D: usize, const U: usize> {
     pub costs: Vec<f64>,
     /// Gains of the regulator that comes with it: u = uₖ + Kₖ (x − xₖ).
     pub gains: Vec<Matrix<U, D>>,
+    /// What derivatives took of the time.
+    pub in_derivatives: Duration,
 }
 
 /// The change of inputs that the model of second order asks for.
@@ -50,10 +54,12 @@ impl<const D: usize, const U: usize> Task<D, U> {
             states.push(plant.step(&states[states.len() - 1], u));
         }
         let mut costs = vec![self.cost(&states, &inputs)];
-        let (mut damping, mut gains) = (1e-6, Vec::new());
+        let (mut damping, mut gains, mut in_derivatives) = (1e-6, Vec::new(), Duration::ZERO);
         costs[0].is_finite().then_some(())?;
         while costs.len() < 500 {
+            let start = Instant::now();
             let derivatives: Vec<_> = states.iter().zip(&inputs).map(|(x, u)| plant.derivatives(x, u)).collect();
+            in_derivatives += start.elapsed();
             let last = costs[costs.len() - 1];
             let found = loop {
                 let change = self.backward(&states, &inputs, &derivatives, damping);
@@ -76,7 +82,7 @@ impl<const D: usize, const U: usize> Task<D, U> {
                 break;
             }
         }
-        Some(Plan { states, inputs, costs, gains })
+        Some(Plan { states, inputs, costs, gains, in_derivatives })
     }
 
     /// From the end to the start: the value of each state to second order; `None` where an input has no best value.

@@ -42,7 +42,7 @@ fn run(arguments: &[String]) -> Result<String, String> {
     let path = std::path::absolute(file).map_err(|error| format!("{file}: {error}"))?;
     let name = name(&path);
     let clauses: String = clauses.iter().map(|clause| format!(", {clause}")).collect();
-    let source = format!("#[gauss({word} = {path:?}{clauses})] struct {name};");
+    let source = format!("#[gauss({word} = {path:?}{clauses})] pub struct {name};");
     let start = Instant::now();
     let item = syn::parse_str(&source).map_err(|error| format!("{error}\n{USAGE}"))?;
     // The path from the folder of a package means nothing here; the one that was given does.
@@ -101,5 +101,9 @@ fn written(derivation: &Derivation, file: &str) -> Result<String, String> {
     };
     let file = format!("{file} of gauss-codegen");
     let parsed = syn::parse2(item).map_err(|error| format!("{file}: {error}"))?;
-    Ok(format!("// Made from {file}: do not edit.\n\n{}", prettyplease::unparse(&parsed)))
+    let text = prettyplease::unparse(&parsed);
+    // Here nothing is derived, which rustc would say, as it would of parentheses.
+    let lines = text.lines().filter(|line| line.trim() != "#[automatically_derived]");
+    let lines: String = lines.map(|line| format!("{line}\n")).collect();
+    Ok(format!("// Made from {file}: do not edit.\n#![allow(unused_parens)]\n\n{lines}"))
 }
