@@ -1,8 +1,10 @@
 //! Counts the machine instructions of every kernel that is timed, and compares them with the table of this folder.
 //!
-//! `cargo run -p gauss-benches --example instructions [-- --write] [--cargo OPTIONS]`; the options are for the build that is
-//! counted. Kernels are straight lines, so what the compiler writes is what runs, up to the branch for angles whose sine is left to the library. Needs a compiler and nothing else: no profiler, no library. Counts hold
-//! for one compiler and one kind of processor (x86-64-v3), whatever the machine; those of another compiler are shown, not compared.
+//! `cargo run -p gauss-benches --example instructions [-- [--write] [--cargo OPTIONS]]`; the options are for the build
+//! that is counted. Kernels are straight lines, so what the compiler writes is what runs, up to the branch for angles
+//! whose sine is left to the library. Needs a compiler and nothing else: no profiler, no library. Counts hold for one
+//! compiler and one kind of processor (x86-64-v3), whatever the machine; those of another compiler are shown, not
+//! compared.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -65,8 +67,8 @@ const PACKAGES: [&str; 4] = ["gauss-benches", "gauss-runtime", "nalgebra", "simb
 /// How they are compiled. All others, and the macro, stay as they are for tests.
 const PROFILE: [&str; 4] = ["opt-level=3", "codegen-units=1", "debug-assertions=false", "overflow-checks=false"];
 
-/// Has the library compiled to assembly, and finds the file. With a platform that is named, flags are not for macros, so
-/// that these are there already.
+/// Has the library compiled to assembly, and finds the file. With a platform that is named, flags are not for macros,
+/// so that these are there already.
 fn assembly(folder: &Path, platform: &str) -> Result<PathBuf, Box<dyn Error>> {
     let target = folder.join("../target");
     let setting = |package| PROFILE.map(|setting| format!("profile.dev.package.{package}.{setting}"));

@@ -28,8 +28,9 @@ fn undriven(_: f64, _: &One, _: &One) -> f64 {
 /// A power of two, so that times and the coefficients ½ cost no rounding.
 const STEP: f64 = 1.0 / 64.0;
 
-/// (x, ẋ) after n steps of the classical method of order 4 without rounding. A step multiplies x − iẋ by P(ih), the exponential's
-/// Taylor polynomial; `log P(ih) = ih + log(1 − r)`, `r = e^{−ih} Σ_{k>4} (ih)^k/k!`, has no cancellation.
+/// (x, ẋ) after n steps of the classical method of order 4 without rounding. A step multiplies x − iẋ by P(ih), the
+/// exponential's Taylor polynomial; `log P(ih) = ih + log(1 − r)`, `r = e^{−ih} Σ_{k>4} (ih)^k/k!`, has no
+/// cancellation.
 fn exact_numbers(x: f64, v: f64, n: f64) -> [f64; 2] {
     let (mut power, mut rest, mut factorial) = ([1.0, 0.0], [0.0, 0.0], 1.0);
     for k in 1..16 {
@@ -69,8 +70,8 @@ fn rounding(n: u32) -> [f64; 2] {
     squares.map(|square| (square / 8.0_f64).sqrt())
 }
 
-/// What is to be expected of errors that are independent of each other: each of n increments is of the size h and has one rounding
-/// ε or so, and the last sum is rounded.
+/// What is to be expected of errors that are independent of each other: each of n increments is of the size h and has
+/// one rounding ε or so, and the last sum is rounded.
 fn expected(n: u32) -> f64 {
     f64::EPSILON * (1.0 + STEP * f64::from(n).sqrt())
 }
@@ -102,7 +103,8 @@ fn quadratic_integrals_are_kept_to_rounding() {
     assert!((norm - 1.0).abs() <= 4.0 * f64::EPSILON, "{norm}");
 }
 
-/// Coefficients of many digits and a step that is not a power of two: each product would be rounded the same way in every step.
+/// Coefficients of many digits and a step that is not a power of two: each product would be rounded the same way in
+/// every step.
 #[test]
 fn rounded_coefficients_do_not_add_up() {
     let start = start_by_velocity();
@@ -116,7 +118,8 @@ fn rounded_coefficients_do_not_add_up() {
     assert!(error.abs() < rounding, "{error:e} {rounding:e}");
 }
 
-/// What holds the norm of an attitude is rounded with the step and not after it: momentum in space walks, and does not drift.
+/// What holds the norm of an attitude is rounded with the step and not after it: momentum in space walks, and does not
+/// drift.
 #[test]
 fn attitudes_do_not_drift() {
     let start = start_by_velocity();

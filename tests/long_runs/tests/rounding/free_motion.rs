@@ -20,9 +20,10 @@ fn energy(i: [f64; 3], y: Vector3<f64>) -> f64 {
     0.5 * (0..3).map(|k| y[k] * y[k] / i[k]).sum::<f64>()
 }
 
-/// Rounding is of random sign: after n steps energy and momentum are off by some √n roundings, not n. Five times √n is what one
-/// in a million walks exceeds; a step of the discrete method commits up to two roundings. The exact motion rounds each component of y
-/// once a step, by ε/2 at most: energy by ε, with a deviation of ε/√3, of which four are allowed.
+/// Rounding is of random sign: after n steps energy and momentum are off by some √n roundings, not n. Five times √n is
+/// what one in a million walks exceeds; a step of the discrete method commits up to two roundings. The exact motion
+/// rounds each component of y once a step, by ε/2 at most: energy by ε, with a deviation of ε/√3, of which four are
+/// allowed.
 #[test]
 fn long_runs_do_not_drift() {
     let i = TOP.inertia;
