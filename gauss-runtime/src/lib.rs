@@ -82,6 +82,7 @@ pub mod simd;
 pub mod system;
 pub mod table;
 
+mod methods;
 mod trigonometry;
 mod triple;
 mod vector_space;
