@@ -9,7 +9,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::trigonometry::sin_cos;
+use crate::trigonometry::{sin_cos, sines_and_cosines};
 
 /// A real number, or a pack of them that is worked on lane by lane.
 ///
@@ -70,6 +70,14 @@ pub trait Real:
 
     /// Sine and cosine together.
     fn sin_cos(self) -> (Self, Self);
+
+    /// Sines and cosines of several angles, with the bits that each gets alone: kernels ask for those of all angles of a state at once,
+    /// which plain floats compute side by side in vectors.
+    #[inline(always)]
+    fn sines_and_cosines<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+        let pairs = angles.map(Self::sin_cos);
+        (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
+    }
 
     /// Sine.
     #[inline(always)]
@@ -202,7 +210,7 @@ macro_rules! elementary {
 }
 
 macro_rules! implement_real {
-    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr) => {
+    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr, $together:expr) => {
         impl Real for $float {
             const LANES: usize = 1;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -275,6 +283,11 @@ macro_rules! implement_real {
             }
 
             #[inline(always)]
+            fn sines_and_cosines<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+                $together(angles)
+            }
+
+            #[inline(always)]
             fn abs(self) -> Self {
                 $float::abs(self)
             }
@@ -294,14 +307,20 @@ macro_rules! implement_real {
 
 implement_real!(f64, 53;
     sqrt sqrt, sin sin, cos cos, tan tan, asin asin, acos acos, atan atan,
-    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow |x: f64| sin_cos(x, f64::fma));
+    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow
+    |x: f64| sin_cos(x, f64::fma), |angles: [f64; N]| sines_and_cosines(angles, f64::fma));
 implement_real!(f32, 24;
-sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
-sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf |x: f32| {
-    // Rounded once more than it need be: within 0.5 ulp and a little.
-    let (sine, cosine) = sin_cos(f64::from(x), f64::fma);
-    (sine as f32, cosine as f32)
-});
+    sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
+    sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf
+    |x: f32| {
+        // Rounded once more than it need be: within 0.5 ulp and a little.
+        let (sine, cosine) = sin_cos(f64::from(x), f64::fma);
+        (sine as f32, cosine as f32)
+    },
+    |angles: [f32; N]| {
+        let (sines, cosines) = sines_and_cosines(angles.map(f64::from), f64::fma);
+        (sines.map(|sine| sine as f32), cosines.map(|cosine| cosine as f32))
+    });
 
 /// `p/q` rounded once, to `digits ≤ 53` binary digits, ties to even; by integer long division, because operands beyond
 /// 2⁵³ would be rounded before the division.
