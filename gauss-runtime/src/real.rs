@@ -310,17 +310,17 @@ implement_real!(f64, 53;
     sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow
     |x: f64| sin_cos(x, f64::fma), |angles: [f64; N]| sines_and_cosines(angles, f64::fma));
 implement_real!(f32, 24;
-    sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
-    sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf
-    |x: f32| {
-        // Rounded once more than it need be: within 0.5 ulp and a little.
-        let (sine, cosine) = sin_cos(f64::from(x), f64::fma);
-        (sine as f32, cosine as f32)
-    },
-    |angles: [f32; N]| {
-        let (sines, cosines) = sines_and_cosines(angles.map(f64::from), f64::fma);
-        (sines.map(|sine| sine as f32), cosines.map(|cosine| cosine as f32))
-    });
+sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
+sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf
+|x: f32| {
+    // Rounded once more than it need be: within 0.5 ulp and a little.
+    let (sine, cosine) = sin_cos(f64::from(x), f64::fma);
+    (sine as f32, cosine as f32)
+},
+|angles: [f32; N]| {
+    let (sines, cosines) = sines_and_cosines(angles.map(f64::from), f64::fma);
+    (sines.map(|sine| sine as f32), cosines.map(|cosine| cosine as f32))
+});
 
 /// `p/q` rounded once, to `digits ≤ 53` binary digits, ties to even; by integer long division, because operands beyond
 /// 2⁵³ would be rounded before the division.

@@ -1,5 +1,5 @@
 //! Sines and cosines of one angle or several together, inlined and without branches: kernels with angles spend most of their time in
-//! the library's otherwise, and what is without branches the compiler packs into vectors.
+//! the library's otherwise, and what is without branches can be done for several angles in one vector.
 //!
 //! The angle is reduced by the nearest multiple of π/2, which is subtracted in parts (Cody & Waite, *Software Manual for the Elementary
 //! Functions*, 1980), with what the last subtraction rounds off carried along. The polynomials on [−π/4, π/4] are those of fdlibm (Sun
@@ -8,6 +8,8 @@
 //! [`CLOSE`] of a multiple of π/2.
 //!
 //! An angle gets the same bits alone and among others.
+
+use core::ops::{Add, Mul, Neg, Sub};
 
 /// Whether a·b + c is one instruction.
 pub(crate) const FUSED: bool =
@@ -53,129 +55,214 @@ const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// a·b + c.
+/// a·b + c of plain numbers.
 pub(crate) trait MultiplyAdd: Fn(f64, f64, f64) -> f64 + Copy {}
 
 impl<F: Fn(f64, f64, f64) -> f64 + Copy> MultiplyAdd for F {}
 
-/// An angle less the nearest multiple of π/2.
-struct Reduced {
-    y: f64,
-    /// By how much y is too large.
-    excess: f64,
-    /// The multiple is in the last digits.
-    shifted: f64,
-    /// Whether this is so.
-    holds: bool,
+/// One number, or the numbers of a vector.
+trait Pack: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
+    fn splat(value: f64) -> Self;
+
+    /// a·b + c, rounded as plain numbers are.
+    fn multiply_add(self, b: Self, c: Self, fma: impl MultiplyAdd) -> Self;
+
+    /// Whether all are small enough.
+    fn within_limit(self) -> bool;
+
+    /// Whether each remainder is not too close to zero, or nothing was subtracted.
+    fn is_far_from(self, multiple: Self) -> bool;
+
+    /// Sine and cosine from those of what is left in the quadrant that the last digits of `shifted` give.
+    fn in_quadrant(shifted: Self, sine: Self, cosine: Self) -> (Self, Self);
 }
 
-#[inline(always)]
-fn reduce<const FUSED: bool>(x: f64, fma: impl MultiplyAdd) -> Reduced {
-    let shifted = fma(x, core::f64::consts::FRAC_2_PI, SHIFTER);
-    let n = shifted - SHIFTER;
-    // False for a NaN.
-    let small = x.abs() <= LIMIT;
-    if FUSED {
-        // Exact: a multiple of 2⁻⁵³ below 1. So is y − first: either the two are within a factor of two of each other, or both are so
-        // small that y has no more than 53 digits down to the last one of the product.
-        let first = fma(-n, PARTS[0], x);
-        let y = fma(-n, PARTS[1], first);
-        let excess = fma(n, PARTS[2], fma(n, PARTS[1], y - first));
-        Reduced { y, excess, shifted, holds: small }
-    } else {
-        // Both sides of the first difference are within a factor of two of each other.
-        let first = x - n * SHORT_PARTS[0];
-        let part = n * SHORT_PARTS[1];
-        let y = first - part;
-        let excess = ((y - first) + part) + n * SHORT_PARTS[2];
-        // Where there is nothing to subtract nothing cancels.
-        Reduced { y, excess, shifted, holds: small & ((y.abs() >= CLOSE) | (n == 0.0)) }
+const SIGN: u64 = 1 << 63;
+
+impl Pack for f64 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn multiply_add(self, b: Self, c: Self, fma: impl MultiplyAdd) -> Self {
+        fma(self, b, c)
+    }
+
+    #[inline(always)]
+    fn within_limit(self) -> bool {
+        // False for a NaN.
+        self.abs() <= LIMIT
+    }
+
+    #[inline(always)]
+    fn is_far_from(self, multiple: Self) -> bool {
+        (self.abs() >= CLOSE) | (multiple == 0.0)
+    }
+
+    #[inline(always)]
+    fn in_quadrant(shifted: Self, sine: Self, cosine: Self) -> (Self, Self) {
+        let quadrant = shifted.to_bits();
+        let (sine, cosine) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
+        let flipped = |value: f64, signs: u64| f64::from_bits(value.to_bits() ^ (signs & SIGN));
+        (flipped(sine, quadrant << 62), flipped(cosine, quadrant.wrapping_add(1) << 62))
     }
 }
 
-/// `(sin x, cos x)`, and whether they are.
+/// `(sin x, cos x)`, and whether they are for all numbers of the pack.
 #[inline(always)]
-fn of_small_angle<const FUSED: bool>(x: f64, fma: impl MultiplyAdd) -> (f64, f64, bool) {
-    let Reduced { y, excess, shifted, holds } = reduce::<FUSED>(x, fma);
+fn of_small_angle<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> (P, P, bool) {
+    let (number, fma) = (P::splat, |a: P, b: P, c: P| a.multiply_add(b, c, fma));
+    let shifted = fma(x, number(core::f64::consts::FRAC_2_PI), number(SHIFTER));
+    let n = shifted - number(SHIFTER);
+    // x − n π/2 = y − excess.
+    let (y, excess, holds) = if FUSED {
+        let [first, second, third] = PARTS.map(number);
+        // Exact: a multiple of 2⁻⁵³ below 1. So is y − left: either the two are within a factor of two of each other, or both are so
+        // small that y has no more than 53 digits down to the last one of the product.
+        let left = fma(-n, first, x);
+        let y = fma(-n, second, left);
+        (y, fma(n, third, fma(n, second, y - left)), x.within_limit())
+    } else {
+        let [first, second, third] = SHORT_PARTS.map(number);
+        // Both sides of the first difference are within a factor of two of each other.
+        let (left, part) = (x - n * first, n * second);
+        let y = left - part;
+        (y, ((y - left) + part) + n * third, x.within_limit() & y.is_far_from(n))
+    };
+
     let z = y * y;
     let z2 = z * z;
     // Pairs of terms side by side: what follows waits for them.
-    let series = |[a, b, c, d, e, f]: [f64; 6]| fma(fma(fma(f, z, e), z2, fma(d, z, c)), z2, fma(b, z, a));
-    let (s, c) = (series(SINE), series(COSINE));
+    let series = |terms: [f64; 6]| {
+        let [a, b, c, d, e, f] = terms.map(number);
+        fma(fma(fma(f, z, e), z2, fma(d, z, c)), z2, fma(b, z, a))
+    };
+    let (s, c, one) = (series(SINE), series(COSINE), number(1.0));
     // y comes last: −0 keeps its sign.
     let (sine, cosine) = if FUSED {
-        // sin(y − e) = y − (e + y³s), with at most 0.15 ulp left out; (y − e)² as it is rounded once.
+        // sin(y − e) = y − (e + y³s), with at most 0.15 ulp left out; (y − e)² rounded once.
         let square = fma(y, y, -((y + y) * excess));
-        (y - fma(y * z, s, excess), fma(fma(c, z, -0.5), square, 1.0))
+        (y - fma(y * z, s, excess), fma(fma(c, z, number(-0.5)), square, one))
     } else {
-        let half = 0.5 * z;
-        let most = 1.0 - half;
+        let half = number(0.5) * z;
+        let most = one - half;
         let sine = y - ((y * z) * s + (excess - half * excess));
-        (sine, most + (((1.0 - most) - half) + (c * z2 + y * excess)))
+        (sine, most + (((one - most) - half) + (c * z2 + y * excess)))
     };
-    let quadrant = shifted.to_bits();
-    let (sine, cosine) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
-    let flipped = |value: f64, signs: u64| f64::from_bits(value.to_bits() ^ (signs & (1 << 63)));
-    (flipped(sine, quadrant << 62), flipped(cosine, quadrant.wrapping_add(1) << 62), holds)
+    let (sine, cosine) = P::in_quadrant(shifted, sine, cosine);
+    (sine, cosine, holds)
 }
 
 /// `(sin x, cos x)`, with the given `a·b + c`.
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64, fma: impl MultiplyAdd) -> (f64, f64) {
-    let (sine, cosine, holds) = of_small_angle::<FUSED>(x, fma);
+    let (sine, cosine, holds) = of_small_angle::<FUSED, f64>(x, fma);
     if holds { (sine, cosine) } else { library(x) }
 }
 
-/// Functions of as many angles as fill vectors. One name for each number, not a loop: compilers pack the former (LLVM 21), and of loops
-/// that they unroll parts.
-macro_rules! together {
-    ($($name:ident of $count:literal: $($lane:literal $sine:ident $cosine:ident $holds:ident),+;)+) => {$(
-        #[inline(always)]
-        fn $name(x: [f64; $count], fma: impl MultiplyAdd) -> ([f64; $count], [f64; $count]) {
-            $(let ($sine, $cosine, $holds) = of_small_angle::<FUSED>(x[$lane], fma);)+
-            if $($holds)&+ { ([$($sine),+], [$($cosine),+]) } else { apart(x, fma) }
-        }
-    )+};
+/// Sines and cosines of several angles.
+#[cfg(not(feature = "wide"))]
+#[inline(always)]
+pub(crate) fn sines_and_cosines<const N: usize>(x: [f64; N], fma: impl MultiplyAdd) -> ([f64; N], [f64; N]) {
+    one_by_one(x, fma)
 }
 
-together! {
-    two of 2: 0 s0 c0 h0, 1 s1 c1 h1;
-    four of 4: 0 s0 c0 h0, 1 s1 c1 h1, 2 s2 c2 h2, 3 s3 c3 h3;
-    eight of 8: 0 s0 c0 h0, 1 s1 c1 h1, 2 s2 c2 h2, 3 s3 c3 h3, 4 s4 c4 h4, 5 s5 c5 h5, 6 s6 c6 h6, 7 s7 c7 h7;
-}
+#[cfg(feature = "wide")]
+pub(crate) use vectors::sines_and_cosines;
 
 /// Each by itself, because some go to the library.
-#[cold]
-#[inline(never)]
-fn apart<const N: usize>(x: [f64; N], fma: impl MultiplyAdd) -> ([f64; N], [f64; N]) {
+#[cfg_attr(feature = "wide", cold)]
+#[cfg_attr(feature = "wide", inline(never))]
+fn one_by_one<const N: usize>(x: [f64; N], fma: impl MultiplyAdd) -> ([f64; N], [f64; N]) {
     let pairs = x.map(|x| sin_cos(x, fma));
     (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
 }
 
-/// Sines and cosines of several angles; of 2, 4 or 8 at once, of others in such groups.
-#[inline(always)]
-pub(crate) fn sines_and_cosines<const N: usize>(x: [f64; N], fma: impl MultiplyAdd) -> ([f64; N], [f64; N]) {
-    let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
-    let mut done = 0;
-    macro_rules! next {
-        ($count:literal $function:ident) => {
-            if let Some(angles) = x.get(done..).and_then(|left| left.first_chunk::<$count>()) {
-                let (s, c) = $function(*angles, fma);
-                sines[done..done + $count].copy_from_slice(&s);
-                cosines[done..done + $count].copy_from_slice(&c);
-                done += $count;
+/// The vectors of the crate `wide`. Of loops over arrays compilers pack only parts (LLVM 21), and more or less of them from kernel to
+/// kernel.
+#[cfg(feature = "wide")]
+mod vectors {
+    use ::wide::{f64x2, f64x4, f64x8, u64x2, u64x4, u64x8};
+
+    use super::{CLOSE, FUSED, LIMIT, MultiplyAdd, Pack, SIGN, of_small_angle, one_by_one, sin_cos};
+
+    macro_rules! packs {
+        ($($vector:ident $bits:ident)+) => {$(
+            impl Pack for $vector {
+                #[inline(always)]
+                fn splat(value: f64) -> Self {
+                    Self::splat(value)
+                }
+
+                #[inline(always)]
+                fn multiply_add(self, b: Self, c: Self, _: impl MultiplyAdd) -> Self {
+                    if FUSED { self.mul_add(b, c) } else { self * b + c }
+                }
+
+                #[inline(always)]
+                fn within_limit(self) -> bool {
+                    self.abs().simd_le(Self::splat(LIMIT)).all()
+                }
+
+                #[inline(always)]
+                fn is_far_from(self, multiple: Self) -> bool {
+                    (self.abs().simd_ge(Self::splat(CLOSE)) | multiple.simd_eq(Self::splat(0.0))).all()
+                }
+
+                #[inline(always)]
+                fn in_quadrant(shifted: Self, sine: Self, cosine: Self) -> (Self, Self) {
+                    let bits = |x: Self| $bits::new(x.to_array().map(f64::to_bits));
+                    let numbers = |x: $bits| Self::new(x.to_array().map(f64::from_bits));
+                    let (quadrant, sine, cosine) = (bits(shifted), bits(sine), bits(cosine));
+                    let odd = $bits::splat(0) - (quadrant & $bits::splat(1));
+                    let exchanged = (sine ^ cosine) & odd;
+                    // That of the cosine is the next quadrant's.
+                    let sign = quadrant.unbounded_shl_scalar(62);
+                    let next = sign ^ (sign + sign);
+                    let sign_bit = $bits::splat(SIGN);
+                    (numbers(sine ^ exchanged ^ (sign & sign_bit)), numbers(cosine ^ exchanged ^ (next & sign_bit)))
+                }
             }
-        };
+        )+};
     }
-    for _ in 0..N / 8 {
-        next!(8 eight);
+
+    packs! { f64x2 u64x2 f64x4 u64x4 f64x8 u64x8 }
+
+    /// How many places of a vector may repeat the last angle. Where two vectors stand for one, they would cost more than the rest alone.
+    const REPEATED: usize = if cfg!(target_feature = "avx") { 1 } else { 0 };
+
+    /// Sines and cosines of several angles: eight at once, then four, two and one.
+    #[inline(always)]
+    pub(crate) fn sines_and_cosines<const N: usize>(x: [f64; N], fma: impl MultiplyAdd) -> ([f64; N], [f64; N]) {
+        let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
+        let mut done = 0;
+        macro_rules! next {
+            ($count:literal $vector:ident) => {
+                let angles: [f64; $count] = core::array::from_fn(|i| x[(done + i).min(N - 1)]);
+                let (s, c, hold) = of_small_angle::<FUSED, $vector>($vector::new(angles), fma);
+                let (s, c) = if hold { (s.to_array(), c.to_array()) } else { one_by_one(angles, fma) };
+                for i in 0..usize::min($count, N - done) {
+                    (sines[done + i], cosines[done + i]) = (s[i], c[i]);
+                }
+                done += usize::min($count, N - done);
+            };
+        }
+        for _ in 0..(N + REPEATED) / 8 {
+            next!(8 f64x8);
+        }
+        if N - done + REPEATED >= 4 {
+            next!(4 f64x4);
+        }
+        if N - done >= 2 {
+            next!(2 f64x2);
+        }
+        if done < N {
+            (sines[done], cosines[done]) = sin_cos(x[done], fma);
+        }
+        (sines, cosines)
     }
-    next!(4 four);
-    next!(2 two);
-    if done < N {
-        (sines[done], cosines[done]) = sin_cos(x[done], fma);
-    }
-    (sines, cosines)
 }
 
 #[cold]
