@@ -75,8 +75,12 @@ pub trait Real:
     /// which plain floats compute side by side in vectors.
     #[inline(always)]
     fn sines_and_cosines<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
-        let pairs = angles.map(Self::sin_cos);
-        (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
+        // Not `map` of arrays, which compilers leave a call.
+        let (mut sines, mut cosines) = (angles, angles);
+        for i in 0..N {
+            (sines[i], cosines[i]) = angles[i].sin_cos();
+        }
+        (sines, cosines)
     }
 
     /// Sine.
@@ -318,8 +322,10 @@ sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf
     (sine as f32, cosine as f32)
 },
 |angles: [f32; N]| {
-    let (sines, cosines) = sines_and_cosines(angles.map(f64::from), f64::fma);
-    (sines.map(|sine| sine as f32), cosines.map(|cosine| cosine as f32))
+    let angles: [f64; N] = core::array::from_fn(|i| f64::from(angles[i]));
+    let (sines, cosines) = sines_and_cosines(angles, f64::fma);
+    let rounded = |numbers: [f64; N]| -> [f32; N] { core::array::from_fn(|i| numbers[i] as f32) };
+    (rounded(sines), rounded(cosines))
 });
 
 /// `p/q` rounded once, to `digits ≤ 53` binary digits, ties to even; by integer long division, because operands beyond
