@@ -137,6 +137,8 @@ pub struct Operations {
     pub linearize: OperationCount,
     /// Of [`ParametricSystem::by_parameters`](crate::identification::ParametricSystem::by_parameters).
     pub by_parameters: OperationCount,
+    /// Of [`InverseLinearizedSystem::linearize_inverse`](crate::inverse::InverseLinearizedSystem::linearize_inverse).
+    pub linearize_inverse: OperationCount,
     /// Of [`InertialRegressor::regressor`](crate::identification::InertialRegressor::regressor).
     pub regressor: OperationCount,
     /// Of [`FramedSystem::frames`](crate::frames::FramedSystem::frames).
@@ -202,6 +204,7 @@ impl Operations {
             powers: none,
             linearize: none,
             by_parameters: none,
+            linearize_inverse: none,
             regressor: none,
             frames: none,
             center_of_mass: none,
@@ -243,6 +246,7 @@ impl fmt::Display for Operations {
             ("powers", self.powers),
             ("linearize", self.linearize),
             ("by_parameters", self.by_parameters),
+            ("linearize_inverse", self.linearize_inverse),
             ("regressor", self.regressor),
             ("frames", self.frames),
             ("center_of_mass", self.center_of_mass),
