@@ -84,7 +84,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         formulation: &'a Formulation<'g>,
         kernel: &'a Kernel<'g>,
     ) -> syn::Result<Self> {
-        let assigned_to_bodies = model.bodies.iter().map(|body| translator.assigned(&body.given));
+        let body_values = model.bodies.iter().map(|body| translator.quantity_values(&body.role_clauses));
         let declared = translator.speeds();
         let of_system = &formulation.system.scene.speeds;
         let subject = Subject {
@@ -94,8 +94,8 @@ impl<'a, 'g> Derived<'a, 'g> {
             can_drift: formulation.can_drift(),
             sources: translator.sources(),
             literals: translator.literals(),
-            assigned: translator.assigned(&model.given)?,
-            assigned_to_bodies: assigned_to_bodies.collect::<syn::Result<_>>()?,
+            values: translator.quantity_values(&model.role_clauses)?,
+            body_values: body_values.collect::<syn::Result<_>>()?,
             kept_speeds: (0..declared.len()).filter(|&k| of_system.contains(&declared[k])).collect(),
             links: translator.links_of_clauses(),
             quaternions: &formulation.quaternions,

@@ -80,13 +80,13 @@ fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
                 Role::Body => "B",
             };
             // The first line says what it is; the rest is for the struct's own page.
-            let said = documentation.lines().next().unwrap_or_default();
-            let said = match unit {
-                Some(unit) if said.is_empty() => format!("in {unit}"),
-                Some(unit) => format!("{said} ({unit})"),
-                None => said.to_owned(),
+            let text = documentation.lines().next().unwrap_or_default();
+            let text = match unit {
+                Some(unit) if text.is_empty() => format!("in {unit}"),
+                Some(unit) => format!("{text} ({unit})"),
+                None => text.to_owned(),
             };
-            (letter, ident.unraw().to_string(), said)
+            (letter, ident.unraw().to_string(), text)
         })
         .collect()
 }
@@ -120,8 +120,8 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         name = derived.item().ident,
         description = description(derived),
     );
-    for (letter, field, said) in legend(derived) {
-        out.push_str(&format!("| {letter} | `{field}` | {} |\n", said.replace('|', "\\|")));
+    for (letter, field, text) in legend(derived) {
+        out.push_str(&format!("| {letter} | `{field}` | {} |\n", text.replace('|', "\\|")));
     }
     out.push_str(&states(derived));
     out.push_str(&acting(derived));
@@ -135,7 +135,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
         let [worst, median] = loss.rounded();
         let warning = if worst > MUCH { ": **digits are lost**" } else { "" };
         let loss = if worst > 0.0 { format!("{worst} ({median}){warning}") } else { String::new() };
-        out.push_str(&format!("| `{}` | {} | {loss} |\n", said(derived, formula.method), program.counts()));
+        out.push_str(&format!("| `{}` | {} | {loss} |\n", call_of(derived, formula.method), program.counts()));
     }
     out.push_str(&format!("| `evaluate` | {} | |\n", derived.kernel.joined.counts()));
     for (name, program) in DERIVATIVES.into_iter().zip(derived.kernel.derivatives()) {
@@ -147,7 +147,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
 }
 
 /// What a method is called, as it is called: `pose_of(tool)`.
-fn said(derived: &Derived<'_, '_>, method: Method) -> String {
+fn call_of(derived: &Derived<'_, '_>, method: Method) -> String {
     match method {
         Method::OfFrame(_, frame) => format!("{}({})", method.name(), derived.frames()[frame].unraw()),
         _ => method.name().to_owned(),

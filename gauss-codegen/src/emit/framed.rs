@@ -43,14 +43,14 @@ fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
     let (private, visibility) = (derived.private(), derived.item().visibility);
     let (name, frames) = (name_of_frames(derived), derived.frames());
     let words: Vec<String> = frames.iter().map(|frame| frame.unraw().to_string()).collect();
-    let said = words.iter().map(|word| format!("The body or frame `{word}`."));
+    let label = words.iter().map(|word| format!("The body or frame `{word}`."));
     let documentation = format!("Frames of [`{}`] whose motion its kernel says.", derived.item().ident);
     let places = 0..frames.len();
     let names = quote! {
         #[doc = #documentation]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq, ::core::cmp::Eq, ::core::hash::Hash)]
         #[allow(non_camel_case_types)]
-        #visibility enum #name { #(#[doc = #said] #frames),* }
+        #visibility enum #name { #(#[doc = #label] #frames),* }
     };
     let named = quote! {
         #[automatically_derived]

@@ -34,12 +34,12 @@ pub fn named_body(
 pub fn in_sum(
     derived: &Derived<'_, '_>,
     body: Option<&Ident>,
-    said: &str,
+    label: &str,
     [mass, center, inertia]: [&TokenStream; 3],
 ) -> TokenStream {
     let check = match derived.subject.only_axis(body) {
-        Some(axis) => quote!(__check.inertia_about_axis(#said, #axis, (#mass, #center), &#inertia);),
-        None => quote!(__check.inertia_in_sum(#said, #mass, #center, &#inertia);),
+        Some(axis) => quote!(__check.inertia_about_axis(#label, #axis, (#mass, #center), &#inertia);),
+        None => quote!(__check.inertia_in_sum(#label, #mass, #center, &#inertia);),
     };
     waived(derived, body, check)
 }

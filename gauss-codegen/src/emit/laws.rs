@@ -19,7 +19,7 @@ const STATES: usize = 4;
 /// What must hold of constants of springs and stops.
 pub fn checked(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let check = |law: &Law<'_>| {
-        let said = &law.said;
+        let label = &law.label;
         let check = match law.kind {
             LawKind::Stiffness => quote!(stiffness),
             LawKind::Width => quote!(width),
@@ -31,10 +31,10 @@ pub fn checked(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> To
         let (compute, values) = statements(&Program::lower(&law.values), symbols, &derived.scalar());
         Some(match law.kind {
             LawKind::Stiffness | LawKind::Width | LawKind::NonNegative => {
-                quote!({ #compute __check.#check(#said, #(#values)*); })
+                quote!({ #compute __check.#check(#label, #(#values)*); })
             }
-            LawKind::Limits => quote!({ #compute __check.#check(#said, [#(#values),*]); }),
-            _ => quote!({ #compute __check.#check(#said, &[#(#values),*]); }),
+            LawKind::Limits => quote!({ #compute __check.#check(#label, [#(#values),*]); }),
+            _ => quote!({ #compute __check.#check(#label, &[#(#values),*]); }),
         })
     };
     derived.laws.iter().filter_map(check).collect()
@@ -67,10 +67,10 @@ fn drags(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStr
     let check = |drag: &crate::translate::DragMatrix<'_>| {
         let (compute, outputs) = of_parameters(derived, symbols, &drag.entries.concat())?;
         let rows = outputs.chunks(6).map(|row| quote!([#(#row),*]));
-        let (said, kind) = (&drag.said, if drag.quadratic { quote!(Quadratic) } else { quote!(Linear) });
+        let (label, kind) = (&drag.label, if drag.quadratic { quote!(Quadratic) } else { quote!(Linear) });
         Some(quote!({
             #compute
-            __warnings.drag(#said, #private::DragKind::#kind, &[#(#rows),*]);
+            __warnings.drag(#label, #private::DragKind::#kind, &[#(#rows),*]);
         }))
     };
     derived.drags.iter().filter_map(check).collect()
@@ -79,7 +79,7 @@ fn drags(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStr
 /// Damping and attraction.
 fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let find = |law: &Law<'_>| {
-        let said = &law.said;
+        let label = &law.label;
         let (check, values) = match law.kind {
             LawKind::Damping => (quote!(damping), law.values.clone()),
             LawKind::Attraction => (quote!(center), law.values.clone()),
@@ -88,8 +88,8 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
         };
         let (compute, values) = of_parameters(derived, symbols, &values)?;
         Some(match law.kind {
-            LawKind::Dissipation => quote!({ #compute __warnings.#check(#said, &[#(#values),*]); }),
-            _ => quote!({ #compute __warnings.#check(#said, #(#values)*); }),
+            LawKind::Dissipation => quote!({ #compute __warnings.#check(#label, &[#(#values),*]); }),
+            _ => quote!({ #compute __warnings.#check(#label, #(#values)*); }),
         })
     };
     derived.laws.iter().filter_map(find).collect()
@@ -117,8 +117,8 @@ fn gravity(derived: &Derived<'_, '_>) -> TokenStream {
     let Some((Shape::Scalar, name)) = model.shape(Role::Gravity).zip(local_of(model, Role::Gravity)) else {
         return TokenStream::new();
     };
-    let said = model.field(Role::Gravity).map_or_else(|| "gravity".to_owned(), |f| f.ident.unraw().to_string());
-    quote!(__warnings.gravity(#said, #name);)
+    let label = model.field(Role::Gravity).map_or_else(|| "gravity".to_owned(), |f| f.ident.unraw().to_string());
+    quote!(__warnings.gravity(#label, #name);)
 }
 
 /// Diagonals of added masses.
@@ -127,10 +127,10 @@ fn added_masses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> T
     let find = |(clause, written): (usize, &crate::model::BodyClause)| {
         let link = &subject.system.scene.tree.links[subject.links[clause]];
         let matrix = link.body()?.added_mass.as_ref()?;
-        let said = subject.said_of_body(written, Role::AddedMass);
+        let label = subject.role_name(written, Role::AddedMass);
         let diagonal: Vec<Expr<'_>> = (0..6).map(|i| matrix[i][i]).collect();
         let (compute, values) = of_parameters(derived, symbols, &diagonal)?;
-        Some(quote!({ #compute __warnings.added_mass(#said, &[#(#values),*]); }))
+        Some(quote!({ #compute __warnings.added_mass(#label, &[#(#values),*]); }))
     };
     subject.model.bodies.iter().enumerate().filter_map(find).collect()
 }

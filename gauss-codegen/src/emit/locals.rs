@@ -7,8 +7,8 @@ use crate::algebra::Map;
 use crate::model::{Field, Model, Role, Shape};
 use crate::translate::{Part, Source};
 
-use super::assigned::assigned_local;
 use super::derived::Derived;
+use super::role_clauses::clause_local;
 use super::subject::Subject;
 
 /// The local that holds a field, or one part of a rigid body.
@@ -53,11 +53,11 @@ pub fn symbols_of_parameters(derived: &Derived<'_, '_>) -> Map<u32, TokenStream>
 
 /// The locals of all parameters: fields, and what clauses say of the body without a name and of gravity.
 pub fn parameters_read(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
-    let Subject { model, assigned, .. } = &derived.subject;
+    let Subject { model, values, .. } = &derived.subject;
     let fields = model.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
     let mut read: TokenStream = fields.map(|(k, field)| read_field(derived, k, field)).collect();
-    let given = model.given.iter().zip(assigned);
-    read.extend(given.map(|(given, value)| assigned_local(derived, &local_of_clause(given.role), value, symbols)));
+    let clauses = model.role_clauses.iter().zip(values);
+    read.extend(clauses.map(|(clause, value)| clause_local(derived, &local_of_clause(clause.role), value, symbols)));
     read
 }
 
@@ -94,5 +94,5 @@ fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream
 /// The local of what plays a role of the body without a name.
 pub fn local_of(model: &Model, role: Role) -> Option<Ident> {
     let field = model.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
-    field.or_else(|| model.given.iter().any(|given| given.role == role).then(|| local_of_clause(role)))
+    field.or_else(|| model.role_clauses.iter().any(|clause| clause.role == role).then(|| local_of_clause(role)))
 }

@@ -18,7 +18,6 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 mod arguments;
-mod assigned;
 mod chart;
 mod constrained;
 mod derived;
@@ -41,6 +40,7 @@ mod pose;
 mod program;
 mod regressor;
 mod rigid_body;
+mod role_clauses;
 #[cfg(test)]
 mod specialisation_tests;
 mod state;

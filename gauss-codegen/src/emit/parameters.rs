@@ -9,12 +9,12 @@ use crate::kernel::Program;
 use crate::mechanics::Matter;
 use crate::model::{BodyClause, ExpressionKind, Field, Model, Motion, ParticleClause, Role, Shape};
 
-use super::assigned::{assigned_bodies, fluid};
 use super::derived::{Derived, KernelGenerics};
 use super::inertia::{in_sum, inertia_rows, named_body, own_matrix, waived};
 use super::laws;
 use super::locals::{is_read, local, local_of, local_of_clause, parameters_read, symbols_of_parameters};
 use super::program::statements;
+use super::role_clauses::{body_clauses, fluid};
 use super::subject::Subject;
 
 /// The body of `kernel()`.
@@ -25,18 +25,18 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
     let read = parameters_read(derived, &symbols);
     let fields = model.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
     let mut checks: TokenStream = fields.map(|(k, field)| field_check(derived, k, field)).collect();
-    checks.extend(model.given.iter().map(|given| {
-        let (said, name) = (given.role.word(), local_of_clause(given.role));
-        role_check(derived, model, given.role, given.shape, said, &name)
+    checks.extend(model.role_clauses.iter().map(|clause| {
+        let (label, name) = (clause.role.word(), local_of_clause(clause.role));
+        role_check(derived, model, clause.role, clause.shape, label, &name)
     }));
-    checks.extend(assigned_bodies(derived, &symbols));
+    checks.extend(body_clauses(derived, &symbols));
     checks.extend(particles(derived, &symbols));
     checks.extend(fluid(derived, &symbols));
     checks.extend(kinetic_matrix(derived, &symbols));
     checks.extend(laws::checked(derived, &symbols));
     // The first field that the equations read speaks for all of them.
-    let said = sources.first().map(|s| model.fields[s.field].ident.unraw().to_string()).unwrap_or_default();
-    let kernel = constants(derived, &symbols, &said);
+    let label = sources.first().map(|s| model.fields[s.field].ident.unraw().to_string()).unwrap_or_default();
+    let kernel = constants(derived, &symbols, &label);
     quote! {
         #read
         let mut __check = #private::ParameterCheck::<#ty>::new();
@@ -70,19 +70,19 @@ fn particles(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> Toke
         _ => None,
     });
     let check = |(clause, mass): (&ParticleClause, Expr<'_>)| {
-        let said = match &clause.mass.kind {
+        let label = match &clause.mass.kind {
             ExpressionKind::Name(name) => name.unraw().to_string(),
             _ => "particle(mass = …)".to_owned(),
         };
         let (compute, mass) = evaluate(derived, symbols, mass);
-        quote!({ #compute __check.mass_in_sum(#said, #mass); })
+        quote!({ #compute __check.mass_in_sum(#label, #mass); })
     };
     model.particles.iter().zip(masses).map(check).collect()
 }
 
-/// The constants computed and checked: together, parameters that are fine one by one can overflow. `said` is the field that
+/// The constants computed and checked: together, parameters that are fine one by one can overflow. `label` is the field that
 /// speaks for them.
-pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, said: &str) -> TokenStream {
+pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, label: &str) -> TokenStream {
     let (compute, outputs) = statements(&derived.kernel.constants, symbols, &derived.scalar());
     let sum = sum(derived);
     let (name, fields) = (derived.kernel_name(), derived.constant_fields());
@@ -90,7 +90,7 @@ pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, sai
         #compute
         let __kernel = #name { #(#fields: #outputs),* };
         #sum
-        __check.constants(#said, &[#(__kernel.#fields),*]);
+        __check.constants(#label, &[#(__kernel.#fields),*]);
         __check.finish()?;
         ::core::result::Result::Ok(__kernel)
     }
@@ -118,28 +118,28 @@ fn role_check(
     model: &Model,
     role: Role,
     shape: Shape,
-    said: &str,
+    label: &str,
     name: &Ident,
 ) -> TokenStream {
     match (role, shape) {
-        (Role::Mass, _) if model.one_body().is_some() => quote!(__check.mass(#said, #name);),
-        (Role::Mass, _) => quote!(__check.mass_in_sum(#said, #name);),
-        (Role::DisplacedMass, _) => quote!(__check.non_negative(#said, #name);),
+        (Role::Mass, _) if model.one_body().is_some() => quote!(__check.mass(#label, #name);),
+        (Role::Mass, _) => quote!(__check.mass_in_sum(#label, #name);),
+        (Role::DisplacedMass, _) => quote!(__check.non_negative(#label, #name);),
         (Role::Inertia | Role::CentralInertia, shape) => {
             let rows = inertia_rows(&derived.scalar().ty(), derived, shape, name);
-            let checks = inertia_check(derived, model, role, said);
+            let checks = inertia_check(derived, model, role, label);
             quote!({
                 let __inertia = #rows;
                 #checks
             })
         }
-        (Role::AddedMass, Shape::Matrix6) => quote!(__check.symmetric(#said, &#name);),
-        _ => finite_value(shape, said, name),
+        (Role::AddedMass, Shape::Matrix6) => quote!(__check.symmetric(#label, &#name);),
+        _ => finite_value(shape, label, name),
     }
 }
 
 /// What must hold of the inertia of the body without a name, which is `__inertia`.
-fn inertia_check(derived: &Derived<'_, '_>, model: &Model, role: Role, said: &str) -> TokenStream {
+fn inertia_check(derived: &Derived<'_, '_>, model: &Model, role: Role, label: &str) -> TokenStream {
     let zero = derived.scalar().number(&Rational::zero());
     let local = |role: Role| local_of(model, role).map(|name| quote!(#name));
     let motion = model.in_chart.map(|own| own.motion);
@@ -153,42 +153,42 @@ fn inertia_check(derived: &Derived<'_, '_>, model: &Model, role: Role, said: &st
     let central = role == Role::CentralInertia;
     let center = local(Role::CenterOfMass).filter(|_| !held && !central).unwrap_or_else(|| quote!([#zero; 3]));
     if model.one_body().is_none() {
-        return in_sum(derived, None, said, [&mass, &center, &quote!(__inertia)]);
+        return in_sum(derived, None, label, [&mass, &center, &quote!(__inertia)]);
     }
     let checks = match motion {
         // In the plane only the moment about k₃ enters, but all that is given is that of a body.
         Some(Motion::Planar) => quote! {
             let __moment = __inertia[2usize][2usize];
-            __check.inertia(#said, &[[__moment, #zero, #zero], [#zero, __moment, #zero], [#zero, #zero, __moment]]);
-            __check.inertia_about_axis(#said, 2usize, (#mass, #center), &__inertia);
+            __check.inertia(#label, &[[__moment, #zero, #zero], [#zero, __moment, #zero], [#zero, #zero, __moment]]);
+            __check.inertia_about_axis(#label, 2usize, (#mass, #center), &__inertia);
         },
         _ if central => {
             let mass = local(Role::Mass);
-            quote!(__check.central_inertia(#said, #mass, [#zero; 3], &__inertia);)
+            quote!(__check.central_inertia(#label, #mass, [#zero; 3], &__inertia);)
         }
         Some(Motion::Free) if local(Role::CenterOfMass).is_some() => quote! {
-            __check.inertia(#said, &__inertia);
-            __check.central_inertia(#said, #mass, #center, &__inertia);
+            __check.inertia(#label, &__inertia);
+            __check.central_inertia(#label, #mass, #center, &__inertia);
         },
-        _ => quote!(__check.inertia(#said, &__inertia);),
+        _ => quote!(__check.inertia(#label, &__inertia);),
     };
     waived(derived, None, checks)
 }
 
 /// What must hold of a field without a role.
 fn finite(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream {
-    let (said, name) = (field.ident.unraw().to_string(), local(k, ""));
+    let (label, name) = (field.ident.unraw().to_string(), local(k, ""));
     if field.shape == Shape::Matrix6 && derived.subject.model.is_added_mass(&field.ident) {
-        return quote!(__check.symmetric(#said, &#name););
+        return quote!(__check.symmetric(#label, &#name););
     }
-    finite_value(field.shape, &said, &name)
+    finite_value(field.shape, &label, &name)
 }
 
-fn finite_value(shape: Shape, said: &str, name: &Ident) -> TokenStream {
+fn finite_value(shape: Shape, label: &str, name: &Ident) -> TokenStream {
     match shape {
-        Shape::Scalar => quote!(__check.finite(#said, &[#name]);),
-        Shape::Vector3 | Shape::Vector6 => quote!(__check.finite(#said, &#name);),
-        _ => quote!(for __row in &#name { __check.finite(#said, __row); }),
+        Shape::Scalar => quote!(__check.finite(#label, &[#name]);),
+        Shape::Vector3 | Shape::Vector6 => quote!(__check.finite(#label, &#name);),
+        _ => quote!(for __row in &#name { __check.finite(#label, __row); }),
     }
 }
 
@@ -211,7 +211,7 @@ fn kinetic_matrix(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) ->
         return None;
     }
     let role = Role::Inertia;
-    let said = model.field(role).map_or_else(|| role.word().to_owned(), |field| field.ident.unraw().to_string());
+    let label = model.field(role).map_or_else(|| role.word().to_owned(), |field| field.ident.unraw().to_string());
     let entries = active.iter().flat_map(|&i| active.iter().map(move |&j| (i, j)));
     let entries: Vec<Expr<'_>> = entries.map(|(i, j)| free.matrix.entries[i][j]).collect();
     let (compute, outputs) = statements(&Program::lower(&entries), symbols, &derived.scalar());
@@ -220,7 +220,7 @@ fn kinetic_matrix(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) ->
         derived,
         quote!({
             #compute
-            __check.kinetic_matrix(#said, &[#(#rows),*]);
+            __check.kinetic_matrix(#label, &[#(#rows),*]);
         }),
     ))
 }

@@ -13,7 +13,7 @@ pub struct Part {
     pub ident: Ident,
     pub kind: PartKind,
     /// What it is, in words.
-    pub said: String,
+    pub label: String,
 }
 
 /// What a field of a state is.
@@ -28,8 +28,8 @@ pub enum PartKind {
 }
 
 impl Part {
-    fn new(ident: Ident, kind: PartKind, said: impl Into<String>) -> Self {
-        Self { ident, kind, said: said.into() }
+    fn new(ident: Ident, kind: PartKind, label: impl Into<String>) -> Self {
+        Self { ident, kind, label: label.into() }
     }
 
     /// How many numbers of a vector it is.
@@ -122,12 +122,12 @@ fn coordinates(derived: &Derived<'_, '_>) -> Vec<Part> {
         }
     }
     parts.extend(model.coordinates.iter().map(|coordinate| {
-        let (kind, said) = match coordinate.kind {
+        let (kind, label) = match coordinate.kind {
             CoordinateKind::Scalar => (PartKind::Scalar, "coordinate"),
             CoordinateKind::Pose => (PartKind::Pose, "coordinate: an element of SE(3)"),
             CoordinateKind::Rotation => (PartKind::Rotation, "coordinate: an element of SO(3)"),
         };
-        Part::new(coordinate.ident.clone(), kind, said)
+        Part::new(coordinate.ident.clone(), kind, label)
     }));
     parts
 }
@@ -149,7 +149,7 @@ fn speeds(derived: &Derived<'_, '_>) -> Vec<Part> {
         })),
         None => all.extend(model.coordinates.iter().flat_map(|q| {
             let word = q.ident.unraw();
-            let part = |end: &str, kind, said: &str| Part::new(format_ident!("{}_{}", word, end), kind, said);
+            let part = |end: &str, kind, label: &str| Part::new(format_ident!("{}_{}", word, end), kind, label);
             let turns =
                 || part("omega", PartKind::Vector(3), &format!("angular velocity of `{word}`, in its own axes"));
             match q.kind {
@@ -197,8 +197,8 @@ fn declaration(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
     let (name, kernel, visibility) = (state_name(derived), derived.kernel_name(), derived.item().visibility);
     let KernelGenerics { declared, .. } = derived.kernel_generics();
     let fields = all.iter().flatten().map(|part| {
-        let (ident, ty, said) = (&part.ident, part.ty(&private, &ty), &part.said);
-        quote!(#[doc = #said] pub #ident: #ty)
+        let (ident, ty, label) = (&part.ident, part.ty(&private, &ty), &part.label);
+        quote!(#[doc = #label] pub #ident: #ty)
     });
     let documentation = format!(
         "Coordinates and speeds of [`{kernel}`] by name.\n\n`{name} {{ … }}` has them in any order, `..Default::default()` \

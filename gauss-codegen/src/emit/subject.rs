@@ -6,7 +6,7 @@ use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Rational};
-use crate::mechanics::{Assigned, Constraints, Coordinate, Method, System};
+use crate::mechanics::{Constraints, Coordinate, Method, QuantityValues, System};
 use crate::model::{BodyClause, Model, Role};
 use crate::translate::Source;
 
@@ -25,8 +25,8 @@ pub struct Subject<'a, 'g> {
     /// Literal numbers that symbols stand for.
     pub literals: Vec<(Rational, Expr<'g>)>,
     /// Mass data that are written in clauses: of the body without a name, and of each of the others.
-    pub assigned: Vec<Assigned<'g>>,
-    pub assigned_to_bodies: Vec<Vec<Assigned<'g>>>,
+    pub values: Vec<QuantityValues<'g>>,
+    pub body_values: Vec<Vec<QuantityValues<'g>>>,
     /// Which of the speeds that are declared are speeds of the system: not those that constraints determine.
     pub kept_speeds: Vec<usize>,
     /// Which link each clause of a body or frame became.
@@ -191,7 +191,7 @@ impl<'g> Subject<'_, 'g> {
     }
 
     /// What a role of a body is called: by its field, or by its word after the name of the body.
-    pub fn said_of_body(&self, body: &BodyClause, role: Role) -> String {
+    pub fn role_name(&self, body: &BodyClause, role: Role) -> String {
         match (&body.name, self.model.field(role)) {
             (Some(name), _) => format!("{}.{}", name.unraw(), role.word()),
             (None, Some(field)) => field.ident.unraw().to_string(),

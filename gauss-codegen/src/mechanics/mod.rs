@@ -65,7 +65,7 @@ pub use loads::central::CentralField;
 pub use loads::fields::entrained;
 pub use loads::forces::{Action, Element, Force};
 pub use loads::observed::Observed;
-pub use matter::body::{Assigned, Body, BodyShape, ParameterSymbol};
+pub use matter::body::{Body, BodyShape, ParameterSymbol, QuantityValues};
 pub use matter::rotor::Rotor;
 pub use print::names::Name;
 pub use scene::{Coordinate, Lettering, SystemScene};

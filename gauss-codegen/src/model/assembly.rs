@@ -65,7 +65,7 @@ fn body_in_chart() -> BodyClause {
         parent: None,
         position: None,
         rotation: None,
-        given: Vec::new(),
+        role_clauses: Vec::new(),
         span: Span::call_site(),
     }
 }
@@ -87,15 +87,16 @@ fn check_expressions(
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions::all(statements) {
         // Of constraints and mass data the kind is needed as well.
-        let later = matches!(place, Place::Constraint(_) | Place::Given(_))
+        let later = matches!(place, Place::Constraint(_) | Place::Role(_))
             || [Role::AddedMass, Role::Inertia].map(expressions::entry).contains(&place);
         if !later {
             kinds::check(expression, place, &scope, context);
         }
     }
     let alone = statements.bodies.len() == 1 && statements.particles.is_empty();
-    let all = std::iter::once(&mut statements.given).chain(statements.bodies.iter_mut().map(|body| &mut body.given));
-    all.for_each(|given| masses::check(given, alone, &reader.fields, &scope, context));
+    let all = std::iter::once(&mut statements.role_clauses)
+        .chain(statements.bodies.iter_mut().map(|body| &mut body.role_clauses));
+    all.for_each(|clauses| masses::check(clauses, alone, &reader.fields, &scope, context));
     forces::check(statements, context);
     coefficients::check(statements, &reader.fields, &scope, scalar, context);
     let well = constraints::check_kinds(statements, &scope, context);
@@ -113,8 +114,8 @@ fn check_expressions(
 /// Everything that is written does something. Asked only where all else is well.
 fn check_effect(statements: &Statements, unused: &[Ident], owners: &[(Role, usize)], context: &mut Context) {
     forces::check_effect(statements, context);
-    let given = statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given));
-    let mut roles = owners.iter().map(|(role, _)| *role).chain(given.map(|given| given.role));
+    let clauses = statements.all_role_clauses();
+    let mut roles = owners.iter().map(|(role, _)| *role).chain(clauses.map(|clause| clause.role));
     let fluid = roles.any(|role| matches!(role, Role::AddedMass | Role::DisplacedMass));
     forces::check_medium(statements, fluid, context);
     for name in unused {
@@ -173,7 +174,7 @@ fn assembled(
         limit: statements.limit.and_then(|(_, limit)| limit),
         potential: statements.potential.and_then(|(_, potential)| potential),
         inputs: statements.inputs.map_or_else(Vec::new, |inputs| inputs.names),
-        given: statements.given,
+        role_clauses: statements.role_clauses,
         medium: statements.medium.and_then(|(_, velocity)| velocity),
         attractions: statements.attractions,
         forces: statements.forces,

@@ -32,7 +32,7 @@ pub use parse::{item, parse};
 pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceAxes, ForceClause, ForceKind,
-    FunctionClause, FunctionKind, Given, GivenValue, InputKind, InputName, ParticleClause, SpeedKind, SpeedPart,
+    FunctionClause, FunctionKind, InputKind, InputName, ParticleClause, RoleClause, RoleValue, SpeedKind, SpeedPart,
 };
 pub use scene::described::{Described, Remark};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};

@@ -4,10 +4,10 @@ mod accepted;
 mod acting;
 mod charts;
 mod clauses;
-mod given;
 mod items;
 #[cfg(feature = "urdf")]
 mod robots;
+mod role_clauses;
 mod roles;
 mod systems;
 mod units;

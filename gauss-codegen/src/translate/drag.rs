@@ -6,7 +6,7 @@ use crate::algebra::Expr;
 #[derive(Clone)]
 pub struct DragMatrix<'g> {
     /// The field, or the element whose clause lists them.
-    pub said: String,
+    pub label: String,
     pub quadratic: bool,
     /// Six by six, order (u, ω), body axes, pole O.
     pub entries: Vec<Vec<Expr<'g>>>,

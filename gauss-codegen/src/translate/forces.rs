@@ -129,12 +129,12 @@ impl<'g> Translator<'_, 'g> {
     /// Takes note of what the argument `word` of the element `name` is.
     fn note(&self, kind: LawKind, (name, word): (&str, &str), e: &Expression, values: Vec<Expr<'g>>) {
         let field = |ident: &Ident| self.model.fields.iter().any(|field| field.ident.unraw() == ident.unraw());
-        let said = match &e.kind {
+        let label = match &e.kind {
             ExpressionKind::Name(ident) if field(ident) => ident.unraw().to_string(),
             _ if word.is_empty() => name.to_owned(),
             _ => format!("{name}.{word}"),
         };
-        self.laws.borrow_mut().push(Law { said, kind, values });
+        self.laws.borrow_mut().push(Law { label, kind, values });
     }
 
     /// A constant of the element `name`, of which note is taken.
@@ -245,11 +245,11 @@ impl<'g> Translator<'_, 'g> {
         for (coefficients, velocities, quadratic) in [(linear, twist, false), (quadratic, squares, true)] {
             let Some(coefficients) = coefficients else { continue };
             let rows: Vec<Vec<Expr<'g>>> = self.coefficients(coefficients, tree)?;
-            let said = match coefficients {
+            let label = match coefficients {
                 Coefficients::Field(field) => field.unraw().to_string(),
                 Coefficients::Diagonal(_) => name.to_owned(),
             };
-            self.drags.borrow_mut().push(DragMatrix { said, quadratic, entries: rows.clone() });
+            self.drags.borrow_mut().push(DragMatrix { label, quadratic, entries: rows.clone() });
             for (component, row) in wrench.iter_mut().zip(rows) {
                 *component = row.iter().zip(&velocities).fold(*component, |sum, (d, v)| sum - *d * *v);
             }
@@ -314,8 +314,8 @@ impl<'g> Translator<'_, 'g> {
     /// Inertia of rates, of which note is taken.
     pub(super) fn rotors(&self, tree: &Tree<'g>) -> syn::Result<Vec<Rotor<'g>>> {
         let rotor = |(coordinate, inertia): &(Ident, Expression)| -> syn::Result<Rotor<'g>> {
-            let said = coordinate.unraw().to_string();
-            let inertia = self.constant(LawKind::NonNegative, ("armature", &said), inertia, tree)?;
+            let label = coordinate.unraw().to_string();
+            let inertia = self.constant(LawKind::NonNegative, ("armature", &label), inertia, tree)?;
             Ok(Rotor { rate: self.rate_of_coordinate(coordinate)?, inertia })
         };
         self.model.armatures.iter().map(rotor).collect()

@@ -6,7 +6,7 @@ use crate::algebra::Expr;
 #[derive(Clone)]
 pub struct Law<'g> {
     /// The field, or the element and the argument of its clause.
-    pub said: String,
+    pub label: String,
     pub kind: LawKind,
     /// One; of limits the lower and the upper.
     pub values: Vec<Expr<'g>>,

@@ -6,6 +6,7 @@
 //! - `forces`: what acts.
 //! - `laws`: constants of what acts, for checks.
 //! - `parameters`: what the numbers of fields are called.
+//! - `placements`: where bodies, frames and points are.
 //! - here: the scene, part by part, in the order in which one part can name another.
 
 mod domains;
@@ -13,6 +14,7 @@ mod drag;
 mod forces;
 mod laws;
 mod parameters;
+mod placements;
 mod symbols;
 mod value;
 mod values;
@@ -27,12 +29,12 @@ use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Map, OwnFunction, Rational};
 use crate::mechanics::{
-    Assigned, Body, ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Lettering, Matter, Observed,
-    Placement, SystemScene, Tree, Turn, Vector, poisson,
+    Body, ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Lettering, Matter, Observed, Placement,
+    QuantityValues, SystemScene, Tree, Turn, poisson,
 };
 use crate::model::{
-    self, BinaryOperator, BodyClause, ExpressionKind, FunctionClause, FunctionName, Given, GivenValue, InChart, Model,
-    Property, Role, Shape, SpeedPart,
+    self, BinaryOperator, ExpressionKind, FunctionClause, FunctionName, InChart, Model, Property, Role, RoleClause,
+    RoleValue, Shape, SpeedPart,
 };
 
 pub use drag::DragMatrix;
@@ -114,8 +116,8 @@ impl<'a, 'g> Translator<'a, 'g> {
         let model = self.model;
         self.names.extend(self.declared.fields.iter().cloned());
         self.names.insert("pi".to_owned(), Value::Scalar(self.pi));
-        let given = self.assigned(&model.given)?;
-        if let Some(gravity) = given.iter().find(|assigned| assigned.quantity == Role::Gravity) {
+        let values = self.quantity_values(&model.role_clauses)?;
+        if let Some(gravity) = values.iter().find(|values| values.quantity == Role::Gravity) {
             let zero = self.graph.zero();
             self.declared.gravity = match gravity.values.as_slice() {
                 &[x, y, z] => Some([x, y, z]),
@@ -123,9 +125,9 @@ impl<'a, 'g> Translator<'a, 'g> {
             };
         }
         for (k, clause) in model.bodies.iter().enumerate() {
-            let own = if clause.name.is_some() { self.assigned(&clause.given)? } else { given.clone() };
+            let own = if clause.name.is_some() { self.quantity_values(&clause.role_clauses)? } else { values.clone() };
             if let Some(body) = &mut self.declared.bodies[k] {
-                own.iter().for_each(|assigned| body.assign(assigned));
+                own.iter().for_each(|own| body.assign(own));
                 body.gravity = self.declared.gravity;
             }
         }
@@ -136,29 +138,29 @@ impl<'a, 'g> Translator<'a, 'g> {
     ///
     /// # Errors
     /// Only what the model should have refused: a bug of this crate.
-    pub fn assigned(&self, given: &[Given]) -> syn::Result<Vec<Assigned<'g>>> {
+    pub fn quantity_values(&self, clauses: &[RoleClause]) -> syn::Result<Vec<QuantityValues<'g>>> {
         let nothing = self.no_links();
-        let value = |given: &Given| {
-            let values = match &given.value {
-                GivenValue::Expression(e) => match self.value(e, &nothing)? {
+        let value = |clause: &RoleClause| {
+            let values = match &clause.value {
+                RoleValue::Expression(e) => match self.value(e, &nothing)? {
                     Value::Scalar(value) => vec![value],
                     Value::Vector(values) => values.to_vec(),
-                    _ => return Err(bug(given.span)),
+                    _ => return Err(bug(clause.span)),
                 },
-                GivenValue::Coefficients(coefficients) => {
+                RoleValue::Coefficients(coefficients) => {
                     let matrix = self.coefficients(coefficients, &nothing)?;
                     // Of a matrix the entries on and below the diagonal, column by column, as a body has them.
                     let below = |i: usize| (i..6).map(move |j| (j, i));
-                    match given.shape {
+                    match clause.shape {
                         Shape::Matrix6 => (0..6).flat_map(below).map(|(i, j)| matrix[i][j]).collect(),
                         _ => (0..6).map(|i| matrix[i][i]).collect(),
                     }
                 }
             };
-            let quantity = given.role;
-            Ok(Assigned { quantity, values })
+            let quantity = clause.role;
+            Ok(QuantityValues { quantity, values })
         };
-        given.iter().map(value).collect()
+        clauses.iter().map(value).collect()
     }
 
     /// Where the symbols of parameters are read.
@@ -473,90 +475,6 @@ impl<'a, 'g> Translator<'a, 'g> {
             }
         }
         rates
-    }
-
-    /// Bodies and frames, parents before children.
-    fn placements(&mut self) -> syn::Result<Vec<Placement<'g>>> {
-        let clauses = &self.model.bodies;
-        let mut placements = Vec::with_capacity(clauses.len());
-        let mut open: Vec<usize> = (0..clauses.len()).collect();
-        while !open.is_empty() {
-            let hung = |name: &Ident| self.links.contains_key(&name.unraw().to_string());
-            let ready = open.iter().position(|&k| clauses[k].parent.as_ref().is_none_or(hung));
-            let next = open.remove(ready.ok_or_else(|| bug(clauses[open[0]].span))?);
-            let placement = self.placement(next, &clauses[next])?;
-            self.links_of_clauses[next] = placements.len();
-            let name = clauses[next].name.as_ref().map_or_else(|| "body".to_owned(), |name| name.unraw().to_string());
-            self.links.insert(name, placements.len());
-            placements.push(placement);
-        }
-        Ok(placements)
-    }
-
-    fn placement(&self, index: usize, clause: &BodyClause) -> syn::Result<Placement<'g>> {
-        let nothing = self.no_links();
-        let zero = self.graph.zero();
-        let matter = match &self.declared.bodies[index] {
-            Some(body) => Matter::Body(Box::new(Body::clone(body))),
-            None => Matter::Nothing,
-        };
-        if let Some(chart) = self.chart.as_ref().filter(|_| self.model.is_in_chart(clause)) {
-            let hangs = |parent: &Option<Ident>| parent.as_ref().is_some_and(|name| name == "body");
-            let bodies = self.model.bodies.iter().map(|body| &body.parent);
-            let alone = !bodies.chain(self.model.particles.iter().map(|particle| &particle.parent)).any(hangs);
-            return Ok(chart.placement(matter, alone));
-        }
-        let turns = match &clause.rotation {
-            Some(e) => match self.value(e, &nothing)? {
-                Value::Rotation(turns) => turns.iter().map(|piece| piece.turn(self.graph, &self.rates)).collect(),
-                _ => return Err(bug(e.span)),
-            },
-            None => Vec::new(),
-        };
-        let [velocity, angular_velocity] = self.velocities_of_pose(clause);
-        Ok(Placement {
-            matter,
-            parent: clause.parent.as_ref().and_then(|name| self.links.get(&name.unraw().to_string()).copied()),
-            position: clause.position.as_ref().map_or(Ok([zero; 3]), |e| self.vector(e, &nothing))?,
-            velocity,
-            angular_velocity,
-            turns,
-        })
-    }
-
-    /// The velocity of O and the angular velocity, each in the axes in which the kinematics give it, of a body whose position and rotation
-    /// are those of a pose, or whose rotation is a coordinate.
-    fn velocities_of_pose(&self, clause: &BodyClause) -> [Option<Vector<'g>>; 2] {
-        let none = [self.graph.zero(); 3];
-        let in_body = |body| Vector { body, space: none };
-        let in_space = |space| Vector { body: none, space };
-        let turned_by = clause.rotation.as_ref().and_then(|e| match &e.kind {
-            ExpressionKind::Name(name) => Some(name.unraw().to_string()),
-            _ => name_of_property(e, Property::Rotation),
-        });
-        let coordinate = |name: &String| self.model.coordinates.iter().position(|q| q.ident.unraw() == *name);
-        let Some(k) = turned_by.as_ref().and_then(coordinate).filter(|_| clause.parent.is_none()) else {
-            return [None; 2];
-        };
-        let [linear, angular] = self.observed_rates[k];
-        let placed_by = clause.position.as_ref().and_then(|e| name_of_property(e, Property::Position));
-        let velocity = match self.declared.rate_of(self.declared.before + k, &self.kinematics) {
-            &[u1, u2, u3, _, _, _] if placed_by == turned_by && linear.is_none() => Some(in_body([u1, u2, u3])),
-            _ => None,
-        };
-        [velocity, angular.map(in_space)]
-    }
-
-    fn name_points(&mut self, tree: &Tree<'g>) -> syn::Result<()> {
-        for clause in &self.model.points {
-            let at = self.vector(&clause.at, tree)?;
-            let link = self.links.get(&clause.body.unraw().to_string()).map(|&k| &tree.links[k]);
-            let link = link.ok_or_else(|| bug(clause.span))?;
-            let turned = link.axes().to_space(&at);
-            let position: [Expr<'g>; 3] = std::array::from_fn(|i| link.position[i] + turned[i].group());
-            self.names.insert(clause.name.unraw().to_string(), Value::Vector(position));
-        }
-        Ok(())
     }
 
     fn constraints(&self, tree: &Tree<'g>) -> syn::Result<Vec<Constraint<'g>>> {

@@ -23,14 +23,14 @@ pub fn parameters<'g>(fields: &[Field], sources: &[Source<'g>]) -> Vec<Parameter
 }
 
 fn of_field<'g>(fields: &[Field], source: &Source<'g>) -> (usize, Parameter<'g>) {
-    let said = fields[source.field].ident.unraw();
+    let label = fields[source.field].ident.unraw();
     let name = match source.part {
-        Part::Scalar => said.to_string(),
-        Part::Component(i) => format!("{said}[{i}]"),
-        Part::Entry(i, j) => format!("{said}[{i}][{j}]"),
-        Part::Body(Role::Mass, ..) => format!("{said}.mass"),
-        Part::Body(Role::CenterOfMass, i, _) => format!("{said}.center_of_mass[{i}]"),
-        Part::Body(_, i, j) => format!("{said}.inertia[{i}][{j}]"),
+        Part::Scalar => label.to_string(),
+        Part::Component(i) => format!("{label}[{i}]"),
+        Part::Entry(i, j) => format!("{label}[{i}][{j}]"),
+        Part::Body(Role::Mass, ..) => format!("{label}.mass"),
+        Part::Body(Role::CenterOfMass, i, _) => format!("{label}.center_of_mass[{i}]"),
+        Part::Body(_, i, j) => format!("{label}.inertia[{i}][{j}]"),
     };
     (source.field, Parameter { symbol: source.symbol, name })
 }

@@ -277,7 +277,8 @@ impl<'g> Declared<'g> {
         if clause.massless {
             return None;
         }
-        let given = |role: Role| clause.given.iter().find(|given| given.role == role).map(|given| given.shape);
+        let given =
+            |role: Role| clause.role_clauses.iter().find(|clause| clause.role == role).map(|clause| clause.shape);
         let mut body = match &clause.name {
             Some(name) if clause.has_matter() => Body::named(self.graph, body_shape(given), 2, name_of(name)),
             Some(name) => {
@@ -307,7 +308,8 @@ impl<'g> Declared<'g> {
     fn unnamed_body(&mut self, model: &Model) -> Body<'g> {
         let fields = &model.fields;
         let field = |role: Role| fields.iter().position(|f| f.role == Some(role));
-        let given = |role: Role| model.given.iter().find(|given| given.role == role).map(|given| given.shape);
+        let given =
+            |role: Role| model.role_clauses.iter().find(|clause| clause.role == role).map(|clause| clause.shape);
         let shape_of = |role: Role| field(role).map(|k| fields[k].shape).or_else(|| given(role));
         let body = Body::new(self.graph, body_shape(shape_of), up(model));
         self.gravity = body.gravity;

@@ -28,51 +28,51 @@ impl<T: Real> WarningCheck<T> {
         Self { warnings: BoundedList::<ParameterWarning>::new(), scalar: PhantomData }
     }
 
-    /// A matrix of drag in the order (u, ω), written as `said`: its symmetric part must not have a negative eigenvalue.
+    /// A matrix of drag in the order (u, ω), written as `field`: its symmetric part must not have a negative eigenvalue.
     ///
     /// Silent where an entry is not finite: the kernel is refused then.
-    pub fn drag(&mut self, said: &'static str, kind: DragKind, matrix: &[[T; 6]; 6]) {
+    pub fn drag(&mut self, field: &'static str, kind: DragKind, matrix: &[[T; 6]; 6]) {
         let found =
             (0..T::LANES).find_map(|lane| negative_eigenvalue(&in_lane(matrix, lane), ParameterCheck::<T>::UNIT));
         if let Some(value) = found {
             let finding = Finding::DragFeedsEnergy { kind };
-            self.warnings.push(ParameterWarning { field: said, value, finding });
+            self.warnings.push(ParameterWarning { field, value, finding });
         }
     }
 
     /// The damping coefficient of a spring or a stop.
-    pub fn damping(&mut self, said: &'static str, coefficient: T) {
-        self.negative(said, &[coefficient], Finding::DampingFeedsEnergy);
+    pub fn damping(&mut self, field: &'static str, coefficient: T) {
+        self.negative(field, &[coefficient], Finding::DampingFeedsEnergy);
     }
 
     /// A dissipation function in a few states of general position: in one of them it is not negative.
-    pub fn dissipation(&mut self, said: &'static str, values: &[T]) {
+    pub fn dissipation(&mut self, field: &'static str, values: &[T]) {
         let negative = |value: &T| (0..T::LANES).all(|lane| value.lane(lane) < 0.0);
         if values.iter().all(negative) {
-            self.negative(said, values, Finding::DampingFeedsEnergy);
+            self.negative(field, values, Finding::DampingFeedsEnergy);
         }
     }
 
     /// A gravity of one number.
-    pub fn gravity(&mut self, said: &'static str, value: T) {
-        self.negative(said, &[value], Finding::GravityUpward);
+    pub fn gravity(&mut self, field: &'static str, value: T) {
+        self.negative(field, &[value], Finding::GravityUpward);
     }
 
     /// The gravitational parameter of a centre.
-    pub fn center(&mut self, said: &'static str, mu: T) {
-        self.negative(said, &[mu], Finding::CenterRepels);
+    pub fn center(&mut self, field: &'static str, mu: T) {
+        self.negative(field, &[mu], Finding::CenterRepels);
     }
 
     /// The diagonal of an added mass.
-    pub fn added_mass(&mut self, said: &'static str, diagonal: &[T; 6]) {
-        self.negative(said, diagonal, Finding::AddedMassOfDerivatives);
+    pub fn added_mass(&mut self, field: &'static str, diagonal: &[T; 6]) {
+        self.negative(field, diagonal, Finding::AddedMassOfDerivatives);
     }
 
     /// The first value that is negative. What is not a number is refused elsewhere.
-    fn negative(&mut self, said: &'static str, values: &[T], finding: Finding) {
+    fn negative(&mut self, field: &'static str, values: &[T], finding: Finding) {
         let lanes = values.iter().flat_map(|value| (0..T::LANES).map(|lane| value.lane(lane)));
         if let Some(value) = lanes.into_iter().find(|value| *value < 0.0) {
-            self.warnings.push(ParameterWarning { field: said, value, finding });
+            self.warnings.push(ParameterWarning { field, value, finding });
         }
     }
 

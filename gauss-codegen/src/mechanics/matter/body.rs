@@ -30,7 +30,7 @@ pub struct ParameterSymbol<'g> {
 
 /// What a quantity is, where it is not read from a parameter of its own: one value, or the components in order.
 #[derive(Clone, Debug)]
-pub struct Assigned<'g> {
+pub struct QuantityValues<'g> {
     pub quantity: Role,
     /// Expressions of parameters and numbers.
     pub values: Vec<Expr<'g>>,
@@ -152,10 +152,10 @@ impl<'g> Body<'g> {
     }
 
     /// Puts values in the place of the symbols of a quantity, as many as its shape has.
-    pub fn assign(&mut self, assigned: &Assigned<'g>) {
-        let own = |p: &ParameterSymbol<'g>| p.quantity == assigned.quantity;
+    pub fn assign(&mut self, values: &QuantityValues<'g>) {
+        let own = |p: &ParameterSymbol<'g>| p.quantity == values.quantity;
         let symbols = self.parameters.iter().filter(|p| own(p)).map(|p| p.symbol.key());
-        let values: Map<u32, Expr<'g>> = symbols.zip(assigned.values.iter().copied()).collect();
+        let values: Map<u32, Expr<'g>> = symbols.zip(values.values.iter().copied()).collect();
         self.parameters.retain(|p| !own(p));
         let put = |e: &mut Expr<'g>| *e = e.substitute(&values);
         put(&mut self.mass);

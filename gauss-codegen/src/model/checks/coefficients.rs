@@ -6,7 +6,7 @@ use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, same, word};
 use crate::model::names::scope::Scope;
-use crate::model::scene::clauses::{Coefficients, ForceKind, GivenValue};
+use crate::model::scene::clauses::{Coefficients, ForceKind, RoleValue};
 use crate::model::scene::roles::Shape;
 use proc_macro2::Ident;
 
@@ -17,8 +17,8 @@ pub fn fields<'a>(statements: &'a Statements) -> Vec<(&'a Ident, &'static str)> 
         let ForceKind::Drag { linear, quadratic, .. } = &clause.kind else { continue };
         all.extend(linear.iter().chain(quadratic).map(|coefficients| (coefficients, "the coefficients of a drag are")));
     }
-    for given in statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given)) {
-        if let GivenValue::Coefficients(coefficients) = &given.value {
+    for clause in statements.all_role_clauses() {
+        if let RoleValue::Coefficients(coefficients) = &clause.value {
             all.push((coefficients, "an added mass is"));
         }
     }

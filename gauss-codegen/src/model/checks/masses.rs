@@ -11,7 +11,7 @@ use crate::model::names::expressions;
 use crate::model::names::kinds;
 use crate::model::names::places::Place;
 use crate::model::names::scope::Scope;
-use crate::model::scene::clauses::{BodyClause, Coefficients, Given, GivenValue};
+use crate::model::scene::clauses::{BodyClause, Coefficients, RoleClause, RoleValue};
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use crate::model::scene::roles::{Role, Shape};
 use proc_macro2::{Ident, Span};
@@ -27,10 +27,10 @@ pub fn check_roles(
     uncertain: bool,
     context: &mut Context,
 ) {
-    let given = |role: Role| statements.given.iter().any(|given| given.role == role);
+    let has_clause = |role: Role| statements.role_clauses.iter().any(|clause| clause.role == role);
     let known =
-        |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role) || given(role);
-    let claimed = |role: Role| owners.iter().any(|(owner, _)| *owner == role) || given(role);
+        |role: Role| owners.iter().any(|(owner, _)| *owner == role) || reader.meant.contains(&role) || has_clause(role);
+    let claimed = |role: Role| owners.iter().any(|(owner, _)| *owner == role) || has_clause(role);
     refuse_both(claimed, input.ident.span(), &input.ident.to_string(), context);
     // One inertia is as good as the other.
     let known = |role: Role| known(role) || (role == Role::Inertia && known(Role::CentralInertia));
@@ -41,7 +41,7 @@ pub fn check_roles(
     for claim in reader.fields.iter().filter_map(|field| field.role.as_ref()) {
         field_shapes::check_companion(claim.role, claim.span, known, scalar, context);
     }
-    check_twice(&statements.given, &reader.fields, known, scalar, context);
+    check_twice(&statements.role_clauses, &reader.fields, known, scalar, context);
     statements.massive().for_each(|body| check_fluid(body, known(Role::Gravity), scalar, context));
     if statements.has_unnamed_body() {
         return;
@@ -98,10 +98,10 @@ fn refuse_massless(input: &DeriveInput, statements: &Statements, reader: &Reader
 
 /// Mass data of a body without a name, where there is none.
 fn refuse_ownerless(statements: &Statements, reader: &Reader<'_>, context: &mut Context) {
-    for given in statements.given.iter().filter(|given| given.role != Role::Gravity) {
-        let word = given.role.word();
+    for clause in statements.role_clauses.iter().filter(|clause| clause.role != Role::Gravity) {
+        let word = clause.role.word();
         context.error(
-            given.span,
+            clause.span,
             format!(
                 "`{word}` is that of a body without a name, and this system has none; write it in the clause of the body: \
                  `body(name, {word} = …)`"
@@ -134,32 +134,32 @@ fn refuse_both(known: impl Fn(Role) -> bool, span: Span, name: &str, context: &m
 }
 
 /// Settles the shapes, and refuses numbers that no body has; one that moves `alone` needs a mass of its own.
-pub fn check(list: &mut [Given], alone: bool, fields: &[ReadField<'_>], scope: &Scope, context: &mut Context) {
-    for given in list {
-        match &given.value {
-            GivenValue::Coefficients(Coefficients::Field(name)) => {
+pub fn check(list: &mut [RoleClause], alone: bool, fields: &[ReadField<'_>], scope: &Scope, context: &mut Context) {
+    for clause in list {
+        match &clause.value {
+            RoleValue::Coefficients(Coefficients::Field(name)) => {
                 let field = fields.iter().find(|field| same(field.ident, name));
                 // What is no such field is noted with those of drags.
                 if let Some(TypeKind::Known(shape)) = field.map(|field| field.reading.kind) {
-                    given.shape = shape;
+                    clause.shape = shape;
                 }
                 continue;
             }
-            GivenValue::Coefficients(Coefficients::Diagonal(entries)) => {
+            RoleValue::Coefficients(Coefficients::Diagonal(entries)) => {
                 // Of an inertia the upper triangle, row by row.
-                given.shape = if given.role == Role::AddedMass { Shape::Vector6 } else { Shape::Matrix3 };
+                clause.shape = if clause.role == Role::AddedMass { Shape::Vector6 } else { Shape::Matrix3 };
                 for entry in entries {
-                    kinds::check(entry, expressions::entry(given.role), scope, context);
+                    kinds::check(entry, expressions::entry(clause.role), scope, context);
                 }
                 continue;
             }
-            GivenValue::Expression(value) => match kinds::check(value, Place::Given(given.role), scope, context) {
-                Some(Kind::Scalar) => given.shape = Shape::Scalar,
-                Some(Kind::Vector) => given.shape = Shape::Vector3,
+            RoleValue::Expression(value) => match kinds::check(value, Place::Role(clause.role), scope, context) {
+                Some(Kind::Scalar) => clause.shape = Shape::Scalar,
+                Some(Kind::Vector) => clause.shape = Shape::Vector3,
                 _ => continue,
             },
         }
-        if let Some((span, rule)) = broken_rule(given, alone) {
+        if let Some((span, rule)) = broken_rule(clause, alone) {
             context.error(span, rule);
         }
     }
@@ -167,14 +167,14 @@ pub fn check(list: &mut [Given], alone: bool, fields: &[ReadField<'_>], scope: &
 
 /// What literal numbers alone show to be wrong. The rest is checked when a kernel is made, because it depends on the motion: of a body
 /// in the plane one moment of inertia matters.
-fn broken_rule(given: &Given, alone: bool) -> Option<(Span, String)> {
-    let GivenValue::Expression(value) = &given.value else { return None };
+fn broken_rule(clause: &RoleClause, alone: bool) -> Option<(Span, String)> {
+    let RoleValue::Expression(value) = &clause.value else { return None };
     let parts: Vec<&Expression> = match &value.kind {
         ExpressionKind::Vector(parts) => parts.iter().map(|part| &**part).collect(),
         _ => vec![value],
     };
-    let word = given.role.word();
-    let (least, positive) = match given.role {
+    let word = clause.role.word();
+    let (least, positive) = match clause.role {
         Role::Mass if alone => ("positive", true),
         Role::Mass | Role::Inertia | Role::CentralInertia | Role::DisplacedMass => ("zero or more", false),
         _ => return None,
@@ -186,41 +186,41 @@ fn broken_rule(given: &Given, alone: bool) -> Option<(Span, String)> {
 
 /// What a field says is not said by a clause too; `known` are the roles that something plays.
 pub fn check_twice(
-    list: &[Given],
+    list: &[RoleClause],
     fields: &[ReadField<'_>],
     known: impl Fn(Role) -> bool,
     scalar: &str,
     context: &mut Context,
 ) {
-    for given in list {
-        let word = given.role.word();
-        let owner = fields.iter().find(|field| field.role.as_ref().is_some_and(|claim| claim.role == given.role));
+    for clause in list {
+        let word = clause.role.word();
+        let owner = fields.iter().find(|field| field.role.as_ref().is_some_and(|claim| claim.role == clause.role));
         if let Some(field) = owner {
             context.error(
-                given.span,
+                clause.span,
                 format!("`{word}` is given here and by the field `{}`; keep one of the two", field.ident),
             );
         }
-        field_shapes::check_companion(given.role, given.span, &known, scalar, context);
+        field_shapes::check_companion(clause.role, clause.span, &known, scalar, context);
     }
 }
 
 /// What the fluid does to a body with a name needs gravity, and something that it displaces.
 pub fn check_fluid(body: &BodyClause, gravity: bool, scalar: &str, context: &mut Context) {
     let Some(name) = &body.name else { return };
-    for given in &body.given {
-        let displaced = body.given.iter().any(|other| other.role == Role::DisplacedMass);
-        match given.role {
+    for clause in &body.role_clauses {
+        let displaced = body.role_clauses.iter().any(|other| other.role == Role::DisplacedMass);
+        match clause.role {
             Role::DisplacedMass => {
                 let known = |role: Role| role != Role::Gravity || gravity;
-                field_shapes::check_companion(given.role, given.span, known, scalar, context);
+                field_shapes::check_companion(clause.role, clause.span, known, scalar, context);
             }
             Role::CenterOfBuoyancy if !displaced => context.error(
-                given.span,
+                clause.span,
                 format!(
                     "`{}` of `{name}` needs `displaced_mass`; without a displaced mass nothing acts there: add \
                      `displaced_mass = …`",
-                    given.role.word()
+                    clause.role.word()
                 ),
             ),
             _ => {}
@@ -240,7 +240,7 @@ pub fn check_named(body: &BodyClause, fields: &[ReadField<'_>], context: &mut Co
             ),
         );
     }
-    let has = |role: Role| body.given.iter().any(|given| given.role == role);
+    let has = |role: Role| body.role_clauses.iter().any(|clause| clause.role == role);
     refuse_both(has, body.span, &name.to_string(), context);
     for role in [Role::Mass, Role::Inertia] {
         if !has(role) && (role == Role::Mass || !has(Role::CentralInertia)) {

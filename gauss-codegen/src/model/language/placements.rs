@@ -3,7 +3,7 @@
 use super::arguments::{self, brackets, known, value};
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
-use super::given;
+use super::role_clauses;
 use super::words::{self, Table, UNNAMED};
 use crate::model::scene::clauses::{BodyClause, ParticleClause, PointClause};
 use crate::model::scene::expression::{Expression, ExpressionKind, Property};
@@ -39,7 +39,7 @@ pub fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Opti
         parent: None,
         position: None,
         rotation: None,
-        given: Vec::new(),
+        role_clauses: Vec::new(),
         span: clause.name.span(),
     };
     let (arguments, complete) = arguments::arguments(group, place, context);
@@ -55,7 +55,7 @@ pub fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Opti
             certain &= body.name.is_some();
             continue;
         }
-        let role = given::role(&word);
+        let role = role_clauses::role(&word);
         if massless && role.is_some() {
             context.error(argument.name.span(), "a frame has no mass; what has mass is a `body` or a `particle`");
             continue;
@@ -66,7 +66,7 @@ pub fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Opti
         match word.as_str() {
             "position" => body.position = value(argument, "[x, y, 0]", context).or(body.position),
             _ if role.is_some() => {
-                role.into_iter().for_each(|role| given::read(role, argument, &mut body.given, context))
+                role.into_iter().for_each(|role| role_clauses::read(role, argument, &mut body.role_clauses, context))
             }
             "pose" => read_pose(argument, &mut body, &names, context),
             "rotation" => body.rotation = value(argument, "rotation_z(theta)", context).or(body.rotation),

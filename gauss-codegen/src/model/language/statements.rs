@@ -6,10 +6,10 @@ use super::attributes::{self, Clause, Owner};
 use super::context::Context;
 use super::declarations::{self, Definition, Kinematics, Names};
 use super::words::{self, Table, same};
-use super::{actions, given, own_functions, placements};
+use super::{actions, own_functions, placements, role_clauses};
 use crate::model::scene::clauses::{
     Attraction, BodyClause, ConstraintClause, ConstraintKind, Coordinate, ForceClause, ForceKind, FunctionClause,
-    Given, InputName, ParticleClause, PointClause, Speed, SpeedPart,
+    InputName, ParticleClause, PointClause, RoleClause, Speed, SpeedPart,
 };
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use proc_macro2::{Group, Ident, TokenTree};
@@ -46,7 +46,7 @@ pub struct Statements {
     pub attractions: Vec<Attraction>,
     pub medium: Option<(Ident, Option<Expression>)>,
     /// Mass data of the body without a name, and gravity.
-    pub given: Vec<Given>,
+    pub role_clauses: Vec<RoleClause>,
     pub functions: Vec<FunctionClause>,
     /// Bodies whose moments need not obey the triangle inequality; `None`: all.
     pub formal: Vec<Option<Ident>>,
@@ -156,6 +156,11 @@ impl Statement {
 }
 
 impl Statements {
+    /// Mass data in clauses: of the struct, then of the bodies.
+    pub fn all_role_clauses(&self) -> impl Iterator<Item = &RoleClause> {
+        self.role_clauses.iter().chain(self.bodies.iter().flat_map(|body| &body.role_clauses))
+    }
+
     /// None so far.
     pub fn new(in_chart: bool, has_coordinates: bool) -> Statements {
         Statements { in_chart, has_coordinates, ..Statements::default() }
@@ -186,7 +191,7 @@ impl Statements {
 
     /// What can be written once is not written again.
     fn refuse_twice(&self, statement: Statement, clause: &Clause, context: &mut Context) {
-        let given = match statement {
+        let written = match statement {
             Statement::Coordinates => self.coordinates.is_some(),
             Statement::Speeds => self.speeds.is_some(),
             Statement::Kinematics => self.kinematics.is_some(),
@@ -198,7 +203,7 @@ impl Statements {
             Statement::Medium => self.medium.is_some(),
             _ => false,
         };
-        if given {
+        if written {
             let name = &clause.name;
             let remedy = match statement {
                 Statement::Potential | Statement::Damping => "write the sum of the two in one",
@@ -282,8 +287,8 @@ impl Statements {
         }
         // Of the only body there is one set of mass data, wherever they are written.
         if body.name.is_none() {
-            for given in body.given.drain(..) {
-                given::add(given, &mut self.given, context);
+            for clause in body.role_clauses.drain(..) {
+                role_clauses::add(clause, &mut self.role_clauses, context);
             }
         }
         self.bodies.push(body);
@@ -349,7 +354,7 @@ impl Statements {
 
     /// Something is written besides the chart: of what moves, of what acts, or of mass data.
     pub fn is_empty(&self) -> bool {
-        self.first.is_none() && self.given.is_empty()
+        self.first.is_none() && self.role_clauses.is_empty()
     }
 
     /// The bodies that have mass.

@@ -8,8 +8,8 @@ use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};
 use super::context::Context;
 use super::declarations;
-use super::given;
 use super::robots::{self, FILES, RobotClauses};
+use super::role_clauses;
 use super::role_words::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
 use super::words::{self, Table};
@@ -117,8 +117,8 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
         let word = clause.word();
         if STATEMENTS.iter().any(|(name, _)| *name == word) {
             statements.read(&clause, context);
-        } else if let Some(role) = given::role(&word).filter(|_| !given::belongs_to_field(&clause)) {
-            given::read(role, &clause, &mut statements.given, context);
+        } else if let Some(role) = role_clauses::role(&word).filter(|_| !role_clauses::belongs_to_field(&clause)) {
+            role_clauses::read(role, &clause, &mut statements.role_clauses, context);
         } else if let Some(topic) = robots::topic(&word, beside_file) {
             robot.read(topic, &clause, context);
         } else if let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) {

@@ -3,7 +3,7 @@
 use super::places::Place;
 use crate::model::language::statements::Statements;
 use crate::model::language::words::same;
-use crate::model::scene::clauses::{Coefficients, Extent, ForceClause, ForceKind, Given, GivenValue};
+use crate::model::scene::clauses::{Coefficients, Extent, ForceClause, ForceKind, RoleClause, RoleValue};
 use crate::model::scene::expression::Expression;
 use crate::model::scene::roles::Role;
 use proc_macro2::Ident;
@@ -20,8 +20,8 @@ pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {
         all.extend(body.position.as_ref().map(|position| (Place::Position, position)));
         all.extend(body.rotation.as_ref().map(|rotation| (Place::Rotation, rotation)));
     }
-    let given = statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given));
-    all.extend(given.flat_map(Given::expressions));
+    let clauses = statements.all_role_clauses();
+    all.extend(clauses.flat_map(RoleClause::expressions));
     for particle in &statements.particles {
         all.push((Place::Mass, &particle.mass));
         all.push((Place::Particle { parent: particle.parent.is_some() }, &particle.position));
@@ -69,8 +69,8 @@ impl Statements {
         for body in &mut self.bodies {
             body.position.iter_mut().chain(&mut body.rotation).for_each(&mut *change);
         }
-        let of_bodies = self.bodies.iter_mut().flat_map(|body| &mut body.given);
-        self.given.iter_mut().chain(of_bodies).for_each(|given| given.each_expression(change));
+        let of_bodies = self.bodies.iter_mut().flat_map(|body| &mut body.role_clauses);
+        self.role_clauses.iter_mut().chain(of_bodies).for_each(|clause| clause.each_expression(change));
         for particle in &mut self.particles {
             change(&mut particle.mass);
             change(&mut particle.position);
@@ -103,20 +103,20 @@ impl Statements {
     }
 }
 
-impl Given {
+impl RoleClause {
     /// Its expressions, with their places.
     pub fn expressions(&self) -> Vec<(Place, &Expression)> {
         match &self.value {
-            GivenValue::Expression(value) => vec![(Place::Given(self.role), value)],
-            GivenValue::Coefficients(value) => value.entries().map(|e| (entry(self.role), e)).collect(),
+            RoleValue::Expression(value) => vec![(Place::Role(self.role), value)],
+            RoleValue::Coefficients(value) => value.entries().map(|e| (entry(self.role), e)).collect(),
         }
     }
 
     /// Calls `change` with each of its expressions.
     pub fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
         match &mut self.value {
-            GivenValue::Expression(value) => change(value),
-            GivenValue::Coefficients(value) => value.each_expression(change),
+            RoleValue::Expression(value) => change(value),
+            RoleValue::Coefficients(value) => value.each_expression(change),
         }
     }
 }

@@ -22,7 +22,7 @@ pub enum Place {
     },
     Mass,
     /// Of a body, in a clause.
-    Given(Role),
+    Role(Role),
     /// Of a point in its body.
     At,
     Potential,
@@ -79,7 +79,7 @@ impl Place {
             }
             Place::Medium | Place::Center => kind == Kind::Vector,
             Place::Rotation => kind == Kind::Rotation,
-            Place::Given(role) => match kind {
+            Place::Role(role) => match kind {
                 Kind::Scalar => role.takes(Shape::Scalar),
                 Kind::Vector => role.takes(Shape::Vector3),
                 _ => false,
@@ -107,7 +107,7 @@ impl Place {
             Place::At => ("the place of a point in its body is a vector", "write `[x, y, z]`"),
             Place::Rotation => ("expected a rotation", "write `rotation_z(theta)`, or a product of such turns"),
             Place::Mass => ("the mass of a particle is a scalar", "write one number or the name of a field"),
-            Place::Given(role) => {
+            Place::Role(role) => {
                 let remedy = match (role.takes(Shape::Scalar), role.takes(Shape::Vector3)) {
                     (true, true) => "write one number or `[a, b, c]`",
                     (false, _) => "write `[x, y, z]`",
@@ -201,7 +201,7 @@ impl Place {
 
     /// Nothing that changes may stand here.
     fn is_constant(self) -> bool {
-        matches!(self, Place::Mass | Place::Given(_) | Place::At | Place::ForceAt { .. } | Place::Constant { .. })
+        matches!(self, Place::Mass | Place::Role(_) | Place::At | Place::ForceAt { .. } | Place::Constant { .. })
     }
 
     /// What stands here, for messages.
@@ -211,7 +211,7 @@ impl Place {
             Place::Position | Place::Particle { .. } => "a position",
             Place::Rotation => "a rotation",
             Place::Mass => "a mass",
-            Place::Given(_) => "what a body is",
+            Place::Role(_) => "what a body is",
             Place::At => "a point of a body",
             Place::Potential => "a potential",
             Place::Constraint(ConstraintKind::Position) => "a constraint of positions",
@@ -267,7 +267,7 @@ impl Place {
             (Place::Mass, _) => {
                 format!("`{name}` varies, and the mass of a particle is constant; write numbers and fields only")
             }
-            (Place::Given(role), _) => {
+            (Place::Role(role), _) => {
                 format!("`{name}` varies, and `{}` of a body is constant; write numbers and fields only", role.word())
             }
             (Place::Constant { word, noun }, _) => {

@@ -47,7 +47,7 @@ pub struct Scope {
     /// What the definitions stand for, as far as they are known to be well by themselves.
     definitions: Vec<Option<Expression>>,
     /// Mistakes that uses found in definitions: what several uses forbid is said once.
-    said: RefCell<Vec<(usize, String)>>,
+    reported: RefCell<Vec<(usize, String)>>,
 }
 
 impl Scope {
@@ -56,7 +56,7 @@ impl Scope {
             names: vec![(TIME.into(), Meaning::Time), (PI.into(), Meaning::Pi)],
             complete,
             definitions: Vec::new(),
-            said: RefCell::default(),
+            reported: RefCell::default(),
         }
     }
 
@@ -75,10 +75,10 @@ impl Scope {
 
     /// Whether this is new to be said of the definition.
     pub fn is_new(&self, definition: usize, message: &str) -> bool {
-        let mut said = self.said.borrow_mut();
-        let new = !said.iter().any(|(other, known)| *other == definition && known == message);
+        let mut reported = self.reported.borrow_mut();
+        let new = !reported.iter().any(|(other, known)| *other == definition && known == message);
         if new {
-            said.push((definition, message.to_owned()));
+            reported.push((definition, message.to_owned()));
         }
         new
     }

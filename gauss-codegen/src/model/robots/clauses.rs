@@ -16,7 +16,7 @@ use crate::model::language::robots::{Base, File, Format, Friction, Inputs, Limit
 use crate::model::language::statements::Statements;
 use crate::model::scene::clauses::{
     BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceClause,
-    ForceKind, Given, GivenValue, InputKind, InputName, Speed, SpeedKind,
+    ForceKind, InputKind, InputName, RoleClause, RoleValue, Speed, SpeedKind,
 };
 use crate::model::scene::described::{Described, Remark};
 use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
@@ -39,13 +39,13 @@ pub fn compose(
     }
     let path = source::path(file);
     let read = source::text(&path).map_err(|message| vec![message]).and_then(|text| {
-        let said =
+        let faults =
             |faults: Vec<Fault>| faults.iter().map(|f| source::located(file, f.at, &f.message)).collect::<Vec<_>>();
-        let description = source::read(file.format, &text).map_err(said)?;
-        let structure = Structure::new(&description).map_err(said)?;
+        let description = source::read(file.format, &text).map_err(faults)?;
+        let structure = Structure::new(&description).map_err(faults)?;
         let robot = Robot::new(file, clauses, reader, &description, &structure);
         let idle = robot.without_inertia();
-        if idle.is_empty() { Ok(robot.written(statements, context)) } else { Err(said(idle)) }
+        if idle.is_empty() { Ok(robot.written(statements, context)) } else { Err(faults(idle)) }
     });
     match read {
         Ok(notes) => {
@@ -213,8 +213,8 @@ impl<'a> Robot<'a> {
         let bodies: Vec<BodyClause> = (0..self.links.len()).map(|link| self.body(link)).collect();
         statements.bodies.splice(0..0, bodies.into_iter().chain(self.rotors()));
         statements.constraints.splice(0..0, self.closures());
-        let given = statements.given.iter().any(|given| given.role == Role::Gravity);
-        statements.given.extend(self.gravity().filter(|_| !given && !self.gravity_in_field));
+        let has_gravity = statements.role_clauses.iter().any(|clause| clause.role == Role::Gravity);
+        statements.role_clauses.extend(self.gravity().filter(|_| !has_gravity && !self.gravity_in_field));
         let forces = self.forces();
         statements.forces.splice(0..0, forces);
         self.notes.sort_by_key(|note| note.at);
@@ -291,7 +291,7 @@ impl<'a> Robot<'a> {
             (None, None) => [None, None],
         };
         let own = &self.description.links[link].inertial;
-        let given = match (self.moves(link), self.is_apart(link)) {
+        let own = match (self.moves(link), self.is_apart(link)) {
             (false, _) => None,
             (true, true) if self.in_field[link] => Some(Vec::new()),
             (true, true) => own.as_ref().map(|own| self.mass_data(own)),
@@ -303,32 +303,32 @@ impl<'a> Robot<'a> {
         };
         BodyClause {
             name: Some(self.links[link].clone()),
-            massless: given.is_none(),
+            massless: own.is_none(),
             parent: self.structure.parent_of[link].map(|parent| self.links[parent].clone()),
             position,
             rotation,
-            given: given.unwrap_or_default(),
+            role_clauses: own.unwrap_or_default(),
             span: writer.span,
         }
     }
 
     /// Mass, centre of mass and inertia; what is zero, and moments that are equal, as few numbers.
-    fn mass_data(&self, own: &Inertial) -> Vec<Given> {
+    fn mass_data(&self, own: &Inertial) -> Vec<RoleClause> {
         let writer = self.writer;
-        let given = |role: Role, value: GivenValue| Given { role, shape: Shape::Other, value, span: writer.span };
-        let mut all = vec![given(Role::Mass, GivenValue::Expression(writer.number(own.mass)))];
-        let center = writer.triple(&own.center).map(|center| given(Role::CenterOfMass, GivenValue::Expression(center)));
+        let clause = |role: Role, value: RoleValue| RoleClause { role, shape: Shape::Other, value, span: writer.span };
+        let mut all = vec![clause(Role::Mass, RoleValue::Expression(writer.number(own.mass)))];
+        let center = writer.triple(&own.center).map(|center| clause(Role::CenterOfMass, RoleValue::Expression(center)));
         all.extend(center.filter(|_| own.mass != 0.0));
         let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = own.inertia;
         let inertia = match [xy, xz, yz] == [0.0; 3] {
-            true if xx == yy && yy == zz => GivenValue::Expression(writer.number(xx)),
-            true => GivenValue::Expression(writer.vector([xx, yy, zz].map(|moment| writer.number(moment)))),
+            true if xx == yy && yy == zz => RoleValue::Expression(writer.number(xx)),
+            true => RoleValue::Expression(writer.vector([xx, yy, zz].map(|moment| writer.number(moment)))),
             false => {
                 let entries = [xx, xy, xz, yy, yz, zz].map(|entry| Box::new(writer.number(entry)));
-                GivenValue::Coefficients(Coefficients::Diagonal(entries))
+                RoleValue::Coefficients(Coefficients::Diagonal(entries))
             }
         };
-        all.push(given(Role::CentralInertia, inertia));
+        all.push(clause(Role::CentralInertia, inertia));
         all
     }
 
@@ -410,10 +410,10 @@ impl<'a> Robot<'a> {
             let value = self.values(index, 0.0).into_iter().next()?;
             let zero = || writer.number(0.0);
             let moments = writer.vector([zero(), zero(), writer.number(joint.armature / 2.0)]);
-            let given = |role: Role, e: Expression| Given {
+            let clause = |role: Role, e: Expression| RoleClause {
                 role,
                 shape: Shape::Other,
-                value: GivenValue::Expression(e),
+                value: RoleValue::Expression(e),
                 span: writer.span,
             };
             let rotor = |end: &str, angle: Expression| BodyClause {
@@ -422,7 +422,7 @@ impl<'a> Robot<'a> {
                 parent: None,
                 position: None,
                 rotation: Some(writer.call(FunctionName::RotationZ, vec![angle])),
-                given: vec![given(Role::Mass, zero()), given(Role::Inertia, moments.clone())],
+                role_clauses: vec![clause(Role::Mass, zero()), clause(Role::Inertia, moments.clone())],
                 span: writer.span,
             };
             Some([rotor("", value.clone()), rotor("_back", writer.negative(value))])
@@ -455,17 +455,17 @@ impl<'a> Robot<'a> {
     }
 
     /// The acceleration of free fall, where neither a field nor a clause of the struct says it.
-    fn gravity(&self) -> Option<Given> {
+    fn gravity(&self) -> Option<RoleClause> {
         let writer = self.writer;
         let value = match self.description.gravity? {
             [0.0, 0.0, 0.0] => return None,
             [0.0, 0.0, g] => writer.number(-g),
             g => writer.triple(&g)?,
         };
-        Some(Given {
+        Some(RoleClause {
             role: Role::Gravity,
             shape: Shape::Other,
-            value: GivenValue::Expression(value),
+            value: RoleValue::Expression(value),
             span: writer.span,
         })
     }

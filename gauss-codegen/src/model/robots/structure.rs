@@ -49,8 +49,8 @@ impl Structure {
             let strangers =
                 closure.links.iter().filter(|name| !description.links.iter().any(|link| link.name == **name));
             for name in strangers {
-                let said = unknown("link", name, description.links.iter().map(|link| link.name.as_str()));
-                faults.push(Fault { at: closure.at, message: format!("a point is common to {said}") });
+                let which = unknown("link", name, description.links.iter().map(|link| link.name.as_str()));
+                faults.push(Fault { at: closure.at, message: format!("a point is common to {which}") });
             }
         }
         let root = if faults.is_empty() { root(description, &parent_of, &mut faults) } else { None };
@@ -178,8 +178,8 @@ fn parents(description: &Description, faults: &mut Vec<Fault>) -> (Vec<Option<us
         let ends = [&joint.parent, &joint.child].map(|name| {
             let link = find(name);
             if link.is_none() {
-                let said = unknown("link", name, description.links.iter().map(|link| link.name.as_str()));
-                faults.push(Fault { at: joint.at, message: format!("the joint `{}` joins {said}", joint.name) });
+                let which = unknown("link", name, description.links.iter().map(|link| link.name.as_str()));
+                faults.push(Fault { at: joint.at, message: format!("the joint `{}` joins {which}", joint.name) });
             }
             link
         });

@@ -20,9 +20,9 @@ pub fn parse(text: &str) -> Result<Document<'_>, Fault> {
     Document::parse_with_options(text, options).map_err(|error| {
         let roxmltree::TextPos { row, col } = error.pos();
         // The place stands before the message.
-        let said = error.to_string();
-        let said = said.split(" at ").next().unwrap_or_default();
-        Fault { at: At { line: row, column: col }, message: format!("this is no XML: {said}") }
+        let text = error.to_string();
+        let text = text.split(" at ").next().unwrap_or_default();
+        Fault { at: At { line: row, column: col }, message: format!("this is no XML: {text}") }
     })
 }
 

@@ -76,7 +76,7 @@ pub struct BodyClause {
     /// How the axes e are turned; `None`: like the parent's, or like k, or as the chart says.
     pub rotation: Option<Expression>,
     /// Mass, centre of mass and inertia where the body has no field; what the fluid about it does, in any case.
-    pub given: Vec<Given>,
+    pub role_clauses: Vec<RoleClause>,
     /// The word `body` or `frame`.
     pub span: Span,
 }
@@ -84,7 +84,7 @@ pub struct BodyClause {
 impl BodyClause {
     /// Its mass data are said in the clause.
     pub fn has_matter(&self) -> bool {
-        self.given.iter().any(Given::is_of_matter)
+        self.role_clauses.iter().any(RoleClause::is_of_matter)
     }
 }
 
@@ -359,27 +359,27 @@ pub enum ForceAxes {
 
 /// `role = value`, of the body that has it.
 #[derive(Clone)]
-pub struct Given {
+pub struct RoleClause {
     /// Any but that of being a body.
     pub role: Role,
     /// Scalar or vector; of an added mass six, or six by six.
     pub shape: Shape,
     /// Of fields and numbers.
-    pub value: GivenValue,
+    pub value: RoleValue,
     /// The word of the role.
     pub span: Span,
 }
 
 /// What a role is said to be.
 #[derive(Clone)]
-pub enum GivenValue {
+pub enum RoleValue {
     /// A scalar or a vector.
     Expression(Expression),
     /// An added mass.
     Coefficients(Coefficients),
 }
 
-impl Given {
+impl RoleClause {
     /// It is of the body itself, not of the fluid about it.
     pub fn is_of_matter(&self) -> bool {
         matches!(self.role, Role::Mass | Role::CenterOfMass | Role::Inertia | Role::CentralInertia)

@@ -3,8 +3,8 @@
 
 use super::charts::InChart;
 use super::clauses::{
-    Attraction, BodyClause, Coefficients, ConstraintClause, Coordinate, ForceClause, FunctionClause, Given, GivenValue,
-    InputName, ParticleClause, PointClause, Speed, SpeedPart,
+    Attraction, BodyClause, Coefficients, ConstraintClause, Coordinate, ForceClause, FunctionClause, InputName,
+    ParticleClause, PointClause, RoleClause, RoleValue, Speed, SpeedPart,
 };
 use super::described::Described;
 use super::expression::Expression;
@@ -57,7 +57,7 @@ pub struct Model {
     /// Values that arrive at run time, in order.
     pub inputs: Vec<InputName>,
     /// Mass data of the only body without a name, and gravity, where they are no fields.
-    pub given: Vec<Given>,
+    pub role_clauses: Vec<RoleClause>,
     /// The velocity of the medium: a vector of t, fields and numbers, observer axes; `None`: at rest.
     pub medium: Option<Expression>,
     /// Central gravity: each acts on every body and every particle.
@@ -82,8 +82,8 @@ impl Model {
 
     /// The shape of what plays a role, a field or a clause; without it the body without a name has no such thing.
     pub fn shape(&self, role: Role) -> Option<Shape> {
-        let given = || self.given.iter().find(|given| given.role == role);
-        self.field(role).map(|field| field.shape).or_else(|| given().map(|given| given.shape))
+        let clause = || self.role_clauses.iter().find(|clause| clause.role == role);
+        self.field(role).map(|field| field.shape).or_else(|| clause().map(|clause| clause.shape))
     }
 
     /// One body in a chart, which nothing is attached to and nothing constrains.
@@ -103,13 +103,13 @@ impl Model {
 
     /// Some expression is written, of what acts or of mass data.
     pub fn has_expressions(&self) -> bool {
-        self.is_acted_upon() || !self.given.is_empty() || !self.points.is_empty()
+        self.is_acted_upon() || !self.role_clauses.is_empty() || !self.points.is_empty()
     }
 
     /// Whether the field is the added mass that some clause names.
     pub fn is_added_mass(&self, field: &Ident) -> bool {
-        let all = self.given.iter().chain(self.bodies.iter().flat_map(|body| &body.given));
-        let named = |given: &Given| matches!(&given.value, GivenValue::Coefficients(Coefficients::Field(name)) if name == field);
+        let all = self.role_clauses.iter().chain(self.bodies.iter().flat_map(|body| &body.role_clauses));
+        let named = |clause: &RoleClause| matches!(&clause.value, RoleValue::Coefficients(Coefficients::Field(name)) if name == field);
         all.into_iter().any(named)
     }
 

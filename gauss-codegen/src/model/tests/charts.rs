@@ -91,7 +91,8 @@ fn fluid_about_any_body() {
          medium(velocity = [1, 0, 0]))] \
          struct Scene { #[gauss(body)] arm: RigidBody<f64>, #[gauss(gravity)] g: f64, d: Vector6<f64>, l: f64 }",
     );
-    let shapes = |k: usize| model.bodies[k].given.iter().map(|given| (given.role, given.shape)).collect::<Vec<_>>();
+    let shapes =
+        |k: usize| model.bodies[k].role_clauses.iter().map(|clause| (clause.role, clause.shape)).collect::<Vec<_>>();
     let arm = [
         (Role::AddedMass, Shape::Vector6),
         (Role::DisplacedMass, Shape::Scalar),

@@ -138,7 +138,7 @@ fn clauses_of_the_struct_come_after_those_of_the_file() {
 #[test]
 fn mass_data_from_fields() {
     let text = arm("");
-    assert_eq!(model(&text, "", "#[gauss(body)] arm: RigidBody<f64>").bodies[1].given.len(), 0);
+    assert_eq!(model(&text, "", "#[gauss(body)] arm: RigidBody<f64>").bodies[1].role_clauses.len(), 0);
     assert_eq!(
         mistakes(&text, ", parameters = inertial", ""),
         ["with `parameters = inertial` the mass data of links are fields with their names; add `#[gauss(body)] \
@@ -300,8 +300,8 @@ mod mjcf {
 
     const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
 
-    /// What is said of a file with this inside its body: mistakes, or remarks.
-    fn said(inside: &str, clauses: &str) -> Vec<String> {
+    /// What is reported of a file with this inside its body: mistakes, or remarks.
+    fn reported(inside: &str, clauses: &str) -> Vec<String> {
         let text = format!("<mujoco>\n<worldbody><body name=\"arm\">{INERTIAL}\n{inside}\n</mujoco>");
         let file = Scratch::called(&text, "xml");
         let place = format!("{}:", file.0.to_string_lossy());
@@ -358,7 +358,7 @@ mod mjcf {
             ),
         ];
         for (inside, clauses, expected) in cases {
-            assert_eq!(said(&inside, clauses), expected.into_iter().collect::<Vec<_>>(), "{inside}");
+            assert_eq!(reported(&inside, clauses), expected.into_iter().collect::<Vec<_>>(), "{inside}");
         }
     }
 }

@@ -88,10 +88,10 @@ impl Checker<'_> {
                 self.value(rotation);
             }
         }
-        for given in statements.given.iter().chain(statements.bodies.iter().flat_map(|body| &body.given)) {
-            for (index, (_, value)) in given.expressions().into_iter().enumerate() {
-                match given.role.unit() {
-                    Some(unit) => self.require(value, &Need::new(format!("`{}` is", given.role.word()), unit)),
+        for clause in statements.all_role_clauses() {
+            for (index, (_, value)) in clause.expressions().into_iter().enumerate() {
+                match clause.role.unit() {
+                    Some(unit) => self.require(value, &Need::new(format!("`{}` is", clause.role.word()), unit)),
                     None => {
                         let part = usize::from(index >= 3);
                         let what = format!("the {} three entries of an added mass are", ["first", "last"][part]);

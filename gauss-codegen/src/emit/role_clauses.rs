@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Map;
 use crate::kernel::Program;
-use crate::mechanics::{Assigned, KineticMatrix};
+use crate::mechanics::{KineticMatrix, QuantityValues};
 use crate::model::{Motion, Role, Shape};
 
 use super::derived::Derived;
@@ -13,13 +13,13 @@ use super::inertia::{inertia_rows, named_body, own_matrix};
 use super::program::statements;
 
 /// `let name = …;`: the value, or the array of components.
-pub fn assigned_local(
+pub fn clause_local(
     derived: &Derived<'_, '_>,
     name: &Ident,
-    assigned: &Assigned<'_>,
+    own: &QuantityValues<'_>,
     symbols: &Map<u32, TokenStream>,
 ) -> TokenStream {
-    let (compute, values) = statements(&Program::lower(&assigned.values), symbols, &derived.scalar());
+    let (compute, values) = statements(&Program::lower(&own.values), symbols, &derived.scalar());
     match values.as_slice() {
         [value] => quote!(let #name = { #compute #value };),
         // Half of a symmetric matrix, column by column.
@@ -32,7 +32,7 @@ pub fn assigned_local(
             quote!(let #name = { #compute [#(#rows),*] };)
         }
         // The upper triangle of an inertia, row by row.
-        [xx, xy, xz, yy, yz, zz] if assigned.quantity != Role::AddedMass => {
+        [xx, xy, xz, yy, yz, zz] if own.quantity != Role::AddedMass => {
             quote!(let #name = { #compute [[#xx, #xy, #xz], [#xy, #yy, #yz], [#xz, #yz, #zz]] };)
         }
         values => quote!(let #name = { #compute [#(#values),*] };),
@@ -46,15 +46,15 @@ pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> Toke
     let model = subject.model;
     let mut checks = TokenStream::new();
     for (clause, written) in model.bodies.iter().enumerate() {
-        let own = written.name.iter().flat_map(|_| written.given.iter().zip(&subject.assigned_to_bodies[clause]));
-        for (given, assigned) in own.filter(|(given, _)| !given.is_of_matter()) {
-            let (said, local) =
-                (subject.said_of_body(written, given.role), format_ident!("__fluid", span = Span::mixed_site()));
-            let value = assigned_local(derived, &local, assigned, symbols);
-            let check = match (given.role, given.shape) {
-                (Role::DisplacedMass, _) => quote!(__check.non_negative(#said, #local);),
+        let own = written.name.iter().flat_map(|_| written.role_clauses.iter().zip(&subject.body_values[clause]));
+        for (clause, values) in own.filter(|(clause, _)| !clause.is_of_matter()) {
+            let (label, local) =
+                (subject.role_name(written, clause.role), format_ident!("__fluid", span = Span::mixed_site()));
+            let value = clause_local(derived, &local, values, symbols);
+            let check = match (clause.role, clause.shape) {
+                (Role::DisplacedMass, _) => quote!(__check.non_negative(#label, #local);),
                 (_, Shape::Matrix6) => continue,
-                _ => quote!(__check.finite(#said, &#local);),
+                _ => quote!(__check.finite(#label, &#local);),
             };
             checks.extend(quote!({ #value #check }));
         }
@@ -76,32 +76,32 @@ pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> Toke
             .collect();
         let (compute, outputs) = statements(&Program::lower(&entries), symbols, &derived.scalar());
         let rows = outputs.chunks(active.len()).map(|row| quote!([#(#row),*]));
-        let said = subject.said_of_body(written, Role::AddedMass);
-        checks.extend(own_matrix(derived, quote!({ #compute __check.kinetic_matrix(#said, &[#(#rows),*]); })));
+        let label = subject.role_name(written, Role::AddedMass);
+        checks.extend(own_matrix(derived, quote!({ #compute __check.kinetic_matrix(#label, &[#(#rows),*]); })));
     }
     checks
 }
 
 /// Locals and checks of the bodies of a system whose mass data stand in their clauses.
-pub fn assigned_bodies(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+pub fn body_clauses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let (ty, real, subject) = (derived.scalar().ty(), derived.scalar().real, &derived.subject);
     let mut checks = TokenStream::new();
     for (clause, body) in subject.model.bodies.iter().enumerate() {
         let Some(name) = &body.name else { continue };
-        let own = &subject.assigned_to_bodies[clause];
-        let value_of = |quantity: Role| own.iter().find(|assigned| assigned.quantity == quantity);
+        let own = &subject.body_values[clause];
+        let value_of = |quantity: Role| own.iter().find(|values| values.quantity == quantity);
         let central = value_of(Role::CentralInertia);
         let inertia = central.or_else(|| value_of(Role::Inertia));
         let (Some(mass), Some(inertia)) = (value_of(Role::Mass), inertia) else { continue };
         let local = |part: &str| format_ident!("__b{}", part, span = Span::mixed_site());
         let [m, c, moments, tensor] = ["mass", "center", "moments", "inertia"].map(local);
         let zero = quote!(<#ty as #real>::zero());
-        let mut read = assigned_local(derived, &m, mass, symbols);
+        let mut read = clause_local(derived, &m, mass, symbols);
         read.extend(match value_of(Role::CenterOfMass) {
-            Some(center) => assigned_local(derived, &c, center, symbols),
+            Some(center) => clause_local(derived, &c, center, symbols),
             None => quote!(let #c = [#zero; 3];),
         });
-        read.extend(assigned_local(derived, &moments, inertia, symbols));
+        read.extend(clause_local(derived, &moments, inertia, symbols));
         let shape = match inertia.values.len() {
             1 => Shape::Scalar,
             3 => Shape::Vector3,

@@ -5,7 +5,7 @@ use super::attributes::{self, Clause};
 use super::context::Context;
 use super::role_words::ROLES;
 use super::{arguments, arithmetic};
-use crate::model::scene::clauses::{Given, GivenValue};
+use crate::model::scene::clauses::{RoleClause, RoleValue};
 use crate::model::scene::roles::{Role, Shape};
 
 /// The role that a word of a clause means.
@@ -14,7 +14,7 @@ pub fn role(word: &str) -> Option<Role> {
 }
 
 /// Reads `role = value` into the list; of what is given twice the first counts.
-pub fn read(role: Role, clause: &Clause, list: &mut Vec<Given>, context: &mut Context) {
+pub fn read(role: Role, clause: &Clause, list: &mut Vec<RoleClause>, context: &mut Context) {
     let word = role.word();
     let example = match role {
         Role::CenterOfMass | Role::CenterOfBuoyancy => "[0, 0, l]",
@@ -24,23 +24,23 @@ pub fn read(role: Role, clause: &Clause, list: &mut Vec<Given>, context: &mut Co
     };
     let Some(tokens) = arguments::equals(clause, example, context) else { return };
     let value = match role {
-        Role::AddedMass => arithmetic::read_coefficients(word, tokens, context).map(GivenValue::Coefficients),
+        Role::AddedMass => arithmetic::read_coefficients(word, tokens, context).map(RoleValue::Coefficients),
         Role::Inertia | Role::CentralInertia if arithmetic::is_list_of_six(tokens) => {
-            arithmetic::read_coefficients(word, tokens, context).map(GivenValue::Coefficients)
+            arithmetic::read_coefficients(word, tokens, context).map(RoleValue::Coefficients)
         }
-        _ => arithmetic::read(word, tokens, context).map(GivenValue::Expression),
+        _ => arithmetic::read(word, tokens, context).map(RoleValue::Expression),
     };
     if let Some(value) = value {
-        add(Given { role, shape: Shape::Other, value, span: clause.name.span() }, list, context);
+        add(RoleClause { role, shape: Shape::Other, value, span: clause.name.span() }, list, context);
     }
 }
 
 /// Adds one to a list that has none of its role.
-pub fn add(given: Given, list: &mut Vec<Given>, context: &mut Context) {
-    if list.iter().any(|other| other.role == given.role) {
-        context.error(given.span, format!("`{}` is given twice; keep one of the two", given.role.word()));
+pub fn add(clause: RoleClause, list: &mut Vec<RoleClause>, context: &mut Context) {
+    if list.iter().any(|other| other.role == clause.role) {
+        context.error(clause.span, format!("`{}` is given twice; keep one of the two", clause.role.word()));
     } else {
-        list.push(given);
+        list.push(clause);
     }
 }
 
