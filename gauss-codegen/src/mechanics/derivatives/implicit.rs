@@ -3,7 +3,7 @@
 use crate::algebra::{Expr, Factored, FactoredColumns};
 
 use crate::mechanics::arrangements::articulated::{Articulated, JointFactors};
-use crate::mechanics::derivatives::rigid::{Motion, Rates};
+use crate::mechanics::derivatives::rigid::{Motion, Rates, Solved};
 use crate::mechanics::links::tree::Inertia;
 use crate::mechanics::matter::rotor::add_projected;
 use crate::mechanics::system::{DENSE, System};
@@ -155,8 +155,11 @@ impl<'g> System<'g> {
     ) -> Option<AccelerationsWithDerivatives<'g>> {
         let [rows, taken] = self.floating(inertia);
         let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
-        let rates = sums(&factors.solve(&right), &taken);
-        let solved = self.scene.speed_rates.iter().zip(&rates).map(|(dz, value)| (dz.key(), value.group())).collect();
+        let relative: Vec<Expr<'g>> = factors.solve(&right).iter().map(|e| e.group()).collect();
+        let rates = sums(&relative, &taken);
+        let symbols = self.scene.speed_rates.iter().zip(&rates);
+        let solved =
+            Solved { rates: symbols.map(|(dz, value)| (dz.key(), value.group())).collect(), relative: &relative };
         let motion = Motion::new(&self.scene.tree, &self.loads, &self.along, Some(solved), inertia)?;
         let changes = motion.derivatives(directions);
         let difference = |(f, r): (&Expr<'g>, &Expr<'g>)| *f - *r;

@@ -53,6 +53,12 @@ struct Row<'g> {
     twice_spin: Triple<'g>,
 }
 
+/// ż, by its symbols, and what it is beyond what links that float take of their accelerations at once.
+pub struct Solved<'a, 'g> {
+    pub rates: Rates<'g>,
+    pub relative: &'a [Expr<'g>],
+}
+
 /// The motion whose residual is differentiated.
 pub struct Motion<'a, 'g> {
     tree: &'a Tree<'g>,
@@ -84,7 +90,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         tree: &'a Tree<'g>,
         loads: &'a Loads<'g>,
         along: &'a Rates<'g>,
-        solved: Option<Rates<'g>>,
+        solved: Option<Solved<'_, 'g>>,
         inertia: Inertia,
     ) -> Option<Self> {
         let wet = |link: &Link<'g>| link.body().is_some_and(|b| b.added_mass.is_some() || b.displaced.is_some());
@@ -95,10 +101,13 @@ impl<'a, 'g> Motion<'a, 'g> {
             Some(_) => Floating::of(&tree.links, tree.speed_count()),
             None => Vec::new(),
         };
-        let values = solved.unwrap_or_default();
+        let (values, relative) = match solved {
+            Some(Solved { rates, relative }) => (rates, Some(relative)),
+            None => (Rates::default(), None),
+        };
         let substituted = |rate: &Expr<'g>| values.get(&rate.key()).copied().unwrap_or(*rate);
         let with_values: Rates<'g> = along.iter().map(|(&key, rate)| (key, substituted(rate))).collect();
-        let (accelerations, forces) = tree.forces_of_inertia(&with_values, inertia, loads);
+        let (accelerations, forces) = tree.forces_of_inertia(&with_values, inertia, loads, relative);
         let body = |(k, (linear, angular)): (usize, (Vector<'g>, Triple<'g>))| {
             (tree.links[k].frame.resolve(&linear, Axes::Body), angular)
         };
