@@ -131,12 +131,17 @@ fn substitution(columns: &LoweredColumns<'_>, private: &TokenStream) -> TokenStr
     }
     up.reverse();
     let idle = columns.idle();
+    let bundles = idle.len();
     let idle = idle.iter().map(|steps| quote!([#(#steps),*]));
+    // Without methods of iterators, which need not be in scope where this is compiled.
     quote! {
-        let __multiples = [#(#multiples),*];
-        for (__y, __idle) in __x.iter_mut().zip([#(#idle),*]) {
+        let (__multiples, __idle) = ([#(#multiples),*], [#(#idle),*]);
+        let mut __bundle = 0usize;
+        while __bundle < #bundles {
+            let (__y, __idle) = (&mut __x[__bundle], &__idle[__bundle]);
             #(#down)*
             #(#up)*
+            __bundle += 1;
         }
     }
 }

@@ -38,7 +38,7 @@ pub fn add_columns<T: Real, const N: usize, const B: usize, const R: usize, cons
         let to = &mut to.data.0[column];
         for (&unknown, x) in order.iter().zip(&x[slot / TOGETHER]) {
             let row = first + unknown;
-            to[row] = to[row] + x[slot % TOGETHER];
+            to[row] += x[slot % TOGETHER];
         }
     }
 }
