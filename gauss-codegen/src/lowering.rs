@@ -32,6 +32,7 @@ pub fn lower<'g>(
     let by_parameters = linearization.as_ref().filter(|_| model.wanted.by_parameters);
     let wanted = Derivatives {
         by_state: linearization.as_ref().map(|l| &l.differentiated),
+        inverse: formulation.inverse.as_ref().map(|inverse| &inverse.differentiated),
         units: if linearization.is_some() { &formulation.units } else { &[] },
         by_parameters: by_parameters.map(|linearization| linearization.by_parameters(formulas, &parameters)),
         regressor: regressor.as_ref().map(|r| &r.differentiated),

@@ -131,7 +131,7 @@ pub fn refuse_too_much(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
     let operations = kernel
         .functions
         .iter()
-        .chain(kernel.derivatives().flatten())
+        .chain(kernel.derivatives_as_written())
         .chain([&kernel.constants])
         .map(|p| p.instructions.len())
         .sum::<usize>();

@@ -18,7 +18,7 @@
 /// | | `jet(euler_zyx)` and the other eleven sequences, `jet(rodrigues)`, `jet(modified_rodrigues)`; `jet` in the plane: rates of coordinates (Lagrange) | |
 /// | `motion` | `free`, `fixed_point` (O stays at Ω), `planar` (in k₁k₂) | `free` |
 /// | `taylor` | alone: power series of the motion in time as well, for the integrator `Taylor`; of smooth systems without inputs | none |
-/// | `linearize` | alone, also of systems: the kernel implements `LinearizedSystem`, exact derivatives of the equations by state, time and input; `linearize(parameters)`: by the parameters, too (`ParametricSystem`) | not written: several times the code of the accelerations |
+/// | `linearize` | alone, also of systems: the kernel implements `LinearizedSystem`, exact derivatives of the equations by state, time and input; `linearize(parameters)`: by the parameters, too (`ParametricSystem`); `linearize(inverse)`: those of inverse dynamics, too (`InverseLinearizedSystem`); `linearize(parameters, inverse)` | not written: several times the code of the accelerations |
 /// | `regressor` | alone, also of systems: the kernel implements `InertialRegressor`, the forces of inertia as a linear function of inertial parameters | not written |
 /// | `frames` | `frames(tool, left_foot)`: names of bodies and frames, also of systems: the kernel implements `FramedSystem`, pose, twist, Jacobian and acceleration of each, and there is an enum `NameFrame` of them | not written |
 /// | `methods` | words, also of systems: `centroidal`, centre of mass and momenta about it (`CentroidalSystem`); `nonlinear_effects`, inverse dynamics at ż = 0 as a program of its own; `gravity_torques`, what holds the weight (`GravityTorques`) | not written |

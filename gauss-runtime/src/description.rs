@@ -139,6 +139,8 @@ by_method! {
     linearize,
     /// Of [`ParametricSystem::by_parameters`](crate::identification::ParametricSystem::by_parameters).
     by_parameters,
+    /// Of [`InverseLinearizedSystem::linearize_inverse`](crate::inverse::InverseLinearizedSystem::linearize_inverse).
+    linearize_inverse,
     /// Of [`InertialRegressor::regressor`](crate::identification::InertialRegressor::regressor).
     regressor,
     /// Of [`FramedSystem::frames`](crate::frames::FramedSystem::frames).

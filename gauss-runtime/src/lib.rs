@@ -12,6 +12,7 @@
 //! | [`centroidal`] | [`CentroidalSystem`](centroidal::CentroidalSystem): centre of mass, momenta about it; gravity torques |
 //! | [`operational`] | the inertia that a frame shows, and the mass matrix factored |
 //! | [`linearize`] | [`LinearizedSystem`](linearize::LinearizedSystem): exact derivatives by state, time and input |
+//! | [`inverse`] | [`InverseLinearizedSystem`](inverse::InverseLinearizedSystem): those of inverse dynamics |
 //! | [`configuration`] | groups as configurations, linear spaces of increments |
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
@@ -72,6 +73,7 @@ pub mod forces;
 pub mod frames;
 pub mod identification;
 pub mod integrate;
+pub mod inverse;
 pub mod lie;
 pub mod linearize;
 pub mod monitor;

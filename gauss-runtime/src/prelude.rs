@@ -22,6 +22,7 @@ pub use crate::integrate::{
     InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta, Sample, Simulation,
     Tableau, Taylor, VelocityForm, Verner9,
 };
+pub use crate::inverse::{InverseLinearization, InverseLinearizedSystem};
 pub use crate::linearize::{Linearization, LinearizedSystem};
 #[cfg(feature = "alloc")]
 pub use crate::monitor::{monitor, monitor_body, power_balance};

@@ -153,6 +153,69 @@ where
     assert!(10 * told >= 9 * all, "only {told} of {all} columns are known to 1e-9");
 }
 
+/// The derivatives of inverse dynamics beside dual numbers through `inverse_dynamics`, at random states and ż.
+fn check_inverse<C, B, D, const N: usize, const P: usize, const U: usize>(
+    origin: &C,
+    (bounded, moved): (&B, impl Fn(usize) -> D),
+) where
+    C: Configuration<Scalar = f64> + Parts<f64>,
+    B: InverseLinearizedSystem<
+            Scalar = Bounded,
+            Configuration: Parts<Bounded>,
+            InverseLinearization = InverseLinearization<Bounded, P, N, U>,
+        >,
+    D: GaussSystem<Scalar = Dual<Bounded>, Configuration: Parts<Dual<Bounded>>, Input: VectorSpace<Dual<Bounded>>>,
+{
+    let dual = moved(usize::MAX - 1);
+    let mut random = Random(11);
+    for _ in 0..6 {
+        let q: B::Configuration = random_configuration(origin, &mut random);
+        let mut draw =
+            |count: usize| -> Vec<Bounded> { (0..count).map(|_| Bounded::from_f64(random.number())).collect() };
+        let (z, rate, input, t) = (draw(N), draw(N), draw(U), draw(1)[0]);
+        let found = bounded.linearize_inverse(t, &q, &speeds(&z), &speeds(&rate), &speeds(&input));
+        let parts = q.parts();
+        let column = |[of_q, of_z, of_rate, of_t, of_input]: [Option<usize>; 5]| -> Vec<Dual<Bounded>> {
+            let moving = |values: &[Bounded], k: Option<usize>| k.map_or(constants(values), |k| along(values, k));
+            let q = match of_q {
+                None => constants(&parts),
+                Some(k) => {
+                    let mut axis = <B::Configuration as Configuration>::Tangent::zero();
+                    axis.set_component(k, Bounded::one());
+                    parts.iter().zip(q.rates(&axis)).map(|(&x, rate)| Dual::new(x, rate)).collect()
+                }
+            };
+            let (z, rate, input) = (moving(&z, of_z), moving(&rate, of_rate), moving(&input, of_input));
+            let t = moving(&[t], of_t)[0];
+            list(&dual.inverse_dynamics(
+                t,
+                &D::Configuration::assemble(&q),
+                &speeds(&z),
+                &speeds(&rate),
+                &speeds(&input),
+            ))
+        };
+        let slopes = |moves| column(moves).iter().map(|x| x.rate).collect::<Vec<_>>();
+        let values: Vec<Bounded> = column([None; 5]).iter().map(|x| x.value).collect();
+        equal("force", found.force.as_slice(), &values).unwrap();
+        for k in 0..P {
+            let expected = slopes([Some(k), None, None, None, None]);
+            equal(&format!("σ {k}"), found.by_configuration.column(k).as_slice(), &expected).unwrap();
+        }
+        for k in 0..N {
+            let by_speeds = slopes([None, Some(k), None, None, None]);
+            equal(&format!("z {k}"), found.by_speeds.column(k).as_slice(), &by_speeds).unwrap();
+            let by_rates = slopes([None, None, Some(k), None, None]);
+            equal(&format!("ż {k}"), found.by_acceleration.column(k).as_slice(), &by_rates).unwrap();
+        }
+        equal("time", found.by_time.as_slice(), &slopes([None, None, None, Some(0), None])).unwrap();
+        for k in 0..U {
+            let expected = slopes([None, None, None, None, Some(k)]);
+            equal(&format!("input {k}"), found.by_input.column(k).as_slice(), &expected).unwrap();
+        }
+    }
+}
+
 /// One body with everything that can act on it, in a chart.
 macro_rules! loaded {
     ($test:ident: $name:ident, [$($chart:tt)+], $motion:ident, $origin:expr) => {
@@ -230,7 +293,7 @@ fn rigid<T: Real>(n: &mut Numbers<'_, T>, mass: f64, x: f64) -> RigidBody<T> {
 /// A hull with a rotor that slides: elements of both groups after a scalar, inputs, and a force in a moving medium.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize(parameters),
+    linearize(parameters, inverse),
     coordinates(s, base: Pose, wheel: Rotation),
     body(hull, position = base.position, rotation = base.rotation),
     body(rotor, parent = hull, position = [0.2, 0, s], rotation = wheel),
@@ -262,12 +325,13 @@ impl<T: Real> Gyrostat<T> {
 fn groups_and_scalars() {
     let origin = (Isometry3::<f64>::identity(), (UnitQuaternion::<f64>::identity(), SVector::from([0.4])));
     check(&origin, kernels!(Gyrostat));
+    check_inverse(&origin, kernels!(Gyrostat));
 }
 
 /// A body on a rod, one of whose points keeps its height rate: multipliers of both kinds.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize(parameters),
+    linearize(parameters, inverse),
     coordinates(pose: Pose, x),
     body(hull, position = pose.position, rotation = pose.rotation),
     particle(mass = m, position = [x, 0, 3]),
@@ -296,6 +360,7 @@ impl<T: Real> Hung<T> {
 fn constraints_with_multipliers() {
     let origin = (Isometry3::<f64>::identity(), SVector::from([0.2]));
     check(&origin, kernels!(Hung));
+    check_inverse(&origin, kernels!(Hung));
 }
 
 /// A sleigh whose skate is solved for at compile time.
@@ -334,7 +399,7 @@ fn constraints_solved_for() {
 /// Every function that expressions have, on a cart with a double pendulum.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize(parameters),
+    linearize(parameters, inverse),
     coordinates(x, a, b),
     particle(mass = 2, position = [x, 0, 0]),
     body(upper, position = [x, 0, 0], rotation = rotation_y(a)),
@@ -363,6 +428,7 @@ impl<T: Real> Cart<T> {
 #[test]
 fn every_function() {
     check(&SVector::<f64, 3>::zeros(), kernels!(Cart));
+    check_inverse(&SVector::<f64, 3>::zeros(), kernels!(Cart));
 }
 
 /// A whole added mass, buoyancy, and a mass without an effect on the rest.

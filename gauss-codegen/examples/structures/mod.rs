@@ -100,9 +100,9 @@ pub fn arm(clauses: &str) -> String {
     format!("#[gauss({links}{clauses})] struct Arm {{ {bodies} #[gauss(gravity)] g: f64 }}")
 }
 
-/// A walker on four legs of three joints each, driven at every joint; joint origins are those of ANYmal B (ANYbotics, public description, BSD
+/// A walker on four legs of three joints each, which may be driven at every joint; joint origins are those of ANYmal B (ANYbotics, public description, BSD
 /// 3-clause). With further clauses, each after a comma.
-pub fn quadruped(clauses: &str) -> String {
+pub fn quadruped(driven: bool, clauses: &str) -> String {
     let (mut names, mut bodies, mut actions) = (Vec::new(), String::new(), String::new());
     for (leg, [x, y]) in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].into_iter().enumerate() {
         let origins = [[0.277 * x, 0.116 * y, 0.0], [0.0635 * x, 0.041 * y, 0.0], [0.0, 0.109 * y, -0.25]];
@@ -113,14 +113,17 @@ pub fn quadruped(clauses: &str) -> String {
             bodies += &format!(
                 ", body(b{k}, parent = {parent}, position = [{a}, {b}, {c}], rotation = rotation_{axis}(q{k}))"
             );
-            actions += &format!(", drive(q{k} = u{k})");
+            if driven {
+                actions += &format!(", drive(q{k} = u{k})");
+            }
         }
     }
     let list = |f: &dyn Fn(&usize) -> String| names.iter().map(f).collect::<Vec<_>>().join(", ");
     let (angles, torques) = (list(&|k| format!("q{k}")), list(&|k| format!("u{k}")));
+    let input = if driven { format!("input({torques}), ") } else { String::new() };
     let fields = list(&|k| format!("#[gauss(body)] b{k}: RigidBody<f64>"));
     format!(
-        "#[gauss(coordinates(pose: Pose, {angles}), input({torques}), body(base, position = pose.position, \
+        "#[gauss(coordinates(pose: Pose, {angles}), {input}body(base, position = pose.position, \
          rotation = pose.rotation){bodies}{actions}{clauses})] struct Quadruped {{ #[gauss(body)] base: RigidBody<f64>, \
          {fields}, #[gauss(gravity)] g: f64 }}"
     )

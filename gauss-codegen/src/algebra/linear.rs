@@ -228,6 +228,15 @@ pub struct Factored<'g> {
     blocks: Vec<FactoredBlock<'g>>,
 }
 
+/// L and D of a factored matrix, all by the order of elimination.
+pub struct FactoredColumns<'g> {
+    pub order: Vec<usize>,
+    /// What is left of each column below its pivot, with the rows.
+    pub below: Vec<Vec<(usize, Expr<'g>)>>,
+    /// Reciprocals.
+    pub pivots: Vec<Expr<'g>>,
+}
+
 /// Unknowns that are coupled, in the order of elimination, and what is left of each column when its turn comes.
 struct FactoredBlock<'g> {
     order: Vec<usize>,
@@ -247,6 +256,22 @@ impl<'g> Factored<'g> {
     /// From the order of elimination and, below the diagonal and on it, what is left of each column when its turn comes.
     pub fn of_columns(order: Vec<usize>, rest: Vec<Vec<Expr<'g>>>) -> Self {
         Self { blocks: vec![FactoredBlock { order, rest }] }
+    }
+
+    /// The factors as numbers, for solutions in loops.
+    pub fn columns(&self) -> FactoredColumns<'g> {
+        let mut columns = FactoredColumns { order: self.order(), below: Vec::new(), pivots: Vec::new() };
+        for block in &self.blocks {
+            let first = columns.below.len();
+            let n = block.order.len();
+            let entries = (0..n).map(|k| {
+                let there = (k + 1..n).filter(|&i| !block.rest[i][k].is_zero());
+                there.map(|i| (first + i, block.rest[i][k])).collect()
+            });
+            columns.below.extend(entries);
+            columns.pivots.extend((0..n).map(|k| block.rest[k][k].group().recip()));
+        }
+        columns
     }
 
     /// The unknowns in the order of elimination.

@@ -38,7 +38,7 @@ pub use doubled::Doubled;
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use function::{BinaryFunction, Function, OwnFunction};
 pub use graph::{Expr, Graph, NodeView};
-pub use linear::{Factored, Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
+pub use linear::{Factored, FactoredColumns, Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
 pub use map::{Map, Set};
 pub use orthogonal::LeastSquares;
 pub use parts::Parts;

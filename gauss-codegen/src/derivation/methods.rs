@@ -1,6 +1,6 @@
 //! The programs of a kernel, method by method: arguments, code, what the outputs are.
 
-use crate::emit::{Derived, OF_EQUATIONS, OF_REGRESSOR, arguments_of};
+use crate::emit::{Derived, OF_EQUATIONS, OF_REGRESSOR, OF_RESIDUAL, arguments_of};
 use crate::kernel;
 use crate::mechanics::{FrameQuantity, Method};
 use crate::program::{ArgumentKind, Function, Instruction, Operand, Program, Results};
@@ -15,6 +15,7 @@ pub fn programs<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Res
     programs.push(evaluate(derived, signature)?);
     programs.extend(linearize(derived, signature).transpose()?);
     programs.extend(by_parameters(derived, signature).transpose()?);
+    programs.extend(linearize_inverse(derived, signature).transpose()?);
     programs.extend(regressor(derived, signature).transpose()?);
     Ok(programs)
 }
@@ -91,6 +92,21 @@ fn by_parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Op
     let results = vec![Results::new("by_parameters", states, derived.parameters.len())];
     let arguments = with(OF_EQUATIONS);
     Some(signature.program("by_parameters", &arguments, &by_rows(code, &results), results))
+}
+
+fn linearize_inverse<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
+    let (inverse, code) = derived.inverse.zip(derived.kernel.inverse.as_ref())?;
+    let (increments, speeds, inputs) = (inverse.increments, inverse.speeds, inverse.inputs);
+    let results = vec![
+        Results::new("force", speeds, 1),
+        Results::new("by_configuration", speeds, increments),
+        Results::new("by_speeds", speeds, speeds),
+        Results::new("by_acceleration", speeds, speeds),
+        Results::new("by_time", speeds, 1),
+        Results::new("by_input", speeds, inputs),
+    ];
+    let arguments = with(OF_RESIDUAL);
+    Some(signature.program("linearize_inverse", &arguments, &by_rows(code, &results), results))
 }
 
 fn regressor<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {

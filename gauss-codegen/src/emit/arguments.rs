@@ -38,7 +38,7 @@ pub fn declare(program: &Program<'_>, arguments: &[Argument<'_>], names: &mut Ma
 
 /// The arguments that a method has after time and configuration.
 pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
-    use ArgumentKind::{Accelerations, Inputs, Momenta, Residuals, Speeds, Twist};
+    use ArgumentKind::{Inputs, Momenta, Residuals, Speeds, Twist};
     match method {
         Method::Acceleration
         | Method::Multipliers
@@ -59,7 +59,7 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::CentroidalBias => &[Speeds],
         Method::Velocity => &[Momenta],
         Method::MomentumRate => &[Momenta, Inputs],
-        Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces => &[Speeds, Accelerations, Inputs],
+        Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces => OF_RESIDUAL,
         Method::Speeds => &[Twist],
         Method::PositionCorrection => &[Residuals],
         Method::VelocityCorrection => &[Speeds, Residuals],
@@ -80,6 +80,8 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
 
 /// Those of the equations at a state: of `evaluate`, `linearize` and `by_parameters` as well.
 pub const OF_EQUATIONS: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Inputs];
+/// Those of `gauss_residual` and its derivatives.
+pub const OF_RESIDUAL: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Accelerations, ArgumentKind::Inputs];
 /// Those of `regressor`.
 pub const OF_REGRESSOR: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Accelerations];
 

@@ -6,7 +6,7 @@ use quote::{ToTokens, format_ident, quote};
 use crate::algebra::{Expr, Map, Rational, Set};
 use crate::formulation::{Formulation, Printed};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
-use crate::mechanics::{Account, Formula, Linearization, Method, Regressor};
+use crate::mechanics::{Account, Formula, InverseLinearization, Linearization, Method, Regressor};
 use crate::model::{Model, Scalar};
 use crate::program::ArgumentKind;
 use crate::translate::{DragMatrix, Law, Parameter, Translator};
@@ -38,6 +38,8 @@ pub struct Derived<'a, 'g> {
     pub kernel: &'a Kernel<'g>,
     /// What is differentiated by the state, where that is asked for.
     pub linearization: Option<&'a Linearization<'g>>,
+    /// Inverse dynamics and what it is differentiated along, where that is asked for.
+    pub inverse: Option<&'a InverseLinearization<'g>>,
     /// The numbers of fields.
     pub parameters: &'a [Parameter<'g>],
     /// The equations for people, as text and in LaTeX.
@@ -105,6 +107,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             formulas: &formulation.formulas,
             kernel,
             linearization: formulation.linearization.as_ref(),
+            inverse: formulation.inverse.as_ref(),
             parameters: &formulation.parameters,
             printed: &formulation.printed,
             regressor: formulation.regressor.as_ref(),

@@ -11,7 +11,7 @@
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
-//! `state` (coordinates and speeds by name), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `parametric`, `regressor`; `fallback`
+//! `state` (coordinates and speeds by name), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `inverse`, `parametric`, `regressor`; `fallback`
 //! where there are mistakes.
 
 use proc_macro2::TokenStream;
@@ -29,6 +29,7 @@ mod forced;
 mod framed;
 mod gauss_system;
 mod inertia;
+mod inverse;
 mod kernel;
 mod laws;
 mod linearized;
@@ -51,7 +52,7 @@ mod taylor;
 mod tests;
 mod whole;
 
-pub use arguments::{OF_EQUATIONS, OF_REGRESSOR, arguments_of};
+pub use arguments::{OF_EQUATIONS, OF_REGRESSOR, OF_RESIDUAL, arguments_of};
 pub use derived::Derived;
 pub use documentation::Equations;
 pub use fallback::fallback;
@@ -69,6 +70,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let forced = forced::forced_system(derived);
     let taylor = taylor::taylor_system(derived);
     let linearized = linearized::linearized_system(derived);
+    let inverse = inverse::inverse_linearized_system(derived);
     let parametric = parametric::parametric_system(derived);
     let regressor = regressor::inertial_regressor(derived);
     let whole = whole::of_the_whole(derived);
@@ -90,6 +92,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
             #forced
             #taylor
             #linearized
+            #inverse
             #parametric
             #regressor
             #framed

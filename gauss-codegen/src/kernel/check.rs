@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::algebra::{Evaluation, Expr, Function, Graph, Map, Number, Precise};
 
+use super::columns::LoweredColumns;
 use super::derivatives::Expected;
 use super::write::Program;
 
@@ -28,6 +29,8 @@ pub(super) struct Checked<'a, 'g> {
     pub constants: &'a Program<'g>,
     pub constant_symbols: &'a [Expr<'g>],
     pub functions: Vec<(&'a Program<'g>, Expected<'a, 'g>)>,
+    /// Another way to the first of the derivatives.
+    pub columns: Option<&'a LoweredColumns<'g>>,
     /// Of these the point need not be in the domain.
     pub derivatives: Vec<(&'a Program<'g>, Expected<'a, 'g>)>,
 }
@@ -66,6 +69,9 @@ impl<'g> Checked<'_, 'g> {
         values.extend(sample.folded.iter().map(|(s, definition)| (s.key(), evaluation.value(*definition))));
         for (function, (program, expected)) in self.functions.iter().chain(&self.derivatives).enumerate() {
             compare(function, &program.run(&values), &expected.values(&mut evaluation))?;
+        }
+        if let Some((columns, (_, expected))) = self.columns.zip(self.derivatives.first()) {
+            compare(self.functions.len(), &columns.run(&values), &expected.values(&mut evaluation))?;
         }
         Ok(())
     }

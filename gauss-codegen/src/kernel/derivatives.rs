@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use crate::accuracy::{Loss, Trial, taken, usable};
 use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Tangents};
 
+use super::columns::{Columns, LoweredColumns};
 use super::hoist::Hoister;
 use super::tangent::{Direction, Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
 use super::write::{Operand, Operation, Program};
@@ -16,8 +17,16 @@ pub struct Differentiated<'g> {
     /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of their own.
     pub defined: Vec<Expr<'g>>,
     pub directions: Vec<Direction<'g>>,
-    /// The outputs and then their derivatives, direction by direction, in forms of their own.
-    pub derived: Vec<Vec<Expr<'g>>>,
+    /// Forms of their own.
+    pub derived: Vec<Derived<'g>>,
+}
+
+/// Outputs and their derivatives in a form of their own.
+pub struct Derived<'g> {
+    /// The outputs and then their derivatives, direction by direction.
+    pub outputs: Vec<Expr<'g>>,
+    /// The same, where the last step is a linear system with a right-hand side for each direction.
+    pub columns: Option<Columns<'g>>,
 }
 
 /// What is differentiated beside the functions of a kernel.
@@ -30,6 +39,8 @@ pub struct Derivatives<'a, 'g> {
     pub units: &'a [Vec<Expr<'g>>],
     /// Velocities and accelerations by the parameters.
     pub by_parameters: Option<ByParameters<'a, 'g>>,
+    /// Inverse dynamics together with its derivatives.
+    pub inverse: Option<&'a Differentiated<'g>>,
     /// Outputs that are affine in the symbols of their directions: their coefficients.
     pub regressor: Option<&'a Differentiated<'g>>,
 }
@@ -67,6 +78,9 @@ pub(super) enum Kept {
 /// A program of derivatives, and what it should compute.
 pub(super) type Lowered<'a, 'g> = (Program<'g>, Expected<'a, 'g>);
 
+/// The same, with the way in which many right-hand sides are solved for together.
+pub(super) type LoweredByState<'a, 'g> = (Lowered<'a, 'g>, Option<LoweredColumns<'g>>);
+
 /// What a program of derivatives should compute.
 pub(super) struct Expected<'a, 'g> {
     outputs: Cow<'a, [Expr<'g>]>,
@@ -83,7 +97,7 @@ pub(super) struct Constants<'g> {
 impl<'g> Differentiated<'g> {
     /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple where
     /// those of its definition are not: R σ̂ beside what a quaternion makes of it.
-    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, kept: Kept, trial: &mut Trial) -> Lowered<'_, 'g> {
+    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, kept: Kept, trial: &mut Trial) -> LoweredByState<'_, 'g> {
         let definitions = Program::lower(&hoister.hoist(&self.defined));
         let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
         let lower = |outputs: &'_ Vec<Expr<'g>>| Program::lower(&hoister.hoist_undefined(outputs));
@@ -100,29 +114,39 @@ impl<'g> Differentiated<'g> {
         let losses: Vec<Loss> = of_usable.iter().map(|(_, loss, _)| loss.clone()).collect();
         let costs: Vec<u32> = of_usable.iter().map(|(program, ..)| program.cost().total()).collect();
         let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
-        let program = self.cheaper(program, hoister, trial);
-        (program, Expected { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&self.directions), kept })
+        let (program, columns) = self.cheaper(program, hoister, trial);
+        let expected = Expected { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&self.directions), kept };
+        ((program, expected), columns)
     }
 }
 
 impl<'g> Differentiated<'g> {
     /// A program of derivatives, or what has a form of its own and costs less. Of roots, whose slope may be infinite, only programs know what
     /// their derivatives are where nothing changes.
-    fn cheaper(&self, program: Program<'g>, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Program<'g> {
+    fn cheaper(
+        &self,
+        program: Program<'g>,
+        hoister: &mut Hoister<'_, 'g>,
+        trial: &mut Trial,
+    ) -> (Program<'g>, Option<LoweredColumns<'g>>) {
         let most = program.cost().total();
         if program.counts().roots > 0 {
-            return program;
+            return (program, None);
         }
-        let derived = self.derived.iter().map(|outputs| Program::lower(&hoister.hoist(outputs)).with_signs_led_back());
-        let mut programs: Vec<Program<'g>> = derived.filter(|derived| derived.cost().total() < most).collect();
-        if programs.is_empty() {
-            return program;
+        let derived = self.derived.iter().map(|derived| {
+            let program = Program::lower(&hoister.hoist(&derived.outputs)).with_signs_led_back();
+            (program, derived.columns.as_ref())
+        });
+        let mut ways: Vec<_> = derived.filter(|(program, _)| program.cost().total() < most).collect();
+        if ways.is_empty() {
+            return (program, None);
         }
-        programs.push(program);
+        ways.push((program, None));
         trial.define(hoister.constants());
-        let losses = trial.losses(&programs.iter().collect::<Vec<_>>());
-        let costs: Vec<u32> = programs.iter().map(|program| program.cost().total()).collect();
-        programs.swap_remove(taken(&losses, &costs))
+        let losses = trial.losses(&ways.iter().map(|(program, _)| program).collect::<Vec<_>>());
+        let costs: Vec<u32> = ways.iter().map(|(program, _)| program.cost().total()).collect();
+        let (program, columns) = ways.swap_remove(taken(&losses, &costs));
+        (program, columns.and_then(|columns| columns.lower(hoister)))
     }
 }
 

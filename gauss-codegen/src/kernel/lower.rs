@@ -5,7 +5,8 @@ use crate::algebra::{Evaluation, Expr, Graph, Map, Rational, Set};
 
 use super::check::{Checked, Miscompiled, Sample};
 use super::choice::{Candidates, Lowered};
-use super::derivatives::{Constants, Derivatives, Expected, Kept};
+use super::columns::LoweredColumns;
+use super::derivatives::{Constants, Derivatives, Differentiated, Expected, Kept};
 use super::hoist::Hoister;
 use super::write::Program;
 
@@ -21,8 +22,12 @@ pub struct Kernel<'g> {
     pub joined: Program<'g>,
     /// The outputs of what is differentiated, then all their derivatives along the first direction, and so on.
     pub tangents: Option<Program<'g>>,
+    /// The same where the columns of derivatives are the solutions of one linear system: what is written then.
+    pub columns: Option<LoweredColumns<'g>>,
     /// The derivatives of the same outputs by the first parameter, and so on.
     pub by_parameters: Option<Program<'g>>,
+    /// The outputs of inverse dynamics, then all their derivatives along the first direction, and so on.
+    pub inverse: Option<Program<'g>>,
     /// The coefficients of the first parameter in outputs that are affine in them, and so on.
     pub regressor: Option<Program<'g>>,
     /// The constants as symbols, in the order of the outputs of `constants`.
@@ -37,12 +42,12 @@ pub type Literals<'a, 'g> = Option<&'a [(Rational, Expr<'g>)]>;
 impl<'g> Kernel<'g> {
     /// Lowers functions, each of which has an arrangement; those that are `joined` also together. `definitions` are symbols that stand
     /// for expressions of the arguments. Every program is then run at a pseudo-random point and compared with its expressions.
-    pub fn lower(
+    pub fn lower<'a>(
         graph: &'g Graph,
         functions: &[Candidates<'g>],
         joined: &[usize],
         definitions: &Map<u32, Expr<'g>>,
-        wanted: &Derivatives<'_, 'g>,
+        wanted: &Derivatives<'a, 'g>,
         literals: Literals<'_, 'g>,
         trial: &mut Trial,
     ) -> Result<Self, Miscompiled> {
@@ -58,12 +63,17 @@ impl<'g> Kernel<'g> {
         }
         let joined: Vec<_> = joined.iter().map(|&k| choices[k]).collect();
         let (joined, of_joined) = lower_together(&mut hoister, &joined);
-        let (tangents, expected_tangents) =
-            wanted.by_state.map(|wanted| wanted.lower(&mut hoister, Kept::ValuesToo, trial)).unzip();
-        let (regressor, expected_regressor) =
-            wanted.regressor.map(|wanted| wanted.lower(&mut hoister, Kept::DerivativesAlone, trial)).unzip();
-        let read: Vec<Expr<'g>> =
-            functions.iter().chain([&joined]).chain(&tangents).chain(&regressor).flat_map(Program::symbols).collect();
+        let mut differentiated = |wanted: Option<&'a Differentiated<'g>>, kept: Kept| {
+            let (lowered, columns) = wanted.map(|wanted| wanted.lower(&mut hoister, kept, trial)).unzip();
+            let (program, expected) = lowered.unzip();
+            (program, expected, columns.flatten())
+        };
+        let (tangents, expected_tangents, columns) = differentiated(wanted.by_state, Kept::ValuesToo);
+        let (inverse, expected_inverse, _) = differentiated(wanted.inverse, Kept::ValuesToo);
+        let (regressor, expected_regressor, _) = differentiated(wanted.regressor, Kept::DerivativesAlone);
+        let in_columns = columns.as_ref().map(|columns| &columns.program);
+        let derived = tangents.iter().chain(in_columns).chain(&inverse).chain(&regressor);
+        let read: Vec<Expr<'g>> = functions.iter().chain([&joined]).chain(derived).flat_map(Program::symbols).collect();
         let numbers: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
         let (mut constants, known_constants, folded) = constants(hoister, &read, literals.map(|_| &numbers));
@@ -76,13 +86,15 @@ impl<'g> Kernel<'g> {
             losses,
             joined,
             tangents,
+            columns,
             by_parameters,
+            inverse,
             regressor,
             constant_symbols,
             known_constants,
         };
         let outputs = chosen.into_iter().chain([of_joined.as_slice()]).map(Expected::of);
-        let derived = [expected_tangents, expected_by_parameters, expected_regressor];
+        let derived = [expected_tangents, expected_by_parameters, expected_inverse, expected_regressor];
         let sample = Sample { definitions, units: wanted.units, literals: &numbers, folded: &folded };
         kernel.checked(outputs, derived).check(graph, &sample)?;
         Ok(kernel)
@@ -99,13 +111,20 @@ impl<'g> Kernel<'g> {
             constants: &self.constants,
             constant_symbols: &self.constant_symbols,
             functions: self.functions.iter().chain([&self.joined]).zip(functions).collect(),
+            columns: self.columns.as_ref(),
             derivatives: derivatives.filter_map(|(program, expected)| program.zip(expected)).collect(),
         }
     }
 
+    /// Of the derivatives what is written.
+    pub fn derivatives_as_written(&self) -> impl Iterator<Item = &Program<'g>> {
+        let tangents = self.columns.as_ref().map(|columns| &columns.program).or(self.tangents.as_ref());
+        tangents.into_iter().chain(self.derivatives().skip(1).flatten())
+    }
+
     /// The programs of derivatives, in the order in which their values are expected.
     pub fn derivatives(&self) -> impl Iterator<Item = Option<&Program<'g>>> {
-        [&self.tangents, &self.by_parameters, &self.regressor].into_iter().map(Option::as_ref)
+        [&self.tangents, &self.by_parameters, &self.inverse, &self.regressor].into_iter().map(Option::as_ref)
     }
 }
 

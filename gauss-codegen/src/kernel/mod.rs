@@ -9,6 +9,7 @@
 //! - `write`: networks as instructions.
 //! - `tangent`: derivatives of programs.
 //! - `derivatives`: derivatives of functions by what moves and by parameters.
+//! - `columns`: derivatives that are the solutions of one linear system, solved for together.
 //! - `check`: programs against the expressions that they were made from.
 //!
 //! Knows nothing of frames or bodies. Every program is checked before it is handed out (see [`Kernel::lower`]), and the shape of each
@@ -16,6 +17,7 @@
 
 mod check;
 mod choice;
+mod columns;
 mod derivatives;
 mod factor;
 mod hoist;
@@ -28,7 +30,8 @@ mod write;
 
 pub use crate::program::{Counts, Smoothness};
 pub use choice::{Aim, Candidates};
-pub use derivatives::{ByParameters, Derivatives, Differentiated, Equation};
+pub use columns::{Columns, LoweredColumns, Parts, TOGETHER};
+pub use derivatives::{ByParameters, Derivatives, Derived, Differentiated, Equation};
 pub use lower::{Kernel, Literals};
 pub use tangent::Direction;
 pub use write::{Operand, Operation, Program};

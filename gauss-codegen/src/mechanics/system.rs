@@ -373,7 +373,7 @@ impl<'g> System<'g> {
     }
 
     /// ∂C/∂ż of the unconstrained C.
-    fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia) -> Vec<Expr<'g>> {
+    pub(in crate::mechanics) fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia) -> Vec<Expr<'g>> {
         self.without_others(self.scene.tree.residual(along, inertia, &self.loads))
     }
 

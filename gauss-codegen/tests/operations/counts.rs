@@ -15,7 +15,7 @@ pub struct Row {
 }
 
 /// Methods whose costs are pinned; what else `OPERATIONS` has serves checks.
-const PINNED: [&str; 18] = [
+const PINNED: [&str; 19] = [
     "acceleration",
     "momentum",
     "velocity",
@@ -27,6 +27,7 @@ const PINNED: [&str; 18] = [
     "multipliers",
     "linearize",
     "by_parameters",
+    "linearize_inverse",
     "regressor",
     "frames",
     "centroidal_momentum",

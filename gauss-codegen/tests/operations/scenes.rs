@@ -175,10 +175,10 @@ fn one_link() -> Vec<Scene> {
 fn chains() -> Vec<Scene> {
     let mut scenes = vec![
         ("structure torpedo".into(), structures::torpedo("")),
-        ("structure torpedo linearize".into(), structures::torpedo(", linearize")),
+        ("structure torpedo linearize".into(), structures::torpedo(", linearize(inverse)")),
         ("structure top".into(), structures::top("")),
         ("structure arm".into(), structures::arm("")),
-        ("structure arm linearize".into(), structures::arm(", linearize")),
+        ("structure arm linearize".into(), structures::arm(", linearize(inverse)")),
         (
             "structure arm frames".into(),
             structures::arm(", frames(b3, b6), methods(centroidal, nonlinear_effects, gravity_torques)"),
@@ -188,7 +188,8 @@ fn chains() -> Vec<Scene> {
             structures::arm(", armature(q0 = 0.1, q1 = 0.1, q2 = 0.1, q3 = 0.1, q4 = 0.1)"),
         ),
         ("structure torpedo frames".into(), structures::torpedo(", frames(body)")),
-        ("structure quadruped linearize".into(), structures::quadruped(", linearize, limit = 100000")),
+        ("structure quadruped linearize".into(), structures::quadruped(true, ", linearize(inverse), limit = 100000")),
+        ("structure quadruped undriven".into(), structures::quadruped(false, ", linearize")),
     ];
     for n in [2, 3, 4, 5, 6, 8, 10, 14] {
         scenes.push((format!("chain of {n} in the plane; relative"), structures::planar(n, true)));

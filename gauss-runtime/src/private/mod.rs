@@ -4,6 +4,7 @@
 //! poses into configurations and back, checks parameters, and has the traits and types that generated code implements and names.
 
 mod check;
+mod columns;
 mod containers;
 mod eigenvalues;
 mod one_body;
@@ -21,12 +22,14 @@ pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 pub use crate::frames::{ByFrame, FrameMotion, FrameName, FramedSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
+pub use crate::inverse::{InverseLinearization, InverseLinearizedSystem};
 pub use crate::linearize::{Linearization, LinearizedSystem};
 pub use crate::real::Real;
 pub use crate::series::{Series, TaylorSystem};
 pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};
 pub use crate::table::{Cubic, Linear};
 pub use check::ParameterCheck;
+pub use columns::{add_columns, multiple, subtract_multiple, zeros};
 pub use containers::{components, entries, isometry2, isometry3, matrix, product, quaternion, vector};
 pub(crate) use eigenvalues::eigenvalues;
 pub use nalgebra::{Isometry2, Isometry3, IsometryMatrix3, SMatrix, SVector, UnitQuaternion};

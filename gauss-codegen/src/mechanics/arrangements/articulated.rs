@@ -8,7 +8,7 @@
 //! This is Gaussian elimination in an order that never forms A, and the *articulated-body inertia* of a link (Featherstone,
 //! Rigid Body Dynamics Algorithms, chapter 7) is what the elimination leaves at it.
 
-use crate::algebra::{Expr, Factored, Rational};
+use crate::algebra::{Expr, Factored, FactoredColumns, Rational};
 
 use crate::mechanics::kinematics::turn::{Turn, inward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, cross_matrix, dot, subtract};
@@ -185,6 +185,11 @@ impl<'g> JointFactors<'g> {
     /// x with A x = right.
     pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         self.combinations.solve(right, |right| self.factored.solve(right))
+    }
+
+    /// The factors as numbers, where the speeds of the joints are the user's.
+    pub fn columns(&self) -> Option<FactoredColumns<'g>> {
+        self.order().map(|_| self.factored.columns())
     }
 
     /// The order of elimination, where the speeds of the joints are the user's.

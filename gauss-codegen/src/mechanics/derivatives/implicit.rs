@@ -1,10 +1,11 @@
 //! ż as the root of ∂C/∂ż, and its derivatives: `−A⁻¹ ∂(∂C/∂ż)` at fixed ż, with A factored once.
 
-use crate::algebra::{Expr, Factored};
+use crate::algebra::{Expr, Factored, FactoredColumns};
 
 use crate::mechanics::arrangements::articulated::{Articulated, JointFactors};
-use crate::mechanics::derivatives::rigid::{Motion, Rates};
+use crate::mechanics::derivatives::rigid::{Motion, Rates, Solved};
 use crate::mechanics::links::tree::Inertia;
+use crate::mechanics::matter::rotor::add_projected;
 use crate::mechanics::system::{DENSE, System};
 use crate::mechanics::tidy::sums;
 
@@ -30,6 +31,13 @@ impl<'g> Factors<'g> {
         match self {
             Self::Dense(factored) => factored.solve(right),
             Self::Joints(joints) => joints.solve(right),
+        }
+    }
+
+    fn columns(&self) -> Option<FactoredColumns<'g>> {
+        match self {
+            Self::Dense(factored) => Some(factored.columns()),
+            Self::Joints(joints) => joints.columns(),
         }
     }
 
@@ -60,6 +68,21 @@ impl<'g> Factors<'g> {
     }
 }
 
+/// ż and its derivatives along directions.
+pub struct AccelerationsWithDerivatives<'g> {
+    /// ż, then its derivatives along each of the directions.
+    pub outputs: Vec<Vec<Expr<'g>>>,
+    /// What gives the same derivatives where all right-hand sides are solved for together.
+    pub unsolved: Option<Unsolved<'g>>,
+}
+
+/// `A x = right` for every direction, with what is added to x.
+pub struct Unsolved<'g> {
+    pub factors: FactoredColumns<'g>,
+    pub rights: Vec<Vec<Expr<'g>>>,
+    pub added: Vec<Vec<Expr<'g>>>,
+}
+
 /// The number of the only entry other than 0, which is 1.
 fn unit(right: &[Expr<'_>]) -> Option<usize> {
     let mut there = (0..right.len()).filter(|&k| !right[k].is_zero());
@@ -70,19 +93,45 @@ fn unit(right: &[Expr<'_>]) -> Option<usize> {
 impl<'g> System<'g> {
     /// ż and its derivatives along each of the directions, in the ways that are worth trying. None where the residual is not that of
     /// links alone.
-    pub fn accelerations_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
+    pub fn accelerations_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<AccelerationsWithDerivatives<'g>> {
         if !self.constraints.is_empty() || self.only_body().is_some() || !self.rotors_are_plain() {
             return Vec::new();
         }
-        let (tree, zero) = (&self.scene.tree, self.scene.graph.zero());
-        let nothing = tree.links.iter().map(|link| (link.frame.zero(), [zero; 3])).collect();
-        let acting = sums(&tree.acted_on_by(&self.loads.forces, nothing), &self.other_forces());
+        let acting = self.acting();
         let acting: Vec<Vec<Expr<'g>>> =
             directions.iter().map(|direction| acting.iter().map(|f| f.derivative(direction)).collect()).collect();
         let factors = Factors::of(self);
-        let inertias = tree.inertias(self.is_long()).iter();
+        let inertias = self.scene.tree.inertias(self.is_long()).iter();
         let ways = inertias.flat_map(|&inertia| factors.iter().map(move |factors| (inertia, factors)));
         ways.filter_map(|(inertia, factors)| self.by_recursion(inertia, factors, directions, &acting)).collect()
+    }
+
+    /// Generalised forces of what acts but fields, which are accelerations of the observer.
+    fn acting(&self) -> Vec<Expr<'g>> {
+        let (tree, zero) = (&self.scene.tree, self.scene.graph.zero());
+        let nothing = tree.links.iter().map(|link| (link.frame.zero(), [zero; 3])).collect();
+        sums(&tree.acted_on_by(&self.loads.forces, nothing), &self.other_forces())
+    }
+
+    /// ∂C/∂ż at any ż, and its derivatives along directions that leave ż as it is, in the ways that are worth trying. None where the
+    /// residual is not that of links alone: under constraints it has multipliers that depend on everything.
+    pub fn residuals_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
+        if !self.constraints.is_empty() || self.only_body().is_some() {
+            return Vec::new();
+        }
+        let (tree, speeds, zero) = (&self.scene.tree, &self.scene.speeds, self.scene.graph.zero());
+        let rotors = add_projected(&tree.rotors, speeds, vec![zero; speeds.len()], |rotor| rotor.force(&self.along));
+        let beside: Vec<Expr<'g>> = rotors.iter().zip(self.acting()).map(|(rotor, force)| *rotor - force).collect();
+        let way = |&inertia: &Inertia| {
+            let motion = Motion::new(tree, &self.loads, &self.along, None, inertia)?;
+            let derivatives = motion.derivatives(directions).into_iter().zip(directions);
+            let derivatives = derivatives.map(|(change, direction)| {
+                let beside: Vec<Expr<'g>> = beside.iter().map(|e| e.derivative(direction)).collect();
+                sums(&change.residual, &beside)
+            });
+            Some(std::iter::once(self.residual(&self.along, inertia)).chain(derivatives).collect())
+        };
+        tree.inertias(self.is_long()).iter().filter_map(way).collect()
     }
 
     /// Rotors add a constant multiple of ż to the residual, and nothing to what is taken at once where links float.
@@ -103,12 +152,15 @@ impl<'g> System<'g> {
         factors: &Factors<'g>,
         directions: &[Rates<'g>],
         acting: &[Vec<Expr<'g>>],
-    ) -> Option<Vec<Vec<Expr<'g>>>> {
+    ) -> Option<AccelerationsWithDerivatives<'g>> {
         let [rows, taken] = self.floating(inertia);
         let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
-        let rates = sums(&factors.solve(&right), &taken);
-        let speed_rates = &self.scene.speed_rates;
-        let motion = Motion::new(&self.scene.tree, &self.loads, &self.along, speed_rates, &rates, inertia)?;
+        let relative: Vec<Expr<'g>> = factors.solve(&right).iter().map(|e| e.group()).collect();
+        let rates = sums(&relative, &taken);
+        let symbols = self.scene.speed_rates.iter().zip(&rates);
+        let solved =
+            Solved { rates: symbols.map(|(dz, value)| (dz.key(), value.group())).collect(), relative: &relative };
+        let motion = Motion::new(&self.scene.tree, &self.loads, &self.along, Some(solved), inertia)?;
         let changes = motion.derivatives(directions);
         let difference = |(f, r): (&Expr<'g>, &Expr<'g>)| *f - *r;
         let rights = changes.iter().zip(acting);
@@ -116,6 +168,9 @@ impl<'g> System<'g> {
             rights.map(|(change, f)| f.iter().zip(&change.residual).map(difference).collect()).collect();
         let solutions = factors.solve_each(&rights).into_iter().zip(&changes);
         let derivatives = solutions.map(|(solution, change)| sums(&solution, &change.taken));
-        Some(std::iter::once(rates).chain(derivatives).collect())
+        let outputs = std::iter::once(rates).chain(derivatives).collect();
+        let added = changes.iter().map(|change| change.taken.clone()).collect();
+        let unsolved = factors.columns().map(|factors| Unsolved { factors, rights, added });
+        Some(AccelerationsWithDerivatives { outputs, unsolved })
     }
 }

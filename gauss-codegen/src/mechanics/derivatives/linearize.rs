@@ -5,8 +5,9 @@
 //! under a velocity V = σ. So the directions of the configuration are its rates with V a unit vector.
 
 use crate::algebra::{Expr, Graph};
-use crate::kernel::{ByParameters, Differentiated, Direction, Equation};
+use crate::kernel::{ByParameters, Columns, Derived, Differentiated, Direction, Equation};
 
+use crate::mechanics::derivatives::implicit::AccelerationsWithDerivatives;
 use crate::mechanics::derivatives::rigid::Rates;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::kinematics::rotation::poisson;
@@ -79,6 +80,11 @@ fn along<'g>(graph: &'g Graph, coordinate: &Coordinate<'g>) -> Vec<Direction<'g>
     }
 }
 
+/// Symbols, each by itself.
+pub fn alone<'g>(graph: &'g Graph, symbols: &[Expr<'g>]) -> Vec<Direction<'g>> {
+    symbols.iter().map(|&symbol| vec![(symbol, graph.one())]).collect()
+}
+
 impl<'g> Linearization<'g> {
     /// The derivatives of the same functions by parameters. Without constraints accelerations solve ∂C/∂ż = 0, whose matrix A is
     /// the one that takes z to the momenta.
@@ -114,12 +120,9 @@ impl<'g> Linearization<'g> {
         let velocity: Vec<Expr<'g>> = order.iter().map(|&k| kinematics[k]).collect();
         let arrangements = arrangements_of(Method::Acceleration).iter();
         let arrangements = arrangements.map(|outputs| velocity.iter().chain(outputs).copied().collect()).collect();
-        let alone = |symbols: &[Expr<'g>]| -> Vec<Direction<'g>> {
-            symbols.iter().map(|&symbol| vec![(symbol, graph.one())]).collect()
-        };
-        directions.extend(alone(&scene.speeds));
-        directions.push(vec![(scene.time, graph.one())]);
-        directions.extend(alone(&scene.inputs));
+        directions.extend(alone(graph, &scene.speeds));
+        directions.extend(alone(graph, &[scene.time]));
+        directions.extend(alone(graph, &scene.inputs));
         let derived = derived(system, &velocity, &directions);
         Self {
             differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived },
@@ -135,14 +138,24 @@ impl<'g> Linearization<'g> {
 }
 
 /// V and ż, and then their derivatives along each of the directions, where these have forms of their own.
-fn derived<'g>(system: &System<'g>, velocity: &[Expr<'g>], directions: &[Direction<'g>]) -> Vec<Vec<Expr<'g>>> {
+fn derived<'g>(system: &System<'g>, velocity: &[Expr<'g>], directions: &[Direction<'g>]) -> Vec<Derived<'g>> {
     let rates = |direction: &Direction<'g>| direction.iter().map(|(symbol, rate)| (symbol.key(), *rate)).collect();
     let directions: Vec<Rates<'g>> = directions.iter().map(rates).collect();
     let of_velocity = |direction: &Rates<'g>| velocity.iter().map(|v| v.derivative(direction)).collect();
     let velocities: Vec<Vec<Expr<'g>>> =
         std::iter::once(velocity.to_vec()).chain(directions.iter().map(of_velocity)).collect();
-    let ways = system.accelerations_with_derivatives(&directions).into_iter();
-    ways.map(|way| velocities.iter().zip(&way).flat_map(|(v, a)| v.iter().chain(a)).copied().collect()).collect()
+    let beside = |ways: &[Vec<Expr<'g>>], velocities: &[Vec<Expr<'g>>]| -> Vec<Expr<'g>> {
+        velocities.iter().zip(ways).flat_map(|(v, a)| v.iter().chain(a)).copied().collect()
+    };
+    let way = |way: AccelerationsWithDerivatives<'g>| {
+        let unsolved = way.unsolved.map(|unsolved| {
+            let values = beside(&way.outputs[..1], &velocities);
+            let added = beside(&unsolved.added, &velocities[1..]);
+            Columns::new(values, added, velocity.len(), unsolved.factors, unsolved.rights)
+        });
+        Derived { outputs: beside(&way.outputs, &velocities), columns: unsolved }
+    };
+    system.accelerations_with_derivatives(&directions).into_iter().map(way).collect()
 }
 
 impl<'g> System<'g> {

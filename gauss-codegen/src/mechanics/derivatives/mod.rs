@@ -2,6 +2,7 @@
 
 pub mod component_rates;
 pub mod implicit;
+pub mod inverse;
 pub mod linearize;
 pub mod regressor;
 pub mod rigid;

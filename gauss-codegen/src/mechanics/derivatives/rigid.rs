@@ -53,13 +53,19 @@ struct Row<'g> {
     twice_spin: Triple<'g>,
 }
 
+/// ż, by its symbols, and what it is beyond what links that float take of their accelerations at once.
+pub struct Solved<'a, 'g> {
+    pub rates: Rates<'g>,
+    pub relative: &'a [Expr<'g>],
+}
+
 /// The motion whose residual is differentiated.
 pub struct Motion<'a, 'g> {
     tree: &'a Tree<'g>,
     loads: &'a Loads<'g>,
     /// Rates of t, q and z, with symbols for ż.
     along: &'a Rates<'g>,
-    /// ż in place of its symbols.
+    /// ż in place of its symbols, where it is known.
     solved: Substitution<'g>,
     /// Of all links, with ż.
     accelerations: Pairs<'g>,
@@ -78,29 +84,35 @@ pub struct Derivative<'g> {
 }
 
 impl<'a, 'g> Motion<'a, 'g> {
-    /// At the accelerations `solved`, which stand for `speed_rates` in `along`. `None` where fluid moves with links.
+    /// `along` has symbols for ż: at the ż that `solved` gives for each of them, or at any, where links that float take nothing of
+    /// their accelerations at once. `None` where fluid moves with links.
     pub fn new(
         tree: &'a Tree<'g>,
         loads: &'a Loads<'g>,
         along: &'a Rates<'g>,
-        speed_rates: &[Expr<'g>],
-        solved: &[Expr<'g>],
+        solved: Option<Solved<'_, 'g>>,
         inertia: Inertia,
     ) -> Option<Self> {
         let wet = |link: &Link<'g>| link.body().is_some_and(|b| b.added_mass.is_some() || b.displaced.is_some());
         if tree.links.iter().any(wet) {
             return None;
         }
-        let values: Rates<'g> = speed_rates.iter().zip(solved).map(|(dz, value)| (dz.key(), value.group())).collect();
+        let floating = match &solved {
+            Some(_) => Floating::of(&tree.links, tree.speed_count()),
+            None => Vec::new(),
+        };
+        let (values, relative) = match solved {
+            Some(Solved { rates, relative }) => (rates, Some(relative)),
+            None => (Rates::default(), None),
+        };
         let substituted = |rate: &Expr<'g>| values.get(&rate.key()).copied().unwrap_or(*rate);
         let with_values: Rates<'g> = along.iter().map(|(&key, rate)| (key, substituted(rate))).collect();
-        let (accelerations, forces) = tree.forces_of_inertia(&with_values, inertia, loads);
+        let (accelerations, forces) = tree.forces_of_inertia(&with_values, inertia, loads, relative);
         let body = |(k, (linear, angular)): (usize, (Vector<'g>, Triple<'g>))| {
             (tree.links[k].frame.resolve(&linear, Axes::Body), angular)
         };
         let forces = forces.into_iter().enumerate().map(body).collect();
         let gathered = gathered(tree);
-        let floating = Floating::of(&tree.links, tree.speed_count());
         let solved = Substitution::new(values);
         Some(Self { tree, loads, along, solved, accelerations, forces, gathered, floating })
     }

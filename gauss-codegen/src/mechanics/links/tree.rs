@@ -26,6 +26,16 @@ pub enum Inertia {
     Field,
 }
 
+/// What links that float have of their accelerations at once, seen by observers who move so.
+enum Observers<'a, 'g> {
+    /// Nobody moves.
+    Still,
+    /// At ż = ζ, which is written down, but for speeds that are held.
+    Moved(&'a [bool], &'a mut [Expr<'g>]),
+    /// At `ż = ζ + ż′`, with ż′: ζ does not come in, so that the small is not a difference of the large.
+    Relative(&'a [Expr<'g>]),
+}
+
 /// Links, parents before children.
 pub struct Tree<'g> {
     pub graph: &'g Graph,
@@ -252,7 +262,7 @@ impl<'g> Tree<'g> {
     /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm`, the fluid's share and
     /// the loads, with ż by its rates in `along`.
     pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia, loads: &Loads<'g>) -> Vec<Expr<'g>> {
-        self.balance(along, inertia, loads, &self.accelerations(along, Some(loads), None))
+        self.balance(along, inertia, loads, &self.accelerations(along, Some(loads), Observers::Still))
     }
 
     /// The same at ż = ζ, seen by observers who move with the links that float, and ζ. Speeds of which `held` is true
@@ -270,17 +280,20 @@ impl<'g> Tree<'g> {
     /// `a_O − g` and ω̇ of every link at ż = ζ for these observers, and ζ.
     pub fn floating_accelerations(&self, loads: &Loads<'g>, held: &[bool]) -> (Pairs<'g>, Vec<Expr<'g>>) {
         let mut taken = vec![self.graph.zero(); self.speeds.len()];
-        (self.accelerations(&self.rates, Some(loads), Some((held, &mut taken))), taken)
+        (self.accelerations(&self.rates, Some(loads), Observers::Moved(held, &mut taken)), taken)
     }
 
-    /// `a_O − g` and ω̇ of every link, and the forces of inertia of all that hangs on it, at its O.
+    /// `a_O − g` and ω̇ of every link, and the forces of inertia of all that hangs on it, at its O. `relative` is ż′ where `along` is
+    /// known to have `ż = ζ + ż′`.
     pub fn forces_of_inertia(
         &self,
         along: &Map<u32, Expr<'g>>,
         inertia: Inertia,
         loads: &Loads<'g>,
+        relative: Option<&[Expr<'g>]>,
     ) -> (Pairs<'g>, Pairs<'g>) {
-        let accelerations = self.accelerations(along, Some(loads), None);
+        let observers = relative.map_or(Observers::Still, Observers::Relative);
+        let accelerations = self.accelerations(along, Some(loads), observers);
         let of_links = self.links.iter().zip(&accelerations);
         let forces = of_links.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
         let forces = self.gathered(forces);
@@ -341,7 +354,7 @@ impl<'g> Tree<'g> {
 
     /// a_O and ω̇ of every link at ż = 0.
     pub fn bias_accelerations(&self) -> Pairs<'g> {
-        self.accelerations(&self.rates, None, None)
+        self.accelerations(&self.rates, None, Observers::Still)
     }
 
     /// `a_O − g` and ω̇ of every link; a uniform field is an acceleration of the observer, and so is what links that
@@ -350,15 +363,21 @@ impl<'g> Tree<'g> {
         &self,
         along: &Map<u32, Expr<'g>>,
         loads: Option<&Loads<'g>>,
-        mut observers: Option<(&[bool], &mut [Expr<'g>])>,
+        mut observers: Observers<'_, 'g>,
     ) -> Pairs<'g> {
         let mut accelerations: Pairs<'g> = Vec::with_capacity(self.links.len());
         for (k, link) in self.links.iter().enumerate() {
             let frame = &link.frame;
+            let floating = self.floating.get(k).and_then(Option::as_ref);
+            let relative = match observers {
+                Observers::Relative(rates) if link.parent.is_none() => floating.zip(Some(rates)),
+                _ => None,
+            };
             let (mut a, alpha) = match link.parent {
                 None => {
                     let omega = frame.body_vector(link.angular_velocity);
-                    let a = frame.derivative(&link.velocity, along, &omega).map(Expr::group);
+                    let along_o = if relative.is_some() { &self.rates } else { along };
+                    let a = frame.derivative(&link.velocity, along_o, &omega).map(Expr::group);
                     let fields = loads.into_iter().flat_map(|loads| self.gravity.into_iter().chain(loads.field_on(k)));
                     let a = fields.fold(a, |a, g| a.minus(&frame.space_vector(g)));
                     (a, link.angular_velocity.map(|e| e.derivative(along).group()))
@@ -383,8 +402,14 @@ impl<'g> Tree<'g> {
                     (a, alpha)
                 }
             };
-            if let (Some((held, taken)), Some(Some(floating))) = (&mut observers, self.floating.get(k)) {
+            if let (Observers::Moved(held, taken), Some(floating)) = (&mut observers, floating) {
                 a = floating.taken_from(link, &a, held, taken);
+            }
+            if let Some((floating, rates)) = relative {
+                let none = vec![false; rates.len()];
+                let rest = floating.taken_from(link, &a, &none, &mut vec![self.graph.zero(); rates.len()]);
+                let rows = link.linear_rows.iter().zip(rates);
+                a = rows.fold(rest, |a, (row, rate)| a.plus(&row.times(*rate))).map(Expr::group);
             }
             if !link.is_alone() {
                 a = frame.body_vector(frame.resolve(&a, Axes::Body).map(Expr::group));

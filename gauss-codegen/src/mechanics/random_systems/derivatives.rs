@@ -1,7 +1,9 @@
-//! The derivatives of random trees by recursion against dual numbers through their accelerations.
+//! The derivatives of random trees by recursion against dual numbers through their accelerations and inverse dynamics.
 
 use crate::algebra::{Evaluation, Expr, Function, Graph, Map, Number, Precise, Scalar, Tangents};
 
+use crate::kernel::Differentiated;
+use crate::mechanics::derivatives::inverse::InverseLinearization;
 use crate::mechanics::derivatives::linearize::Linearization;
 use crate::mechanics::system::System;
 use crate::mechanics::tests::Random;
@@ -46,9 +48,17 @@ fn check(plan: &Plan, random: &mut Random, what: &str) -> bool {
     let system = System::new(symbols.scene(plan, &symbols.speeds, &all, true));
     let formulas = system.formulas();
     let linearization = Linearization::new(&system, &formulas);
-    let differentiated = &linearization.differentiated;
-    let values = point(&symbols, &system, state);
-    let mut evaluation = Evaluation::new(&values);
+    let inverse = InverseLinearization::new(&system, &formulas);
+    let mut values = point(&symbols, &system, state);
+    // Rates of the speeds, of which accelerations know nothing.
+    let rates = system.scene.speed_rates.iter();
+    values.extend(rates.zip(&state.speeds).map(|(symbol, z)| (symbol.key(), Precise::number(0.3 - 0.7 * z))));
+    agree(&linearization.differentiated, &values, what) && agree(&inverse.differentiated, &values, what)
+}
+
+/// Whether there are forms of their own; panics where one is wrong.
+fn agree<'g>(differentiated: &Differentiated<'g>, values: &Map<u32, Precise>, what: &str) -> bool {
+    let mut evaluation = Evaluation::new(values);
     let outputs = &differentiated.arrangements[0];
     let mut expected: Vec<Precise> = outputs.iter().map(|e| evaluation.value(*e)).collect();
     for direction in &differentiated.directions {
@@ -57,8 +67,8 @@ fn check(plan: &Plan, random: &mut Random, what: &str) -> bool {
         expected.extend(outputs.iter().map(|e| tangents.along(*e)));
     }
     for derived in &differentiated.derived {
-        assert_eq!(derived.len(), expected.len(), "{what}");
-        for (k, (e, expected)) in derived.iter().zip(&expected).enumerate() {
+        assert_eq!(derived.outputs.len(), expected.len(), "{what}");
+        for (k, (e, expected)) in derived.outputs.iter().zip(&expected).enumerate() {
             let apart = (evaluation.value(*e) - *expected).to_f64().abs();
             let (direction, row) = (k / outputs.len(), k % outputs.len());
             let close = apart <= AGREEMENT * (1.0 + expected.to_f64().abs());

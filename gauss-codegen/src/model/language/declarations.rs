@@ -97,19 +97,28 @@ const METHODS: &Table<WantedMethod> = &[
 
 /// `methods(centroidal, gravity_torques)`: words, each once.
 pub fn read_methods(clause: &Clause, context: &mut Context) -> Vec<WantedMethod> {
-    let language =
-        Language { noun: "method", example: "centroidal", kinds: &[], scalar: (), units: false, component: None };
+    read_words(clause, ["method", "centroidal"], METHODS, context)
+}
+
+/// Words in brackets, each once; what they are called, and one of them.
+pub fn read_words<T: Copy + PartialEq>(
+    clause: &Clause,
+    [noun, example]: [&'static str; 2],
+    table: &Table<T>,
+    context: &mut Context,
+) -> Vec<T> {
+    let language = Language { noun, example, kinds: &[], scalar: (), units: false, component: None };
     let names = read_names(clause, &language, |ident, (), _| ident, context);
-    let mut methods = Vec::new();
+    let mut words = Vec::new();
     for name in names.names {
-        let Ok(method) = words::resolve("method", &name, METHODS, context) else { continue };
-        if methods.contains(&method) {
+        let Ok(word) = words::resolve(noun, &name, table, context) else { continue };
+        if words.contains(&word) {
             context.error(name.span(), format!("`{name}` is named twice; keep one of the two"));
         } else {
-            methods.push(method);
+            words.push(word);
         }
     }
-    methods
+    words
 }
 
 /// `frames(tool, left_foot)`: names of bodies and frames, each once.

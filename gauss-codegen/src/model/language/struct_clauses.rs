@@ -2,7 +2,7 @@
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
 //! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `regressor` alone;
-//! `linearize` alone or as `linearize(parameters)`; `frames(name, …)`; `methods(word, …)`.
+//! `linearize` alone or as `linearize(word, …)`; `frames(name, …)`; `methods(word, …)`.
 
 use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};
@@ -181,7 +181,12 @@ impl Topics {
             }
             Topic::Linearize => {
                 self.wanted.linearize = true;
-                self.wanted.by_parameters |= names_parameters(clause, context);
+                for further in read_linearize(clause, context) {
+                    match further {
+                        Further::Parameters => self.wanted.by_parameters = true,
+                        Further::Inverse => self.wanted.inverse = true,
+                    }
+                }
             }
             Topic::Regressor => {
                 self.wanted.regressor.get_or_insert(clause.name.clone());
@@ -366,38 +371,30 @@ fn check_alone(clause: &Clause, context: &mut Context) {
     context.error(span, format!("`{name}` takes no value; write `{name}` alone, or leave it out"));
 }
 
-/// Whether it is `linearize(parameters)`.
-fn names_parameters(clause: &Clause, context: &mut Context) -> bool {
-    const REMEDY: &str = "write `linearize` alone for the derivatives by state, time and input, or \
-                          `linearize(parameters)` to have those by the parameters as well";
-    let (span, message) = match &clause.value {
-        Content::Absent | Content::Malformed => return false,
-        Content::Equals(tokens) => (
-            tokens.first().map_or(clause.name.span(), attributes::start),
-            format!("`linearize` takes no value after `=`; {REMEDY}"),
-        ),
-        Content::Brackets(group) => {
-            let tokens = attributes::flat(group.stream());
-            let is_parameters =
-                |token: &TokenTree| matches!(token, TokenTree::Ident(word) if word.unraw() == "parameters");
-            let wrong = match tokens.split_first() {
-                None => {
-                    context.error(group.span_open(), format!("the brackets of `linearize` are empty; {REMEDY}"));
-                    return false;
-                }
-                Some((first, _)) if !is_parameters(first) => first,
-                Some((_, [])) => return true,
-                Some((_, [TokenTree::Punct(comma)])) if comma.as_char() == ',' => return true,
-                Some((_, [extra, ..])) => extra,
-            };
-            (
-                attributes::start(wrong),
-                format!("`linearize` takes `parameters` in its brackets, found {}; {REMEDY}", attributes::found(wrong)),
-            )
+/// What `linearize` gives besides the derivatives by state, time and input.
+#[derive(Clone, Copy, PartialEq)]
+enum Further {
+    Parameters,
+    Inverse,
+}
+
+const FURTHER: &Table<Further> = &[("parameters", Further::Parameters), ("inverse", Further::Inverse)];
+
+/// `linearize`, `linearize(parameters, inverse)`.
+fn read_linearize(clause: &Clause, context: &mut Context) -> Vec<Further> {
+    match &clause.value {
+        Content::Absent | Content::Malformed => Vec::new(),
+        Content::Equals(tokens) => {
+            context.error(
+                tokens.first().map_or(clause.name.span(), attributes::start),
+                "`linearize` takes no value after `=`; write `linearize` alone for the derivatives by state, time and \
+                 input, `linearize(parameters)` or `linearize(inverse)` to have those by the parameters or those of \
+                 inverse dynamics as well",
+            );
+            Vec::new()
         }
-    };
-    context.error(span, message);
-    false
+        Content::Brackets(_) => declarations::read_words(clause, ["kind of derivative", "inverse"], FURTHER, context),
+    }
 }
 
 fn read_runtime(clause: &Clause, context: &mut Context) -> Option<Path> {

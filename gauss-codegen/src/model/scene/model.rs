@@ -149,6 +149,8 @@ pub struct Wanted {
     pub linearize: bool,
     /// `linearize(parameters)`: by the parameters, too.
     pub by_parameters: bool,
+    /// `linearize(inverse)`: those of inverse dynamics, too.
+    pub inverse: bool,
     /// `regressor`, where it is written: the coefficients of the inertial parameters.
     pub regressor: Option<Ident>,
     /// `frames(…)`: bodies and frames whose poses and velocities are methods, by their names, each once.

@@ -44,17 +44,22 @@ fn chart_values() {
 }
 
 #[test]
-fn linearize_stands_alone_or_names_parameters() {
-    let remedy = "write `linearize` alone for the derivatives by state, time and input, or `linearize(parameters)` to have \
-                  those by the parameters as well";
-    let refused = |attribute: &str, at: &str, message: &str| {
-        check_body(attribute, &[(at, &format!("{message}; {remedy}"))]);
-    };
-    refused("#[gauss(linearize = true)]", "true", "`linearize` takes no value after `=`");
-    refused("#[gauss(linearize(z))]", "z", "`linearize` takes `parameters` in its brackets, found `z`");
-    refused("#[gauss(linearize())]", "(", "the brackets of `linearize` are empty");
-    refused("#[gauss(linearize(parameters, z))]", ",", "`linearize` takes `parameters` in its brackets, found `,`");
-    refused("#[gauss(linearize(3))]", "3", "`linearize` takes `parameters` in its brackets, found the literal `3`");
+fn linearize_stands_alone_or_names_more() {
+    let remedy = "write `linearize` alone for the derivatives by state, time and input, `linearize(parameters)` or \
+                  `linearize(inverse)` to have those by the parameters or those of inverse dynamics as well";
+    check_body("#[gauss(linearize = true)]", &[("true", &format!("`linearize` takes no value after `=`; {remedy}"))]);
+    let unknown = "unknown kind of derivative `z`; expected `parameters` or `inverse`";
+    check_body("#[gauss(linearize(z))]", &[("z", unknown)]);
+    check_body("#[gauss(linearize(parameters, z))]", &[("z", unknown)]);
+    let near = "unknown kind of derivative `inverted`; did you mean `inverse`?";
+    check_body("#[gauss(linearize(inverted))]", &[("inverted", near)]);
+    let twice = "`inverse` is named twice; keep one of the two";
+    check_body("#[gauss(linearize(inverse, parameters, inverse))]", &[("inverse", twice)]);
+    check_body(
+        "#[gauss(linearize())]",
+        &[("(", "`linearize()` says nothing; write `linearize(inverse)` or remove it")],
+    );
+    check_body("#[gauss(linearize(3))]", &[("3", "expected the name of a kind of derivative, found the literal `3`")]);
     check_body("#[gauss(linearise)]", &[("linearise", "unknown clause `linearise`; did you mean `linearize`?")]);
     check_body(
         "#[gauss(linearize, chart = hybrid, linearize)]",

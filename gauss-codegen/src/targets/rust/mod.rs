@@ -273,7 +273,7 @@ fn in_functions<S: Copy>(
         let names: Vec<_> = names.iter().flatten().collect();
         let rest = statements.split_off(PART.min(statements.len()));
         let part = in_blocks(std::mem::replace(&mut statements, rest));
-        quote!(let (#(#names,)*) = #apart(|| { #part (#(#names,)*) });)
+        quote!(let (#(#names,)*) = #apart(move || { #part (#(#names,)*) });)
     });
     parts.collect()
 }

@@ -1,0 +1,46 @@
+//! `InverseLinearizedSystem`: inverse dynamics and its derivatives by the state, ż, time and the input.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::arguments::{OF_RESIDUAL, declared};
+use super::derived::Derived;
+use super::linearized::rows;
+
+/// The implementation, where it is asked for.
+pub fn inverse_linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let (inverse, program) = derived.inverse.zip(derived.kernel.inverse.as_ref())?;
+    let (private, ty) = (derived.private(), derived.scalar().ty());
+    let (increments, speeds, inputs) = (inverse.increments, inverse.speeds, inverse.inputs);
+    let arguments = declared(&private, OF_RESIDUAL);
+    let (instructions, outputs) = derived.computed(program);
+    // Outputs are the forces, and then their derivatives, one column of the matrices after the other.
+    let (force, derivatives) = outputs.split_at(speeds);
+    let mut start = 0;
+    let mut next = |columns: usize| {
+        start += columns;
+        rows(derivatives, speeds, start - columns..start)
+    };
+    let (by_configuration, by_speeds, by_acceleration) = (next(increments), next(speeds), next(speeds));
+    let (by_time, by_input) = (next(1), next(inputs));
+    let items = quote! {
+            type InverseLinearization = #private::InverseLinearization<#ty, #increments, #speeds, #inputs>;
+            fn linearize_inverse(
+                &self,
+                __t: Self::Scalar,
+                __q: &Self::Configuration,
+                #(#arguments,)*
+            ) -> Self::InverseLinearization {
+                #instructions
+                #private::InverseLinearization {
+                    force: #private::vector([#(#force),*]),
+                    by_configuration: #private::matrix([#(#by_configuration),*]),
+                    by_speeds: #private::matrix([#(#by_speeds),*]),
+                    by_acceleration: #private::matrix([#(#by_acceleration),*]),
+                    by_time: #private::matrix([#(#by_time),*]),
+                    by_input: #private::matrix([#(#by_input),*]),
+                }
+            }
+    };
+    Some(derived.implementation(quote!(InverseLinearizedSystem), items))
+}

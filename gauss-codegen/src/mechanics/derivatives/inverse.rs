@@ -1,0 +1,55 @@
+//! Inverse dynamics and its derivatives: ∂C/∂ż at any ż, by the configuration, z, ż, time and inputs.
+
+use crate::algebra::Expr;
+use crate::kernel::{Derived, Differentiated, Direction};
+
+use crate::mechanics::derivatives::linearize::{Increments, alone};
+use crate::mechanics::derivatives::rigid::Rates;
+use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::system::System;
+
+/// What is differentiated: the rows of ∂C/∂ż.
+pub struct InverseLinearization<'g> {
+    /// Along the components of an increment, the speeds, their rates, time, and the inputs, in this order.
+    pub differentiated: Differentiated<'g>,
+    /// How many components an increment has.
+    pub increments: usize,
+    pub speeds: usize,
+    pub inputs: usize,
+}
+
+impl<'g> InverseLinearization<'g> {
+    pub fn new(system: &System<'g>, formulas: &[Formula<'g>]) -> Self {
+        let scene = &system.scene;
+        let graph = scene.graph;
+        let residual = formulas.iter().find(|formula| formula.method == Method::GaussResidual);
+        let arrangements = residual.expect("every kernel has its residual").arrangements.clone();
+        let mut directions = Increments::of(scene).directions;
+        let increments = directions.len();
+        directions.extend(alone(graph, &scene.speeds));
+        let of_rates = directions.len()..directions.len() + scene.speed_rates.len();
+        directions.extend(alone(graph, &scene.speed_rates));
+        directions.extend(alone(graph, &[scene.time]));
+        directions.extend(alone(graph, &scene.inputs));
+        // Along ż it is linear, with the matrix A.
+        let at_fixed_rates = |k: &usize| !of_rates.contains(k);
+        let fixed: Vec<Rates<'g>> =
+            (0..directions.len()).filter(at_fixed_rates).map(|k| rates(&directions[k])).collect();
+        let whole = |mut way: Vec<Vec<Expr<'g>>>| {
+            let rest = way.split_off(1 + of_rates.start);
+            let outputs = way.into_iter().chain(system.matrix.iter().cloned()).chain(rest).flatten().collect();
+            Derived { outputs, columns: None }
+        };
+        let derived = system.residuals_with_derivatives(&fixed).into_iter().map(whole).collect();
+        Self {
+            differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived },
+            increments,
+            speeds: scene.speeds.len(),
+            inputs: scene.inputs.len(),
+        }
+    }
+}
+
+fn rates<'g>(direction: &Direction<'g>) -> Rates<'g> {
+    direction.iter().map(|(symbol, rate)| (symbol.key(), *rate)).collect()
+}
