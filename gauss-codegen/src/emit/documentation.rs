@@ -9,7 +9,9 @@ use crate::model::{InChart, InputKind, Role};
 
 use super::chart::{chart_name, motion_name};
 use super::derived::Derived;
-use super::state::{Part, PartKind, parts, state_name};
+use super::input::{called, input_name};
+use super::record::{Part, PartKind};
+use super::state::{parts, state_name};
 
 /// The equations as plain text and as one LaTeX environment.
 #[derive(Clone, Debug)]
@@ -182,7 +184,10 @@ fn acting(derived: &Derived<'_, '_>) -> String {
     let mut next = 0;
     for input in &derived.subject.model.inputs {
         if next == 0 {
-            out.push_str("\n# Input\n\n| components | input | unit |\n|---|---|---|\n");
+            let name = input_name(derived);
+            out.push_str(&format!(
+                "\n# Input\n\nBy name [`{name}`].\n\n| components | input | unit |\n|---|---|---|\n"
+            ));
         }
         let (count, what) = match input.kind {
             InputKind::Scalar => (1, ""),
@@ -191,7 +196,9 @@ fn acting(derived: &Derived<'_, '_>) -> String {
         };
         let range = if count == 1 { next.to_string() } else { format!("{next}–{}", next + count - 1) };
         let unit = input.unit.as_deref().unwrap_or_default();
-        out.push_str(&format!("| {range} | `{}`{what} | {unit} |\n", input.ident.unraw()));
+        let (called, ident) = (called(input).unraw().to_string(), input.ident.unraw().to_string());
+        let inside = if called == ident { String::new() } else { format!(", `{ident}` in expressions") };
+        out.push_str(&format!("| {range} | `{called}`{what}{inside} | {unit} |\n"));
         next += count;
     }
     let accounts = derived.accounts();
