@@ -73,6 +73,9 @@
 /// `attitude_omega` of a rotation. Charts have `pose` (`rotation` about a fixed point) and `u`, `xi` or `b_dot` with `omega`; jet charts
 /// `b1`, `psi` …, `b1_dot`, `psi_dot` …. Of a vector of which `independent` keeps a component that is called `w_x`.
 ///
+/// Where there are inputs `NameInput` has them by name, of a wrench `contact_force` and `contact_torque`:
+/// `SpacecraftInput { motor: 0.1, ..Default::default() }.input()` is what kernels take, `SpacecraftInput::of(&input)` the way back.
+///
 /// # Frames
 ///
 /// `frames(tool, hull)` has methods written for bodies and frames of the scene; in a chart its body is `body`. Names stay as they are:

@@ -48,7 +48,8 @@ pub fn compose(
         let structure = Structure::new(&description).map_err(faults)?;
         let robot = Robot::new(file, clauses, reader, &description, &structure);
         let idle = robot.without_inertia();
-        let idle = if idle.is_empty() { robot.without_motion(file) } else { idle };
+        let moves = statements.coordinates.is_some() || statements.in_chart;
+        let idle = if idle.is_empty() && !moves { robot.without_motion(file) } else { idle };
         let idle = if idle.is_empty() { robot.impossible(&statements.formal) } else { idle };
         if idle.is_empty() { Ok(robot.written(file, &path, statements, context)) } else { Err(faults(idle)) }
     });
@@ -204,6 +205,7 @@ impl<'a> Robot<'a> {
         let has_gravity = statements.role_clauses.iter().any(|clause| clause.role == Role::Gravity);
         statements.role_clauses.extend(self.gravity().filter(|_| !has_gravity && !self.gravity_in_field));
         let forces = self.forces();
+        statements.forces_of_file = forces.len();
         statements.forces.splice(0..0, forces);
         self.described(file, path)
     }

@@ -81,7 +81,7 @@ fn mistakes(text: &str, clauses: &str, fields: &str) -> Vec<String> {
 /// A chain whose link of every tenth joint starts anew at the base.
 fn tree(links: usize) -> String {
     let part = |k: usize| {
-        let parent = if k % 10 == 0 { "base".to_owned() } else { format!("l{}", k - 1) };
+        let parent = if k.is_multiple_of(10) { "base".to_owned() } else { format!("l{}", k - 1) };
         joint(&format!("j{k}"), "revolute", &parent, &format!("l{k}"), "<origin xyz=\"0 0.05 0.2\"/>")
             + &link(&format!("l{k}"))
     };

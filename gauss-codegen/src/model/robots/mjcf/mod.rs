@@ -337,5 +337,6 @@ impl<'a> File<'a> {
     /// Notes what an element does that is not modelled.
     fn ignored(&mut self, node: Node<'a, 'a>, why: &str) {
         self.reading.ignored(node, format!("{} does not act: {why}", shown(node)));
+        self.reading.pass(node);
     }
 }

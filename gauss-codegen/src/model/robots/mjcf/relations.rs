@@ -118,7 +118,7 @@ impl<'a> File<'a> {
                 [one] => *one,
                 [least, most, ..] => {
                     if least != most {
-                        self.ignored(node, "its spring rests over a range; the middle of it counts");
+                        self.reading.ignored(node, "the spring of a tendon rests over a range: its middle counts");
                     }
                     (least + most) / 2.0
                 }
