@@ -23,6 +23,7 @@ chapters! {
     Many: "src/many.md",
     Embedded: "src/embedded.md",
     Robots: "src/robots.md",
+    Seeing: "src/seeing.md",
     FromSympy: "src/from_sympy.md",
     FromPinocchioMujoco: "src/from_pinocchio_mujoco.md",
     FromMss: "src/from_mss.md",
