@@ -1,4 +1,5 @@
-//! The inertia tensor and the centre of mass of a body from its motion: `cargo run --release --example identify_inertia`.
+//! The inertia tensor and the centre of mass of a body from its motion: `cargo run --release --example identify_inertia`
+//! (`RUNS=10` before it: fewer runs).
 //!
 //! A satellite stands on an air bearing, a ball joint without friction, and is shaken by known torques. Its angular velocity and
 //! its attitude are measured, with noise. Two ways to its parameters, one after the other:
@@ -217,9 +218,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         NOISE[1]
     );
 
-    const RUNS: usize = 50;
+    let runs = gauss_examples::runs(50);
     let (mut distance, mut misfit) = (0.0, 0.0);
-    for run in 0..RUNS {
+    for run in 0..runs {
         let mut normal = Normal(run as u64 + 1);
         let with_noise = |m: &Measured| Measured {
             attitude: m.attitude.retract(&normal.vector(NOISE[1])),
@@ -253,16 +254,16 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // χ² of k degrees of freedom has the mean k and the deviation √(2k); sums over runs have those of all together.
     let consistent = |what: &str, sum: f64, freedom: usize| {
-        let (mean, deviation) = ((RUNS * freedom) as f64, (2.0 * (RUNS * freedom) as f64).sqrt());
+        let (mean, deviation) = ((runs * freedom) as f64, (2.0 * (runs * freedom) as f64).sqrt());
         let away = (sum - mean) / deviation;
         println!(
             "{what}: χ² is {:.2} a run, expected {freedom} ± {:.2} ({away:+.1} deviations)",
-            sum / RUNS as f64,
-            deviation / RUNS as f64
+            sum / runs as f64,
+            deviation / runs as f64
         );
         away.abs() < 3.0
     };
-    println!("{RUNS} runs with noise of their own:");
+    println!("{runs} runs with noise of their own:");
     let estimates = consistent("errors of the nine parameters, by their covariance", distance, UNKNOWN);
     let residuals = consistent("what is left of the measurements, by their noise", misfit, 6 * COUNT - FITTED);
     if estimates && residuals { Ok(()) } else { Err("the errors are not what the covariance says".into()) }

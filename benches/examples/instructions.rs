@@ -1,8 +1,10 @@
 //! Counts the machine instructions of every kernel that is timed, and compares them with the table of this folder.
 //!
-//! `cargo run --release -p gauss-benches --example instructions [-- --write]`. Kernels are straight lines, so what the compiler writes is what runs,
-//! up to the branch for angles whose sine is left to the library. Needs a compiler and nothing else: no profiler, no library. Counts hold
-//! for one compiler and one kind of processor (x86-64-v3), whatever the machine; those of another compiler are shown, not compared.
+//! `cargo run -p gauss-benches --example instructions [-- [--write] [--cargo OPTIONS]]`; the options are for the build
+//! that is counted. Kernels are straight lines, so what the compiler writes is what runs, up to the branch for angles
+//! whose sine is left to the library. Needs a compiler and nothing else: no profiler, no library. Counts hold for one
+//! compiler and one kind of processor (x86-64-v3), whatever the machine; those of another compiler are shown, not
+//! compared.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -18,8 +20,8 @@ type Counts = BTreeMap<String, usize>;
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let table = folder.join("instructions.csv");
-    let compiler = compiler()?;
-    let counts = counts(&fs::read_to_string(assembly(folder)?)?);
+    let (compiler, platform) = compiler()?;
+    let counts = counts(&fs::read_to_string(assembly(folder, &platform)?)?);
     if counts.is_empty() {
         return Err("the compiler's output has none of the kernels".into());
     }
@@ -51,29 +53,41 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The version of the compiler that Cargo uses.
-fn compiler() -> Result<String, Box<dyn Error>> {
+/// The version of the compiler that Cargo uses, and the platform it runs on.
+fn compiler() -> Result<(String, String), Box<dyn Error>> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let output = Command::new(rustc).arg("--version").output()?;
-    Ok(String::from_utf8(output.stdout)?.trim().to_owned())
+    let said = String::from_utf8(Command::new(rustc).arg("-vV").output()?.stdout)?;
+    let host = said.lines().find_map(|line| line.strip_prefix("host: ")).ok_or("a compiler without a host")?;
+    Ok((said.lines().next().unwrap_or_default().to_owned(), host.to_owned()))
 }
 
-/// Has the library compiled to assembly, and finds the file.
-fn assembly(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
-    let target = folder.join("../target/instructions");
+/// The packages whose code is counted.
+const PACKAGES: [&str; 4] = ["gauss-benches", "gauss-runtime", "nalgebra", "simba"];
+
+/// How they are compiled. All others, and the macro, stay as they are for tests.
+const PROFILE: [&str; 4] = ["opt-level=3", "codegen-units=1", "debug-assertions=false", "overflow-checks=false"];
+
+/// Has the library compiled to assembly, and finds the file. With a platform that is named, flags are not for macros,
+/// so that these are there already.
+fn assembly(folder: &Path, platform: &str) -> Result<PathBuf, Box<dyn Error>> {
+    let target = folder.join("../target");
+    let setting = |package| PROFILE.map(|setting| format!("profile.dev.package.{package}.{setting}"));
     let status = Command::new(env!("CARGO"))
-        .args(["rustc", "--quiet", "--release", "--lib", "--target-dir"])
+        .args(["rustc", "--quiet", "--lib", "--target-dir"])
         .arg(&target)
-        .args(["--", "--emit", "asm", "-C", "codegen-units=1"])
-        .current_dir(folder)
         // One kind of processor everywhere.
-        .env("RUSTFLAGS", "-C target-cpu=x86-64-v3")
-        .env_remove("CARGO_ENCODED_RUSTFLAGS")
+        .args(["--target", platform, "--config"])
+        .arg(format!("target.{platform}.rustflags=[\"-Ctarget-cpu=x86-64-v3\"]"))
+        .args(PACKAGES.into_iter().flat_map(setting).flat_map(|setting| ["--config".into(), setting]))
+        .args(std::env::args().skip_while(|argument| argument != "--cargo").skip(1))
+        .args(["--", "--emit", "asm"])
+        .current_dir(folder)
         .status()?;
     if !status.success() {
         return Err("the kernels do not compile".into());
     }
-    let files = fs::read_dir(target.join("release/deps"))?.filter_map(|entry| entry.ok().map(|entry| entry.path()));
+    let files = fs::read_dir(target.join(platform).join("debug/deps"))?
+        .filter_map(|entry| entry.ok().map(|entry| entry.path()));
     let ours = |path: &PathBuf| {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         name.starts_with("gauss_benches-") && name.ends_with(".s")

@@ -2,7 +2,8 @@
 //! the next its rates follow from Euler's equations alone. With the exact derivatives of its steps the filter knows how wrong it is;
 //! with 1 + hF in their place it does not.
 //!
-//! `cargo run --release --example attitude_filter [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`.
+//! `cargo run --release --example attitude_filter [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`;
+//! `RUNS=20` before it: fewer motions.
 
 mod filter;
 mod model;
@@ -31,6 +32,7 @@ fn name(transition: Transition) -> &'static str {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let kernel = spacecraft().kernel()?;
+    let count = gauss_examples::runs(MOTIONS);
     println!("A satellite that turns by {:.1} °/s; its wheels push, and so does a torque that nobody knows,", {
         nominal().1.norm().to_degrees()
     });
@@ -42,13 +44,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         TRACKER[2] / ARCSECOND
     );
     println!(
-        "about e₁, e₂, e₃. At first it is known to {:.0}° and {:.1} °/s. {MOTIONS} motions of {:.0} s.\n",
+        "about e₁, e₂, e₃. At first it is known to {:.0}° and {:.1} °/s. {count} motions of {:.0} s.\n",
         FIRST.0.to_degrees(),
         FIRST.1.to_degrees(),
         STEP * (STEPS * LOOKS) as f64
     );
     let mut random = Random(1);
-    let motions = (0..MOTIONS).map(|_| happens(&kernel, &mut random)).collect::<Result<Vec<_>, _>>()?;
+    let motions = (0..count).map(|_| happens(&kernel, &mut random)).collect::<Result<Vec<_>, _>>()?;
     let followed = [Transition::Exact, Transition::FirstOrder, Transition::FirstOrderPerLook]
         .into_iter()
         .map(|transition| Followed::new(&kernel, &motions, transition))
@@ -71,9 +73,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
 
-    let (low, high) = interval(MOTIONS);
+    let (low, high) = interval(count);
     println!(
-        "\nNormalised error squared by transition matrix. If a filter knows how wrong it is, the mean over {MOTIONS} motions"
+        "\nNormalised error squared by transition matrix. If a filter knows how wrong it is, the mean over {count} motions"
     );
     println!("is 6, and between {low:.2} and {high:.2} after 95 % of the looks:");
     println!("transition matrix            20 s     30 s     40 s    settled           within   rate at 20 s/(″/s)");

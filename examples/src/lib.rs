@@ -23,3 +23,8 @@ pub mod rolling;
 pub mod simulate;
 pub mod timing;
 pub mod vehicle;
+
+/// How often a study is repeated: so often, or as the environment says in `RUNS`, for a first look.
+pub fn runs(otherwise: usize) -> usize {
+    std::env::var("RUNS").ok().and_then(|number| number.parse().ok()).unwrap_or(otherwise)
+}

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("One evaluation: {}.\n", FishKernel::OPERATIONS.acceleration);
     let path = swim(&fish, STROKES)?;
     let end = &path[path.len() - 1];
-    let hand = fish.by_hand(end.t, 200_000);
+    let hand = fish.by_hand(end.t, 20_000);
     let apart = (end.q.translation.vector - hand.translation.vector).norm();
     println!("impulse zero    its rate as a function of shape, integrated by hand: {apart:.1e} lengths apart");
     let impulse = path.iter().map(|s| kernel.momentum(s.t, &s.q, &s.z).amax()).fold(0.0, f64::max);
@@ -122,7 +122,7 @@ fn draw(fish: &Fish, path: &[Sample<FishKernel>]) -> Result<String, Box<dyn Erro
     };
     let lags: Vec<f64> = (0..=24).map(|k| TAU * f64::from(k) / 24.0 / 2.0).collect();
     let gain = |amplitude: f64| -> Vec<(f64, f64)> {
-        let far = |lag: f64| Fish::new(amplitude, lag).by_hand(TAU, 2000).translation.vector.norm();
+        let far = |lag: f64| Fish::new(amplitude, lag).by_hand(TAU, 200).translation.vector.norm();
         lags.iter().map(|&lag| (lag.to_degrees(), far(lag))).collect()
     };
     let phases = Plot {

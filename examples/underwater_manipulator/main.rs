@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ((Isometry3::identity(), SVector::zeros()), Speeds::from([c.x, c.y, c.z, 0.0, 0.0, 0.0, 0.0, 0.0]))
     };
     let wet = run(&river, start(&river))?;
-    let hand = by_hand::run(&river, start(&river), TENTHS, 200, reach);
+    let hand = by_hand::run(&river, start(&river), TENTHS, 100, reach);
     let apart =
         wet.iter().zip(&hand).map(|(s, (place, _))| (s.q.0.translation.vector - place.0.translation.vector).norm());
     let apart = apart.fold(0.0, f64::max);

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::methods::by_method;
+
 /// The loss of one method: its error at sample states, in units of what a change of every parameter and argument in its last place does to the
 /// result. A loss of 1 is what no method can do without; of 10 one decimal place more.
 ///
@@ -32,80 +34,46 @@ impl fmt::Display for Loss {
     }
 }
 
-/// The losses of the methods of a kernel; nothing of what it does not offer.
-///
-/// Sample states have numbers of many sizes, differences whose sides are close to each other, angles near quarter turns and far outside, bodies
-/// far from Ω, fast spins. The reference has 106 binary digits. Of the arrangements of a method the cheapest is taken that loses little more
-/// than the best of them at every state. What a certain state loses is said by [`Bounded`](crate::bounded).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct Accuracy {
+by_method! {
+    /// The losses of the methods of a kernel; nothing of what it does not offer.
+    ///
+    /// Sample states have numbers of many sizes, differences whose sides are close to each other, angles near quarter turns and far outside, bodies
+    /// far from Ω, fast spins. The reference has 106 binary digits. Of the arrangements of a method the cheapest is taken that loses little more
+    /// than the best of them at every state. What a certain state loses is said by [`Bounded`](crate::bounded).
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    #[non_exhaustive]
+    Accuracy of Loss = Loss::NONE;
     /// Of [`GaussSystem::kinematics`](crate::system::GaussSystem::kinematics).
-    pub kinematics: Loss,
+    kinematics,
     /// Of [`GaussSystem::acceleration`](crate::system::GaussSystem::acceleration).
-    pub acceleration: Loss,
+    acceleration,
     /// Of [`GaussSystem::momentum`](crate::system::GaussSystem::momentum).
-    pub momentum: Loss,
+    momentum,
     /// Of [`GaussSystem::velocity`](crate::system::GaussSystem::velocity).
-    pub velocity: Loss,
+    velocity,
     /// Of [`GaussSystem::momentum_rate`](crate::system::GaussSystem::momentum_rate).
-    pub momentum_rate: Loss,
+    momentum_rate,
     /// Of [`GaussSystem::mass_matrix`](crate::system::GaussSystem::mass_matrix).
-    pub mass_matrix: Loss,
+    mass_matrix,
     /// Of [`GaussSystem::kinetic_energy`](crate::system::GaussSystem::kinetic_energy).
-    pub kinetic_energy: Loss,
+    kinetic_energy,
     /// Of [`GaussSystem::potential_energy`](crate::system::GaussSystem::potential_energy).
-    pub potential_energy: Loss,
+    potential_energy,
     /// Of [`GaussSystem::gauss_residual`](crate::system::GaussSystem::gauss_residual).
-    pub gauss_residual: Loss,
+    gauss_residual,
     /// Of [`GaussSystem::constraint_function`](crate::system::GaussSystem::constraint_function).
-    pub constraint_function: Loss,
+    constraint_function,
     /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers).
-    pub multipliers: Loss,
+    multipliers,
     /// Of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers).
-    pub powers: Loss,
-}
-
-impl Accuracy {
-    /// Nothing is known: to begin with, where methods are named one by one.
-    pub const NONE: Self = {
-        let none = Loss::NONE;
-        Self {
-            kinematics: none,
-            acceleration: none,
-            momentum: none,
-            velocity: none,
-            momentum_rate: none,
-            mass_matrix: none,
-            kinetic_energy: none,
-            potential_energy: none,
-            gauss_residual: none,
-            constraint_function: none,
-            multipliers: none,
-            powers: none,
-        }
-    };
+    powers,
 }
 
 impl fmt::Display for Accuracy {
     /// A row for each method that was tried.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let rows = [
-            ("kinematics", self.kinematics),
-            ("acceleration", self.acceleration),
-            ("momentum", self.momentum),
-            ("velocity", self.velocity),
-            ("momentum_rate", self.momentum_rate),
-            ("mass_matrix", self.mass_matrix),
-            ("kinetic_energy", self.kinetic_energy),
-            ("potential_energy", self.potential_energy),
-            ("gauss_residual", self.gauss_residual),
-            ("constraint_function", self.constraint_function),
-            ("multipliers", self.multipliers),
-            ("powers", self.powers),
-        ];
         let mut separator = "";
-        for (name, loss) in rows.into_iter().filter(|(_, loss)| *loss != Loss::NONE) {
+        for (name, loss) in self.rows().filter(|(_, loss)| *loss != Loss::NONE) {
             write!(f, "{separator}{name:<20}{loss}")?;
             separator = "\n";
         }

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::accuracy::Accuracy;
+use crate::methods::by_method;
 
 /// A system that says what its equations are, what its methods cost and what they lose. Generated for every kernel; nothing is computed
 /// with it, and a system that is written by hand needs it only to be [tuned](crate::integrate::Simulation::tune):
@@ -101,60 +102,62 @@ impl fmt::Display for OperationCount {
     }
 }
 
-/// The cost of every method of a kernel; nothing of what it does not offer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Operations {
+by_method! {
+    /// The cost of every method of a kernel; nothing of what it does not offer.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    #[non_exhaustive]
+    Operations of OperationCount = OperationCount::new(0, 0, 0, 0, 0);
     /// Of `kernel()`: work done once, when the kernel is made.
-    pub kernel: OperationCount,
+    kernel,
     /// Of [`GaussSystem::kinematics`](crate::system::GaussSystem::kinematics).
-    pub kinematics: OperationCount,
+    kinematics,
     /// Of [`GaussSystem::acceleration`](crate::system::GaussSystem::acceleration).
-    pub acceleration: OperationCount,
+    acceleration,
     /// Of [`GaussSystem::momentum`](crate::system::GaussSystem::momentum).
-    pub momentum: OperationCount,
+    momentum,
     /// Of [`GaussSystem::velocity`](crate::system::GaussSystem::velocity).
-    pub velocity: OperationCount,
+    velocity,
     /// Of [`GaussSystem::momentum_rate`](crate::system::GaussSystem::momentum_rate).
-    pub momentum_rate: OperationCount,
+    momentum_rate,
     /// Of [`GaussSystem::mass_matrix`](crate::system::GaussSystem::mass_matrix).
-    pub mass_matrix: OperationCount,
+    mass_matrix,
     /// Of [`GaussSystem::kinetic_energy`](crate::system::GaussSystem::kinetic_energy).
-    pub kinetic_energy: OperationCount,
+    kinetic_energy,
     /// Of [`GaussSystem::potential_energy`](crate::system::GaussSystem::potential_energy).
-    pub potential_energy: OperationCount,
-    /// Of [`GaussSystem::evaluate`](crate::system::GaussSystem::evaluate).
-    pub evaluate: OperationCount,
+    potential_energy,
     /// Of [`GaussSystem::gauss_residual`](crate::system::GaussSystem::gauss_residual).
-    pub gauss_residual: OperationCount,
+    gauss_residual,
     /// Of [`GaussSystem::constraint_function`](crate::system::GaussSystem::constraint_function).
-    pub constraint_function: OperationCount,
+    constraint_function,
+    /// Of [`GaussSystem::evaluate`](crate::system::GaussSystem::evaluate).
+    evaluate,
     /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers); none without constraints.
-    pub multipliers: OperationCount,
+    multipliers,
     /// Of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers); none where nothing acts.
-    pub powers: OperationCount,
+    powers,
     /// Of [`LinearizedSystem::linearize`](crate::linearize::LinearizedSystem::linearize).
-    pub linearize: OperationCount,
+    linearize,
     /// Of [`ParametricSystem::by_parameters`](crate::identification::ParametricSystem::by_parameters).
-    pub by_parameters: OperationCount,
+    by_parameters,
     /// Of [`InertialRegressor::regressor`](crate::identification::InertialRegressor::regressor).
-    pub regressor: OperationCount,
+    regressor,
     /// Of [`FramedSystem::frames`](crate::frames::FramedSystem::frames).
-    pub frames: OperationCount,
+    frames,
     /// Of [`CentroidalSystem::center_of_mass`](crate::centroidal::CentroidalSystem::center_of_mass).
-    pub center_of_mass: OperationCount,
+    center_of_mass,
     /// Of [`CentroidalSystem::centroidal_momentum`](crate::centroidal::CentroidalSystem::centroidal_momentum).
-    pub centroidal_momentum: OperationCount,
+    centroidal_momentum,
     /// Of [`CentroidalSystem::centroidal_matrix`](crate::centroidal::CentroidalSystem::centroidal_matrix).
-    pub centroidal_matrix: OperationCount,
+    centroidal_matrix,
     /// Of [`CentroidalSystem::centroidal_bias`](crate::centroidal::CentroidalSystem::centroidal_bias).
-    pub centroidal_bias: OperationCount,
+    centroidal_bias,
     /// Of [`GaussSystem::nonlinear_effects`](crate::system::GaussSystem::nonlinear_effects), where it is a program of its own.
-    pub nonlinear_effects: OperationCount,
+    nonlinear_effects,
     /// Of [`GravityTorques::gravity_torques`](crate::centroidal::GravityTorques::gravity_torques).
-    pub gravity_torques: OperationCount,
+    gravity_torques,
+    ;
     /// Of the other methods of [`FramedSystem`](crate::frames::FramedSystem), frame by frame in their order.
-    pub of_frames: &'static [FrameOperations],
+    of_frames: &'static [FrameOperations] = &[]
 }
 
 /// What it costs to ask for one frame.
@@ -181,80 +184,16 @@ impl FrameOperations {
     }
 }
 
-impl Operations {
-    /// Nothing is known: to begin with, where methods are named one by one.
-    pub const NONE: Self = {
-        let none = OperationCount::new(0, 0, 0, 0, 0);
-        Self {
-            kernel: none,
-            kinematics: none,
-            acceleration: none,
-            momentum: none,
-            velocity: none,
-            momentum_rate: none,
-            mass_matrix: none,
-            kinetic_energy: none,
-            potential_energy: none,
-            evaluate: none,
-            gauss_residual: none,
-            constraint_function: none,
-            multipliers: none,
-            powers: none,
-            linearize: none,
-            by_parameters: none,
-            regressor: none,
-            frames: none,
-            center_of_mass: none,
-            centroidal_momentum: none,
-            centroidal_matrix: none,
-            centroidal_bias: none,
-            nonlinear_effects: none,
-            gravity_torques: none,
-            of_frames: &[],
-        }
-    };
-}
+/// The rows of [`Operations`] that every kernel has.
+const ALWAYS: usize = 12;
 
 impl fmt::Display for Operations {
+    /// Other rows only where there are constraints, where something acts, and of what was asked for.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let rows = [
-            ("kernel", self.kernel),
-            ("kinematics", self.kinematics),
-            ("acceleration", self.acceleration),
-            ("momentum", self.momentum),
-            ("velocity", self.velocity),
-            ("momentum_rate", self.momentum_rate),
-            ("mass_matrix", self.mass_matrix),
-            ("kinetic_energy", self.kinetic_energy),
-            ("potential_energy", self.potential_energy),
-            ("gauss_residual", self.gauss_residual),
-            ("constraint_function", self.constraint_function),
-            ("evaluate", self.evaluate),
-        ];
-        for (n, (name, count)) in rows.into_iter().enumerate() {
-            if n > 0 {
-                f.write_str("\n")?;
-            }
-            write!(f, "{name:<20}{count}")?;
-        }
-        // A row only where there are constraints, where something acts, and of what was asked for.
-        let others = [
-            ("multipliers", self.multipliers),
-            ("powers", self.powers),
-            ("linearize", self.linearize),
-            ("by_parameters", self.by_parameters),
-            ("regressor", self.regressor),
-            ("frames", self.frames),
-            ("center_of_mass", self.center_of_mass),
-            ("centroidal_momentum", self.centroidal_momentum),
-            ("centroidal_matrix", self.centroidal_matrix),
-            ("centroidal_bias", self.centroidal_bias),
-            ("nonlinear_effects", self.nonlinear_effects),
-            ("gravity_torques", self.gravity_torques),
-        ];
-        for (name, count) in others {
-            if count != OperationCount::default() {
-                write!(f, "\n{name:<20}{count}")?;
+        for (n, (name, count)) in self.rows().enumerate() {
+            if n < ALWAYS || count.total() > 0 {
+                let separator = if n > 0 { "\n" } else { "" };
+                write!(f, "{separator}{name:<20}{count}")?;
             }
         }
         for FrameOperations { name, pose, twist, jacobian, bias } in self.of_frames {

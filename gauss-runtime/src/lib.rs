@@ -33,7 +33,8 @@
 //! - `libm`: elementary functions without the standard library. One of `std` and `libm` is needed.
 //! - `alloc`: trajectories, and what is made of them, without the standard library. Integrators and monitors themselves never
 //!   allocate.
-//! - `wide`: the vectors of the crate `wide` as scalars, for the widest instructions that the target has; see [`simd`].
+//! - `wide` (default): sines and cosines of several angles in vectors, by the crate `wide`, with the same bits; its vectors as
+//!   scalars, for the widest instructions that the target has; see [`simd`].
 //! - `rayon`: batches on all threads.
 //! - `num-dual`: the dual numbers of that crate as scalars; see [`real`].
 //! - `differential-equations`, `diffsol`, `ode_solvers`: [`adapters`] to the crates of these names; each implies `std`.
@@ -82,6 +83,7 @@ pub mod simd;
 pub mod system;
 pub mod table;
 
+mod methods;
 mod trigonometry;
 mod triple;
 mod vector_space;

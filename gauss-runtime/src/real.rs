@@ -9,7 +9,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::trigonometry::sin_cos;
+use crate::trigonometry::{sin_cos, sines_and_cosines};
 
 /// A real number, or a pack of them that is worked on lane by lane.
 ///
@@ -70,6 +70,18 @@ pub trait Real:
 
     /// Sine and cosine together.
     fn sin_cos(self) -> (Self, Self);
+
+    /// Sines and cosines of several angles, with the bits that each gets alone: kernels ask for those of all angles of a state at once,
+    /// which plain floats compute side by side in vectors.
+    #[inline(always)]
+    fn sines_and_cosines<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+        // Not `map` of arrays, which compilers leave a call.
+        let (mut sines, mut cosines) = (angles, angles);
+        for i in 0..N {
+            (sines[i], cosines[i]) = angles[i].sin_cos();
+        }
+        (sines, cosines)
+    }
 
     /// Sine.
     #[inline(always)]
@@ -202,7 +214,7 @@ macro_rules! elementary {
 }
 
 macro_rules! implement_real {
-    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr) => {
+    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr, $together:expr) => {
         impl Real for $float {
             const LANES: usize = 1;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -275,6 +287,11 @@ macro_rules! implement_real {
             }
 
             #[inline(always)]
+            fn sines_and_cosines<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+                $together(angles)
+            }
+
+            #[inline(always)]
             fn abs(self) -> Self {
                 $float::abs(self)
             }
@@ -294,13 +311,21 @@ macro_rules! implement_real {
 
 implement_real!(f64, 53;
     sqrt sqrt, sin sin, cos cos, tan tan, asin asin, acos acos, atan atan,
-    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow |x: f64| sin_cos(x, f64::fma));
+    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow
+    |x: f64| sin_cos(x, f64::fma), |angles: [f64; N]| sines_and_cosines(angles, f64::fma));
 implement_real!(f32, 24;
 sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
-sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf |x: f32| {
+sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf
+|x: f32| {
     // Rounded once more than it need be: within 0.5 ulp and a little.
     let (sine, cosine) = sin_cos(f64::from(x), f64::fma);
     (sine as f32, cosine as f32)
+},
+|angles: [f32; N]| {
+    let angles: [f64; N] = core::array::from_fn(|i| f64::from(angles[i]));
+    let (sines, cosines) = sines_and_cosines(angles, f64::fma);
+    let rounded = |numbers: [f64; N]| -> [f32; N] { core::array::from_fn(|i| numbers[i] as f32) };
+    (rounded(sines), rounded(cosines))
 });
 
 /// `p/q` rounded once, to `digits ≤ 53` binary digits, ties to even; by integer long division, because operands beyond

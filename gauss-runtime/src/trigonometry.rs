@@ -1,10 +1,19 @@
-//! Sine and cosine of one angle together, inlined: kernels with angles spend most of their time in the library's otherwise.
+//! Sines and cosines of one angle or several together, inlined and without branches: kernels with angles spend most of their time in
+//! the library's otherwise, and what is without branches can be done for several angles in one vector.
 //!
-//! The angle is reduced by the nearest multiple of π/2, of which 119 binary digits are subtracted in parts that a product with the
-//! multiple does not round (Cody & Waite), with what the second subtraction rounds off carried along. The polynomials on
-//! [−π/4, π/4] are those of fdlibm (Sun Microsystems 1993; `k_sin.c`, `k_cos.c`, `e_rem_pio2.c`), whose errors are below 2⁻⁵⁸.
-//! Results are within 1 ulp. What is left goes to the library: angles beyond [`LIMIT`], angles within [`CLOSE`] of a multiple of π/2,
-//! whose leading digits cancel, and what is not finite.
+//! The angle is reduced by the nearest multiple of π/2, which is subtracted in parts (Cody & Waite, *Software Manual for the Elementary
+//! Functions*, 1980), with what the last subtraction rounds off carried along. The polynomials on [−π/4, π/4] are those of fdlibm (Sun
+//! Microsystems 1993; `k_sin.c`, `k_cos.c`), whose errors are below 2⁻⁵⁸. Results are within 0.9 ulp. What is left goes to the library,
+//! by one test for all angles: those beyond [`LIMIT`], what is not finite, and, where products and sums are not fused, those within
+//! [`CLOSE`] of a multiple of π/2.
+//!
+//! An angle gets the same bits alone and among others.
+
+use core::ops::{Add, Mul, Neg, Sub};
+
+/// Whether a·b + c is one instruction.
+pub(crate) const FUSED: bool =
+    cfg!(all(feature = "std", any(target_feature = "fma", all(target_arch = "aarch64", target_feature = "neon"))));
 
 /// Multiples below 2¹⁷·π/2 are exact beside parts of 33 binary digits, and what the reduction leaves out is far below an ulp.
 const LIMIT: f64 = 1.0e5;
@@ -15,21 +24,28 @@ const CLOSE: f64 = 1.0e-4;
 /// 1.5·2⁵²: added and taken away again it rounds to whole numbers; in between they are the last digits.
 const SHIFTER: f64 = 6_755_399_441_055_744.0;
 
-const TWO_OVER_PI: f64 = core::f64::consts::FRAC_2_PI;
+/// π/2 in parts of 53, 34 and 53 binary digits.
+const PARTS: [f64; 3] =
+    [core::f64::consts::FRAC_PI_2, f64::from_bits(0x3C91_A626_3310_0000), f64::from_bits(0x3A71_701B_839A_2520)];
 
-/// π/2 in two parts of 33 binary digits, and the rest.
-const PARTS: [f64; 2] = [f64::from_bits(0x3FF9_21FB_5440_0000), f64::from_bits(0x3DD0_B461_1A60_0000)];
-const REST: f64 = f64::from_bits(0x3BA3_198A_2E03_7073);
-
-const SINE: [f64; 6] = [
-    -1.666_666_666_666_663_2e-1,
-    8.333_333_333_322_49e-3,
-    -1.984_126_982_985_795e-4,
-    2.755_731_370_707_006_8e-6,
-    -2.505_076_025_340_686_3e-8,
-    1.589_690_995_211_55e-10,
+/// π/2 in two parts of 33 binary digits, and the rest: products of the former with the multiple are not rounded.
+const SHORT_PARTS: [f64; 3] = [
+    f64::from_bits(0x3FF9_21FB_5440_0000),
+    f64::from_bits(0x3DD0_B461_1A60_0000),
+    f64::from_bits(0x3BA3_198A_2E03_7073),
 ];
 
+/// (y − sin y)/y³ by powers of y².
+const SINE: [f64; 6] = [
+    1.666_666_666_666_663_2e-1,
+    -8.333_333_333_322_49e-3,
+    1.984_126_982_985_795e-4,
+    -2.755_731_370_707_006_8e-6,
+    2.505_076_025_340_686_3e-8,
+    -1.589_690_995_211_55e-10,
+];
+
+/// (cos y − 1 + y²/2)/y⁴.
 const COSINE: [f64; 6] = [
     4.166_666_666_666_66e-2,
     -1.388_888_888_887_411e-3,
@@ -39,40 +55,214 @@ const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// `(sin x, cos x)`, with the given `a·b + c`.
-#[inline(always)]
-pub(crate) fn sin_cos(angle: f64, fma: impl Fn(f64, f64, f64) -> f64) -> (f64, f64) {
-    // Without its sign, so that −0 keeps it.
-    let x = angle.abs();
-    let shifted = x * TWO_OVER_PI + SHIFTER;
-    let (n, quadrant) = (shifted - SHIFTER, shifted.to_bits());
+/// a·b + c of plain numbers.
+pub(crate) trait MultiplyAdd: Fn(f64, f64, f64) -> f64 + Copy {}
 
-    // x − n π/2 = y + tail. The first difference is exact, because both sides are within a factor of two of each other.
-    let first = x - n * PARTS[0];
-    let part = n * PARTS[1];
-    let y = first - part;
-    // False for a NaN. Where there is nothing to subtract nothing cancels.
-    if !(x <= LIMIT && (y.abs() >= CLOSE || n == 0.0)) {
-        return library(angle);
+impl<F: Fn(f64, f64, f64) -> f64 + Copy> MultiplyAdd for F {}
+
+/// One number, or the numbers of a vector.
+trait Pack: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
+    fn splat(value: f64) -> Self;
+
+    /// a·b + c, rounded as plain numbers are.
+    fn multiply_add(self, b: Self, c: Self, fma: impl MultiplyAdd) -> Self;
+
+    /// Whether all are small enough.
+    fn within_limit(self) -> bool;
+
+    /// Whether each remainder is not too close to zero, or nothing was subtracted.
+    fn is_far_from(self, multiple: Self) -> bool;
+
+    /// Sine and cosine from those of what is left in the quadrant that the last digits of `shifted` give.
+    fn in_quadrant(shifted: Self, sine: Self, cosine: Self) -> (Self, Self);
+}
+
+const SIGN: u64 = 1 << 63;
+
+impl Pack for f64 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
     }
-    let tail = ((first - y) - part) - n * REST;
+
+    #[inline(always)]
+    fn multiply_add(self, b: Self, c: Self, fma: impl MultiplyAdd) -> Self {
+        fma(self, b, c)
+    }
+
+    #[inline(always)]
+    fn within_limit(self) -> bool {
+        // False for a NaN.
+        self.abs() <= LIMIT
+    }
+
+    #[inline(always)]
+    fn is_far_from(self, multiple: Self) -> bool {
+        (self.abs() >= CLOSE) | (multiple == 0.0)
+    }
+
+    #[inline(always)]
+    fn in_quadrant(shifted: Self, sine: Self, cosine: Self) -> (Self, Self) {
+        let quadrant = shifted.to_bits();
+        let (sine, cosine) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
+        let flipped = |value: f64, signs: u64| f64::from_bits(value.to_bits() ^ (signs & SIGN));
+        (flipped(sine, quadrant << 62), flipped(cosine, quadrant.wrapping_add(1) << 62))
+    }
+}
+
+/// `(sin x, cos x)`, and whether they are for all numbers of the pack.
+#[inline(always)]
+fn of_small_angle<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> (P, P, bool) {
+    let (number, fma) = (P::splat, |a: P, b: P, c: P| a.multiply_add(b, c, fma));
+    let shifted = fma(x, number(core::f64::consts::FRAC_2_PI), number(SHIFTER));
+    let n = shifted - number(SHIFTER);
+    // x − n π/2 = y − excess.
+    let (y, excess, holds) = if FUSED {
+        let [first, second, third] = PARTS.map(number);
+        // Exact: a multiple of 2⁻⁵³ below 1. So is y − left: either the two are within a factor of two of each other, or both are so
+        // small that y has no more than 53 digits down to the last one of the product.
+        let left = fma(-n, first, x);
+        let y = fma(-n, second, left);
+        (y, fma(n, third, fma(n, second, y - left)), x.within_limit())
+    } else {
+        let [first, second, third] = SHORT_PARTS.map(number);
+        // Both sides of the first difference are within a factor of two of each other.
+        let (left, part) = (x - n * first, n * second);
+        let y = left - part;
+        (y, ((y - left) + part) + n * third, x.within_limit() & y.is_far_from(n))
+    };
 
     let z = y * y;
-    let (v, z2) = (z * y, z * z);
+    let z2 = z * z;
     // Pairs of terms side by side: what follows waits for them.
-    let [s1, s2, s3, s4, s5, s6] = SINE;
-    let higher = fma(fma(s6, z, s5), z2, fma(s4, z, s3));
-    let sine = y - ((z * (0.5 * tail - v * fma(higher, z, s2)) - tail) - v * s1);
-    let [c1, c2, c3, c4, c5, c6] = COSINE;
-    let higher = fma(fma(c6, z, c5), z2, fma(c4, z, c3));
-    let rest = fma(higher, z2, fma(c2, z, c1));
-    let half = 0.5 * z;
-    let most = 1.0 - half;
-    let cosine = most + (((1.0 - most) - half) + (z2 * rest - y * tail));
+    let series = |terms: [f64; 6]| {
+        let [a, b, c, d, e, f] = terms.map(number);
+        fma(fma(fma(f, z, e), z2, fma(d, z, c)), z2, fma(b, z, a))
+    };
+    let (s, c, one) = (series(SINE), series(COSINE), number(1.0));
+    // y comes last: −0 keeps its sign.
+    let (sine, cosine) = if FUSED {
+        // sin(y − e) = y − (e + y³s), with at most 0.15 ulp left out; (y − e)² rounded once.
+        let square = fma(y, y, -((y + y) * excess));
+        (y - fma(y * z, s, excess), fma(fma(c, z, number(-0.5)), square, one))
+    } else {
+        let half = number(0.5) * z;
+        let most = one - half;
+        let sine = y - ((y * z) * s + (excess - half * excess));
+        (sine, most + (((one - most) - half) + (c * z2 + y * excess)))
+    };
+    let (sine, cosine) = P::in_quadrant(shifted, sine, cosine);
+    (sine, cosine, holds)
+}
 
-    let (sine, cosine) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
-    let flipped = |value: f64, signs: u64| f64::from_bits(value.to_bits() ^ (signs & (1 << 63)));
-    (flipped(sine, (quadrant << 62) ^ angle.to_bits()), flipped(cosine, quadrant.wrapping_add(1) << 62))
+/// `(sin x, cos x)`, with the given `a·b + c`.
+#[inline(always)]
+pub(crate) fn sin_cos(x: f64, fma: impl MultiplyAdd) -> (f64, f64) {
+    let (sine, cosine, holds) = of_small_angle::<FUSED, f64>(x, fma);
+    if holds { (sine, cosine) } else { library(x) }
+}
+
+/// Sines and cosines of several angles.
+#[cfg(not(feature = "wide"))]
+#[inline(always)]
+pub(crate) fn sines_and_cosines<const N: usize>(x: [f64; N], fma: impl MultiplyAdd) -> ([f64; N], [f64; N]) {
+    one_by_one(x, fma)
+}
+
+#[cfg(feature = "wide")]
+pub(crate) use vectors::sines_and_cosines;
+
+/// Each by itself, because some go to the library.
+#[cfg_attr(feature = "wide", cold)]
+#[cfg_attr(feature = "wide", inline(never))]
+fn one_by_one<const N: usize>(x: [f64; N], fma: impl MultiplyAdd) -> ([f64; N], [f64; N]) {
+    let pairs = x.map(|x| sin_cos(x, fma));
+    (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
+}
+
+/// The vectors of the crate `wide`. Of loops over arrays compilers pack only parts (LLVM 21), and more or less of them from kernel to
+/// kernel.
+#[cfg(feature = "wide")]
+mod vectors {
+    use ::wide::{f64x2, f64x4, f64x8, u64x2, u64x4, u64x8};
+
+    use super::{CLOSE, FUSED, LIMIT, MultiplyAdd, Pack, SIGN, of_small_angle, one_by_one, sin_cos};
+
+    macro_rules! packs {
+        ($($vector:ident $bits:ident)+) => {$(
+            impl Pack for $vector {
+                #[inline(always)]
+                fn splat(value: f64) -> Self {
+                    Self::splat(value)
+                }
+
+                #[inline(always)]
+                fn multiply_add(self, b: Self, c: Self, _: impl MultiplyAdd) -> Self {
+                    if FUSED { self.mul_add(b, c) } else { self * b + c }
+                }
+
+                #[inline(always)]
+                fn within_limit(self) -> bool {
+                    self.abs().simd_le(Self::splat(LIMIT)).all()
+                }
+
+                #[inline(always)]
+                fn is_far_from(self, multiple: Self) -> bool {
+                    (self.abs().simd_ge(Self::splat(CLOSE)) | multiple.simd_eq(Self::splat(0.0))).all()
+                }
+
+                #[inline(always)]
+                fn in_quadrant(shifted: Self, sine: Self, cosine: Self) -> (Self, Self) {
+                    let bits = |x: Self| $bits::new(x.to_array().map(f64::to_bits));
+                    let numbers = |x: $bits| Self::new(x.to_array().map(f64::from_bits));
+                    let (quadrant, sine, cosine) = (bits(shifted), bits(sine), bits(cosine));
+                    let odd = $bits::splat(0) - (quadrant & $bits::splat(1));
+                    let exchanged = (sine ^ cosine) & odd;
+                    // That of the cosine is the next quadrant's.
+                    let sign = quadrant.unbounded_shl_scalar(62);
+                    let next = sign ^ (sign + sign);
+                    let sign_bit = $bits::splat(SIGN);
+                    (numbers(sine ^ exchanged ^ (sign & sign_bit)), numbers(cosine ^ exchanged ^ (next & sign_bit)))
+                }
+            }
+        )+};
+    }
+
+    packs! { f64x2 u64x2 f64x4 u64x4 f64x8 u64x8 }
+
+    /// How many places of a vector may repeat the last angle. Where two vectors stand for one, they would cost more than the rest alone.
+    const REPEATED: usize = if cfg!(target_feature = "avx") { 1 } else { 0 };
+
+    /// Sines and cosines of several angles: eight at once, then four, two and one.
+    #[inline(always)]
+    pub(crate) fn sines_and_cosines<const N: usize>(x: [f64; N], fma: impl MultiplyAdd) -> ([f64; N], [f64; N]) {
+        let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
+        let mut done = 0;
+        macro_rules! next {
+            ($count:literal $vector:ident) => {
+                let angles: [f64; $count] = core::array::from_fn(|i| x[(done + i).min(N - 1)]);
+                let (s, c, hold) = of_small_angle::<FUSED, $vector>($vector::new(angles), fma);
+                let (s, c) = if hold { (s.to_array(), c.to_array()) } else { one_by_one(angles, fma) };
+                for i in 0..usize::min($count, N - done) {
+                    (sines[done + i], cosines[done + i]) = (s[i], c[i]);
+                }
+                done += usize::min($count, N - done);
+            };
+        }
+        for _ in 0..(N + REPEATED) / 8 {
+            next!(8 f64x8);
+        }
+        if N - done + REPEATED >= 4 {
+            next!(4 f64x4);
+        }
+        if N - done >= 2 {
+            next!(2 f64x2);
+        }
+        if done < N {
+            (sines[done], cosines[done]) = sin_cos(x[done], fma);
+        }
+        (sines, cosines)
+    }
 }
 
 #[cold]
@@ -85,71 +275,5 @@ fn library(x: f64) -> (f64, f64) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::LIMIT;
-    use crate::real::Real;
-    use std::vec::Vec;
-
-    fn sin_cos(x: f64) -> (f64, f64) {
-        super::sin_cos(x, Real::fma)
-    }
-
-    /// Steps from one number to the other along the numbers that there are.
-    fn apart(a: f64, b: f64) -> u64 {
-        let place = |x: f64| {
-            let bits = x.to_bits() as i64;
-            if bits < 0 { i64::MIN - bits } else { bits }
-        };
-        place(a).abs_diff(place(b))
-    }
-
-    fn check(x: f64) {
-        let (found, expected) = (sin_cos(x), x.sin_cos());
-        // Both are within 1 ulp of the true value.
-        assert!(apart(found.0, expected.0) <= 1 && apart(found.1, expected.1) <= 1, "{x:e}: {found:?} {expected:?}");
-    }
-
-    #[test]
-    fn agree_with_the_library_within_an_ulp() {
-        let mut seed = 1_u64;
-        let mut random = || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
-        };
-        for scale in [1e-8, 1e-3, 0.5, 2.0, 10.0, 1e3, 1e5, LIMIT, 1e12, 1e300] {
-            for _ in 0..20_000 {
-                check(random() * scale);
-            }
-        }
-    }
-
-    /// Next to multiples of π/2 nearly all digits cancel.
-    #[test]
-    fn keep_all_digits_next_to_multiples_of_a_quarter_turn() {
-        let near = |n: u32| {
-            let x = f64::from(n) * core::f64::consts::FRAC_PI_2;
-            (-2..=2).map(move |k: i64| f64::from_bits((x.to_bits() as i64 + k) as u64))
-        };
-        let multiples: Vec<u32> = (1..3000).chain((3000..500_000).step_by(97)).collect();
-        for x in multiples.into_iter().flat_map(near) {
-            check(x);
-            check(-x);
-        }
-    }
-
-    #[test]
-    fn odd_and_even_and_exact_where_they_can_be() {
-        assert_eq!((sin_cos(0.0).0.to_bits(), sin_cos(0.0).1), (0, 1.0));
-        assert_eq!(sin_cos(-0.0).0.to_bits(), (-0.0_f64).to_bits());
-        for x in [1e-300, 5e-324, 1e-9] {
-            assert_eq!(sin_cos(x), (x, 1.0));
-        }
-        for x in [0.3, 1.7, 4.0, 1e4, 7e5] {
-            let ((s, c), (t, d)) = (sin_cos(x), sin_cos(-x));
-            assert_eq!((s, c), (-t, d));
-        }
-        for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert!(sin_cos(x).0.is_nan() && sin_cos(x).1.is_nan());
-        }
-    }
-}
+#[path = "trigonometry_tests.rs"]
+mod tests;

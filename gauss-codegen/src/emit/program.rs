@@ -98,6 +98,11 @@ impl<'g> Dialect<Expr<'g>> for KernelDialect<'_> {
         self.scalar.fma.clone()
     }
 
+    fn sines_and_cosines(&self) -> Option<TokenStream> {
+        let real = &self.scalar.real;
+        Some(quote!(#real::sines_and_cosines))
+    }
+
     /// By its path, or as a method of a table.
     fn own_function(&self, own: OwnFunction) -> TokenStream {
         own_function(self.scalar, own)

@@ -33,6 +33,7 @@
 //! A target is a function from programs to text. It says how an argument is declared, how each of the ten instructions and five
 //! operands is written, and how results are handed back; [`targets::c`](crate::targets::c) is the shortest example.
 
+mod angles;
 mod code;
 mod cost;
 mod function;

@@ -164,8 +164,8 @@ impl<T: Real, const N: usize> Real for Lanes<T, N> {
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let pairs: [(T, T); N] = core::array::from_fn(|i| self.0[i].sin_cos());
-        (Self::from_fn(|i| pairs[i].0), Self::from_fn(|i| pairs[i].1))
+        let (sines, cosines) = T::sines_and_cosines(self.0);
+        (Self(sines), Self(cosines))
     }
 
     #[inline(always)]

@@ -75,8 +75,8 @@ macro_rules! implement_real {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                let pairs = self.to_array().map(Real::sin_cos);
-                ($vector::new(pairs.map(|pair| pair.0)), $vector::new(pairs.map(|pair| pair.1)))
+                let (sines, cosines) = Real::sines_and_cosines(self.to_array());
+                ($vector::new(sines), $vector::new(cosines))
             }
 
             #[inline(always)]

@@ -155,9 +155,7 @@ impl<T: Real, const N: usize, const K: usize> GaussSystem for Hand<T, N, K> {
         self.momentum(t, q, &self.acceleration(t, q, &self.velocity(t, q, p), &()))
     }
     fn mass_matrix(&self, _: T, _: &SVector<T, N>) -> SMatrix<T, N, N> {
-        crate::private::matrix(core::array::from_fn(|i| {
-            core::array::from_fn(|j| if i == j { self.mass[i] } else { T::zero() })
-        }))
+        SMatrix::from_fn(|i, j| if i == j { self.mass[i] } else { T::zero() })
     }
     fn kinetic_energy(&self, t: T, q: &SVector<T, N>, z: &SVector<T, N>) -> T {
         let momentum = self.momentum(t, q, z);

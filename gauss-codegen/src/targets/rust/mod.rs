@@ -28,6 +28,10 @@ pub(crate) trait Dialect<S> {
         let functions = self.functions();
         quote!(#functions::fma)
     }
+    /// The function of sines and cosines of several angles; nothing: they are computed one by one.
+    fn sines_and_cosines(&self) -> Option<TokenStream> {
+        None
+    }
     /// A function of the user's own, or a derivative of it.
     fn own_function(&self, own: OwnFunction) -> TokenStream;
     /// What calls a closure as a function of its own, which the compiler keeps apart; nothing: programs stay whole.
@@ -72,6 +76,9 @@ pub(crate) fn operand<S: Copy>(operand: &Operand<S>, dialect: &impl Dialect<S>) 
 /// their stacks. Longer programs are written in blocks that hand on what later ones need.
 const BLOCK: usize = 256;
 
+/// Angles whose sines and cosines are computed together: as many as fill the longest vectors that there are.
+const TOGETHER: usize = 8;
+
 /// Instructions up to which a program is one function for the compiler, whose time grows faster than the function does.
 const WHOLE: usize = 16_384;
 
@@ -93,10 +100,57 @@ pub(crate) fn statements<S: Copy>(
     dialect: &impl Dialect<S>,
     kept: Kept,
 ) -> (TokenStream, Vec<TokenStream>) {
+    // Names of everything are known to the caller by their places.
+    if kept == Kept::AsRead && dialect.sines_and_cosines().is_some() {
+        return in_this_order(&code.clone().with_angles_together(), dialect, kept);
+    }
+    in_this_order(code, dialect, kept)
+}
+
+fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept) -> (TokenStream, Vec<TokenStream>) {
     let read = pairs_read(code, kept);
-    let instructions = code.instructions.iter().enumerate();
-    let written = instructions.map(|(k, instruction)| statement(k, instruction, read[k], dialect)).collect();
+    let mut written = Vec::with_capacity(code.instructions.len());
+    while written.len() < code.instructions.len() {
+        let k = written.len();
+        match (row_of_angles(code, k), dialect.sines_and_cosines()) {
+            (row, Some(function)) if row.len() > 1 => {
+                let count = row.len();
+                written.push(angles_together(k, &row, &read[k..], &function, dialect));
+                written.resize(k + count, TokenStream::new());
+            }
+            _ => written.push(statement(k, &code.instructions[k], read[k], dialect)),
+        }
+    }
     (in_functions(code, kept, written, dialect), code.outputs.iter().map(|output| operand(output, dialect)).collect())
+}
+
+/// The angles of the sines and cosines in a row from instruction `first` on, none of which waits for another: at most as many as are
+/// computed together, and all in one block.
+fn row_of_angles<S: Copy>(code: &Code<S>, first: usize) -> Vec<Operand<S>> {
+    let left = BLOCK - first % BLOCK;
+    let row = code.instructions[first..].iter().take(left.min(TOGETHER)).map_while(|instruction| match instruction {
+        Instruction::SineCosine(a) if a.instruction().is_none_or(|k| k < first) => Some(*a),
+        _ => None,
+    });
+    row.collect()
+}
+
+/// Sines and cosines of several angles at once; of each what is read.
+fn angles_together<S: Copy>(
+    first: usize,
+    angles: &[Operand<S>],
+    read: &[[bool; 2]],
+    function: &TokenStream,
+    dialect: &impl Dialect<S>,
+) -> TokenStream {
+    let named = |(k, read): (usize, bool), name: fn(usize) -> Ident| {
+        let name = name(first + k);
+        if read { quote!(#name) } else { quote!(_) }
+    };
+    let part = |part: usize| read[..angles.len()].iter().map(move |read| read[part]).enumerate();
+    let (sines, cosines) = (part(0).map(|k| named(k, sine)), part(1).map(|k| named(k, cosine)));
+    let angles = angles.iter().map(|angle| operand(angle, dialect));
+    quote!(let ([#(#sines),*], [#(#cosines),*]) = #function([#(#angles),*]);)
 }
 
 /// One instruction; of a sine and a cosine what is read.

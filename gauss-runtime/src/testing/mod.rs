@@ -1,4 +1,5 @@
-//! What tests of several modules share: dual numbers, a free rigid body and constrained systems typed by hand.
+//! What tests of several modules share: dual numbers, a free rigid body and constrained systems typed by hand. Runs of
+//! 10⁵ steps and more are in `tests/long_runs/tests/rounding`, which includes this folder and is optimised.
 //!
 //! The hand-typed Euler equations are an independent check of the integrators; kernels proper are derived.
 
@@ -52,9 +53,7 @@ impl<T: Real> GaussSystem for FreeTop<T> {
         SVector::from(crate::triple::add(crate::triple::cross(p.data.0[0], omega), *input))
     }
     fn mass_matrix(&self, _: T, _: &UnitQuaternion<T>) -> SMatrix<T, 3, 3> {
-        crate::private::matrix(core::array::from_fn(|i| {
-            core::array::from_fn(|j| if i == j { self.inertia[i] } else { T::zero() })
-        }))
+        SMatrix::from_fn(|i, j| if i == j { self.inertia[i] } else { T::zero() })
     }
     fn kinetic_energy(&self, t: T, q: &UnitQuaternion<T>, z: &SVector<T, 3>) -> T {
         T::ratio(1, 2) * crate::triple::dot(z.data.0[0], self.momentum(t, q, z).data.0[0])

@@ -1,8 +1,12 @@
-//! Equations of motion by someone who knows the structure: constants computed once, sines and cosines once an angle, fused
-//! multiply-adds, no matrix that is not full.
+//! Equations of motion by someone who knows the structure: constants computed once, sines and cosines inlined and once an angle,
+//! fused multiply-adds, no matrix that is not full.
 
 use gauss_runtime::prelude::*;
 use nalgebra::Vector2;
+
+mod sine_cosine;
+
+use sine_cosine::sin_cos;
 
 use crate::Dynamics;
 use crate::scenes::{G, numbers};
@@ -186,8 +190,8 @@ impl Dynamics for Top {
 
     #[inline]
     fn acceleration(&self, q: &Vector3<f64>, z: &Vector3<f64>) -> Vector3<f64> {
-        let (st, ct) = Real::sin_cos(q[1]);
-        let (sp, cp) = Real::sin_cos(q[2]);
+        let (st, ct) = sin_cos(q[1]);
+        let (sp, cp) = sin_cos(q[2]);
         let (precession, nutation, spin) = (z[0], z[1], z[2]);
         let across = precession * st;
         // ω in body axes.
@@ -244,8 +248,8 @@ impl Dynamics for DoublePendulum {
 
     #[inline]
     fn acceleration(&self, q: &Vector2<f64>, z: &Vector2<f64>) -> Vector2<f64> {
-        let (sa, ca) = Real::sin_cos(q[0]);
-        let (sb, cb) = Real::sin_cos(q[1]);
+        let (sa, ca) = sin_cos(q[0]);
+        let (sb, cb) = sin_cos(q[1]);
         self.rates([sa, sb], (minor(sb, ca, cb, sa), fma(sa, sb, ca * cb)), [z[0], z[1]]).into()
     }
 }
@@ -260,8 +264,8 @@ impl Dynamics for JointedPendulum {
 
     #[inline]
     fn acceleration(&self, q: &Vector2<f64>, z: &Vector2<f64>) -> Vector2<f64> {
-        let (sa, ca) = Real::sin_cos(q[0]);
-        let (sc, cc) = Real::sin_cos(q[1]);
+        let (sa, ca) = sin_cos(q[0]);
+        let (sc, cc) = sin_cos(q[1]);
         let [first, second] = self.0.rates([sa, fma(sa, cc, ca * sc)], (sc, cc), [z[0], z[0] + z[1]]);
         Vector2::new(first, second - first)
     }
@@ -292,7 +296,7 @@ impl Dynamics for CartPole {
 
     #[inline]
     fn acceleration(&self, q: &Vector2<f64>, z: &Vector2<f64>) -> Vector2<f64> {
-        let (s, c) = Real::sin_cos(q[1]);
+        let (s, c) = sin_cos(q[1]);
         let off = self.first_moment * c;
         let force = self.first_moment * s * (z[1] * z[1]);
         let torque = self.weight * s;
