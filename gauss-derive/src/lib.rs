@@ -73,6 +73,9 @@
 /// `attitude_omega` of a rotation. Charts have `pose` (`rotation` about a fixed point) and `u`, `xi` or `b_dot` with `omega`; jet charts
 /// `b1`, `psi` …, `b1_dot`, `psi_dot` …. Of a vector of which `independent` keeps a component that is called `w_x`.
 ///
+/// Where there are inputs `NameInput` has them by name, of a wrench `contact_force` and `contact_torque`:
+/// `SpacecraftInput { motor: 0.1, ..Default::default() }.input()` is what kernels take, `SpacecraftInput::of(&input)` the way back.
+///
 /// # Frames
 ///
 /// `frames(tool, hull)` has methods written for bodies and frames of the scene; in a chart its body is `body`. Names stay as they are:
@@ -150,28 +153,40 @@
 /// | `urdf = "robots/arm.urdf"` | links and joints of this file, whose path is relative to the folder of the package. An edit of it compiles the struct anew; meshes are not looked for |
 /// | `mjcf = "robots/arm.xml"` | the same of an MJCF file |
 /// | `base = fixed`, `base = floating` | of a URDF: the root is at Ω, which is the default, or moves freely: then the first coordinate is `base: Pose`, with the twist of the root in its own axes for speeds, linear before angular |
-/// | `inputs = all`, `none`, `transmissions` | an effort of every joint that turns or slides, which is the default, of none, or of those that a transmission names |
+/// | `inputs = all`, `none`, `transmissions` | an effort of every joint that turns or slides, the default of a URDF, of none, or of those that a transmission or an actuator drives, the default of MJCF |
+/// | `inputs = actuators` | the controls of transmissions and actuators, by their names and with their gears, gains and biases: of a motor its torque, of a servo where it is to go |
 /// | `joint_friction = smooth(w)`, `none` | dry friction f as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
 /// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; without it they do not act |
-/// | `parameters = inertial` | the mass data of every link that moves are fields `#[gauss(body)] upper_arm: RigidBody<f64>`; such fields can also be there for some links alone |
+/// | `parameters = inertial` | the mass data of every link that moves are fields `#[gauss(body)] upper_arm: RigidBody<f64>`; such fields can also be there for some links alone. `Arm::from_file(…)` has the values of the file; the other fields of the struct are its arguments, in their order |
+/// | `ignore(gazebo, contact)` | elements and attributes of the file that are known not to act: no warnings of these |
 ///
 /// The file becomes clauses, and those of the struct come after them: more bodies, coordinates, forces, constraints, inputs, fields. Its
-/// names are names of expressions. A joint that turns or slides is a scalar coordinate `elbow`, with an input `elbow_effort` in N m or N;
-/// a planar one `slide_x`, `slide_y`, `slide_theta` in the plane normal to its axis; a floating one a pose. One that mimics another has
-/// no coordinate. A link is a body of its name, in the axes of the file; one without a moving joint is a frame, and what it weighs is
-/// added to the link that it is fixed to. Coordinates and inputs have the order of the file. What acts is called `efforts`,
-/// `joint_damping`, `joint_friction`, and `elbow_limits`. A file says nothing of `gravity`: without the clause or a field nothing weighs.
+/// names are kept: a joint that turns or slides is a scalar coordinate `elbow`; a planar one `slide_x`, `slide_y`, `slide_theta` in the
+/// plane normal to its axis; a floating one a pose. One that mimics another has no coordinate; what mimics a fixed one is fixed. A link
+/// is a body of its name, in the axes of the file; one without a moving joint is a frame, and what it weighs is added to the link that
+/// it is fixed to. Coordinates and efforts have the order of the file.
 ///
-/// Of MJCF there are read: bodies, joints of all kinds, several in a body, about anchors, with references, damping, dry friction,
-/// springs (`elbow_spring`), armature and ranges; inertials; classes of defaults; angles and Euler sequences of the compiler; sites as
-/// frames; gravity, where the struct says none; equalities of joints that are linear, and points in common as constraints. Joints with
-/// an actuator have an effort for an input, whatever its gears. Not read are masses of geoms, contacts, tendons and includes. A ball
-/// is a `Rotation`, a free joint a `Pose`. Armature is two rotors `elbow_rotor` and `elbow_rotor_back` without mass, which turn against
-/// each other, so that they have an energy and no momentum.
+/// ```text
+/// let start = ArmState { elbow: 0.3, ..Default::default() };                     // elbow_dot is its rate
+/// let input = ArmInput { elbow: 2.0, ..Default::default() }.input();             // N m; elbow_effort in expressions
+/// let pose = kernel.pose_of(ArmFrame::named("tool0").unwrap(), 0.0, &start.q()); // with frames(tool0)
+/// ```
 ///
-/// Names that are no identifiers, or taken, are changed: the page of the kernel lists these and what else is to be known, with the
-/// lines. What acts in the file and not in the equations is a warning of the compiler as well. Numbers of the file are literals.
-/// Mistakes in the file are shown at its name, with line and column: `robots/arm.urdf:12:3: …`.
+/// What acts is called `efforts`, `joint_damping`, `joint_friction`, and `elbow_limits`. A URDF says nothing of `gravity`: without the
+/// clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures, with the square of `mechanicalReduction`.
+///
+/// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references, damping, dry
+/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms that are no meshes; classes of defaults;
+/// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
+/// as coupled joints, others as constraints; points in common and welds as constraints; springs and dampers of fixed tendons; actuators
+/// along joints and fixed tendons that are linear in their control. A ball is a `Rotation`, a free joint a `Pose`. Keyframes are
+/// functions `ArmState::home()`, by their names, and `ArmState::start()` is where the file has everything at first, if that is not zero.
+///
+/// Nothing is left out in silence. What acts in the file and not in the equations (elements and attributes that are not known, laws of
+/// joints with several speeds, actuators with states) is a warning of the compiler with its line, one for all of a kind. The page of
+/// the kernel lists these, names that are no identifiers or taken and have been changed, and what says nothing of the motion, such as
+/// looks and shapes for contacts. Numbers of the file are literals. Mistakes in it are shown at its name, with line and column:
+/// `robots/arm.urdf:12:3: …`; so are inertias that no body has, unless `waive(triangle_inequality = arm)` says that they are meant.
 ///
 /// # What acts
 ///

@@ -126,7 +126,8 @@ fn a_biped() {
     gravity = 9.81,
     joint_friction = smooth(width),
     limits = stop(stiffness = 1e4, width = 1e-3),
-    point(pad, body = left_finger, at = [0, 0, 0.04])
+    point(pad, body = left_finger, at = [0, 0, 0.04]),
+    frames(upper_arm, left_finger)
 )]
 struct Gripper {
     width: f64,
@@ -134,8 +135,15 @@ struct Gripper {
 
 /// The same with mass data in fields: links that are fixed to these are then bodies of their own.
 #[derive(GaussDynamics)]
-#[gauss(urdf = "robots/gripper.urdf", gravity = 9.81, joint_friction = none, limits = none, parameters = inertial)]
+#[gauss(
+    urdf = "robots/gripper.urdf",
+    gravity = 9.81,
+    joint_friction = smooth(width),
+    limits = none,
+    parameters = inertial
+)]
 struct LoadedGripper {
+    width: f64,
     #[gauss(body)]
     upper_arm: RigidBody<f64, AboutCenterOfMass<f64>>,
     #[gauss(body)]
@@ -252,7 +260,9 @@ fn friction_and_damping() {
     let (kernel, q) = (Gripper { width: 0.01 }.kernel().unwrap(), SVector::from([0.3, 0.02]));
     for [v, w] in [[0.02, 0.3], [-2.0, -0.1]] {
         let z = SVector::from([v, w]);
-        let input = SVector::from([0.7, -0.4]);
+        let input = GripperInput { elbow: 0.7, left: -0.4 }.input();
+        assert_eq!(input, SVector::from([0.7, -0.4]));
+        assert_eq!(GripperInput::of(&input).left, -0.4);
         let of = |name: &str| kernel.generalised_force(name, 0.0, &q, &z, &input).unwrap();
         assert_eq!(of("efforts"), input);
         let damping = of("joint_damping");
@@ -265,21 +275,26 @@ fn friction_and_damping() {
     }
 }
 
-fn about_origin(mass: f64, center_of_mass: Vector3<f64>, inertia: Matrix3<f64>) -> RigidBody<f64> {
-    let c = center_of_mass;
-    let inertia = inertia + (Matrix3::identity() * c.dot(&c) - c * c.transpose()) * mass;
-    RigidBody { mass, center_of_mass, inertia }
+/// Frames have the names of the file.
+#[test]
+fn frames_by_the_names_of_the_file() {
+    let kernel = Gripper { width: 0.01 }.kernel().unwrap();
+    assert_eq!(GripperFrame::named("upper arm"), Some(GripperFrame::upper_arm));
+    assert_eq!(GripperFrame::named("palm"), None);
+    let q = [0.7, 0.02];
+    let pose = kernel.pose_of(GripperFrame::named("left_finger").unwrap(), 0.0, &SVector::from(q));
+    let expected = hand(q)[2].0.pose;
+    assert!((pose.translation.vector - expected.translation.vector).amax() <= 16.0 * EPSILON, "{pose}");
+    assert!((pose.rotation.matrix() - expected.rotation.to_rotation_matrix().matrix()).amax() <= 16.0 * EPSILON);
 }
 
+/// Fields that begin with the values of the file.
 #[test]
 fn mass_data_in_fields() {
-    let slender = Matrix3::from_diagonal(&Vector3::new(1e-5, 1e-5, 2e-6));
-    let all = hand([0.0, 0.0]);
-    let loaded = LoadedGripper {
-        upper_arm: RigidBody::about_center_of_mass(all[0].1, all[0].2, all[0].3),
-        left_finger: about_origin(0.05, Vector3::new(0.0, 0.01, 0.02), slender),
-        right_finger: about_origin(0.05, Vector3::new(0.0, -0.01, 0.02), slender),
-    };
+    let loaded = LoadedGripper::from_file(0.01);
+    let (mass, center, inertia) = (hand([0.0, 0.0])[0].1, hand([0.0, 0.0])[0].2, hand([0.0, 0.0])[0].3);
+    assert_eq!((loaded.upper_arm.mass, loaded.upper_arm.center_of_mass), (mass, center));
+    assert!((loaded.upper_arm.inertia.0 - inertia).amax() <= 4.0 * EPSILON * inertia.amax());
     let (loaded, plain) = (loaded.kernel().unwrap(), Gripper { width: 0.01 }.kernel().unwrap());
     for q in STATES.map(SVector::from) {
         let (a, b) = (loaded.mass_matrix(0.0, &q), plain.mass_matrix(0.0, &q));
@@ -402,14 +417,14 @@ fn a_file_is_as_good_as_clauses() {
 }
 
 #[derive(GaussDynamics)]
-#[gauss(mjcf = "robots/linkage.xml")]
+#[gauss(mjcf = "robots/linkage.xml", inputs = actuators)]
 struct Linkage;
 
 /// The same in clauses: one rotor for the armature, the joints that share a body as one rotation.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(yaw, pitch, socket: Rotation),
-    input(yaw_effort),
+    input(turn, servo, pull),
     body(
         arm,
         position = [0, 0, 0.9] + rotation_y(pi / 2) * rotation_z(yaw) * rotation_y(pitch - pi / 18) * [-0.1, 0, 0],
@@ -419,11 +434,18 @@ struct Linkage;
         bob, parent = arm, position = [0.6, 0, 0], rotation = socket, mass = 0.5, center_of_mass = [0.1, 0, 0.05],
         inertia_about_center_of_mass = [1e-3, 1e-4, 0, 2e-3, 0, 2e-3]
     ),
-    body(cart, position = [5.2 + yaw / 2, 0, 0], mass = 1.0, inertia = 1.0),
+    body(cart, position = [5.2 + yaw / 2, 0, 0], mass = 1.2, inertia = [1.3, 1.0, 0.5]),
     body(rotor, rotation = rotation_z(pitch), mass = 0.0, inertia = [0, 0, 0.02]),
     spring(along = pitch, stiffness = 3.0, length = pi / 6),
-    damping = 0.05 * (1.25 * rate(yaw) * rate(yaw) + rate(pitch) * rate(pitch)),
-    drive(yaw = yaw_effort),
+    damping = 0.05 * (1.25 * rate(yaw) * rate(yaw) + rate(pitch) * rate(pitch))
+        + 0.15 * dot(socket.body_angular_velocity, socket.body_angular_velocity),
+    define(tie = yaw / 2 - pitch),
+    spring(along = tie, stiffness = 4.0, length = 0.1, damping = 0.2),
+    define(
+        of_servo = 3 * servo - 3 * (2 * pitch) - 0.4 * rate(2 * pitch),
+        of_tendon = 5 * pull + 0.5 - tie - 0.1 * rate(tie)
+    ),
+    drive(yaw = turn + 0.5 * of_tendon, pitch = 2 * of_servo - of_tendon),
     gravity = 9.81
 )]
 struct LinkageInClauses {
@@ -443,33 +465,64 @@ fn a_mechanism_of_many_joints() {
         let part = |n: i32| (f64::from(n * k)).sin();
         let q = (UnitQuaternion::from_euler_angles(part(1), part(2), part(3)), SVector::from([part(4), part(5)]));
         let z = SVector::from([part(6), part(7), part(8), part(9), part(10)]);
-        let input = SVector::from([part(11)]);
+        let input = LinkageInput { turn: part(11), servo: part(12), pull: part(13) }.input();
         let [a, b] = [file.mass_matrix(0.0, &q), clauses.mass_matrix(0.0, &q)];
         assert!((a - b).amax() <= 200.0 * EPSILON * b.amax(), "{a} {b}");
         let condition = b.norm() * b.try_inverse().unwrap().norm();
         let [a, b] = [file.acceleration(0.0, &q, &z, &input), clauses.acceleration(0.0, &q, &z, &input)];
         assert!((a - b).amax() <= 500.0 * EPSILON * condition * b.amax(), "{a} {b}");
     }
+    let bent = LinkageState::bent();
+    assert_eq!((bent.yaw, bent.pitch, bent.pitch_dot), (0.1, 0.2, 2.0));
+    assert_eq!(bent.socket, UnitQuaternion::from_quaternion(Quaternion::new(0.5, 0.5, 0.5, 0.5)));
+    assert_eq!(bent.socket_omega, Vector3::new(3.0, 4.0, 5.0));
+    // At first all is as the file has it: turned by their references joints turn nothing.
+    assert_eq!(LinkageState::start().pitch, 10.0_f64.to_radians());
 }
 
 #[derive(GaussDynamics)]
 #[gauss(mjcf = "robots/loop.xml")]
 struct Loop;
 
-/// The point that both links have at rest is common to them; what is free falls.
+/// The point that both links have at rest is common to them, and the place of a load in that of what carries it; what is
+/// free falls.
 #[test]
-fn a_point_in_common() {
+fn a_point_and_a_place_in_common() {
     let kernel = Loop.kernel().unwrap();
-    let at = |angles: [f64; 3]| (Isometry3::identity(), SVector::from(angles));
+    let start = LoopState::start();
+    let at = |angles: [f64; 3]| {
+        LoopState { left_hinge: angles[0], top_hinge: angles[1], right_hinge: angles[2], ..start }.q()
+    };
+    // The point, which both links have in one plane; the place, the axes.
     let residual = kernel.position_residual(0.0, &at([0.0; 3]));
-    assert!(residual.amax() <= 4.0 * EPSILON, "{residual}");
+    assert_eq!(residual.len(), 8);
+    assert!(residual.amax() <= 8.0 * EPSILON, "{residual}");
     // Both cranks turned alike, the coupler stays level.
     let turned = kernel.position_residual(0.0, &at([0.3, -0.3, 0.3]));
-    assert!(turned.amax() <= 4.0 * EPSILON, "{turned}");
+    assert!(turned.amax() <= 8.0 * EPSILON, "{turned}");
     // One crank alone: its end moves from 0.2 k₃ to 0.2 (sin, 0, cos).
     let apart = kernel.position_residual(0.0, &at([0.0, 0.0, 0.3]));
     assert!((apart.norm() - 0.4 * 0.15_f64.sin()).abs() <= 8.0 * EPSILON, "{apart}");
+    // Moved as one they stay as they are to each other; the load alone does not.
+    let moved = Isometry3::new(Vector3::new(1.0, -2.0, 0.5), Vector3::new(0.4, 1.0, -0.2));
+    let both = LoopState { flight: moved * start.flight, carried: moved * start.carried, ..start };
+    assert!(kernel.position_residual(0.0, &both.q()).amax() <= 32.0 * EPSILON);
+    let turn = Isometry3::rotation(Vector3::new(0.0, 0.0, 0.1));
+    let alone = LoopState { carried: start.carried * turn, ..start };
+    assert!(kernel.position_residual(0.0, &alone.q()).amax() > 0.09);
     let fall = kernel.acceleration(0.0, &at([0.3, -0.3, 0.3]), &SVector::zeros(), &());
-    let of_drone = fall.fixed_rows::<6>(3);
-    assert!((of_drone - SVector::<f64, 6>::from([0.0, 0.0, -1.62, 0.0, 0.0, 0.0])).amax() <= 4.0 * EPSILON, "{fall}");
+    let LoopState { flight_u, flight_omega, carried_u, .. } = LoopState::of(&start.q(), &fall);
+    let down = Vector3::new(0.0, 0.0, -1.62);
+    assert!((flight_u - down).amax() <= 1e3 * EPSILON && flight_omega.amax() <= 1e3 * EPSILON, "{fall}");
+    assert!((start.carried.rotation * carried_u - down).amax() <= 1e3 * EPSILON, "{fall}");
+}
+
+/// The compiler is told of the files, so that an edit of one compiles its struct anew.
+#[test]
+fn files_are_tracked() {
+    let executable = std::env::current_exe().unwrap();
+    let dependencies = fs::read_to_string(executable.with_extension("d")).unwrap();
+    for file in ["panda.urdf", "anymal.urdf", "gripper.urdf", "five_bar.urdf", "linkage.xml", "loop.xml"] {
+        assert!(dependencies.contains(file), "{file}");
+    }
 }

@@ -1,9 +1,10 @@
 //! What a robot costs, from its file: `cargo run --release --example robot -- path/to.urdf [CLAUSE…] [--write
-//! FILE.rs]`.
+//! FILE.rs|FOLDER]`.
 //!
 //! Clauses are those that stand beside the file in `#[gauss(…)]`, such as `base=floating gravity=9.81 linearize`.
-//! With `--write` the struct and what the derive makes of it become a source file, which needs gauss-runtime and no
-//! macro. With `--values` states are read, and what every method gives is written (`values.rs`).
+//! With `--write arm.rs` the struct and what the derive makes of it become a source file, with `--write arm` a crate; both
+//! need gauss-runtime and no macro.
+//! With `--values` states are read, and what every method gives is written (`values.rs`).
 
 mod values;
 
@@ -15,7 +16,8 @@ use std::time::Instant;
 use gauss_codegen::Derivation;
 use quote::{format_ident, quote};
 
-const USAGE: &str = "robot FILE [CLAUSE…] [--write FILE.rs], such as: robot arm.urdf gravity=9.81 --write arm.rs";
+const USAGE: &str =
+    "robot FILE [CLAUSE…] [--write FILE.rs|FOLDER], such as: robot arm.urdf gravity=9.81 --write arm.rs";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -55,10 +57,37 @@ fn run(arguments: &[String]) -> Result<String, String> {
     }
     let mut out = shown(table(&derivation, seconds));
     if let Some(target) = target {
-        std::fs::write(target, written(&derivation, file)?).map_err(|error| format!("{target}: {error}"))?;
-        let _ = writeln!(out, "\nThe kernel is in {target}.");
+        let place = write(&derivation, file, Path::new(target)).map_err(|error| format!("{target}: {error}"))?;
+        let _ = writeln!(out, "\nThe kernel is in {place}.");
     }
     Ok(out)
+}
+
+/// A source file, or in a folder a crate.
+fn write(derivation: &Derivation, file: &str, target: &Path) -> Result<String, String> {
+    let text = written(derivation, file)?;
+    let save = |path: &Path, text: &str| std::fs::write(path, text).map_err(|error| error.to_string());
+    if target.extension().is_some_and(|end| end == "rs") {
+        save(target, &text)?;
+        return Ok(target.display().to_string());
+    }
+    let source = target.join("src");
+    std::fs::create_dir_all(&source).map_err(|error| error.to_string())?;
+    save(&target.join("Cargo.toml"), &manifest(derivation.name()))?;
+    save(&source.join("lib.rs"), &text)?;
+    Ok(source.join("lib.rs").display().to_string())
+}
+
+/// A package of its own, with the runtime that its code is made for: a path, which a version alone can replace.
+fn manifest(name: &str) -> String {
+    let name = name.to_lowercase();
+    let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("gauss-runtime");
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\n\
+         gauss-runtime = {{ version = \"={version}\", path = {runtime:?}, default-features = false, features = [\"std\"] \
+         }}\n\n[workspace]\n"
+    )
 }
 
 /// `TwoFingers` from `two-fingers.urdf`.

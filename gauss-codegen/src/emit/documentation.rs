@@ -9,7 +9,9 @@ use crate::model::{InChart, InputKind, Role};
 
 use super::chart::{chart_name, motion_name};
 use super::derived::Derived;
-use super::state::{Part, PartKind, parts, state_name};
+use super::input::{called, input_name};
+use super::record::{Part, PartKind};
+use super::state::{parts, state_name};
 
 /// The equations as plain text and as one LaTeX environment.
 #[derive(Clone, Debug)]
@@ -241,10 +243,15 @@ fn input(derived: &Derived<'_, '_>) -> String {
         };
         let range = if count == 1 { next.to_string() } else { format!("{next}–{}", next + count - 1) };
         let unit = input.unit.clone().unwrap_or_default();
-        rows.push(vec![range, format!("`{}`{what}", input.ident.unraw()), unit]);
+        let (called, ident) = (called(input).unraw().to_string(), input.ident.unraw().to_string());
+        let inside = if called == ident { String::new() } else { format!(", `{ident}` in expressions") };
+        rows.push(vec![range, format!("`{called}`{what}{inside}"), unit]);
         next += count;
     }
-    let heading = if rows.is_empty() { "" } else { "\n# Input\n" };
+    let heading = match rows.is_empty() {
+        true => String::new(),
+        false => format!("\n# Input\n\nBy name [`{}`].\n", input_name(derived)),
+    };
     format!("{heading}{}", table(["components", "input", "unit"], rows))
 }
 

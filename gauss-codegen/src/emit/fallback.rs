@@ -22,7 +22,14 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
         Some(scalar) => (quote!(<#scalar>), quote!(#scalar)),
         None => (quote!(), quote!(())),
     };
-    let frames = asks_for_frames(input).then(|| {
+    let inputs = names(input, &["input", "urdf", "mjcf"]).then(|| {
+        let inputs = format_ident!("{}Input", ident);
+        quote! {
+            #[allow(non_camel_case_types, dead_code)]
+            #vis type #inputs #declared = #name #declared;
+        }
+    });
+    let frames = names(input, &["frames"]).then(|| {
         let frames = format_ident!("{}Frame", ident);
         let of_f64 = scalar.map(|_| quote!(<::core::primitive::f64>));
         quote! {
@@ -32,6 +39,7 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
     });
     quote! {
         #frames
+        #inputs
         #[allow(non_camel_case_types, dead_code)]
         #vis type #name #declared = [#element; #first];
         #[allow(non_camel_case_types, dead_code)]
@@ -50,9 +58,9 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
     }
 }
 
-/// Whether `frames(…)` is among the clauses, wherever the mistakes are.
-fn asks_for_frames(input: &DeriveInput) -> bool {
+/// Whether one of these is among the clauses, wherever the mistakes are.
+fn names(input: &DeriveInput, words: &[&str]) -> bool {
     let attributes = input.attrs.iter().filter_map(|attribute| attribute.meta.require_list().ok());
     let mut tokens = attributes.flat_map(|list| list.tokens.clone());
-    tokens.any(|token| matches!(token, TokenTree::Ident(word) if word == "frames"))
+    tokens.any(|token| matches!(token, TokenTree::Ident(word) if words.iter().any(|known| word == known)))
 }

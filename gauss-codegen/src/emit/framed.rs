@@ -42,7 +42,7 @@ pub fn framed_system(derived: &Derived<'_, '_>) -> [Option<TokenStream>; 2] {
 fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
     let (private, visibility) = (derived.private(), derived.item().visibility);
     let (name, frames) = (name_of_frames(derived), derived.frames());
-    let words: Vec<String> = frames.iter().map(|frame| frame.unraw().to_string()).collect();
+    let words: Vec<String> = frames.iter().map(|frame| word(derived, frame)).collect();
     let label = words.iter().map(|word| format!("The body or frame `{word}`."));
     let documentation = format!("Frames of [`{}`] whose motion its kernel says.", derived.item().ident);
     let places = 0..frames.len();
@@ -67,6 +67,13 @@ fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
         }
     };
     [names, named]
+}
+
+/// What a frame is called in the file that it comes from, or in the scene.
+fn word(derived: &Derived<'_, '_>, frame: &Ident) -> String {
+    let mut called = derived.subject.model.described.iter().flat_map(|file| &file.called);
+    let own = called.find(|(ident, _)| ident.unraw() == frame.unraw());
+    own.map_or_else(|| frame.unraw().to_string(), |(_, word)| word.clone())
 }
 
 fn system(derived: &Derived<'_, '_>) -> TokenStream {

@@ -72,7 +72,7 @@ pub fn tables(derived: &Derived<'_, '_>) -> TokenStream {
 }
 
 /// What the scalar must be, where it is a type parameter.
-fn bound(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+pub fn bound(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
     derived.is_generic().then(|| quote!(#ty: #real,))
 }

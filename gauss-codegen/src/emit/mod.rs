@@ -11,7 +11,7 @@
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
-//! `state` (coordinates and speeds by name), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `inverse`, `parametric`, `regressor`; `fallback`
+//! `state` and `input` (by name, both `record`s), `of_file` (numbers of a robot's file), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `inverse`, `parametric`, `regressor`; `fallback`
 //! where there are mistakes.
 
 use proc_macro2::TokenStream;
@@ -29,15 +29,18 @@ mod forced;
 mod framed;
 mod gauss_system;
 mod inertia;
+mod input;
 mod inverse;
 mod kernel;
 mod laws;
 mod linearized;
 mod locals;
+mod of_file;
 mod parameters;
 mod parametric;
 mod pose;
 mod program;
+mod record;
 mod regressor;
 mod rigid_body;
 mod role_clauses;
@@ -76,15 +79,20 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let whole = whole::of_the_whole(derived);
     let [frames, framed] = framed::framed_system(derived);
     let [state, conversions] = state::state(derived);
+    let [input, inputs] = input::input(derived);
+    let of_file = of_file::of_file(derived);
     quote! {
         #kernel
         #state
+        #input
         #frames
 
         const _: () = {
             #tables
             #constructor
             #conversions
+            #inputs
+            #of_file
             #gauss_system
             #described
             #rigid_body

@@ -7,71 +7,7 @@ use syn::ext::IdentExt;
 use crate::model::{Chart, CoordinateKind, InChart, Motion, SpeedKind};
 
 use super::derived::{Derived, KernelGenerics};
-
-/// One field of a state.
-pub struct Part {
-    pub ident: Ident,
-    pub kind: PartKind,
-    /// What it is, in words.
-    pub label: String,
-}
-
-/// What a field of a state is.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum PartKind {
-    Scalar,
-    /// This many numbers.
-    Vector(usize),
-    Rotation,
-    Pose,
-    Plane,
-}
-
-impl Part {
-    fn new(ident: Ident, kind: PartKind, label: impl Into<String>) -> Self {
-        Self { ident, kind, label: label.into() }
-    }
-
-    /// How many numbers of a vector it is.
-    fn size(&self) -> usize {
-        if let PartKind::Vector(size) = self.kind { size } else { 1 }
-    }
-
-    fn ty(&self, private: &TokenStream, ty: &TokenStream) -> TokenStream {
-        match self.kind {
-            PartKind::Scalar => ty.clone(),
-            PartKind::Vector(size) => quote!(#private::SVector<#ty, #size>),
-            PartKind::Rotation => quote!(#private::UnitQuaternion<#ty>),
-            PartKind::Pose => quote!(#private::Isometry3<#ty>),
-            PartKind::Plane => quote!(#private::Isometry2<#ty>),
-        }
-    }
-
-    /// The names of the numbers that it consists of, in the order of `Configuration::components`.
-    fn names(&self) -> Vec<String> {
-        let word = self.ident.unraw().to_string();
-        let ends: &[&str] = match self.kind {
-            PartKind::Scalar => return vec![word],
-            PartKind::Vector(3) => &["x", "y", "z"],
-            PartKind::Vector(size) => return (1..=size).map(|k| format!("{word}_{k}")).collect(),
-            PartKind::Rotation => &["i", "j", "k", "w"],
-            PartKind::Pose => &["i", "j", "k", "w", "x", "y", "z"],
-            PartKind::Plane => &["cos", "sin", "x", "y"],
-        };
-        ends.iter().map(|end| format!("{word}_{end}")).collect()
-    }
-
-    /// `craft: Isometry3`, for people.
-    pub fn shown(&self) -> String {
-        match self.kind {
-            PartKind::Scalar => self.ident.to_string(),
-            PartKind::Vector(size) => format!("{}: Vector{size}", self.ident),
-            PartKind::Rotation => format!("{}: UnitQuaternion", self.ident),
-            PartKind::Pose => format!("{}: Isometry3", self.ident),
-            PartKind::Plane => format!("{}: Isometry2", self.ident),
-        }
-    }
-}
+use super::record::{Part, PartKind, from_numbers, record, to_numbers};
 
 /// The name of the type.
 pub fn state_name(derived: &Derived<'_, '_>) -> Ident {
@@ -206,27 +142,16 @@ fn kept(derived: &Derived<'_, '_>, all: Vec<Part>) -> Vec<Part> {
 /// The type, and what it implements.
 pub fn state(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
     let all = parts(derived);
-    let (conversions, traits) = (conversions(derived, &all), traits(derived, &all));
-    [declaration(derived, &all), quote!(#conversions #traits)]
-}
-
-fn declaration(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
-    let (private, ty) = (derived.private(), derived.scalar().ty());
-    let (name, kernel, visibility) = (state_name(derived), derived.kernel_name(), derived.item().visibility);
-    let KernelGenerics { declared, .. } = derived.kernel_generics();
-    let fields = all.iter().flatten().map(|part| {
-        let (ident, ty, label) = (&part.ident, part.ty(&private, &ty), &part.label);
-        quote!(#[doc = #label] pub #ident: #ty)
-    });
+    let (name, kernel) = (state_name(derived), derived.kernel_name());
     let documentation = format!(
         "Coordinates and speeds of [`{kernel}`] by name.\n\n`{name} {{ … }}` has them in any order, `..Default::default()` \
          those that are zero; `q()` and `z()` are what kernels and runs take, `{name}::of(&q, &z)` is the way back."
     );
-    quote! {
-        #[doc = #documentation]
-        #[allow(non_camel_case_types, non_snake_case, dead_code)]
-        #visibility struct #name #declared { #(#fields),* }
-    }
+    let fields: Vec<&Part> = all.iter().flatten().collect();
+    let rest = "At rest; coordinates are zero, rotations and poses those of the observer's frame.";
+    let [declaration, traits] = record(derived, &name, [&documentation, rest], &fields);
+    let conversions = conversions(derived, &all);
+    [declaration, quote!(#conversions #traits)]
 }
 
 /// To and from configurations and speeds.
@@ -256,56 +181,12 @@ fn conversions(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
     }
 }
 
-/// Written out: what is derived would ask scalars for more than configurations do.
-fn traits(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
-    let name = state_name(derived);
-    let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
-    let (title, rest) = (name.unraw().to_string(), at_rest(derived, all));
-    let shown = all.iter().flatten().map(|Part { ident, .. }| {
-        let word = ident.unraw().to_string();
-        quote!(.field(#word, &self.#ident))
-    });
-    quote! {
-        #[automatically_derived]
-        impl #bounded ::core::clone::Clone for #name #used {
-            #[inline(always)]
-            fn clone(&self) -> Self { *self }
-        }
-
-        #[automatically_derived]
-        impl #bounded ::core::marker::Copy for #name #used {}
-
-        #[automatically_derived]
-        impl #bounded ::core::fmt::Debug for #name #used {
-            fn fmt(&self, __f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
-                __f.debug_struct(#title)#(#shown)*.finish()
-            }
-        }
-
-        #[automatically_derived]
-        impl #bounded ::core::default::Default for #name #used {
-            /// At rest; coordinates are zero, rotations and poses those of the observer's frame.
-            #[inline]
-            fn default() -> Self { #rest }
-        }
-    }
-}
-
 /// A literal of the state, from the factors of q and the components of z.
 fn conversion_from(derived: &Derived<'_, '_>, [coordinates, speeds]: &[Vec<Part>; 2]) -> TokenStream {
     let private = derived.private();
     let places = derived.subject.places_of_coordinates(&private);
     let of_q = coordinates.iter().zip(places).map(|(Part { ident, .. }, place)| quote!(#ident: #place));
-    let mut next = 0_usize;
-    let of_z = speeds.iter().map(|part| {
-        let components: Vec<usize> = (next..next + part.size()).collect();
-        next += part.size();
-        let ident = &part.ident;
-        match part.kind {
-            PartKind::Scalar => quote!(#ident: __z[#(#components)*]),
-            _ => quote!(#ident: #private::vector([#(__z[#components]),*])),
-        }
-    });
+    let of_z = from_numbers(&private, speeds, |k| quote!(__z[#k]));
     quote! {
         let __z = #private::components(__speeds);
         Self { #(#of_q,)* #(#of_z),* }
@@ -319,29 +200,6 @@ fn configuration_of(derived: &Derived<'_, '_>, coordinates: &[Part]) -> TokenStr
 
 fn speeds_of(derived: &Derived<'_, '_>, speeds: &[Part]) -> TokenStream {
     let private = derived.private();
-    let components = speeds.iter().flat_map(|part| {
-        let ident = &part.ident;
-        let component = |k: usize| match part.kind {
-            PartKind::Scalar => quote!(self.#ident),
-            _ => quote!(#private::components(&self.#ident)[#k]),
-        };
-        (0..part.size()).map(component).collect::<Vec<_>>()
-    });
+    let components = to_numbers(&private, speeds);
     quote!(#private::vector([#(#components),*]))
-}
-
-fn at_rest(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
-    let (private, ty, real) = (derived.private(), derived.scalar().ty(), derived.scalar().real);
-    let zero = quote!(<#ty as #real>::zero());
-    let fields = all.iter().flatten().map(|part| {
-        let ident = &part.ident;
-        match part.kind {
-            PartKind::Scalar => quote!(#ident: #zero),
-            PartKind::Vector(size) => quote!(#ident: #private::vector([#zero; #size])),
-            PartKind::Rotation => quote!(#ident: #private::unturned()),
-            PartKind::Pose => quote!(#ident: #private::unmoved()),
-            PartKind::Plane => quote!(#ident: #private::unmoved_in_plane()),
-        }
-    });
-    quote!(Self { #(#fields),* })
 }

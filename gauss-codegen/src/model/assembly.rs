@@ -127,6 +127,7 @@ fn check_effect(statements: &Statements, unused: &[Ident], owners: &[(Role, usiz
 fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<Field> {
     let field = |(field, &shape): (&ReadField<'_>, &Shape)| Field {
         ident: field.ident.clone(),
+        ty: field.ty.clone(),
         role: field.role.as_ref().map(|claim| claim.role),
         shape,
         unit: field.unit.clone(),

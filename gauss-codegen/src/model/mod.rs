@@ -29,12 +29,13 @@ mod units;
 pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
 pub use language::number::exact as literal;
 pub use parse::{item, parse};
+pub use robots::exact;
 pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceAxes, ForceClause, ForceKind,
     FunctionClause, FunctionKind, InputKind, InputName, ParticleClause, RoleClause, RoleValue, SpeedKind, SpeedPart,
 };
-pub use scene::described::{Described, Remark};
+pub use scene::described::{BodyOfFile, Described, Remark, StateOfFile, ValueOfState};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 pub use scene::model::{Field, Model, Scalar, WantedMethod};
 pub use scene::roles::{Role, Shape};

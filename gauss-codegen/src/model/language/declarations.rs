@@ -151,7 +151,7 @@ pub fn read_inputs(clause: &Clause, context: &mut Context) -> Names<InputName> {
         if let (InputKind::Wrench, Some((_, span))) = (kind, &unit) {
             of_wrenches.push((ident.clone(), *span));
         }
-        InputName { ident, kind, unit: unit.map(|(text, _)| text).filter(|_| kind != InputKind::Wrench) }
+        InputName { ident, kind, unit: unit.map(|(text, _)| text).filter(|_| kind != InputKind::Wrench), field: None }
     };
     let names = read_names(clause, &language, make, context);
     for (ident, span) in of_wrenches {

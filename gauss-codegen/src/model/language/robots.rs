@@ -1,6 +1,6 @@
 //! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`, `inputs
-//! = all | none | transmissions`,
-//! `joint_friction = smooth(width) | none`, `limits = stop(…) | none`, `parameters = inertial`.
+//! = all | none | transmissions | actuators`,
+//! `joint_friction = smooth(width) | none`, `limits = stop(…) | none`, `parameters = inertial`, `ignore(…)`.
 
 use super::arguments;
 use super::arithmetic;
@@ -21,6 +21,8 @@ pub struct RobotClauses {
     pub limits: Option<Limits>,
     /// The word `parameters` of `parameters = inertial`.
     pub inertial: Option<Ident>,
+    /// What of the file is known not to act.
+    pub ignored: Vec<Ident>,
 }
 
 /// `urdf = "robots/arm.urdf"`.
@@ -51,6 +53,8 @@ pub enum Inputs {
     All,
     None,
     Transmissions,
+    /// Their controls, with gears and gains.
+    Actuators,
 }
 
 /// What becomes of dry friction.
@@ -74,6 +78,7 @@ pub enum RobotTopic {
     Friction,
     Limits,
     Parameters,
+    Ignore,
 }
 
 /// The clauses that name a file.
@@ -87,11 +92,16 @@ pub const OPTIONS: &Table<RobotTopic> = &[
     ("joint_friction", RobotTopic::Friction),
     ("limits", RobotTopic::Limits),
     ("parameters", RobotTopic::Parameters),
+    ("ignore", RobotTopic::Ignore),
 ];
 
 const BASES: &Table<Base> = &[("fixed", Base::Fixed), ("floating", Base::Floating)];
-const INPUTS: &Table<Inputs> =
-    &[("all", Inputs::All), ("none", Inputs::None), ("transmissions", Inputs::Transmissions)];
+const INPUTS: &Table<Inputs> = &[
+    ("all", Inputs::All),
+    ("none", Inputs::None),
+    ("transmissions", Inputs::Transmissions),
+    ("actuators", Inputs::Actuators),
+];
 const FRICTION: &Table<bool> = &[("smooth", true), ("none", false)];
 const LIMITS: &Table<bool> = &[("stop", true), ("none", false)];
 const STOP: &Table<()> = &[("stiffness", ()), ("width", ()), ("damping", ())];
@@ -119,6 +129,7 @@ impl RobotClauses {
             RobotTopic::Friction => self.friction.is_some(),
             RobotTopic::Limits => self.limits.is_some(),
             RobotTopic::Parameters => self.inertial.is_some(),
+            RobotTopic::Ignore => false,
         };
         if twice {
             let name = &clause.name;
@@ -134,8 +145,30 @@ impl RobotClauses {
                 let read = read_word("parameters", clause, PARAMETERS, context);
                 self.inertial = self.inertial.take().or(read.map(|()| clause.name.clone()));
             }
+            RobotTopic::Ignore => self.ignored.extend(read_ignored(clause, context)),
         }
     }
+}
+
+/// `ignore(gazebo, contact)`: names of elements and attributes.
+fn read_ignored(clause: &Clause, context: &mut Context) -> Vec<Ident> {
+    let Content::Brackets(group) = &clause.value else {
+        let name = &clause.name;
+        context.error(name.span(), format!("`{name}` takes names of elements of the file; write `{name}(gazebo)`"));
+        return Vec::new();
+    };
+    let mut names = Vec::new();
+    for piece in attributes::pieces(group.stream(), "the name of an element", context) {
+        match piece.as_slice() {
+            [TokenTree::Ident(name)] => names.push(name.clone()),
+            [other, ..] => {
+                let found = attributes::found(other);
+                context.error(attributes::start(other), format!("expected the name of an element, found {found}"));
+            }
+            [] => {}
+        }
+    }
+    names
 }
 
 fn read_file(format: Format, clause: &Clause, context: &mut Context) -> Option<File> {

@@ -40,6 +40,8 @@ pub struct Statements {
     pub potential: Option<(Ident, Option<Expression>)>,
     pub inputs: Option<Names<InputName>>,
     pub forces: Vec<ForceClause>,
+    /// So many of these, the first, are those of a robot's file.
+    pub forces_of_file: usize,
     /// Coordinates with the inertia of their rates.
     pub armatures: Vec<(Ident, Expression)>,
     pub definitions: Vec<Definition>,

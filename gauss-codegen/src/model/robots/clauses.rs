@@ -1,25 +1,28 @@
 //! A description → the clauses that say the same, before those of the struct.
 
+use std::path::Path;
+
 use proc_macro2::Ident;
 use quote::format_ident;
 use syn::ext::IdentExt;
 
-use super::description::{Closure, Description, Fault, Inertial, Joint, JointKind, Note};
+use super::description::{Description, Fault, Inertial, Joint, JointKind, Note};
+use super::drives::{self, Input};
 use super::joints::Writer;
+use super::mimic::Coupling;
 use super::names::Names;
 use super::source;
-use super::structure::{Coupling, Structure};
+use super::structure::Structure;
 use crate::model::language::context::Context;
 use crate::model::language::declarations;
 use crate::model::language::fields::{ReadField, Reader};
-use crate::model::language::robots::{Base, File, Format, Friction, Inputs, Limits, RobotClauses};
+use crate::model::language::robots::{Base, File, Format, RobotClauses};
 use crate::model::language::statements::Statements;
 use crate::model::scene::clauses::{
-    BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceClause,
-    ForceKind, InputKind, InputName, RoleClause, RoleValue, Speed, SpeedKind,
+    BodyClause, Coefficients, Coordinate, CoordinateKind, RoleClause, RoleValue, Speed, SpeedKind,
 };
 use crate::model::scene::described::{Described, Remark};
-use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
+use crate::model::scene::expression::{Expression, FunctionName, Property};
 use crate::model::scene::roles::{Role, Shape};
 
 /// What the free root of a robot moves by.
@@ -45,20 +48,13 @@ pub fn compose(
         let structure = Structure::new(&description).map_err(faults)?;
         let robot = Robot::new(file, clauses, reader, &description, &structure);
         let idle = robot.without_inertia();
-        if idle.is_empty() { Ok(robot.written(statements, context)) } else { Err(faults(idle)) }
+        let moves = statements.coordinates.is_some() || statements.in_chart;
+        let idle = if idle.is_empty() && !moves { robot.without_motion(file) } else { idle };
+        let idle = if idle.is_empty() { robot.impossible(&statements.formal) } else { idle };
+        if idle.is_empty() { Ok(robot.written(file, &path, statements, context)) } else { Err(faults(idle)) }
     });
     match read {
-        Ok(notes) => {
-            let remark =
-                |note: &Note| Remark { text: source::located(file, note.at, &note.text), ignored: note.ignored };
-            let remarks = notes.iter().map(remark).collect();
-            Some(Described {
-                path: path.to_string_lossy().into_owned(),
-                file: file.path.clone(),
-                span: file.span,
-                remarks,
-            })
-        }
+        Ok(described) => Some(described),
         Err(messages) => {
             // Whatever else seems to be missing is what the file was to say.
             statements.missed = true;
@@ -69,21 +65,21 @@ pub fn compose(
 }
 
 /// A description with the names that its parts have in expressions.
-struct Robot<'a> {
-    clauses: &'a RobotClauses,
-    description: &'a Description,
-    structure: &'a Structure,
-    writer: Writer,
+pub struct Robot<'a> {
+    pub clauses: &'a RobotClauses,
+    pub description: &'a Description,
+    pub structure: &'a Structure,
+    pub writer: Writer,
     /// The pose of the root, if it moves.
     base: Option<Ident>,
     /// Of each joint; none of those that are fixed or follow another.
-    coordinates: Vec<Vec<Coordinate>>,
-    inputs: Vec<Option<Ident>>,
-    links: Vec<Ident>,
+    pub coordinates: Vec<Vec<Coordinate>>,
+    pub inputs: Vec<Input>,
+    pub links: Vec<Ident>,
     /// The mass data of the link are those of a field.
-    in_field: Vec<bool>,
+    pub in_field: Vec<bool>,
     gravity_in_field: bool,
-    notes: Vec<Note>,
+    pub notes: Vec<Note>,
 }
 
 impl<'a> Robot<'a> {
@@ -101,24 +97,7 @@ impl<'a> Robot<'a> {
         let all = || description.joints.iter().enumerate();
         let coordinates: Vec<Vec<Coordinate>> =
             all().map(|(k, joint)| if own(k) { coordinates(joint, &mut names) } else { Vec::new() }).collect();
-        let inputs = all().map(|(k, joint)| {
-            let driven = match clauses.inputs.unwrap_or(if description.only_driven {
-                Inputs::Transmissions
-            } else {
-                Inputs::All
-            }) {
-                Inputs::All => true,
-                Inputs::None => false,
-                Inputs::Transmissions => description.driven.contains(&joint.name),
-            };
-            match (own(k) && driven, joint.kind, coordinates[k].as_slice()) {
-                (true, JointKind::Turning | JointKind::Sliding, [q]) => {
-                    Some(names.chosen(&format!("{}_effort", q.ident.unraw())))
-                }
-                _ => None,
-            }
-        });
-        let inputs = inputs.collect();
+        let inputs = drives::inputs(description, &coordinates, clauses.inputs, &mut names);
         let links: Vec<Ident> =
             description.links.iter().map(|link| names.identifier(&link.name, "link", link.at)).collect();
         let plays = |field: &ReadField<'_>, role: Role| field.role.as_ref().is_some_and(|claim| claim.role == role);
@@ -127,6 +106,7 @@ impl<'a> Robot<'a> {
         let gravity_in_field = reader.fields.iter().any(|field| plays(field, Role::Gravity));
         let mut notes = description.notes.clone();
         notes.append(&mut names.notes);
+        notes.extend(drives::notes(description, &inputs));
         let writer = Writer { span: file.span };
         Robot {
             clauses,
@@ -144,7 +124,7 @@ impl<'a> Robot<'a> {
     }
 
     /// Whether a link moves at all.
-    fn moves(&self, link: usize) -> bool {
+    pub fn moves(&self, link: usize) -> bool {
         self.base.is_some() || self.structure.owner_of[link] != self.structure.root
     }
 
@@ -154,7 +134,7 @@ impl<'a> Robot<'a> {
     }
 
     /// The mass data of what moves as one with a link, unless fields have them.
-    fn merged(&self, link: usize) -> Option<Inertial> {
+    pub fn merged(&self, link: usize) -> Option<Inertial> {
         self.structure.merged(self.description, link, |link| self.is_apart(link))
     }
 
@@ -187,8 +167,20 @@ impl<'a> Robot<'a> {
         carries.into_iter().enumerate().filter(idle).map(fault).collect()
     }
 
-    /// Puts the clauses before those of the struct; gives back what is to be known of them.
-    fn written(mut self, statements: &mut Statements, context: &mut Context) -> Vec<Note> {
+    /// The place of the file, where nothing of it moves and the struct has no bodies of its own.
+    fn without_motion(&self, file: &File) -> Vec<Fault> {
+        if self.base.is_some() || self.coordinates.iter().any(|own| !own.is_empty()) {
+            return Vec::new();
+        }
+        let root = &self.description.links[self.structure.root];
+        let remedy = if file.format == Format::Urdf { "write `base = floating`, or " } else { "" };
+        let message =
+            format!("nothing moves: no joint does, and the root `{}` is held; {remedy}add a joint", root.name);
+        vec![Fault { at: root.at, message }]
+    }
+
+    /// Puts the clauses before those of the struct; gives back what is to be known of the file.
+    fn written(mut self, file: &File, path: &Path, statements: &mut Statements, context: &mut Context) -> Described {
         let span = self.writer.span;
         statements.first.get_or_insert_with(|| Ident::new("urdf", span));
         self.require_fields(context);
@@ -202,23 +194,53 @@ impl<'a> Robot<'a> {
             kinematics.rates.splice(0..0, rates);
         }
         declarations::before(&mut statements.coordinates, coordinates, "coordinates", span);
-        let inputs = self.inputs.iter().zip(&self.description.joints).filter_map(|(input, joint)| {
-            let unit = if joint.kind == JointKind::Turning { "N m" } else { "N" };
-            Some(InputName { ident: input.clone()?, kind: InputKind::Scalar, unit: Some(unit.to_owned()) })
-        });
-        let inputs: Vec<InputName> = inputs.collect();
+        let inputs: Vec<_> = self.inputs.iter().map(|input| input.name.clone()).collect();
         if !inputs.is_empty() {
             declarations::before(&mut statements.inputs, inputs, "input", span);
         }
         let bodies: Vec<BodyClause> = (0..self.links.len()).map(|link| self.body(link)).collect();
-        statements.bodies.splice(0..0, bodies.into_iter().chain(self.rotors()));
-        statements.constraints.splice(0..0, self.closures());
+        statements.bodies.splice(0..0, bodies);
+        self.add_armatures(statements);
+        statements.constraints.splice(0..0, self.constraints());
         let has_gravity = statements.role_clauses.iter().any(|clause| clause.role == Role::Gravity);
         statements.role_clauses.extend(self.gravity().filter(|_| !has_gravity && !self.gravity_in_field));
         let forces = self.forces();
+        statements.forces_of_file = forces.len();
         statements.forces.splice(0..0, forces);
-        self.notes.sort_by_key(|note| note.at);
-        self.notes
+        self.described(file, path)
+    }
+
+    /// Those of joints, with those of the struct.
+    fn add_armatures(&self, statements: &mut Statements) {
+        let writer = self.writer;
+        for (q, inertia) in self.armatures().into_iter().rev() {
+            let inertia = writer.number(inertia);
+            match statements.armatures.iter_mut().find(|(name, _)| *name == q) {
+                Some((_, sum)) => *sum = writer.plus(inertia, sum.clone()),
+                None => statements.armatures.insert(0, (q, inertia)),
+            }
+        }
+    }
+
+    fn described(&mut self, file: &File, path: &Path) -> Described {
+        self.notes = Note::gathered(std::mem::take(&mut self.notes));
+        let known = |what: &String| self.clauses.ignored.iter().any(|word| word == what.as_str());
+        let remark = |note: &Note| Remark {
+            text: source::located(file, note.at, &note.text),
+            ignored: note.ignored.as_ref().is_some_and(|what| !known(what)),
+        };
+        let links = self.links.iter().zip(&self.description.links);
+        let called =
+            links.filter(|(ident, link)| *ident != &link.name).map(|(ident, link)| (ident.clone(), link.name.clone()));
+        Described {
+            path: path.to_string_lossy().into_owned(),
+            file: file.path.clone(),
+            span: file.span,
+            remarks: self.notes.iter().map(remark).collect(),
+            called: called.collect(),
+            bodies: self.bodies_of_file(),
+            states: self.states(),
+        }
     }
 
     /// `parameters = inertial` asks for a field of every link that moves.
@@ -265,7 +287,7 @@ impl<'a> Robot<'a> {
     }
 
     /// The coordinates that a joint moves by, those of the one that it follows, from a `start`.
-    fn values(&self, joint: usize, start: f64) -> Vec<Expression> {
+    pub fn values(&self, joint: usize, start: f64) -> Vec<Expression> {
         let coupling = self.structure.coupling_of[joint];
         let coupling = Coupling { offset: coupling.offset - start, ..coupling };
         match self.coordinates[coupling.joint].as_slice() {
@@ -332,128 +354,6 @@ impl<'a> Robot<'a> {
         all
     }
 
-    /// What acts in the joints.
-    fn forces(&mut self) -> Vec<ForceClause> {
-        let named = |name: &str, kind: ForceKind| ForceClause {
-            name: Some(Ident::new(name, self.writer.span)),
-            kind,
-            span: self.writer.span,
-        };
-        let mut forces = Vec::new();
-        let efforts: Vec<(Ident, Expression)> = self
-            .coordinates
-            .iter()
-            .zip(&self.inputs)
-            .filter_map(|(q, input)| Some((q.first()?.ident.clone(), self.writer.name(input.as_ref()?))))
-            .collect();
-        if !efforts.is_empty() {
-            forces.push(named("efforts", ForceKind::Drive { rates: efforts }));
-        }
-        let damping = self.damping().map(|function| named("joint_damping", ForceKind::Dissipation(function)));
-        forces.extend(damping);
-        forces.extend(self.springs());
-        let (friction, mut notes) = self.friction();
-        if !friction.is_empty() {
-            forces.push(named("joint_friction", ForceKind::Drive { rates: friction }));
-        }
-        let (stops, limits) = self.stops();
-        forces.extend(stops);
-        notes.extend(limits);
-        self.notes.extend(notes);
-        forces
-    }
-
-    /// Joints with one coordinate, each with that of the joint that it follows, and how many times its rate is that
-    /// one's.
-    fn scalar_joints(&self) -> impl Iterator<Item = (usize, &Joint, &Ident, f64)> {
-        self.description.joints.iter().enumerate().filter_map(|(index, joint)| {
-            let coupling = self.structure.coupling_of[index];
-            match (joint.kind, self.coordinates[coupling.joint].as_slice()) {
-                (JointKind::Turning | JointKind::Sliding, [q]) => Some((index, joint, &q.ident, coupling.multiplier)),
-                _ => None,
-            }
-        })
-    }
-
-    /// Σ ½ d (m q̇)².
-    fn damping(&self) -> Option<Expression> {
-        let writer = self.writer;
-        let terms =
-            self.scalar_joints().filter(|(_, joint, ..)| joint.damping > 0.0).map(|(_, joint, q, multiplier)| {
-                let rate = writer.call(FunctionName::Rate, vec![writer.name(q)]);
-                let factor = writer.number(joint.damping * multiplier * multiplier / 2.0);
-                writer.times(factor, writer.times(rate.clone(), rate))
-            });
-        terms.reduce(|a, b| writer.plus(a, b))
-    }
-
-    fn springs(&self) -> Vec<ForceClause> {
-        let writer = self.writer;
-        let springs = self.scalar_joints().filter(|(_, joint, ..)| joint.stiffness > 0.0);
-        let spring = |(index, joint, q, _): (usize, &Joint, &Ident, f64)| {
-            let along = self.values(index, 0.0).into_iter().next()?;
-            let stiffness = writer.number(joint.stiffness);
-            let length = (joint.rest != 0.0).then(|| writer.number(joint.rest));
-            let kind = ForceKind::Spring { extent: Extent::Along(along), stiffness, length, damping: None };
-            let own = self.structure.coupling_of[index].joint == index;
-            let name = own.then(|| format_ident!("{}_spring", q.unraw(), span = writer.span));
-            Some(ForceClause { name, kind, span: writer.span })
-        };
-        springs.filter_map(spring).collect()
-    }
-
-    /// The inertia of a joint alone: two rotors without mass that turn as far, one each way, so that what they add to
-    /// the momentum of the robot is nothing.
-    fn rotors(&self) -> Vec<BodyClause> {
-        let writer = self.writer;
-        let rotor = |(index, joint, q, _): (usize, &Joint, &Ident, f64)| {
-            let value = self.values(index, 0.0).into_iter().next()?;
-            let zero = || writer.number(0.0);
-            let moments = writer.vector([zero(), zero(), writer.number(joint.armature / 2.0)]);
-            let clause = |role: Role, e: Expression| RoleClause {
-                role,
-                shape: Shape::Other,
-                value: RoleValue::Expression(e),
-                span: writer.span,
-            };
-            let rotor = |end: &str, angle: Expression| BodyClause {
-                name: Some(format_ident!("{}_rotor{}", q.unraw(), end, span = writer.span)),
-                massless: false,
-                parent: None,
-                position: None,
-                rotation: Some(writer.call(FunctionName::RotationZ, vec![angle])),
-                role_clauses: vec![clause(Role::Mass, zero()), clause(Role::Inertia, moments.clone())],
-                span: writer.span,
-            };
-            Some([rotor("", value.clone()), rotor("_back", writer.negative(value))])
-        };
-        let armed = self.scalar_joints().filter(|(_, joint, ..)| joint.armature > 0.0);
-        armed.filter_map(rotor).flatten().collect()
-    }
-
-    /// Links that have a point in common.
-    fn closures(&self) -> Vec<ConstraintClause> {
-        let writer = self.writer;
-        let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
-        let closure = |closure: &Closure| {
-            let [first, second] = [index(&closure.links[0])?, index(&closure.links[1])?];
-            let other = self.structure.opposite(self.description, [first, second], &closure.anchor);
-            let [a, b] = [(first, &closure.anchor), (second, &other)].map(|(link, point)| {
-                let origin = writer.property(&self.links[link], Property::Position);
-                match writer.triple(point) {
-                    Some(point) => {
-                        let rotation = writer.property(&self.links[link], Property::Rotation);
-                        writer.plus(origin, writer.times(rotation, point))
-                    }
-                    None => origin,
-                }
-            });
-            let expression = writer.binary(BinaryOperator::Subtract, a, b);
-            Some(ConstraintClause { kind: ConstraintKind::Position, expression, vector: false, span: writer.span })
-        };
-        self.description.closures.iter().filter_map(closure).collect()
-    }
-
     /// The acceleration of free fall, where neither a field nor a clause of the struct says it.
     fn gravity(&self) -> Option<RoleClause> {
         let writer = self.writer;
@@ -468,63 +368,6 @@ impl<'a> Robot<'a> {
             value: RoleValue::Expression(value),
             span: writer.span,
         })
-    }
-
-    /// −f v/√(v² + w²) of every joint with dry friction, where a width is said.
-    fn friction(&self) -> (Vec<(Ident, Expression)>, Vec<Note>) {
-        let writer = self.writer;
-        let (mut rates, mut notes): (Vec<(Ident, Expression)>, _) = (Vec::new(), Vec::new());
-        for (_, joint, q, multiplier) in self.scalar_joints().filter(|(_, joint, ..)| joint.friction > 0.0) {
-            let width = match &self.clauses.friction {
-                Some(Friction::Smooth(width)) => width,
-                Some(Friction::None) => continue,
-                None => {
-                    let text = format!(
-                        "the dry friction of the joint `{}` does not act; write `joint_friction = smooth(width)` for a \
-                         law that is \
-                         smooth over this width of its rate, or `joint_friction = none`",
-                        joint.name
-                    );
-                    notes.push(Note { at: joint.at, text, ignored: true });
-                    continue;
-                }
-            };
-            let rate = writer.call(FunctionName::Rate, vec![writer.name(q)]);
-            let rate = if multiplier == 1.0 { rate } else { writer.times(writer.number(multiplier), rate) };
-            let squares = [&rate, width].map(|e| writer.times(e.clone(), e.clone()));
-            let [rate_squared, width_squared] = squares;
-            let root = writer.call(FunctionName::Sqrt, vec![writer.plus(rate_squared, width_squared)]);
-            let ratio = writer.binary(BinaryOperator::Divide, rate, root);
-            let value = writer.times(writer.number(-joint.friction * multiplier), ratio);
-            match rates.iter_mut().find(|(name, _)| name == q) {
-                Some((_, sum)) => *sum = writer.plus(sum.clone(), value),
-                None => rates.push((q.clone(), value)),
-            }
-        }
-        (rates, notes)
-    }
-
-    /// Stops at the limits of joints, where their laws are said.
-    fn stops(&self) -> (Vec<ForceClause>, Option<Note>) {
-        let writer = self.writer;
-        let limited: Vec<_> = self.scalar_joints().filter(|(_, joint, ..)| joint.limits != [None; 2]).collect();
-        let Some((_, first, ..)) = limited.first() else { return (Vec::new(), None) };
-        let Some(Limits::Stop { stiffness, width, damping }) = &self.clauses.limits else {
-            let text = "the limits of joints do not act; `limits = stop(stiffness = …, width = …)` makes stops of them";
-            let note = Note { at: first.at, text: text.to_owned(), ignored: false };
-            return (Vec::new(), self.clauses.limits.is_none().then_some(note));
-        };
-        let stop = |(index, joint, ..): &(usize, &Joint, &Ident, f64)| {
-            let along = self.values(*index, 0.0).into_iter().next()?;
-            let [least, most] = joint.limits.map(|limit| limit.map(|limit| writer.number(limit)));
-            let (stiffness, width, damping) = (stiffness.clone(), width.clone(), damping.clone());
-            let kind = ForceKind::Stop { extent: Extent::Along(along), least, most, stiffness, width, damping };
-            let name =
-                format_ident!("{}_limits", self.coordinates[self.structure.coupling_of[*index].joint][0].ident.unraw());
-            let name = (self.structure.coupling_of[*index].joint == *index).then_some(name);
-            Some(ForceClause { name, kind, span: writer.span })
-        };
-        (limited.iter().filter_map(stop).collect(), None)
     }
 }
 

@@ -21,8 +21,50 @@ pub struct Fault {
 pub struct Note {
     pub at: At,
     pub text: String,
-    /// Something that acts in the file does not act in the equations.
-    pub ignored: bool,
+    /// Something that acts in the file does not act in the equations: what it is called there.
+    pub ignored: Option<String>,
+    /// What it is about, where one note can stand for many.
+    pub topic: Option<&'static str>,
+}
+
+impl Note {
+    pub fn told(at: At, text: impl Into<String>) -> Note {
+        Note { at, text: text.into(), ignored: None, topic: None }
+    }
+
+    pub fn about(self, topic: &'static str) -> Note {
+        Note { topic: Some(topic), ..self }
+    }
+
+    pub fn ignored(at: At, what: &str, text: impl Into<String>) -> Note {
+        Note { at, text: text.into(), ignored: Some(what.to_owned()), topic: None }
+    }
+
+    /// In the order of the file; of many about one thing the first, with the lines of the others.
+    pub fn gathered(mut all: Vec<Note>) -> Vec<Note> {
+        const FEW: usize = 2;
+        all.sort_by_key(|note| note.at);
+        let alike = |note: &Note, other: &Note| note.topic.is_some() && note.topic == other.topic;
+        let mut gathered: Vec<Note> = Vec::new();
+        for note in &all {
+            let places: Vec<At> = all.iter().filter(|other| alike(note, other)).map(|other| other.at).collect();
+            if places.len() <= FEW {
+                gathered.push(note.clone());
+            } else if !gathered.iter().any(|earlier| alike(earlier, note)) {
+                let text = format!("{}; likewise in {}", note.text, lines(&places[1..]));
+                gathered.push(Note { text, ..note.clone() });
+            }
+        }
+        gathered
+    }
+}
+
+/// `lines 12, 30, 31, 44 and 4 more`.
+pub fn lines(places: &[At]) -> String {
+    const SHOWN: usize = 4;
+    let lines: Vec<String> = places.iter().take(SHOWN).map(|at| at.line.to_string()).collect();
+    let more = if places.len() > SHOWN { format!(" and {} more", places.len() - SHOWN) } else { String::new() };
+    format!("line{} {}{more}", if places.len() == 1 { "" } else { "s" }, lines.join(", "))
 }
 
 /// A robot: a tree of links.
@@ -31,12 +73,15 @@ pub struct Description {
     pub links: Vec<Link>,
     /// In the order of the file.
     pub joints: Vec<Joint>,
-    /// Joints that a transmission or an actuator drives.
-    pub driven: Vec<String>,
+    /// What transmissions and actuators drive, in the order of the file.
+    pub drives: Vec<Drive>,
     /// The others are driven by nothing.
     pub only_driven: bool,
     /// Links that are joined beside the tree.
     pub closures: Vec<Closure>,
+    pub polynomials: Vec<Polynomial>,
+    pub tendons: Vec<Tendon>,
+    pub postures: Vec<Posture>,
     /// The acceleration of free fall in observer's axes, where the file says so.
     pub gravity: Option<Triple>,
     pub notes: Vec<Note>,
@@ -58,6 +103,18 @@ pub struct Inertial {
     pub center: Triple,
     /// About the centre of mass.
     pub inertia: Matrix,
+}
+
+impl Inertial {
+    /// Moments of a body that is smaller than this are what rounding left of those of a point, in metres.
+    const LEAST: f64 = 1e-8;
+
+    /// Without what rounding left of zeros, of which one can be negative.
+    pub fn settled(self) -> Inertial {
+        let least = self.mass * Self::LEAST * Self::LEAST;
+        let is_point = self.inertia.iter().flatten().all(|entry| entry.abs() < least);
+        Inertial { inertia: if is_point { [[0.0; 3]; 3] } else { self.inertia }, ..self }
+    }
 }
 
 /// What a link moves by, relative to its parent.
@@ -88,6 +145,8 @@ pub struct Joint {
     pub armature: f64,
     /// The value of the coordinate where nothing is turned or moved.
     pub reference: f64,
+    /// Where a floating link is in the world while nothing moves.
+    pub start: (Triple, Rotation),
 }
 
 impl Joint {
@@ -110,8 +169,50 @@ impl Joint {
             rest: 0.0,
             armature: 0.0,
             reference: 0.0,
+            start: ([0.0; 3], Rotation::none()),
         }
     }
+}
+
+/// What drives joints by a control u: along the length l = Σ c q the force gain · u + b₀ + b₁ l + b₂ l̇.
+#[derive(Clone, Debug)]
+pub struct Drive {
+    pub name: String,
+    pub at: At,
+    /// Joints, with the c of each.
+    pub along: Vec<(String, f64)>,
+    pub gain: f64,
+    pub bias: Triple,
+}
+
+/// A spring with a damper along the length l = Σ c q.
+#[derive(Clone, Debug)]
+pub struct Tendon {
+    pub name: Option<String>,
+    pub at: At,
+    pub along: Vec<(String, f64)>,
+    pub stiffness: f64,
+    pub damping: f64,
+    pub rest: f64,
+}
+
+/// The coordinate of a joint is a polynomial of that of another, both from their references.
+#[derive(Clone, Debug)]
+pub struct Polynomial {
+    pub at: At,
+    pub joint: String,
+    pub of: Option<String>,
+    pub coefficients: [f64; 5],
+}
+
+/// A state of the robot with a name.
+#[derive(Clone, Debug)]
+pub struct Posture {
+    pub name: String,
+    /// Joints with the numbers that say where they are: one, a quaternion (w, x, y, z), or a position and one.
+    pub values: Vec<(String, Vec<f64>)>,
+    /// Joints with their rates: one, ω in own axes, or the velocity in observer's axes and ω.
+    pub rates: Vec<(String, Vec<f64>)>,
 }
 
 /// Two links that have a point in common, which is at `anchor` in the axes of the first.
@@ -120,6 +221,15 @@ pub struct Closure {
     pub at: At,
     pub links: [String; 2],
     pub anchor: Triple,
+    /// The second turns with the first as well: its rotation relative to it.
+    pub turn: Option<Turn>,
+}
+
+/// A rotation relative to another link: what it is at rest, or another.
+#[derive(Clone, Copy, Debug)]
+pub enum Turn {
+    AsAtRest,
+    To(Matrix),
 }
 
 /// How a joint moves.
@@ -144,4 +254,11 @@ pub struct Mimic {
     pub joint: String,
     pub multiplier: f64,
     pub offset: f64,
+}
+
+impl JointKind {
+    /// It has one coordinate.
+    pub fn is_scalar(self) -> bool {
+        matches!(self, JointKind::Turning | JointKind::Sliding)
+    }
 }

@@ -5,11 +5,17 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use proc_macro2::{Ident, Span};
 
 use super::description::{Joint, JointKind};
+use super::mimic::Coupling;
 use super::rotation::{Rotation, Triple, turned};
-use super::structure::Coupling;
 use crate::algebra::Rational;
 use crate::model::language::number;
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+
+/// The shortest decimal fraction that is read as a number. What is too small for a normal one is none that a file means.
+pub fn exact(value: f64) -> Rational {
+    let size = number::exact(&format!("{:e}", value.abs())).unwrap_or_else(Rational::zero);
+    if value < 0.0 { -size } else { size }
+}
 
 /// Writes expressions, all of them at one token.
 #[derive(Clone, Copy)]
@@ -24,9 +30,7 @@ impl Writer {
 
     /// A number as it would be written: the shortest decimal fraction that is read as it.
     pub fn number(self, value: f64) -> Expression {
-        // What is too small for a normal number is none that a file means.
-        let exact = number::exact(&format!("{:e}", value.abs())).unwrap_or_else(Rational::zero);
-        let number = self.expression(ExpressionKind::Number { value: exact });
+        let number = self.expression(ExpressionKind::Number { value: exact(value.abs()) });
         if value < 0.0 { self.negative(number) } else { number }
     }
 

@@ -5,22 +5,31 @@
 //! | `description` | links and joints as plain data, whatever the format, with the places in the file |
 //! | `rotation` | constant rotations, inertias in other axes |
 //! | `xml`, `urdf`, `mjcf` | a format → a description |
-//! | `structure` | what must hold between links and joints; what moves with what |
+//! | `structure`, `mimic` | what must hold between links and joints; what moves with what |
 //! | `names` | names of the file → identifiers |
 //! | `joints` | a joint → position and rotation of its link |
 //! | `clauses` | a description → clauses, before those of the struct |
+//! | `drives`, `laws`, `relations` | inputs; what acts in joints; what joins links beside the tree |
+//! | `inertias` | mass data that no body has |
+//! | `states` | states with names, mass data for fields |
 //! | `source` | the file: where it is, what is read |
 
 mod clauses;
 #[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
 mod description;
+mod drives;
+mod inertias;
 mod joints;
+mod laws;
+mod mimic;
 #[cfg(feature = "mjcf")]
 mod mjcf;
 mod names;
+mod relations;
 #[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
 mod rotation;
 mod source;
+mod states;
 mod structure;
 #[cfg(feature = "urdf")]
 mod urdf;
@@ -28,3 +37,4 @@ mod urdf;
 mod xml;
 
 pub use clauses::compose;
+pub use joints::exact;

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Span};
 
 use super::description::{At, Note};
-use crate::model::language::words::UNNAMED;
+use crate::model::language::words::{self, UNNAMED};
 use crate::model::names::naming::is_reserved;
 
 /// Identifiers that are taken.
@@ -22,8 +22,7 @@ impl Names {
     pub fn identifier(&mut self, name: &str, noun: &str, at: At) -> Ident {
         let free = self.free(name, noun);
         if free != name {
-            let text = format!("the {noun} `{name}` is called `{free}`");
-            self.notes.push(Note { at, text, ignored: false });
+            self.notes.push(Note::told(at, format!("the {noun} `{name}` is called `{free}`")));
         }
         free
     }
@@ -34,20 +33,35 @@ impl Names {
     }
 
     fn free(&mut self, name: &str, noun: &str) -> Ident {
-        let mut word: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-        if !word.starts_with(|c: char| c.is_alphabetic() || c == '_') || word.trim_matches('_').is_empty() {
-            word = format!("{noun}_{word}");
-        }
-        let numbered = (2..).map(|n| format!("{word}_{n}"));
-        let candidates = [word.clone(), format!("{word}_{noun}")].into_iter().chain(numbered);
-        let free = candidates.into_iter().find(|word| self.is_free(word)).unwrap_or_default();
+        let free = free(name, noun, |word| self.is_free(word));
         self.taken.push(free.clone());
         Ident::new(&free, self.span)
     }
 
     fn is_free(&self, word: &str) -> bool {
         let taken = self.taken.iter().any(|taken| taken == word);
-        !taken && word != UNNAMED && !is_reserved(word) && syn::parse_str::<Ident>(word).is_ok()
+        !taken && word != UNNAMED && !is_reserved(word)
+    }
+}
+
+/// The first word for a name that is free: itself, or with a noun or a number.
+pub fn free(name: &str, noun: &str, is_free: impl Fn(&str) -> bool) -> String {
+    let mut word: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    if !word.starts_with(|c: char| c.is_alphabetic() || c == '_') || word.trim_matches('_').is_empty() {
+        word = format!("{noun}_{word}");
+    }
+    let numbered = (2..).map(|n| format!("{word}_{n}"));
+    let candidates = [word.clone(), format!("{word}_{noun}")].into_iter().chain(numbered);
+    let is_word = |word: &String| syn::parse_str::<Ident>(word).is_ok();
+    candidates.into_iter().find(|word| is_word(word) && is_free(word)).unwrap_or_default()
+}
+
+/// `` `elbw`, which is no joint; did you mean `elbow`? ``
+pub fn unknown<'a>(noun: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
+    let table: Vec<(&str, ())> = known.map(|name| (name, ())).collect();
+    match words::nearest(name, &table) {
+        Some((near, ())) => format!("`{name}`, which is no {noun}; did you mean `{near}`?"),
+        None => format!("`{name}`, which is no {noun} of this file"),
     }
 }
 

@@ -68,6 +68,17 @@ pub fn about(axis: usize, angle: f64) -> Matrix {
     matrix
 }
 
+/// The turn by an angle about a direction of length one.
+pub fn about_direction(n: &Triple, angle: f64) -> Matrix {
+    let [sine, cosine] = sine_and_cosine(angle);
+    let across = |i: usize, j: usize| match (j + 3 - i) % 3 {
+        0 => cosine,
+        1 => -sine * n[3 - i - j],
+        _ => sine * n[3 - i - j],
+    };
+    std::array::from_fn(|i| std::array::from_fn(|j| (1.0 - cosine) * n[i] * n[j] + across(i, j)))
+}
+
 pub fn multiply(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }
@@ -83,7 +94,11 @@ pub fn turned_tensor(matrix: &Matrix, tensor: &Matrix) -> Matrix {
         std::array::from_fn(|j| {
             // Once for both of two entries: the result is symmetric to the last bit.
             let (i, j) = (i.min(j), i.max(j));
-            (0..3).map(|k| half[i][k] * matrix[j][k]).sum()
+            let entry: f64 = (0..3).map(|k| half[i][k] * matrix[j][k]).sum();
+            // Smaller than the rounding of the products that it is the sum of: a zero, which can have either sign.
+            let size: f64 = (0..3).map(|k| (half[i][k] * matrix[j][k]).abs()).sum();
+            let largest = tensor.iter().flatten().fold(0.0, |largest: f64, c| largest.max(c.abs()));
+            if entry.abs() <= f64::EPSILON * size.max(largest) { 0.0 } else { entry }
         })
     })
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::description::{At, Description, Fault};
+use super::mimic::hold_followers_of_fixed;
 use crate::model::language::robots::{File, Format};
 
 /// The path from the folder of the package that is compiled; of a tool without one from where it runs.
@@ -22,6 +23,12 @@ pub fn text(path: &Path) -> Result<String, String> {
 /// # Errors
 /// Everything that is wrong in it.
 pub fn read(format: Format, text: &str) -> Result<Description, Vec<Fault>> {
+    let mut description = by_format(format, text)?;
+    hold_followers_of_fixed(&mut description);
+    Ok(description)
+}
+
+fn by_format(format: Format, text: &str) -> Result<Description, Vec<Fault>> {
     match format {
         #[cfg(feature = "urdf")]
         Format::Urdf => super::urdf::read(text),

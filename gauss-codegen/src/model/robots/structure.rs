@@ -1,9 +1,9 @@
-//! What must hold between links and joints, and what follows: which link hangs on which, what moves as one, who is
-//! mimicked.
+//! What must hold between links and joints, and what follows: which link hangs on which, what moves as one.
 
 use super::description::{At, Description, Fault, Inertial, Joint, JointKind};
+use super::mimic::{Coupling, couplings};
+use super::names::unknown;
 use super::rotation::{Matrix, Rotation, Triple, multiply, turned, turned_tensor};
-use crate::model::language::words;
 
 /// The tree of a description whose parts fit together. Indices are those of its links and joints.
 pub struct Structure {
@@ -19,14 +19,6 @@ pub struct Structure {
     pub coupling_of: Vec<Coupling>,
 }
 
-/// `multiplier` times the coordinate of `joint`, and `offset`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coupling {
-    pub joint: usize,
-    pub multiplier: f64,
-    pub offset: f64,
-}
-
 impl Structure {
     /// # Errors
     /// Everything that does not fit, each where it is written.
@@ -36,21 +28,13 @@ impl Structure {
         refuse_twice("joint", description.joints.iter().map(|joint| (&joint.name, joint.at)), &mut faults);
         let (joint_of, parent_of) = parents(description, &mut faults);
         let coupling_of = couplings(description, &mut faults);
-        for name in &description.driven {
-            if !description.joints.iter().any(|joint| joint.name == *name) {
-                let message = unknown("joint", name, description.joints.iter().map(|joint| joint.name.as_str()));
-                faults.push(Fault {
-                    at: At { line: 1, column: 1 },
-                    message: format!("a transmission or an actuator drives {message}"),
-                });
-            }
-        }
+        refuse_strange_joints(description, &mut faults);
         for closure in &description.closures {
             let strangers =
                 closure.links.iter().filter(|name| !description.links.iter().any(|link| link.name == **name));
             for name in strangers {
                 let which = unknown("link", name, description.links.iter().map(|link| link.name.as_str()));
-                faults.push(Fault { at: closure.at, message: format!("a point is common to {which}") });
+                faults.push(Fault { at: closure.at, message: format!("one of the links that are joined is {which}") });
             }
         }
         let root = if faults.is_empty() { root(description, &parent_of, &mut faults) } else { None };
@@ -89,7 +73,10 @@ impl Structure {
     fn at_rest(&self, description: &Description, link: usize) -> (Triple, Matrix) {
         let (mut link, mut place) = (link, ([0.0; 3], Rotation::none().matrix));
         while let (Some(joint), Some(parent)) = (self.joint_of[link], self.parent_of[link]) {
-            place = hung(&description.joints[joint], place);
+            let joint = &description.joints[joint];
+            let (position, rotation) = joint.start;
+            let start = Joint { position, rotation, ..joint.clone() };
+            place = hung(if joint.kind == JointKind::Floating { &start } else { joint }, place);
             link = parent;
         }
         place
@@ -101,6 +88,12 @@ impl Structure {
         let turned = turned(&r, point);
         let apart: Triple = std::array::from_fn(|i| a[i] + turned[i] - b[i]);
         std::array::from_fn(|i| (0..3).map(|k| s[k][i] * apart[k]).sum())
+    }
+
+    /// The rotation of the second link relative to the first while no joint is turned or moved.
+    pub fn turn_at_rest(&self, description: &Description, links: [usize; 2]) -> Matrix {
+        let [(_, r), (_, s)] = links.map(|link| self.at_rest(description, link));
+        std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| r[k][i] * s[k][j]).sum()))
     }
 
     /// The mass data of what moves as one with a link, but for the links that are `apart`; `None` without any.
@@ -137,7 +130,8 @@ fn placed(own: Inertial, (position, matrix): &(Triple, Matrix)) -> Inertial {
     }
 }
 
-fn sum(all: &[Inertial]) -> Inertial {
+/// Of several, all in the same axes.
+pub fn sum(all: &[Inertial]) -> Inertial {
     let mass: f64 = all.iter().map(|part| part.mass).sum();
     let weighted = |i: usize| all.iter().map(|part| part.mass * part.center[i]).sum::<f64>();
     let center: Triple = if mass > 0.0 { std::array::from_fn(|i| weighted(i) / mass) } else { [0.0; 3] };
@@ -153,6 +147,28 @@ fn sum(all: &[Inertial]) -> Inertial {
         }
     }
     Inertial { mass, center, inertia }
+}
+
+/// What drives, couples or ties joints names joints that there are.
+fn refuse_strange_joints(description: &Description, faults: &mut Vec<Fault>) {
+    let drives = description
+        .drives
+        .iter()
+        .flat_map(|drive| drive.along.iter().map(|(joint, _)| (drive.at, format!("`{}` drives", drive.name), joint)));
+    let tendons = description
+        .tendons
+        .iter()
+        .flat_map(|tendon| tendon.along.iter().map(|(joint, _)| (tendon.at, "a tendon is along".to_owned(), joint)));
+    let polynomials = description.polynomials.iter().flat_map(|polynomial| {
+        let joints = std::iter::once(&polynomial.joint).chain(&polynomial.of);
+        joints.map(|joint| (polynomial.at, "an equality is of".to_owned(), joint))
+    });
+    for (at, what, joint) in drives.chain(tendons).chain(polynomials) {
+        if !description.joints.iter().any(|other| other.name == *joint) {
+            let message = unknown("joint", joint, description.joints.iter().map(|joint| joint.name.as_str()));
+            faults.push(Fault { at, message: format!("{what} {message}") });
+        }
+    }
 }
 
 fn refuse_twice<'a>(noun: &str, names: impl Iterator<Item = (&'a String, At)>, faults: &mut Vec<Fault>) {
@@ -234,54 +250,4 @@ fn root(description: &Description, parent_of: &[Option<usize>], faults: &mut Vec
         })),
     }
     roots.first().copied().filter(|_| faults.is_empty())
-}
-
-/// What the coordinate of each joint is.
-fn couplings(description: &Description, faults: &mut Vec<Fault>) -> Vec<Coupling> {
-    let joints = &description.joints;
-    let scalar = |kind: JointKind| matches!(kind, JointKind::Turning | JointKind::Sliding);
-    (0..joints.len())
-        .map(|index| {
-            let mut coupling = Coupling { joint: index, multiplier: 1.0, offset: 0.0 };
-            for _ in 0..=joints.len() {
-                let joint = &joints[coupling.joint];
-                let Some(mimic) = &joint.mimic else { return coupling };
-                let leader = joints.iter().position(|other| other.name == mimic.joint);
-                let message = match leader {
-                    None => {
-                        let others = joints.iter().filter(|other| other.name != joint.name);
-                        unknown("joint", &mimic.joint, others.map(|other| other.name.as_str()))
-                    }
-                    Some(leader) if !scalar(joints[leader].kind) || !scalar(joint.kind) => {
-                        format!("`{}`, and only joints with one coordinate mimic each other", mimic.joint)
-                    }
-                    Some(leader) => {
-                        coupling.offset += coupling.multiplier * mimic.offset;
-                        coupling.multiplier *= mimic.multiplier;
-                        coupling.joint = leader;
-                        continue;
-                    }
-                };
-                // Of a joint that mimics one with a mistake nothing more is said.
-                if coupling.joint == index {
-                    faults
-                        .push(Fault { at: mimic.at, message: format!("the joint `{}` mimics {message}", joint.name) });
-                }
-                return coupling;
-            }
-            let joint = &joints[index];
-            faults
-                .push(Fault { at: joint.at, message: format!("the joint `{}` mimics itself, by others", joint.name) });
-            coupling
-        })
-        .collect()
-}
-
-/// `` `elbw`, which is no joint; did you mean `elbow`? ``
-fn unknown<'a>(noun: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
-    let table: Vec<(&str, ())> = known.map(|name| (name, ())).collect();
-    match words::nearest(name, &table) {
-        Some((near, ())) => format!("`{name}`, which is no {noun}; did you mean `{near}`?"),
-        None => format!("`{name}`, which is no {noun} of this file"),
-    }
 }

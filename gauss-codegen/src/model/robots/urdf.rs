@@ -2,15 +2,19 @@
 
 use roxmltree::Node;
 
-use super::description::{Description, Fault, Inertial, Joint, JointKind, Link, Mimic, Note};
+use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link, Mimic, Note};
+use super::names::unknown;
 use super::rotation::{Rotation, Triple, direction, turned_tensor};
-use super::xml::{Reading, parse, shown};
+use super::xml::{Reading, Silent, parse, shown};
 
 /// Turns of a joint without an axis, by the specification.
 const AXIS: Triple = [1.0, 0.0, 0.0];
 
-/// Elements that say nothing of the dynamics.
-const SILENT: &[&str] = &["material", "gazebo", "sensor", "ros2_control", "version"];
+/// What says nothing of the dynamics.
+const SILENT: Silent = Silent {
+    elements: &["calibration", "collision", "material", "sensor", "version", "visual"],
+    attributes: &["effort", "group", "id", "schemaLocation", "velocity", "type", "version"],
+};
 
 /// # Errors
 /// Everything that is wrong in the elements of the file, each by itself.
@@ -22,17 +26,35 @@ pub fn read(text: &str) -> Result<Description, Vec<Fault>> {
     if robot.tag_name().name() != "robot" {
         reading.fault(robot, "a URDF file is a <robot>");
     }
-    for node in robot.children().filter(Node::is_element) {
-        match node.tag_name().name() {
-            "link" => description.links.extend(link(node, &mut reading)),
-            "joint" => description.joints.extend(joint(node, &mut reading)),
-            "transmission" => transmission(node, &mut description, &mut reading),
-            word if SILENT.contains(&word) => {}
-            _ => reading.note(node, true, format!("{} is not read", shown(node))),
-        }
+    refuse_macros(robot, &mut reading);
+    description.links =
+        reading.children(robot, "link").into_iter().filter_map(|node| link(node, &mut reading)).collect();
+    description.joints =
+        reading.children(robot, "joint").into_iter().filter_map(|node| joint(node, &mut reading)).collect();
+    for node in reading.children(robot, "transmission") {
+        transmission(node, &mut description, &mut reading);
     }
+    let Description { joints, drives, .. } = &mut description;
+    drives.retain(|drive| {
+        let strange = drive.along.iter().find(|(name, _)| !joints.iter().any(|joint| joint.name == *name));
+        if let Some((name, _)) = strange {
+            let which = unknown("joint", name, joints.iter().map(|joint| joint.name.as_str()));
+            let text = format!("the transmission `{}` drives {which}", drive.name);
+            reading.notes.push(Note::ignored(drive.at, "transmission", text));
+        }
+        strange.is_none()
+    });
+    reading.note_unread(&SILENT);
     description.notes = reading.notes;
     if reading.faults.is_empty() { Ok(description) } else { Err(reading.faults) }
+}
+
+/// What is to become a URDF file only.
+fn refuse_macros<'a>(robot: Node<'a, 'a>, reading: &mut Reading<'a>) {
+    let is_macro = |node: &Node<'a, 'a>| node.tag_name().namespace().is_some_and(|space| space.contains("xacro"));
+    if let Some(first) = robot.descendants().find(is_macro) {
+        reading.fault(first, "macros are not read; let `xacro` write the file without them");
+    }
 }
 
 fn link<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Link> {
@@ -63,7 +85,7 @@ fn mass_data<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Inerti
     }
     let inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     let inertia = if rotation == Rotation::none() { inertia } else { turned_tensor(&rotation.matrix, &inertia) };
-    Some(Inertial { mass, center, inertia })
+    Some(Inertial { mass, center, inertia }.settled())
 }
 
 /// `<origin xyz="…" rpy="…"/>` of an element.
@@ -76,14 +98,10 @@ fn origin<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> (Triple, Rotatio
     for angle in rotation.angles {
         let off = (angle / quarter).round() * quarter - angle;
         if off != 0.0 && off.abs() < 1e-3 && angle.abs() > 0.1 {
-            reading.note(
-                origin,
-                false,
-                format!(
-                    "the angle {angle} is taken as it is written, {off:.1e} from a quarter turn; more digits \
-                 would save operations"
-                ),
+            let text = format!(
+                "the angle {angle} is taken as it is written, {off:.1e} from a quarter turn; more digits would save operations"
             );
+            reading.notes.push(Note::told(reading.at(origin), text).about("angles"));
         }
     }
     (position, rotation)
@@ -113,9 +131,19 @@ fn joint<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Joint> {
         Some(dynamics) => ["damping", "friction"].map(|name| reading.amount(dynamics, name)),
         None => [0.0; 2],
     };
+    let scalar = matches!(kind, Some(JointKind::Turning | JointKind::Sliding));
+    if !scalar && (damping, friction) != (0.0, 0.0) {
+        reading.ignored(node, format!("damping and friction of {} do not act: it has not one coordinate", shown(node)));
+    }
+    let safety = reading.child(node, "safety_controller");
+    if let Some(controller) = safety {
+        let text = format!("the <safety_controller> of {} does not act", shown(node));
+        reading.notes.push(Note::told(reading.at(controller), text).about("safety"));
+        reading.pass(controller);
+    }
     let limits = match (kind, reading.child(node, "limit")) {
         (Some(JointKind::Turning | JointKind::Sliding), Some(limit))
-            if node.attribute("type") != Some("continuous") =>
+            if reading.text(node, "type") != Some("continuous") =>
         {
             // By the specification what is not said is zero; files that leave out both mean none.
             let limits = ["lower", "upper"].map(|name| reading.number(limit, name));
@@ -148,26 +176,26 @@ fn kind<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<JointKind> 
 }
 
 fn axis<'a>(node: Node<'a, 'a>, kind: JointKind, reading: &mut Reading<'a>) -> Triple {
+    let element = reading.child(node, "axis");
     if matches!(kind, JointKind::Fixed | JointKind::Floating) {
+        element.map(|element| reading.text(element, "xyz"));
         return AXIS;
     }
-    let Some(element) = reading.child(node, "axis") else {
-        reading.note(node, false, format!("{} has no axis: it is 1 0 0 by the specification", shown(node)));
+    let Some(element) = element else {
+        let text = format!("{} has no axis: it is 1 0 0 by the specification", shown(node));
+        reading.notes.push(Note::told(reading.at(node), text).about("no axis"));
         return AXIS;
     };
     let Some(written) = reading.numbers::<3>(element, "xyz") else {
-        if element.attribute("xyz").is_none() {
+        if reading.text(element, "xyz").is_none() {
             reading.fault(element, "the attribute `xyz` is missing");
         }
         return AXIS;
     };
     let length = written.iter().map(|c| c * c).sum::<f64>().sqrt();
     if (length - 1.0).abs() > 1e-3 && length > 0.0 {
-        reading.note(
-            element,
-            false,
-            format!("the axis of {} has the length {length}; its direction counts", shown(node)),
-        );
+        let text = format!("the axis of {} has the length {length}; its direction counts", shown(node));
+        reading.notes.push(Note::told(reading.at(element), text).about("axes"));
     }
     direction(written).unwrap_or_else(|| {
         reading.fault(element, format!("the axis of {} is zero and has no direction", shown(node)));
@@ -175,13 +203,50 @@ fn axis<'a>(node: Node<'a, 'a>, kind: JointKind, reading: &mut Reading<'a>) -> T
     })
 }
 
+/// A joint behind gears that are simple: one motor, one joint.
 fn transmission<'a>(node: Node<'a, 'a>, description: &mut Description, reading: &mut Reading<'a>) {
-    for joint in Reading::children(node, "joint") {
-        description.driven.extend(reading.required(joint, "name"));
+    node.descendants().for_each(|inner| reading.see(inner));
+    reading.text(node, "type");
+    let joints: Vec<String> =
+        reading.children(node, "joint").into_iter().filter_map(|joint| reading.required(joint, "name")).collect();
+    let motors = reading.children(node, "actuator");
+    let gear = written(node, &["mechanicalReduction", "mechanical_reduction", "gear_ratio"], reading).unwrap_or(1.0);
+    let rotor = written(node, &["rotorInertia", "rotor_inertia", "motorInertia", "motor_inertia"], reading);
+    let name = |joint: &String, motor: Option<&Node<'a, 'a>>| {
+        motor.and_then(|motor| motor.attribute("name")).unwrap_or(joint).to_owned()
+    };
+    let at = reading.at(node);
+    let simple = joints.len() == 1 && motors.len() <= 1;
+    if !simple && (gear != 1.0 || rotor.is_some() || motors.len() > 1) {
+        let text = format!("{} joins several: its gears and rotors do not act, its joints have efforts", shown(node));
+        reading.ignored(node, text);
     }
-    let inertias = node.descendants().filter(|inner| inner.tag_name().name().ends_with("rotor_inertia"));
-    for rotor in inertias.collect::<Vec<_>>() {
-        let text = format!("the rotor inertia in {} does not act; add it to the inertia of the link", shown(node));
-        reading.notes.push(Note { at: reading.at(rotor), text, ignored: true });
+    for (index, joint) in joints.iter().enumerate() {
+        let (name, gear) = (name(joint, motors.get(index)), if simple { gear } else { 1.0 });
+        description.drives.push(Drive { name, at, along: vec![(joint.clone(), gear)], gain: 1.0, bias: [0.0; 3] });
+        let own = description.joints.iter_mut().find(|own| own.name == *joint);
+        if let (Some(own), Some(rotor), true) = (own, rotor, simple) {
+            own.armature += gear * gear * rotor;
+        }
     }
+    let forces = |text: &str| text.to_ascii_lowercase().contains("effort");
+    let interface = node.descendants().find(|inner| {
+        inner.tag_name().name() == "hardwareInterface"
+            && inner.text().is_some_and(|text| !text.is_empty() && !forces(text))
+    });
+    if let (Some(interface), [joint, ..]) = (interface, joints.as_slice()) {
+        let text = format!("`{}` is no effort: the input of `{joint}` is", interface.text().unwrap_or_default().trim());
+        reading.notes.push(Note::told(reading.at(interface), text).about("interfaces"));
+    }
+}
+
+/// The number of an element that has one of these names, as its text or its `value`.
+fn written<'a>(node: Node<'a, 'a>, names: &[&str], reading: &mut Reading<'a>) -> Option<f64> {
+    let element = node.descendants().find(|inner| names.contains(&inner.tag_name().name()))?;
+    let text = reading.text(element, "value").or(element.text()).unwrap_or_default().trim();
+    let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
+    if number.is_none() {
+        reading.fault(element, format!("expected a number, found `{text}`"));
+    }
+    number
 }

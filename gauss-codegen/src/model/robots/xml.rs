@@ -1,16 +1,30 @@
 //! Elements and attributes of an XML file, with what is wrong in them and where.
 
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashSet};
 use std::ops::Range;
 
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, NodeId};
 
-use super::description::{At, Fault, Note};
+use super::description::{At, Fault, Note, lines};
 
 /// A file while it is read.
 pub struct Reading<'a> {
     document: &'a Document<'a>,
     pub faults: Vec<Fault>,
     pub notes: Vec<Note>,
+    /// Elements that were looked at; what else there is has been ignored.
+    seen: RefCell<HashSet<NodeId>>,
+    /// Those of which all that matters is noted elsewhere.
+    passed: RefCell<HashSet<NodeId>>,
+    /// Attributes that were asked for, with the name of the element.
+    asked: RefCell<BTreeSet<(&'a str, &'static str)>>,
+}
+
+/// What a format has that says nothing of the motion, by name.
+pub struct Silent {
+    pub elements: &'static [&'static str],
+    pub attributes: &'static [&'static str],
 }
 
 /// # Errors
@@ -28,7 +42,16 @@ pub fn parse(text: &str) -> Result<Document<'_>, Fault> {
 
 impl<'a> Reading<'a> {
     pub fn new(document: &'a Document<'a>) -> Self {
-        Self { document, faults: Vec::new(), notes: Vec::new() }
+        let reading = Self {
+            document,
+            faults: Vec::new(),
+            notes: Vec::new(),
+            seen: RefCell::default(),
+            passed: RefCell::default(),
+            asked: RefCell::default(),
+        };
+        reading.see(document.root_element());
+        reading
     }
 
     pub fn at(&self, node: Node<'a, 'a>) -> At {
@@ -53,37 +76,75 @@ impl<'a> Reading<'a> {
     }
 
     /// Notes what a reader of the equations should know.
-    pub fn note(&mut self, node: Node<'a, 'a>, ignored: bool, text: impl std::fmt::Display) {
-        self.notes.push(Note { at: self.at(node), text: text.to_string(), ignored });
+    pub fn note(&mut self, node: Node<'a, 'a>, text: impl std::fmt::Display) {
+        self.notes.push(Note::told(self.at(node), text.to_string()));
+    }
+
+    /// Notes what acts in the file and not in the equations.
+    pub fn ignored(&mut self, node: Node<'a, 'a>, text: impl std::fmt::Display) {
+        self.notes.push(Note::ignored(self.at(node), node.tag_name().name(), text.to_string()));
+    }
+
+    /// Somebody looks at an element.
+    pub fn see(&self, node: Node<'a, 'a>) {
+        self.seen.borrow_mut().insert(node.id());
+    }
+
+    /// Of this element, and what is in it, nothing more is to be noted.
+    pub fn pass(&self, node: Node<'a, 'a>) {
+        self.passed.borrow_mut().insert(node.id());
+    }
+
+    /// All elements in an element, which are looked at by that.
+    pub fn elements(&self, node: Node<'a, 'a>) -> Vec<Node<'a, 'a>> {
+        node.children().filter(Node::is_element).inspect(|child| self.see(*child)).collect()
     }
 
     /// The elements of that name in an element.
-    pub fn children(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
-        node.children().filter(move |child| child.is_element() && child.tag_name().name() == name)
+    pub fn children(&self, node: Node<'a, 'a>, name: &'static str) -> Vec<Node<'a, 'a>> {
+        let named = |child: &Node<'a, 'a>| child.is_element() && child.tag_name().name() == name;
+        node.children().filter(named).inspect(|child| self.see(*child)).collect()
     }
 
     /// The one element of that name; a second is a fault.
     pub fn child(&mut self, node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>> {
-        let mut all = Self::children(node, name);
-        let first = all.next();
-        if let Some(second) = all.next() {
-            self.fault(second, format!("{} has a second <{name}>", shown(node)));
+        let all = self.children(node, name);
+        if let [_, second, ..] = all.as_slice() {
+            self.fault(*second, format!("{} has a second <{name}>", shown(node)));
         }
-        first
+        all.first().copied()
+    }
+
+    /// An attribute as it is written.
+    pub fn text(&self, node: Node<'a, 'a>, name: &'static str) -> Option<&'a str> {
+        self.asked.borrow_mut().insert((node.tag_name().name(), name));
+        node.attribute(name).map(str::trim)
     }
 
     /// The text of an attribute that must be there and not empty.
-    pub fn required(&mut self, node: Node<'a, 'a>, name: &str) -> Option<String> {
-        let value = node.attribute(name).map(str::trim).filter(|value| !value.is_empty());
+    pub fn required(&mut self, node: Node<'a, 'a>, name: &'static str) -> Option<String> {
+        let value = self.text(node, name).filter(|value| !value.is_empty());
         if value.is_none() {
             self.fault(node, format!("the attribute `{name}` is missing"));
         }
         value.map(str::to_owned)
     }
 
+    /// Finite numbers, separated by blanks; `None` without the attribute, or where it is wrong.
+    #[cfg(feature = "mjcf")]
+    pub fn list(&mut self, node: Node<'a, 'a>, name: &'static str) -> Option<Vec<f64>> {
+        let text = self.text(node, name)?;
+        let read = |word: &str| word.parse::<f64>().ok().filter(|number| number.is_finite());
+        let numbers: Option<Vec<f64>> = text.split_whitespace().map(read).collect();
+        if numbers.is_none() {
+            self.fault_of_value(node, name, format!("`{name}` is numbers, found `{text}`"));
+        }
+        numbers
+    }
+
     /// Exactly `N` finite numbers, separated by blanks; `None` without the attribute, or where it is wrong.
-    pub fn numbers<const N: usize>(&mut self, node: Node<'a, 'a>, name: &str) -> Option<[f64; N]> {
-        let text = node.attribute(name)?;
+    pub fn numbers<const N: usize>(&mut self, node: Node<'a, 'a>, name: &'static str) -> Option<[f64; N]> {
+        let text = self.text(node, name)?;
         let read = |word: &str| word.parse::<f64>().ok().filter(|number| number.is_finite());
         let numbers: Option<Vec<f64>> = text.split_whitespace().map(read).collect();
         let numbers = numbers.and_then(|numbers| <[f64; N]>::try_from(numbers).ok());
@@ -95,12 +156,12 @@ impl<'a> Reading<'a> {
     }
 
     /// One number.
-    pub fn number(&mut self, node: Node<'a, 'a>, name: &str) -> Option<f64> {
+    pub fn number(&mut self, node: Node<'a, 'a>, name: &'static str) -> Option<f64> {
         self.numbers::<1>(node, name).map(|[number]| number)
     }
 
     /// One number that must be there.
-    pub fn required_number(&mut self, node: Node<'a, 'a>, name: &str) -> Option<f64> {
+    pub fn required_number(&mut self, node: Node<'a, 'a>, name: &'static str) -> Option<f64> {
         if node.attribute(name).is_none() {
             self.fault(node, format!("the attribute `{name}` is missing"));
         }
@@ -108,13 +169,77 @@ impl<'a> Reading<'a> {
     }
 
     /// One number that is not negative, zero where it is not said.
-    pub fn amount(&mut self, node: Node<'a, 'a>, name: &str) -> f64 {
+    pub fn amount(&mut self, node: Node<'a, 'a>, name: &'static str) -> f64 {
         match self.number(node, name) {
             Some(number) if number < 0.0 => {
                 self.fault_of_value(node, name, format!("`{name}` is zero or more, found `{number}`"));
                 0.0
             }
             number => number.unwrap_or(0.0),
+        }
+    }
+
+    /// Notes everything that nobody looked at: what is `silent` in one note, what may act as ignored, once for each name.
+    pub fn note_unread(&mut self, silent: &Silent) {
+        let (mut quiet, mut acting) = (Unread::default(), Unread::default());
+        self.unread(self.document.root_element(), silent, &mut quiet, &mut acting);
+        for Kind { key, first, shown, places } in acting.kinds {
+            let others =
+                if places.len() > 1 { format!("; likewise in {}", lines(&places[1..])) } else { String::new() };
+            self.notes.push(Note::ignored(first, key, format!("{shown} is not read{others}")));
+        }
+        if let Some(Kind { first, .. }) = quiet.kinds.first() {
+            let names: Vec<String> =
+                quiet.kinds.iter().map(|kind| format!("{} ({})", kind.key, kind.places.len())).collect();
+            let text = format!("not read, as it says nothing of the motion, how many times: {}", names.join(", "));
+            self.notes.push(Note::told(*first, text));
+        }
+    }
+
+    fn unread(&self, node: Node<'a, 'a>, silent: &Silent, quiet: &mut Unread<'a>, acting: &mut Unread<'a>) {
+        let tag = node.tag_name().name();
+        if self.passed.borrow().contains(&node.id()) {
+            return;
+        }
+        if silent.elements.contains(&tag) && !self.seen.borrow().contains(&node.id()) {
+            return quiet.add(tag, self.at(node), String::new);
+        }
+        if !self.seen.borrow().contains(&node.id()) {
+            return acting.add(tag, self.at(node), || shown(node));
+        }
+        for attribute in node.attributes() {
+            let name = attribute.name();
+            if self.asked.borrow().iter().any(|asked| *asked == (tag, name)) || name == "name" {
+                continue;
+            }
+            let at = self.place(attribute.range());
+            match silent.attributes.contains(&name) {
+                true => quiet.add(name, at, String::new),
+                false => acting.add(name, at, || format!("the attribute `{name}` of {}", shown(node))),
+            }
+        }
+        node.children().filter(Node::is_element).for_each(|child| self.unread(child, silent, quiet, acting));
+    }
+}
+
+/// What is not read, by its name.
+#[derive(Default)]
+struct Unread<'a> {
+    kinds: Vec<Kind<'a>>,
+}
+
+struct Kind<'a> {
+    key: &'a str,
+    first: At,
+    shown: String,
+    places: Vec<At>,
+}
+
+impl<'a> Unread<'a> {
+    fn add(&mut self, key: &'a str, at: At, shown: impl Fn() -> String) {
+        match self.kinds.iter_mut().find(|kind| kind.key == key) {
+            Some(kind) => kind.places.push(at),
+            None => self.kinds.push(Kind { key, first: at, shown: shown(), places: vec![at] }),
         }
     }
 }

@@ -186,6 +186,8 @@ pub struct InputName {
     pub kind: InputKind,
     /// The unit, if one is written; a wrench is in N and N m.
     pub unit: Option<String>,
+    /// What it is called outside of expressions, where that differs from its name.
+    pub field: Option<String>,
 }
 
 /// How many values are under one name.

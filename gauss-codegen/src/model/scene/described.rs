@@ -1,6 +1,6 @@
 //! The file that a scene comes from.
 
-use proc_macro2::Span;
+use proc_macro2::{Ident, Span};
 
 /// A robot that was read from a file.
 #[derive(Clone)]
@@ -13,6 +13,39 @@ pub struct Described {
     pub span: Span,
     /// What a reader of the equations should know of the file.
     pub remarks: Vec<Remark>,
+    /// What the bodies and frames of the file are called in it, where that differs from their names.
+    pub called: Vec<(Ident, String)>,
+    /// Bodies that are fields, with the mass data of the file.
+    pub bodies: Vec<BodyOfFile>,
+    pub states: Vec<StateOfFile>,
+}
+
+/// Mass data of a body, in its axes; the inertia about the centre of mass.
+#[derive(Clone)]
+pub struct BodyOfFile {
+    pub field: Ident,
+    pub mass: f64,
+    pub center: [f64; 3],
+    pub inertia: [[f64; 3]; 3],
+}
+
+/// A state that the file names.
+#[derive(Clone)]
+pub struct StateOfFile {
+    pub name: Ident,
+    /// As it is called in the file.
+    pub written: String,
+    /// Coordinates and speeds that it has values of.
+    pub values: Vec<(Ident, ValueOfState)>,
+}
+
+#[derive(Clone, Copy)]
+pub enum ValueOfState {
+    Scalar(f64),
+    Vector([f64; 3]),
+    /// (w, x, y, z), of any length.
+    Rotation([f64; 4]),
+    Pose([f64; 3], [f64; 4]),
 }
 
 /// Something to know of a file, with its place in it.

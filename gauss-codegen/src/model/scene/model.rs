@@ -10,7 +10,7 @@ use super::described::Described;
 use super::expression::Expression;
 use super::roles::{Role, Shape};
 use syn::ext::IdentExt;
-use syn::{Generics, Ident, Path, Visibility};
+use syn::{Generics, Ident, Path, Type, Visibility};
 
 /// Any system that the Gauss condition covers.
 #[derive(Clone)]
@@ -130,6 +130,8 @@ impl Model {
 pub struct Field {
     /// Name of the field.
     pub ident: Ident,
+    /// Its type.
+    pub ty: Type,
     /// What the field means to the body without a name, or that it is one with a name; `None` for a plain parameter.
     pub role: Option<Role>,
     /// Shape of the value. A plain parameter whose scalar is not the scalar of the model is [`Shape::Other`].

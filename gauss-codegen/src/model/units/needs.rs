@@ -49,7 +49,11 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
         checker.add(&definition.name, value);
     }
     checker.places(statements);
-    for clause in &statements.forces {
+    for (index, clause) in statements.forces.iter().enumerate() {
+        // Numbers of a file are in units of the SI: they need not say so.
+        if index < statements.forces_of_file && matches!(clause.kind, ForceKind::Dissipation(_)) {
+            continue;
+        }
         checker.force(&clause.kind);
     }
     for constraint in &statements.constraints {

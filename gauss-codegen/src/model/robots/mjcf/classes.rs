@@ -17,36 +17,48 @@ pub struct Classes<'a> {
 }
 
 impl<'a> Classes<'a> {
-    pub fn read(root: Node<'a, 'a>) -> Self {
+    pub fn read(root: Node<'a, 'a>, reading: &Reading<'a>) -> Self {
         let mut classes = Self { all: Vec::new() };
-        for node in Reading::children(root, "default") {
+        for node in reading.children(root, "default") {
             let top = if classes.all.is_empty() { None } else { Some(0) };
-            classes.add(node, top);
+            classes.add(node, top, reading);
         }
         classes
     }
 
-    fn add(&mut self, node: Node<'a, 'a>, parent: Option<usize>) {
+    fn add(&mut self, node: Node<'a, 'a>, parent: Option<usize>, reading: &Reading<'a>) {
         let index = self.all.len();
-        self.all.push(Class { name: node.attribute("class").unwrap_or("main"), parent, node });
-        for child in Reading::children(node, "default") {
-            self.add(child, Some(index));
+        let name = reading.text(node, "class").unwrap_or("main");
+        self.all.push(Class { name, parent, node });
+        for child in reading.children(node, "default") {
+            self.add(child, Some(index), reading);
         }
     }
 
     /// The element that has an attribute: `node`, or the nearest default of its class, or of that of the body that it
-    /// is in.
-    pub fn carrier(&self, node: Node<'a, 'a>, tag: &str, name: &str, class: Option<&str>) -> Option<Node<'a, 'a>> {
-        if node.attribute(name).is_some() {
+    /// is in, of an element with one of the names in `tags`.
+    pub fn carrier(
+        &self,
+        (node, tags): (Node<'a, 'a>, &[&str]),
+        name: &'static str,
+        class: Option<&str>,
+        reading: &Reading<'a>,
+    ) -> Option<Node<'a, 'a>> {
+        let named = |node: &Node<'a, 'a>| tags.contains(&node.tag_name().name());
+        // What elements are asked for their defaults are, too.
+        for child in self.all.iter().flat_map(|class| class.node.children()).filter(named) {
+            reading.see(child);
+            reading.text(child, name);
+        }
+        if reading.text(node, name).is_some() {
             return Some(node);
         }
-        let class = node.attribute("class").or(class);
-        let named = class.and_then(|class| self.all.iter().position(|other| other.name == class));
-        let mut next = named.or((!self.all.is_empty()).then_some(0));
+        let class = reading.text(node, "class").or(class);
+        let known = class.and_then(|class| self.all.iter().position(|other| other.name == class));
+        let mut next = known.or((!self.all.is_empty()).then_some(0));
         while let Some(index) = next {
             let Class { node, parent, .. } = &self.all[index];
-            let element =
-                node.children().find(|child| child.tag_name().name() == tag && child.attribute(name).is_some());
+            let element = node.children().find(|child| named(child) && child.attribute(name).is_some());
             if element.is_some() {
                 return element;
             }

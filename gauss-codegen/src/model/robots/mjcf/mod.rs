@@ -1,40 +1,127 @@
 //! MJCF → description, as <https://mujoco.readthedocs.io/en/stable/XMLreference.html> has it.
 //!
+//! | file | what it holds |
+//! |---|---|
+//! | `classes`, `rotations` | defaults of elements; the ways to write a rotation |
+//! | `joints` | the joints of a body |
+//! | `masses` | mass data: of `<inertial>`, and of geoms |
+//! | `relations` | equalities and tendons |
+//! | `actuators`, `keys` | what drives joints; states with names |
+//!
 //! Of several joints in a body all but the last have a link of their own, without mass; so has one whose anchor is
 //! not the origin of its body, which is then fixed to it.
 
+mod actuators;
 mod classes;
+mod joints;
+mod keys;
+mod masses;
+mod relations;
 mod rotations;
 
 use roxmltree::Node;
 
 use self::classes::Classes;
 use self::rotations::Angles;
-use super::description::{Closure, Description, Fault, Inertial, Joint, JointKind, Link, Mimic};
-use super::rotation::{Rotation, Triple, direction, turned, turned_tensor};
-use super::xml::{Reading, parse, shown};
+use super::description::{Description, Fault, Inertial, Joint, JointKind, Link};
+use super::rotation::{Matrix, Rotation, Triple, multiply, turned};
+use super::xml::{Reading, Silent, parse, shown};
 
-/// Sections and elements that say nothing of the motion.
-const SILENT: &[&str] = &[
-    "asset",
-    "camera",
-    "compiler",
-    "custom",
-    "default",
-    "exclude",
-    "geom",
-    "inertial",
-    "joint",
-    "freejoint",
-    "key",
-    "keyframe",
-    "light",
-    "option",
-    "sensor",
-    "size",
-    "statistic",
-    "visual",
-];
+/// What says nothing of the motion: looks, contacts of which none are modelled, and how MuJoCo solves.
+const SILENT: Silent = Silent {
+    elements: &[
+        "asset",
+        "camera",
+        "custom",
+        "exclude",
+        "extension",
+        "geom",
+        "light",
+        "material",
+        "mesh",
+        "sensor",
+        "size",
+        "statistic",
+        "visual",
+    ],
+    attributes: &[
+        "actlimited",
+        "actrange",
+        "actuatorfrclimited",
+        "actuatorfrcrange",
+        "align",
+        "apirate",
+        "assetdir",
+        "ccd_iterations",
+        "ccd_tolerance",
+        "childclass",
+        "class",
+        "conaffinity",
+        "condim",
+        "cone",
+        "contype",
+        "ctrl",
+        "ctrllimited",
+        "ctrlrange",
+        "discardvisual",
+        "exactmeshinertia",
+        "file",
+        "fitaabb",
+        "fitscale",
+        "forcelimited",
+        "forcerange",
+        "fovy",
+        "friction",
+        "fromto",
+        "fusestatic",
+        "gap",
+        "group",
+        "hfield",
+        "impratio",
+        "inertiagrouprange",
+        "integrator",
+        "iterations",
+        "jacobian",
+        "kd",
+        "lengthrange",
+        "ls_iterations",
+        "ls_tolerance",
+        "margin",
+        "material",
+        "mesh",
+        "meshdir",
+        "model",
+        "mpos",
+        "mquat",
+        "noslip_iterations",
+        "noslip_tolerance",
+        "priority",
+        "rgba",
+        "sdf_initpoints",
+        "sdf_iterations",
+        "size",
+        "solimp",
+        "solimpfriction",
+        "solimplimit",
+        "solmix",
+        "solref",
+        "solreffriction",
+        "solreflimit",
+        "solver",
+        "strippath",
+        "texturedir",
+        "time",
+        "timestep",
+        "tolerance",
+        "torquescale",
+        "type",
+        "user",
+        "width",
+    ],
+};
+
+/// Where something is in the axes of what it is in.
+type Place = (Triple, Matrix);
 
 /// # Errors
 /// Everything that is wrong in the elements of the file, each by itself.
@@ -47,35 +134,47 @@ pub fn read(text: &str) -> Result<Description, Vec<Fault>> {
     }
     let mut file = File {
         angles: Angles::read(root, &mut reading),
-        classes: Classes::read(root),
-        description: Description {
-            gravity: Some(gravity(root, &mut reading)),
-            only_driven: true,
-            ..Description::default()
-        },
-        reading,
+        classes: Classes::read(root, &reading),
+        description: Description { only_driven: true, ..Description::default() },
         automatic: true,
+        geoms: Geoms::Missing,
+        bodies: root
+            .descendants()
+            .filter(|node| node.tag_name().name() == "body")
+            .filter_map(|body| body.attribute("name").map(str::to_owned))
+            .collect(),
+        reading,
     };
-    file.automatic = !Reading::children(root, "compiler").any(|node| node.attribute("autolimits") == Some("false"));
-    for node in root.children().filter(Node::is_element) {
-        match node.tag_name().name() {
-            "worldbody" => file.world(node),
-            "actuator" => file.actuators(node),
-            "equality" => file.equalities(node),
-            "contact" => {}
-            word if SILENT.contains(&word) => {}
-            _ => file.reading.note(node, true, format!("{} is not read", shown(node))),
+    file.description.gravity = Some(file.gravity(root));
+    file.compiler(root);
+    // What follows names joints, which are all in the world.
+    for world in file.reading.children(root, "worldbody") {
+        file.world(world);
+    }
+    file.reading.children(root, "equality").into_iter().for_each(|section| file.equalities(section));
+    file.reading.children(root, "tendon").into_iter().for_each(|section| file.tendons(section));
+    file.reading.children(root, "actuator").into_iter().for_each(|section| file.actuators(section));
+    file.reading.children(root, "keyframe").into_iter().for_each(|section| file.keys(section));
+    for contact in file.reading.children(root, "contact") {
+        let shown = file.reading.children(contact, "exclude").len();
+        if shown > 0 {
+            file.reading.note(contact, "contacts are not modelled, so that none is to be excluded");
+            file.reading.children(contact, "exclude").into_iter().for_each(|node| file.reading.pass(node));
         }
     }
+    file.reading.note_unread(&SILENT);
     let File { mut description, reading, .. } = file;
     description.notes = reading.notes;
     if reading.faults.is_empty() { Ok(description) } else { Err(reading.faults) }
 }
 
-/// Observer's axes, m/s²; that of the earth where the file says nothing.
-fn gravity<'a>(root: Node<'a, 'a>, reading: &mut Reading<'a>) -> Triple {
-    let option = Reading::children(root, "option").find(|node| node.attribute("gravity").is_some());
-    option.and_then(|option| reading.numbers(option, "gravity")).unwrap_or([0.0, 0.0, -9.81])
+/// Which bodies have the masses of their geoms.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Geoms {
+    /// Those without `<inertial>`.
+    Missing,
+    All,
+    None,
 }
 
 /// A file while it is read.
@@ -86,95 +185,102 @@ struct File<'a> {
     reading: Reading<'a>,
     /// A range limits without being told to.
     automatic: bool,
+    geoms: Geoms,
+    /// Names of bodies.
+    bodies: Vec<String>,
 }
 
 impl<'a> File<'a> {
-    fn world(&mut self, node: Node<'a, 'a>) {
-        let name = "world".to_owned();
-        self.description.links.push(Link { name: name.clone(), at: self.reading.at(node), inertial: None });
-        self.inside(node, &name, None);
-    }
-
-    /// Bodies and sites of a body.
-    fn inside(&mut self, node: Node<'a, 'a>, parent: &str, class: Option<&'a str>) {
-        for child in node.children().filter(Node::is_element) {
-            match child.tag_name().name() {
-                "body" => self.body(child, parent, class),
-                "site" => self.site(child, parent, class),
-                word if SILENT.contains(&word) => {}
-                _ => self.reading.note(child, true, format!("{} is not read", shown(child))),
+    /// Observer's axes, m/s²; that of the earth where the file says nothing.
+    fn gravity(&mut self, root: Node<'a, 'a>) -> Triple {
+        let mut gravity = [0.0, 0.0, -9.81];
+        for option in self.reading.children(root, "option") {
+            gravity = self.reading.numbers(option, "gravity").unwrap_or(gravity);
+            for flag in self.reading.children(option, "flag") {
+                if self.reading.text(flag, "gravity") == Some("disable") {
+                    gravity = [0.0; 3];
+                }
+                if flag.attributes().any(|attribute| attribute.name() != "gravity") {
+                    self.reading.note(flag, "of <flag> `gravity` alone is read");
+                    self.reading.pass(flag);
+                }
             }
         }
+        gravity
+    }
+
+    fn compiler(&mut self, root: Node<'a, 'a>) {
+        for node in self.reading.children(root, "compiler") {
+            self.automatic &= self.reading.text(node, "autolimits") != Some("false");
+            match self.reading.text(node, "inertiafromgeom") {
+                Some("true") => self.geoms = Geoms::All,
+                Some("false") => self.geoms = Geoms::None,
+                _ => {}
+            }
+            if self.reading.text(node, "coordinate").is_some_and(|word| word != "local") {
+                self.reading.fault(node, "places are relative to parents, `coordinate=\"local\"`");
+            }
+        }
+    }
+
+    fn world(&mut self, node: Node<'a, 'a>) {
+        let name = "world".to_owned();
+        if !self.description.links.iter().any(|link| link.name == name) {
+            self.description.links.push(Link { name: name.clone(), at: self.reading.at(node), inertial: None });
+        }
+        self.inside(node, &name, None, &([0.0; 3], Rotation::none().matrix));
+    }
+
+    /// Bodies, frames and sites of a body; those of a frame are placed in it.
+    fn inside(&mut self, node: Node<'a, 'a>, parent: &str, class: Option<&'a str>, place: &Place) {
+        for child in node.children().filter(Node::is_element) {
+            match child.tag_name().name() {
+                "body" => self.body(child, parent, class, place),
+                "site" => self.site(child, parent, class, place),
+                "frame" => {
+                    self.reading.see(child);
+                    let class = self.reading.text(child, "childclass").or(class);
+                    let own = self.placed(child, "frame", class, place);
+                    self.inside(child, parent, class, &own);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The place of an element in that of what it is in.
+    fn placed(&mut self, node: Node<'a, 'a>, tag: &'static str, class: Option<&'a str>, (at, matrix): &Place) -> Place {
+        let position = self.triple(node, tag, "pos", class);
+        let rotation = self.angles.of(node, &mut self.reading);
+        let moved = turned(matrix, &position);
+        (std::array::from_fn(|i| at[i] + moved[i]), multiply(matrix, &rotation.matrix))
     }
 
     /// A named site is a frame.
-    fn site(&mut self, node: Node<'a, 'a>, parent: &str, class: Option<&'a str>) {
-        let Some(name) = node.attribute("name") else { return };
-        let position = self.triple(node, "site", "pos", class);
-        let rotation = self.angles.of(node, &mut self.reading);
-        self.link(name.to_owned(), node, None);
-        self.hang(node, name.to_owned(), (parent, name), JointKind::Fixed, (position, rotation));
+    fn site(&mut self, node: Node<'a, 'a>, parent: &str, class: Option<&'a str>, place: &Place) {
+        self.reading.see(node);
+        let (position, matrix) = self.placed(node, "site", class, place);
+        let Some(name) = self.reading.text(node, "name") else { return };
+        // Sites have names of their own.
+        let taken = |name: &str| self.bodies.iter().any(|body| body == name);
+        let name = if taken(name) { format!("{name}_site") } else { name.to_owned() };
+        self.link(name.clone(), node, None);
+        let rotation = Rotation::from_matrix(&matrix);
+        self.hang(node, format!("{name} mount"), (parent, &name), JointKind::Fixed, (position, rotation));
     }
 
-    fn body(&mut self, node: Node<'a, 'a>, parent: &str, class: Option<&'a str>) {
-        let class = node.attribute("childclass").or(class);
-        let name = match node.attribute("name") {
+    fn body(&mut self, node: Node<'a, 'a>, parent: &str, class: Option<&'a str>, place: &Place) {
+        self.reading.see(node);
+        let class = self.reading.text(node, "childclass").or(class);
+        let name = match self.reading.text(node, "name") {
             Some(name) => name.to_owned(),
             None => format!("body_{}", self.description.links.len()),
         };
-        let position = self.triple(node, "body", "pos", class);
-        let rotation = self.angles.of(node, &mut self.reading);
-        let inertial = self.reading.child(node, "inertial").and_then(|inertial| self.mass_data(inertial));
-        if inertial.is_none() && Reading::children(node, "geom").next().is_some() {
-            self.reading.note(
-                node,
-                true,
-                format!("{} has no <inertial>, and masses of geoms are not read: it has no mass", shown(node)),
-            );
-        }
+        let (position, matrix) = self.placed(node, "body", class, place);
+        let inertial = self.inertial(node, class);
         self.link(name.clone(), node, inertial);
-        self.joints(node, &name, parent, (position, rotation), class);
-        self.inside(node, &name, class);
-    }
-
-    /// The joints of a body, in their order.
-    fn joints(
-        &mut self,
-        node: Node<'a, 'a>,
-        name: &str,
-        parent: &str,
-        (mut position, mut rotation): (Triple, Rotation),
-        class: Option<&'a str>,
-    ) {
-        let is_joint = |child: &Node<'a, 'a>| matches!(child.tag_name().name(), "joint" | "freejoint");
-        let all: Vec<Node<'a, 'a>> = node.children().filter(is_joint).collect();
-        let mut parent = parent.to_owned();
-        for (index, &element) in all.iter().enumerate() {
-            let own = match element.attribute("name") {
-                Some(own) => own.to_owned(),
-                None if all.len() == 1 => format!("{name}_joint"),
-                None => format!("{name}_joint_{}", index + 1),
-            };
-            let free = element.tag_name().name() == "freejoint" || self.text(element, "type", class) == Some("free");
-            if free {
-                // Its pose is that in the world.
-                self.hang(element, own, (&parent, name), JointKind::Floating, ([0.0; 3], Rotation::none()));
-                return;
-            }
-            let anchor = self.triple(element, "joint", "pos", class);
-            let moved = turned(&rotation.matrix, &anchor);
-            position = std::array::from_fn(|i| position[i] + moved[i]);
-            let last = index + 1 == all.len() && anchor == [0.0; 3];
-            let child = if last { name.to_owned() } else { format!("{own}_frame") };
-            if !last {
-                self.link(child.clone(), element, None);
-            }
-            self.joint(element, own, (&parent, &child), (position, rotation), class);
-            (parent, position, rotation) = (child, anchor.map(|c| -c), Rotation::none());
-        }
-        if parent != name {
-            self.hang(node, format!("{name}_mount"), (&parent, name), JointKind::Fixed, (position, rotation));
-        }
+        self.joints(node, &name, parent, (position, Rotation::from_matrix(&matrix)), class);
+        self.inside(node, &name, class, &([0.0; 3], Rotation::none().matrix));
     }
 
     fn link(&mut self, name: String, node: Node<'a, 'a>, inertial: Option<Inertial>) {
@@ -195,152 +301,42 @@ impl<'a> File<'a> {
         self.description.joints.push(Joint { position, rotation, ..Joint::new(name, at, kind, parent, child) });
     }
 
-    fn joint(
+    fn triple(&mut self, node: Node<'a, 'a>, tag: &'static str, name: &'static str, class: Option<&'a str>) -> Triple {
+        self.numbers(node, &[tag], name, class).unwrap_or_default()
+    }
+
+    /// Numbers of an element, or of the defaults of its class.
+    fn numbers<const N: usize>(
         &mut self,
         node: Node<'a, 'a>,
-        name: String,
-        (parent, child): (&str, &str),
-        (position, rotation): (Triple, Rotation),
+        tags: &[&str],
+        name: &'static str,
         class: Option<&'a str>,
-    ) {
-        let kind = match self.text(node, "type", class) {
-            None | Some("hinge") => JointKind::Turning,
-            Some("slide") => JointKind::Sliding,
-            Some("ball") => JointKind::Ball,
-            Some(word) => {
-                self.reading.fault(node, format!("a joint is free, ball, slide or hinge, found `{word}`"));
-                return;
-            }
-        };
-        let unit = if kind == JointKind::Turning { self.angles.unit } else { 1.0 };
-        let axis: Triple = self.numbers(node, "axis", class).unwrap_or([0.0, 0.0, 1.0]);
-        let Some(axis) = direction(axis) else {
-            self.reading.fault(node, "its axis is zero and has no direction");
-            return;
-        };
-        let amount = |file: &mut Self, name: &str| match file.classes.carrier(node, "joint", name, class) {
-            Some(carrier) => file.reading.amount(carrier, name),
-            None => 0.0,
-        };
-        let [damping, friction, stiffness, armature] =
-            ["damping", "frictionloss", "stiffness", "armature"].map(|name| amount(self, name));
-        let number = |file: &mut Self, name: &str| {
-            let carrier = file.classes.carrier(node, "joint", name, class);
-            carrier.and_then(|carrier| file.reading.number(carrier, name)).unwrap_or(0.0) * unit
-        };
-        let [reference, rest] = ["ref", "springref"].map(|name| number(self, name));
-        let range = self.numbers::<2>(node, "range", class).map(|range| range.map(|limit| limit * unit));
-        let limited = match self.text(node, "limited", class) {
-            Some("true") => true,
-            Some("false") => false,
-            _ => self.automatic,
-        };
-        let limits = range.filter(|_| limited).map_or([None; 2], |range| range.map(Some));
-        let joint = Joint::new(name, self.reading.at(node), kind, parent.to_owned(), child.to_owned());
-        if kind == JointKind::Ball && (friction > 0.0 || stiffness > 0.0 || armature > 0.0 || damping > 0.0) {
-            self.reading.note(
-                node,
-                true,
-                format!("damping, friction, stiffness and armature of the ball joint `{}` do not act", joint.name),
-            );
-        }
-        let laws = Joint { damping, friction, stiffness, armature, rest, reference, limits, ..joint };
-        self.description.joints.push(Joint { position, rotation, axis, ..laws });
+    ) -> Option<[f64; N]> {
+        let carrier = self.classes.carrier((node, tags), name, class, &self.reading)?;
+        self.reading.numbers(carrier, name)
     }
 
-    fn mass_data(&mut self, node: Node<'a, 'a>) -> Option<Inertial> {
-        let mass = self.reading.required_number(node, "mass");
-        let center: Triple = self.reading.numbers(node, "pos").unwrap_or_default();
-        let rotation = self.angles.of(node, &mut self.reading);
-        let full: Option<[f64; 6]> = self.reading.numbers(node, "fullinertia");
-        let diagonal: Option<Triple> = self.reading.numbers(node, "diaginertia");
-        let tensor = match (full, diagonal) {
-            (Some([xx, yy, zz, xy, xz, yz]), _) => [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
-            (None, Some([a, b, c])) => [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]],
-            (None, None) => {
-                self.reading.fault(node, "`diaginertia` or `fullinertia` is missing");
-                return None;
-            }
-        };
-        let inertia = if rotation == Rotation::none() { tensor } else { turned_tensor(&rotation.matrix, &tensor) };
-        Some(Inertial { mass: mass?, center, inertia })
+    /// The same of any count.
+    fn list(
+        &mut self,
+        node: Node<'a, 'a>,
+        tags: &[&str],
+        name: &'static str,
+        class: Option<&'a str>,
+    ) -> Option<Vec<f64>> {
+        let carrier = self.classes.carrier((node, tags), name, class, &self.reading)?;
+        self.reading.list(carrier, name)
     }
 
-    fn actuators(&mut self, section: Node<'a, 'a>) {
-        for node in section.children().filter(Node::is_element) {
-            let tag = node.tag_name().name();
-            match node.attribute("joint") {
-                Some(joint) => {
-                    self.description.driven.push(joint.to_owned());
-                    if tag != "motor" || node.attribute("gear").is_some() {
-                        let text = format!(
-                            "the input of {} is the effort of its joint: gains and gears are left to it",
-                            shown(node)
-                        );
-                        self.reading.note(node, false, text);
-                    }
-                }
-                None => self.reading.note(node, true, format!("{} acts on no joint and is not read", shown(node))),
-            }
-        }
+    fn text(&self, node: Node<'a, 'a>, tags: &[&str], name: &'static str, class: Option<&'a str>) -> Option<&'a str> {
+        let carrier = self.classes.carrier((node, tags), name, class, &self.reading)?;
+        self.reading.text(carrier, name)
     }
 
-    fn equalities(&mut self, section: Node<'a, 'a>) {
-        for node in section.children().filter(Node::is_element).filter(|node| node.attribute("active") != Some("false"))
-        {
-            match node.tag_name().name() {
-                "connect" if node.attribute("body1").is_some() => {
-                    let first = self.reading.required(node, "body1");
-                    let second = node.attribute("body2").unwrap_or("world").to_owned();
-                    let anchor = self.reading.numbers(node, "anchor");
-                    if let (Some(first), Some(anchor)) = (first, anchor) {
-                        let at = self.reading.at(node);
-                        self.description.closures.push(Closure { at, links: [first, second], anchor });
-                    } else {
-                        self.reading.fault(node, "`body1` and `anchor` are needed");
-                    }
-                }
-                "joint" => self.coupled(node),
-                _ => self.reading.note(node, true, format!("the equality {} does not act", shown(node))),
-            }
-        }
-    }
-
-    /// `joint1 = c₀ + c₁ joint2`, both from their references.
-    fn coupled(&mut self, node: Node<'a, 'a>) {
-        let Some(first) = self.reading.required(node, "joint1") else { return };
-        let coefficients: [f64; 5] = self.reading.numbers(node, "polycoef").unwrap_or([0.0, 1.0, 0.0, 0.0, 0.0]);
-        let at = self.reading.at(node);
-        let (Some(second), true) = (node.attribute("joint2"), coefficients[2..] == [0.0; 3]) else {
-            self.reading.note(
-                node,
-                true,
-                format!("the equality {} does not act: it is not linear in a second joint", shown(node)),
-            );
-            return;
-        };
-        let reference = |name: &str| {
-            self.description.joints.iter().find(|joint| joint.name == name).map_or(0.0, |joint| joint.reference)
-        };
-        let [offset, multiplier, ..] = coefficients;
-        let offset = reference(&first) + offset - multiplier * reference(second);
-        let mimic = Mimic { at, joint: second.to_owned(), multiplier, offset };
-        match self.description.joints.iter_mut().find(|joint| joint.name == first) {
-            Some(joint) => joint.mimic = Some(mimic),
-            None => self.reading.fault(node, format!("`{first}` is no joint of this file")),
-        }
-    }
-
-    fn triple(&mut self, node: Node<'a, 'a>, tag: &str, name: &str, class: Option<&'a str>) -> Triple {
-        let carrier = self.classes.carrier(node, tag, name, class);
-        carrier.and_then(|carrier| self.reading.numbers(carrier, name)).unwrap_or_default()
-    }
-
-    fn numbers<const N: usize>(&mut self, node: Node<'a, 'a>, name: &str, class: Option<&'a str>) -> Option<[f64; N]> {
-        self.classes.carrier(node, "joint", name, class).and_then(|carrier| self.reading.numbers(carrier, name))
-    }
-
-    fn text(&self, node: Node<'a, 'a>, name: &str, class: Option<&'a str>) -> Option<&'a str> {
-        self.classes.carrier(node, "joint", name, class)?.attribute(name)
+    /// Notes what an element does that is not modelled.
+    fn ignored(&mut self, node: Node<'a, 'a>, why: &str) {
+        self.reading.ignored(node, format!("{} does not act: {why}", shown(node)));
+        self.reading.pass(node);
     }
 }

@@ -17,13 +17,13 @@ pub struct Angles {
 impl Angles {
     pub fn read<'a>(root: Node<'a, 'a>, reading: &mut Reading<'a>) -> Self {
         let mut angles = Angles { unit: std::f64::consts::PI / 180.0, sequence: [0, 1, 2], fixed: false };
-        for compiler in Reading::children(root, "compiler") {
-            match compiler.attribute("angle") {
+        for compiler in reading.children(root, "compiler") {
+            match reading.text(compiler, "angle") {
                 Some("radian") => angles.unit = 1.0,
                 Some("degree") | None => {}
                 Some(word) => reading.fault(compiler, format!("an angle is in `radian` or `degree`, found `{word}`")),
             }
-            let Some(word) = compiler.attribute("eulerseq") else { continue };
+            let Some(word) = reading.text(compiler, "eulerseq") else { continue };
             let axes: Vec<usize> = word.chars().filter_map(|c| "xyz".find(c.to_ascii_lowercase())).collect();
             let fixed = word.chars().all(|c| c.is_ascii_uppercase());
             match <[usize; 3]>::try_from(axes) {
@@ -48,10 +48,9 @@ impl Angles {
             Some(self.of_sequence(angles))
         } else if let Some([a, b, c, d, e, f]) = reading.numbers::<6>(node, "xyaxes") {
             of_axes([a, b, c], [d, e, f])
+        } else if let Some(axis) = reading.numbers::<3>(node, "zaxis") {
+            to_direction(axis)
         } else {
-            if node.attribute("zaxis").is_some() {
-                reading.fault(node, "`zaxis` leaves a turn open and is not read; write `quat`");
-            }
             return Rotation::none();
         };
         match matrix {
@@ -73,8 +72,19 @@ impl Angles {
     }
 }
 
+/// The least turn that brings the third axis to a direction; about the first where that is opposite.
+pub fn to_direction(axis: Triple) -> Option<Matrix> {
+    let [x, y, z] = direction(axis)?;
+    let across = x.hypot(y);
+    if across == 0.0 {
+        return of_quaternion(if z < 0.0 { [0.0, 1.0, 0.0, 0.0] } else { [1.0, 0.0, 0.0, 0.0] });
+    }
+    let half = across.atan2(z) / 2.0;
+    of_quaternion([half.cos(), -y / across * half.sin(), x / across * half.sin(), 0.0])
+}
+
 /// (w, x, y, z), of any length.
-fn of_quaternion(q: [f64; 4]) -> Option<Matrix> {
+pub fn of_quaternion(q: [f64; 4]) -> Option<Matrix> {
     let square: f64 = q.iter().map(|c| c * c).sum();
     if square == 0.0 || !square.is_finite() {
         return None;

@@ -1,0 +1,194 @@
+//! What acts in the joints: damping, springs, dry friction, limits, the inertia of rotors.
+
+use proc_macro2::Ident;
+use quote::format_ident;
+use syn::ext::IdentExt;
+
+use super::clauses::Robot;
+use super::description::{Joint, JointKind, Note};
+use crate::model::language::robots::{Friction, Limits};
+use crate::model::scene::clauses::{Extent, ForceClause, ForceKind};
+use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
+
+impl Robot<'_> {
+    /// What acts in the joints.
+    pub fn forces(&mut self) -> Vec<ForceClause> {
+        let named = |name: &str, kind: ForceKind| ForceClause {
+            name: Some(Ident::new(name, self.writer.span)),
+            kind,
+            span: self.writer.span,
+        };
+        let mut forces = Vec::new();
+        let efforts = self.efforts();
+        if !efforts.is_empty() {
+            forces.push(named("efforts", ForceKind::Drive { rates: efforts }));
+        }
+        let damping = self.damping().map(|function| named("joint_damping", ForceKind::Dissipation(function)));
+        forces.extend(damping);
+        forces.extend(self.springs());
+        let (tendons, mut of_tendons) = self.tendons();
+        forces.extend(tendons);
+        self.notes.append(&mut of_tendons);
+        let (friction, mut notes) = self.friction();
+        if !friction.is_empty() {
+            forces.push(named("joint_friction", ForceKind::Drive { rates: friction }));
+        }
+        let (stops, limits) = self.stops();
+        forces.extend(stops);
+        notes.extend(limits);
+        self.notes.extend(notes);
+        forces
+    }
+
+    /// Joints with one coordinate, each with that of the joint that it follows, and how many times its rate is that
+    /// one's.
+    pub fn scalar_joints(&self) -> impl Iterator<Item = (usize, &Joint, &Ident, f64)> {
+        self.description.joints.iter().enumerate().filter_map(|(index, joint)| {
+            let coupling = self.structure.coupling_of[index];
+            match (joint.kind, self.coordinates[coupling.joint].as_slice()) {
+                (JointKind::Turning | JointKind::Sliding, [q]) => Some((index, joint, &q.ident, coupling.multiplier)),
+                _ => None,
+            }
+        })
+    }
+
+    /// Σ ½ d (m q̇)², of balls Σ ½ d ω².
+    fn damping(&self) -> Option<Expression> {
+        let writer = self.writer;
+        let terms =
+            self.scalar_joints().filter(|(_, joint, ..)| joint.damping > 0.0).map(|(_, joint, q, multiplier)| {
+                let rate = writer.call(FunctionName::Rate, vec![writer.name(q)]);
+                let factor = writer.number(joint.damping * multiplier * multiplier / 2.0);
+                writer.times(factor, writer.times(rate.clone(), rate))
+            });
+        let balls = self.description.joints.iter().zip(&self.coordinates);
+        let balls = balls.filter(|(joint, _)| joint.kind == JointKind::Ball && joint.damping > 0.0);
+        let of_balls = balls.filter_map(|(joint, coordinates)| {
+            let rate = writer.property(&coordinates.first()?.ident, Property::BodyAngularVelocity);
+            let square = writer.call(FunctionName::Dot, vec![rate.clone(), rate]);
+            Some(writer.times(writer.number(joint.damping / 2.0), square))
+        });
+        terms.chain(of_balls).reduce(|a, b| writer.plus(a, b))
+    }
+
+    /// Inertia of the rates of coordinates: m² times the armature of every joint that moves with one.
+    pub fn armatures(&self) -> Vec<(Ident, f64)> {
+        let mut all: Vec<(Ident, f64)> = Vec::new();
+        for (_, joint, q, multiplier) in self.scalar_joints().filter(|(_, joint, ..)| joint.armature > 0.0) {
+            let inertia = joint.armature * multiplier * multiplier;
+            match all.iter_mut().find(|(name, _)| name == q) {
+                Some((_, sum)) => *sum += inertia,
+                None => all.push((q.clone(), inertia)),
+            }
+        }
+        all
+    }
+
+    /// Σ c q of joints, as a sum of coordinates.
+    pub fn length(&self, along: &[(String, f64)]) -> Option<Expression> {
+        let writer = self.writer;
+        let terms = along.iter().filter_map(|(name, factor)| {
+            let joint = self.description.joints.iter().position(|joint| joint.name == *name)?;
+            self.description.joints[joint].kind.is_scalar().then_some(())?;
+            let value = self.values(joint, 0.0).into_iter().next()?;
+            Some(if *factor == 1.0 { value } else { writer.times(writer.number(*factor), value) })
+        });
+        terms.reduce(|a, b| writer.plus(a, b))
+    }
+
+    fn tendons(&self) -> (Vec<ForceClause>, Vec<Note>) {
+        let writer = self.writer;
+        let (mut forces, mut notes) = (Vec::new(), Vec::new());
+        for tendon in self.description.tendons.iter().filter(|tendon| tendon.stiffness > 0.0 || tendon.damping > 0.0) {
+            let Some(along) = self.length(&tendon.along) else {
+                notes.push(Note::ignored(
+                    tendon.at,
+                    "tendon",
+                    "a tendon along no joint with one coordinate does not act",
+                ));
+                continue;
+            };
+            let number = |value: f64| (value != 0.0).then(|| writer.number(value));
+            let kind = ForceKind::Spring {
+                extent: Extent::Along(along),
+                stiffness: writer.number(tendon.stiffness),
+                length: number(tendon.rest),
+                damping: number(tendon.damping),
+            };
+            forces.push(ForceClause { name: None, kind, span: writer.span });
+        }
+        (forces, notes)
+    }
+
+    fn springs(&self) -> Vec<ForceClause> {
+        let writer = self.writer;
+        let springs = self.scalar_joints().filter(|(_, joint, ..)| joint.stiffness > 0.0);
+        let spring = |(index, joint, q, _): (usize, &Joint, &Ident, f64)| {
+            let along = self.values(index, 0.0).into_iter().next()?;
+            let stiffness = writer.number(joint.stiffness);
+            let length = (joint.rest != 0.0).then(|| writer.number(joint.rest));
+            let kind = ForceKind::Spring { extent: Extent::Along(along), stiffness, length, damping: None };
+            let own = self.structure.coupling_of[index].joint == index;
+            let name = own.then(|| format_ident!("{}_spring", q.unraw(), span = writer.span));
+            Some(ForceClause { name, kind, span: writer.span })
+        };
+        springs.filter_map(spring).collect()
+    }
+
+    /// −f v/√(v² + w²) of every joint with dry friction, where a width is said.
+    fn friction(&self) -> (Vec<(Ident, Expression)>, Vec<Note>) {
+        let writer = self.writer;
+        let (mut rates, mut notes): (Vec<(Ident, Expression)>, _) = (Vec::new(), Vec::new());
+        for (_, joint, q, multiplier) in self.scalar_joints().filter(|(_, joint, ..)| joint.friction > 0.0) {
+            let width = match &self.clauses.friction {
+                Some(Friction::Smooth(width)) => width,
+                Some(Friction::None) => continue,
+                None => {
+                    let text = format!(
+                        "the dry friction of the joint `{}` does not act; write `joint_friction = smooth(width)` for a \
+                         law that is \
+                         smooth over this width of its rate, or `joint_friction = none`",
+                        joint.name
+                    );
+                    notes.push(Note::ignored(joint.at, "dynamics", text).about("friction"));
+                    continue;
+                }
+            };
+            let rate = writer.call(FunctionName::Rate, vec![writer.name(q)]);
+            let rate = if multiplier == 1.0 { rate } else { writer.times(writer.number(multiplier), rate) };
+            let squares = [&rate, width].map(|e| writer.times(e.clone(), e.clone()));
+            let [rate_squared, width_squared] = squares;
+            let root = writer.call(FunctionName::Sqrt, vec![writer.plus(rate_squared, width_squared)]);
+            let ratio = writer.binary(BinaryOperator::Divide, rate, root);
+            let value = writer.times(writer.number(-joint.friction * multiplier), ratio);
+            match rates.iter_mut().find(|(name, _)| name == q) {
+                Some((_, sum)) => *sum = writer.plus(sum.clone(), value),
+                None => rates.push((q.clone(), value)),
+            }
+        }
+        (rates, notes)
+    }
+
+    /// Stops at the limits of joints, where their laws are said.
+    fn stops(&self) -> (Vec<ForceClause>, Option<Note>) {
+        let writer = self.writer;
+        let limited: Vec<_> = self.scalar_joints().filter(|(_, joint, ..)| joint.limits != [None; 2]).collect();
+        let Some((_, first, ..)) = limited.first() else { return (Vec::new(), None) };
+        let Some(Limits::Stop { stiffness, width, damping }) = &self.clauses.limits else {
+            let text = "the limits of joints do not act; `limits = stop(stiffness = …, width = …)` makes stops of them";
+            let note = Note::told(first.at, text);
+            return (Vec::new(), self.clauses.limits.is_none().then_some(note));
+        };
+        let stop = |(index, joint, ..): &(usize, &Joint, &Ident, f64)| {
+            let along = self.values(*index, 0.0).into_iter().next()?;
+            let [least, most] = joint.limits.map(|limit| limit.map(|limit| writer.number(limit)));
+            let (stiffness, width, damping) = (stiffness.clone(), width.clone(), damping.clone());
+            let kind = ForceKind::Stop { extent: Extent::Along(along), least, most, stiffness, width, damping };
+            let name =
+                format_ident!("{}_limits", self.coordinates[self.structure.coupling_of[*index].joint][0].ident.unraw());
+            let name = (self.structure.coupling_of[*index].joint == *index).then_some(name);
+            Some(ForceClause { name, kind, span: writer.span })
+        };
+        (limited.iter().filter_map(stop).collect(), None)
+    }
+}

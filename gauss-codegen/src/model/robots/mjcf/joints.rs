@@ -1,0 +1,141 @@
+//! The joints of a body.
+
+use roxmltree::Node;
+
+use super::File;
+use crate::model::robots::description::{Joint, JointKind};
+use crate::model::robots::rotation::{Rotation, Triple, direction, turned};
+use crate::model::robots::xml::shown;
+
+const JOINT: &[&str] = &["joint"];
+
+impl<'a> File<'a> {
+    /// The joints of a body, in their order.
+    pub fn joints(
+        &mut self,
+        node: Node<'a, 'a>,
+        name: &str,
+        parent: &str,
+        (mut position, mut rotation): (Triple, Rotation),
+        class: Option<&'a str>,
+    ) {
+        let is_joint = |child: &Node<'a, 'a>| matches!(child.tag_name().name(), "joint" | "freejoint");
+        let all: Vec<Node<'a, 'a>> = node.children().filter(is_joint).collect();
+        let mut parent = parent.to_owned();
+        for (index, &element) in all.iter().enumerate() {
+            self.reading.see(element);
+            let own = match self.reading.text(element, "name") {
+                Some(own) => own.to_owned(),
+                None if all.len() == 1 => format!("{name}_joint"),
+                None => format!("{name}_joint_{}", index + 1),
+            };
+            let is_free = element.tag_name().name() == "freejoint";
+            if is_free || self.text(element, JOINT, "type", class) == Some("free") {
+                // Its pose is that in the world.
+                self.hang(element, own, (&parent, name), JointKind::Floating, ([0.0; 3], Rotation::none()));
+                if let Some(joint) = self.description.joints.last_mut() {
+                    joint.start = (position, rotation);
+                }
+                self.refuse_laws(element, class, !is_free);
+                return;
+            }
+            let anchor = self.triple(element, "joint", "pos", class);
+            let moved = turned(&rotation.matrix, &anchor);
+            position = std::array::from_fn(|i| position[i] + moved[i]);
+            let last = index + 1 == all.len() && anchor == [0.0; 3];
+            let child = if last { name.to_owned() } else { format!("{own}_frame") };
+            if !last {
+                self.link(child.clone(), element, None);
+            }
+            self.joint(element, own, (&parent, &child), (position, rotation), class);
+            (parent, position, rotation) = (child, anchor.map(|c| -c), Rotation::none());
+        }
+        if parent != name {
+            self.hang(node, format!("{name} mount"), (&parent, name), JointKind::Fixed, (position, rotation));
+        }
+    }
+
+    /// What joints with several speeds have not; `<freejoint>` has no defaults.
+    fn refuse_laws(&mut self, node: Node<'a, 'a>, class: Option<&'a str>, defaults: bool) {
+        for name in ["damping", "frictionloss", "stiffness", "armature"] {
+            let amount = match self.classes.carrier((node, JOINT), name, class, &self.reading) {
+                Some(carrier) if defaults || carrier == node => self.reading.list(carrier, name),
+                _ => None,
+            };
+            if amount.is_some_and(|all| all.iter().any(|amount| *amount != 0.0)) {
+                self.reading
+                    .ignored(node, format!("`{name}` of {} does not act: it has not one coordinate", shown(node)));
+            }
+        }
+    }
+
+    fn joint(
+        &mut self,
+        node: Node<'a, 'a>,
+        name: String,
+        (parent, child): (&str, &str),
+        (position, rotation): (Triple, Rotation),
+        class: Option<&'a str>,
+    ) {
+        let kind = match self.text(node, JOINT, "type", class) {
+            None | Some("hinge") => JointKind::Turning,
+            Some("slide") => JointKind::Sliding,
+            Some("ball") => JointKind::Ball,
+            Some(word) => {
+                self.reading.fault(node, format!("a joint is free, ball, slide or hinge, found `{word}`"));
+                return;
+            }
+        };
+        let axis: Triple = self.numbers(node, JOINT, "axis", class).unwrap_or([0.0, 0.0, 1.0]);
+        let Some(axis) = direction(axis) else {
+            self.reading.fault(node, "its axis is zero and has no direction");
+            return;
+        };
+        let joint = Joint::new(name, self.reading.at(node), kind, parent.to_owned(), child.to_owned());
+        let joint = Joint { position, rotation, axis, ..joint };
+        let joint = if kind == JointKind::Ball {
+            let damping = self.amount(node, "damping", class);
+            self.refuse_laws_of_ball(node, class);
+            Joint { damping, ..joint }
+        } else {
+            self.with_laws(node, joint, class)
+        };
+        self.description.joints.push(joint);
+    }
+
+    fn amount(&mut self, node: Node<'a, 'a>, name: &'static str, class: Option<&'a str>) -> f64 {
+        match self.classes.carrier((node, JOINT), name, class, &self.reading) {
+            Some(carrier) => self.reading.amount(carrier, name),
+            None => 0.0,
+        }
+    }
+
+    fn refuse_laws_of_ball(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) {
+        for name in ["frictionloss", "stiffness", "armature"] {
+            if self.amount(node, name, class) > 0.0 {
+                self.reading
+                    .ignored(node, format!("`{name}` of {} does not act: it has not one coordinate", shown(node)));
+            }
+        }
+        if self.numbers::<2>(node, JOINT, "range", class).is_some() {
+            self.reading.note(node, format!("the limit of the ball joint {} does not act", shown(node)));
+        }
+    }
+
+    /// Damping, springs, limits of a joint with one coordinate.
+    fn with_laws(&mut self, node: Node<'a, 'a>, joint: Joint, class: Option<&'a str>) -> Joint {
+        let [damping, friction, stiffness, armature] =
+            ["damping", "frictionloss", "stiffness", "armature"].map(|name| self.amount(node, name, class));
+        let unit = if joint.kind == JointKind::Turning { self.angles.unit } else { 1.0 };
+        let [reference, rest] = ["ref", "springref"]
+            .map(|name| self.numbers::<1>(node, JOINT, name, class).map_or(0.0, |[number]| number * unit));
+        let range = self.numbers::<2>(node, JOINT, "range", class).map(|range| range.map(|limit| limit * unit));
+        let limited = match self.text(node, JOINT, "limited", class) {
+            Some("true") => true,
+            Some("false") => false,
+            _ => self.automatic,
+        };
+        let limits = range.filter(|_| limited).map_or([None; 2], |range| range.map(Some));
+        Joint { damping, friction, stiffness, armature, rest, reference, limits, ..joint }
+    }
+}

@@ -1,0 +1,43 @@
+//! Keyframes: states with names.
+
+use roxmltree::Node;
+
+use super::File;
+use crate::model::robots::description::{JointKind, Posture};
+
+/// How many numbers say where a joint is, and how it moves.
+fn sizes(kind: JointKind) -> [usize; 2] {
+    match kind {
+        JointKind::Fixed => [0, 0],
+        JointKind::Floating => [7, 6],
+        JointKind::Ball => [4, 3],
+        _ => [1, 1],
+    }
+}
+
+impl<'a> File<'a> {
+    pub fn keys(&mut self, section: Node<'a, 'a>) {
+        for (index, node) in self.reading.children(section, "key").into_iter().enumerate() {
+            let name = self.reading.text(node, "name").map_or(format!("key_{index}"), str::to_owned);
+            let [values, rates] = [("qpos", 0), ("qvel", 1)].map(|(word, which)| {
+                let numbers = self.reading.list(node, word)?;
+                let joints = &self.description.joints;
+                let expected: usize = joints.iter().map(|joint| sizes(joint.kind)[which]).sum();
+                if numbers.len() != expected {
+                    let found = numbers.len();
+                    self.reading.fault(node, format!("`{word}` is {expected} numbers in this file, found {found}"));
+                    return None;
+                }
+                let mut rest = numbers.as_slice();
+                let parts = joints.iter().map(|joint| {
+                    let (own, after) = rest.split_at(sizes(joint.kind)[which]);
+                    rest = after;
+                    (joint.name.clone(), own.to_vec())
+                });
+                Some(parts.collect::<Vec<_>>())
+            });
+            let (values, rates) = (values.unwrap_or_default(), rates.unwrap_or_default());
+            self.description.postures.push(Posture { name, values, rates });
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Equalities, which are constraints or couplings, and tendons that are linear in joints.
+
+use roxmltree::Node;
+
+use super::File;
+use super::rotations::of_quaternion;
+use crate::model::robots::description::{Closure, Mimic, Polynomial, Tendon, Turn};
+
+/// The element of defaults.
+const EQUALITY: &[&str] = &["equality"];
+
+impl<'a> File<'a> {
+    pub fn equalities(&mut self, section: Node<'a, 'a>) {
+        for node in self.reading.elements(section) {
+            let tag = node.tag_name().name();
+            if self.text(node, EQUALITY, "active", None) == Some("false") {
+                self.reading.note(node, format!("the equality <{tag}> is not active"));
+                continue;
+            }
+            match tag {
+                "connect" if self.reading.text(node, "body1").is_some() => self.connected(node),
+                "weld" if self.reading.text(node, "body1").is_some() => self.welded(node),
+                "joint" => self.coupled(node),
+                _ => self.ignored(node, "it joins no two bodies or joints"),
+            }
+        }
+    }
+
+    fn ends(&mut self, node: Node<'a, 'a>) -> Option<[String; 2]> {
+        let first = self.reading.required(node, "body1")?;
+        Some([first, self.reading.text(node, "body2").unwrap_or("world").to_owned()])
+    }
+
+    /// A point in common.
+    fn connected(&mut self, node: Node<'a, 'a>) {
+        let Some(links) = self.ends(node) else { return };
+        match self.reading.numbers(node, "anchor") {
+            Some(anchor) => {
+                let at = self.reading.at(node);
+                self.description.closures.push(Closure { at, links, anchor, turn: None });
+            }
+            None => self.reading.fault(node, "`anchor` is needed"),
+        }
+    }
+
+    /// A point in common, and a rotation; as at rest, where `relpose` does not say it.
+    fn welded(&mut self, node: Node<'a, 'a>) {
+        let Some(links) = self.ends(node) else { return };
+        let at = self.reading.at(node);
+        let pose: Option<[f64; 7]> = self.reading.numbers(node, "relpose");
+        // The anchor is in the axes of the second body, the pose that of the second in those of the first.
+        let anchor: [f64; 3] = self.reading.numbers(node, "anchor").unwrap_or_default();
+        let stated = pose.and_then(|[x, y, z, w, i, j, k]| Some(([x, y, z], of_quaternion([w, i, j, k])?)));
+        let closure = match stated {
+            Some((place, turn)) => {
+                if anchor != [0.0; 3] {
+                    self.reading.note(node, "the anchor of a <weld> with a pose moves nothing: both agree everywhere");
+                }
+                Closure { at, links, anchor: place, turn: Some(Turn::To(turn)) }
+            }
+            None => {
+                let [first, second] = links;
+                Closure { at, links: [second, first], anchor, turn: Some(Turn::AsAtRest) }
+            }
+        };
+        self.description.closures.push(closure);
+    }
+
+    /// `joint1 = c₀ + c₁ joint2 + …`, both from their references.
+    fn coupled(&mut self, node: Node<'a, 'a>) {
+        let Some(first) = self.reading.required(node, "joint1") else { return };
+        let coefficients: [f64; 5] =
+            self.numbers(node, EQUALITY, "polycoef", None).unwrap_or([0.0, 1.0, 0.0, 0.0, 0.0]);
+        let at = self.reading.at(node);
+        let second = self.reading.text(node, "joint2").map(str::to_owned);
+        let joints = &mut self.description.joints;
+        let reference =
+            |name: &str| joints.iter().find(|joint| joint.name == name).map_or(0.0, |joint| joint.reference);
+        let of_second = second.as_deref().map_or(0.0, reference);
+        let [offset, multiplier, rest @ ..] = coefficients;
+        let offset = reference(&first) + offset - multiplier * of_second;
+        let Some(joint) = joints.iter_mut().find(|joint| joint.name == first) else {
+            return self.reading.fault(node, format!("`{first}` is no joint of this file"));
+        };
+        match second {
+            // A joint follows one other at most.
+            Some(joint2) if rest == [0.0; 3] && joint.mimic.is_none() => {
+                joint.mimic = Some(Mimic { at, joint: joint2, multiplier, offset });
+            }
+            of => self.description.polynomials.push(Polynomial { at, joint: first, of, coefficients }),
+        }
+    }
+
+    /// Springs and dampers along sums of coordinates.
+    pub fn tendons(&mut self, section: Node<'a, 'a>) {
+        for node in self.reading.elements(section) {
+            let tag = node.tag_name().name();
+            if tag != "fixed" {
+                self.ignored(node, "only tendons that are linear in joints are read");
+                continue;
+            }
+            let mut along = Vec::new();
+            for joint in self.reading.children(node, "joint") {
+                let name = self.reading.required(joint, "joint");
+                let factor = self.reading.required_number(joint, "coef");
+                along.extend(name.zip(factor));
+            }
+            let tags = &["tendon"];
+            let [stiffness, damping] = ["stiffness", "damping"]
+                .map(|name| self.numbers::<1>(node, tags, name, None).map_or(0.0, |[amount]| amount));
+            let written = self.list(node, tags, "springlength", None).unwrap_or_default();
+            let joints = &self.description.joints;
+            let reference =
+                |name: &String| joints.iter().find(|joint| joint.name == *name).map_or(0.0, |joint| joint.reference);
+            let at_rest: f64 = along.iter().map(|(name, factor)| factor * reference(name)).sum();
+            let rest = match written.as_slice() {
+                [] | [-1.0, ..] => at_rest,
+                [one] => *one,
+                [least, most, ..] => {
+                    if least != most {
+                        self.reading.ignored(node, "the spring of a tendon rests over a range: its middle counts");
+                    }
+                    (least + most) / 2.0
+                }
+            };
+            let name = self.reading.text(node, "name").map(str::to_owned);
+            let at = self.reading.at(node);
+            self.description.tendons.push(Tendon { name, at, along, stiffness, damping, rest });
+        }
+    }
+}

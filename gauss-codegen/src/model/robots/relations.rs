@@ -1,0 +1,92 @@
+//! What joins links beside the tree: points and rotations in common, coordinates that are polynomials of others.
+
+use super::clauses::Robot;
+use super::description::{Closure, Polynomial, Turn};
+use super::rotation::{Rotation, Triple};
+use crate::model::scene::clauses::{ConstraintClause, ConstraintKind};
+use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
+
+impl Robot<'_> {
+    /// Links that have a point in common, or a place; coordinates that others determine.
+    pub fn constraints(&self) -> Vec<ConstraintClause> {
+        let closures = self.description.closures.iter().flat_map(|closure| self.closure(closure).unwrap_or_default());
+        let polynomials = self.description.polynomials.iter().filter_map(|polynomial| self.polynomial(polynomial));
+        closures
+            .chain(polynomials)
+            .map(|expression| ConstraintClause {
+                kind: ConstraintKind::Position,
+                expression,
+                vector: false,
+                span: self.writer.span,
+            })
+            .collect()
+    }
+
+    fn closure(&self, closure: &Closure) -> Option<Vec<Expression>> {
+        let writer = self.writer;
+        let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
+        let [first, second] = [index(&closure.links[0])?, index(&closure.links[1])?];
+        let (other, turn) = match closure.turn {
+            Some(Turn::To(turn)) => ([0.0; 3], Some(turn)),
+            turn => {
+                let other = self.structure.opposite(self.description, [first, second], &closure.anchor);
+                (other, turn.map(|_| self.structure.turn_at_rest(self.description, [first, second])))
+            }
+        };
+        let [a, b] = [(first, &closure.anchor), (second, &other)].map(|(link, point)| {
+            let origin = writer.property(&self.links[link], Property::Position);
+            match writer.triple(point) {
+                Some(point) => {
+                    let rotation = writer.property(&self.links[link], Property::Rotation);
+                    writer.plus(origin, writer.times(rotation, point))
+                }
+                None => origin,
+            }
+        });
+        let mut all = vec![writer.binary(BinaryOperator::Subtract, a, b)];
+        if let Some(turn) = turn {
+            all.extend(self.axes_in_common([first, second], &turn));
+        }
+        Some(all)
+    }
+
+    /// Axes of two links are the same, those of the second turned back: three products that are zero where they are.
+    fn axes_in_common(&self, links: [usize; 2], turn: &[Triple; 3]) -> Vec<Expression> {
+        let writer = self.writer;
+        let along = |link: usize, axis: Triple| {
+            let rotation = writer.property(&self.links[link], Property::Rotation);
+            writer.times(rotation, writer.vector(axis.map(|c| writer.number(c))))
+        };
+        let product = |i: usize| {
+            let j = (i + 1) % 3;
+            // Axis i of the first, and what is its axis j while the turn holds, in the axes of the second.
+            let own: Triple = Rotation::none().matrix[i];
+            let other: Triple = std::array::from_fn(|k| turn[j][k]);
+            writer.call(FunctionName::Dot, vec![along(links[0], own), along(links[1], other)])
+        };
+        (0..3).map(product).collect()
+    }
+
+    /// q₁ − r₁ − Σ cₖ (q₂ − r₂)ᵏ.
+    fn polynomial(&self, polynomial: &Polynomial) -> Option<Expression> {
+        let writer = self.writer;
+        let from_reference = |name: &String| {
+            let joint = self.description.joints.iter().position(|joint| joint.name == *name)?;
+            let reference = self.description.joints[joint].reference;
+            self.values(joint, reference).into_iter().next()
+        };
+        let value = from_reference(&polynomial.joint)?;
+        let of = polynomial.of.as_ref().and_then(from_reference);
+        let [lowest, rest @ ..] = polynomial.coefficients;
+        let mut sum = writer.number(lowest);
+        let mut power = of.clone();
+        for coefficient in rest {
+            let Some(term) = power.take() else { break };
+            power = of.as_ref().map(|of| writer.times(term.clone(), of.clone()));
+            if coefficient != 0.0 {
+                sum = writer.plus(sum, writer.times(writer.number(coefficient), term));
+            }
+        }
+        Some(writer.binary(BinaryOperator::Subtract, value, sum))
+    }
+}

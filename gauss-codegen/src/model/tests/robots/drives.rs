@@ -1,0 +1,44 @@
+//! Inputs by transmissions: gears, rotors, interfaces.
+
+use super::{joint, link, mistakes, model, remarks, robot};
+use crate::model::ForceKind;
+
+fn geared(inside: &str) -> String {
+    robot(&(joint("elbow", "revolute", "base", "arm", "") + &link("arm") + inside))
+}
+
+const TRANSMISSION: &str = "<transmission name=\"t\"><joint name=\"elbow\"/><actuator name=\"motor 1\">\
+    <mechanicalReduction>50</mechanicalReduction><rotorInertia>1e-4</rotorInertia></actuator></transmission>";
+
+#[test]
+fn motors_behind_gears() {
+    let text = geared(TRANSMISSION);
+    let read = model(&text, ", inputs = actuators", "");
+    let inputs: Vec<_> = read.inputs.iter().map(|input| (input.ident.to_string(), input.field.clone())).collect();
+    assert_eq!(inputs, [("motor_1".to_owned(), Some("motor 1".to_owned()))]);
+    let ForceKind::Drive { rates } = &read.forces[0].kind else { panic!("no drive") };
+    assert_eq!(rates[0].0, "elbow");
+    // 50² · 1e-4.
+    assert_eq!(read.armatures.len(), 1);
+    let both = model(&text, ", armature(elbow = 2.0)", "");
+    assert_eq!((both.armatures.len(), both.inputs[0].ident.to_string()), (1, "elbow_effort".to_owned()));
+    let told = remarks(&text, "");
+    assert!(told[0].0.starts_with("5:1: the input of `motor 1` is the effort of its joint"), "{told:?}");
+    assert!(remarks(&text, ", inputs = actuators").iter().all(|(text, _)| text.contains("is called")));
+}
+
+#[test]
+fn what_transmissions_say_besides() {
+    let velocity = "<transmission name=\"t\"><joint name=\"elbow\"><hardwareInterface>VelocityJointInterface\
+        </hardwareInterface></joint></transmission>";
+    let told = remarks(&geared(velocity), "");
+    assert_eq!(told, [("5:44: `VelocityJointInterface` is no effort: the input of `elbow` is".to_owned(), false)]);
+    let several = TRANSMISSION.replace("<actuator", "<joint name=\"elbow\"/><actuator");
+    let told = remarks(&geared(&several), "");
+    assert!(told[0].1 && told[0].0.contains("joins several"), "{told:?}");
+    let unknown = TRANSMISSION.replace("joint name=\"elbow\"", "joint name=\"elbw\"");
+    let text = "5:1: the transmission `motor 1` drives `elbw`, which is no joint; did you mean `elbow`?";
+    assert_eq!(remarks(&geared(&unknown), ""), [(text.to_owned(), true)]);
+    let broken = TRANSMISSION.replace(">50<", ">fifty<");
+    assert_eq!(mistakes(&geared(&broken), "", ""), ["5:70: <mechanicalReduction>: expected a number, found `fifty`"]);
+}

@@ -1,0 +1,157 @@
+//! MJCF: what is read, what is told, what is refused.
+
+use super::{Scratch, read};
+use crate::model::{ConstraintKind, ForceKind, Model, ValueOfState};
+
+const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
+
+/// What is reported of a file with this inside its body: mistakes, or remarks.
+fn reported(inside: &str, clauses: &str) -> Vec<String> {
+    let text = format!("<mujoco>\n<worldbody><body name=\"arm\">{INERTIAL}\n{inside}\n</mujoco>");
+    let file = Scratch::called(&text, "xml");
+    let place = format!("{}:", file.0.to_string_lossy());
+    let texts: Vec<String> = match read(&file.of(clauses, "")) {
+        Ok(model) => model.described.expect("a file").remarks.into_iter().map(|remark| remark.text).collect(),
+        Err(error) => error.into_iter().map(|mistake| mistake.to_string()).collect(),
+    };
+    texts.into_iter().map(|text| text.replace(&place, "")).collect()
+}
+
+#[test]
+fn what_is_told_and_refused() {
+    let hinge = "<joint name=\"hinge\"/></body></worldbody>";
+    let cases = [
+        (hinge.to_owned(), "", None),
+        (format!("{hinge}<deformable/>"), "", Some("3:41: <deformable> is not read")),
+        (format!("{hinge}<contact><pair geom1=\"a\"/></contact>"), "", Some("3:50: <pair> is not read")),
+        (
+            format!("{hinge}<tendon><spatial name=\"s\"/></tendon>"),
+            "",
+            Some("3:49: <spatial name=\"s\"> does not act: only tendons that are linear in joints are read"),
+        ),
+        (
+            "<site name=\"arm\"/><joint type=\"ball\" armature=\"1\"/></body></worldbody>".to_owned(),
+            "",
+            Some("3:19: `armature` of <joint> does not act: it has not one coordinate"),
+        ),
+        (
+            format!("{hinge}<actuator><position joint=\"hinge\"/></actuator>"),
+            "",
+            Some(
+                "3:51: the input of `hinge` is the effort of its joint: gears and gains are left to it; \
+                 `inputs = actuators` has them",
+            ),
+        ),
+        (
+            format!("{hinge}<actuator><motor joint=\"hing\"/></actuator>"),
+            "",
+            Some("3:51: `hing` drives `hing`, which is no joint; did you mean `hinge`?"),
+        ),
+        (
+            "<joint type=\"hing\"/></body></worldbody>".to_owned(),
+            "",
+            Some("3:1: <joint>: a joint is free, ball, slide or hinge, found `hing`"),
+        ),
+        (
+            "<joint axis=\"0 0 0\"/></body></worldbody>".to_owned(),
+            "",
+            Some("3:1: <joint>: its axis is zero and has no direction"),
+        ),
+        (
+            "<freejoint/></body></worldbody>".to_owned(),
+            ", base = floating",
+            Some("an MJCF file says by <freejoint/> what moves freely; remove `base`"),
+        ),
+        (
+            format!("{hinge}<equality><weld site1=\"arm\"/></equality>"),
+            "",
+            Some("3:51: <weld> does not act: it joins no two bodies or joints"),
+        ),
+        (
+            "<joint/><body><geom type=\"mesh\"/><joint/></body></body></worldbody>".to_owned(),
+            "",
+            Some(
+                "3:9: the link `body_2` moves, and neither it nor what hangs on it has an <inertial>; add one, \
+                 or fix its joint",
+            ),
+        ),
+    ];
+    for (inside, clauses, expected) in cases {
+        assert_eq!(reported(&inside, clauses), expected.into_iter().collect::<Vec<_>>(), "{inside}");
+    }
+}
+
+fn model(inside: &str, clauses: &str) -> Model {
+    let text = format!("<mujoco>\n<worldbody><body name=\"arm\">{INERTIAL}\n{inside}\n</mujoco>");
+    read(&Scratch::called(&text, "xml").of(clauses, "")).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+const TWO: &str = "<joint name=\"a\"/><joint name=\"b\" type=\"slide\"/></body></worldbody>";
+
+/// A tendon is a spring along a sum; actuators act along joints and tendons, with gains and biases.
+#[test]
+fn tendons_and_actuators() {
+    let rest = format!(
+        "{TWO}<tendon><fixed name=\"t\" stiffness=\"2\"><joint joint=\"a\" coef=\"1\"/><joint joint=\"b\" coef=\"-3\"/>\
+         </fixed></tendon><actuator><position name=\"p\" tendon=\"t\" kp=\"5\"/><motor joint=\"b\" gear=\"7\"/>\
+         <general name=\"m\" joint=\"a\" dyntype=\"integrator\"/></actuator>"
+    );
+    let read = model(&rest, ", inputs = actuators");
+    let inputs: Vec<String> = read.inputs.iter().map(|input| input.ident.to_string()).collect();
+    assert_eq!(inputs, ["p", "b_control"]);
+    let ForceKind::Drive { rates } = &read.forces[0].kind else { panic!("no drive") };
+    assert_eq!(rates.iter().map(|(q, _)| q.to_string()).collect::<Vec<_>>(), ["a", "b"]);
+    assert!(read.forces.iter().any(|force| matches!(force.kind, ForceKind::Spring { .. })));
+    let ignored: Vec<String> =
+        read.described.unwrap().remarks.into_iter().filter(|remark| remark.ignored).map(|remark| remark.text).collect();
+    assert!(ignored[0].ends_with("it is not linear in its control, or has a state of its own"), "{ignored:?}");
+    assert_eq!(ignored.len(), 1);
+    assert_eq!(model(&rest, "").inputs.len(), 2);
+}
+
+#[test]
+fn equalities() {
+    let linear = model(&format!("{TWO}<equality><joint joint1=\"a\" joint2=\"b\"/></equality>"), "");
+    assert_eq!((linear.coordinates.len(), linear.constraints.len()), (1, 0));
+    let squared = "<equality><joint joint1=\"a\" joint2=\"b\" polycoef=\"0 1 2\"/></equality>";
+    assert_eq!(reported(&format!("{TWO}{squared}"), ""), ["3:116: <joint>: `polycoef` is 5 numbers, found `0 1 2`"]);
+    let squared = squared.replace("0 1 2", "0 1 2 0 0");
+    let curved = model(&format!("{TWO}{squared}"), "");
+    assert_eq!((curved.coordinates.len(), curved.constraints.len()), (2, 1));
+    let held = model(&format!("{TWO}<equality><joint joint1=\"a\"/></equality>"), "");
+    assert_eq!(held.constraints.len(), 1);
+    let welded = model(&format!("{TWO}<equality><weld body1=\"arm\"/></equality>"), "");
+    assert_eq!(welded.constraints.len(), 4);
+    assert!(welded.constraints.iter().all(|constraint| constraint.kind == ConstraintKind::Position));
+}
+
+/// The place of a free body, references of joints, and keyframes.
+#[test]
+fn states_with_names() {
+    let states = |inside: &str| model(inside, "").described.unwrap().states;
+    assert!(states(TWO).is_empty());
+    let rest = TWO.replace("name=\"a\"", "name=\"a\" ref=\"90\"");
+    let keys = "<keyframe><key name=\"home pose\" qpos=\"0.1 0.2\" qvel=\"3 4\"/><key qpos=\"5 6\"/></keyframe>";
+    let found = states(&format!("{rest}{keys}"));
+    let names: Vec<String> = found.iter().map(|state| state.name.to_string()).collect();
+    assert_eq!(names, ["start", "home_pose", "key_1"]);
+    let values = |index: usize| -> Vec<(String, f64)> {
+        let scalar = |value: &ValueOfState| if let ValueOfState::Scalar(value) = value { *value } else { f64::NAN };
+        found[index].values.iter().map(|(name, value)| (name.to_string(), scalar(value))).collect()
+    };
+    assert_eq!(values(0), [("a".to_owned(), std::f64::consts::FRAC_PI_2), ("b".to_owned(), 0.0)]);
+    let home = [("a", 0.1), ("a_dot", 3.0), ("b", 0.2), ("b_dot", 4.0)];
+    assert_eq!(values(1), home.map(|(name, value)| (name.to_owned(), value)));
+    let short = format!("{TWO}<keyframe><key qpos=\"1\"/></keyframe>");
+    assert_eq!(reported(&short, ""), ["3:77: <key>: `qpos` is 2 numbers in this file, found 1"]);
+}
+
+/// Bodies without `<inertial>` weigh what their geoms do; frames place what is in them.
+#[test]
+fn masses_of_geoms() {
+    let inside = "<frame pos=\"0 0 1\"><body name=\"ball\"><joint/><geom size=\"0.1\" density=\"500\"/>\
+                  <geom type=\"box\" size=\"1 1 1\" mass=\"2\"/></body></frame></body></worldbody>";
+    let read = model(inside, "");
+    let ball = read.bodies.iter().find(|body| body.name.as_ref().is_some_and(|name| name == "ball")).unwrap();
+    assert!(!ball.massless && ball.position.is_some());
+}
