@@ -1,8 +1,8 @@
 """MJCF files beside MuJoCo: `python mjcf_files.py [WORD…]`, WORD a part of a path as in robots.py.
 
-Models of dm_control (its suite), gymnasium and pybullet, most of them without <inertial>: masses come from the geoms. At
-random states the mass matrix and inverse dynamics with springs, dampers and armature are compared; contacts, limits, dry
-friction and the surrounding fluid act in neither.
+Models of dm_control (its suite), gymnasium and pybullet (requirements-robots.txt), most of them without <inertial>:
+masses come from the geoms. At random states the mass matrix and inverse dynamics with springs, dampers and armature are
+compared; contacts, limits, dry friction and the surrounding fluid act in neither.
 """
 
 import sys
@@ -12,8 +12,17 @@ import numpy as np
 from robots import EPSILON, MOST, SITE, Comparison, Ours
 
 FOLDERS = ["dm_control/suite", "dm_control/third_party", "gymnasium/envs/mujoco/assets", "pybullet_data/mjcf"]
+# What is read without something that counts, and says so.
+NAMED = {
+    "cheetah": "`settotalmass` is not read",
+    "half_cheetah": "`settotalmass` is not read",
+    "dog": "masses of meshes are not read",
+    "jaco_arm": "masses of meshes are not read",
+    "jaco_hand": "masses of meshes are not read",
+    "striker": "armature of a free joint is not read",
+}
 STATES = 6
-FREE, BALL = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL
+FREE, BALL = int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtJoint.mjJNT_BALL)
 
 
 def unit(random):
@@ -22,7 +31,7 @@ def unit(random):
 
 
 class State:
-    """Of every joint its coordinates, x y z w first of rotations; those of rotations and poses stand before all others."""
+    """Of every joint its coordinates, of rotations x y z w; rotations and poses stand before all others."""
 
     def __init__(self, model, random):
         self.model, self.speeds, self.rates = model, random.normal(size=model.nv), random.normal(size=model.nv)
@@ -57,6 +66,8 @@ class State:
 
 
 def study(file):
+    if file.stem in NAMED:
+        return f"left out: {NAMED[file.stem]}"
     try:
         model = mujoco.MjModel.from_xml_path(str(file))
     except ValueError as error:

@@ -11,7 +11,7 @@ import resource
 import subprocess
 import sys
 
-from robots import GRAVITY, READER, ROOT, Robot, called, files
+from robots import GRAVITY, READER, ROOT, WAIVE, Robot, called, files
 
 NAMES = ["ur5_robot", "kuka_iiwa/model.urdf", "xarm7", "go2", "anymal_c", "g1_29dof_rev", "talos_full_v2.urdf"]
 FOLDER = ROOT / "target/peers/robots"
@@ -90,7 +90,7 @@ def build():
 def measure(file):
     robot = Robot(file)
     source = FOLDER / "src/robot.rs"
-    clauses = [f"gravity={GRAVITY}", "joint_friction=none", "limits=none", "limit=5000000"]
+    clauses = [f"gravity={GRAVITY}", "joint_friction=none", "limits=none", "limit=5000000", WAIVE]
     clauses += [f"base={'floating' if robot.floating else 'fixed'}"]
     subprocess.run([READER, file, *clauses, "--write", source], check=True, stdout=subprocess.DEVNULL)
     name = re.search(r"pub struct (\w+);", source.read_text())[1]
