@@ -36,6 +36,10 @@ fuzz:
     mkdir -p fuzz/corpus
     cargo +nightly fuzz run -s none derive fuzz/corpus fuzz/seeds -- -max_len=8192 -timeout=60 -rss_limit_mb=2048
 
+# The guide as pages: `cargo install mdbook mdbook-katex` once.
+guide:
+    mdbook build guide
+
 # How long a derive takes with an unoptimised macro.
 expansion:
     cargo run --profile unoptimised --example expansion_time

@@ -1,6 +1,8 @@
 //! A rattleback: spun one way it goes on, spun the other way it rattles, stops and turns back: `cargo run --release --example
 //! rattleback`.
 
+use gauss_examples::plots::write_page;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 /// An ellipsoid of half-axes `a` that rolls on the plane z = 0, O in its centre, e₃ up at rest.
@@ -46,7 +48,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // product of inertia turns the principal axes against those of the ellipsoid.
     let inertia = Matrix3::new(3e-4, 2e-5, 0.0, 2e-5, 1.7e-3, 0.0, 0.0, 0.0, 1.7e-3);
     let stone = RigidBody { mass: 1.0, center_of_mass: Vector3::new(0.0, 0.0, -0.01), inertia };
-    let rattleback = Rattleback { stone, a: Vector3::new(0.2, 0.03, 0.02), g: 9.81 }.kernel()?;
+    let a = Vector3::new(0.2, 0.03, 0.02);
+    let rattleback = Rattleback { stone, a, g: 9.81 }.kernel()?;
 
     // A hand does not set it down perfectly flat.
     let tilted = UnitQuaternion::from_euler_angles(0.009, 0.009, 0.0);
@@ -74,5 +77,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         friction(&along)
     );
     println!("{}", monitor(&rattleback, &against));
-    Ok(())
+    let pose = |s: &Sample<RattlebackKernel>| {
+        let up = s.q.0.inverse() * Vector3::z();
+        let height = a.component_mul(&up).norm();
+        Isometry3::from_parts(Translation3::new(s.q.1[0], s.q.1[1], height), s.q.0)
+    };
+    let page = Playback::new("A rattleback, spun against its way", &against)?
+        .body("stone", pose, [Shape::ellipsoid(a.into())])
+        .trace("stone", [0.2, 0.0, 0.0])
+        .curve("spin about the vertical / (rad/s)", "ω̂₃", vertical)
+        .energy(&rattleback);
+    write_page("rattleback", &page)
 }

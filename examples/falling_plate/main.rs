@@ -8,7 +8,7 @@ mod scene;
 
 use std::f64::consts::PI;
 
-use gauss_examples::plots::write;
+use gauss_examples::plots::{write, write_page};
 use gauss_runtime::prelude::*;
 
 use scene::{FLUTTERING, IdealPlate, IdealPlateKernel, Plate, PlateKernel, THICKNESS, TUMBLING, places, released};
@@ -36,7 +36,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     in_an_ideal_fluid(&ideal, &kernel, &sinking);
 
     let svg = picture::draw(&sinking, &flutter, &tumble)?;
-    write("falling_plate", &svg)
+    write("falling_plate", &svg)?;
+    write_page("falling_plate", &picture::page(&tumbling, &tumble)?)
 }
 
 fn fall(kernel: &PlateKernel) -> Result<Trajectory<'_, PlateKernel>, IntegrationError> {

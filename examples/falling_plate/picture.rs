@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use gauss_examples::figure::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, mosaic};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 use plotters::style::RGBColor;
 
@@ -90,4 +91,14 @@ fn fall(
     }
     let (x, y) = (("sideways, a", ends(0)), ("height, a", ends(1)));
     Plot { title, x, y, equal: true, lines, marks: Vec::new() }
+}
+
+/// The plate that tumbles, as a page.
+pub fn page(kernel: &PlateKernel, path: &Trajectory<PlateKernel>) -> Result<Playback<PlateKernel>, Box<dyn Error>> {
+    let page = Playback::new("A plate that tumbles", path)?
+        .up([0.0, 1.0, 0.0])
+        .body("plate", |s| kernel.pose(s.t, &s.q), [Shape::elliptic_cylinder([1.0, 1.0 / 14.0], 2.0)])
+        .follow("plate")
+        .trace("plate", [0.0; 3]);
+    Ok(page.energy(kernel))
 }

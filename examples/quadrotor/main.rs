@@ -95,5 +95,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         count.additions, count.multiplications, count.transcendentals
     );
 
-    plots::write("quadrotor", &picture::draw(&craft, &kernel, &path, control)?)
+    plots::write("quadrotor", &picture::draw(&craft, &kernel, &path, control)?)?;
+    plots::write_page("quadrotor", &picture::page(&craft, &kernel, &path, control)?)
 }

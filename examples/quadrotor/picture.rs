@@ -4,6 +4,7 @@ use std::error::Error;
 
 use gauss_examples::figure::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 use plotters::style::RGBColor;
 
@@ -91,4 +92,38 @@ pub fn draw(
         marks: vec![],
     };
     sheet("A Crazyflie flies eights and meets a gust", (1700, 1300), &[vec![above, distance], vec![rotors, power]])
+}
+
+/// The flight as a page: lift of each rotor as an arrow, and the rotors' speeds below.
+pub fn page(
+    craft: &Quadrotor,
+    kernel: &QuadrotorKernel,
+    path: &Trajectory<QuadrotorKernel>,
+    control: impl Fn(f64, &Isometry3<f64>, &SVector<f64, 6>) -> SVector<f64, 4>,
+) -> Result<Playback<QuadrotorKernel>, Box<dyn Error>> {
+    let a = craft.a;
+    let hubs = [[a, -a], [-a, -a], [-a, a], [a, a]].map(|[x, y]| Vector3::new(x, y, 0.0));
+    let names = ["front right", "back right", "back left", "front left"];
+    let arms = [0, 1].map(|k| Shape::rod(hubs[k].into(), hubs[k + 2].into(), 0.08 * a).colour("#44494f"));
+    let rotor =
+        |hub: &Vector3<f64>| Shape::cylinder(0.6 * a, 0.05 * a).at(&Isometry3::translation(hub.x, hub.y, 0.1 * a));
+    let shapes = arms.into_iter().chain(hubs.iter().map(rotor)).chain([Shape::cuboid([0.7 * a, 0.7 * a, 0.3 * a])]);
+    let mut page = Playback::new("A quadrotor in a gust", path)?
+        .body("craft", |s| kernel.pose(s.t, &s.q), shapes)
+        .follow("craft")
+        .trace("craft", [0.0; 3]);
+    for (k, (name, hub)) in names.into_iter().zip(hubs).enumerate() {
+        let speed = |s: &Sample<QuadrotorKernel>| control(s.t, &s.q, &s.z)[k];
+        // As long as the arms at hover.
+        let scale = 4.0 * 1.5 * a / (craft.mass * craft.g);
+        page = page
+            .arrow(name, scale, |s| {
+                (
+                    s.q.translation.vector + s.q.rotation * hub,
+                    s.q.rotation * Vector3::z() * (craft.k * speed(s).powi(2)),
+                )
+            })
+            .curve("rotors / (rad/s)", name, speed);
+    }
+    Ok(page)
 }

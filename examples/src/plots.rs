@@ -5,6 +5,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+use gauss_playback::Playback;
+use gauss_runtime::system::GaussSystem;
 use plotters::prelude::*;
 
 use crate::figure::{Area, INK, PALE, png, text_style};
@@ -224,7 +226,7 @@ fn picture(
 /// # Errors
 /// When a file cannot be written, or the text is no SVG.
 pub fn write(name: &str, svg: &str) -> Result<(), Box<dyn Error>> {
-    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
+    let folder = folder();
     fs::create_dir_all(&folder)?;
     let put = |ending: &str, contents: &[u8]| {
         let file = Path::new(&folder).join(format!("{name}.{ending}"));
@@ -235,4 +237,19 @@ pub fn write(name: &str, svg: &str) -> Result<(), Box<dyn Error>> {
     put("svg", svg.as_bytes())?;
     put("png", &png(svg)?)?;
     Ok(())
+}
+
+/// Writes `NAME.html`, the motion as a page that plays, beside the pictures.
+///
+/// # Errors
+/// What the page says is wrong, or when the file cannot be written.
+pub fn write_page<S: GaussSystem<Scalar = f64>>(name: &str, page: &Playback<S>) -> Result<(), Box<dyn Error>> {
+    let file = folder().join(format!("{name}.html"));
+    page.write(&file)?;
+    println!("written: {}", file.display());
+    Ok(())
+}
+
+fn folder() -> PathBuf {
+    env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from)
 }

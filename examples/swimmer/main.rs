@@ -6,7 +6,8 @@ use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use gauss_examples::figure::{COLOURS, INK};
-use gauss_examples::plots::{Line, Plot, sheet, write};
+use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 mod fish;
@@ -40,7 +41,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     let nowhere = swim(&idle, 1)?;
     let left = nowhere[nowhere.len() - 1].q.translation.vector.norm();
     println!("without a lag   the scallop: {left:.1e}");
-    write("swimmer", &draw(&fish, &path)?)
+    write("swimmer", &draw(&fish, &path)?)?;
+    let mut page = Playback::of_samples("A fish in a perfect fluid", path).from_above();
+    for (k, name) in ["head", "middle", "tail"].into_iter().enumerate() {
+        let flat = |pose: Isometry2<f64>| {
+            let [x, y]: [f64; 2] = pose.translation.vector.into();
+            Isometry3::new(Vector3::new(x, y, 0.0), Vector3::z() * pose.rotation.angle())
+        };
+        let shape = Shape::elliptic_cylinder([LONG, SHORT], 0.3);
+        page = page.body(name, |s| flat(fish.poses(s.t, &s.q)[k]), [shape]);
+    }
+    write_page("swimmer", &page.trace("middle", [0.0; 3]).energy(&kernel))
 }
 
 /// States that are kept of a stroke.

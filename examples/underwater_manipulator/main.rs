@@ -6,13 +6,14 @@
 use std::error::Error;
 
 use gauss_examples::figure::{COLOURS, PALE};
-use gauss_examples::plots::{Line, Plot, sheet, write};
+use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 mod by_hand;
 mod vehicle;
 
-use vehicle::{LINK, Place, Speeds, Vehicle, VehicleKernel, reach};
+use vehicle::{LINK, Place, SHOULDER, Speeds, Vehicle, VehicleKernel, reach};
 
 /// m/s to the east.
 const CURRENT: f64 = 0.2;
@@ -66,7 +67,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         most(&dry)
     );
     let svg = draw(&wet, &dry, &hand)?;
-    write("underwater_manipulator", &svg)
+    write("underwater_manipulator", &svg)?;
+    write_page("underwater_manipulator", &page(wet, &kernel))
 }
 
 /// The states at every tenth of a second, while the arm reaches out.
@@ -172,4 +174,24 @@ fn draw(
     let yaw = pair("the hull yaws as the arm swings out", "yaw, °", &|s| angles(s).2.to_degrees());
     let pitch = pair("and pitches as the elbow bends", "pitch, °", &|s| angles(s).1.to_degrees());
     sheet("A vehicle with an arm of two joints in a current", (1600, 1280), &[vec![plan, yaw], vec![pitch, check]])
+}
+
+/// Hull and arm in the current, as a page; k₃ points down.
+fn page(path: Vec<Sample<VehicleKernel>>, kernel: &VehicleKernel) -> Playback<VehicleKernel> {
+    let turret = |s: &Sample<VehicleKernel>| {
+        let (hull, joints) = &s.q;
+        hull * Isometry3::new(SHOULDER.into(), Vector3::z() * joints[0])
+    };
+    let fore = |s: &Sample<VehicleKernel>| turret(s) * Isometry3::new(Vector3::x() * LINK, Vector3::y() * s.q.1[1]);
+    let link = || [Shape::rod([0.0; 3], [LINK, 0.0, 0.0], 0.03)];
+    Playback::of_samples("A vehicle with an arm in a current", path)
+        .up([0.0, 0.0, -1.0])
+        .body("hull", |s| s.q.0, [Shape::cuboid([0.46, 0.34, 0.25])])
+        .body("upper arm", turret, link())
+        .body("forearm", fore, link())
+        .follow("hull")
+        .trace("forearm", [LINK, 0.0, 0.0])
+        .curve("joints / rad", "shoulder", |s| s.q.1[0])
+        .curve("joints / rad", "elbow", |s| s.q.1[1])
+        .energy(kernel)
 }

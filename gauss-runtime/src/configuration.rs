@@ -16,7 +16,7 @@ use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
 use crate::lie::{carried, se2, se3, so3};
 use crate::real::Real;
-use crate::triple::{norm, quaternion, rotate, rotate_back, triple, unit_quaternion};
+use crate::triple::{lengths, norm, quaternion, rotate, rotate_back, triple, unit_quaternion};
 
 pub(crate) use crate::vector_space::add_carrying;
 pub use crate::vector_space::{Product, VectorSpace};
@@ -136,6 +136,12 @@ pub trait Configuration: Copy + Debug {
     /// The size against which an error in component `i` of an increment is relative: 1 for rotations, the distance from
     /// the origin for translations, the value itself for a plain coordinate. The largest over the lanes.
     fn magnitude(&self, i: usize) -> f64;
+
+    /// [`magnitude`](Self::magnitude) of every lane by itself. Where it is not written it is the largest one in all of them.
+    #[inline]
+    fn magnitudes(&self, i: usize) -> Self::Scalar {
+        Self::Scalar::from_f64(self.magnitude(i))
+    }
 }
 
 impl<T: Real> Configuration for UnitQuaternion<T> {
@@ -222,6 +228,11 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
     #[inline]
     fn magnitude(&self, _: usize) -> f64 {
         1.0
+    }
+
+    #[inline(always)]
+    fn magnitudes(&self, _: usize) -> T {
+        T::one()
     }
 }
 
@@ -315,6 +326,11 @@ impl<T: Real> Configuration for Isometry3<T> {
     #[inline]
     fn magnitude(&self, i: usize) -> f64 {
         if i < 3 { norm(&self.translation.vector.data.0[0]) } else { 1.0 }
+    }
+
+    #[inline(always)]
+    fn magnitudes(&self, i: usize) -> T {
+        if i < 3 { lengths(&self.translation.vector.data.0[0]) } else { T::one() }
     }
 }
 
@@ -411,6 +427,11 @@ impl<T: Real> Configuration for Isometry2<T> {
     fn magnitude(&self, i: usize) -> f64 {
         if i < 2 { norm(&self.translation.vector.data.0[0]) } else { 1.0 }
     }
+
+    #[inline(always)]
+    fn magnitudes(&self, i: usize) -> T {
+        if i < 2 { lengths(&self.translation.vector.data.0[0]) } else { T::one() }
+    }
 }
 
 impl<T: Real, const N: usize> Configuration for SVector<T, N> {
@@ -478,6 +499,11 @@ impl<T: Real, const N: usize> Configuration for SVector<T, N> {
     #[inline]
     fn magnitude(&self, i: usize) -> f64 {
         norm(&self.data.0[0][i..=i])
+    }
+
+    #[inline(always)]
+    fn magnitudes(&self, i: usize) -> T {
+        self.data.0[0][i].abs()
     }
 }
 
@@ -569,5 +595,11 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
     fn magnitude(&self, i: usize) -> f64 {
         let split = <A::Tangent as VectorSpace<A::Scalar>>::DIM;
         if i < split { self.0.magnitude(i) } else { self.1.magnitude(i - split) }
+    }
+
+    #[inline(always)]
+    fn magnitudes(&self, i: usize) -> A::Scalar {
+        let split = <A::Tangent as VectorSpace<A::Scalar>>::DIM;
+        if i < split { self.0.magnitudes(i) } else { self.1.magnitudes(i - split) }
     }
 }

@@ -95,3 +95,9 @@ pub(crate) fn norm<T: Real>(components: &[T]) -> f64 {
     }
     Real::sqrt(largest)
 }
+
+/// Euclidean norm of the value parts, lane by lane.
+#[inline(always)]
+pub(crate) fn lengths<T: Real>(components: &[T]) -> T {
+    components.iter().fold(T::zero(), |sum, &c| sum + c * c).sqrt()
+}

@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 
 use common::body::Scene;
 use gauss_runtime::prelude::*;
+use gauss_tests::pages::keep;
 
 macro_rules! charts {
     ($($module:ident: { $($role:ident $field:ident: $type:ty),+ })+) => {$(
@@ -174,9 +175,6 @@ fn what_is_absent_costs_nothing() {
     assert_eq!((hybrid.acceleration.additions, hybrid.acceleration.multiplications), (0, 6));
 }
 
-const BEGIN: &str = "<!-- operations:begin -->";
-const END: &str = "<!-- operations:end -->";
-
 /// The section of BENCHMARKS.md between the markers: additions + multiplications of each method, and what two of them lose.
 fn table() -> String {
     let mut out = String::from(
@@ -200,30 +198,36 @@ fn table() -> String {
     out
 }
 
-/// With `UPDATE_BENCHMARKS=1` the section is rewritten.
 #[test]
 fn benchmarks_shows_the_counts() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../BENCHMARKS.md");
-    let table = table();
-    let wanted = format!("{BEGIN}\n{table}{END}");
-    let page = std::fs::read_to_string(path).unwrap_or_default();
-    let section = page.find(BEGIN).and_then(|start| {
-        let end = page[start..].find(END)? + start + END.len();
-        Some(start..end)
-    });
-    let Some(section) = section else {
-        panic!("BENCHMARKS.md has no section for operation counts; paste this where it belongs:\n\n{wanted}\n");
-    };
-    if page[section.clone()] == wanted {
-        return;
+    keep("BENCHMARKS.md", "operations", &table());
+}
+
+/// The section of the README: what the same body costs in each chart, and what else there is to it.
+#[test]
+fn readme_shows_what_charts_cost() {
+    const SHOWN: [&str; 3] =
+        ["principal axes", "full inertia, centre of mass off O, gravity", "principal axes, full added mass"];
+    const CONSEQUENCES: [[&str; 2]; 4] = [
+        ["u, ω in body axes", "the mass matrix is constant"],
+        ["ξ, ω̂ about Ω", "without forces momenta are kept to the last bit"],
+        ["ḃ, ω", "a weight costs nothing; far from Ω all digits stay"],
+        ["ḃ, ψ̇ θ̇ φ̇", "singular at a pitch of 90°, which is a typed error"],
+    ];
+    let scenes = scenes();
+    let mut out = String::from(
+        "| chart | z | at G | off G, weight | added mass 6×6 | |\n\
+         |---|---|---|---|---|---|\n",
+    );
+    for (n, (chart, [speeds, consequence])) in CHARTS.iter().zip(CONSEQUENCES).enumerate() {
+        write!(out, "| `{chart}` | {speeds} |").expect("a string");
+        for name in SHOWN {
+            let scene = scenes.iter().find(|scene| scene.name == name).expect(name);
+            let count = scene.charts[n].acceleration;
+            write!(out, " {} + {} |", count.additions, count.multiplications).expect("a string");
+        }
+        writeln!(out, " {consequence} |").expect("a string");
     }
-    if std::env::var("UPDATE_BENCHMARKS").is_ok_and(|value| value == "1") {
-        let mut updated = page.clone();
-        updated.replace_range(section, &wanted);
-        std::fs::write(path, updated).expect("BENCHMARKS.md can be written");
-    } else {
-        panic!(
-            "the operation counts in BENCHMARKS.md are out of date; run this test with UPDATE_BENCHMARKS=1, or paste:\n\n{wanted}\n"
-        );
-    }
+    out += "| own: `speeds`, `kinematics` | yours | | | | what they solve costs no multiplier |\n";
+    keep("README.md", "charts", &out);
 }

@@ -5,6 +5,7 @@
 use std::fmt::Write as _;
 
 use gauss_runtime::prelude::{OperationCount, Operations};
+use gauss_tests::pages::keep;
 
 /// The same body with the same clauses in four charts.
 macro_rules! in_charts {
@@ -151,9 +152,6 @@ fn a_component_in_its_own_axes_is_one_sum_and_one_product() {
     assert_eq!(n - m, 6);
 }
 
-const BEGIN: &str = "<!-- specialisation:begin -->";
-const END: &str = "<!-- specialisation:end -->";
-
 /// The section of BENCHMARKS.md between the markers: additions + multiplications of `acceleration`, and what else there is.
 fn table() -> String {
     let mut out = String::from("| what acts |");
@@ -174,21 +172,33 @@ fn table() -> String {
     out
 }
 
-/// With `UPDATE_BENCHMARKS=1` the section is rewritten.
 #[test]
 fn benchmarks_shows_what_elements_cost() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../BENCHMARKS.md");
-    let page = std::fs::read_to_string(path).expect("BENCHMARKS.md is there");
-    let wanted = format!("{BEGIN}\n{}{END}", table());
-    let start = page.find(BEGIN).expect("BENCHMARKS.md has the section");
-    let end = start + page[start..].find(END).expect("the section ends") + END.len();
-    if page[start..end] == wanted {
-        return;
+    keep("BENCHMARKS.md", "specialisation", &table());
+}
+
+/// The section of the README: what some of them add, in body axes and in Euler angles.
+#[test]
+fn readme_shows_what_elements_add() {
+    const SHOWN: [[&str; 3]; 5] = [
+        ["weight", "role `gravity`", "weight"],
+        ["a spring to a point of the body", "`spring`", "a spring from Ω to a point of the body"],
+        ["drag, six coefficients", "`drag`", "quadratic drag, diagonal"],
+        ["a thruster at a point of the body", "`input`, `force`", "the same at a point of the body"],
+        ["added mass, six numbers", "role `added_mass`", "added mass, diagonal"],
+    ];
+    let scenes = scenes();
+    let mut out = String::from("| what acts | by | body axes | Euler angles |\n|---|---|---|---|\n");
+    for [shown, by, name] in SHOWN {
+        let scene = scenes.iter().find(|scene| scene.name == name).expect(name);
+        let [left, jet] = [0, 3].map(|chart: usize| {
+            let (more, bare) = (scene.charts[chart].acceleration, scenes[0].charts[chart].acceleration);
+            let root = " √".repeat((more.roots - bare.roots) as usize);
+            let division = " ÷".repeat((more.divisions - bare.divisions) as usize);
+            let (sums, products) = (more.additions - bare.additions, more.multiplications - bare.multiplications);
+            format!("{sums} + {products}{division}{root}")
+        });
+        writeln!(out, "| {shown} | {by} | {left} | {jet} |").expect("a string");
     }
-    if std::env::var("UPDATE_BENCHMARKS").is_ok_and(|value| value == "1") {
-        let updated = format!("{}{wanted}{}", &page[..start], &page[end..]);
-        std::fs::write(path, updated).expect("BENCHMARKS.md can be written");
-    } else {
-        panic!("BENCHMARKS.md is out of date; run this test with UPDATE_BENCHMARKS=1, or paste:\n\n{wanted}\n");
-    }
+    keep("README.md", "acting", &out);
 }

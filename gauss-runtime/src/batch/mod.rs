@@ -1,8 +1,8 @@
 //! Many states of one scene at once: lanes times threads.
 //!
 //! A kernel whose scalar is a pack ([`simd`](crate::simd)) works on several states for about the price of one. [`States`] holds any
-//! number of states in blocks of that width, and a [`Batch`] works through the blocks: accelerations, or runs of fixed steps by any
-//! [`OneStep`], on one thread or, with the feature `rayon`, on all.
+//! number of states in blocks of that width, and a [`Batch`] works through the blocks: accelerations, runs of fixed steps by any
+//! [`OneStep`], or runs whose steps are chosen, with events ([`Ensemble`]), on one thread or, with the feature `rayon`, on all.
 //!
 //! The struct that the kernel is derived from is generic in its scalar, `struct Body<T>`. Where all states have the same
 //! parameters, these are numbers repeated in every lane; a sweep over parameters gives each state its own, a kernel for every
@@ -63,10 +63,15 @@ assert_eq!(accelerations.len(), 1000);
 //! other lanes: iterations of implicit methods end when all lanes are solved, and increments of more than half a radian, in the same
 //! step as smaller ones, take another formula for the same number; both differ by rounding.
 //!
+//! **Steps of their own.** In an [`Ensemble`] every run takes the steps that it would take alone: the trials, errors and lengths of a
+//! step are those of its lane, and a lane whose run has ended is handed to the next. [`Taylor`](crate::integrate::Taylor) has one
+//! order for the lanes of a block, so only with an order given are its steps those of single runs.
+//!
 //! **Failures.** A state that cannot go on stops by itself: it stays in its lane, with a step of length zero, and the others of its
 //! block go on as if nothing had happened.
 
 mod advance;
+mod ensemble;
 mod error;
 mod packs;
 mod system;
@@ -74,6 +79,7 @@ mod system;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+pub use ensemble::{Ended, Ensemble, EventState, HowItEnded};
 pub use error::{BatchError, StateError};
 pub use packs::{Packs, SingleConfiguration, SingleSpeeds, States};
 pub use system::BatchSystem;
@@ -86,11 +92,16 @@ use advance::Interval;
 
 /// The kernels of a batch: one for all blocks, or a slice with one for each.
 pub trait Kernels<S> {
+    /// Whether all blocks have the same, so that a state may be worked on in any lane.
+    const SHARED: bool;
+
     /// The kernel of a block.
     fn of_block(&self, block: usize) -> &S;
 }
 
 impl<S: GaussSystem> Kernels<S> for S {
+    const SHARED: bool = true;
+
     #[inline(always)]
     fn of_block(&self, _: usize) -> &S {
         self
@@ -98,6 +109,8 @@ impl<S: GaussSystem> Kernels<S> for S {
 }
 
 impl<S: GaussSystem> Kernels<S> for [S] {
+    const SHARED: bool = false;
+
     #[inline(always)]
     fn of_block(&self, block: usize) -> &S {
         &self[block]

@@ -11,10 +11,13 @@
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
 //! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`table`](drive::table), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
+//! | `lanes` | many runs in lockstep, each with steps of its own |
 //! | [`tune`] | [`method`](tune::method): methods and forms chosen at run time; `measure`: the cheapest for a scene, measured on it |
 
 pub mod body;
 pub mod drive;
+#[cfg(feature = "alloc")]
+pub mod lanes;
 pub mod lie_group;
 pub mod problem;
 pub mod rosenbrock;
@@ -43,6 +46,8 @@ pub use drive::summary::{End, Summary};
 pub use drive::table::Table;
 #[cfg(feature = "alloc")]
 pub use drive::trajectory::{EventSample, Trajectory};
+#[cfg(feature = "alloc")]
+pub use lanes::LaneControl;
 pub use lie_group::commutator_free::CommutatorFree4;
 pub use lie_group::discrete::DiscreteLinearization;
 pub use lie_group::rkmk::Rkmk;

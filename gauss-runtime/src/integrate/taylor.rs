@@ -5,6 +5,8 @@
 //! system. Order and step are those of Jorba & Zou (Experimental Mathematics 14, 2005): the last two terms of the series are to
 //! be as small as the tolerance. No step is rejected.
 
+use core::ops::Range;
+
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{Gave, Place, cause};
 use crate::integrate::drive::control::{Control, Emit, Taken, check_tolerances, longest, prepare, smallest};
@@ -23,10 +25,10 @@ use crate::series::{MAX_ORDER, PowerSeries, TaylorSystem, state_of};
 /// The momentum form is integrated as the velocity form is, from and to momenta at the ends of steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Taylor {
-    relative: f64,
-    absolute: f64,
-    order: Option<usize>,
-    largest_step: Option<f64>,
+    pub(in crate::integrate) relative: f64,
+    pub(in crate::integrate) absolute: f64,
+    pub(in crate::integrate) order: Option<usize>,
+    pub(in crate::integrate) largest_step: Option<f64>,
 }
 
 /// Orders per e-fold of the tolerance, to begin with. At order p steps are as long as ρ ε^(1/p): ½ is best where the cost of a step
@@ -67,7 +69,7 @@ impl Taylor {
         self.relative.max(self.absolute).clamp(1e-18, 0.1)
     }
 
-    fn first_order(&self) -> usize {
+    pub(in crate::integrate) fn first_order(&self) -> usize {
         let order = -Real::ln(self.tolerance()) * ORDERS + 2.0;
         self.order.unwrap_or((order as usize).clamp(LOWEST, MAX_ORDER))
     }
@@ -83,13 +85,19 @@ impl Taylor {
     /// It is judged by the last two terms, since one of them may be small by chance. `guess` is about as long, for the sizes.
     ///
     /// Beside them, how many times the tolerance rounding is where it is more: less than that cannot be left out.
-    fn lengths<S: TaylorSystem>(&self, series: &S::Series, judged: [(usize, f64); 2], guess: f64) -> ([f64; 2], f64) {
+    pub(in crate::integrate) fn lengths<S: TaylorSystem>(
+        &self,
+        series: &S::Series,
+        judged: [(usize, f64); 2],
+        guess: f64,
+        lanes: Range<usize>,
+    ) -> ([f64; 2], f64) {
         let mut beyond = 0.0_f64;
         let mut excess = [[0.0_f64; 2]; 2];
         let worse = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
         let mut first = 0;
         for &group in S::GROUPS {
-            for lane in 0..S::Scalar::LANES {
+            for lane in lanes.clone() {
                 let value = |k: usize, i: usize| series.coefficient(k).component(i).lane(lane);
                 let (mut size, mut terms) = (0.0, [[0.0_f64; 2]; 2]);
                 for i in first..first + group {
@@ -126,7 +134,7 @@ fn cost(order: usize) -> f64 {
 }
 
 /// The order of the series, and what goes with it.
-struct Order {
+pub(in crate::integrate) struct Order {
     /// Orders to judge steps at: [`APART`] lower, and the present one, with their tails.
     judged: [(usize, f64); 2],
     /// ln of the least gain in length that makes up for the lower order's lower cost, and for a higher order's higher cost.
@@ -134,7 +142,7 @@ struct Order {
 }
 
 impl Order {
-    fn new(control: &Taylor, order: usize) -> Self {
+    pub(in crate::integrate) fn new(control: &Taylor, order: usize) -> Self {
         let lower = order.saturating_sub(APART).max(2);
         let worth = |from: usize, to: usize| Real::ln(cost(to) / cost(from));
         Self {
@@ -143,12 +151,17 @@ impl Order {
         }
     }
 
-    fn value(&self) -> usize {
+    #[cfg(feature = "alloc")]
+    pub(in crate::integrate) fn judged(&self) -> [(usize, f64); 2] {
+        self.judged
+    }
+
+    pub(in crate::integrate) fn value(&self) -> usize {
         self.judged[1].0
     }
 
     /// The order that makes more way for its cost, from ln of the lengths of steps.
-    fn better(&self, [short, long]: [f64; 2]) -> usize {
+    pub(in crate::integrate) fn better(&self, [short, long]: [f64; 2]) -> usize {
         let ([(lower, _), (order, _)], gain) = (self.judged, long - short);
         if gain < self.worth[0] {
             return (order - 2).max(LOWEST.min(order));
@@ -160,7 +173,13 @@ impl Order {
 }
 
 /// The state a time h after the one that the series starts from.
-fn summed<S, P>(problem: &P, t: S::Scalar, series: &S::Series, order: usize, h: S::Scalar) -> State<S>
+pub(in crate::integrate) fn summed<S, P>(
+    problem: &P,
+    t: S::Scalar,
+    series: &S::Series,
+    order: usize,
+    h: S::Scalar,
+) -> State<S>
 where
     S: TaylorSystem,
     P: Problem<System = S>,
@@ -169,7 +188,7 @@ where
     problem.state(t + h, q.renormalise(), &z)
 }
 
-fn expanded<S: TaylorSystem, P: Problem<System = S>>(
+pub(in crate::integrate) fn expanded<S: TaylorSystem, P: Problem<System = S>>(
     problem: &P,
     state: &State<S>,
     order: usize,
@@ -241,13 +260,14 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         let mut guess = 0.0;
         loop {
             let left = (end - state.t).lane(0).abs();
-            let place = Place { state: &state, rates: &rates, length: guess, left, stiff: false };
+            let place =
+                Place { state: &state, rates: &rates, length: guess, left, stiff: false, lanes: 0..S::Scalar::LANES };
             let gave = |gave| stopped(&state, cause(problem, &place, gave));
             if let Some(hopeless) = pace.spent(state.t.lane(0), left) {
                 return Err(gave(Gave::Out { limit, hopeless }));
             }
             expanded(problem, &state, order.value(), &mut series);
-            let (lengths, excess) = self.lengths::<S>(&series, order.judged, direction * guess);
+            let (lengths, excess) = self.lengths::<S>(&series, order.judged, direction * guess, 0..S::Scalar::LANES);
             let length = Real::exp(lengths[1]);
             // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
             if length.is_nan() {

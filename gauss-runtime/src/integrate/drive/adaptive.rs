@@ -1,5 +1,7 @@
 //! Steps as long as a tolerance allows.
 
+use core::ops::Range;
+
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{Gave, Place, cause, change};
 use crate::integrate::drive::control::{Control, Emit, Taken, check_tolerances, longest, one_step, prepare, smallest};
@@ -13,6 +15,7 @@ use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::components::RungeKutta;
 use crate::integrate::runge_kutta::tableau::{DormandPrince8, Tableau};
+use crate::integrate::step::iteration::worst;
 use crate::integrate::step::one_step::EstimatingStep;
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -24,10 +27,10 @@ use crate::system::GaussSystem;
 /// shorter steps would be no better. A [`Summary`](crate::integrate::Summary) says where and by how much.
 #[derive(Clone, Copy, Debug)]
 pub struct Adaptive<M = RungeKutta<DormandPrince8, 12>> {
-    method: M,
-    tolerance: Tolerance,
-    pub(in crate::integrate) first_step: Option<f64>,
-    pub(in crate::integrate) largest_step: Option<f64>,
+    pub(in crate::integrate) method: M,
+    pub(in crate::integrate) tolerance: Tolerance,
+    pub(crate) first_step: Option<f64>,
+    pub(crate) largest_step: Option<f64>,
 }
 
 impl Adaptive {
@@ -60,7 +63,7 @@ impl<M> Adaptive<M> {
 }
 
 /// The error, in tolerances, for which one that is but rounding is taken: steps then grow by a sixth.
-const ROUNDED: f64 = 1e-3;
+pub(in crate::integrate) const ROUNDED: f64 = 1e-3;
 
 /// A run on its way.
 struct Drive<'a, S: GaussSystem, P, M> {
@@ -151,7 +154,11 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
     fn cause(&self, gave: Gave) -> IntegrationErrorKind {
         let Self { problem, state, rates, length, .. } = self;
         let stiff = self.control.method.properties().stiff;
-        cause(*problem, &Place { state, rates, length: *length, left: self.left(), stiff }, gave)
+        cause(
+            *problem,
+            &Place { state, rates, length: *length, left: self.left(), stiff, lanes: 0..S::Scalar::LANES },
+            gave,
+        )
     }
 
     /// Tries a step. None when it is rejected, else how it was taken, and whether it was the last one.
@@ -174,17 +181,18 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
                 Err(kind) => return self.halve(left, kind),
             };
         let used = if last { left } else { self.length };
+        let length = S::Scalar::from_f64(used);
         let tolerance = &self.control.tolerance;
         let (from, to) = (&self.state, &step.state);
         let limit = self.lengths.limit();
         let mut error = match &self.floor {
-            None => tolerance.error(&Trial { from, to, length: used, floor: None }, &step.error, coarse.as_ref()),
-            Some(floor) => tolerance.error_above(floor, (from, to, used), (&step.error, coarse.as_ref())),
+            None => tolerance.error(&Trial { from, to, length, floor: None }, &step.error, coarse.as_ref()),
+            Some(floor) => tolerance.error_above(floor, (from, to, length), (&step.error, coarse.as_ref())),
         };
         if self.floor.is_none() && (error.is_nan() || error > limit) {
             // It may be rounding that is too much.
             let floor = Floor::at(self.problem, from, &self.rates);
-            error = tolerance.error_above(&floor, (from, to, used), (&step.error, coarse.as_ref()));
+            error = tolerance.error_above(&floor, (from, to, length), (&step.error, coarse.as_ref()));
             self.floor = Some(floor);
         }
         if error.is_nan() || error > limit {
@@ -202,7 +210,7 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         };
         let excess = match &self.floor {
             None => 0.0,
-            Some(floor) => tolerance.excess(&Trial { from, to: &reached, length: used, floor: Some(floor) }),
+            Some(floor) => tolerance.excess(&Trial { from, to: &reached, length, floor: Some(floor) }),
         };
         // Well below what rounding does there is nothing to be learnt of the step.
         let told = if excess > 0.0 && error < 0.5 { error.min(ROUNDED) } else { error };
@@ -235,7 +243,7 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         self.rejected += 1;
         self.lengths.fail();
         let h = S::Scalar::from_f64(if self.span < 0.0 { -self.length } else { self.length });
-        let moves = change(&self.state, &self.rates) * self.length;
+        let moves = change(&self.state, &self.rates, &(0..S::Scalar::LANES)) * self.length;
         let still = moves > 0.0 && moves < 0.5 * S::Scalar::EPSILON;
         if still || self.vanishes(self.length) || self.state.t + h == self.state.t { Err(kind) } else { Ok(None) }
     }
@@ -261,7 +269,9 @@ impl<M> Adaptive<M> {
         M: EstimatingStep<S>,
     {
         let longest = longest(self.largest_step, span, limit)?;
-        let first = self.first_step.unwrap_or_else(|| self.first_length(problem, start, rates, span.signum()));
+        let every = (S::Scalar::one(), 0..S::Scalar::LANES);
+        let estimate = || self.first_length(problem, (start, rates), &every, span.signum());
+        let first = self.first_step.unwrap_or_else(estimate);
         if first.is_finite() && first > 0.0 {
             Ok((first.min(longest), longest))
         } else {
@@ -269,37 +279,44 @@ impl<M> Adaptive<M> {
         }
     }
 
-    /// The root mean square of the components of `error`, each against its tolerance; the worst lane.
-    fn scaled_norm<S: GaussSystem>(&self, at: &State<S>, error: &Rates<S>) -> f64 {
-        self.tolerance.error(&Trial { from: at, to: at, length: 0.0, floor: None }, error, None)
-    }
-
     /// A first step from the sizes of the state, of its derivative and of the change of the derivative over an Euler step
-    /// (Hairer, Nørsett & Wanner, II.4).
-    fn first_length<S, P>(&self, problem: &P, start: &State<S>, rates: &Rates<S>, direction: f64) -> f64
+    /// (Hairer, Nørsett & Wanner, II.4), for some lanes together; `ones` is 1 in these and 0 in others.
+    pub(in crate::integrate) fn first_length<S, P>(
+        &self,
+        problem: &P,
+        (start, rates): (&State<S>, &Rates<S>),
+        (ones, lanes): &(S::Scalar, Range<usize>),
+        direction: f64,
+    ) -> f64
     where
         S: GaussSystem,
         P: Problem<System = S>,
         M: EstimatingStep<S>,
     {
+        // The root mean square of the components of an error, each against its tolerance; the worst lane.
+        let scaled_norm = |error: &Rates<S>| {
+            let still = Trial { from: start, to: start, length: S::Scalar::zero(), floor: None };
+            let errors = self.tolerance.errors(&still, error, None);
+            lanes.clone().map(|lane| errors.lane(lane)).fold(0.0, worst)
+        };
         let size = {
             // The state itself as an "error": |y| with the magnitudes of q.
             let mut sizes: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: start.y };
             for i in 0..TangentOf::<S>::DIM {
-                sizes.configuration.set_component(i, S::Scalar::from_f64(start.q.magnitude(i)));
+                sizes.configuration.set_component(i, start.q.magnitudes(i));
             }
-            self.scaled_norm(start, &sizes)
+            scaled_norm(&sizes)
         };
-        let speed = self.scaled_norm(start, rates);
+        let speed = scaled_norm(rates);
         let guess = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
         // A component that is zero and moves has no size for a purely relative tolerance: any short step will do, and the
         // controller lengthens it.
         let guess = if guess > 0.0 && guess.is_finite() { guess } else { 1e-6 };
         // Not beyond a fraction of a turn.
-        let turn = S::Configuration::increment_angle(&rates.configuration);
+        let turn = S::Configuration::increment_angle(&rates.configuration.scale(*ones));
         let guess = if turn * guess > 0.1 { 0.1 / turn } else { guess };
 
-        let h = S::Scalar::from_f64(direction * guess);
+        let h = S::Scalar::from_f64(direction * guess) * *ones;
         let euler = State {
             t: start.t + h,
             q: start.q.retract(&rates.configuration.scale(h)),
@@ -313,7 +330,7 @@ impl<M> Adaptive<M> {
             configuration: next.configuration.add_scaled(-S::Scalar::one(), &rates.configuration),
             variables: next.variables.add_scaled(-S::Scalar::one(), &rates.variables),
         };
-        let curvature = self.scaled_norm(start, &change) / guess;
+        let curvature = scaled_norm(&change) / guess;
         let steepest = speed.max(curvature);
         let second = if steepest <= 1e-15 {
             (guess * 1e-3).max(1e-6)

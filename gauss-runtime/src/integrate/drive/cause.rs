@@ -1,14 +1,18 @@
 //! Why a run cannot go on: what a step that fails, or steps without end, are a sign of.
 
+use core::ops::Range;
+
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::step::iteration::worst;
 use crate::real::Real;
 use crate::system::{GaussSystem, Smoothness};
 
 /// How a run came to its end.
-pub(in crate::integrate) enum Gave {
+#[derive(Clone, Copy, Debug)]
+pub enum Gave {
     /// A step of the length that it had to have cannot be made.
     Step(IntegrationErrorKind),
     /// No step can be made, however short.
@@ -27,6 +31,8 @@ pub(in crate::integrate) struct Place<'a, S: GaussSystem> {
     pub(in crate::integrate) left: f64,
     /// Whether the method passes over what decays fast.
     pub(in crate::integrate) stiff: bool,
+    /// The lanes that are to blame.
+    pub(in crate::integrate) lanes: Range<usize>,
 }
 
 /// Coordinates that are nearer to a singularity than this have to do with what fails there: velocities in them are ten
@@ -45,7 +51,7 @@ pub(in crate::integrate) fn cause<S: GaussSystem, P: Problem<System = S>>(
     place: &Place<'_, S>,
     gave: Gave,
 ) -> IntegrationErrorKind {
-    let &Place { state, rates, length, left, stiff } = place;
+    let &Place { state, rates, length, left, stiff, ref lanes } = place;
     let (kind, lost, shrunk) = match gave {
         Gave::Step(kind) => (kind, false, false),
         Gave::AnyStep(kind) => (kind, false, true),
@@ -55,26 +61,26 @@ pub(in crate::integrate) fn cause<S: GaussSystem, P: Problem<System = S>>(
     let vanish = matches!(kind, IntegrationErrorKind::StepTooSmall { .. });
     let used_up = matches!(kind, IntegrationErrorKind::TooManySteps { .. });
     // What is undefined at once, and not because it grew, has another reason.
-    let run_away = undefined && state.y.max_norm() > RUN_AWAY;
+    let run_away = undefined && largest(&state.y, lanes) > RUN_AWAY;
     if !(used_up || vanish || run_away || undefined && shrunk) {
         return kind;
     }
     let regularity = problem.system().regularity(state.t, &state.q);
-    let regularity = (0..S::Scalar::LANES).map(|lane| regularity.lane(lane).abs()).fold(f64::INFINITY, f64::min);
+    let regularity = lanes.clone().map(|lane| regularity.lane(lane).abs()).fold(f64::INFINITY, f64::min);
     if regularity < NEAR_SINGULARITY {
         return IntegrationErrorKind::SingularChart { regularity };
     }
     if lost && S::SMOOTHNESS == Smoothness::Jumps {
         return IntegrationErrorKind::StepTooSmall { step: length };
     }
-    let moves = change(state, rates);
-    let fastest = fastest(problem, state, rates).unwrap_or(Fastest { rate: moves, decays: false });
+    let moves = change(state, rates, lanes);
+    let fastest = fastest(problem, (state, rates), lanes).unwrap_or(Fastest { rate: moves, decays: false });
     let rate = fastest.rate.max(moves);
     if !stiff && fastest.decays && fastest.rate * length > 1.0 && (run_away || moves * length < 0.05) {
         return IntegrationErrorKind::Stiff { rate: fastest.rate, step: length };
     }
     // Where the motion itself becomes infinite, its rate is as large as the time can be told.
-    let ticks = rate * S::Scalar::EPSILON * state.t.lane(0).abs();
+    let ticks = rate * S::Scalar::EPSILON * state.t.lane(lanes.start).abs();
     let singular = (1e-3..1e3).contains(&ticks);
     if lost || run_away && !stiff && rate * length > 2.0 || shrunk && !singular && rate * left > OUT_OF_REACH {
         return IntegrationErrorKind::TooFast { rate, step: length };
@@ -91,8 +97,13 @@ struct Fastest {
 }
 
 /// By the power method, with differences in place of derivatives; none where these are undefined.
-fn fastest<S: GaussSystem, P: Problem<System = S>>(problem: &P, state: &State<S>, rates: &Rates<S>) -> Option<Fastest> {
-    let sizes = sizes(state);
+fn fastest<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    (state, rates): (&State<S>, &Rates<S>),
+    lanes: &Range<usize>,
+) -> Option<Fastest> {
+    let sizes = sizes(state, lanes);
+    let (norm, product) = (|v: &Rates<S>| norm(v, lanes), |a: &Rates<S>, b: &Rates<S>| product(a, b, lanes));
     // J v, with v in units of the sizes, and v small beside them.
     let times = |v: &Rates<S>| {
         let small = S::Scalar::from_f64(Real::sqrt(S::Scalar::EPSILON));
@@ -124,21 +135,28 @@ fn fastest<S: GaussSystem, P: Problem<System = S>>(problem: &P, state: &State<S>
 }
 
 /// How fast the state changes beside its own size, per unit of time: the largest of the components.
-pub(in crate::integrate) fn change<S: GaussSystem>(state: &State<S>, rates: &Rates<S>) -> f64 {
-    let relative = scaled(rates, &sizes(state), |rate, size| rate / size);
-    relative.configuration.max_norm().max(relative.variables.max_norm())
+pub(in crate::integrate) fn change<S: GaussSystem>(state: &State<S>, rates: &Rates<S>, lanes: &Range<usize>) -> f64 {
+    let relative = scaled(rates, &sizes(state, lanes), |rate, size| rate / size);
+    largest(&relative.configuration, lanes).max(largest(&relative.variables, lanes))
+}
+
+/// The largest magnitude among the components of some lanes; NaN where there is one.
+fn largest<T: Real, V: VectorSpace<T>>(vector: &V, lanes: &Range<usize>) -> f64 {
+    let all = (0..V::DIM).flat_map(|i| lanes.clone().map(move |lane| vector.component(i).lane(lane).abs()));
+    all.fold(0.0, worst)
 }
 
 /// The sizes of the components; those that are nearly nothing beside the others count as a millionth of these.
-fn sizes<S: GaussSystem>(state: &State<S>) -> Rates<S> {
+fn sizes<S: GaussSystem>(state: &State<S>, lanes: &Range<usize>) -> Rates<S> {
     let mut sizes: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
-    let largest = state.y.max_norm();
+    let of = |sizes: S::Scalar| lanes.clone().map(|lane| sizes.lane(lane).abs()).fold(0.0, f64::max);
+    let fastest = largest(&state.y, lanes);
     let floor = |largest: f64| if largest > 0.0 { 1e-6 * largest } else { 1.0 };
     for i in 0..S::Speeds::DIM {
-        let size = (0..S::Scalar::LANES).map(|lane| state.y.component(i).lane(lane).abs()).fold(0.0, f64::max);
-        sizes.variables.set_component(i, S::Scalar::from_f64(size.max(floor(largest))));
+        let size = of(state.y.component(i));
+        sizes.variables.set_component(i, S::Scalar::from_f64(size.max(floor(fastest))));
     }
-    let of = |i: usize| state.q.magnitude(i);
+    let of = |i: usize| of(state.q.magnitudes(i));
     let largest = (0..TangentOf::<S>::DIM).map(of).fold(0.0, f64::max);
     for i in 0..TangentOf::<S>::DIM {
         sizes.configuration.set_component(i, S::Scalar::from_f64(of(i).max(floor(largest))));
@@ -174,21 +192,20 @@ fn start<S: GaussSystem>() -> Rates<S> {
     v
 }
 
-/// Over all lanes.
-fn product<S: GaussSystem>(a: &Rates<S>, b: &Rates<S>) -> f64 {
-    let dot =
-        |a: S::Scalar, b: S::Scalar| -> f64 { (0..S::Scalar::LANES).map(|lane| a.lane(lane) * b.lane(lane)).sum() };
+/// Over some lanes.
+fn product<S: GaussSystem>(a: &Rates<S>, b: &Rates<S>, lanes: &Range<usize>) -> f64 {
+    let dot = |a: S::Scalar, b: S::Scalar| -> f64 { lanes.clone().map(|lane| a.lane(lane) * b.lane(lane)).sum() };
     let of_q = (0..TangentOf::<S>::DIM).map(|i| dot(a.configuration.component(i), b.configuration.component(i)));
     let of_y = (0..S::Speeds::DIM).map(|i| dot(a.variables.component(i), b.variables.component(i)));
     of_q.chain(of_y).sum()
 }
 
 /// None where it is not finite.
-fn norm<S: GaussSystem>(v: &Rates<S>) -> Option<f64> {
-    let largest = v.configuration.max_norm().max(v.variables.max_norm());
+fn norm<S: GaussSystem>(v: &Rates<S>, lanes: &Range<usize>) -> Option<f64> {
+    let largest = worst(largest(&v.configuration, lanes), largest(&v.variables, lanes));
     if !(largest.is_finite() && largest > 0.0) {
         return largest.is_finite().then_some(0.0);
     }
     let v = scale(v, 1.0 / largest);
-    Some(largest * Real::sqrt(product(&v, &v)))
+    Some(largest * Real::sqrt(product(&v, &v, lanes)))
 }

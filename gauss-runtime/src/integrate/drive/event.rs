@@ -85,12 +85,12 @@ pub struct Watched<E, G, J = Stay> {
 }
 
 impl<E, G> Watched<E, G> {
-    pub(in crate::integrate) fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
+    pub(crate) fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
         let mark = Mark { crossing, terminal, value: 0.0, next: None, before: 0.0, jumped: false, passed: false };
         Self { others, function, jump: Stay, mark }
     }
 
-    pub(in crate::integrate) fn then<J>(self, jump: J) -> Watched<E, G, Then<J>> {
+    pub(crate) fn then<J>(self, jump: J) -> Watched<E, G, Then<J>> {
         let Self { others, function, mark, .. } = self;
         Watched { others, function, jump: Then(jump), mark }
     }
@@ -167,6 +167,7 @@ pub(in crate::integrate) struct Watch<'a, P, C, E> {
     control: &'a C,
     problem: &'a P,
     events: E,
+    lane: usize,
 }
 
 impl<'a, S, P, C, E> Watch<'a, P, C, E>
@@ -176,15 +177,15 @@ where
     C: Control<S>,
     E: Events<S>,
 {
-    pub(in crate::integrate) fn new(control: &'a C, problem: &'a P, events: E) -> Self {
-        Self { control, problem, events }
+    pub(in crate::integrate) fn new(control: &'a C, problem: &'a P, events: E, lane: usize) -> Self {
+        Self { control, problem, events, lane }
     }
 
     /// Takes the values at the start of a run, or where it goes on after a jump.
     pub(in crate::integrate) fn begin(&mut self, start: &State<S>) -> Result<(), IntegrationErrorKind> {
-        let problem = self.problem;
+        let (problem, lane) = (self.problem, self.lane);
         let mut outcome = Ok(());
-        self.events.each(&mut |function, mark| match value(problem, function, start) {
+        self.events.each(&mut |function, mark| match value(problem, function, lane, start) {
             Ok(value) => {
                 let side = |of: f64| if of < 0.0 { -f64::MIN_POSITIVE } else { f64::MIN_POSITIVE };
                 let beyond = value.abs() <= mark.value.abs() && !same_side(value, mark.before);
@@ -200,6 +201,34 @@ where
             Err(kind) => outcome = Err(kind),
         });
         outcome
+    }
+
+    /// Whether the step may have the event of this number, as what is seen of its function from the last value says.
+    #[cfg(feature = "alloc")]
+    pub(in crate::integrate) fn may_pass(
+        &mut self,
+        number: usize,
+        shows: impl Fn(f64) -> Result<bool, IntegrationErrorKind>,
+    ) -> bool {
+        let (mut n, mut may) = (0, false);
+        self.events.each(&mut |_, mark| {
+            // What has no value is for the search to tell.
+            may |= n == number && shows(mark.value).unwrap_or(true);
+            n += 1;
+        });
+        may
+    }
+
+    /// The value of the event of this number at the end of a step that had none.
+    #[cfg(feature = "alloc")]
+    pub(in crate::integrate) fn remember(&mut self, number: usize, value: f64) {
+        let mut n = 0;
+        self.events.each(&mut |_, mark| {
+            if n == number {
+                mark.value = value;
+            }
+            n += 1;
+        });
     }
 
     /// Reports the events of a step, with their numbers, in the order in which they happen.
@@ -251,9 +280,9 @@ where
             }
             return Ok(Outcome::Here { state, after, number, stopped_by });
         }
-        let problem = self.problem;
+        let (problem, lane) = (self.problem, self.lane);
         let mut outcome = Ok(());
-        self.events.each(&mut |function, mark| match value(problem, function, made.after.0) {
+        self.events.each(&mut |function, mark| match value(problem, function, lane, made.after.0) {
             Ok(value) => mark.value = value,
             Err(kind) => outcome = Err(kind),
         });
@@ -262,7 +291,7 @@ where
 
     /// Where the function of an event passes on through zero after the jump as before it, slower or faster, it is on the other side.
     fn passing(&mut self, before: &State<S>, after: &State<S>, h: S::Scalar) -> Result<(), IntegrationErrorKind> {
-        let problem = self.problem;
+        let (problem, lane) = (self.problem, self.lane);
         let (slopes_before, slopes) = (problem.rates(before), problem.rates(after));
         let mut outcome = Ok(());
         self.events.each(&mut |function, mark| {
@@ -272,7 +301,7 @@ where
                     q: at.q.retract(&rates.configuration.scale(h)),
                     y: at.y.add_scaled(h, &rates.variables),
                 };
-                Ok(value(problem, function, &on)? - value(problem, function, at)?)
+                Ok(value(problem, function, lane, &on)? - value(problem, function, lane, at)?)
             };
             if mark.jumped {
                 match change(before, &slopes_before).and_then(|was| Ok((was, change(after, &slopes)?))) {
@@ -291,13 +320,13 @@ where
         (after, stopped_by): (&mut Option<State<S>>, &mut Option<usize>),
         report: &mut dyn FnMut(usize, &State<S>),
     ) -> Result<(), IntegrationErrorKind> {
-        let problem = self.problem;
+        let (problem, lane) = (self.problem, self.lane);
         while let Some(state) = *after {
             let (mut first, mut n, mut outcome) = (None, 0, Ok(()));
             self.events.each(&mut |function, mark| {
                 if first.is_none() && !mark.jumped && !mark.passed {
-                    match value(problem, function, before)
-                        .and_then(|from| Ok((from, value(problem, function, &state)?)))
+                    match value(problem, function, lane, before)
+                        .and_then(|from| Ok((from, value(problem, function, lane, &state)?)))
                     {
                         Ok((from, to)) if mark.crossing.between(from, to) => {
                             (mark.passed, first) = (true, Some((n, mark.terminal)));
@@ -359,12 +388,12 @@ where
 
     /// Remembers that the state jumped at an event, and how far beyond zero it was.
     fn leave(&mut self, number: usize, state: &State<S>) -> Result<(), IntegrationErrorKind> {
-        let problem = self.problem;
+        let (problem, lane) = (self.problem, self.lane);
         let mut outcome = Ok(());
         let mut n = 0;
         self.events.each(&mut |function, mark| {
             if n == number {
-                match value(problem, function, state) {
+                match value(problem, function, lane, state) {
                     Ok(value) => (mark.jumped, mark.value) = (true, value),
                     Err(kind) => outcome = Err(kind),
                 }

@@ -91,7 +91,8 @@ pub(in crate::integrate) fn steps_of_one_length<S: GaussSystem, P: Problem<Syste
         let this = if last { end - state.t } else { h };
         let failed = |kind| {
             let left = (end - state.t).lane(0).abs();
-            let place = Place { state: &state, rates: &rates, length: positive, left, stiff };
+            let place =
+                Place { state: &state, rates: &rates, length: positive, left, stiff, lanes: 0..S::Scalar::LANES };
             stopped(&state, cause(problem, &place, Gave::Step(kind)))
         };
         let (mut next, known) = advance(&state, &rates, this).map_err(failed)?;

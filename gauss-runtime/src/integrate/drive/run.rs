@@ -42,7 +42,7 @@ pub(in crate::integrate) struct Reached {
 const AT_ONCE: u32 = 3;
 
 /// Jumps, as they follow each other.
-struct Jumps {
+pub(in crate::integrate) struct Jumps {
     /// Times nearer than this are the same.
     resolution: f64,
     last: Option<f64>,
@@ -50,13 +50,13 @@ struct Jumps {
 }
 
 impl Jumps {
-    fn new<T: Real>(start: f64, end: f64) -> Self {
+    pub(in crate::integrate) fn new<T: Real>(start: f64, end: f64) -> Self {
         let unit = T::EPSILON.max(f64::EPSILON);
         Self { resolution: 64.0 * unit * start.abs().max(end.abs()), last: None, in_a_row: 0 }
     }
 
     /// Takes one more: an error when they pile up.
-    fn count(&mut self, t: f64, event: usize) -> Result<(), IntegrationErrorKind> {
+    pub(in crate::integrate) fn count(&mut self, t: f64, event: usize) -> Result<(), IntegrationErrorKind> {
         let interval = self.last.map_or(f64::INFINITY, |last| (t - last).abs());
         self.in_a_row = if interval <= self.resolution { self.in_a_row + 1 } else { 0 };
         self.last = Some(t);
@@ -133,7 +133,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         end: S::Scalar,
         pass: &mut dyn FnMut(Seen<'_, S>),
     ) -> (Reached, Result<State<S>, IntegrationError>) {
-        let mut watch = Watch::new(self.control, self.problem, events);
+        let mut watch = Watch::new(self.control, self.problem, events, 0);
         let mut jumps = Jumps::new::<S::Scalar>(start.t.lane(0), end.lane(0));
         let mut pace = Pace::new(start.t.lane(0), self.limit);
         let mut reached = Reached::default();
@@ -191,7 +191,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                 let found = match &before {
                     None => watch.begin(state).map(|()| Outcome::On),
                     Some((from, slopes)) => {
-                        let made = Made { before: (from, slopes), after: (state, rates) };
+                        let made = Made { lane: 0, before: (from, slopes), after: (state, rates) };
                         watch.step(&made, &mut |number, state| pass(Seen::Event(number, state)))
                     }
                 };

@@ -41,14 +41,28 @@ pub(in crate::integrate) type Function<'a, S> = &'a dyn Fn(
     &<S as GaussSystem>::Speeds,
 ) -> <S as GaussSystem>::Scalar;
 
-/// The first lane of an event's function. It may be infinite, as on the way through a pole.
+/// An event's function in a lane. It may be infinite, as on the way through a pole.
 pub(in crate::integrate) fn value<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     function: Function<'_, S>,
+    lane: usize,
     state: &State<S>,
 ) -> Result<f64, IntegrationErrorKind> {
-    let z = problem.speeds(state.t, &state.q, &state.y);
-    let value = function(state.t, &state.q, &z).lane(0);
+    of_lane(values(problem, function, state), lane)
+}
+
+/// An event's function in all lanes.
+pub(in crate::integrate) fn values<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    function: Function<'_, S>,
+    state: &State<S>,
+) -> S::Scalar {
+    function(state.t, &state.q, &problem.speeds(state.t, &state.q, &state.y))
+}
+
+/// One of the values of an event's function.
+pub(in crate::integrate) fn of_lane<T: Real>(values: T, lane: usize) -> Result<f64, IntegrationErrorKind> {
+    let value = values.lane(lane);
     if value.is_nan() { Err(IntegrationErrorKind::NonFinite { part: Part::Event }) } else { Ok(value) }
 }
 
@@ -57,8 +71,9 @@ pub(in crate::integrate) fn same_side(a: f64, b: f64) -> bool {
     a < 0.0 && b < 0.0 || a > 0.0 && b > 0.0
 }
 
-/// A step with the derivatives at its ends.
+/// A step with the derivatives at its ends, of which one lane is looked at.
 pub(in crate::integrate) struct Made<'a, S: GaussSystem> {
+    pub(in crate::integrate) lane: usize,
     pub(in crate::integrate) before: (&'a State<S>, &'a Rates<S>),
     pub(in crate::integrate) after: (&'a State<S>, &'a Rates<S>),
 }
@@ -85,7 +100,7 @@ where
     C: Control<S>,
 {
     pub(in crate::integrate) fn of(control: &'a C, problem: &'a P, made: &'a Made<'a, S>) -> Self {
-        let (from, to) = (made.before.0.t.lane(0), made.after.0.t.lane(0));
+        let (from, to) = (made.before.0.t.lane(made.lane), made.after.0.t.lane(made.lane));
         let unit = S::Scalar::EPSILON.max(f64::EPSILON);
         // The part of a step that changes its end by four roundings of the time, at least of the step itself.
         let resolution = 4.0 * unit * (from.abs().max(to.abs()) / (to - from).abs()).max(1.0);
@@ -116,10 +131,11 @@ where
         if !self.suspicious(function, from)? {
             return Ok(None);
         }
-        let along = |part: f64| value(self.problem, function, &self.reach(part)?);
+        let lane = self.made.lane;
+        let along = |part: f64| value(self.problem, function, lane, &self.reach(part)?);
         let mut glance = self.glances();
         let mut slope = |from: f64, to: f64| -> Result<f64, IntegrationErrorKind> {
-            let mut at = |part: f64| value(self.problem, function, &glance(part)?);
+            let mut at = |part: f64| value(self.problem, function, lane, &glance(part)?);
             Ok((at(to)? - at(from)?) / (to - from))
         };
         let mut a = from;
@@ -168,8 +184,8 @@ where
 
     /// Whether the curve between the ends of the step shows a sign, or comes so near to zero within, that it is worth a search.
     fn suspicious(&self, function: Function<'_, S>, from: (f64, f64)) -> Result<bool, IntegrationErrorKind> {
-        let mut glance = self.glances();
-        let mut at = |part: f64| value(self.problem, function, &glance(part)?);
+        let (lane, mut glance) = (self.made.lane, self.glances());
+        let mut at = |part: f64| value(self.problem, function, lane, &glance(part)?);
         let (mut a, mut on_curve) = (from, at(from.0)?);
         for k in 1..=self.parts {
             let part = k as f64 / self.parts as f64;
@@ -177,24 +193,48 @@ where
                 continue;
             }
             let b = (part, at(part)?);
-            // What was zero before has left it.
-            if a.1 != 0.0 && !same_side(a.1, b.1) || !b.1.is_finite() {
+            let short = SHORT * (b.0 - a.0);
+            let mut slopes = || Ok([(at(a.0 + short)? - on_curve) / SHORT, (b.1 - at(b.0 - short)?) / SHORT]);
+            if shows_zero([a.1, b.1], &mut slopes)? {
                 return Ok(true);
-            }
-            let width = b.0 - a.0;
-            let (sign, short) = (b.1.signum(), SHORT * width);
-            let leaves = sign * (at(a.0 + short)? - on_curve) / SHORT;
-            let comes = sign * (b.1 - at(b.0 - short)?) / SHORT;
-            // Its slopes lead towards zero from both sides.
-            if leaves < 0.0 && comes > 0.0 {
-                let least = least_of_cubic([sign * a.1, sign * b.1], [leaves, comes]);
-                if least < 0.1 * a.1.abs().max(b.1.abs()) {
-                    return Ok(true);
-                }
             }
             (a, on_curve) = (b, b.1);
         }
         Ok(false)
+    }
+
+    /// What [`suspicious`](Self::suspicious) sees of a whole step, in all lanes at once: whether a lane that starts from a value is.
+    #[cfg(feature = "alloc")]
+    pub(in crate::integrate) fn glimpse(
+        &self,
+        function: Function<'_, S>,
+    ) -> Result<impl Fn(usize, f64) -> Result<bool, IntegrationErrorKind>, IntegrationErrorKind> {
+        let mut glance = self.glances();
+        let mut at = |part: f64| -> Result<S::Scalar, IntegrationErrorKind> {
+            Ok(values(self.problem, function, &glance(part)?))
+        };
+        let width = 1.0 / self.parts as f64;
+        let mut seen = alloc::vec::Vec::with_capacity(self.parts);
+        let mut a = at(0.0)?;
+        for k in 1..=self.parts {
+            let (from, to) = ((k - 1) as f64 * width, k as f64 * width);
+            let b = at(to)?;
+            seen.push([a, at(from + SHORT * width)?, at(to - SHORT * width)?, b]);
+            a = b;
+        }
+        Ok(move |lane: usize, start: f64| {
+            let mut before = start;
+            for points in &seen {
+                let [on_curve, off, near, b] = points.map(|values| of_lane(values, lane));
+                let b = b?;
+                let slopes = || Ok([(off? - on_curve?) / SHORT, (b - near?) / SHORT]);
+                if shows_zero([before, b], slopes)? {
+                    return Ok(true);
+                }
+                before = b;
+            }
+            Ok(false)
+        })
     }
 
     /// States within the step for a first look: the series where steps are long, else the cubic between the ends.
@@ -209,6 +249,24 @@ where
             (None, None) => Ok(*before),
         }
     }
+}
+
+/// Whether a part of a step from value to value, with these slopes at its ends where they are asked for, shows a zero or comes near to
+/// one.
+fn shows_zero(
+    [a, b]: [f64; 2],
+    slopes: impl FnOnce() -> Result<[f64; 2], IntegrationErrorKind>,
+) -> Result<bool, IntegrationErrorKind> {
+    // What was zero before has left it.
+    if a != 0.0 && !same_side(a, b) || !b.is_finite() {
+        return Ok(true);
+    }
+    let sign = b.signum();
+    let [leaves, comes] = slopes()?.map(|slope| sign * slope);
+    // Its slopes lead towards zero from both sides.
+    Ok(leaves < 0.0
+        && comes > 0.0
+        && least_of_cubic([sign * a, sign * b], [leaves, comes]) < 0.1 * a.abs().max(b.abs()))
 }
 
 /// The cubic through the states at the ends of a step with the derivatives there: in the algebra at the start, where q is

@@ -29,9 +29,34 @@ pub(in crate::integrate) struct Tolerance {
 pub(in crate::integrate) struct Floor<S: GaussSystem> {
     /// What derivatives differ by within a rounding of the state.
     derivatives: Rates<S>,
+    /// What the state itself is rounded by at the end of a step, relatively; 0 in lanes without a floor.
+    unit: S::Scalar,
 }
 
 impl<S: GaussSystem> Floor<S> {
+    /// Nothing is known in any lane.
+    #[cfg(feature = "alloc")]
+    pub(in crate::integrate) fn none() -> Self {
+        let derivatives = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+        Self { derivatives, unit: S::Scalar::zero() }
+    }
+
+    /// That of `other` in lanes where `of_other` is 1, else this one.
+    #[cfg(feature = "alloc")]
+    pub(in crate::integrate) fn or(&self, of_other: S::Scalar, other: &Self) -> Self {
+        let choose = |mine: S::Scalar, other: S::Scalar| S::Scalar::select_lt(S::Scalar::zero(), of_other, other, mine);
+        let mut derivatives = self.derivatives;
+        for i in 0..TangentOf::<S>::DIM {
+            let both = (derivatives.configuration.component(i), other.derivatives.configuration.component(i));
+            derivatives.configuration.set_component(i, choose(both.0, both.1));
+        }
+        for i in 0..S::Speeds::DIM {
+            let both = (derivatives.variables.component(i), other.derivatives.variables.component(i));
+            derivatives.variables.set_component(i, choose(both.0, both.1));
+        }
+        Self { derivatives, unit: choose(self.unit, other.unit) }
+    }
+
     /// Measured at a state with its derivatives.
     #[cold]
     #[inline(never)]
@@ -42,8 +67,8 @@ impl<S: GaussSystem> Floor<S> {
         for pattern in [|_: usize| false, |i: usize| i % 2 == 1, |i: usize| i % 4 > 1] {
             let mut sigma = TangentOf::<S>::zero();
             for i in 0..TangentOf::<S>::DIM {
-                let size = S::Scalar::EPSILON * state.q.magnitude(i);
-                sigma.set_component(i, S::Scalar::from_f64(if pattern(i) { -size } else { size }));
+                let size = unit * state.q.magnitudes(i);
+                sigma.set_component(i, if pattern(i) { -size } else { size });
             }
             let mut y = state.y;
             for i in 0..S::Speeds::DIM {
@@ -52,20 +77,27 @@ impl<S: GaussSystem> Floor<S> {
                 y.set_component(i, moved);
             }
             let near = problem.rates(&State { t: state.t, q: state.q.retract(&sigma), y });
-            if !near.is_finite() {
-                continue;
-            }
+            // 0 in a lane that is finite there, else NaN.
+            let mut null = S::Scalar::zero();
+            (0..TangentOf::<S>::DIM)
+                .map(|i| near.configuration.component(i))
+                .for_each(|x| null += x * S::Scalar::zero());
+            (0..S::Speeds::DIM).map(|i| near.variables.component(i)).for_each(|x| null += x * S::Scalar::zero());
+            let more = |near: S::Scalar, here: S::Scalar, known: S::Scalar| {
+                let most = larger((near - here).abs(), known);
+                S::Scalar::select_lt(null, S::Scalar::one(), most, known)
+            };
             for i in 0..TangentOf::<S>::DIM {
-                let change = (near.configuration.component(i) - rates.configuration.component(i)).abs();
-                let most = change.max(derivatives.configuration.component(i));
+                let (near, here) = (near.configuration.component(i), rates.configuration.component(i));
+                let most = more(near, here, derivatives.configuration.component(i));
                 derivatives.configuration.set_component(i, most);
             }
             for i in 0..S::Speeds::DIM {
-                let change = (near.variables.component(i) - rates.variables.component(i)).abs();
-                derivatives.variables.set_component(i, change.max(derivatives.variables.component(i)));
+                let (near, here) = (near.variables.component(i), rates.variables.component(i));
+                derivatives.variables.set_component(i, more(near, here, derivatives.variables.component(i)));
             }
         }
-        Self { derivatives }
+        Self { derivatives, unit }
     }
 }
 
@@ -73,7 +105,7 @@ impl<S: GaussSystem> Floor<S> {
 pub(in crate::integrate) struct Trial<'a, S: GaussSystem> {
     pub(in crate::integrate) from: &'a State<S>,
     pub(in crate::integrate) to: &'a State<S>,
-    pub(in crate::integrate) length: f64,
+    pub(in crate::integrate) length: S::Scalar,
     pub(in crate::integrate) floor: Option<&'a Floor<S>>,
 }
 
@@ -86,34 +118,39 @@ impl Tolerance {
         fine: &Rates<S>,
         coarse: Option<&Rates<S>>,
     ) -> f64 {
-        let components = (TangentOf::<S>::DIM + S::Speeds::DIM).max(1) as f64;
-        let mut worst = 0.0;
-        for lane in 0..S::Scalar::LANES {
-            let squares = |tolerance: f64, fine: S::Scalar, coarse: Option<S::Scalar>| {
-                let per_tolerance = 1.0 / tolerance;
-                let square = |error: S::Scalar| {
-                    let ratio = error.lane(lane) * per_tolerance;
-                    ratio * ratio
-                };
-                [square(fine), coarse.map_or(0.0, square)]
+        worst_lane(self.errors(trial, fine, coarse))
+    }
+
+    /// The error of a step in tolerances: the root mean square over the components, lane by lane. NaN when an error is.
+    #[inline(always)]
+    pub(in crate::integrate) fn errors<S: GaussSystem>(
+        &self,
+        trial: &Trial<'_, S>,
+        fine: &Rates<S>,
+        coarse: Option<&Rates<S>>,
+    ) -> S::Scalar {
+        let zero = S::Scalar::zero();
+        let squares = |tolerance: S::Scalar, fine: S::Scalar, coarse: Option<S::Scalar>| {
+            let per_tolerance = tolerance.recip();
+            let square = |error: S::Scalar| {
+                let ratio = error * per_tolerance;
+                ratio * ratio
             };
-            let sum = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a + c, b + d];
-            let (mut of_q, mut of_y) = ([0.0; 2], [0.0; 2]);
-            for i in 0..TangentOf::<S>::DIM {
-                let coarse = coarse.map(|coarse| coarse.configuration.component(i));
-                of_q =
-                    sum(of_q, squares(self.of_configuration(trial, i, lane), fine.configuration.component(i), coarse));
-            }
-            for i in 0..S::Speeds::DIM {
-                let coarse = coarse.map(|coarse| coarse.variables.component(i));
-                of_y = sum(of_y, squares(self.of_variables(trial, i, lane), fine.variables.component(i), coarse));
-            }
-            let [fine, coarse] = sum(of_q, of_y);
-            let error = Real::sqrt(combined(fine, coarse) * (1.0 / components));
-            // Written so that a NaN stays.
-            worst = if error <= worst { worst } else { error };
+            [square(fine), coarse.map_or(zero, square)]
+        };
+        let sum = |[a, b]: [S::Scalar; 2], [c, d]: [S::Scalar; 2]| [a + c, b + d];
+        let (mut of_q, mut of_y) = ([zero; 2], [zero; 2]);
+        for i in 0..TangentOf::<S>::DIM {
+            let coarse = coarse.map(|coarse| coarse.configuration.component(i));
+            of_q = sum(of_q, squares(self.of_configuration(trial, i), fine.configuration.component(i), coarse));
         }
-        worst
+        for i in 0..S::Speeds::DIM {
+            let coarse = coarse.map(|coarse| coarse.variables.component(i));
+            of_y = sum(of_y, squares(self.of_variables(trial, i), fine.variables.component(i), coarse));
+        }
+        let [fine, coarse] = sum(of_q, of_y);
+        let components = (TangentOf::<S>::DIM + S::Speeds::DIM).max(1) as f64;
+        (combined(fine, coarse) * S::Scalar::from_f64(1.0 / components)).sqrt()
     }
 
     /// The same above a floor. Runs that stay above rounding hold no copy of it.
@@ -122,60 +159,86 @@ impl Tolerance {
     pub(in crate::integrate) fn error_above<S: GaussSystem>(
         &self,
         floor: &Floor<S>,
-        (from, to, length): (&State<S>, &State<S>, f64),
+        (from, to, length): (&State<S>, &State<S>, S::Scalar),
         (fine, coarse): (&Rates<S>, Option<&Rates<S>>),
     ) -> f64 {
         self.error(&Trial { from, to, length, floor: Some(floor) }, fine, coarse)
     }
 
-    /// How many times the tolerance rounding is where it is more, the largest of the components; 0 where it is nowhere.
+    /// How many times the tolerance rounding is where it is more, the largest of the components and lanes; 0 where it is nowhere.
     #[cold]
     #[inline(never)]
     pub(in crate::integrate) fn excess<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> f64 {
-        let bare = Trial { floor: None, ..*trial };
-        let mut largest = 0.0_f64;
-        for lane in 0..S::Scalar::LANES {
-            for i in 0..TangentOf::<S>::DIM {
-                largest = largest.max(self.of_configuration(trial, i, lane) / self.of_configuration(&bare, i, lane));
-            }
-            for i in 0..S::Speeds::DIM {
-                largest = largest.max(self.of_variables(trial, i, lane) / self.of_variables(&bare, i, lane));
-            }
-        }
+        let largest = worst_lane(self.excesses(trial));
         if largest > 1.0 { largest } else { 0.0 }
     }
 
-    #[inline(always)]
-    fn of_configuration<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize, lane: usize) -> f64 {
-        let size = trial.from.q.magnitude(i).max(trial.to.q.magnitude(i));
-        let noise = |floor: &Floor<S>| floor.derivatives.configuration.component(i).lane(lane);
-        self.of(size, trial.length, trial.floor.map(noise), S::Scalar::EPSILON)
+    /// How many times the tolerance rounding is, at least 1, the largest of the components, lane by lane.
+    #[cold]
+    #[inline(never)]
+    pub(in crate::integrate) fn excesses<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> S::Scalar {
+        let bare = Trial { floor: None, ..*trial };
+        let mut largest = S::Scalar::one();
+        for i in 0..TangentOf::<S>::DIM {
+            largest = larger(largest, self.of_configuration(trial, i) / self.of_configuration(&bare, i));
+        }
+        for i in 0..S::Speeds::DIM {
+            largest = larger(largest, self.of_variables(trial, i) / self.of_variables(&bare, i));
+        }
+        largest
     }
 
     #[inline(always)]
-    fn of_variables<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize, lane: usize) -> f64 {
-        let size = trial.from.y.component(i).lane(lane).abs().max(trial.to.y.component(i).lane(lane).abs());
-        let noise = |floor: &Floor<S>| floor.derivatives.variables.component(i).lane(lane);
-        self.of(size, trial.length, trial.floor.map(noise), S::Scalar::EPSILON)
+    fn of_configuration<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize) -> S::Scalar {
+        let size = larger(trial.from.q.magnitudes(i), trial.to.q.magnitudes(i));
+        let noise = |floor: &Floor<S>| (floor.derivatives.configuration.component(i), floor.unit);
+        self.of(size, trial.length, trial.floor.map(noise))
+    }
+
+    #[inline(always)]
+    fn of_variables<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize) -> S::Scalar {
+        let size = larger(trial.from.y.component(i).abs(), trial.to.y.component(i).abs());
+        let noise = |floor: &Floor<S>| (floor.derivatives.variables.component(i), floor.unit);
+        self.of(size, trial.length, trial.floor.map(noise))
     }
 
     /// What is tolerated of a component of some size. Purely relative control of a null component asks for what is null too.
     #[inline(always)]
-    fn of(&self, size: f64, length: f64, noise: Option<f64>, unit: f64) -> f64 {
-        let asked = (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
+    fn of<T: Real>(&self, size: T, length: T, noise: Option<(T, T)>) -> T {
+        let asked = T::from_f64(self.absolute) + T::from_f64(self.relative) * size;
+        let asked = larger(asked, T::from_f64(if T::EPSILON > 1e-10 { 1e-37 } else { f64::MIN_POSITIVE }));
         match noise {
             // The state itself is rounded at the end of the step.
-            Some(noise) => asked.max(AMPLIFICATION * length * noise + unit * size),
+            Some((noise, unit)) => larger(asked, T::from_f64(AMPLIFICATION) * length * noise + unit * size),
             None => asked,
         }
     }
 }
 
+/// The larger one, lane by lane; the first where one of them is NaN.
+#[inline(always)]
+fn larger<T: Real>(a: T, b: T) -> T {
+    T::select_lt(a, b, b, a)
+}
+
+/// The largest of the lanes; NaN where one of them is.
+#[inline(always)]
+pub(in crate::integrate) fn worst_lane<T: Real>(errors: T) -> f64 {
+    let mut worst = 0.0;
+    for lane in 0..T::LANES {
+        let error = errors.lane(lane);
+        // Written so that a NaN wins and stays.
+        worst = if error <= worst || worst.is_nan() { worst } else { error };
+    }
+    worst
+}
+
 /// The square of `e²/√(e² + ê²/100)` from the squares of e and ê: that of e itself where ê is too large or too small beside it
 /// for the formula to be computed.
-fn combined(fine: f64, coarse: f64) -> f64 {
-    let part = fine / (fine + 0.01 * coarse);
-    if part > 0.0 { fine * part } else { fine }
+#[inline(always)]
+fn combined<T: Real>(fine: T, coarse: T) -> T {
+    let part = fine / (fine + T::from_f64(0.01) * coarse);
+    T::select_lt(T::zero(), part, fine * part, fine)
 }
 
 #[cfg(test)]

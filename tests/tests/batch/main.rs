@@ -1,5 +1,7 @@
 //! Many states at once: the bits of single runs, remainders, parameters of their own, states that stop, threads.
 
+mod ensembles;
+
 use std::ops::Range;
 
 use gauss_runtime::batch::{Batch, BatchSystem, Packs, SingleConfiguration, SingleSpeeds, States};
@@ -9,7 +11,7 @@ use gauss_runtime::simd::Packed;
 
 /// A heavy body whose pole is not its centre of mass.
 #[derive(GaussDynamics)]
-#[gauss(chart = left_invariant)]
+#[gauss(chart = left_invariant, taylor)]
 struct Thrown<T> {
     #[gauss(mass)]
     mass: T,

@@ -1,0 +1,115 @@
+//! What the page holds, and the page itself.
+
+use gauss_runtime::prelude::Isometry3;
+use serde::{Serialize, Serializer};
+
+use crate::shape::Shape;
+
+const TEMPLATE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+const SOLIDS: &str = include_str!("solids.js");
+const STAGE: &str = include_str!("stage.js");
+const CURVES: &str = include_str!("curves.js");
+const PLAYER: &str = include_str!("player.js");
+
+/// Everything that the scripts of the page read.
+#[derive(Serialize)]
+pub struct Page {
+    pub title: String,
+    pub times: Vec<f64>,
+    /// Which way is up on the screen, observer's axes.
+    pub up: [f64; 3],
+    /// Where the camera is at first.
+    pub view: &'static str,
+    /// The body that the camera goes with at first.
+    pub follow: Option<usize>,
+    pub bodies: Vec<Body>,
+    pub rods: Vec<Rod>,
+    pub traces: Vec<Trace>,
+    pub arrows: Vec<Arrow>,
+    pub panels: Vec<Panel>,
+}
+
+#[derive(Serialize)]
+pub struct Body {
+    pub name: String,
+    /// Position and quaternion i, j, k, w for each time.
+    #[serde(serialize_with = "short")]
+    pub poses: Vec<[f64; 7]>,
+    pub shapes: Vec<Shape>,
+}
+
+#[derive(Serialize)]
+pub struct Rod {
+    pub from: usize,
+    pub to: usize,
+    pub radius: f64,
+}
+
+#[derive(Serialize)]
+pub struct Trace {
+    pub body: usize,
+    pub point: [f64; 3],
+}
+
+#[derive(Serialize)]
+pub struct Arrow {
+    pub name: String,
+    /// Point and vector for each time.
+    #[serde(serialize_with = "short")]
+    pub values: Vec<[f64; 6]>,
+}
+
+#[derive(Serialize)]
+pub struct Panel {
+    pub title: String,
+    pub curves: Vec<Curve>,
+}
+
+#[derive(Serialize)]
+pub struct Curve {
+    pub name: String,
+    pub values: Vec<f64>,
+}
+
+/// Numbers as a screen shows them: `f32` has more digits than it has pixels, and half the length.
+fn short<const N: usize, S: Serializer>(rows: &[[f64; N]], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(rows.iter().map(|row| row.map(|number| number as f32).to_vec()))
+}
+
+impl Page {
+    pub fn new(title: &str, times: Vec<f64>) -> Self {
+        Self {
+            title: title.to_owned(),
+            times,
+            up: [0.0, 0.0, 1.0],
+            view: "slant",
+            follow: None,
+            bodies: Vec::new(),
+            rods: Vec::new(),
+            traces: Vec::new(),
+            arrows: Vec::new(),
+            panels: Vec::new(),
+        }
+    }
+
+    /// One file with everything in it.
+    pub fn html(&self) -> String {
+        // Inside a script `</` could end it; in strings of JSON the slash may be escaped.
+        let data = serde_json::to_string(self).expect("numbers and strings").replace("</", "<\\/");
+        let title = self.title.replace('&', "&amp;").replace('<', "&lt;");
+        let scripts = [SOLIDS, STAGE, CURVES, PLAYER].concat();
+        // The data last: what they hold is not searched for marks.
+        TEMPLATE
+            .replace("{{title}}", &title)
+            .replace("{{style}}", STYLE)
+            .replace("{{scripts}}", &scripts)
+            .replace("{{data}}", &data)
+    }
+}
+
+/// Position and quaternion.
+pub fn pose(pose: &Isometry3<f64>) -> [f64; 7] {
+    let (b, turn) = (pose.translation.vector, pose.rotation.coords);
+    [b.x, b.y, b.z, turn.x, turn.y, turn.z, turn.w]
+}

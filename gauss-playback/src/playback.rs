@@ -1,0 +1,230 @@
+//! What is shown, gathered call by call.
+
+use std::fs;
+use std::path::Path;
+
+use gauss_runtime::prelude::{
+    FrameName, FramedSystem, GaussSystem, IntegrationError, Isometry3, Sample, Trajectory, Vector3,
+};
+
+use crate::error::PlaybackError;
+use crate::page::{self, Arrow, Body, Curve, Page, Panel, Rod, Trace};
+use crate::shape::Shape;
+
+/// Pictures of a run: at 60 a second it takes ten seconds to play.
+const PICTURES: u32 = 600;
+
+/// A motion to be shown. What is added to it is computed at once, for all times; mistakes are gathered and told by
+/// [`html`](Self::html) and [`write`](Self::write).
+pub struct Playback<S: GaussSystem<Scalar = f64>> {
+    samples: Vec<Sample<S>>,
+    page: Page,
+    mistakes: Vec<String>,
+}
+
+impl<S: GaussSystem<Scalar = f64>> Playback<S> {
+    /// Of a run, at 600 times equally far apart; the states between its samples are those of [`Trajectory::at`].
+    ///
+    /// # Errors
+    /// What [`Trajectory::at`] says.
+    pub fn new(title: &str, path: &Trajectory<'_, S>) -> Result<Self, IntegrationError> {
+        Self::with_pictures(title, path, PICTURES)
+    }
+
+    /// The same with another number of pictures, at least two: more for long runs with fast turns, fewer for small files.
+    ///
+    /// # Errors
+    /// What [`Trajectory::at`] says.
+    pub fn with_pictures(title: &str, path: &Trajectory<'_, S>, pictures: u32) -> Result<Self, IntegrationError> {
+        let (first, last) = (path.first().t, path.last().t);
+        let gaps = pictures.max(2) - 1;
+        // The last time is that of the last sample itself: rounding must not leave the run.
+        let time = |n: u32| if n == gaps { last } else { first + (last - first) * f64::from(n) / f64::from(gaps) };
+        Ok(Self::of_samples(title, path.at_times((0..=gaps).map(time))?))
+    }
+
+    /// Of samples in the order of time; what plays them runs evenly in time, whatever their distance.
+    #[must_use]
+    pub fn of_samples(title: &str, samples: Vec<Sample<S>>) -> Self {
+        let times = samples.iter().map(|sample| sample.t).collect();
+        let mut playback = Self { samples, page: Page::new(title, times), mistakes: Vec::new() };
+        if playback.samples.is_empty() {
+            playback.mistakes.push("there are no samples to show".to_owned());
+        }
+        playback
+    }
+
+    /// A body: its pose, by the observer, and its shapes.
+    #[must_use]
+    pub fn body(
+        mut self,
+        name: &str,
+        pose: impl Fn(&Sample<S>) -> Isometry3<f64>,
+        shapes: impl IntoIterator<Item = Shape>,
+    ) -> Self {
+        let poses: Vec<[f64; 7]> = self.samples.iter().map(|sample| page::pose(&pose(sample))).collect();
+        self.add_body(name, poses);
+        shapes.into_iter().fold(self, |playback, shape| playback.shape(name, shape))
+    }
+
+    /// All frames that the kernel has methods for, `frames(…)`, as bodies without a shape: [`shape`](Self::shape) and
+    /// [`rod`](Self::rod) give them one.
+    #[must_use]
+    pub fn frames(mut self, kernel: &S) -> Self
+    where
+        S: FramedSystem,
+    {
+        for &frame in S::Frame::ALL {
+            // R of a matrix as the nearest quaternion.
+            let pose = |sample: &Sample<S>| page::pose(&nalgebra::convert(kernel.pose_of(frame, sample.t, &sample.q)));
+            let poses = self.samples.iter().map(pose).collect();
+            self.add_body(frame.name(), poses);
+        }
+        self
+    }
+
+    fn add_body(&mut self, name: &str, poses: Vec<[f64; 7]>) {
+        if self.page.bodies.iter().any(|body| body.name == name) {
+            self.mistakes.push(format!("two bodies are called `{name}`"));
+        }
+        if let Some(n) = poses.iter().position(|pose| !pose.iter().all(|number| number.is_finite())) {
+            self.mistakes.push(format!("the pose of `{name}` is not finite at t = {}", self.samples[n].t));
+        }
+        self.page.bodies.push(Body { name: name.to_owned(), poses, shapes: Vec::new() });
+    }
+
+    /// A shape more of a body.
+    #[must_use]
+    pub fn shape(mut self, body: &str, shape: Shape) -> Self {
+        if !shape.is_finite() {
+            self.mistakes.push(format!("a shape of `{body}` is not finite"));
+        }
+        if let Some(body) = self.index_of(body) {
+            self.page.bodies[body].shapes.push(shape);
+        }
+        self
+    }
+
+    /// A rod from the origin of one body to that of another, as a skeleton has them.
+    #[must_use]
+    pub fn rod(mut self, from: &str, to: &str, radius: f64) -> Self {
+        if let (Some(from), Some(to)) = (self.index_of(from), self.index_of(to)) {
+            self.page.rods.push(Rod { from, to, radius });
+        }
+        self
+    }
+
+    /// The path of a point of a body, body axes from O.
+    #[must_use]
+    pub fn trace(mut self, body: &str, point: [f64; 3]) -> Self {
+        if let Some(body) = self.index_of(body) {
+            self.page.traces.push(Trace { body, point });
+        }
+        self
+    }
+
+    /// Which way is up on the screen, observer's axes; without this k₃. In a scene whose k₃ points down, as those of ships do,
+    /// `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂, `[0.0, 1.0, 0.0]`.
+    #[must_use]
+    pub fn up(mut self, direction: [f64; 3]) -> Self {
+        if !direction.iter().all(|number| number.is_finite()) || direction == [0.0; 3] {
+            self.mistakes.push("what is up has no direction".to_owned());
+        }
+        self.page.up = direction;
+        self
+    }
+
+    /// Looks at the motion from above at first.
+    #[must_use]
+    pub fn from_above(mut self) -> Self {
+        self.page.view = "top";
+        self
+    }
+
+    /// Lets the camera go with a body, and come near it; without this it sees everything from where it is.
+    #[must_use]
+    pub fn follow(mut self, body: &str) -> Self {
+        self.page.follow = self.index_of(body);
+        self
+    }
+
+    /// A vector at a point, both by the observer: a force, a momentum. `scale` is its length on the screen per unit, in the units
+    /// of length of the scene.
+    #[must_use]
+    pub fn arrow(
+        mut self,
+        name: &str,
+        scale: f64,
+        vector: impl Fn(&Sample<S>) -> (Vector3<f64>, Vector3<f64>),
+    ) -> Self {
+        let both: Vec<[f64; 6]> = self
+            .samples
+            .iter()
+            .map(|sample| {
+                let (at, vector) = vector(sample);
+                [at.x, at.y, at.z, vector.x * scale, vector.y * scale, vector.z * scale]
+            })
+            .collect();
+        if let Some(n) = both.iter().position(|all| !all.iter().all(|number| number.is_finite())) {
+            self.mistakes.push(format!("the arrow `{name}` is not finite at t = {}", self.samples[n].t));
+        }
+        self.page.arrows.push(Arrow { name: name.to_owned(), values: both });
+        self
+    }
+
+    /// A curve over time below the motion; curves of one `panel`, such as `"energy / J"`, share their axis.
+    #[must_use]
+    pub fn curve(mut self, panel: &str, name: &str, value: impl Fn(&Sample<S>) -> f64) -> Self {
+        let values: Vec<f64> = self.samples.iter().map(value).collect();
+        if let Some(n) = values.iter().position(|value| !value.is_finite()) {
+            self.mistakes.push(format!("the curve `{name}` is not finite at t = {}", self.samples[n].t));
+        }
+        let curve = Curve { name: name.to_owned(), values };
+        match self.page.panels.iter_mut().find(|other| other.title == panel) {
+            Some(panel) => panel.curves.push(curve),
+            None => self.page.panels.push(Panel { title: panel.to_owned(), curves: vec![curve] }),
+        }
+        self
+    }
+
+    /// Kinetic energy, potential energy and their sum, in the unit of energy of the scene.
+    #[must_use]
+    pub fn energy(self, kernel: &S) -> Self {
+        self.curve("energy", "kinetic", |s| kernel.kinetic_energy(s.t, &s.q, &s.z))
+            .curve("energy", "potential", |s| kernel.potential_energy(s.t, &s.q))
+            .curve("energy", "sum", |s| kernel.energy(s.t, &s.q, &s.z))
+    }
+
+    /// The page.
+    ///
+    /// # Errors
+    /// [`PlaybackError::Mistakes`]: names that no body has or two have, numbers that are not finite.
+    pub fn html(&self) -> Result<String, PlaybackError> {
+        if self.mistakes.is_empty() {
+            Ok(self.page.html())
+        } else {
+            Err(PlaybackError::Mistakes(self.mistakes.clone()))
+        }
+    }
+
+    /// Writes the page to a file, and the folders above it where they are missing.
+    ///
+    /// # Errors
+    /// As [`html`](Self::html), and [`PlaybackError::Io`].
+    pub fn write(&self, file: impl AsRef<Path>) -> Result<(), PlaybackError> {
+        let page = self.html()?;
+        if let Some(folder) = file.as_ref().parent() {
+            fs::create_dir_all(folder)?;
+        }
+        Ok(fs::write(file, page)?)
+    }
+
+    fn index_of(&mut self, name: &str) -> Option<usize> {
+        let found = self.page.bodies.iter().position(|body| body.name == name);
+        if found.is_none() {
+            let known: Vec<&str> = self.page.bodies.iter().map(|body| body.name.as_str()).collect();
+            self.mistakes.push(format!("no body is called `{name}`; there are {}", known.join(", ")));
+        }
+        found
+    }
+}

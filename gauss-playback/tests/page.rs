@@ -1,0 +1,105 @@
+//! The page holds what was asked for, where the kernel says it is.
+
+use gauss_playback::{Playback, PlaybackError, Shape};
+use gauss_runtime::prelude::*;
+use serde_json::Value;
+
+/// Two rods; the lower hangs from the end of the upper one.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(a, b),
+    body(
+        upper, rotation = rotation_y(a),
+        mass = 1.0, inertia_about_center_of_mass = [0.1, 0.1, 0.01], center_of_mass = [0, 0, -0.5],
+    ),
+    body(
+        lower, parent = upper, position = [0, 0, -1], rotation = rotation_y(b),
+        mass = 1.0, inertia_about_center_of_mass = [0.1, 0.1, 0.01], center_of_mass = [0, 0, -0.5],
+    ),
+    gravity = 9.81,
+    frames(upper, lower),
+)]
+struct Pendulum {}
+
+fn data(page: &str) -> Value {
+    let (_, rest) = page.split_once("<script id=\"data\" type=\"application/json\">").expect("the mark of the data");
+    let (data, _) = rest.split_once("</script>").expect("the end of the data");
+    serde_json::from_str(data).expect("JSON")
+}
+
+#[test]
+fn poses_are_those_of_the_kernel_and_nothing_comes_from_elsewhere() -> Result<(), Box<dyn std::error::Error>> {
+    let kernel = Pendulum {}.kernel()?;
+    let start = SVector::<f64, 2>::new(1.0, 0.5);
+    let path = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(start, SVector::zeros(), 0.0..1.0)?;
+    let title = "Two rods </script><b> & more";
+    let page = Playback::with_pictures(title, &path, 11)?
+        .frames(&kernel)
+        .shape("lower", Shape::rod([0.0; 3], [0.0, 0.0, -1.0], 0.02))
+        .rod("upper", "lower", 0.02)
+        .trace("lower", [0.0, 0.0, -1.0])
+        .arrow("weight", 0.1, |s| (kernel.pose_of(PendulumFrame::lower, s.t, &s.q).translation.vector, -Vector3::z()))
+        .energy(&kernel)
+        .html()?;
+    assert!(!page.contains("://"), "a page without network");
+    assert_eq!(page.matches("</script>").count(), 2, "the title ends no script");
+
+    let data = data(&page);
+    assert_eq!(data["title"], title);
+    let lower = &data["bodies"][1];
+    assert_eq!(lower["name"], "lower");
+    for n in 0..11 {
+        let sample = path.at(if n == 10 { 1.0 } else { 0.1 * n as f64 })?;
+        // By hand: the end of the upper rod.
+        let expected = [-sample.q[0].sin(), 0.0, -sample.q[0].cos()];
+        for (k, expected) in expected.into_iter().enumerate() {
+            let shown = lower["poses"][n][k].as_f64().expect("a number");
+            // A float of 24 bits.
+            assert!((shown - expected).abs() < 1e-7, "{n} {k}: {shown} {expected}");
+        }
+    }
+    let curves = data["panels"][0]["curves"].as_array().expect("curves");
+    let sums = curves[2]["values"].as_array().expect("values");
+    let start = kernel.potential_energy(0.0, &start);
+    // The tolerance of the run times the energies that are exchanged.
+    assert!(sums.iter().all(|sum| (sum.as_f64().expect("a number") - start).abs() < 1e-6));
+    Ok(())
+}
+
+#[test]
+fn all_mistakes_are_told_at_once() -> Result<(), Box<dyn std::error::Error>> {
+    let kernel = Pendulum {}.kernel()?;
+    let path = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(SVector::zeros(), SVector::zeros(), 0.0..0.1)?;
+    let page = Playback::new("", &path)?
+        .frames(&kernel)
+        .frames(&kernel)
+        .trace("hand", [0.0; 3])
+        .shape("upper", Shape::ball(f64::NAN))
+        .curve("", "gap", |s| 1.0 / s.t);
+    let Err(PlaybackError::Mistakes(all)) = page.html() else { panic!("mistakes") };
+    let expected = [
+        "two bodies are called `upper`",
+        "two bodies are called `lower`",
+        "no body is called `hand`; there are upper, lower, upper, lower",
+        "a shape of `upper` is not finite",
+        "the curve `gap` is not finite at t = 0",
+    ];
+    assert_eq!(all, expected);
+    Ok(())
+}
+
+#[test]
+fn an_ellipsoid_has_the_moments_it_is_drawn_for() {
+    // m/5 (b² + c²), …, turned.
+    let (mass, semi_axes) = (3.0, [0.2, 0.5, 0.3]);
+    let squares = semi_axes.map(|a: f64| a * a);
+    let moments = [1, 2, 0].map(|k| mass / 5.0 * (squares[k] + squares[(k + 1) % 3]));
+    let turn = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1).to_rotation_matrix();
+    let inertia = turn * Matrix3::from_diagonal(&Vector3::from(moments)) * turn.transpose();
+    let shape = serde_json::to_value(Shape::of_inertia(mass, [0.0; 3], &inertia)).expect("numbers");
+    let mut found: Vec<f64> = (0..3).map(|k| shape["size"][k].as_f64().expect("a number")).collect();
+    found.sort_by(f64::total_cmp);
+    for (found, expected) in found.into_iter().zip([0.2, 0.3, 0.5]) {
+        assert!((found - expected).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,247 @@
+//! Embedded pairs in lanes: the decisions of [`Adaptive`] for each of them.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::{Group, LaneControl, Verdict, chosen_state, largest, number, numbers_of, ones_in};
+use crate::batch::BatchSystem;
+use crate::integrate::drive::adaptive::{Adaptive, ROUNDED};
+use crate::integrate::drive::cause::{Gave, change};
+use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest};
+use crate::integrate::drive::projection::accept;
+use crate::integrate::drive::step_length::StepLength;
+use crate::integrate::drive::tolerance::{Floor, Trial};
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::IntegrationErrorKind;
+use crate::integrate::step::one_step::EstimatingStep;
+use crate::real::Real;
+use crate::simd::Packed;
+
+/// What one lane remembers: the fields of the same names of a run of its own.
+#[derive(Clone, Copy)]
+struct Lane {
+    length: f64,
+    lengths: StepLength,
+    looked: f64,
+    rejected: u32,
+    /// Whether the floor is known.
+    floored: bool,
+    /// Of the present trial: the length that is tried, whether it is the last, its error.
+    used: f64,
+    last: bool,
+    error: f64,
+}
+
+#[doc(hidden)]
+pub struct Memory<S: BatchSystem> {
+    lanes: Vec<Lane>,
+    floor: Option<Floor<S>>,
+    longest: f64,
+}
+
+impl<S: BatchSystem> Memory<S> {
+    /// The lengths of the steps to try, with their signs and without; lanes that cannot make one are told so.
+    #[inline(always)]
+    fn lengths(&mut self, group: &mut Group<S>, who: &[bool]) -> (S::Scalar, S::Scalar) {
+        let (mut h, mut lengths) = (S::Scalar::zero(), S::Scalar::one());
+        let rest = group.end - group.state.t;
+        for (n, lane) in self.lanes.iter_mut().enumerate() {
+            lane.used = 0.0;
+            if !who[n] {
+                continue;
+            }
+            let left = number(rest, n).abs();
+            // Stretch by 1 % rather than leave a sliver.
+            lane.last = lane.length >= left * 0.99;
+            let of = <S::Scalar as Packed>::Single::from_f64;
+            let signed =
+                if lane.last { rest.extract(n) } else { of(if group.span < 0.0 { -lane.length } else { lane.length }) };
+            let t = group.state.t.extract(n);
+            if t + signed == t || !lane.last && lane.length <= smallest::<S::Scalar>(t.lane(0), group.span) {
+                let vanishes = IntegrationErrorKind::StepTooSmall { step: lane.length };
+                group.verdicts[n] = Verdict::Gave(Gave::AnyStep(vanishes));
+                continue;
+            }
+            lane.used = if lane.last { left } else { lane.length };
+            h.replace(n, &signed);
+            lengths.replace(n, &of(lane.used));
+        }
+        (h, lengths)
+    }
+
+    /// Measures what rounding does at the state in the lanes that are asked for.
+    #[cold]
+    #[inline(never)]
+    fn look<P: Problem<System = S>>(&mut self, problem: &P, group: &Group<S>, asked: impl Fn(&Lane) -> bool) {
+        let here = Floor::at(problem, &group.state, &group.rates);
+        let ones = ones_in::<S::Scalar>(|lane| asked(&self.lanes[lane]));
+        self.floor = Some(self.floor.take().unwrap_or_else(Floor::none).or(ones, &here));
+    }
+
+    /// Forgets the floor in lanes that do not ask for it.
+    #[cold]
+    #[inline(never)]
+    fn forget(&mut self) {
+        let known = ones_in::<S::Scalar>(|lane| self.lanes[lane].floored);
+        self.floor = match self.floor.take() {
+            Some(floor) if self.lanes.iter().any(|lane| lane.floored) => Some(Floor::none().or(known, &floor)),
+            _ => None,
+        };
+    }
+
+    /// The lengths to try next, and what is told of the step, in every lane that tried one.
+    #[inline(always)]
+    fn judge<P: Problem<System = S>>(&mut self, problem: &P, group: &mut Group<S>, floors: Option<S::Scalar>) {
+        let (mut look, mut forget, most) = (false, false, self.longest);
+        for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0) {
+            if lane.error.is_nan() || lane.error > lane.lengths.limit() {
+                lane.length = lane.used * lane.lengths.reject(lane.error);
+                lane.rejected += 1;
+                group.verdicts[n] = Verdict::Rejected;
+                continue;
+            }
+            let beyond = floors.filter(|_| lane.floored).map_or(0.0, |floors| largest(floors, n));
+            let excess = if beyond > 1.0 { beyond } else { 0.0 };
+            // Well below what rounding does there is nothing to be learnt of the step.
+            let told = if excess > 0.0 && lane.error < 0.5 { lane.error.min(ROUNDED) } else { lane.error };
+            lane.length = (lane.used * lane.lengths.accept(told)).min(most);
+            // Where rounding is in the way it is asked for again, elsewhere when steps have become short.
+            let short = lane.length < 0.5 * lane.looked;
+            let again = excess > 0.0 || short;
+            forget |= lane.floored;
+            look |= again;
+            lane.floored = again;
+            if again {
+                lane.looked = lane.length;
+            }
+            lane.looked = lane.looked.max(lane.length);
+            let rejected = core::mem::take(&mut lane.rejected);
+            group.verdicts[n] = Verdict::Taken(Taken { rejected, excess }, lane.last);
+            // For those that are asked for below.
+            lane.used = if again { f64::INFINITY } else { lane.used };
+        }
+        if forget {
+            self.forget();
+        }
+        if look {
+            self.look(problem, group, |lane| lane.used == f64::INFINITY);
+        }
+    }
+}
+
+impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
+    type Memory = Memory<S>;
+
+    fn memory(&self, span: f64, limit: u64) -> Result<Memory<S>, IntegrationErrorKind> {
+        check_tolerances(self.tolerance.relative, self.tolerance.absolute)?;
+        let longest = if span == 0.0 { 0.0 } else { longest(self.largest_step, span, limit)? };
+        let lane = Lane {
+            length: 0.0,
+            lengths: StepLength::new(self.method.estimate_order(), S::SMOOTHNESS),
+            looked: 0.0,
+            rejected: 0,
+            floored: false,
+            used: 0.0,
+            last: false,
+            error: 0.0,
+        };
+        Ok(Memory { lanes: vec![lane; S::Scalar::WIDTH], floor: None, longest })
+    }
+
+    fn begin<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        group: &Group<S>,
+        lane: usize,
+        memory: &mut Memory<S>,
+    ) -> Result<(), IntegrationErrorKind> {
+        let lanes = (ones_in(|other| other == lane), numbers_of::<S::Scalar>(lane));
+        let start = (&group.state, &group.rates);
+        let estimate = || self.first_length(problem, start, &lanes, group.span.signum());
+        let first = self.first_step.unwrap_or_else(estimate);
+        if !(first.is_finite() && first > 0.0) {
+            return Err(IntegrationErrorKind::InvalidStep { step: first });
+        }
+        let this = &mut memory.lanes[lane];
+        this.lengths = StepLength::new(self.method.estimate_order(), S::SMOOTHNESS);
+        (this.length, this.looked, this.rejected) = (first.min(memory.longest), 0.0, 0);
+        if core::mem::take(&mut this.floored) {
+            memory.forget();
+        }
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn attempt<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        group: &mut Group<S>,
+        who: &[bool],
+        memory: &mut Memory<S>,
+    ) -> Result<(), IntegrationErrorKind> {
+        let (h, lengths) = memory.lengths(group, who);
+        let (step, coarse) = self.method.step_and_estimates(problem, &group.state, &group.rates, h)?;
+        let tolerance = &self.tolerance;
+        let trial = Trial { from: &group.state, to: &step.state, length: lengths, floor: memory.floor.as_ref() };
+        let errors = tolerance.errors(&trial, &step.error, coarse.as_ref());
+        let too_large = |lane: &Lane| lane.error.is_nan() || lane.error > lane.lengths.limit();
+        let mut look = false;
+        for (n, lane) in memory.lanes.iter_mut().enumerate() {
+            lane.error = if lane.used > 0.0 { largest(errors, n) } else { 0.0 };
+            look |= too_large(lane) && !lane.floored;
+        }
+        if look {
+            // It may be rounding that is too much.
+            memory.look(problem, group, |lane| too_large(lane) && !lane.floored);
+            let trial = Trial { from: &group.state, to: &step.state, length: lengths, floor: memory.floor.as_ref() };
+            let errors = tolerance.errors(&trial, &step.error, coarse.as_ref());
+            for (n, lane) in memory.lanes.iter_mut().enumerate().filter(|(_, lane)| too_large(lane) && !lane.floored) {
+                (lane.error, lane.floored) = (largest(errors, n), true);
+            }
+        }
+
+        // Lanes that do not take the step stay where they are.
+        let takes = |n: usize| memory.lanes[n].used > 0.0 && !too_large(&memory.lanes[n]);
+        let all = (0..memory.lanes.len()).all(takes);
+        let ones = if all { S::Scalar::one() } else { ones_in(takes) };
+        let mut reached = step.state;
+        for (n, lane) in memory.lanes.iter().enumerate() {
+            if lane.last {
+                reached.t.replace(n, &group.end.extract(n));
+            }
+        }
+        let known = step.rates;
+        if !all {
+            reached = chosen_state(ones, &reached, &group.state);
+        }
+        let next = accept(problem, &mut reached, known)?;
+        let floors = memory.floor.as_ref().map(|floor| {
+            tolerance.excesses(&Trial { from: &group.state, to: &reached, length: lengths, floor: Some(floor) })
+        });
+        group.take(ones, all, (reached, next));
+        memory.judge(problem, group, floors);
+        Ok(())
+    }
+
+    #[cold]
+    fn failed(&self, group: &Group<S>, n: usize, kind: IntegrationErrorKind, memory: &mut Memory<S>) -> Verdict {
+        let lane = &mut memory.lanes[n];
+        lane.length = 0.5 * lane.length.min(group.left(n));
+        lane.rejected += 1;
+        lane.lengths.fail();
+        let moves = change(&group.state, &group.rates, &numbers_of::<S::Scalar>(n)) * lane.length;
+        let still = moves > 0.0 && moves < 0.5 * S::Scalar::EPSILON;
+        let t = group.state.t.extract(n);
+        let h = <S::Scalar as Packed>::Single::from_f64(if group.span < 0.0 { -lane.length } else { lane.length });
+        let vanishes = lane.length <= smallest::<S::Scalar>(t.lane(0), group.span) || t + h == t;
+        if still || vanishes { Verdict::Gave(Gave::AnyStep(kind)) } else { Verdict::Rejected }
+    }
+
+    fn length(&self, lane: usize, memory: &Memory<S>) -> f64 {
+        memory.lanes[lane].length
+    }
+
+    fn passes_over_decay(&self) -> bool {
+        self.method.properties().stiff
+    }
+}

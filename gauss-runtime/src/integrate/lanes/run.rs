@@ -1,0 +1,428 @@
+//! Runs in lanes: a lane gets a run, makes its steps, and is handed to the next one.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::{Group, LaneControl, Verdict, chosen_rates, number, numbers_of, ones_in};
+use crate::batch::{BatchSystem, Ended, EventState, HowItEnded, SingleConfiguration, SingleSpeeds, StateError};
+use crate::configuration::Configuration;
+use crate::integrate::drive::cause::{Gave, Place, cause};
+use crate::integrate::drive::control::prepare;
+use crate::integrate::drive::event::{Events, Outcome, Watch};
+use crate::integrate::drive::pace::Pace;
+use crate::integrate::drive::run::Jumps;
+use crate::integrate::drive::search::{Looking, Made};
+use crate::integrate::drive::summary::Summary;
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::IntegrationErrorKind;
+use crate::integrate::problem::state::{Rates, State};
+use crate::real::Real;
+use crate::simd::Packed;
+
+/// A run by its number, and its start.
+type First<S> = (usize, SingleConfiguration<S>, SingleSpeeds<S>);
+
+/// The span of time, the state and the derivatives at the start of all lanes.
+type Start<S> = Result<(f64, State<S>, Rates<S>), IntegrationErrorKind>;
+
+/// Where runs come from, and where their ends go: by their numbers.
+pub(crate) trait Runs<S: BatchSystem> {
+    /// The number of the next one, and its start.
+    fn next(&mut self) -> Option<First<S>>;
+
+    /// The last good state of a run, and how it ended.
+    fn end(&mut self, run: usize, state: (SingleConfiguration<S>, SingleSpeeds<S>), outcome: HowItEnded<S>);
+}
+
+/// A run in a lane.
+struct Running<'a, S: BatchSystem, P, C, E> {
+    number: usize,
+    summary: Summary,
+    pace: Pace,
+    /// Over jumps.
+    way: Pace,
+    jumps: Jumps,
+    watch: Watch<'a, P, C, E>,
+    found: Vec<EventState<SingleConfiguration<S>, SingleSpeeds<S>>>,
+}
+
+/// What all runs have in common.
+pub(crate) struct InLanes<'a, P, C, E> {
+    pub(crate) control: &'a C,
+    pub(crate) problem: &'a P,
+    pub(crate) events: &'a E,
+    pub(crate) times: (f64, f64),
+    pub(crate) limit: u64,
+}
+
+/// Lanes with their runs.
+struct Lanes<'a, S: BatchSystem, P, C: LaneControl<S>, E> {
+    all: &'a InLanes<'a, P, C, E>,
+    group: Group<S>,
+    memory: C::Memory,
+    running: Vec<Option<Running<'a, S, P, C, E>>>,
+}
+
+impl<S, P, C, E> InLanes<'_, P, C, E>
+where
+    S: BatchSystem,
+    P: Problem<System = S>,
+    C: LaneControl<S>,
+    E: Events<S> + Clone,
+{
+    /// Carries all runs to their ends. The first ones get the lanes in their order.
+    pub(crate) fn carry(&self, runs: &mut dyn Runs<S>) {
+        let firsts: Vec<_> = (0..S::Scalar::WIDTH).map_while(|_| runs.next()).collect();
+        let Some(mut lanes) = self.open(&firsts, runs) else {
+            // None of them can be started, which says nothing about the others.
+            return if firsts.is_empty() {
+            } else {
+                self.carry(runs)
+            };
+        };
+        loop {
+            while let Some(lane) = lanes.free() {
+                let Some((number, q, z)) = runs.next() else { break };
+                match lanes.place(lane, &q, &z) {
+                    Ok(()) => lanes.enter(lane, number, runs),
+                    Err(kind) => runs.end(number, (q, z), self.not_started(number, kind)),
+                }
+            }
+            if lanes.running.iter().all(Option::is_none) {
+                return;
+            }
+            lanes.step(runs);
+        }
+    }
+
+    fn not_started(&self, state: usize, kind: IntegrationErrorKind) -> HowItEnded<S> {
+        Err(StateError { state, time: self.times.0, kind })
+    }
+
+    /// The start of some runs in a lane each; lanes without one repeat the last.
+    fn start(&self, starts: impl Fn(usize) -> (SingleConfiguration<S>, SingleSpeeds<S>)) -> Start<S> {
+        let first = starts(0);
+        let (mut q, mut z) = (S::Configuration::repeat(&first.0), S::Speeds::repeat(&first.1));
+        for lane in 1..S::Scalar::WIDTH {
+            let start = starts(lane);
+            q.replace(lane, &start.0);
+            z.replace(lane, &start.1);
+        }
+        let start = self.problem.state(S::Scalar::from_f64(self.times.0), q.renormalise(), &z);
+        prepare(self.problem, &start, S::Scalar::from_f64(self.times.1))
+    }
+
+    /// Lanes with the first runs. Those that cannot be started are told so; none where no one can.
+    fn open(&self, firsts: &[First<S>], runs: &mut dyn Runs<S>) -> Option<Lanes<'_, S, P, C, E>> {
+        let last = firsts.len().checked_sub(1)?;
+        let state = |n: usize| (firsts[n].1, firsts[n].2);
+        let mut refused: Vec<(usize, IntegrationErrorKind)> = Vec::new();
+        let memory = self.control.memory(self.times.1 - self.times.0, self.limit);
+        let started = memory.and_then(|memory| {
+            let together = self.start(|lane| state(lane.min(last)));
+            let started = together.or_else(|kind| {
+                // Those that can be started alone, with one of them in the place of the others.
+                let alone = |n: usize| self.start(|_| state(n)).err();
+                refused.extend((0..=last).filter_map(|n| alone(n).map(|kind| (n, kind))));
+                let good = (0..=last).find(|n| refused.iter().all(|(bad, _)| bad != n)).ok_or(kind)?;
+                let able = |n: usize| if refused.iter().any(|(bad, _)| *bad == n) { good } else { n };
+                self.start(|lane| state(able(lane.min(last))))
+            })?;
+            Ok((memory, started))
+        });
+        let (outcome, rest) = match started {
+            Ok(started) => (Some(started), None),
+            Err(kind) => (None, Some(kind)),
+        };
+        for (n, &(number, q, z)) in firsts.iter().enumerate() {
+            let alone = refused.iter().find(|(bad, _)| *bad == n).map(|(_, kind)| *kind);
+            if let Some(kind) = alone.or(rest) {
+                runs.end(number, (q, z), self.not_started(number, kind));
+            }
+        }
+        let (memory, (span, state, rates)) = outcome?;
+        let width = S::Scalar::WIDTH;
+        let (verdicts, end) = (vec![Verdict::Rejected; width], S::Scalar::from_f64(self.times.1));
+        let group = Group { state, rates, verdicts, end, span };
+        let mut lanes = Lanes { all: self, group, memory, running: (0..width).map(|_| None).collect() };
+        for (lane, (number, ..)) in firsts.iter().enumerate() {
+            if refused.iter().all(|(bad, _)| *bad != lane) {
+                lanes.enter(lane, *number, runs);
+            }
+        }
+        Some(lanes)
+    }
+}
+
+impl<'a, S, P, C, E> Lanes<'a, S, P, C, E>
+where
+    S: BatchSystem,
+    P: Problem<System = S>,
+    C: LaneControl<S>,
+    E: Events<S> + Clone,
+{
+    /// A lane without a run.
+    fn free(&self) -> Option<usize> {
+        self.running.iter().position(Option::is_none)
+    }
+
+    /// Puts a state into a lane: the start of a run, in bits that do not depend on the others.
+    fn place(
+        &mut self,
+        lane: usize,
+        q: &SingleConfiguration<S>,
+        z: &SingleSpeeds<S>,
+    ) -> Result<(), IntegrationErrorKind> {
+        let problem = self.all.problem;
+        let here = self.group.state;
+        let (mut t, mut configuration) = (here.t, here.q);
+        let mut speeds = problem.speeds(t, &here.q, &here.y);
+        t.replace(lane, &Real::from_f64(self.all.times.0));
+        configuration.replace(lane, q);
+        speeds.replace(lane, z);
+        let fresh = problem.state(t, configuration.renormalise(), &speeds);
+        self.set(lane, &fresh)
+    }
+
+    /// Takes one lane of a state, checked as that of a run that begins.
+    fn set(&mut self, lane: usize, fresh: &State<S>) -> Result<(), IntegrationErrorKind> {
+        let mut start = self.group.state;
+        start.t.replace(lane, &fresh.t.extract(lane));
+        start.q.replace(lane, &fresh.q.extract(lane));
+        start.y.replace(lane, &fresh.y.extract(lane));
+        let (_, checked, rates) = prepare(self.all.problem, &start, self.group.end)?;
+        start.q.replace(lane, &checked.q.extract(lane));
+        start.y.replace(lane, &checked.y.extract(lane));
+        self.group.state = start;
+        self.group.rates = chosen_rates(ones_in(|other| other == lane), &rates, &self.group.rates);
+        Ok(())
+    }
+
+    /// A run begins in a lane that holds its start.
+    fn enter(&mut self, lane: usize, number: usize, runs: &mut dyn Runs<S>) {
+        let all = self.all;
+        let way = || Pace::new(all.times.0, all.limit);
+        let running = Running {
+            number,
+            summary: Summary::default(),
+            pace: way(),
+            way: way(),
+            jumps: Jumps::new::<S::Scalar>(all.times.0, all.times.1),
+            watch: Watch::new(all.control, all.problem, all.events.clone(), numbers_of::<S::Scalar>(lane).start),
+            found: Vec::new(),
+        };
+        self.running[lane] = Some(running);
+        if self.group.span == 0.0 {
+            self.leave(lane, Ok(None), runs);
+        } else if let Err(kind) = self.begin(lane) {
+            self.leave(lane, Err(kind), runs);
+        }
+    }
+
+    /// The first step of a run, or after a jump, is to come.
+    fn begin(&mut self, lane: usize) -> Result<(), IntegrationErrorKind> {
+        self.all.control.begin(self.all.problem, &self.group, lane, &mut self.memory)?;
+        let Some(running) = &mut self.running[lane] else { return Ok(()) };
+        if E::COUNT > 0 { running.watch.begin(&self.group.state) } else { Ok(()) }
+    }
+
+    /// A run has come to its end, by itself or by an event, or cannot go on.
+    fn leave(&mut self, lane: usize, how: Result<Option<usize>, IntegrationErrorKind>, runs: &mut dyn Runs<S>) {
+        let Some(running) = self.running[lane].take() else { return };
+        let State { t, q, y } = &self.group.state;
+        let time = number(*t, lane);
+        let last = (q.extract(lane), self.all.problem.speeds(*t, q, y).extract(lane));
+        let outcome = match how {
+            Ok(stopped_by) => Ok(Ended { time, stopped_by, summary: running.summary, events: running.found }),
+            Err(kind) => Err(StateError { state: running.number, time, kind }),
+        };
+        runs.end(running.number, last, outcome);
+    }
+
+    /// What is behind the end of a run that cannot go on.
+    fn give_up(&mut self, lane: usize, gave: Gave, runs: &mut dyn Runs<S>) {
+        let place = Place {
+            state: &self.group.state,
+            rates: &self.group.rates,
+            length: self.all.control.length(lane, &self.memory),
+            left: self.group.left(lane),
+            stiff: self.all.control.passes_over_decay(),
+            lanes: numbers_of::<S::Scalar>(lane),
+        };
+        let kind = cause(self.all.problem, &place, gave);
+        self.leave(lane, Err(kind), runs);
+    }
+
+    /// A step in all lanes that have runs.
+    fn step(&mut self, runs: &mut dyn Runs<S>) {
+        for lane in 0..self.running.len() {
+            let left = self.group.left(lane);
+            let t = number(self.group.state.t, lane);
+            let spent = self.running[lane].as_mut().and_then(|running| running.pace.spent(t, left));
+            if let Some(hopeless) = spent {
+                self.give_up(lane, Gave::Out { limit: self.all.limit, hopeless }, runs);
+            }
+        }
+        let who: Vec<bool> = self.running.iter().map(Option::is_some).collect();
+        let before = (E::COUNT > 0).then_some((self.group.state, self.group.rates));
+        self.attempt(&who);
+        if let Some(before) = &before {
+            self.see(before, &who, runs);
+        }
+        for lane in (0..who.len()).filter(|&lane| who[lane]) {
+            match self.group.verdicts[lane] {
+                Verdict::Rejected => {}
+                Verdict::Gave(gave) => self.give_up(lane, gave, runs),
+                Verdict::Taken(taken, last) => {
+                    if let Some(running) = &mut self.running[lane]
+                        && E::COUNT == 0
+                    {
+                        running.summary.count(taken);
+                    }
+                    if last {
+                        self.leave(lane, Ok(None), runs);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Tries a step in some lanes. When it fails it is tried in each of them alone: they are independent, and a step of length zero
+    /// succeeds from every good state.
+    fn attempt(&mut self, who: &[bool]) {
+        let (control, problem) = (self.all.control, self.all.problem);
+        if let Err(kind) = control.attempt(problem, &mut self.group, who, &mut self.memory) {
+            let tried = |lane: &usize| who[*lane];
+            match (0..who.len()).filter(tried).count() {
+                1 => {
+                    let lane = (0..who.len()).find(tried).unwrap_or(0);
+                    self.group.verdicts[lane] = control.failed(&self.group, lane, kind, &mut self.memory);
+                }
+                _ => (0..who.len()).filter(tried).for_each(|lane| {
+                    let alone: Vec<bool> = (0..who.len()).map(|other| other == lane).collect();
+                    self.attempt(&alone);
+                }),
+            }
+        }
+    }
+
+    /// Looks for events in the steps that were taken.
+    #[inline(never)]
+    fn see(&mut self, before: &(State<S>, Rates<S>), who: &[bool], runs: &mut dyn Runs<S>) {
+        let suspicious = self.suspicious(before);
+        for lane in (0..who.len()).filter(|&lane| who[lane]) {
+            let Verdict::Taken(taken, _) = self.group.verdicts[lane] else { continue };
+            let Some(running) = &mut self.running[lane] else { continue };
+            running.summary.count(taken);
+            if !suspicious[lane] {
+                continue;
+            }
+            // All other lanes stand still.
+            let only = ones_in(|other| other == lane);
+            let state = super::chosen_state(only, &self.group.state, &before.0);
+            let rates = chosen_rates(only, &self.group.rates, &before.1);
+            let numbers = numbers_of::<S::Scalar>(lane);
+            let made = Made { lane: numbers.start, before: (&before.0, &before.1), after: (&state, &rates) };
+            let (problem, found) = (self.all.problem, &mut running.found);
+            let outcome = running.watch.step(&made, &mut |event, at| {
+                let z = problem.speeds(at.t, &at.q, &at.y);
+                found.push(EventState { event, t: number(at.t, lane), q: at.q.extract(lane), z: z.extract(lane) });
+            });
+            match outcome {
+                Ok(Outcome::On) => {}
+                Ok(Outcome::Here { state, after, number, stopped_by }) => {
+                    self.cut(lane, (&state, after.as_ref()), (number, stopped_by), runs);
+                }
+                Err(kind) => {
+                    // The last good state is the one before.
+                    self.back(lane, &before.0);
+                    self.leave(lane, Err(kind), runs);
+                }
+            }
+        }
+    }
+
+    /// In which lanes the curve of the step shows that an event may be on it; in others the values at its end are remembered.
+    fn suspicious(&mut self, before: &(State<S>, Rates<S>)) -> Vec<bool> {
+        let all = self.all;
+        let after = (&self.group.state, &self.group.rates);
+        let made = Made { lane: 0, before: (&before.0, &before.1), after };
+        let looking = Looking::of(all.control, all.problem, &made);
+        let mut suspicious = vec![false; self.running.len()];
+        let mut watched = all.events.clone();
+        let mut event = 0;
+        watched.each(&mut |function, _| {
+            let seen = looking.glimpse(function);
+            for (lane, running) in self.running.iter_mut().enumerate() {
+                let Some(running) = running else { continue };
+                let numbers = numbers_of::<S::Scalar>(lane);
+                let shows = |start: f64| match &seen {
+                    Ok(seen) => seen(numbers.start, start),
+                    Err(_) => Ok(true),
+                };
+                suspicious[lane] |= running.watch.may_pass(event, shows);
+            }
+            event += 1;
+        });
+        let mut event = 0;
+        watched.each(&mut |function, _| {
+            let values = crate::integrate::drive::search::values(all.problem, function, after.0);
+            for (lane, running) in self.running.iter_mut().enumerate().filter(|(lane, _)| !suspicious[*lane]) {
+                if let (Some(running), Verdict::Taken(..)) = (running, &self.group.verdicts[lane]) {
+                    running.watch.remember(event, values.lane(numbers_of::<S::Scalar>(lane).start));
+                }
+            }
+            event += 1;
+        });
+        suspicious
+    }
+
+    /// A run ends at an event, or goes on from there in another state.
+    fn cut(
+        &mut self,
+        lane: usize,
+        (at, after): (&State<S>, Option<&State<S>>),
+        (event, stopped_by): (usize, Option<usize>),
+        runs: &mut dyn Runs<S>,
+    ) {
+        // Neither is the step of this lane the last one any more.
+        self.group.verdicts[lane] = Verdict::Rejected;
+        self.back(lane, at);
+        let Some(running) = &mut self.running[lane] else { return };
+        if after.is_some() {
+            running.summary.jumps += 1;
+            if let Err(kind) = running.jumps.count(number(at.t, lane), event) {
+                return self.leave(lane, Err(kind), runs);
+            }
+        }
+        let outcome = after.map_or(Ok(()), |after| self.set(lane, after));
+        match (outcome, stopped_by) {
+            (Err(kind), _) => self.leave(lane, Err(kind), runs),
+            (Ok(()), Some(_)) => self.leave(lane, Ok(stopped_by), runs),
+            (Ok(()), None) => self.go_on(lane, runs),
+        }
+    }
+
+    /// After a jump a run goes on as from a start.
+    fn go_on(&mut self, lane: usize, runs: &mut dyn Runs<S>) {
+        let (t, left, limit) = (number(self.group.state.t, lane), self.group.left(lane), self.all.limit);
+        let Some(running) = &mut self.running[lane] else { return };
+        let tries = running.summary.steps + running.summary.rejected;
+        let lost = running.way.jumped(t, left, tries);
+        running.pace = Pace::new(t, limit.saturating_sub(tries));
+        let outcome = if lost { Err(IntegrationErrorKind::TooManySteps { limit }) } else { self.begin(lane) };
+        match outcome {
+            Err(kind) => self.leave(lane, Err(kind), runs),
+            Ok(()) if left == 0.0 => self.leave(lane, Ok(None), runs),
+            Ok(()) => {}
+        }
+    }
+
+    /// A lane goes back to a state within its last step.
+    fn back(&mut self, lane: usize, to: &State<S>) {
+        let state = &mut self.group.state;
+        state.t.replace(lane, &to.t.extract(lane));
+        state.q.replace(lane, &to.q.extract(lane));
+        state.y.replace(lane, &to.y.extract(lane));
+    }
+}

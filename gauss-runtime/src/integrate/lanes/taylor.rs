@@ -1,0 +1,187 @@
+//! Taylor's method in lanes: one order for all, a length of step for each.
+
+use alloc::boxed::Box;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::{Group, LaneControl, Verdict, chosen_state, number, numbers_of, ones_in};
+use crate::batch::BatchSystem;
+use crate::configuration::Configuration;
+use crate::integrate::drive::cause::Gave;
+use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest};
+use crate::integrate::drive::projection::accept;
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::state::State;
+use crate::integrate::step::checks::check_chart;
+use crate::integrate::taylor::{Order, Taylor, expanded, summed};
+use crate::real::Real;
+use crate::series::{PowerSeries, TaylorSystem};
+use crate::simd::Packed;
+
+/// What one lane remembers.
+#[derive(Clone, Copy)]
+struct Lane {
+    /// About the length of the last step; 0 before the first.
+    guess: f64,
+    /// ln of the lengths at the orders that are compared, and how much rounding is beyond the tolerance.
+    lengths: [f64; 2],
+    excess: f64,
+    last: bool,
+    tries: bool,
+}
+
+#[doc(hidden)]
+pub struct Memory<S: TaylorSystem> {
+    order: Order,
+    series: Box<S::Series>,
+    lanes: Vec<Lane>,
+    longest: f64,
+}
+
+impl<S: TaylorSystem> Memory<S>
+where
+    S: BatchSystem,
+{
+    /// The lengths of steps with their signs, as the series asks in each lane; lanes that cannot make one are told so.
+    fn lengths(&mut self, control: &Taylor, group: &mut Group<S>, who: &[bool]) -> S::Scalar {
+        let direction = if group.span < 0.0 { -1.0 } else { 1.0 };
+        let mut h = S::Scalar::zero();
+        let rest = group.end - group.state.t;
+        for (n, lane) in self.lanes.iter_mut().enumerate() {
+            lane.tries = false;
+            if !who[n] {
+                continue;
+            }
+            let guess = direction * lane.guess;
+            let numbers = numbers_of::<S::Scalar>(n);
+            (lane.lengths, lane.excess) = control.lengths::<S>(&self.series, self.order.judged(), guess, numbers);
+            let length = Real::exp(lane.lengths[1]);
+            let mut gave = |kind| group.verdicts[n] = Verdict::Gave(Gave::AnyStep(kind));
+            // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
+            if length.is_nan() {
+                gave(IntegrationErrorKind::NonFinite { part: Part::Derivative });
+                continue;
+            }
+            let (length, left) = (length.min(self.longest), number(rest, n).abs());
+            lane.last = length >= left * 0.999;
+            let of = <S::Scalar as Packed>::Single::from_f64;
+            let signed = if lane.last { rest.extract(n) } else { of(direction * length) };
+            let t = group.state.t.extract(n);
+            if t + signed == t || !lane.last && length <= smallest::<S::Scalar>(t.lane(0), group.span) {
+                gave(IntegrationErrorKind::StepTooSmall { step: length });
+                continue;
+            }
+            (lane.guess, lane.tries) = (length, true);
+            h.replace(n, &signed);
+        }
+        h
+    }
+
+    /// The order for the next step, where it is to be chosen: what is better for most lanes.
+    fn choose(&mut self, control: &Taylor) {
+        let (mut sum, mut count) = ([0.0; 2], 0.0);
+        for lane in self.lanes.iter().filter(|lane| lane.tries && lane.guess < self.longest) {
+            sum = [sum[0] + lane.lengths[0], sum[1] + lane.lengths[1]];
+            count += 1.0;
+        }
+        if count > 0.0 {
+            let better = self.order.better(sum.map(|lengths| lengths / count));
+            if better != self.order.value() {
+                self.order = Order::new(control, better);
+            }
+        }
+    }
+}
+
+impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
+    type Memory = Memory<S>;
+
+    fn memory(&self, span: f64, limit: u64) -> Result<Memory<S>, IntegrationErrorKind> {
+        check_tolerances(self.relative, self.absolute)?;
+        let longest = if span == 0.0 { 0.0 } else { longest(self.largest_step, span, limit)? };
+        let lane = Lane { guess: 0.0, lengths: [0.0; 2], excess: 0.0, last: false, tries: false };
+        let (order, series) = (Order::new(self, self.first_order()), Box::new(S::Series::zero()));
+        Ok(Memory { order, series, lanes: vec![lane; S::Scalar::WIDTH], longest })
+    }
+
+    fn begin<P: Problem<System = S>>(
+        &self,
+        _: &P,
+        _: &Group<S>,
+        lane: usize,
+        memory: &mut Memory<S>,
+    ) -> Result<(), IntegrationErrorKind> {
+        memory.lanes[lane].guess = 0.0;
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn attempt<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        group: &mut Group<S>,
+        who: &[bool],
+        memory: &mut Memory<S>,
+    ) -> Result<(), IntegrationErrorKind> {
+        let order = memory.order.value();
+        expanded(problem, &group.state, order, &mut memory.series);
+        let guesses: Vec<f64> = memory.lanes.iter().map(|lane| lane.guess).collect();
+        let h = memory.lengths(self, group, who);
+        let mut reached = summed(problem, group.state.t, &memory.series, order, h);
+        let takes = |n: usize| memory.lanes[n].tries;
+        let all = (0..memory.lanes.len()).all(takes);
+        let ones = if all { S::Scalar::one() } else { ones_in(takes) };
+        for (n, lane) in memory.lanes.iter().enumerate() {
+            if lane.tries && lane.last {
+                reached.t.replace(n, &group.end.extract(n));
+            }
+        }
+        if !all {
+            reached = chosen_state(ones, &reached, &group.state);
+        }
+        let checked = Self::checked(problem, &group.state, &mut reached);
+        let next = checked.inspect_err(|_| {
+            // As if nothing had been tried.
+            memory.lanes.iter_mut().zip(&guesses).for_each(|(lane, &guess)| lane.guess = guess);
+        })?;
+        group.take(ones, all, (reached, next));
+        for (n, lane) in memory.lanes.iter().enumerate().filter(|(_, lane)| lane.tries) {
+            group.verdicts[n] = Verdict::Taken(Taken { rejected: 0, excess: lane.excess }, lane.last);
+        }
+        if self.order.is_none() {
+            memory.choose(self);
+        }
+        Ok(())
+    }
+
+    fn failed(&self, _: &Group<S>, _: usize, kind: IntegrationErrorKind, _: &mut Memory<S>) -> Verdict {
+        Verdict::Gave(match kind {
+            IntegrationErrorKind::SingularChart { .. } => Gave::Step(kind),
+            kind => Gave::AnyStep(kind),
+        })
+    }
+
+    fn length(&self, lane: usize, memory: &Memory<S>) -> f64 {
+        memory.lanes[lane].guess
+    }
+
+    fn passes_over_decay(&self) -> bool {
+        false
+    }
+}
+
+impl Taylor {
+    /// What a step must keep to; the derivatives at its end.
+    fn checked<S: TaylorSystem, P: Problem<System = S>>(
+        problem: &P,
+        from: &State<S>,
+        reached: &mut State<S>,
+    ) -> Result<crate::integrate::problem::state::Rates<S>, IntegrationErrorKind> {
+        if !(reached.q.is_finite() && crate::configuration::VectorSpace::is_finite(&reached.y)) {
+            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        }
+        check_chart(problem.system(), from, reached)?;
+        accept(problem, reached, None)
+    }
+}

@@ -1,0 +1,31 @@
+//! The guide: `mdbook build guide` makes pages of it. Its blocks of code are tests of this crate, all compiled as one
+//! program: `cargo test -p gauss-guide`. A block that needs options of its own would be compiled alone.
+
+macro_rules! chapters {
+    ($($chapter:ident: $page:literal,)*) => {$(
+        #[cfg(doctest)]
+        #[doc = include_str!($page)]
+        pub struct $chapter;
+    )*};
+}
+
+chapters! {
+    FirstBody: "src/first_body.md",
+    Frames: "src/frames.md",
+    Charts: "src/charts.md",
+    OwnCoordinates: "src/own_coordinates.md",
+    Constraints: "src/constraints.md",
+    Loads: "src/loads.md",
+    Inputs: "src/inputs.md",
+    Integrators: "src/integrators.md",
+    HardCases: "src/hard_cases.md",
+    Derivatives: "src/derivatives.md",
+    Many: "src/many.md",
+    Embedded: "src/embedded.md",
+    Robots: "src/robots.md",
+    Seeing: "src/seeing.md",
+    Tasks: "src/tasks.md",
+    FromSympy: "src/from_sympy.md",
+    FromPinocchioMujoco: "src/from_pinocchio_mujoco.md",
+    FromMss: "src/from_mss.md",
+}

@@ -1,0 +1,203 @@
+//! The pages that people read: links lead somewhere, lines are as wide as a person reads, every chapter of the guide is in
+//! its list and is compiled, and the README's table of times is that of BENCHMARKS.md.
+
+use std::collections::HashSet;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use gauss_tests::pages::{keep, repository};
+
+/// Folders whose Markdown pages are read.
+const FOLDERS: [&str; 7] = ["", "docs", "guide/src", "tests", "tests/references", "gauss-codegen", "examples"];
+
+/// Columns of a line outside tables.
+const WIDTH: usize = 120;
+
+struct PageOfRepository {
+    name: String,
+    path: PathBuf,
+    text: String,
+}
+
+fn pages() -> Vec<PageOfRepository> {
+    let mut pages = Vec::new();
+    for folder in FOLDERS {
+        let entries = fs::read_dir(repository().join(folder)).unwrap_or_else(|error| panic!("{folder}: {error}"));
+        for entry in entries {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|extension| extension == "md") {
+                let name = format!("{folder}/{}", path.file_name().expect("a name").to_string_lossy());
+                let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+                pages.push(PageOfRepository { name, path, text });
+            }
+        }
+    }
+    pages
+}
+
+/// Lines with their numbers, without those of blocks of code.
+fn prose(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut code = false;
+    text.lines().enumerate().filter_map(move |(n, line)| {
+        let fence = line.trim_start().starts_with("```");
+        code ^= fence;
+        (!code && !fence).then_some((n + 1, line))
+    })
+}
+
+/// Targets of `[…](…)`, without what stands between backquotes.
+fn targets(line: &str) -> Vec<&str> {
+    let mut out = Vec::new();
+    for part in line.split('`').step_by(2) {
+        // A link whose text ends in code begins its part with `](`.
+        for (at, _) in part.match_indices("](") {
+            let target = &part[at + 2..];
+            out.push(&target[..target.find(')').unwrap_or(target.len())]);
+        }
+    }
+    out
+}
+
+/// The anchors of a page as GitHub and mdBook make them: letters, digits and hyphens of its headings.
+fn anchors(text: &str) -> HashSet<String> {
+    let headings = prose(text).filter_map(|(_, line)| line.strip_prefix('#'));
+    let slug = |heading: &str| {
+        let heading = heading.trim_start_matches('#').trim().to_lowercase();
+        let kept = heading.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+        kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+    };
+    headings.map(slug).collect()
+}
+
+/// What is wrong with a link of a page.
+fn complaint(page: &PageOfRepository, target: &str) -> Option<String> {
+    if target.contains("://") || target.starts_with("mailto:") {
+        return None;
+    }
+    let (file, anchor) = target.split_once('#').map_or((target, None), |(file, anchor)| (file, Some(anchor)));
+    let path = if file.is_empty() { page.path.clone() } else { page.path.with_file_name(file) };
+    if !path.exists() {
+        return Some(format!("there is no {file}"));
+    }
+    if page.name.starts_with("guide/") && file.contains("..") {
+        return Some(format!("{file} is not part of the book"));
+    }
+    let anchor = anchor?;
+    let text = fs::read_to_string(&path).ok()?;
+    (!anchors(&text).contains(anchor)).then(|| format!("no heading of {file} has the anchor #{anchor}"))
+}
+
+#[test]
+fn links_lead_somewhere() {
+    let (mut wrong, mut links) = (String::new(), 0);
+    for page in pages() {
+        for (n, line) in prose(&page.text) {
+            for target in targets(line) {
+                links += 1;
+                if let Some(complaint) = complaint(&page, target) {
+                    writeln!(wrong, "{}:{n}: {complaint}", page.name).expect("a string");
+                }
+            }
+        }
+    }
+    assert!(links > 50, "only {links} links were found");
+    assert!(wrong.is_empty(), "\n{wrong}");
+}
+
+#[test]
+fn lines_are_no_wider_than_a_person_reads() {
+    let mut wrong = String::new();
+    for page in pages() {
+        for (n, line) in page.text.lines().enumerate() {
+            let columns = line.chars().count();
+            if columns > WIDTH && !line.trim_start().starts_with('|') {
+                writeln!(wrong, "{}:{}: {columns} columns", page.name, n + 1).expect("a string");
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "\n{wrong}");
+}
+
+#[test]
+fn every_chapter_is_listed_and_compiled() {
+    let guide = repository().join("guide");
+    let read = |path: &Path| fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let (list, library) = (read(&guide.join("src/SUMMARY.md")), read(&guide.join("lib.rs")));
+    for page in pages().iter().filter(|page| page.name.starts_with("guide/src/")) {
+        let file = page.path.file_name().expect("a name").to_string_lossy();
+        if file != "SUMMARY.md" {
+            assert!(list.contains(&format!("({file})")), "guide/src/SUMMARY.md does not list {file}");
+            let compiled = library.contains(&format!("src/{file}\"")) || !page.text.contains("```rust");
+            assert!(compiled, "guide/lib.rs does not compile {file}");
+        }
+    }
+}
+
+#[test]
+fn the_readme_is_short() {
+    let lines = fs::read_to_string(repository().join("README.md")).expect("README.md is there").lines().count();
+    assert!(lines <= 150, "README.md has {lines} lines; what is over 150 belongs into the guide or BENCHMARKS.md");
+}
+
+/// Rows of the tables of a page by their first cell, each with its cells.
+fn rows(text: &str) -> Vec<Vec<&str>> {
+    let cells = |line| str::trim_matches(line, '|').split('|').map(str::trim).collect();
+    text.lines().filter(|line| line.starts_with('|')).map(cells).collect()
+}
+
+/// The numbers of a cell: `7.4 (1.086) gcc` has two.
+fn numbers(cell: &str) -> Vec<f64> {
+    cell.split([' ', '(', ')', '–']).filter_map(|word| word.parse().ok()).collect()
+}
+
+/// The times of the README: what BENCHMARKS.md has, of five scenes.
+#[test]
+fn readme_shows_the_times_of_benchmarks() {
+    const SCENES: [(&str, &str); 5] = [
+        ("S1", "free body"),
+        ("S3", "body in fluid"),
+        ("S4", "heavy top"),
+        ("S5", "double pendulum"),
+        ("S7", "7-joint arm"),
+    ];
+    const PEERS: [(&str, &str); 5] = [
+        ("casadi by hand", "CasADi, accelerations derived by hand"),
+        ("sympy kane", "SymPy, Kane + cse"),
+        ("pinocchio casadi", "Pinocchio through CasADi"),
+        ("pinocchio", "Pinocchio, ABA"),
+        ("mujoco", "MuJoCo, forward"),
+    ];
+    let page = fs::read_to_string(repository().join("BENCHMARKS.md")).expect("BENCHMARKS.md is there");
+    let rows = rows(&page);
+    let row = |name: &str| rows.iter().find(|row| row[0] == name).unwrap_or_else(|| panic!("no row {name}"));
+    let heading = rows.iter().find(|row| row[0].starts_with("ns (generated / peer)")).expect("the table of peers");
+    let ours = row("generated");
+    let column = |scene: &str| heading.iter().position(|cell| *cell == scene).expect(scene);
+    let shown = |ns: f64| if ns < 100.0 { format!("{ns:.1}") } else { format!("{ns:.0}") };
+    // Ratios are those of neighbours in time, not of the medians.
+    let cell = |ns: &str, ratio: &str| match (numbers(ns).first(), numbers(ratio).first()) {
+        (Some(ns), Some(ratio)) => format!("{} ({ratio:.2})", shown(*ns)),
+        _ => "–".to_owned(),
+    };
+
+    let mut out = format!("| | {} |\n|---|---|---|---|---|---|\n| Gauss |", SCENES.map(|(_, name)| name).join(" | "));
+    for (scene, _) in SCENES {
+        write!(out, " {} |", shown(numbers(ours[column(scene)])[0])).expect("a string");
+    }
+    out += "\n| by hand, in Rust |";
+    for (scene, _) in SCENES {
+        let row = rows.iter().find(|row| row[0].split(' ').next() == Some(scene) && row.len() == 7).expect(scene);
+        write!(out, " {} |", cell(row[3], row[5])).expect("a string");
+    }
+    for (name, shown) in PEERS {
+        write!(out, "\n| {shown} |").expect("a string");
+        for (scene, _) in SCENES {
+            let both = row(name)[column(scene)];
+            let ratio = both.split_once('(').map_or("", |(_, ratio)| ratio);
+            write!(out, " {} |", cell(both, ratio)).expect("a string");
+        }
+    }
+    out += "\n";
+    keep("README.md", "peers", &out);
+}
