@@ -1,50 +1,10 @@
-//! `cargo bench -p gauss-benches [-- S1 S4 …]`: accelerations of the scenes, generated, by hand, with matrices.
+//! `cargo bench -p gauss-benches --bench kernels [-- S1 S4 …]`: accelerations of the scenes, generated, by hand, with matrices.
 //!
 //! With `--features peers` beside what `benches/peers/install.sh` installed as well. Prints tables and leaves them in `target/gauss/benchmarks.md`.
-//! Options: `--rounds 2000`, `--duration 0.0001` (seconds a measurement; much shorter than what a busy machine gives a program at once).
+//! Options: `--rounds 2000`, `--duration 0.0001` (seconds a measurement).
 
 use std::error::Error;
-use std::fs;
-use std::path::Path;
-
-use gauss_benches::measure::times;
-use gauss_benches::report::{Row, table};
-use gauss_benches::{cases, peers};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut rounds, mut duration, mut wanted) = (2000, 1e-4, Vec::new());
-    let mut arguments = std::env::args().skip(1);
-    while let Some(argument) = arguments.next() {
-        let mut value = || arguments.next().ok_or(format!("{argument} wants a number"));
-        match argument.as_str() {
-            // Cargo adds it.
-            "--bench" => {}
-            "--rounds" => rounds = value()?.parse()?,
-            "--duration" => duration = value()?.parse()?,
-            _ => wanted.push(argument),
-        }
-    }
-    let mut rows = Vec::new();
-    for mut case in cases::all()? {
-        if !wanted.is_empty() && !wanted.iter().any(|name| name == case.name) {
-            continue;
-        }
-        for difference in &case.differences {
-            assert!(*difference <= 1e-12, "{}: results differ by {difference:e}", case.name);
-        }
-        for (way, difference) in &case.peers {
-            // Ten times what is allowed to code that knows the structure: simulators add up more terms.
-            assert!(*difference <= 1e-11, "{}: results of {} differ by {difference:e}", case.name, way.name);
-        }
-        peers::choose(&mut case, duration);
-        eprintln!("{} {} …", case.name, case.what);
-        let times = times(&case.ways, rounds, duration);
-        rows.push(Row { case, times });
-    }
-    let table = table(&rows);
-    println!("{table}");
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/gauss");
-    fs::create_dir_all(&folder)?;
-    fs::write(folder.join("benchmarks.md"), table)?;
-    Ok(())
+    gauss_benches::run::run(gauss_benches::cases::all()?, "benchmarks.md")
 }

@@ -62,8 +62,8 @@ for compiler in "${compilers[@]}"; do
             "$site"/mujoco/libmujoco.so.* -Wl,-rpath,"$site/mujoco" || true
     done
 done
-# Boost's lists must hold all kinds of joints.
-headers=(-std=c++17 -DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS
+# Boost's lists must hold all kinds of joints, its calls all arguments of inverse dynamics.
+headers=(-std=c++17 -DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_FUSION_INVOKE_MAX_ARITY=10 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS
     -isystem "$site/cmeel.prefix/include" -isystem "$site/cmeel.prefix/include/eigen3")
 for compiler in "${compilers[@]}"; do
     cxx=${compiler/gcc/g++}

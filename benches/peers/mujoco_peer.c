@@ -35,7 +35,7 @@ static void forward(Scene scene) {
   mj_factorM(model, data);
   mj_comVel(model, data);
   mj_rne(model, data, 0, data->qfrc_bias);
-  for (int i = 0; i < model->nv; i++) data->qfrc_smooth[i] = -data->qfrc_bias[i];
+  for (int i = 0; i < model->nv; i++) data->qfrc_smooth[i] = data->qfrc_applied[i] - data->qfrc_bias[i];
   mj_solveM(model, data, data->qacc, data->qfrc_smooth, 1);
 #else
   mj_forward(scene.model, scene.data);
@@ -52,18 +52,17 @@ static void rotation(const double *q, double r[3][3]) {
     for (int j = 0; j < 3; j++) r[i][j] = rows[i][j];
 }
 
-static void free_body(Scene scene, const double *state, double *out) {
+static void free_base(Scene scene, const double *position, const double *turn, const double *u, const double *w, double *out) {
   mjData *data = scene.data;
-  const double *u = state + 7, *w = state + 10;
   double r[3][3];
-  rotation(state, r);
+  rotation(turn, r);
   for (int i = 0; i < 3; i++) {
-    data->qpos[i] = state[4 + i];
-    data->qpos[4 + i] = state[i];
+    data->qpos[i] = position[i];
+    data->qpos[4 + i] = turn[i];
     data->qvel[i] = r[i][0] * u[0] + r[i][1] * u[1] + r[i][2] * u[2];
     data->qvel[3 + i] = w[i];
   }
-  data->qpos[3] = state[3];
+  data->qpos[3] = turn[3];
   forward(scene);
   // The rate of u in body axes is the acceleration there less w x u.
   const double *a = data->qacc;
@@ -72,6 +71,20 @@ static void free_body(Scene scene, const double *state, double *out) {
     out[i] = r[0][i] * a[0] + r[1][i] * a[1] + r[2][i] * a[2] - (w[j] * u[k] - w[k] * u[j]);
     out[3 + i] = a[3 + i];
   }
+}
+
+static void free_body(Scene scene, const double *state, double *out) { free_base(scene, state + 4, state, state + 7, state + 10, out); }
+
+// A robot on a base that floats, on which nothing acts but its weight: `n` joints.
+static void floating(Scene scene, const double *state, double *out, int n) {
+  const double *speeds = state + 7 + n, *forces = speeds + 6 + n;
+  for (int i = 0; i < n; i++) {
+    scene.data->qpos[7 + i] = state[7 + i];
+    scene.data->qvel[6 + i] = speeds[6 + i];
+    scene.data->qfrc_applied[6 + i] = forces[6 + i];
+  }
+  free_base(scene, state, state + 3, speeds, speeds + 3, out);
+  for (int i = 0; i < n; i++) out[6 + i] = scene.data->qacc[6 + i];
 }
 
 static void joints(Scene scene, const double *state, double *out, int n) {
@@ -83,7 +96,7 @@ static void joints(Scene scene, const double *state, double *out, int n) {
   for (int i = 0; i < n; i++) out[i] = scene.data->qacc[i];
 }
 
-static Scene scene_s1, scene_s2, scene_s4, scene_s5_jointed, scene_s6, scene_s7;
+static Scene scene_s1, scene_s2, scene_s4, scene_s5_jointed, scene_s6, scene_s7, scene_s7_fingers, scene_s8, scene_s9;
 
 static void ignore(const char *message) { (void)message; }
 
@@ -96,6 +109,9 @@ __attribute__((constructor)) static void load_all(void) {
   scene_s5_jointed = load(xml_s5_jointed);
   scene_s6 = load(xml_s6);
   scene_s7 = load(xml_s7);
+  scene_s7_fingers = load(xml_s7_fingers);
+  scene_s8 = load(xml_s8);
+  scene_s9 = load(xml_s9);
   mju_user_warning = NULL;
 }
 
@@ -104,6 +120,13 @@ void s2(const double *state, double *out) { free_body(scene_s2, state, out); }
 void s4(const double *state, double *out) { joints(scene_s4, state, out, 3); }
 void s6(const double *state, double *out) { joints(scene_s6, state, out, 2); }
 void s7(const double *state, double *out) { joints(scene_s7, state, out, 7); }
+void s8_forward(const double *state, double *out) { floating(scene_s8, state, out, 12); }
+void s9_forward(const double *state, double *out) { floating(scene_s9, state, out, 32); }
+
+void s7_fingers_forward(const double *state, double *out) {
+  for (int i = 0; i < 9; i++) scene_s7_fingers.data->qfrc_applied[i] = state[18 + i];
+  joints(scene_s7_fingers, state, out, 9);
+}
 
 void s5_jointed(const double *state, double *out) {
   const double turned[] = {-state[0], -state[1], -state[2], -state[3]};

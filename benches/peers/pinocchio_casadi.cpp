@@ -3,6 +3,7 @@
 #include <pinocchio/autodiff/casadi.hpp>
 
 #include <pinocchio/algorithm/aba.hpp>
+#include <pinocchio/algorithm/rnea.hpp>
 
 #include "pinocchio_models.hpp"
 
@@ -33,6 +34,22 @@ static casadi::Function function(const std::string &name, void (*build)(pinocchi
   return casadi::Function("scene_" + name, inputs, outputs, {{"cse", true}});
 }
 
+// Of a robot: configuration, speeds, and forces or accelerations, in Pinocchio's order.
+static casadi::Function robot(const std::string &name, void (*build)(pinocchio::Model &), bool forward) {
+  pinocchio::Model numbers;
+  build(numbers);
+  const pinocchio::ModelTpl<Symbol> model = numbers.cast<Symbol>();
+  pinocchio::DataTpl<Symbol> data(model);
+  const Symbol state = Symbol::sym("x", numbers.nq + 2 * numbers.nv);
+  Symbols q(numbers.nq), v(numbers.nv), third(numbers.nv);
+  for (int i = 0; i < numbers.nq; i++) q[i] = Symbol(state(i));
+  for (int i = 0; i < numbers.nv; i++) v[i] = Symbol(state(numbers.nq + i)), third[i] = Symbol(state(numbers.nq + numbers.nv + i));
+  const Symbols result = forward ? Symbols(pinocchio::aba(model, data, q, v, third)) : Symbols(pinocchio::rnea(model, data, q, v, third));
+  const std::vector<Symbol> parts(result.data(), result.data() + result.size());
+  const std::vector<Symbol> inputs{state}, outputs{Symbol::vertcat(parts)};
+  return casadi::Function("scene_" + name + (forward ? "_forward" : "_inverse"), inputs, outputs, {{"cse", true}});
+}
+
 int main(int, char **arguments) {
   const casadi::Function all[] = {
       function("s1", scenes::build_s1, State::Body),
@@ -42,6 +59,12 @@ int main(int, char **arguments) {
       function("s5_jointed", scenes::build_s5_jointed, State::Backward),
       function("s6", scenes::build_s6, State::Joints),
       function("s7", scenes::build_s7, State::Joints),
+      robot("s7_fingers", scenes::build_s7_fingers, true),
+      robot("s7_fingers", scenes::build_s7_fingers, false),
+      robot("s8", scenes::build_s8, true),
+      robot("s8", scenes::build_s8, false),
+      robot("s9", scenes::build_s9, true),
+      robot("s9", scenes::build_s9, false),
   };
   for (const auto &one : all) one.save(std::string(arguments[1]) + "/" + one.name() + ".casadi");
 }

@@ -6,7 +6,7 @@
 
 namespace scenes {
 
-enum class Kind { Free, TurnX, TurnY, TurnZ, SlideX };
+enum class Kind { Free, TurnX, TurnY, TurnZ, SlideX, Turn, Slide };
 
 inline pinocchio::JointModel joint(Kind kind) {
   switch (kind) {
@@ -33,6 +33,28 @@ inline void add(pinocchio::Model &model, Kind kind, std::array<double, 3> positi
     const Eigen::Matrix3d tensor = Eigen::Map<Eigen::Matrix3d>(inertia.data());
     model.appendBodyToJoint(index, pinocchio::Inertia(mass, c, tensor), pinocchio::SE3::Identity());
   }
+}
+
+// About or along a coordinate axis where it is one: Pinocchio has joints of their own for these.
+inline pinocchio::JointModel along(Kind kind, const Eigen::Vector3d &axis) {
+  const bool turns = kind == Kind::Turn;
+  if (axis == Eigen::Vector3d::UnitX()) return turns ? pinocchio::JointModel(pinocchio::JointModelRX()) : pinocchio::JointModelPX();
+  if (axis == Eigen::Vector3d::UnitY()) return turns ? pinocchio::JointModel(pinocchio::JointModelRY()) : pinocchio::JointModelPY();
+  if (axis == Eigen::Vector3d::UnitZ()) return turns ? pinocchio::JointModel(pinocchio::JointModelRZ()) : pinocchio::JointModelPZ();
+  if (turns) return pinocchio::JointModelRevoluteUnaligned(axis);
+  return pinocchio::JointModelPrismaticUnaligned(axis);
+}
+
+// Hangs a body on a joint, placed by rotation and position there.
+inline void place(pinocchio::Model &model, int parent, Kind kind, std::array<double, 3> axis, std::array<double, 9> rotation,
+                  std::array<double, 3> position, double mass, std::array<double, 3> center, std::array<double, 9> inertia) {
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const auto vector = [](std::array<double, 3> a) { return Eigen::Vector3d(a[0], a[1], a[2]); };
+  const pinocchio::SE3 at(Eigen::Map<Rows>(rotation.data()), vector(position));
+  const pinocchio::JointModel joint_model = kind == Kind::Free ? pinocchio::JointModel(pinocchio::JointModelFreeFlyer()) : along(kind, vector(axis));
+  const auto index = model.addJoint(pinocchio::JointIndex(parent), joint_model, at, "joint" + std::to_string(model.njoints));
+  const Eigen::Matrix3d tensor = Eigen::Map<Rows>(inertia.data());
+  model.appendBodyToJoint(index, pinocchio::Inertia(mass, vector(center), tensor), pinocchio::SE3::Identity());
 }
 
 #include "models.hpp"

@@ -1,6 +1,8 @@
 // Forward dynamics by Pinocchio's articulated-body algorithm, header only. The double pendulum has angles of the other sign, from the vertical or
 // at the joint; they are carried over here.
+#include <pinocchio/algorithm/aba-derivatives.hpp>
 #include <pinocchio/algorithm/aba.hpp>
+#include <pinocchio/algorithm/rnea.hpp>
 #include <string>
 
 #include "pinocchio_models.hpp"
@@ -51,9 +53,49 @@ Scene<3, 3> scene_s4(scenes::build_s4);
 Scene<2, 2> scene_s5_jointed(scenes::build_s5_jointed), scene_s6(scenes::build_s6);
 Scene<7, 7> scene_s7(scenes::build_s7);
 
+// Robots read configuration, speeds, and forces or accelerations, all in Pinocchio's order.
+template <int NQ, int NV> struct Robot {
+  using Q = Eigen::Map<const Eigen::Matrix<double, NQ, 1>>;
+  using V = Eigen::Map<const Eigen::Matrix<double, NV, 1>>;
+  using Out = Eigen::Map<Eigen::Matrix<double, NV, 1>>;
+  pinocchio::Model model;
+  pinocchio::Data data;
+
+  explicit Robot(void (*build)(pinocchio::Model &)) : model(Scene<NQ, NV>::made(build)), data(model) {}
+
+  void forward(const double *state, double *out) { Out{out} = pinocchio::aba(model, data, Q{state}, V{state + NQ}, V{state + NQ + NV}); }
+  void inverse(const double *state, double *out) { Out{out} = pinocchio::rnea(model, data, Q{state}, V{state + NQ}, V{state + NQ + NV}); }
+  // The derivatives stay where Pinocchio puts them.
+  void linearize(const double *state, double *out) {
+    pinocchio::computeABADerivatives(model, data, Q{state}, V{state + NQ}, V{state + NQ + NV});
+    Out{out} = data.ddq;
+  }
+  // By q, by the speeds, and by the forces, of which the upper triangle is filled; row by row.
+  void derivatives(const double *state, double *out) {
+    pinocchio::computeABADerivatives(model, data, Q{state}, V{state + NQ}, V{state + NQ + NV});
+    using Block = Eigen::Map<Eigen::Matrix<double, NV, NV, Eigen::RowMajor>>;
+    Block{out} = data.ddq_dq;
+    Block{out + NV * NV} = data.ddq_dv;
+    Block{out + 2 * NV * NV} = data.Minv;
+  }
+};
+
+Robot<9, 9> robot_s7_fingers(scenes::build_s7_fingers);
+Robot<19, 18> robot_s8(scenes::build_s8);
+Robot<39, 38> robot_s9(scenes::build_s9);
+
 } // namespace
 
+#define ROBOT(name) \
+  void name##_forward(const double *state, double *out) { robot_##name.forward(state, out); } \
+  void name##_inverse(const double *state, double *out) { robot_##name.inverse(state, out); } \
+  void name##_linearize(const double *state, double *out) { robot_##name.linearize(state, out); } \
+  void name##_derivatives(const double *state, double *out) { robot_##name.derivatives(state, out); }
+
 extern "C" {
+ROBOT(s7_fingers)
+ROBOT(s8)
+ROBOT(s9)
 void s1(const double *state, double *out) { scene_s1.body(state, out); }
 void s2(const double *state, double *out) { scene_s2.body(state, out); }
 void s4(const double *state, double *out) { scene_s4.joints(state, out); }

@@ -13,6 +13,11 @@ S1, S2, S3, S4, S5, S6 = (_DATA[name] for name in ("S1", "S2", "S3", "S4", "S5",
 # Otherwise the coordinates, then their rates.
 SIZES = {"s1": (13, 6), "s2": (13, 6), "s3": (13, 6), "s4": (6, 3), "s5": (4, 2), "s5_jointed": (4, 2), "s6": (4, 2), "s7": (14, 7)}
 
+# Robots: the file of tests/robots, and how many numbers the configuration and the speeds have. Their functions `NAME_forward` and `NAME_inverse` read
+# (position of O and unit quaternion x y z w of a base that floats, joints), the speeds (u, omega in body axes, joints), and forces or accelerations.
+ROBOTS = {"s7_fingers": ("panda", 9, 9), "s8": ("anymal", 19, 18), "s9": ("talos", 39, 38)}
+SIZES |= {f"{name}_{what}": (nq + 2 * nv, nv) for name, (_, nq, nv) in ROBOTS.items() for what in ("forward", "inverse")}
+
 
 def about_pole(mass, c, inertia):
     """Inertia about O of a body with the tensor `inertia` about its centre of mass `c` (Steiner)."""
@@ -40,3 +45,24 @@ def _link(described):
 
 
 S7 = [_link(link) for link in json.loads((_HERE / "../../tests/data/panda_chain.json").read_text())["links"]]
+
+
+def robot(name):
+    """Links of a robot, a parent by its index or None: rotation and position in the parent, without what rounding left of quarter turns."""
+    described = json.loads((_HERE / f"../../tests/robots/{ROBOTS[name][0]}.json").read_text())["links"]
+    places = {link["name"]: k for k, link in enumerate(described)}
+    settled = lambda x: float(round(x)) if abs(x - round(x)) < 1e-15 else x  # noqa: E731
+    rows = [["ixx", "ixy", "ixz"], ["ixy", "iyy", "iyz"], ["ixz", "iyz", "izz"]]
+    return [
+        {
+            "parent": places.get(link["parent"]),
+            "joint": link["joint"],
+            "axis": [settled(x) for x in link.get("axis") or []],
+            "rotation": [[settled(x) for x in row] for row in link.get("rotation") or diagonal([1.0, 1.0, 1.0])],
+            "position": link.get("position") or [0.0, 0.0, 0.0],
+            "mass": link["mass"],
+            "center": link["center_of_mass"],
+            "inertia": [[link["inertia_about_center_of_mass"][one] for one in row] for row in rows],
+        }
+        for link in described
+    ]

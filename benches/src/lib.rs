@@ -7,7 +7,8 @@
 //! - `measure`: times that alternate, so that ratios mean something on a busy machine.
 //! - `entries`: one function for each evaluation that is timed, whose instructions are counted.
 //! - `peers`: what other generators and simulators make of the scenes (feature `peers`).
-//! - `report`: the table.
+//! - `robots`: S8 and S9, from their files (feature `robots`).
+//! - `report`, `run`: the table; a run from its options to it.
 
 pub mod by_hand;
 pub mod cases;
@@ -16,6 +17,9 @@ pub mod matrices;
 pub mod measure;
 pub mod peers;
 pub mod report;
+#[cfg(feature = "robots")]
+pub mod robots;
+pub mod run;
 pub mod scenes;
 pub mod states;
 

@@ -48,6 +48,16 @@ impl Peers {
     pub fn ways<S: Flat, const M: usize>(&self, _: &str, _: &[S], _: &[SVector<f64, M>]) -> Vec<(Way, f64)> {
         Vec::new()
     }
+
+    /// Nothing.
+    pub fn of_length<const N: usize, const M: usize>(
+        &self,
+        _: &str,
+        _: &[Vec<f64>],
+        _: &[SVector<f64, M>],
+    ) -> Vec<(Way, f64)> {
+        Vec::new()
+    }
 }
 
 #[cfg(feature = "peers")]
@@ -81,7 +91,8 @@ impl Peers {
         }
     }
 
-    fn of_length<const N: usize, const M: usize>(
+    /// The same of functions that read `N` numbers.
+    pub fn of_length<const N: usize, const M: usize>(
         &self,
         scene: &str,
         flat: &[Vec<f64>],

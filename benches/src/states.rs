@@ -21,7 +21,8 @@ impl Random {
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    fn vector<const N: usize>(&mut self, size: f64) -> SVector<f64, N> {
+    /// Components up to a size.
+    pub fn vector<const N: usize>(&mut self, size: f64) -> SVector<f64, N> {
         SVector::from_fn(|_, _| size * self.number())
     }
 }

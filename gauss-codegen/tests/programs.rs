@@ -1,6 +1,8 @@
 //! The public face as other crates use it: programs run on other numbers, written and read, refused when malformed, and in C.
 
 mod common;
+#[path = "programs/poles.rs"]
+mod poles;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

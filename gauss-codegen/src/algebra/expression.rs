@@ -117,7 +117,7 @@ impl<'g> Expr<'g> {
             return self;
         }
         let common = self.graph.common_factors(&terms);
-        let content = self.graph.content(&terms);
+        let content = self.graph.shared_content(&terms);
         if common.is_empty() && content.is_one() {
             return self.graph.intern(Node::Group(self.id));
         }

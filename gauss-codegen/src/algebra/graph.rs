@@ -371,6 +371,15 @@ impl Graph {
         if terms[0].0.is_negative() { -content } else { content }
     }
 
+    /// What all coefficients of a sum have in common, with the sign of the first.
+    pub(super) fn shared_content(&self, terms: &[(Rational, Id)]) -> Rational {
+        let mut content = terms[0].0;
+        for &(c, _) in &terms[1..] {
+            content = content.shared_with(c);
+        }
+        if terms[0].0.is_negative() { -content.abs() } else { content.abs() }
+    }
+
     /// Powers that all terms have in common.
     pub(super) fn common_factors(&self, terms: &[(Rational, Id)]) -> Vec<(Id, i32)> {
         let nodes = self.nodes.borrow();

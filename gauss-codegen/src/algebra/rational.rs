@@ -155,6 +155,18 @@ impl Rational {
         BigRational::new(m.abs(), a.denom() * b.denom()).into()
     }
 
+    /// What both have in common as they are written: the greatest common divisor of the numerators over that of the
+    /// denominators.
+    pub fn shared_with(self, other: Self) -> Self {
+        if self.denominator > 0 && other.denominator > 0 {
+            return Self {
+                numerator: greatest_common_divisor(self.numerator, other.numerator),
+                denominator: greatest_common_divisor(self.denominator, other.denominator),
+            };
+        }
+        self.common_divisor(other)
+    }
+
     /// The most negative integer counts as large, so that negation never overflows.
     fn small_integer(value: Option<i64>) -> Option<Self> {
         value.filter(|&n| n != i64::MIN).map(Self::from_integer)

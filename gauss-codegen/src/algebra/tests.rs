@@ -38,6 +38,19 @@ fn groups_give_up_their_common_factors_and_nothing_else() {
     assert_eq!(((a + b).group() - a).collected(10), b);
 }
 
+/// 0.088 a + b stays that: as 11 a + 125 b, with 1/125 in front, every term would be multiplied by a number.
+#[test]
+fn groups_give_up_numbers_that_all_terms_have() {
+    let graph = Graph::new();
+    let [a, b] = symbols(&graph, ["a", "b"]);
+    let fraction = |p, q| Rational::new(p, q);
+    let grouped = |x, y| (a.scale(x) + b.scale(y)).group().split_coefficient().0;
+    assert_eq!(grouped(fraction(11, 125), fraction(1, 1)), fraction(1, 1));
+    assert_eq!(grouped(fraction(11, 125), fraction(-22, 125)), fraction(11, 125));
+    assert_eq!(grouped(fraction(-6, 1), fraction(4, 1)), fraction(-2, 1));
+    assert_eq!(grouped(fraction(3, 4), fraction(5, 6)), fraction(1, 2));
+}
+
 #[test]
 fn normal_forms_decide_identities() {
     let graph = Graph::new();

@@ -45,13 +45,14 @@ impl ScalarTokens<'_> {
         if value.is_sign_negative() { quote!((-#literal)) } else { quote!(#literal) }
     }
 
-    /// A number, exactly where the scalar can hold it.
+    /// A number, rounded once.
     pub fn number(&self, value: &Rational) -> TokenStream {
         let (real, ty) = (&self.real, self.ty());
         let ratio = |p: i64, q: i64| quote!(<#ty as #real>::ratio(#p, #q));
         match (self.scalar, value.parts()) {
-            (Scalar::F64 | Scalar::F32, None) => self.literal(value.to_f64()),
-            (Scalar::F64 | Scalar::F32, _) if value.is_dyadic() => self.literal(value.to_f64()),
+            (Scalar::F64, _) | (Scalar::F32, None) => self.literal(value.to_f64()),
+            // Rounded twice it could be another one.
+            (Scalar::F32, _) if value.is_dyadic() => self.literal(value.to_f64()),
             (_, Some((0, _))) => quote!(<#ty as #real>::zero()),
             (_, Some((1, 1))) => quote!(<#ty as #real>::one()),
             (_, Some((numerator, denominator))) => ratio(numerator, denominator),

@@ -8,6 +8,10 @@ use crate::mechanics::loads::forces::Element;
 use crate::mechanics::print::names::Name;
 use crate::mechanics::tidy::tidy;
 
+/// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of links
+/// that do not, where a free body must be among them.
+const SMALL: [usize; 2] = [3, 6];
+
 /// One coordinate of the configuration.
 #[derive(Clone)]
 pub enum Coordinate<'g> {
@@ -87,6 +91,12 @@ pub struct SystemScene<'g> {
 }
 
 impl<'g> SystemScene<'g> {
+    /// Whether multiplying out would be slow and of no use.
+    pub fn is_long(&self) -> bool {
+        let [chained, apart] = SMALL;
+        self.speeds.len() > if self.tree.is_chained() { chained } else { apart }
+    }
+
     /// Rates whose ψ is not affine in z: velocities would then not be linear in z, and (3.4) not this one. Indices into the
     /// kinematics.
     pub fn rates_not_affine(&self) -> Vec<usize> {

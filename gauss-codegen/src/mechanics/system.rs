@@ -10,15 +10,13 @@ use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::kinematics::vector::{Vector, is_zero};
 use crate::mechanics::links::link::Link;
-use crate::mechanics::links::tree::Inertia;
+use crate::mechanics::links::tree::{Inertia, Tree};
+use crate::mechanics::links::working::Working;
 use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Lettering, SystemScene};
 use crate::mechanics::tidy::{compact, sums, tidy};
 
-/// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of links
-/// that do not, where a free body must be among them.
-const SMALL: [usize; 2] = [3, 6];
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 pub const DENSE: usize = 10;
 /// Degrees of freedom up to which C is also orthogonalised as a sum of squares, and where a link floats, which may be light:
@@ -33,6 +31,8 @@ pub struct System<'g> {
     pub forces: Vec<Force<'g>>,
     /// What acts on links, fields among it.
     pub(in crate::mechanics) loads: Loads<'g>,
+    /// By other poles, where that is shorter.
+    working: Option<Working<'g>>,
     pub constraints: Constraints<'g>,
     /// Links that nothing else moves with.
     pub free: Vec<FreeLink<'g>>,
@@ -120,7 +120,10 @@ impl<'g> System<'g> {
         let (potential, forces) = (potential_of(&scene.elements), forces_of(&scene.elements));
         let loads = Loads::of(&scene.elements);
         let (driven, matrix) = (false, Vec::new());
-        let mut system = Self { scene, potential, forces, loads, constraints, free, driven, along, matrix };
+        // Where sums of squares keep the digits, the links stay as they were given: little is to be gained there.
+        let short = scene.speeds.len() <= most_squares(&scene);
+        let working = if short { None } else { Working::of(&scene.tree, &loads) };
+        let mut system = Self { scene, potential, forces, loads, working, constraints, free, driven, along, matrix };
         system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();
         let mut velocities = system.constraints.on_velocities.clone();
@@ -138,7 +141,7 @@ impl<'g> System<'g> {
             let entries = body.mass_matrix(&body.momentum());
             return entries.chunks(self.scene.speeds.len()).map(<[Expr<'g>]>::to_vec).collect();
         }
-        grouped(&self.scene.tree.mass_matrix())
+        grouped(&self.tree().mass_matrix())
     }
 
     /// Forgets what is kept for later because several equations are made of it.
@@ -212,7 +215,7 @@ impl<'g> System<'g> {
         let velocity = self.velocities(&momentum);
         Arranged {
             acceleration: self.accelerations(&arrangements),
-            momentum: self.with_tidied(momentum),
+            momentum: self.with_tidied(momentum).into_iter().chain(self.by_given_poles(Tree::momentum)).collect(),
             momentum_rate: velocity.iter().flat_map(|z| self.momentum_rates(z, &arrangements[0])).collect(),
             velocity,
             mass_matrix: self.with_tidied(self.matrix.concat()),
@@ -295,17 +298,31 @@ impl<'g> System<'g> {
 
     /// Whether multiplying out would be slow and of no use.
     pub fn is_long(&self) -> bool {
-        let [chained, apart] = SMALL;
-        self.scene.speeds.len() > if self.scene.tree.is_chained() { chained } else { apart }
+        self.scene.is_long()
+    }
+
+    /// The links as the sums over them are formed, and what acts on them.
+    pub(in crate::mechanics) fn tree(&self) -> &Tree<'g> {
+        self.working.as_ref().map_or(&self.scene.tree, |working| &working.tree)
+    }
+
+    /// The same once more by the poles and in the axes that were given, where others are worked with: what needs no forces can
+    /// be shorter there.
+    fn by_given_poles(&self, of: impl Fn(&Tree<'g>) -> Vec<Expr<'g>>) -> Option<Vec<Expr<'g>>> {
+        self.working.as_ref().map(|_| of(&self.scene.tree))
+    }
+
+    pub(in crate::mechanics) fn loads(&self) -> &Loads<'g> {
+        self.working.as_ref().map_or(&self.loads, |working| &working.loads)
     }
 
     fn arrangements(&self) -> Vec<Arrangement<'g>> {
         let mut arrangements = Vec::new();
         let tidy_all = |rows: &[Expr<'g>]| -> Vec<Expr<'g>> { rows.iter().map(|e| compact(*e)).collect() };
-        for &inertia in self.scene.tree.inertias(self.is_long()) {
+        for &inertia in self.tree().inertias(self.is_long()) {
             let residual = self.residual(&self.along, inertia);
             let still = self.residual(&self.scene.rates, inertia);
-            let floating = match self.scene.tree.floats() {
+            let floating = match self.tree().floats() {
                 true => self.floating(inertia),
                 false => [still.clone(), vec![self.scene.graph.zero(); still.len()]],
             };
@@ -322,7 +339,7 @@ impl<'g> System<'g> {
 
     /// p_α = ∂T/∂z^α.
     pub fn momentum(&self) -> Vec<Expr<'g>> {
-        self.scene.tree.momentum()
+        self.tree().momentum()
     }
 
     /// Speeds that no velocity depends on: their rows of A are zero.
@@ -338,7 +355,7 @@ impl<'g> System<'g> {
 
     /// `∫∂v_P/∂z·dF` of everything that acts: weight and buoyancy, the potential, forces.
     pub fn generalised_forces(&self) -> Vec<Expr<'g>> {
-        sums(&self.scene.tree.weights(), &self.element_forces_in_general())
+        sums(&self.tree().weights(), &self.element_forces_in_general())
     }
 
     /// `∫∂v_P/∂z·dF` of the elements alone.
@@ -350,7 +367,7 @@ impl<'g> System<'g> {
     }
 
     fn element_forces_in_general(&self) -> Vec<Expr<'g>> {
-        sums(&self.scene.tree.loads(&self.loads), &self.other_forces())
+        sums(&self.tree().loads(self.loads()), &self.other_forces())
     }
 
     /// ∂C/∂ż of the unconstrained C without the elements of what acts: inertia, weight and buoyancy.
@@ -358,7 +375,7 @@ impl<'g> System<'g> {
         if let Some(body) = self.only_body() {
             return body.inertial_residuals();
         }
-        let tree = &self.scene.tree;
+        let tree = self.tree();
         let residuals =
             tree.inertias(self.is_long()).iter().map(|&inertia| tree.residual(&self.along, inertia, &Loads::default()));
         residuals.flat_map(|residual| self.with_tidied(residual)).collect()
@@ -374,7 +391,7 @@ impl<'g> System<'g> {
 
     /// ∂C/∂ż of the unconstrained C.
     pub(in crate::mechanics) fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia) -> Vec<Expr<'g>> {
-        self.without_others(self.scene.tree.residual(along, inertia, &self.loads))
+        self.without_others(self.tree().residual(along, inertia, self.loads()))
     }
 
     fn without_others(&self, rows: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
@@ -388,7 +405,7 @@ impl<'g> System<'g> {
         // What a rotor needs besides is no acceleration of the observer.
         let geared = |speed: usize| self.scene.tree.rotors.iter().any(|r| !r.row(self.scene.speeds[speed]).is_zero());
         let held: Vec<bool> = (0..self.scene.speeds.len()).map(|speed| held(speed) || geared(speed)).collect();
-        let (rows, taken) = self.scene.tree.floating_residual(inertia, &self.loads, &held);
+        let (rows, taken) = self.tree().floating_residual(inertia, self.loads(), &held);
         [self.without_others(rows), taken]
     }
 
@@ -422,7 +439,7 @@ impl<'g> System<'g> {
 
     /// A x = right in the ways that are worth trying, with A arranged as given.
     fn solutions(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
-        let articulated = if self.is_long() { Articulated::new(&self.scene.tree) } else { None };
+        let articulated = if self.is_long() { Articulated::new(self.tree()) } else { None };
         let mut solutions: Vec<Vec<Expr<'g>>> = articulated.iter().map(|a| a.solve(right)).collect();
         if solutions.is_empty() || right.len() <= DENSE {
             solutions.push(solve_symmetric(matrix, right));
@@ -449,9 +466,7 @@ impl<'g> System<'g> {
     /// C as a sum of squares, where several speeds share it. Where a speed turns a root and moves its O as well, as those of
     /// twists about Ω do, the squares are not of what is relative.
     fn elements(&self) -> Option<Elements<'_, 'g>> {
-        let [held, floating] = SQUARES;
-        let most = if self.scene.tree.floats() { floating } else { held };
-        let few = (2..=most).contains(&self.scene.speeds.len()) && self.only_body().is_none();
+        let few = (2..=most_squares(&self.scene)).contains(&self.scene.speeds.len()) && self.only_body().is_none();
         let still = |a: &Vector<'g>| is_zero(&a.body) && is_zero(&a.space);
         let about_far_pole = |link: &Link<'g>| {
             let rows = link.linear_rows.iter().zip(&link.angular_rows);
@@ -482,7 +497,7 @@ impl<'g> System<'g> {
 
     /// `Σ Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α`.
     pub fn bracket(&self) -> Vec<Expr<'g>> {
-        self.scene.tree.bracket()
+        self.tree().bracket()
     }
 
     /// ṗ as a function of (t, q, p), with the bracket multiplied out and as it is.
@@ -502,8 +517,9 @@ impl<'g> System<'g> {
 
     /// T, link by link and, where velocities are homogeneous in z, as ½ p·z.
     fn kinetic_energies(&self) -> Vec<Vec<Expr<'g>>> {
-        let energy = self.scene.tree.twice_kinetic_energy().half();
+        let energy = self.tree().twice_kinetic_energy().half();
         let mut energies = self.with_tidied(vec![energy]);
+        energies.extend(self.by_given_poles(|tree| vec![tree.twice_kinetic_energy().half()]));
         if energy.substitute(&self.at_rest()).is_zero() {
             let momentum = self.momentum();
             if momentum.iter().all(|p| p.substitute(&self.at_rest()).is_zero()) {
@@ -516,7 +532,7 @@ impl<'g> System<'g> {
 
     fn potential_energy(&self) -> Expr<'g> {
         let own = self.potential.unwrap_or_else(|| self.scene.graph.zero());
-        own + self.scene.tree.potential_energy()
+        own + self.tree().potential_energy()
     }
 
     /// C up to a constant in ż: its gradient is affine in ż, so `C = ½ ż·(∂C/∂ż(ż) + ∂C/∂ż(0))`.
@@ -547,6 +563,11 @@ impl<'g> System<'g> {
         };
         self.scene.kinematics.iter().map(row).collect()
     }
+}
+
+fn most_squares(scene: &SystemScene<'_>) -> usize {
+    let [held, floating] = SQUARES;
+    if scene.tree.floats() { floating } else { held }
 }
 
 fn tidied<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {

@@ -336,14 +336,10 @@ impl<'g> ArticulatedInertia<'g> {
 
     /// In the axes before the turns.
     fn turned(&self, turns: &[Turn<'g>]) -> Self {
-        turns.iter().rev().fold(*self, |inertia, turn| {
-            let rows: Matrix<'g> = std::array::from_fn(|i| turn.vector(&inertia.mixed[i]).map(Expr::group));
-            let columns = transposed(&rows).map(|column| turn.vector(&column).map(Expr::group));
-            Self {
-                linear: turn.tensor(&inertia.linear),
-                mixed: transposed(&columns),
-                angular: turn.tensor(&inertia.angular),
-            }
+        turns.iter().rev().fold(*self, |inertia, turn| Self {
+            linear: turn.tensor(&inertia.linear),
+            mixed: turn.mixed(&inertia.mixed),
+            angular: turn.tensor(&inertia.angular),
         })
     }
 

@@ -29,6 +29,11 @@ impl<'g> Turn<'g> {
         Self { matrix, spin, about: None }
     }
 
+    /// The same turn, going on as fast as is said.
+    pub fn with_spin(self, spin: Triple<'g>) -> Self {
+        Self { spin, ..self }
+    }
+
     /// The turn back.
     pub fn inverse(&self) -> Self {
         let matrix = std::array::from_fn(|i| std::array::from_fn(|j| self.matrix[j][i]));

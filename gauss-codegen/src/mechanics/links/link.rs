@@ -11,6 +11,7 @@ use crate::mechanics::matter::moments::Moments;
 use crate::mechanics::tidy::compact;
 
 /// What has mass.
+#[derive(Clone)]
 pub enum Matter<'g> {
     /// A frame.
     Nothing,
@@ -42,8 +43,9 @@ pub struct Joint<'g> {
     pub offset_rate: Triple<'g>,
 }
 
-/// A link with its motion. Its *working axes*, in which components are taken, are the body's own, or k throughout where
-/// everything moves in the plane.
+/// A link with its motion. Its *working axes*, in which components are taken, are the body's own, k throughout where
+/// everything moves in the plane, or those of the parent in a [`Description`].
+#[derive(Clone)]
 pub struct Link<'g> {
     pub matter: Matter<'g>,
     pub parent: Option<usize>,
@@ -60,8 +62,10 @@ pub struct Link<'g> {
     pub position: Triple<'g>,
     /// From body axes to k.
     pub rotation: [Triple<'g>; 3],
-    /// That turn where everything moves in the plane.
-    planar: Option<Turn<'g>>,
+    /// From body to working axes where these are others.
+    pub turned: Option<Turn<'g>>,
+    /// From O to the pole that is worked with, body axes.
+    pub shift: Triple<'g>,
     /// Of O. Below a root, in working axes alone.
     pub velocity: Vector<'g>,
     /// Working axes.
@@ -73,6 +77,29 @@ pub struct Link<'g> {
     pub angular_rows: Vec<Triple<'g>>,
     /// Pole O; body axes until [`settle`](Self::settle) takes them to the working axes.
     pub moments: Moments<'g>,
+}
+
+/// By what pole and in what axes a link is described, beside those that it is given by.
+pub struct Description<'g> {
+    /// From O to the pole, body axes.
+    pub shift: Triple<'g>,
+    /// From the parent's pole, the parent's body axes.
+    pub own_offset: Triple<'g>,
+    /// Between working axes and poles.
+    pub joint: Joint<'g>,
+    /// From body to working axes where these are others.
+    pub turned: Option<Turn<'g>>,
+}
+
+/// A link where it hangs.
+struct Hung<'g> {
+    own_joint: Joint<'g>,
+    joint: Joint<'g>,
+    frame: Frame<'g>,
+    rotation: [Triple<'g>; 3],
+    turned: Option<Turn<'g>>,
+    velocity_beyond: Triple<'g>,
+    spin: Triple<'g>,
 }
 
 impl<'g> Joint<'g> {
@@ -132,7 +159,7 @@ impl<'g> Link<'g> {
         let turns = Turn::merged(turns, rates);
         // In the plane angles add up; else rotations are multiplied.
         let whole = planar.map(|axis| {
-            let before = parent.and_then(|p| p.planar.as_ref()).into_iter();
+            let before = parent.and_then(|p| p.turned.as_ref()).into_iter();
             let angles = before.chain(&turns).filter_map(Turn::axis_and_angle).map(|(_, angle)| angle);
             Turn::about(graph, axis, angles.fold(graph.zero(), |sum, angle| sum + angle), rates)
         });
@@ -149,18 +176,31 @@ impl<'g> Link<'g> {
         };
         let joint = own_joint.in_working_axes(graph, parent, planar.is_some());
         let frame = Frame { graph, rotation: if planar.is_some() { identity(graph) } else { rotation } };
+        let hung = Hung { own_joint, joint, frame, rotation, turned: whole, velocity_beyond, spin };
+        Self::hung(hung, (matter, index), parent, (known, known_spin), (planar.is_some(), speeds))
+    }
+
+    /// Where it is and how it moves.
+    fn hung(
+        hung: Hung<'g>,
+        (matter, index): (Matter<'g>, Option<usize>),
+        parent: Option<&Self>,
+        (known, known_spin): (Option<Vector<'g>>, Option<Vector<'g>>),
+        (planar, speeds): (bool, &[Expr<'g>]),
+    ) -> Self {
+        let Hung { own_joint, joint, frame, rotation, turned, velocity_beyond, spin } = hung;
         let Moved { position, velocity, angular_velocity: omega, own_velocity } = match parent {
             None => {
                 let velocity = known.unwrap_or_else(|| frame.space_vector(joint.offset_rate));
-                Moved { position: offset, velocity, angular_velocity: spin, own_velocity: velocity }
+                Moved { position: own_joint.offset, velocity, angular_velocity: spin, own_velocity: velocity }
             }
-            Some(parent) => Moved::with(parent, &frame, &joint, planar.is_some().then_some(&spin)),
+            Some(parent) => Moved::with(parent, &frame, &joint, planar.then_some(&spin)),
         };
         let named = |e: Expr<'g>| compact(e).group();
         let linear_rows = speeds.iter().map(|&z| own_velocity.partial(z).map(named)).collect();
         let angular_rows = speeds.iter().map(|&z| spin.map(|e| named(e.partial(z)))).collect();
         let moments = match &matter {
-            Matter::Nothing => Moments::zero(graph),
+            Matter::Nothing => Moments::zero(frame.graph),
             Matter::Particle(mass) => Moments::particle(*mass),
             Matter::Body(body) => Moments::of_body(body),
         };
@@ -174,7 +214,8 @@ impl<'g> Link<'g> {
             spin,
             position,
             rotation,
-            planar: whole,
+            turned,
+            shift: [frame.graph.zero(); 3],
             velocity,
             angular_velocity: omega,
             angular_velocity_in_parts: known_spin.unwrap_or_else(|| frame.body_vector(omega)),
@@ -185,9 +226,37 @@ impl<'g> Link<'g> {
         }
     }
 
+    /// The same link by another pole and other working axes. Its moments are those that were given, in body axes.
+    pub fn described(&self, parent: Option<&Self>, by: Description<'g>, speeds: &[Expr<'g>]) -> Self {
+        let Description { shift, own_offset, joint, turned } = by;
+        let own_joint = Joint { offset: own_offset, ..self.own_joint.clone() };
+        let through = |r, turn: &Turn<'g>| product(&r, &turn.matrix).map(grouped);
+        let graph = self.frame.graph;
+        let start = parent.map_or_else(|| identity(graph), |p| p.frame.rotation);
+        let frame = Frame { graph, rotation: joint.turns.iter().fold(start, through) };
+        let hung = Hung {
+            own_joint,
+            joint,
+            frame,
+            rotation: self.rotation,
+            turned,
+            velocity_beyond: self.velocity_beyond,
+            spin: self.spin,
+        };
+        let root = self.parent.is_none();
+        let known = (root.then_some(self.velocity), root.then_some(self.angular_velocity_in_parts));
+        let mut link = Self::hung(hung, (self.matter.clone(), self.parent), parent, known, (false, speeds));
+        link.has_children = self.has_children;
+        link.shift = shift;
+        if !is_zero(&shift) {
+            link.moments = link.moments.shifted(&shift.map(|e| -e)).map(Expr::group);
+        }
+        link
+    }
+
     /// Takes the moments from body to working axes.
     pub fn settle(&mut self) {
-        if let Some(turn) = self.planar {
+        if let Some(turn) = self.turned {
             self.moments = self.moments.turned(&[turn]);
         }
     }
@@ -202,7 +271,7 @@ impl<'g> Link<'g> {
     /// Mass of the displaced fluid and its centre from O, working axes.
     pub fn displaced(&self) -> Option<(Expr<'g>, Triple<'g>)> {
         let (mass, center) = self.body()?.displaced?;
-        Some((mass, self.planar.map_or(center, |turn| turn.vector(&center).map(Expr::group))))
+        Some((mass, self.turned.map_or(center, |turn| turn.vector(&center).map(Expr::group))))
     }
 
     /// The only body axis that it turns about.
@@ -213,7 +282,7 @@ impl<'g> Link<'g> {
 
     /// Components in working axes, of a vector given in body axes or in observer's.
     pub fn in_working_axes(&self, a: &Triple<'g>, axes: Axes) -> Triple<'g> {
-        match (axes, &self.planar) {
+        match (axes, &self.turned) {
             (Axes::Body, Some(turn)) => turn.vector(a),
             (Axes::Body, None) => *a,
             (Axes::Space, _) => self.frame.to_body(a),
@@ -227,8 +296,8 @@ impl<'g> Link<'g> {
 
     /// Components in body axes.
     pub fn in_body_axes(&self, a: &Vector<'g>) -> Triple<'g> {
-        match &self.planar {
-            Some(turn) => turn.back(&self.frame.resolve(a, Axes::Space)).map(Expr::group),
+        match &self.turned {
+            Some(turn) => turn.back(&self.frame.resolve(a, Axes::Body)).map(Expr::group),
             None => self.frame.resolve(a, Axes::Body).map(Expr::group),
         }
     }
@@ -240,7 +309,7 @@ impl<'g> Link<'g> {
 
     /// Whether its working axes are the body's own.
     pub fn works_in_body_axes(&self) -> bool {
-        self.planar.is_none()
+        self.turned.is_none()
     }
 
     /// Whether nothing is joined to it: its velocities may then keep parts in both frames.

@@ -6,3 +6,5 @@ pub mod frames;
 pub mod link;
 pub mod regroup;
 pub mod tree;
+pub mod weight;
+pub mod working;

@@ -3,11 +3,10 @@
 
 use crate::algebra::{Expr, Graph, Map};
 
-use crate::mechanics::arrangements::balance::Weight;
 use crate::mechanics::kinematics::turn::{Turn, angular_acceleration, inward, outward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, scale, subtract};
 use crate::mechanics::links::floating::Floating;
-use crate::mechanics::links::link::{Link, Matter, Placement, impulse, reaction};
+use crate::mechanics::links::link::{Description, Link, Matter, Placement, impulse, reaction};
 use crate::mechanics::links::regroup::regroup;
 use crate::mechanics::loads::forces::{Force, Loads};
 use crate::mechanics::matter::body::Body;
@@ -90,6 +89,18 @@ impl<'g> Tree<'g> {
         self.links.iter_mut().for_each(Link::settle);
     }
 
+    /// The same links by other poles and axes; not in the plane.
+    pub fn described(&self, descriptions: Vec<Description<'g>>) -> Self {
+        let mut tree = Self::new(self.graph, Vec::new(), self.speeds.clone(), self.rates.clone(), self.gravity);
+        tree.rotors.clone_from(&self.rotors);
+        for (link, by) in self.links.iter().zip(descriptions) {
+            let link = link.described(link.parent.map(|k| &tree.links[k]), by, &tree.speeds);
+            tree.links.push(link);
+        }
+        tree.settle();
+        tree
+    }
+
     /// Leaves all moments where they were given.
     #[cfg(test)]
     pub fn settle_without_regrouping(&mut self) {
@@ -99,6 +110,11 @@ impl<'g> Tree<'g> {
     /// Whether some link floats.
     pub fn floats(&self) -> bool {
         self.floating.iter().any(Option::is_some)
+    }
+
+    /// Rates of t and of the symbols of q.
+    pub fn rates(&self) -> &Map<u32, Expr<'g>> {
+        &self.rates
     }
 
     fn speeds(&self) -> std::ops::Range<usize> {
@@ -552,41 +568,6 @@ impl<'g> Tree<'g> {
             links.map(|(link, (q, gamma))| link.frame.dot(&q, &link.velocity) + dot(&gamma, &link.angular_velocity));
         let links = terms.fold(self.graph.zero(), |sum, e| sum + e);
         self.rotors.iter().fold(links, |sum, rotor| sum + rotor.momentum() * rotor.rate)
-    }
-
-    /// Of weight and buoyancy: `−ĝ·Σ∫x̂ dm`, the first moments gathered at the roots. All matter counts, also what keeps
-    /// still.
-    pub fn potential_energy(&self) -> Expr<'g> {
-        let Some(gravity) = self.gravity else { return self.graph.zero() };
-        let mut gathered: Vec<(Expr<'g>, Triple<'g>)> = Vec::with_capacity(self.links.len());
-        for link in &self.links {
-            gathered.push(match &link.matter {
-                Matter::Nothing => (self.graph.zero(), [self.graph.zero(); 3]),
-                Matter::Particle(mass) => (*mass, [self.graph.zero(); 3]),
-                Matter::Body(body) => match Weight::new(body) {
-                    Some(weight) => (weight.effective_mass, weight.effective_moment),
-                    None => (body.mass, body.first_moment()),
-                },
-            });
-        }
-        let mut energy = self.graph.zero();
-        for k in (0..self.links.len()).rev() {
-            let link = &self.links[k];
-            let (mass, first) = gathered[k];
-            match link.parent {
-                Some(parent) => {
-                    let own = &link.own_joint;
-                    let first = add(&outward(&own.turns, &first), &scale(mass, &own.offset));
-                    gathered[parent].0 = gathered[parent].0 + mass;
-                    gathered[parent].1 = add(&gathered[parent].1, &first).map(Expr::group);
-                }
-                None => {
-                    let first = add(&outward(&link.own_joint.turns, &first), &scale(mass, &link.position));
-                    energy = energy - dot(&gravity, &first);
-                }
-            }
-        }
-        energy
     }
 }
 
