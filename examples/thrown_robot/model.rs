@@ -1,4 +1,4 @@
-//! A quadruped from its file, thrown, with springs and dampers in its joints, and an arm from its file that follows a way.
+//! A quadruped from its file, thrown, with springs and dampers in its joints.
 
 use gauss_runtime::prelude::*;
 
@@ -71,34 +71,4 @@ pub fn thrown() -> QuadrupedState {
         RH_KFE: 1.4,
         ..Default::default()
     }
-}
-
-/// An arm with two fingers, each joint with an effort.
-#[derive(GaussDynamics)]
-#[gauss(urdf = "../tests/robots/panda.urdf", gravity = 9.81)]
-pub struct Arm;
-
-pub type Joints = SVector<f64, 9>;
-
-/// Where the joints are to be, with rates and accelerations: sines about a bent arm, fingers open and close.
-pub fn wanted(t: f64) -> [Joints; 3] {
-    let middle = Joints::from([0.0, -0.4, 0.0, -1.8, 0.0, 1.6, 0.8, 0.02, 0.02]);
-    let size = |k: usize| if k < 7 { 0.5 } else { 0.01 };
-    let rate = |k: usize| 1.0 + 0.3 * k as f64;
-    [
-        middle + Joints::from_fn(|k, _| size(k) * (rate(k) * t).sin()),
-        Joints::from_fn(|k, _| size(k) * rate(k) * (rate(k) * t).cos()),
-        Joints::from_fn(|k, _| -size(k) * rate(k) * rate(k) * (rate(k) * t).sin()),
-    ]
-}
-
-/// 1/s: errors die like e^(−s t).
-pub const GAIN: f64 = 20.0;
-
-/// Computed torque: the inverse dynamics at the acceleration that is wanted, errors of place and rate fed back, so that these obey
-/// `ë + 2 s ė + s² e = 0`.
-pub fn efforts(arm: &ArmKernel, t: f64, q: &Joints, z: &Joints) -> Joints {
-    let [place, rate, acceleration] = wanted(t);
-    let asked = acceleration + (rate - z) * (2.0 * GAIN) + (place - q) * (GAIN * GAIN);
-    arm.inverse_dynamics(t, q, z, &asked, &Joints::zeros())
 }

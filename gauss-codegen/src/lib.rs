@@ -1,6 +1,6 @@
 //! The library behind `#[derive(GaussDynamics)]`: a struct in; programs, equations and code of its kernel out.
 #![doc = include_str!("../README.md")]
-#![warn(missing_docs)]
+#![deny(missing_docs)]
 
 mod accuracy;
 mod algebra;

@@ -2,6 +2,8 @@
 
 #[allow(dead_code)]
 mod common;
+#[path = "common/latex.rs"]
+mod latex;
 
 use std::time::{Duration, Instant};
 
@@ -126,5 +128,41 @@ fn what_else_is_wanted_changes_nothing_in_the_equations() {
         for notation in [Notation::Text, Notation::Latex] {
             assert_eq!(derivation.equations(notation), alone.equations(notation), "{wanted}");
         }
+    }
+}
+
+/// Names of all kinds, and powers of all kinds of functions.
+#[test]
+fn latex_can_be_set() {
+    let scenes = [
+        "#[gauss(
+            coordinates(pitch_angle, x1, ω, αβ, craft_2: Pose, head: Rotation),
+            body(hull_7, pose = craft_2), body(top, parent = hull_7, rotation = head),
+            body(arm, parent = top, position = [x1, 0, 0], rotation = rotation_y(pitch_angle)),
+            particle(mass = 1.5e-20, position = [ω, αβ, exp(x1) * tanh(ω)]),
+            potential = k * powf(2 + cos(pitch_angle), n) * sin(pitch_angle) * sin(pitch_angle) + powf(k * k, n) / 3
+                + atan2(x1, ω) * atan2(x1, ω) + powi(lift(x1), 3) * powi(sin(x1 + ω), 4) + powi(asin(x1 / 4), 2)
+                + sqrt(1 + x1 * x1) * powf(1 + x1 * x1, n) * powf(1 + x1 * x1, n) + 0.3333333333333 * ln(3 + αβ),
+            function(lift, derivative = lift_slope, second = lift_curvature),
+            input(gust_of_wind: Wrench, thrust_3, way: Vector3),
+            wrench(the_gust, body = hull_7, force = gust_of_wind.force, torque = gust_of_wind.torque),
+            force(the_push, body = top, value = abs(way.x) * thrust_3 * way),
+            damping = k * powi(rate(x1), 2) * powi(cos(pitch_angle), 2)
+        )]
+        struct Names {
+            #[gauss(body)] hull_7: RigidBody<f64>, #[gauss(body)] top: RigidBody<f64>,
+            #[gauss(body)] arm: RigidBody<f64>, k: f64, n: f64, #[gauss(gravity)] g: Vector3<f64>,
+        }",
+        "#[gauss(chart = jet(euler_zyx), drag(the_water, linear = d, quadratic = e), medium(velocity = [s, 0, 0]))]
+        struct Names {
+            #[gauss(mass)] m: f64, #[gauss(center_of_mass)] c: Vector3<f64>, #[gauss(inertia)] i: Matrix3<f64>,
+            #[gauss(added_mass)] a: Matrix6<f64>, #[gauss(gravity)] g: f64, #[gauss(displaced_mass)] w: f64,
+            #[gauss(center_of_buoyancy)] h: Vector3<f64>, d: Matrix6<f64>, e: Vector6<f64>, s: f64,
+        }",
+    ];
+    for source in scenes {
+        let derivation = Derivation::of_source(source, "Names").expect("a valid scene");
+        let complaints = latex::complaints(derivation.equations(Notation::Latex));
+        assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
     }
 }

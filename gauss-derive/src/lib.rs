@@ -2,7 +2,7 @@
 //!
 //! Depend on `gauss-runtime`, which re-exports the macro.
 
-#![warn(missing_docs)]
+#![deny(missing_docs)]
 
 /// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()`, the `NameKernel` that
 /// implements `GaussSystem`, `Name::warnings()`, and `NameState`: coordinates and speeds by name. Where the only matter is one body,

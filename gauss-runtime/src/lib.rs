@@ -40,7 +40,7 @@
 
 #![no_std]
 #![forbid(unsafe_code)]
-#![warn(missing_docs)]
+#![deny(missing_docs)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 // Without an allocator the list of violations travels by value.
 #![cfg_attr(not(feature = "alloc"), allow(clippy::result_large_err))]

@@ -317,6 +317,27 @@ fn a_closed_loop() {
     );
 }
 
+/// Let go beside its symmetry, without motors it keeps its energy, and its tips stay together.
+#[test]
+fn a_closed_loop_keeps_its_energy() {
+    let kernel = FiveBar.kernel().unwrap();
+    let angle = (1.0_f64 / 3.0).asin();
+    let beside = SVector::from([0.2, angle, 0.1, -angle]);
+    let (q, z) = kernel.project(0.0, &beside, &SVector::zeros()).unwrap();
+    let path = Simulation::new(&kernel)
+        .input(|_: f64, _: &SVector<f64, 4>, _: &SVector<f64, 4>| SVector::zeros())
+        .adaptive(1e-11, 1e-12)
+        .run(q, z, 0.0..0.5)
+        .unwrap();
+    let [before, after] = [path.first(), path.last()].map(|s| kernel.energy(0.0, &s.q, &s.z));
+    let last = path.last();
+    let moving = kernel.kinetic_energy(0.0, &last.q, &last.z);
+    assert!(moving > 0.1, "{moving}");
+    // Some hundred steps, each off by 1e-11 of rates of some ten.
+    assert!((after - before).abs() <= 1e-8 * moving, "{moving} {after} {before}");
+    assert!(path.iter().all(|s| kernel.position_residual(0.0, &s.q).amax() <= 1e-10));
+}
+
 /// The file and the clauses that say the same give the same programs.
 #[test]
 fn a_file_is_as_good_as_clauses() {

@@ -167,11 +167,9 @@ impl<'a, 'g> Printer<'a, 'g> {
         }
         let single = factors.len() == 1 && coefficient.is_one();
         for (factor, exponent) in factors {
-            let base = self.factor(factor, single && exponent == 1);
             let power = match exponent.abs() {
-                1 => base,
-                n if self.latex() => format!("{base}^{{{n}}}"),
-                n => format!("{base}^{n}"),
+                1 => self.factor(factor, single && exponent == 1),
+                n => self.power(factor, n),
             };
             if exponent > 0 { above.push(power) } else { below.push(power) }
         }
@@ -190,6 +188,48 @@ impl<'a, 'g> Printer<'a, 'g> {
         Term { negative, text }
     }
 
+    /// eⁿ for n > 1. Powers of functions stand between the name and the argument, sin² θ.
+    fn power(&self, e: Expr<'g>, n: i32) -> String {
+        if !self.latex() {
+            return format!("{}^{n}", self.factor(e, false));
+        }
+        if let Some(name) = self.name_of(e) {
+            return format!("{name}^{{{n}}}");
+        }
+        match visible(e).view() {
+            NodeView::Call(function, argument) => self.call(function, argument, &format!("^{{{n}}}")),
+            NodeView::Binary(..) => format!("\\left({}\\right)^{{{n}}}", self.factor(e, false)),
+            NodeView::Symbol(symbol) => e.graph().with_symbol(symbol, |s| {
+                // Sine and cosine of an angle can be symbols.
+                let turn = ["\\cos", "\\sin"].iter().find_map(|name| Some((name, s.latex.strip_prefix(name)?)));
+                turn.map_or_else(|| format!("{}^{{{n}}}", s.latex), |(name, angle)| format!("{name}^{{{n}}}{angle}"))
+            }),
+            _ => format!("{}^{{{n}}}", self.factor(e, false)),
+        }
+    }
+
+    /// A function in LaTeX, raised to a power that may be empty.
+    fn call(&self, function: Function, argument: Expr<'g>, power: &str) -> String {
+        let inner = self.sum(argument);
+        match function {
+            Function::Sqrt => format!("\\sqrt{{{inner}}}{power}"),
+            Function::Abs => format!("\\left|{inner}\\right|{power}"),
+            Function::Own(function) => {
+                let name = argument.graph().function_name(function);
+                let (name, primes) = (name.trim_end_matches('\''), usize::from(function.order));
+                let name = name.replace('_', "\\_");
+                format!("\\operatorname{{{name}}}{}{power}\\left({inner}\\right)", "'".repeat(primes))
+            }
+            function => {
+                let name = if function == Function::Signum { "operatorname{sgn}" } else { function.name() };
+                match argument.view() {
+                    NodeView::Symbol(_) => format!("\\{name}{power} {inner}"),
+                    _ => format!("\\{name}{power}\\left({inner}\\right)"),
+                }
+            }
+        }
+    }
+
     fn factor(&self, e: Expr<'g>, alone: bool) -> String {
         if let Some(name) = self.name_of(e) {
             return name;
@@ -202,33 +242,17 @@ impl<'a, 'g> Printer<'a, 'g> {
             NodeView::Symbol(symbol) => {
                 e.graph().with_symbol(symbol, |s| if self.latex() { s.latex.clone() } else { s.text.clone() })
             }
+            NodeView::Call(function, argument) if self.latex() => self.call(function, argument, ""),
             NodeView::Call(Function::Own(function), argument) => {
-                let name = e.graph().function_name(function);
-                match self.latex() {
-                    true => format!(
-                        "\\operatorname{{{}}}{}\\left({}\\right)",
-                        name.trim_end_matches('\'').replace('_', "\\_"),
-                        "'".repeat(usize::from(function.order)),
-                        self.sum(argument)
-                    ),
-                    false => format!("{name}({})", self.sum(argument)),
-                }
+                format!("{}({})", e.graph().function_name(function), self.sum(argument))
             }
-            NodeView::Call(function, argument) => {
-                let name = match function {
-                    Function::Sqrt if self.latex() => return format!("\\sqrt{{{}}}", self.sum(argument)),
-                    Function::Abs if self.latex() => return format!("\\left|{}\\right|", self.sum(argument)),
-                    Function::Signum if self.latex() => "operatorname{sgn}",
-                    function => function.name(),
-                };
-                match (self.latex(), matches!(argument.view(), NodeView::Symbol(_))) {
-                    (true, true) => format!("\\{name} {}", self.sum(argument)),
-                    (true, false) => format!("\\{name}\\left({}\\right)", self.sum(argument)),
-                    (false, _) => format!("{name}({})", self.sum(argument)),
-                }
-            }
+            NodeView::Call(function, argument) => format!("{}({})", function.name(), self.sum(argument)),
             NodeView::Binary(BinaryFunction::Powf, base, exponent) if self.latex() => {
-                format!("{{{}}}^{{{}}}", self.factor(base, false), self.sum(exponent))
+                let base = match visible(base).view() {
+                    NodeView::Symbol(_) => self.factor(base, false),
+                    _ => format!("\\left({}\\right)", self.sum(base)),
+                };
+                format!("{base}^{{{}}}", self.sum(exponent))
             }
             NodeView::Binary(BinaryFunction::Atan2, y, x) if arc(y, x).is_some() => {
                 let (name, argument) = arc(y, x).unwrap_or(("arctan", y));
@@ -280,6 +304,14 @@ fn arc<'g>(y: Expr<'g>, x: Expr<'g>) -> Option<(&'static str, Expr<'g>)> {
         () if x == y.leg() => Some(("arcsin", y)),
         () if y == x.leg() => Some(("arccos", x)),
         () => None,
+    }
+}
+
+/// What a reader sees: brackets stand around sums alone.
+fn visible(e: Expr<'_>) -> Expr<'_> {
+    match e.view() {
+        NodeView::Group(inner) | NodeView::Opaque(inner) if !matches!(inner.view(), NodeView::Sum(_)) => visible(inner),
+        _ => e,
     }
 }
 

@@ -109,41 +109,93 @@ pub const DERIVATIVES: [&str; 3] = ["linearize", "by_parameters", "regressor"];
 /// The loss above which the documentation of a kernel warns of it: three decimal places.
 const MUCH: f64 = 1e3;
 
-/// Rustdoc of the kernel: what it is, its equations, its costs.
+/// Rustdoc of the kernel: what it is, what it takes, its equations, its costs. What a scene does not have is not on it.
 pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
+    let legend = legend(derived).into_iter().map(|(letter, field, text)| vec![letter.into(), code(&field), text]);
     let mut out = format!(
         "Equations of motion of [`{name}`], derived from the Gauss condition (Massa & Vignolo, eq. 3.4).\n\n\
-         {description}.\n\n\
-         Components with a hat are in the observer's axes k, the others in body axes e; (u, ω) is the twist of O, \
-         (Q, Γ) the momentum, about O, or about Ω where both have hats; (R, M) the resultant and torque of the forces.\n\n\
-         ```text\n{equations}```\n\n| letter | field | |\n|---|---|---|\n",
+         {description}.\n{states}{input}\n# Equations\n\n{letters}\n\n```text\n{equations}```\n{legend}",
         name = derived.item().ident,
         description = description(derived),
+        states = states(derived),
+        input = input(derived),
+        letters = letters(derived, equations),
+        legend = table(["letter", "field", ""], legend.collect()),
     );
-    for (letter, field, text) in legend(derived) {
-        out.push_str(&format!("| {letter} | `{field}` | {} |\n", text.replace('|', "\\|")));
-    }
-    out.push_str(&states(derived));
     out.push_str(&acting(derived));
+    out.push_str(&frames(derived));
     out.push_str(&super::file::documentation(derived));
-    out.push_str(
-        "\n# Cost and rounding\n\nThe loss is the largest error of double precision at sample states (median), in units of what a change of \
-         every parameter and argument in its last place does.\n\n| method | operations | loss, at most |\n|---|---|---|\n",
-    );
+    out.push_str(&costs(derived));
+    out
+}
+
+/// A table without the columns in which nothing stands; nothing of no rows.
+fn table<const N: usize>(headings: [&str; N], rows: Vec<Vec<String>>) -> String {
+    let used: Vec<usize> =
+        (0..N).filter(|&k| rows.iter().any(|row| row.get(k).is_some_and(|cell| !cell.is_empty()))).collect();
+    let line = |cells: &[&str]| format!("| {} |\n", used.iter().map(|&k| cells[k]).collect::<Vec<_>>().join(" | "));
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mut out = format!("\n{}|{}\n", line(&headings), "---|".repeat(used.len()));
+    for row in &rows {
+        let cells: Vec<String> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
+        out.push_str(&line(&cells.iter().map(String::as_str).collect::<Vec<_>>()));
+    }
+    out
+}
+
+fn code(text: &str) -> String {
+    format!("`{text}`")
+}
+
+/// What letters and marks of the equations mean, of those that occur.
+fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
+    const HAT: char = '\u{302}';
+    let has = |text: &str| equations.contains(text);
+    let mut sentences = Vec::new();
+    // Every page of one body says how points are carried to the observer.
+    if equations.replace(&format!("x{HAT} = R x + b"), "").contains(HAT) {
+        sentences.push("Components with a hat are in the observer's axes k, those without in body axes e.".to_owned());
+    }
+    if derived.subject.model.one_body().is_some() {
+        let hats = ["Q", "Γ"].map(|letter| if has(&format!("{letter}{HAT}")) { "\u{302}" } else { "" });
+        let [linear, angular] = hats;
+        let both = if angular.is_empty() { "O" } else { "Ω" };
+        if has("Γ") {
+            sentences.push(format!("(Q{linear}, Γ{angular}) is the momentum about {both}."));
+        }
+        if has("active forces") && !has("F_") {
+            let forces = format!("(R{linear}, M{angular})");
+            sentences.push(format!("{forces} is the resultant and the torque of the forces, about {both}."));
+        }
+    }
+    if has("p_") || has("F_") {
+        sentences.push("p is ∂T/∂z and F the generalised force, each with the name of its speed.".to_owned());
+    }
+    sentences.push("The same in LaTeX is `EQUATIONS.latex`.".to_owned());
+    sentences.join(" ")
+}
+
+/// What each method costs and loses.
+fn costs(derived: &Derived<'_, '_>) -> String {
+    let mut rows: Vec<Vec<String>> = Vec::new();
     for ((formula, program), loss) in derived.formulas.iter().zip(&derived.kernel.functions).zip(&derived.kernel.losses)
     {
         let [worst, median] = loss.rounded();
         let warning = if worst > MUCH { ": **digits are lost**" } else { "" };
-        let loss = if worst > 0.0 { format!("{worst} ({median}){warning}") } else { String::new() };
-        out.push_str(&format!("| `{}` | {} | {loss} |\n", call_of(derived, formula.method), program.counts()));
+        let loss = if worst > 0.0 { format!("{worst} ({median}){warning}") } else { "none".to_owned() };
+        rows.push(vec![code(&call_of(derived, formula.method)), program.counts().to_string(), loss]);
     }
-    out.push_str(&format!("| `evaluate` | {} | |\n", derived.kernel.joined.counts()));
-    for (name, program) in DERIVATIVES.into_iter().zip(derived.kernel.derivatives()) {
-        if let Some(program) = program {
-            out.push_str(&format!("| `{name}` | {} | |\n", program.counts()));
-        }
-    }
-    out
+    let others = DERIVATIVES.into_iter().zip(derived.kernel.derivatives());
+    let others = others.filter_map(|(name, program)| Some((name, program.as_ref()?.counts())));
+    let others = std::iter::once(("evaluate", derived.kernel.joined.counts())).chain(others);
+    rows.extend(others.map(|(name, counts)| vec![code(name), counts.to_string(), "not measured".to_owned()]));
+    format!(
+        "\n# Cost and rounding\n\nThe loss is the largest error of double precision at sample states (median), in units \
+         of what a change of every parameter and argument in its last place does.\n{}",
+        table(["method", "operations", "loss, at most"], rows)
+    )
 }
 
 /// What a method is called, as it is called: `pose_of(tool)`.
@@ -157,54 +209,71 @@ fn call_of(derived: &Derived<'_, '_>, method: Method) -> String {
 /// What a configuration and speeds are made of, in words and in a call.
 fn states(derived: &Derived<'_, '_>) -> String {
     let (name, [coordinates, speeds]) = (state_name(derived), parts(derived));
-    let listed = |parts: &[Part]| parts.iter().map(|part| format!("`{}`", part.shown())).collect::<Vec<_>>().join(", ");
+    let row = |of: &str, part: &Part| vec![of.to_owned(), code(&part.shown()), part.label.clone()];
+    let rows = coordinates.iter().map(|part| row("q", part)).chain(speeds.iter().map(|part| row("z", part)));
     let (groups, scalars): (Vec<&Part>, Vec<&Part>) =
         coordinates.iter().partition(|part| part.kind != PartKind::Scalar);
-    let mut factors: Vec<String> = groups.iter().map(|part| format!("`{}`", part.ident)).collect();
+    let mut factors: Vec<String> = groups.iter().map(|part| part.ident.to_string()).collect();
     if !scalars.is_empty() {
         let names: Vec<String> = scalars.iter().map(|part| part.ident.to_string()).collect();
-        factors.push(format!("`SVector[{}]`", names.join(", ")));
+        factors.push(format!("SVector[{}]", names.join(", ")));
     }
     let nested = factors.iter().rev().cloned().reduce(|inner, outer| format!("({outer}, {inner})")).unwrap_or_default();
     let idents = coordinates.iter().chain(&speeds).map(|part| part.ident.to_string()).collect::<Vec<_>>().join(", ");
+    let input = if derived.subject.model.inputs.is_empty() { "()" } else { "input" };
     format!(
-        "\n# State\n\nCoordinates: {}. Speeds: {}. The configuration q is {nested}, the speeds z are one vector; by name \
-         both are [`{name}`]:\n\n```text\nlet state = {name} {{ {idents} }};\nlet rates = kernel.acceleration(t, \
-         &state.q(), &state.z(), &input);\nlet {name} {{ {idents} }} = {name}::of(&q, &z);\n```\n",
-        listed(&coordinates),
-        listed(&speeds),
+        "\n# State\n{}\nThe configuration q is `{nested}`, the speeds z are one vector. By name both are [`{name}`]:\n\n\
+         ```text\nlet state = {name} {{ {idents} }};\nlet rates = kernel.acceleration(t, &state.q(), &state.z(), \
+         &{input});\nlet {name} {{ {idents} }} = {name}::of(&q, &z);\n```\n",
+        table(["", "field", "is"], rows.collect()),
     )
 }
 
-/// The components of the input in order, and the elements in the order of their powers.
-fn acting(derived: &Derived<'_, '_>) -> String {
-    let mut out = String::new();
+/// The components of the input in order.
+fn input(derived: &Derived<'_, '_>) -> String {
     let mut next = 0;
+    let mut rows = Vec::new();
     for input in &derived.subject.model.inputs {
-        if next == 0 {
-            out.push_str("\n# Input\n\n| components | input | unit |\n|---|---|---|\n");
-        }
         let (count, what) = match input.kind {
             InputKind::Scalar => (1, ""),
             InputKind::Vector => (3, ": a vector"),
             InputKind::Wrench => (6, ": a force, then a torque"),
         };
         let range = if count == 1 { next.to_string() } else { format!("{next}–{}", next + count - 1) };
-        let unit = input.unit.as_deref().unwrap_or_default();
-        out.push_str(&format!("| {range} | `{}`{what} | {unit} |\n", input.ident.unraw()));
+        let unit = input.unit.clone().unwrap_or_default();
+        rows.push(vec![range, format!("`{}`{what}", input.ident.unraw()), unit]);
         next += count;
     }
+    let heading = if rows.is_empty() { "" } else { "\n# Input\n" };
+    format!("{heading}{}", table(["components", "input", "unit"], rows))
+}
+
+/// The elements in the order of their powers.
+fn acting(derived: &Derived<'_, '_>) -> String {
     let accounts = derived.accounts();
-    if !accounts.is_empty() {
-        out.push_str("\n# What acts\n\n| element | |\n|---|---|\n");
-    }
-    for account in accounts {
+    let rows = accounts.iter().map(|account| {
         let kind = match (account.conservative, account.outside) {
             (true, Some(_)) => "in the potential energy, with a damper",
             (true, None) => "in the potential energy",
-            (false, _) => "",
+            (false, _) => "a force without a potential",
         };
-        out.push_str(&format!("| {} | {kind} |\n", account.name));
-    }
-    out
+        vec![account.name.to_string(), kind.to_owned()]
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
+    let heading = if rows.is_empty() { "" } else { "\n# What acts\n" };
+    format!("{heading}{}", table(["element", ""], rows))
+}
+
+/// What is asked by the name of a frame.
+fn frames(derived: &Derived<'_, '_>) -> String {
+    let names: Vec<String> = derived.frames().iter().map(|frame| frame.unraw().to_string()).collect();
+    let Some(first) = names.first() else { return String::new() };
+    let listed: Vec<String> = names.iter().map(|name| code(name)).collect();
+    format!(
+        "\n# Frames\n\nOf {}: R and b, twist, Jacobian and what is left of the acceleration at ż = 0, each in the axes of \
+         the frame about its origin:\n\n```text\nlet pose = kernel.pose_of({item}Frame::{first}, t, &q);\nlet twist = \
+         kernel.twist_of({item}Frame::{first}, t, &q, &z);\n```\n",
+        listed.join(", "),
+        item = derived.item().ident,
+    )
 }

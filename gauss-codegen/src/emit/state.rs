@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 use syn::ext::IdentExt;
 
-use crate::model::{CoordinateKind, InChart, Motion, SpeedKind};
+use crate::model::{Chart, CoordinateKind, InChart, Motion, SpeedKind};
 
 use super::derived::{Derived, KernelGenerics};
 
@@ -112,7 +112,9 @@ fn coordinates(derived: &Derived<'_, '_>) -> Vec<Part> {
                 let part = |word: &String| Part::new(named(word), PartKind::Scalar, "a coordinate of the chart");
                 parts.extend(words.iter().map(part));
             }
-            (None, Motion::Free) => parts.push(Part::new(named("pose"), PartKind::Pose, "R and b of the body")),
+            (None, Motion::Free) => {
+                parts.push(Part::new(named("pose"), PartKind::Pose, "R and b of the body: x̂ = R x + b"))
+            }
             (None, Motion::FixedPoint) => {
                 parts.push(Part::new(named("rotation"), PartKind::Rotation, "R of the body"));
             }
@@ -139,7 +141,10 @@ fn speeds(derived: &Derived<'_, '_>) -> Vec<Part> {
     for word in model.in_chart.map(InChart::speed_words).unwrap_or_default() {
         match all.last_mut().filter(|last| last.ident == word) {
             Some(last) => last.kind = PartKind::Vector(last.size() + 1),
-            None => all.push(Part::new(Ident::new(&word, Span::call_site()), PartKind::Scalar, "speed of the chart")),
+            None => {
+                let label = model.in_chart.map_or_else(String::new, |own| speed_label(own, &word));
+                all.push(Part::new(Ident::new(&word, Span::call_site()), PartKind::Scalar, label));
+            }
         }
     }
     match &model.speeds {
@@ -163,6 +168,19 @@ fn speeds(derived: &Derived<'_, '_>) -> Vec<Part> {
         })),
     }
     kept(derived, all)
+}
+
+/// Which velocity a speed of a chart is, and in which axes.
+fn speed_label(InChart { chart, .. }: InChart, word: &str) -> String {
+    let of = match word {
+        "u" => "velocity of O, body axes",
+        "xi" => "velocity of the body's point at Ω, observer's axes",
+        "b_dot" => "velocity of O, observer's axes",
+        "omega" if chart == Chart::RightInvariant => "angular velocity, observer's axes",
+        "omega" => "angular velocity, body axes",
+        _ => return format!("rate of `{}`", word.trim_end_matches("_dot")),
+    };
+    of.to_owned()
 }
 
 /// The speeds that stay where constraints are solved for the others: whole vectors, or single components.

@@ -388,10 +388,15 @@ fn name_of(ident: &Ident) -> Name {
     let text = ident.unraw().to_string();
     let stem = text.trim_end_matches(|c: char| c.is_ascii_digit());
     let index = &text[stem.len()..];
+    // Letters that are neither Latin nor Greek stay as they are: newer TeX sets them.
+    let letters = || "αβγδεζηθικλμνξπρστφχψω".chars().zip(GREEK);
+    let set =
+        |c: char| letters().find(|(letter, _)| *letter == c).map_or(c.to_string(), |(_, name)| format!("\\{name} "));
+    let word: String = stem.chars().map(set).collect();
     let letter = match stem {
         stem if GREEK.contains(&stem) => format!("\\{stem}"),
-        stem if stem.chars().count() > 1 => format!("\\mathit{{{}}}", stem.replace('_', "\\_")),
-        stem => stem.to_owned(),
+        stem if stem.chars().count() == 1 => word.trim_end().to_owned(),
+        _ => format!("\\mathit{{{}}}", word.replace('_', "\\_")),
     };
     let latex = if index.is_empty() { letter } else { format!("{letter}_{{{index}}}") };
     Name { text, latex }

@@ -1,10 +1,13 @@
 //! The gate: what every method of every scene costs, beside the table of this folder.
 //!
 //! A row is worse when its operations, its divisions and functions, or its longest chain grew; then the test fails.
+//! Their equations in LaTeX, which are in the code as well, are looked at on the way.
 //! What became better fails too, until the table says so:
 //! `UPDATE_OPERATIONS=1 cargo test -p gauss-codegen --test operations` writes it.
 
 mod counts;
+#[path = "../common/latex.rs"]
+mod latex;
 mod scenes;
 mod sources;
 mod table;
@@ -14,6 +17,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use counts::Row;
+use proc_macro2::{TokenStream, TokenTree};
 use scenes::Scene;
 use table::Table;
 
@@ -42,7 +46,26 @@ fn measured(scenes: &[Scene]) -> Result<Table, String> {
 }
 
 fn rows(scene: &Scene) -> syn::Result<Vec<(String, Row)>> {
-    counts::of_code(gauss_codegen::expand(&syn::parse_str(&scene.source)?)?)
+    let code = gauss_codegen::expand(&syn::parse_str(&scene.source)?)?;
+    let equations = equations(code.clone()).unwrap_or_default();
+    let complaints = latex::complaints(&equations);
+    if !complaints.is_empty() {
+        return Err(syn::Error::new(proc_macro2::Span::call_site(), complaints.join("\n")));
+    }
+    counts::of_code(code)
+}
+
+/// The LaTeX of `Equations::new(text, latex)`.
+fn equations(code: TokenStream) -> Option<String> {
+    let tokens: Vec<TokenTree> = code.into_iter().collect();
+    tokens.iter().enumerate().find_map(|(n, token)| match token {
+        TokenTree::Group(group) if n > 3 && tokens[n - 4].to_string() == "Equations" => {
+            let latex: syn::LitStr = syn::parse2(group.stream().into_iter().nth(2)?.into()).ok()?;
+            Some(latex.value())
+        }
+        TokenTree::Group(group) => equations(group.stream()),
+        _ => None,
+    })
 }
 
 #[test]

@@ -71,12 +71,8 @@ impl<'g> Symbols<'g> {
         let symbol = if self.suffix.text.is_empty() {
             self.graph.symbol(text, latex, true)
         } else {
-            // m_{1} of the arm is m_{1,arm}.
-            let latex = match latex.strip_suffix('}') {
-                Some(open) if latex.contains("_{") => format!("{open},{}}}", self.suffix.latex),
-                _ => format!("{latex}_{{{}}}", self.suffix.latex),
-            };
-            self.graph.symbol(format!("{text}_{}", self.suffix.text), latex, true)
+            let Name { text, latex } = Name { text, latex }.of(&self.suffix);
+            self.graph.symbol(text, latex, true)
         };
         self.list.push(ParameterSymbol { symbol, quantity, row, column });
         symbol

@@ -37,16 +37,20 @@ impl Name {
 
     /// u → u1 for the component with index 0; of a name that has an index, a second one.
     pub fn index(&self, i: usize) -> Self {
-        let latex = match self.latex.strip_suffix('}') {
-            Some(open) if self.latex.contains("_{") => format!("{open},{}}}", i + 1),
-            _ => format!("{}_{{{}}}", self.latex, i + 1),
-        };
-        Self { text: format!("{}{}", self.text, i + 1), latex }
+        Self { text: format!("{}{}", self.text, i + 1), latex: self.with_index(&(i + 1).to_string()) }
     }
 
-    /// p → p_θ.
+    /// p → p_θ; of a name that has an index, a second one.
     pub fn of(&self, other: &Self) -> Self {
-        Self { text: format!("{}_{}", self.text, other.text), latex: format!("{}_{{{}}}", self.latex, other.latex) }
+        Self { text: format!("{}_{}", self.text, other.text), latex: self.with_index(&other.latex) }
+    }
+
+    /// The LaTeX with an index, which no name has two of: m_{1} of the arm is m_{1,arm}.
+    fn with_index(&self, index: &str) -> String {
+        match self.latex.strip_suffix('}') {
+            Some(open) if self.latex.contains("_{") => format!("{open},{index}}}"),
+            _ => format!("{}_{{{index}}}", self.latex),
+        }
     }
 
     /// The derivative of a quasi-velocity: ḃ → b̈, ω → dω/dt.
@@ -68,8 +72,8 @@ impl Name {
     fn marked(&self, mark: char, command: &str) -> Self {
         let mut letters = self.text.chars();
         let text = letters.next().into_iter().chain([mark]).chain(letters).collect();
-        // An index stays outside the braces: \hat{Q}_{1}.
-        let (letter, index) = self.latex.split_at(self.latex.find('_').unwrap_or(self.latex.len()));
+        // An index stays outside the braces: \hat{Q}_{1}. An underscore of a word is none.
+        let (letter, index) = self.latex.split_at(self.latex.find("_{").unwrap_or(self.latex.len()));
         Self { text, latex: format!("\\{command}{{{letter}}}{index}") }
     }
 }

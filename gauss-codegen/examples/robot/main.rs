@@ -3,7 +3,9 @@
 //!
 //! Clauses are those that stand beside the file in `#[gauss(…)]`, such as `base=floating gravity=9.81 linearize`.
 //! With `--write` the struct and what the derive makes of it become a source file, which needs gauss-runtime and no
-//! macro.
+//! macro. With `--values` states are read, and what every method gives is written (`values.rs`).
+
+mod values;
 
 use std::fmt::Write;
 use std::path::Path;
@@ -31,21 +33,27 @@ fn main() -> ExitCode {
 
 fn run(arguments: &[String]) -> Result<String, String> {
     let (file, rest) = arguments.split_first().ok_or(USAGE)?;
-    let (clauses, target) = match rest {
-        [clauses @ .., flag, target] if flag == "--write" => (clauses, Some(target)),
-        clauses => (clauses, None),
+    let (clauses, target, answers) = match rest {
+        [clauses @ .., flag, target] if flag == "--write" => (clauses, Some(target), false),
+        [clauses @ .., flag] if flag == "--values" => (clauses, None, true),
+        clauses => (clauses, None, false),
     };
     let word = if file.ends_with(".xml") || file.ends_with(".mjcf") { "mjcf" } else { "urdf" };
     let path = std::path::absolute(file).map_err(|error| format!("{file}: {error}"))?;
     let name = name(&path);
     let clauses: String = clauses.iter().map(|clause| format!(", {clause}")).collect();
-    let source = format!("#[gauss({word} = {path:?}{clauses})] struct {name};");
+    let source = format!("#[gauss({word} = {path:?}{clauses})] pub struct {name};");
     let start = Instant::now();
     let item = syn::parse_str(&source).map_err(|error| format!("{error}\n{USAGE}"))?;
     // The path from the folder of a package means nothing here; the one that was given does.
     let shown = |text: String| text.replace(&*path.to_string_lossy(), file);
     let derivation = Derivation::new(&item).map_err(|mistakes| shown(said(&mistakes)))?;
-    let mut out = shown(table(&derivation, start.elapsed().as_secs_f64()));
+    let seconds = start.elapsed().as_secs_f64();
+    if answers {
+        values::answer(&derivation, seconds, std::io::stdin().lock(), std::io::stdout().lock())?;
+        return Ok(String::new());
+    }
+    let mut out = shown(table(&derivation, seconds));
     if let Some(target) = target {
         std::fs::write(target, written(&derivation, file)?).map_err(|error| format!("{target}: {error}"))?;
         let _ = writeln!(out, "\nThe kernel is in {target}.");
@@ -93,5 +101,9 @@ fn written(derivation: &Derivation, file: &str) -> Result<String, String> {
     };
     let file = format!("{file} of gauss-codegen");
     let parsed = syn::parse2(item).map_err(|error| format!("{file}: {error}"))?;
-    Ok(format!("// Made from {file}: do not edit.\n\n{}", prettyplease::unparse(&parsed)))
+    let text = prettyplease::unparse(&parsed);
+    // Here nothing is derived, which rustc would say, as it would of parentheses.
+    let lines = text.lines().filter(|line| line.trim() != "#[automatically_derived]");
+    let lines: String = lines.map(|line| format!("{line}\n")).collect();
+    Ok(format!("// Made from {file}: do not edit.\n#![allow(unused_parens)]\n\n{lines}"))
 }

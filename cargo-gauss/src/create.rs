@@ -1,0 +1,50 @@
+//! `cargo gauss new`: a package that runs.
+
+use std::fs;
+use std::path::Path;
+
+use crate::New;
+
+const MAIN: &str = include_str!("template.rs.txt");
+
+/// Makes the folder with its manifest and its program.
+///
+/// # Errors
+/// A name that no package can have, a folder that exists, what the system says.
+pub fn create(wanted: &New) -> Result<(), String> {
+    let folder = &wanted.folder;
+    let name = folder.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) || !name.chars().all(fits) {
+        return Err(format!("`{name}` is no name of a package: letters, digits, `-` and `_`, a letter first"));
+    }
+    if folder.exists() {
+        return Err(format!("{} exists", folder.display()));
+    }
+    let runtime = match &wanted.gauss {
+        Some(clone) => at(clone)?,
+        None => format!("version = \"{}\"", env!("CARGO_PKG_VERSION")),
+    };
+    let manifest = format!(
+        "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\ngauss-runtime = {{ {runtime} }}\n\n\
+         # A macro that is not optimised takes longer to compile than it saves.\n[profile.dev.build-override]\nopt-level = 1\n\n\
+         [workspace]\n"
+    );
+    let write = |file: &str, text: &str| {
+        let path = folder.join(file);
+        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    fs::create_dir_all(folder.join("src")).map_err(|error| format!("{}: {error}", folder.display()))?;
+    write("Cargo.toml", &manifest)?;
+    write("src/main.rs", MAIN)?;
+    write(".gitignore", "/target\n/top.csv\n")?;
+    println!("made {}; now `cd {} && cargo run --release`", folder.display(), folder.display());
+    Ok(())
+}
+
+/// The runtime in a clone.
+fn at(clone: &Path) -> Result<String, String> {
+    let runtime = clone.join("gauss-runtime");
+    let absolute = runtime.canonicalize().map_err(|error| format!("{}: {error}", runtime.display()))?;
+    Ok(format!("path = {:?}", absolute.display().to_string()))
+}

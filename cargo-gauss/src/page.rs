@@ -1,0 +1,92 @@
+//! Equations as a page: MathML, which browsers set without any script.
+
+use gauss_codegen::Notation;
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use pulldown_latex::{Parser, Storage, push_mathml};
+
+use crate::show::{Shown, loss, programs};
+
+const STYLE: &str = include_str!("page.css");
+
+/// All structs of a file, charts of one struct side by side.
+pub fn html(file: &str, all: &[Shown]) -> String {
+    let titles: Vec<&str> = all.iter().map(|shown| shown.title.as_str()).collect();
+    let title = escaped(&titles.join(" · "));
+    let sections: String = all.iter().map(section).collect();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{sections}</main>\n\
+         <footer>derived from <code>{}</code> by <code>cargo gauss show</code></footer>\n</body>\n</html>\n",
+        escaped(file)
+    )
+}
+
+fn section(shown: &Shown) -> String {
+    let derivation = &shown.derivation;
+    let lines: String = derivation.equations(Notation::Latex).split("\\\\\n").map(line).collect();
+    let rows: String = programs(derivation)
+        .map(|program| {
+            let cost = program.code.cost();
+            let loss = loss(derivation, &program.name);
+            let [most, middle] = loss.map_or_else(Default::default, |loss| loss.map(|loss| format!("{loss} ×")));
+            format!(
+                "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td>{}</td><td>{most}</td><td>{middle}</td></tr>\n",
+                escaped(&program.name),
+                escaped(&program.code.counts().to_string()),
+                cost.total(),
+                cost.chain
+            )
+        })
+        .collect();
+    format!(
+        "<section>\n<h1>{}</h1>\n<div class=\"equations\">\n{lines}</div>\n<table>\n<thead><tr><th>method</th><th>operations</th>\
+         <th>cost</th><th>chain</th><th>rounding, at most</th><th>mostly</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n\
+         <p class=\"note\">Cost counts instructions, the chain those that wait for one another. Rounding: how much more than a \
+         change of the arguments in their last place it does, at sample states.</p>\n</section>\n",
+        escaped(&shown.title)
+    )
+}
+
+/// A line of an aligned environment: a heading, or one side and the other.
+fn line(line: &str) -> String {
+    let line = line.trim().trim_start_matches("\\begin{align*}").trim_end_matches("\\end{align*}").trim();
+    if line.is_empty() {
+        return String::new();
+    }
+    if let Some(heading) = line.strip_prefix("&\\text{").and_then(|rest| rest.strip_suffix('}')) {
+        return format!("<h2>{}</h2>\n", text(heading));
+    }
+    match line.split_once('&') {
+        Some((left, right)) => {
+            format!("<p>{}{}</p>\n", math(left, DisplayMode::Inline), math(right, DisplayMode::Inline))
+        }
+        None => format!("<p>{}</p>\n", math(line, DisplayMode::Inline)),
+    }
+}
+
+/// Words with formulas between dollars.
+fn text(words: &str) -> String {
+    let piece = |(k, piece): (usize, &str)| if k % 2 == 0 { escaped(piece) } else { math(piece, DisplayMode::Inline) };
+    words.split('$').enumerate().map(piece).collect()
+}
+
+/// A formula; what cannot be set stays as it is written.
+fn math(latex: &str, display_mode: DisplayMode) -> String {
+    let storage = Storage::new();
+    let latex = latex.trim();
+    let events: Result<Vec<_>, _> = Parser::new(latex, &storage).collect();
+    let mut out = String::new();
+    let config = RenderConfig { display_mode, ..RenderConfig::default() };
+    match events {
+        Ok(events) => {
+            let events = events.into_iter().map(Ok::<_, pulldown_latex::ParserError>);
+            if push_mathml(&mut out, events, config).is_ok() { out } else { format!("<code>{}</code>", escaped(latex)) }
+        }
+        Err(_) => format!("<code>{}</code>", escaped(latex)),
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

@@ -1,0 +1,126 @@
+//! `cargo gauss show`: prints what is derived.
+
+use std::fs;
+use std::path::Path;
+
+use gauss_codegen::program::Program;
+use gauss_codegen::{Derivation, Notation, targets};
+use syn::DeriveInput;
+
+use crate::charts::in_chart;
+use crate::{Form, Show, page, structs};
+
+/// A struct in a chart, and what is derived from it.
+pub struct Shown {
+    /// The name of the struct, and the chart if one was asked for.
+    pub title: String,
+    pub derivation: Derivation,
+}
+
+/// Prints it, or writes it to a file.
+///
+/// # Errors
+/// What is wrong with the file, the names or the structs, each with its place.
+pub fn show(wanted: &Show) -> Result<(), String> {
+    let file = wanted.file.display().to_string();
+    let source = fs::read_to_string(&wanted.file).map_err(|error| format!("{file}: {error}"))?;
+    let parsed = syn::parse_file(&source).map_err(|mistakes| located(&wanted.file, &mistakes))?;
+    let items = structs::find(&parsed, &wanted.names).map_err(|text| format!("{file}: {text}"))?;
+    let all = derive(wanted, &items)?;
+    let text = match wanted.form {
+        Form::Html => page::html(&file, &all),
+        form => all
+            .iter()
+            .map(|shown| text(shown, form, wanted.method.as_deref()))
+            .collect::<Result<Vec<_>, _>>()?
+            .join("\n"),
+    };
+    match &wanted.output {
+        Some(path) => fs::write(path, text).map_err(|error| format!("{}: {error}", path.display())),
+        None => {
+            print!("{text}");
+            Ok(())
+        }
+    }
+}
+
+fn derive(wanted: &Show, items: &[DeriveInput]) -> Result<Vec<Shown>, String> {
+    let (mut all, mut mistakes) = (Vec::new(), Vec::new());
+    let mut add = |title: String, item: &DeriveInput| match Derivation::new(item) {
+        Ok(derivation) => all.push(Shown { title, derivation }),
+        Err(error) => mistakes.push(located(&wanted.file, &error)),
+    };
+    for item in items {
+        if wanted.charts.is_empty() {
+            add(item.ident.to_string(), item);
+        }
+        for chart in &wanted.charts {
+            add(format!("{}, {chart}", item.ident), &in_chart(item, chart)?);
+        }
+    }
+    if mistakes.is_empty() { Ok(all) } else { Err(mistakes.join("\n")) }
+}
+
+/// Every mistake with its place.
+fn located(file: &Path, mistakes: &syn::Error) -> String {
+    let lines = mistakes.into_iter().map(|mistake| {
+        let start = mistake.span().start();
+        format!("{}:{}:{}: {mistake}", file.display(), start.line, start.column + 1)
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn text(shown: &Shown, form: Form, method: Option<&str>) -> Result<String, String> {
+    let derivation = &shown.derivation;
+    match form {
+        Form::Text => Ok(plain(shown)),
+        Form::Latex => Ok(derivation.equations(Notation::Latex).to_owned()),
+        Form::Program => match method {
+            Some(method) => {
+                let names = || programs(derivation).map(|program| program.name.as_str()).collect::<Vec<_>>().join(", ");
+                let found = programs(derivation).find(|program| program.name == method);
+                let missing = || format!("{} has no method `{method}`; it has {}", derivation.name(), names());
+                found.map(ToString::to_string).ok_or_else(missing)
+            }
+            None => Ok(programs(derivation).map(ToString::to_string).collect::<Vec<_>>().join("\n")),
+        },
+        Form::C => Ok(targets::c::source(derivation)),
+        Form::Rust => pretty(derivation.rust().clone()),
+        Form::Functions => pretty(targets::rust::source(derivation)),
+        Form::Html => Ok(String::new()),
+    }
+}
+
+fn pretty(code: proc_macro2::TokenStream) -> Result<String, String> {
+    let file = syn::parse2(code).map_err(|error| format!("what was written is no Rust: {error}"))?;
+    Ok(prettyplease::unparse(&file))
+}
+
+/// The constants, and every method.
+pub fn programs(derivation: &Derivation) -> impl Iterator<Item = &Program> {
+    std::iter::once(derivation.constants()).chain(derivation.programs())
+}
+
+/// Digits that a method loses to rounding: at most, and in the middle, of its sample states; as words.
+pub fn loss(derivation: &Derivation, method: &str) -> Option<[f64; 2]> {
+    derivation.accuracy().iter().find(|(name, _)| name == method).map(|(_, loss)| *loss)
+}
+
+fn plain(shown: &Shown) -> String {
+    let derivation = &shown.derivation;
+    let mut out = format!(
+        "{}\n{}\n\n{}\n",
+        shown.title,
+        "=".repeat(shown.title.chars().count()),
+        derivation.equations(Notation::Text)
+    );
+    out.push_str(&format!("{:<22}{:<48}{:>6}{:>7}   rounding, at most and mostly\n", "method", "", "cost", "chain"));
+    for program in programs(derivation) {
+        let cost = program.code.cost();
+        let loss = loss(derivation, &program.name);
+        let loss = loss.map(|[most, middle]| format!("   {most} × and {middle} ×")).unwrap_or_default();
+        let counts = program.code.counts().to_string();
+        out.push_str(&format!("{:<22}{counts:<48}{:>6}{:>7}{loss}\n", program.name, cost.total(), cost.chain));
+    }
+    out
+}

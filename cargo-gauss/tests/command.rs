@@ -1,0 +1,111 @@
+//! The command, as Cargo calls it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// What `cargo gauss new` writes compiles.
+#[allow(dead_code)]
+#[path = "../src/template.rs.txt"]
+mod template;
+
+const BODIES: &str = r#"
+mod inside {
+    #[derive(Debug, gauss_runtime::GaussDynamics)]
+    #[gauss(motion = fixed_point, chart = left_invariant)]
+    struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }
+}
+#[derive(GaussDynamics)]
+#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), potential = 0.5 * k * x * x)]
+struct Swing { m: f64, k: f64 }
+struct Other;
+"#;
+
+/// A file of its own for each test.
+fn file(name: &str, text: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::write(&path, text).expect("a folder that can be written");
+    path
+}
+
+fn gauss(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-gauss"));
+    command.arg("gauss").args(arguments).output().expect("the command runs")
+}
+
+fn printed(arguments: &[&str]) -> String {
+    let output = gauss(arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+fn refused(arguments: &[&str]) -> String {
+    let output = gauss(arguments);
+    assert!(!output.status.success());
+    String::from_utf8(output.stderr).expect("UTF-8")
+}
+
+#[test]
+fn all_structs_of_a_file_are_shown() {
+    let file = file("all.rs", BODIES);
+    let text = printed(&["show", file.to_str().expect("UTF-8")]);
+    assert!(text.contains("I1*dω1/dt = (I2 - I3)*ω2*ω3"), "{text}");
+    assert!(text.contains("Swing\n=====") && !text.contains("Other"), "{text}");
+}
+
+#[test]
+fn every_form_is_printed() {
+    let file = file("forms.rs", BODIES);
+    let of = |form: &str| printed(&["show", file.to_str().expect("UTF-8"), "Swing", "--as", form]);
+    assert!(of("latex").starts_with("\\begin{align*}"));
+    assert!(of("c").contains("#include <math.h>"));
+    assert!(of("rust").contains("struct SwingKernel"));
+    assert!(of("functions").contains("pub fn acceleration"));
+    let one = printed(&["show", file.to_str().expect("UTF-8"), "Swing", "--as", "program", "--method", "acceleration"]);
+    assert!(one.starts_with("acceleration") && of("program").contains(&one));
+}
+
+#[test]
+fn charts_stand_side_by_side_in_a_page_without_network() {
+    let file = file("charts.rs", BODIES);
+    let page = file.with_extension("html");
+    let [file, page] = [&file, &page].map(|path| path.to_str().expect("UTF-8"));
+    let charts = "left_invariant,jet(euler_zyx)";
+    assert_eq!(printed(&["show", file, "Top", "--as", "html", "--charts", charts, "--output", page]), "");
+    let page = fs::read_to_string(page).expect("the page");
+    assert_eq!(page.matches("<section>").count(), 2);
+    assert!(page.contains("<h1>Top, left_invariant</h1>") && page.contains("<h1>Top, jet(euler_zyx)</h1>"));
+    assert_eq!(page.matches("<math").count(), page.matches("</math>").count());
+    // Every formula was set: nothing of LaTeX is left.
+    assert!(page.matches("<math").count() > 20 && !page.contains('\\'), "{page}");
+    assert!(!page.contains("http://") || page.contains("http://www.w3.org/1998/Math/MathML"));
+    assert!(!page.contains("https://") && !page.contains("<script"));
+}
+
+#[test]
+fn mistakes_have_their_place() {
+    let wrong =
+        file("wrong.rs", "#[derive(GaussDynamics)]\n#[gauss(chart = sideways)]\nstruct A { #[gauss(mass)] m: f64 }\n");
+    let wrong = wrong.to_str().expect("UTF-8");
+    let text = refused(&["show", wrong]);
+    assert!(text.starts_with(&format!("{wrong}:2:17: ")) && text.contains("sideways"), "{text}");
+    assert!(refused(&["show", wrong, "B", "C"]).contains("there is no struct `B` in this file; there is A"));
+    assert!(refused(&["show", "no_file.rs"]).starts_with("no_file.rs: "));
+}
+
+#[test]
+fn a_package_is_made_once() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("my_top");
+    let _ = fs::remove_dir_all(&folder);
+    let clone = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
+    let arguments = ["new", folder.to_str().expect("UTF-8"), "--gauss", clone.to_str().expect("UTF-8")];
+    printed(&arguments);
+    let manifest = fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
+    assert!(manifest.contains("name = \"my_top\"") && manifest.contains("gauss-runtime\" }"), "{manifest}");
+    assert_eq!(
+        fs::read_to_string(folder.join("src/main.rs")).expect("a program"),
+        include_str!("../src/template.rs.txt")
+    );
+    assert!(refused(&arguments).contains("exists"));
+    assert!(refused(&["new", "3d"]).contains("no name of a package"));
+}

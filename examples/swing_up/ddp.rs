@@ -1,0 +1,150 @@
+//! Differential dynamic programming with derivatives of first order (iLQR): Tassa, Erez, Todorov, *Synthesis and stabilization of
+//! complex behaviors through online trajectory optimization*, IROS 2012.
+
+use std::time::{Duration, Instant};
+
+use crate::model::{Matrix, Plant, Vector};
+
+/// ½ Σ (uᵀ R u + (x − goal)ᵀ Q (x − goal)) and, at the end, ½ (x − goal)ᵀ F (x − goal); all three diagonal.
+pub struct Task<const D: usize, const U: usize> {
+    pub start: Vector<D>,
+    pub goal: Vector<D>,
+    pub effort: Vector<U>,
+    pub on_the_way: Vector<D>,
+    pub at_the_end: Vector<D>,
+    pub steps: usize,
+}
+
+/// What was found.
+pub struct Plan<const D: usize, const U: usize> {
+    pub states: Vec<Vector<D>>,
+    pub inputs: Vec<Vector<U>>,
+    /// After each iteration, the first before any.
+    pub costs: Vec<f64>,
+    /// Gains of the regulator that comes with it: u = uₖ + Kₖ (x − xₖ).
+    pub gains: Vec<Matrix<U, D>>,
+    /// What derivatives took of the time.
+    pub in_derivatives: Duration,
+}
+
+/// The change of inputs that the model of second order asks for.
+struct Change<const D: usize, const U: usize> {
+    ahead: Vec<Vector<U>>,
+    gains: Vec<Matrix<U, D>>,
+    /// What it would lower the cost by: α first + α² second.
+    first: f64,
+    second: f64,
+}
+
+impl<const D: usize, const U: usize> Task<D, U> {
+    fn cost(&self, states: &[Vector<D>], inputs: &[Vector<U>]) -> f64 {
+        let weighed = |x: &Vector<D>, weight: &Vector<D>| {
+            let off = x - self.goal;
+            0.5 * off.component_mul(weight).dot(&off)
+        };
+        let ways = states.iter().map(|x| weighed(x, &self.on_the_way));
+        let efforts = inputs.iter().map(|u| 0.5 * u.component_mul(&self.effort).dot(u));
+        ways.take(self.steps).sum::<f64>() + efforts.sum::<f64>() + weighed(&states[self.steps], &self.at_the_end)
+    }
+
+    /// The best inputs from a first guess; `None` where the guess leaves all bounds.
+    pub fn solve(&self, plant: &impl Plant<D, U>, guess: &[Vector<U>]) -> Option<Plan<D, U>> {
+        let (mut states, mut inputs) = (vec![self.start], guess.to_vec());
+        for u in guess {
+            states.push(plant.step(&states[states.len() - 1], u));
+        }
+        let mut costs = vec![self.cost(&states, &inputs)];
+        let (mut damping, mut gains, mut in_derivatives) = (1e-6, Vec::new(), Duration::ZERO);
+        costs[0].is_finite().then_some(())?;
+        while costs.len() < 500 {
+            let start = Instant::now();
+            let derivatives: Vec<_> = states.iter().zip(&inputs).map(|(x, u)| plant.derivatives(x, u)).collect();
+            in_derivatives += start.elapsed();
+            let last = costs[costs.len() - 1];
+            let found = loop {
+                let change = self.backward(&states, &inputs, &derivatives, damping);
+                let better = change.and_then(|change| {
+                    let small = change.first.abs() <= 1e-10 * last;
+                    let (states, inputs, cost) = self.forward(plant, &states, &inputs, &change, last)?;
+                    Some((states, inputs, cost, change.gains, small))
+                });
+                match better {
+                    Some(better) => break Some(better),
+                    None if damping > 1e10 => break None,
+                    None => damping *= 10.0,
+                }
+            };
+            let Some((x, u, cost, k, small)) = found else { break };
+            (states, inputs, gains) = (x, u, k);
+            costs.push(cost);
+            damping = (damping / 5.0).max(1e-9);
+            if small {
+                break;
+            }
+        }
+        Some(Plan { states, inputs, costs, gains, in_derivatives })
+    }
+
+    /// From the end to the start: the value of each state to second order; `None` where an input has no best value.
+    fn backward(
+        &self,
+        states: &[Vector<D>],
+        inputs: &[Vector<U>],
+        derivatives: &[(Matrix<D, D>, Matrix<D, U>)],
+        damping: f64,
+    ) -> Option<Change<D, U>> {
+        let mut slope = (states[self.steps] - self.goal).component_mul(&self.at_the_end);
+        let mut value = Matrix::from_diagonal(&self.at_the_end);
+        let (mut ahead, mut gains, mut first, mut second) = (Vec::new(), Vec::new(), 0.0, 0.0);
+        for k in (0..self.steps).rev() {
+            let (a, b) = &derivatives[k];
+            let by_state = (states[k] - self.goal).component_mul(&self.on_the_way) + a.tr_mul(&slope);
+            let by_input = inputs[k].component_mul(&self.effort) + b.tr_mul(&slope);
+            let (av, bv) = (a.tr_mul(&value), b.tr_mul(&value));
+            let damped = bv + b.transpose() * damping;
+            let bowl = (damped * b + Matrix::from_diagonal(&self.effort)).cholesky()?;
+            let (change, gain) = (-bowl.solve(&by_input), -bowl.solve(&(damped * a)));
+            let plain = bv * b + Matrix::from_diagonal(&self.effort);
+            let mixed = bv * a;
+            first += change.dot(&by_input);
+            second += 0.5 * change.dot(&(plain * change));
+            slope = by_state + gain.tr_mul(&(plain * change)) + gain.tr_mul(&by_input) + mixed.tr_mul(&change);
+            value = Matrix::from_diagonal(&self.on_the_way)
+                + av * a
+                + gain.tr_mul(&(plain * gain))
+                + gain.tr_mul(&mixed)
+                + mixed.tr_mul(&gain);
+            value = (value + value.transpose()) * 0.5;
+            ahead.push(change);
+            gains.push(gain);
+        }
+        ahead.reverse();
+        gains.reverse();
+        Some(Change { ahead, gains, first, second })
+    }
+
+    /// From the start to the end with a part of the change; `None` where no part makes the cost as much lower as it should.
+    fn forward(
+        &self,
+        plant: &impl Plant<D, U>,
+        states: &[Vector<D>],
+        inputs: &[Vector<U>],
+        change: &Change<D, U>,
+        last: f64,
+    ) -> Option<(Vec<Vector<D>>, Vec<Vector<U>>, f64)> {
+        (0..12).find_map(|halvings| {
+            let part = 0.5_f64.powi(halvings);
+            let (mut new, mut chosen) = (vec![self.start], Vec::new());
+            for k in 0..self.steps {
+                let x = new[k];
+                let u = inputs[k] + change.ahead[k] * part + change.gains[k] * (x - states[k]);
+                new.push(plant.step(&x, &u));
+                chosen.push(u);
+            }
+            let cost = self.cost(&new, &chosen);
+            let promised = -part * (change.first + part * change.second);
+            // What rounding leaves of a difference of costs is no reason to go on.
+            (cost <= last - 1e-4 * promised + 1e-13 * last).then_some((new, chosen, cost))
+        })
+    }
+}

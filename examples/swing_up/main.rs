@@ -1,0 +1,185 @@
+//! Trajectories that are found: a pole swung up by its cart and an arm that reaches, by differential dynamic programming with the
+//! exact derivatives that `linearize` generates, beside a run of the same with finite differences.
+//!
+//! `cargo run --release --example swing_up [-- FOLDER]` draws into `FOLDER`, by default `target/gauss`.
+
+use std::error::Error;
+use std::f64::consts::PI;
+use std::time::{Duration, Instant};
+
+use gauss_examples::figure::COLOURS;
+use gauss_examples::plots::{Line, Plot, sheet, write};
+use gauss_runtime::prelude::*;
+
+mod ddp;
+mod model;
+
+use ddp::{Plan, Task};
+use model::{Arm, CartPole, CartPoleKernel, Differences, Exact, Scalar, Vector, joined, parts};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    if cfg!(debug_assertions) {
+        println!("Times of a program that is not optimised say nothing: run it with --release.\n");
+    }
+    let (pole, costs) = swing_up()?;
+    reach()?;
+    write("swing_up", &sheet("A pole swung up", (1800, 700), &[vec![pole, costs]])?)
+}
+
+/// Both ways to the same plan, and how long they took.
+struct Both<const D: usize, const U: usize> {
+    plans: [(Plan<D, U>, Duration); 2],
+}
+
+impl<const D: usize, const U: usize> Both<D, U> {
+    fn find<K: Scalar<N, D, U>, const N: usize>(
+        task: &Task<D, U>,
+        kernel: &K,
+        h: f64,
+        guess: &[Vector<U>],
+    ) -> Result<Self, Box<dyn Error>> {
+        let exact = Exact::<K, N> { kernel, h };
+        let timed = |plant: &dyn Fn() -> Option<Plan<D, U>>| {
+            let start = Instant::now();
+            plant().map(|plan| (plan, start.elapsed())).ok_or("the first guess leaves all bounds")
+        };
+        let first = timed(&|| task.solve(&exact, guess))?;
+        let differences = Differences(exact);
+        let second = timed(&|| task.solve(&differences, guess))?;
+        Ok(Self { plans: [first, second] })
+    }
+
+    fn report(&self) {
+        println!("derivatives          iterations   final cost   time, ms   of which derivatives");
+        for (name, (plan, time)) in ["exact", "finite differences"].into_iter().zip(&self.plans) {
+            let (iterations, cost) = (plan.costs.len() - 1, plan.costs[plan.costs.len() - 1]);
+            let [all, derivatives] = [*time, plan.in_derivatives].map(|time| 1e3 * time.as_secs_f64());
+            println!("{name:<20} {iterations:>10} {cost:>12.8} {all:>10.1} {derivatives:>22.1}");
+        }
+    }
+
+    fn agree(&self) -> bool {
+        let [a, b] = [0, 1].map(|k| self.plans[k].0.costs[self.plans[k].0.costs.len() - 1]);
+        (a - b).abs() <= 1e-6 * a
+    }
+}
+
+const H: f64 = 0.02;
+const STEPS: usize = 125;
+const END: f64 = H * STEPS as f64;
+
+/// The pole hangs; in two and a half seconds it is to stand, the cart where it was.
+fn swing_up() -> Result<(Plot<'static>, Plot<'static>), Box<dyn Error>> {
+    println!("A POLE SWUNG UP BY ITS CART\n");
+    let kernel = CartPole { cart: 1.0, bob: 0.3, length: 0.5, g: 9.81 }.kernel()?;
+    let task = Task {
+        start: Vector::from([0.0, PI, 0.0, 0.0]),
+        goal: Vector::zeros(),
+        effort: Vector::from([0.01 * H]),
+        on_the_way: Vector::from([0.1, 0.1, 0.01, 0.01]) * H,
+        at_the_end: Vector::from([200.0, 500.0, 50.0, 50.0]),
+        steps: STEPS,
+    };
+    let guess: Vec<_> = (0..STEPS).map(|k| Vector::from([(0.1 * k as f64).sin()])).collect();
+    let both = Both::find(&task, &kernel, H, &guess)?;
+    both.report();
+    let (plan, _) = &both.plans[0];
+
+    let (way, end) = replay(&kernel, plan, 0.0, false)?;
+    let most = plan.inputs.iter().map(|u| u[0].abs()).fold(0.0, f64::max);
+    let off = |angle: f64, regulated: bool| replay(&kernel, plan, angle, regulated).map(|(_, x)| x.rows(0, 2).amax());
+    let [open, regulated] = [off(0.1, false)?, off(0.1, true)?];
+    println!("\nafter {END:.1} s: angle {:.1e} rad, cart {:.1e} m; pushes of up to {most:.1} N", end[1], end[0]);
+    println!("started 0.1 rad beside: off by {open:.1e}, with the regulator that was found too by {regulated:.1e}\n");
+    if !both.agree() || end.amax() > 0.05 || regulated > 0.05 {
+        return Err("the pole was not swung up".into());
+    }
+    Ok((plot_of_way(&way, plan), plot_of_costs(&both)))
+}
+
+/// Where it was, and the state at the end.
+type Replay = (Vec<(f64, Vector<2>)>, Vector<4>);
+
+/// The equations themselves, by an integrator that chooses its steps, under the pushes that were found, from a start that is
+/// `beside` in the angle.
+fn replay(kernel: &CartPoleKernel, plan: &Plan<4, 1>, beside: f64, regulated: bool) -> Result<Replay, Box<dyn Error>> {
+    let (mut x, mut way) = (plan.states[0] + Vector::from([0.0, beside, 0.0, 0.0]), Vec::new());
+    for (k, push) in plan.inputs.iter().enumerate() {
+        let regulation = if regulated { plan.gains[k] * (x - plan.states[k]) } else { Vector::zeros() };
+        let held = |_: f64, _: &Vector<2>, _: &Vector<2>| push + regulation;
+        let (q, z) = parts::<2, 4>(&x);
+        let run = Simulation::new(kernel).input(held).adaptive(1e-11, 1e-11).run(q, z, 0.0..H)?;
+        way.extend(run.iter().map(|s| (k as f64 * H + s.t, s.q)));
+        x = joined(&run.last().q, &run.last().z);
+    }
+    Ok((way, x))
+}
+
+fn plot_of_way(way: &[(f64, Vector<2>)], plan: &Plan<4, 1>) -> Plot<'static> {
+    let [blue, orange, green] = [COLOURS[0], COLOURS[1], COLOURS[2]];
+    let coordinate = |name: &str, colour, k: usize| Line::new(name, colour, way.iter().map(|(t, q)| (*t, q[k])));
+    let pushes = plan.inputs.iter().enumerate().flat_map(|(k, u)| [k, k + 1].map(|n| (n as f64 * H, 0.1 * u[0])));
+    Plot {
+        title: "the way up",
+        x: ("s", 0.0..END),
+        y: ("", -3.5..4.5),
+        equal: false,
+        lines: vec![
+            Line::new("push, 10 N", green, pushes).wide(2),
+            coordinate("cart, m", orange, 0),
+            coordinate("angle from upright, rad", blue, 1),
+        ],
+        marks: vec![],
+    }
+}
+
+fn plot_of_costs(both: &Both<4, 1>) -> Plot<'static> {
+    let curve = |k: usize, name: &str| {
+        let costs = &both.plans[k].0.costs;
+        Line::new(name, COLOURS[k], costs.iter().enumerate().map(|(n, cost)| (n as f64, cost.log10())))
+    };
+    Plot {
+        title: "cost by iteration",
+        x: ("", 0.0..both.plans.iter().map(|(plan, _)| plan.costs.len()).max().unwrap_or(1) as f64),
+        y: ("power of ten", -1.0..5.0),
+        equal: false,
+        lines: vec![curve(0, "exact derivatives"), curve(1, "finite differences").dashed()],
+        marks: vec![],
+    }
+}
+
+/// Seven angles, then two fingers, which are light; of a state places and then rates.
+fn by_joint<const N: usize>(arm: f64, finger: f64) -> Vector<N> {
+    Vector::from_fn(|k, _| if k % 9 < 7 { arm } else { finger })
+}
+
+/// An arm from its file reaches across in 0.8 s and stands: 18 states, 9 efforts.
+fn reach() -> Result<(), Box<dyn Error>> {
+    println!("AN ARM REACHES ACROSS\n");
+    let (kernel, h, steps) = (Arm.kernel()?, 0.02, 40);
+    let [from, to] =
+        [[0.0, -0.4, 0.0, -1.8, 0.0, 1.6, 0.8, 0.02, 0.02], [1.2, 0.4, 0.2, -1.2, 0.3, 1.8, 0.0, 0.03, 0.03]];
+    let at_rest = |q: [f64; 9]| joined::<9, 18>(&q.into(), &Vector::zeros());
+    let task = Task {
+        start: at_rest(from),
+        goal: at_rest(to),
+        effort: by_joint(1e-3, 1e-2) * h,
+        on_the_way: by_joint(0.01, 1.0) * h,
+        at_the_end: by_joint(1e3, 1e5),
+        steps,
+    };
+    // The first guess holds the arm where it is.
+    let held = kernel.inverse_dynamics(0.0, &from.into(), &Vector::zeros(), &Vector::zeros(), &Vector::zeros());
+    let both = Both::find(&task, &kernel, h, &vec![held; steps])?;
+    both.report();
+    let end = both.plans[0].0.states[steps] - task.goal;
+    println!(
+        "\nat the end off by {:.1e} rad or m, and {:.1e} in a second",
+        end.rows(0, 9).amax(),
+        end.rows(9, 9).amax()
+    );
+    if !both.agree() || end.amax() > 0.02 {
+        return Err("the arm did not get there".into());
+    }
+    Ok(())
+}
