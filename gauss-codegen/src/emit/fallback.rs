@@ -47,7 +47,7 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
         #(#mistakes)*
 
         const _: () = {
-            #[automatically_derived]
+            #[allow(clippy::all, clippy::pedantic)]
             #[allow(dead_code)]
             impl #impl_generics #ident #type_generics #where_clause {
                 #vis fn kernel(&self) -> #name #declared {

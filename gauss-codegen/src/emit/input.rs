@@ -52,7 +52,7 @@ pub fn input(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
     let (visibility, input) = (derived.item().visibility, quote!(<#kernel #used as #private::GaussSystem>::Input));
     let (fields, numbers) = (from_numbers(&private, &parts, |k| quote!(__all[#k])), to_numbers(&private, &parts));
     let conversions = quote! {
-        #[automatically_derived]
+        #[allow(clippy::all, clippy::pedantic)]
         #[allow(dead_code)]
         impl #bounded #name #used {
             /// The inputs of a vector.

@@ -42,7 +42,7 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
     let body = kernel_body(derived);
     let warnings = warnings(derived);
     quote! {
-        #[automatically_derived]
+        #[allow(clippy::all, clippy::pedantic)]
         impl #impl_generics #ident #type_generics where #predicates #bound {
             #[doc = #documentation]
             #visibility fn kernel(&self) -> ::core::result::Result<#name #used, #private::ParameterError> {

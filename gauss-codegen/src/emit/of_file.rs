@@ -39,7 +39,7 @@ fn constructor(derived: &Derived<'_, '_>, bodies: &[BodyOfFile]) -> TokenStream 
     let file = derived.subject.model.described.as_ref().map(|file| file.file.clone()).unwrap_or_default();
     let documentation = format!("The bodies as `{file}` has them, with the other fields.");
     quote! {
-        #[automatically_derived]
+        #[allow(clippy::all, clippy::pedantic)]
         impl #impl_generics #ident #type_generics where #predicates #bound {
             #[doc = #documentation]
             #[allow(dead_code, clippy::too_many_arguments, clippy::excessive_precision)]
@@ -107,7 +107,7 @@ fn states(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> TokenStream {
         }
     });
     quote! {
-        #[automatically_derived]
+        #[allow(clippy::all, clippy::pedantic)]
         #[allow(dead_code, non_snake_case)]
         impl #bounded #name #used { #(#functions)* }
     }

@@ -163,7 +163,7 @@ fn conversions(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
     let of = conversion_from(derived, all);
     let (q, z) = (configuration_of(derived, &all[0]), speeds_of(derived, &all[1]));
     quote! {
-        #[automatically_derived]
+        #[allow(clippy::all, clippy::pedantic)]
         #[allow(dead_code)]
         impl #bounded #name #used {
             /// The state that has this configuration and these speeds.

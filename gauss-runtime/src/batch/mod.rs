@@ -71,6 +71,7 @@ assert_eq!(accelerations.len(), 1000);
 //! block go on as if nothing had happened.
 
 mod advance;
+mod ended;
 mod ensemble;
 mod error;
 mod packs;
@@ -79,7 +80,8 @@ mod system;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-pub use ensemble::{Ended, Ensemble, EventState, HowItEnded};
+pub use ended::{Ended, EventState, HowItEnded};
+pub use ensemble::Ensemble;
 pub use error::{BatchError, StateError};
 pub use packs::{Packs, SingleConfiguration, SingleSpeeds, States};
 pub use system::BatchSystem;

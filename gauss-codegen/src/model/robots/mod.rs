@@ -9,7 +9,7 @@
 //! | `names` | names of the file → identifiers |
 //! | `joints` | a joint → position and rotation of its link |
 //! | `clauses` | a description → clauses, before those of the struct |
-//! | `drives`, `laws`, `relations` | inputs; what acts in joints; what joins links beside the tree |
+//! | `drives`, `efforts`, `laws`, `relations` | inputs; what they do; what else acts in joints; what joins links beside the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
 //! | `source` | the file: where it is, what is read |
@@ -18,6 +18,7 @@ mod clauses;
 #[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
 mod description;
 mod drives;
+mod efforts;
 mod inertias;
 mod joints;
 mod laws;
