@@ -26,13 +26,12 @@ impl Rotation {
 
     pub fn from_matrix(r: &Matrix) -> Rotation {
         let across = r[2][1].hypot(r[2][2]);
-        let pitch = (-r[2][0]).atan2(across);
         // Where the first and the last turn are about one axis, one of them is enough.
-        let angles = match across > RESIDUE {
-            true => [r[2][1].atan2(r[2][2]), pitch, r[1][0].atan2(r[0][0])],
-            false => [0.0, pitch, (-r[0][1]).atan2(r[1][1])],
-        };
-        Rotation::from_angles(angles)
+        let roll = if across > RESIDUE { settled(r[2][1].atan2(r[2][2])) } else { 0.0 };
+        // Near there rounding leaves little of the roll; the yaw is that of what it leaves, R R_x(−roll), and makes it good.
+        let [sine, cosine] = sine_and_cosine(roll);
+        let [x, y] = [0, 1].map(|i| r[i][1] * cosine - r[i][2] * sine);
+        Rotation::from_angles([roll, (-r[2][0]).atan2(across), (-x).atan2(y)])
     }
 
     pub fn none() -> Rotation {
@@ -127,7 +126,10 @@ mod tests {
 
     #[test]
     fn matrices_and_back() {
-        for angles in [[0.1, 0.2, -0.3], [0.0, FRAC_PI_2, 0.7], [3.0, -1.0, 2.0], [0.0, 0.0, -FRAC_PI_2]] {
+        let near = [0, 3, 6, 9, 12, 14, 15].map(|digits| [0.4, FRAC_PI_2 - 10.0_f64.powi(-digits), 1.1]);
+        let others =
+            [[0.1, 0.2, -0.3], [0.0, FRAC_PI_2, 0.7], [3.0, -1.0, 2.0], [0.0, 0.0, -FRAC_PI_2], [2.0, -1.57, 3.0]];
+        for angles in near.into_iter().chain(others) {
             let rotation = Rotation::from_angles(angles);
             let again = Rotation::from_matrix(&rotation.matrix);
             for (a, b) in rotation.matrix.iter().flatten().zip(again.matrix.iter().flatten()) {

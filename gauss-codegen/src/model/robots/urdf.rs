@@ -210,8 +210,9 @@ fn transmission<'a>(node: Node<'a, 'a>, description: &mut Description, reading: 
     let joints: Vec<String> =
         reading.children(node, "joint").into_iter().filter_map(|joint| reading.required(joint, "name")).collect();
     let motors = reading.children(node, "actuator");
-    let gear = written(node, &["mechanicalReduction", "mechanical_reduction", "gear_ratio"], reading).unwrap_or(1.0);
-    let rotor = written(node, &["rotorInertia", "rotor_inertia", "motorInertia", "motor_inertia"], reading);
+    let rotor = written(node, &["rotorInertia", "rotor_inertia", "motorInertia", "motor_inertia"], true, reading);
+    let gears = ["mechanicalReduction", "mechanical_reduction", "gear_ratio"];
+    let gear = written(node, &gears, rotor.is_some(), reading).unwrap_or(1.0);
     let name = |joint: &String, motor: Option<&Node<'a, 'a>>| {
         motor.and_then(|motor| motor.attribute("name")).unwrap_or(joint).to_owned()
     };
@@ -240,13 +241,16 @@ fn transmission<'a>(node: Node<'a, 'a>, description: &mut Description, reading: 
     }
 }
 
-/// The number of an element that has one of these names, as its text or its `value`.
-fn written<'a>(node: Node<'a, 'a>, names: &[&str], reading: &mut Reading<'a>) -> Option<f64> {
+/// The number of an element that has one of these names, as its text or its `value`. What is none is a mistake where inertia
+/// depends on it; files that are driven otherwise often have words there.
+fn written<'a>(node: Node<'a, 'a>, names: &[&str], matters: bool, reading: &mut Reading<'a>) -> Option<f64> {
     let element = node.descendants().find(|inner| names.contains(&inner.tag_name().name()))?;
     let text = reading.text(element, "value").or(element.text()).unwrap_or_default().trim();
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-    if number.is_none() {
-        reading.fault(element, format!("expected a number, found `{text}`"));
+    match number {
+        None if matters => reading.fault(element, format!("expected a number, found `{text}`")),
+        None => reading.ignored(element, format!("{} is no number but `{text}`: it does not act", shown(element))),
+        Some(_) => {}
     }
     number
 }

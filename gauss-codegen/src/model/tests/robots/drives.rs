@@ -41,4 +41,7 @@ fn what_transmissions_say_besides() {
     assert_eq!(remarks(&geared(&unknown), ""), [(text.to_owned(), true)]);
     let broken = TRANSMISSION.replace(">50<", ">fifty<");
     assert_eq!(mistakes(&geared(&broken), "", ""), ["5:70: <mechanicalReduction>: expected a number, found `fifty`"]);
+    // Without a rotor no inertia depends on it.
+    let told = remarks(&geared(&broken.replace("<rotorInertia>1e-4</rotorInertia>", "")), "");
+    assert!(told[0].1 && told[0].0.contains("<mechanicalReduction> is no number but `fifty`"), "{told:?}");
 }
