@@ -90,6 +90,9 @@ mod trigonometry;
 mod triple;
 mod vector_space;
 
+/// The vectors, poses and matrices of this crate, in the version that it uses.
+pub use nalgebra;
+
 /// What generated code names, and nothing else of this crate. Its name carries the version, so that code which another version
 /// of the derive has written fails here and says why.
 #[doc(hidden)]
