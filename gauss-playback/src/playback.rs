@@ -76,7 +76,9 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     {
         for &frame in S::Frame::ALL {
             // R of a matrix as the nearest quaternion.
-            let pose = |sample: &Sample<S>| page::pose(&nalgebra::convert(kernel.pose_of(frame, sample.t, &sample.q)));
+            let pose = |sample: &Sample<S>| {
+                page::pose(&gauss_runtime::nalgebra::convert(kernel.pose_of(frame, sample.t, &sample.q)))
+            };
             let poses = self.samples.iter().map(pose).collect();
             self.add_body(frame.name(), poses);
         }
