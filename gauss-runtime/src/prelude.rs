@@ -32,5 +32,5 @@ pub use crate::simd::Lanes;
 pub use crate::system::{AboutCenterOfMass, GaussSystem, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
-    UnitQuaternion, Vector3, Vector6,
+    UnitQuaternion, Vector2, Vector3, Vector6,
 };

@@ -321,6 +321,10 @@ impl<T> RigidBody<T, AboutCenterOfMass<T>> {
 /// Bodies in charts, and bodies with coordinates and speeds of their own, also with fewer degrees of freedom or constraints.
 ///
 /// Frames: F = {Ω, k₁ k₂ k₃} of the observer, F′ = {O, e₁ e₂ e₃} of the body.
+#[diagnostic::on_unimplemented(
+    message = "the kernel `{Self}` is not of one rigid body alone",
+    note = "of systems: `monitor` in place of `monitor_body`, `frames(…)` for poses and twists, `methods(centroidal)` for momenta"
+)]
 pub trait RigidBodySystem: GaussSystem {
     /// The pose (R, b): `x̂ = R x + b` takes body coordinates to the observer's.
     fn pose(&self, t: Self::Scalar, q: &Self::Configuration) -> Isometry3<Self::Scalar>;

@@ -115,7 +115,7 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
         self.watch(|events| Watched::after(events, crossing, false, function))
     }
 
-    /// Ends a run at the first such state: [`Ended::stopped_by`] tells whether it came to that.
+    /// Ends a run at the first such state: [`Ended::stopped_by`](super::Ended::stopped_by) tells whether it came to that.
     pub fn until<S, G>(self, crossing: Crossing, function: G) -> Ensemble<'k, K, F, I, C, Watched<E, G>>
     where
         S: GaussSystem,

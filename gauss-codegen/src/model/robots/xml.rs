@@ -76,6 +76,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Notes what a reader of the equations should know.
+    #[cfg(feature = "mjcf")]
     pub fn note(&mut self, node: Node<'a, 'a>, text: impl std::fmt::Display) {
         self.notes.push(Note::told(self.at(node), text.to_string()));
     }
@@ -96,6 +97,7 @@ impl<'a> Reading<'a> {
     }
 
     /// All elements in an element, which are looked at by that.
+    #[cfg(feature = "mjcf")]
     pub fn elements(&self, node: Node<'a, 'a>) -> Vec<Node<'a, 'a>> {
         node.children().filter(Node::is_element).inspect(|child| self.see(*child)).collect()
     }
