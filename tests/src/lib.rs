@@ -5,6 +5,7 @@
 //! | [`scene`] | a reference solution, read from `data/reference` |
 //! | [`double_double`] | a scalar of some 31 digits |
 //! | [`pages`] | sections of Markdown pages that tests write |
+//! | [`top`] | a heavy top in any scalar |
 //! | [`random`] | random numbers |
 //! | [`order8`] | the Dormand–Prince method of order 8 on the group, with step control |
 //! | [`integrals`] | what a motion conserves |
@@ -23,5 +24,6 @@ pub mod order8;
 pub mod pages;
 pub mod random;
 pub mod scene;
+pub mod top;
 pub mod trajectory;
 pub mod watchdog;
