@@ -59,7 +59,7 @@ pub fn draw(
     let water = (0..=120).map(f64::from).map(|t| (t, (tidal.stream + tidal.tide * (tidal.frequency * t).sin()).y));
     let adrift = vec![
         Line::new("boat", blue, east(afloat)),
-        Line::new("twice as heavy as its water", green, east(sunken)),
+        Line::new("twice as heavy", green, east(sunken)),
         Line::new("water", orange, water).dashed(),
     ];
     let title = format!("Three ways across; the water runs east at {stream} m/s");
