@@ -24,7 +24,3 @@ pub use emit::fallback;
 pub use expand::expand;
 pub use model::item;
 pub use scene::{Clause, Field, Mistake, Scene, Value};
-
-
-
-
