@@ -1,12 +1,10 @@
 //! A hoop that rolls and wobbles: constraints, consistent initial values, integrals, and the force of the ground.
 //!
-//! `cargo run --release --example rolling_disk [-- FOLDER]` draws its path into `FOLDER`, by default `target/rolling_disk`.
+//! `cargo run --release --example rolling_disk [-- FOLDER]` draws its path into `FOLDER`, by default `target/gauss`.
 
-use std::path::PathBuf;
-use std::{env, fs};
-
-use gauss_examples::figure;
+use gauss_examples::plots::{write, write_page};
 use gauss_examples::rolling::{Floor, Hoop, draw};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 /// A thin hoop on the floor z = 0. Its axis leans by `lean` from the vertical: at a right angle the hoop stands upright, at zero
@@ -36,7 +34,6 @@ const MASS: f64 = 1.5;
 const GRAVITY: f64 = 9.81;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/rolling_disk"), PathBuf::from);
     // Nearly all mass in the rim.
     let about_axis = 0.9 * MASS * RADIUS * RADIUS;
     let inertia = Matrix3::from_diagonal(&Vector3::new(0.5, 0.5, 1.0)) * about_axis;
@@ -95,11 +92,36 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Floor { grid: 0.25, shown: 8, among: 81 },
         "A hoop rolls for 12 s: where it touched the floor, and its last 0.8 s",
     )?;
-    fs::create_dir_all(&folder)?;
-    for (name, contents) in [("rolling_disk.svg", svg.clone().into_bytes()), ("rolling_disk.png", figure::png(&svg)?)] {
-        let file = folder.join(name);
-        fs::write(&file, contents)?;
-        println!("written: {}", file.display());
-    }
-    Ok(())
+    write("rolling_disk", &svg)?;
+    write_page("rolling_disk", &page(&kernel, &path)?)
+}
+
+/// The hoop and the force of the floor on it, where it touches.
+fn page(
+    kernel: &RollingDiskKernel,
+    path: &Trajectory<RollingDiskKernel>,
+) -> Result<Playback<RollingDiskKernel>, IntegrationError> {
+    let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
+    let pose = move |s: &Sample<RollingDiskKernel>| {
+        let RollingDiskState { x, y, z, heading, lean, spin, .. } = RollingDiskState::of(&s.q, &s.z);
+        let rotation = turn(Vector3::z_axis(), heading) * turn(Vector3::x_axis(), lean) * turn(Vector3::z_axis(), spin);
+        Isometry3::from_parts(Translation3::new(x, y, z), rotation)
+    };
+    let floor = move |s: &Sample<RollingDiskKernel>| {
+        let place = pose(s);
+        let axis = place.rotation * Vector3::z();
+        let up = (Vector3::z() - axis * axis.z).normalize();
+        // The multipliers are forces along the heading, across it, and upwards.
+        let heading = turn(Vector3::z_axis(), RollingDiskState::of(&s.q, &s.z).heading);
+        (place.translation.vector - up * RADIUS, heading * kernel.multipliers(s.t, &s.q, &s.z, &()))
+    };
+    Ok(Playback::with_pictures("A hoop that rolls", path, 1200)?
+        .body("hoop", pose, [Shape::cylinder(RADIUS, 0.02)])
+        .trace("hoop", [0.0; 3])
+        .arrow("force of the floor", 0.5 / (MASS * GRAVITY), floor)
+        .curve("force of the floor / N", "normal", |s| kernel.multipliers(s.t, &s.q, &s.z, &())[2])
+        .curve("force of the floor / N", "friction", |s| {
+            kernel.multipliers(s.t, &s.q, &s.z, &()).fixed_rows::<2>(0).norm()
+        })
+        .energy(kernel))
 }

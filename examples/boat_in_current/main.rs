@@ -3,10 +3,8 @@
 //! `cargo run --release --example boat_in_current [-- FOLDER]` draws into `FOLDER`, by default `target/gauss`.
 
 use std::error::Error;
-use std::path::PathBuf;
-use std::{env, fs};
 
-use gauss_examples::figure;
+use gauss_examples::plots::{write, write_page};
 use gauss_runtime::prelude::*;
 
 mod boat;
@@ -24,7 +22,6 @@ const SPEED: f64 = 0.4;
 const WIDTH: f64 = 30.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
     let still = Boat::cyber_ship();
     let river = Boat { stream: Vector3::new(0.0, STREAM, 0.0), ..still };
     println!("A BOAT IN A STREAM\n\nCyberShip II, 1.255 m and 23.8 kg, published added mass and drag.");
@@ -108,15 +105,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         [&from_rest, &afloat, &sunken],
         (STREAM, &tidal),
     )?;
-    fs::create_dir_all(&folder)?;
-    for (name, contents) in
-        [("boat_in_current.svg", svg.clone().into_bytes()), ("boat_in_current.png", figure::png(&svg)?)]
-    {
-        let file = folder.join(name);
-        fs::write(&file, contents)?;
-        println!("written: {}", file.display());
-    }
-    Ok(())
+    write("boat_in_current", &svg)?;
+    write_page("boat_in_current", &picture::page(&kernel, pursuit, river.stream))
 }
 
 /// Speeds of a boat that moves with the water at t = 0.

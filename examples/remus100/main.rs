@@ -3,10 +3,8 @@
 //! `cargo run --release --example remus100 [-- FOLDER]` draws them into `FOLDER`, by default `target/gauss`.
 
 use std::error::Error;
-use std::path::PathBuf;
-use std::{env, fs};
 
-use gauss_examples::figure;
+use gauss_examples::plots::{write, write_page};
 use gauss_runtime::prelude::*;
 
 mod fossen;
@@ -22,7 +20,6 @@ use vehicle::{Remus, RemusByAngles, RemusByAnglesKernel, RemusKernel, Table};
 const STEPS: u32 = 100;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
     let table = Table::published()?;
     let published = Remus::from_table(&table)?;
     // Neutrally buoyant.
@@ -98,13 +95,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let closed = (0..=240).map(|n| EVERY * f64::from(n)).map(|t| (t, closed(t))).collect();
     let apart = apart.try_into().map_err(|_| "three manoeuvres are drawn")?;
     let svg = picture::draw(&picture::Shown { flights: [straight, turn, dive], apart, closed })?;
-    fs::create_dir_all(&folder)?;
-    for (name, contents) in [("remus100.svg", svg.clone().into_bytes()), ("remus100.png", figure::png(&svg)?)] {
-        let file = folder.join(name);
-        fs::write(&file, contents)?;
-        println!("written: {}", file.display());
-    }
-    Ok(())
+    write("remus100", &svg)?;
+    write_page("remus100", &picture::page(&kernel, turn))
 }
 
 fn end(flight: &Flight) -> &manoeuvres::Moment {
