@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example rolling_disk [-- FOLDER]` draws its path into `FOLDER`, by default `target/gauss`.
 
-use gauss_examples::plots::{write, write_page};
+use gauss_examples::plots;
 use gauss_examples::rolling::{Floor, Hoop, draw};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
@@ -78,22 +78,27 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("largest deviation from the constraints in {} steps: {off:.1e} m and m/s", path.len() - 1);
     println!("{}", monitor(&kernel, &path));
 
+    let hoops = hoops(&path);
+    let svg = draw(
+        &hoops,
+        Floor { grid: 0.25, shown: 8, among: 81 },
+        "A hoop rolls for 12 s: where it touched the floor, and its last 0.8 s",
+    )?;
+    plots::write("rolling_disk", &svg)?;
+    plots::write_page("rolling_disk", &page(&kernel, &path)?)
+}
+
+/// Where the hoop is, a hundred times a second.
+fn hoops(path: &Trajectory<RollingDiskKernel>) -> Vec<Hoop> {
     let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
-    let hoops: Vec<Hoop> = (0..=1200)
+    (0..=1200)
         .map(|n| {
             let s = path.at(0.01 * f64::from(n)).expect("inside the run");
             let RollingDiskState { x, y, z, heading, lean, .. } = RollingDiskState::of(&s.q, &s.z);
             let rotation = turn(Vector3::z_axis(), heading) * turn(Vector3::x_axis(), lean);
             Hoop { centre: Vector3::new(x, y, z), rotation, radius: RADIUS }
         })
-        .collect();
-    let svg = draw(
-        &hoops,
-        Floor { grid: 0.25, shown: 8, among: 81 },
-        "A hoop rolls for 12 s: where it touched the floor, and its last 0.8 s",
-    )?;
-    write("rolling_disk", &svg)?;
-    write_page("rolling_disk", &page(&kernel, &path)?)
+        .collect()
 }
 
 /// The hoop and the force of the floor on it, where it touches.

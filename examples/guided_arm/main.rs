@@ -123,12 +123,10 @@ fn picture(runs: &[Followed; 3]) -> Plot<'static> {
         let points = runs[k].errors.iter().enumerate().map(|(n, e)| (n as f64 * H, e.max(1e-9).log10()));
         Line::new(names[k], COLOURS[k], points.filter(|(t, _)| *t <= 1.0))
     };
-    Plot {
-        title: "largest error of an angle",
-        x: ("time, s", 0.0..1.0),
-        y: ("log₁₀ of the error in rad", -9.0..1.0),
-        equal: false,
-        lines: vec![curve(0), curve(1), curve(2)],
-        marks: vec![],
-    }
+    Plot::new(
+        "largest error of an angle",
+        ("time, s", 0.0..1.0),
+        ("log₁₀ of the error in rad", -9.0..1.0),
+        vec![curve(0), curve(1), curve(2)],
+    )
 }

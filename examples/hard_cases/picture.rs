@@ -73,11 +73,7 @@ pub fn draw(results: &[Results<'_>]) -> Result<String, Box<dyn Error>> {
     {
         let root = SVGBackend::with_string(&mut svg, (WIDTH, (bottom + FOOT) as u32)).into_drawing_area();
         root.fill(&WHITE)?;
-        root.draw(&Text::new(
-            "Hard cases: error divided by its target",
-            (30, 18),
-            text_style(36, INK),
-        ))?;
+        root.draw(&Text::new("Hard cases: error divided by its target", (30, 18), text_style(36, INK)))?;
         for (n, line) in EXPLANATION.iter().enumerate() {
             root.draw(&Text::new(*line, (30, 84 + 32 * n as i32), words(23, GREY, HPos::Left)))?;
         }

@@ -123,14 +123,7 @@ fn plots_of_way(way: &[Sample<CartPoleKernel>], plan: &Plan<4, 1>) -> [Plot<'sta
     let [blue, orange, green] = [COLOURS[0], COLOURS[1], COLOURS[2]];
     let coordinate = |colour, k: usize| Line::new("", colour, way.iter().map(|s| (s.t, s.q[k])));
     let pushes = plan.inputs.iter().enumerate().flat_map(|(k, u)| [k, k + 1].map(|n| (n as f64 * H, u[0])));
-    let over_time = |title, unit, ends, line| Plot {
-        title,
-        x: ("time, s", 0.0..END),
-        y: (unit, ends),
-        equal: false,
-        lines: vec![line],
-        marks: vec![],
-    };
+    let over_time = |title, unit, ends, line| Plot::new(title, ("time, s", 0.0..END), (unit, ends), vec![line]);
     [
         over_time("The pole", "angle from upright, rad", -1.0..4.0, coordinate(blue, 1)),
         over_time("The cart", "place, m", -1.0..1.0, coordinate(orange, 0)),
@@ -164,14 +157,12 @@ fn plot_of_costs(both: &Both<4, 1>) -> Plot<'static> {
         let costs = &both.plans[k].0.costs;
         Line::new(name, COLOURS[k], costs.iter().enumerate().map(|(n, cost)| (n as f64, cost.log10())))
     };
-    Plot {
-        title: "What the plan costs",
-        x: ("iteration", 0.0..both.plans.iter().map(|(plan, _)| plan.costs.len()).max().unwrap_or(1) as f64),
-        y: ("log₁₀ of the cost", -1.0..5.0),
-        equal: false,
-        lines: vec![curve(0, "exact derivatives"), curve(1, "finite differences").dashed()],
-        marks: vec![],
-    }
+    Plot::new(
+        "What the plan costs",
+        ("iteration", 0.0..both.plans.iter().map(|(plan, _)| plan.costs.len()).max().unwrap_or(1) as f64),
+        ("log₁₀ of the cost", -1.0..5.0),
+        vec![curve(0, "exact derivatives"), curve(1, "finite differences").dashed()],
+    )
 }
 
 /// Seven angles, then two fingers, which are light; of a state places and then rates.
