@@ -40,6 +40,12 @@ fuzz:
 guide:
     mdbook build guide
 
+# What CI leaves out because of what it depends on: Arrow and Parquet, Bevy, Rerun.
+neighbours:
+    cargo test -p gauss-tables --features parquet
+    cargo test --manifest-path examples/bevy/Cargo.toml --target-dir target/neighbours
+    cargo test --manifest-path gauss-rerun/Cargo.toml --target-dir target/neighbours
+
 # How long a derive takes with an unoptimised macro.
 expansion:
     cargo run --profile unoptimised --example expansion_time

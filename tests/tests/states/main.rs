@@ -1,5 +1,7 @@
 //! Coordinates and speeds by name: every kind of both, in every chart, to and from configurations and speeds.
 
+mod saved;
+
 use gauss_runtime::integrate::Crossing;
 use gauss_runtime::prelude::*;
 
