@@ -1,5 +1,5 @@
-//! A run in the viewer [Rerun](https://rerun.io): poses of bodies with its shapes, traces of points, arrows, scalars, all over
-//! the time of the run on a timeline `t`.
+//! A run in the viewer [Rerun](https://rerun.io): poses of bodies with its shapes, traces of points, arrows, scalars,
+//! all over the time of the run on a timeline `t`.
 //!
 //! ```
 //! use gauss_rerun::Recorder;
@@ -32,7 +32,8 @@
 //! # }
 //! ```
 //!
-//! Numbers become f32, but for times and scalars. Lengths are in the units of the scene, axes are the observer's, and k₃ points up.
+//! Numbers become f32, but for times and scalars. Lengths are in the units of the scene, axes are the observer's, and
+//! k₃ points up.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

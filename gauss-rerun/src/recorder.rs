@@ -11,7 +11,8 @@ const PICTURES: u32 = 600;
 
 /// A run that is written to a stream. What a call adds is sent at once.
 ///
-/// Bodies are entities `world/NAME`, traces `world/traces/NAME`, arrows `world/arrows/NAME`, scalars `scalars/PANEL/NAME`.
+/// Bodies are entities `world/NAME`, traces `world/traces/NAME`, arrows `world/arrows/NAME`, scalars
+/// `scalars/PANEL/NAME`.
 pub struct Recorder<'r, S: GaussSystem<Scalar = f64>> {
     stream: &'r RecordingStream,
     samples: Vec<Sample<S>>,
@@ -70,8 +71,8 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
         Ok(self)
     }
 
-    /// What a body looks like, in body axes about O: any of Rerun's shapes, such as `Boxes3D`, `Ellipsoids3D`, `Cylinders3D`,
-    /// `Asset3D` of a mesh.
+    /// What a body looks like, in body axes about O: any of Rerun's shapes, such as `Boxes3D`, `Ellipsoids3D`,
+    /// `Cylinders3D`, `Asset3D` of a mesh.
     ///
     /// # Errors
     /// [`RecordError::UnknownBody`], and what the SDK says.

@@ -1,12 +1,12 @@
 //! Poses in the types of other crates: of game engines and renderers, by way of the crate [`mint`] or directly.
 //!
-//! `nalgebra` converts vectors, matrices and quaternions both ways with `From` and `Into`, once a feature of this crate is on:
-//! `mint`; `glam030`, `glam031`, `glam032`, `glam033` for the crate `glam` in these versions. Rotations, translations and poses as
-//! pairs are among them for `glam`; for `mint`, which has neither, they are here.
+//! `nalgebra` converts vectors, matrices and quaternions both ways with `From` and `Into`, once a feature of this crate
+//! is on: `mint`; `glam030`, `glam031`, `glam032`, `glam033` for the crate `glam` in these versions. Rotations,
+//! translations and poses as pairs are among them for `glam`; for `mint`, which has neither, they are here.
 //!
-//! Axes and the order of parts are not touched: R and b, body to observer, are what an engine calls the orientation and the
-//! position of an object. Many engines have f32, and y upwards: `pose.cast::<f32>()` does the former, a rotation of the observer
-//! the latter.
+//! Axes and the order of parts are not touched: R and b, body to observer, are what an engine calls the orientation and
+//! the position of an object. Many engines have f32, and y upwards: `pose.cast::<f32>()` does the former, a rotation of
+//! the observer the latter.
 //!
 //! ```
 //! use gauss_runtime::interchange::{pose_from_mint, pose_to_mint};

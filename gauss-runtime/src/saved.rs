@@ -7,10 +7,11 @@
 //! | [`Sample`] | `t`, `q`, `z`, `p` |
 //! | [`Trajectory`], [`Record`] | `samples`, `events`, `stopped_by` |
 //!
-//! A trajectory borrows the kernel that made it, so what is read is a [`Record`]. Formats without names, as most binary ones, keep
-//! the order alone. All numbers come back with the same bits, if the format keeps them.
+//! A trajectory borrows the kernel that made it, so what is read is a [`Record`]. Formats without names, as most binary
+//! ones, keep the order alone. All numbers come back with the same bits, if the format keeps them.
 //!
-//! What is read is checked: names that are unknown, missing or there twice, infinities, NaN, and rotations that are none (see
+//! What is read is checked: names that are unknown, missing or there twice, infinities, NaN, and rotations that are
+//! none (see
 //! [`check`]) are errors of the format with the reason in words. Parameters are checked by `kernel()`, as ever.
 //!
 #![cfg_attr(
@@ -181,8 +182,8 @@ impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + Described> Deserialize<'de>
     }
 }
 
-/// What is kept of a run: its samples, at which times nothing else is known, and its events. [`Table::new`] and what else
-/// takes samples goes on from there.
+/// What is kept of a run: its samples, at which times nothing else is known, and its events. [`Table::new`] and what
+/// else takes samples goes on from there.
 ///
 /// [`Table::new`]: crate::integrate::Table::new
 #[cfg(feature = "alloc")]
@@ -233,8 +234,8 @@ impl<S: GaussSystem<Scalar: Serialize> + Described> Serialize for Trajectory<'_,
     }
 }
 
-/// For fields of your own structs, `#[serde(with = "gauss_runtime::saved::checked")] pose: Isometry3<f64>`: written as `nalgebra`
-/// writes it, and [checked](check) when it is read, which `nalgebra` does not.
+/// For fields of your own structs, `#[serde(with = "gauss_runtime::saved::checked")] pose: Isometry3<f64>`: written as
+/// `nalgebra` writes it, and [checked](check) when it is read, which `nalgebra` does not.
 pub mod checked {
     use super::{Configuration, Deserialize, Deserializer, Error, Serialize, Serializer, check};
 

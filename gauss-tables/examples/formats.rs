@@ -1,5 +1,5 @@
-//! One run in every format: `cargo run -p gauss-tables --features parquet --example formats [-- FOLDER]`, by default into
-//! `target/gauss`.
+//! One run in every format: `cargo run -p gauss-tables --features parquet --example formats [-- FOLDER]`, by default
+//! into `target/gauss`.
 
 use std::error::Error;
 use std::path::PathBuf;

@@ -16,7 +16,8 @@ pub trait Export {
     /// [`TableError::Io`].
     fn write_csv(&self, file: impl AsRef<Path>) -> Result<(), TableError>;
 
-    /// Plots all columns over the first one, a panel for each unit, into a file of SVG. Columns without a unit have a panel each.
+    /// Plots all columns over the first one, a panel for each unit, into a file of SVG. Columns without a unit have a
+    /// panel each.
     ///
     /// # Errors
     /// [`TableError::NotSvg`] of other names, [`TableError::NothingToPlot`], [`TableError::Io`].

@@ -39,7 +39,8 @@
 //! | `write_arrow`, `record_batch` | `arrow` | Arrow IPC, also called Feather | metadata `unit` of the field |
 //! | `write_parquet` | `parquet` | Parquet, not compressed | as of Arrow, in the schema that Parquet keeps of it |
 //!
-//! Columns of Arrow and Parquet are 64-bit floats without nulls under the bare names; what is not finite is a NaN or an infinity.
+//! Columns of Arrow and Parquet are 64-bit floats without nulls under the bare names; what is not finite is a NaN or an
+//! infinity.
 
 #![deny(missing_docs)]
 

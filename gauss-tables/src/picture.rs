@@ -10,7 +10,8 @@ use plotters::prelude::*;
 use crate::error::TableError;
 use axis::Axis;
 
-/// So many units of the drawing make a pixel: curves go through whole units, and would look jagged through whole pixels.
+/// So many units of the drawing make a pixel: curves go through whole units, and would look jagged through whole
+/// pixels.
 const FINE: u32 = 8;
 /// Pixels.
 const WIDTH: u32 = 960;

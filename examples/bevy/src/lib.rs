@@ -1,8 +1,8 @@
 //! Motion by a kernel of Gauss inside Bevy: physics at a rate of its own, poses for every frame between its steps.
 //!
 //! - [`Moving`] is a component with a kernel and its state, in `f64`; [`GaussPlugin`] moves it in `FixedUpdate`.
-//! - After `FixedUpdate` the `Transform` of the entity is set: between the last two steps, as far as the clock of frames has gone
-//!   beyond the clock of physics, along the one screw motion that joins both poses.
+//! - After `FixedUpdate` the `Transform` of the entity is set: between the last two steps, as far as the clock of
+//!   frames has gone beyond the clock of physics, along the one screw motion that joins both poses.
 //! - Gauss' scenes choose their axes; here k₃ points up, in Bevy y does. [`shown`] is the only place that knows.
 
 use std::marker::PhantomData;

@@ -67,8 +67,9 @@ fn frames_lie_between_steps() {
         largest = largest.max(off);
         assert!(body.time() >= t);
     }
-    // Between two steps velocities change by ω̇ h at most, so a screw motion is off by ω̇ h²/8: with ω̇ below 8 · 0.9 · 8 /s² (Euler's
-    // equations, moments 2, 15, 16) that is 2e-3; f32 takes 1e-3 in an angle between quaternions, whose cosine is what is known.
+    // Between two steps velocities change by ω̇ h at most, so a screw motion is off by ω̇ h²/8: with ω̇ below 8 · 0.9 ·
+    // 8 /s² (Euler's equations, moments 2, 15, 16) that is 2e-3; f32 takes 1e-3 in an angle between quaternions, whose
+    // cosine is what is known.
     assert!(largest < 3e-3, "{largest}");
 }
 
