@@ -46,6 +46,10 @@ neighbours:
     cargo test --manifest-path examples/bevy/Cargo.toml --target-dir target/neighbours
     cargo test --manifest-path gauss-rerun/Cargo.toml --target-dir target/neighbours
 
+# The front page, with kernels that run in it, in `target/gauss`: `rustup target add wasm32-unknown-unknown` once.
+page:
+    cargo run -p gauss-web
+
 # How long a derive takes with an unoptimised macro.
 expansion:
     cargo run --profile unoptimised --example expansion_time
