@@ -10,6 +10,7 @@
 //!
 //! All increments are *left-trivialised*: they are seen from the body, `q ↦ q ∘ exp(σ)`.
 
+mod check;
 mod vectors_and_pairs;
 
 use core::fmt::Debug;
@@ -19,6 +20,10 @@ use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 use crate::lie::{carried, se2, se3, so3};
 use crate::real::Real;
 use crate::triple::{lengths, norm, quaternion, rotate, rotate_back, triple, unit_quaternion};
+
+#[cfg(feature = "serde")]
+pub(crate) use check::all_finite;
+pub use check::{StateError, check};
 
 pub(crate) use crate::vector_space::add_carrying;
 pub use crate::vector_space::{Product, VectorSpace};
@@ -115,6 +120,21 @@ pub trait Configuration: Copy + Debug {
     /// Whether every component is finite.
     fn is_finite(&self) -> bool;
 
+    /// The unit of component `i` where all else is in units of the SI, `"1"` of a pure number; empty where the scene decides, as of
+    /// a plain coordinate.
+    #[must_use]
+    fn component_unit(i: usize) -> &'static str {
+        let _ = i;
+        ""
+    }
+
+    /// That of component `i` of an increment per time.
+    #[must_use]
+    fn rate_unit(i: usize) -> &'static str {
+        let _ = i;
+        ""
+    }
+
     /// The change of the components that brings norms back to 1, to first order: what a method that works on components adds
     /// to the change of a step before it is rounded, as [`advance`](Self::advance) does. Zero where there is nothing to keep.
     fn norm_correction(&self) -> Self::Components {
@@ -205,6 +225,14 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
     #[inline(always)]
     fn tangent(&self, change: &Self::Components) -> Self::Tangent {
         SVector::from(so3::tangent(quaternion(self), change.data.0[0]))
+    }
+
+    fn component_unit(_: usize) -> &'static str {
+        "1"
+    }
+
+    fn rate_unit(_: usize) -> &'static str {
+        "rad/s"
     }
 
     #[inline]
@@ -304,6 +332,14 @@ impl<T: Real> Configuration for Isometry3<T> {
         se3::join(rotate_back(rotation, [a, b, c]), so3::tangent(rotation, [x, y, z, w]))
     }
 
+    fn component_unit(i: usize) -> &'static str {
+        if i < 4 { "1" } else { "m" }
+    }
+
+    fn rate_unit(i: usize) -> &'static str {
+        if i < 3 { "m/s" } else { "rad/s" }
+    }
+
     #[inline]
     fn is_finite(&self) -> bool {
         Configuration::is_finite(&self.rotation) && VectorSpace::is_finite(&self.translation.vector)
@@ -400,6 +436,14 @@ impl<T: Real> Configuration for Isometry2<T> {
         let (turn, [cosine, sine, x, y]) = (self.rotation.as_ref(), change.data.0[0]);
         let angle = turn.re * sine - turn.im * cosine;
         SVector::from([turn.re * x + turn.im * y, turn.re * y - turn.im * x, angle])
+    }
+
+    fn component_unit(i: usize) -> &'static str {
+        if i < 2 { "1" } else { "m" }
+    }
+
+    fn rate_unit(i: usize) -> &'static str {
+        if i < 2 { "m/s" } else { "rad/s" }
     }
 
     #[inline]

@@ -144,6 +144,16 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
         Product { first: self.0.tangent(&change.first), second: self.1.tangent(&change.second) }
     }
 
+    fn component_unit(i: usize) -> &'static str {
+        let split = <A::Components as VectorSpace<A::Scalar>>::DIM;
+        if i < split { A::component_unit(i) } else { B::component_unit(i - split) }
+    }
+
+    fn rate_unit(i: usize) -> &'static str {
+        let split = <A::Tangent as VectorSpace<A::Scalar>>::DIM;
+        if i < split { A::rate_unit(i) } else { B::rate_unit(i - split) }
+    }
+
     #[inline]
     fn is_finite(&self) -> bool {
         self.0.is_finite() && self.1.is_finite()
