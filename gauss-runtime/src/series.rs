@@ -242,9 +242,18 @@ fn odd_of_packs<T: Real>(k: usize, left: [&Orders<T>; PACK], right: [&Orders<T>;
         };
     }
     if k > 1 {
+        // What is read for the one is kept for the other.
+        let mut above = [T::zero(); PACK];
+        for i in 0..PACK {
+            above[i] = right[i][k - 2];
+        }
         for j in 3..k - 1 {
-            add!(sums, j, k - j);
-            add!(ahead, j, k + 1 - j);
+            for i in 0..PACK {
+                let (a, below) = (left[i][j], right[i][k - j]);
+                sums[i] = a.fma(below, sums[i]);
+                ahead[i] = a.fma(above[i], ahead[i]);
+                above[i] = below;
+            }
         }
         if k > 3 {
             add!(sums, 2, k - 2);
