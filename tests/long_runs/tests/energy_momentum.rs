@@ -4,6 +4,7 @@
 use gauss_runtime::integrate::{Composed, Composition, EnergyMomentum, OneStep};
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::{Scene, quaternion_of};
+use gauss_tests::top::{Top, TopKernel};
 
 /// A body in fluid, in space or in the plane.
 macro_rules! body {
@@ -51,20 +52,6 @@ macro_rules! body {
 
 body!(InSpace, free);
 body!(InPlane, planar);
-
-/// A fixed point and weight.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
-struct HeavyTop {
-    #[gauss(mass)]
-    mass: f64,
-    #[gauss(center_of_mass)]
-    center: Vector3<f64>,
-    #[gauss(inertia)]
-    inertia: Vector3<f64>,
-    #[gauss(gravity)]
-    gravity: f64,
-}
 
 /// A top whose tip hangs on a spring: a potential that is not linear in R.
 #[derive(GaussDynamics)]
@@ -191,9 +178,9 @@ fn a_potential_that_is_not_linear_in_the_attitude() {
 }
 
 /// The largest error of an entry of R at the end of a reference solution.
-fn error_on_the_heavy_top(scene: &Scene, method: impl OneStep<HeavyTopKernel>, steps: u32) -> f64 {
+fn error_on_the_heavy_top(scene: &Scene, method: impl OneStep<TopKernel<f64>>, steps: u32) -> f64 {
     let p = &scene.parameters;
-    let top = HeavyTop { mass: p.mass, center: p.center, inertia: p.principal, gravity: p.gravity };
+    let top = Top { mass: p.mass, center: p.center, inertia: p.principal, g: p.gravity };
     let kernel = top.kernel().expect("a top");
     let end = Simulation::new(&kernel)
         .control(Fixed::by(method, scene.duration / f64::from(steps)))

@@ -10,10 +10,11 @@ use gauss_runtime::integrate::{
     Compensated, Composed, Composition, Control, EnergyMomentum, FreeFlow, Method, Rkmk, Scheme, Splitting, Variational,
 };
 use gauss_runtime::prelude::*;
+use gauss_tests::top::TopKernel;
 use gauss_tests::watchdog::within;
 
 use crate::scenes::{
-    Angles, Bead, Driven, GenericTop, GenericTopKernel, Inclined, Pendulum, PendulumKernel, Spring, Top, TopKernel, one,
+    Angles, Bead, Driven, GenericTop, GenericTopKernel, Inclined, Pendulum, PendulumKernel, Spring, one, toy,
 };
 
 /// What numbers can be. Beside each other they make steps of which a run is refused, or has few: not the millions that somebody
@@ -120,8 +121,8 @@ fn pendulum() -> PendulumKernel {
     Pendulum { g: 9.81 }.kernel().expect("a pendulum")
 }
 
-fn top() -> TopKernel {
-    Top::toy().kernel().expect("a top")
+fn top() -> TopKernel<f64> {
+    toy().kernel().expect("a top")
 }
 
 /// A pendulum by a control of two numbers, with events and a jump.
