@@ -177,7 +177,8 @@
 /// clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures, with the square of `mechanicalReduction`.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references, damping, dry
-/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms that are no meshes; classes of defaults;
+/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms that are no meshes, scaled to
+/// `settotalmass`; classes of defaults;
 /// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
 /// as coupled joints, others as constraints; points in common and welds as constraints; springs and dampers of fixed tendons; actuators
 /// along joints and fixed tendons that are linear in their control. A ball is a `Rotation`, a free joint a `Pose`. Keyframes are
