@@ -9,7 +9,6 @@
 //! input. A run ends where a rate vanishes or a force becomes too large; there it is decided anew, and the run goes on.
 
 use gauss_runtime::prelude::*;
-use gauss_runtime::{SMatrix, SVector};
 
 /// A system of N coordinates of which every one has an input that is its generalised force.
 pub trait Jointed<const N: usize>:
@@ -57,6 +56,10 @@ pub struct Dry<'k, K, const N: usize> {
     /// The friction f of each joint, N or N m.
     pub limits: [f64; N],
 }
+
+/// Events are so far beyond what they are for, in units of rates and of f: what begins to slide begins at rest, and is not at its end
+/// there.
+const HAIR: f64 = 1e-12;
 
 /// So many events in a run are more than any here has.
 const MOST: usize = 10_000;
@@ -109,8 +112,8 @@ impl<K: Jointed<N>, const N: usize> Dry<'_, K, N> {
     fn margins(&self, modes: &[Mode; N], t: f64, q: &SVector<f64, N>, z: &SVector<f64, N>) -> [f64; N] {
         let forces = self.forces(modes, t, q, z).unwrap_or_else(|| SVector::from([f64::NAN; N]));
         std::array::from_fn(|k| match modes[k] {
-            Mode::Sticks => self.limits[k] - forces[k].abs(),
-            Mode::Slides(sign) => sign * z[k],
+            Mode::Sticks => self.limits[k] * (1.0 + HAIR) - forces[k].abs(),
+            Mode::Slides(sign) => sign * z[k] + HAIR,
         })
     }
 
@@ -141,7 +144,7 @@ impl<K: Jointed<N>, const N: usize> Dry<'_, K, N> {
                 .until(Crossing::Falling, least)
                 .adaptive(tolerance, tolerance)
                 .run_to_end(at.q, at.z, at.t..end)?;
-            let stopped = run.stopped_by().is_some();
+            let stopped = run.stopped_by.is_some();
             let sample = run.sample;
             at = Moment { t: sample.t, q: sample.q, z: sample.z, modes };
             if stopped {

@@ -15,7 +15,7 @@ const ON_THE_FLOOR: f64 = 0.2;
 const IN_JOINTS: [f64; 2] = [0.8, 0.3];
 /// The arm is let go so, rad, and watched for so long, s.
 const LET_GO: [f64; 2] = [1.4, 0.9];
-const WATCHED: f64 = 4.0;
+const WATCHED: f64 = 12.0;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let slider = Slider::desk();
