@@ -1,12 +1,13 @@
-//! Coulomb's dry friction of joints, exactly: while a joint slides, a force of fixed size against its rate; while it sticks, the
-//! force that keeps it at rest, as long as that is not too large.
+//! Coulomb's dry friction of joints, exactly: while a joint slides, a force of fixed size against its rate; while it
+//! sticks, the force that keeps it at rest, as long as that is not too large.
 //!
-//! **Which of the two** is Gauss's principle once more: of all ż those of the motion make `C(ż) + Σ f |ż_k|` least, the sum over the
-//! joints at rest. That function is convex and has one minimum; there each of these joints either stays at rest under a force of
-//! at most f, or begins to slide against a force of f.
+//! **Which of the two** is Gauss's principle once more: of all ż those of the motion make `C(ż) + Σ f |ż_k|` least, the
+//! sum over the joints at rest. That function is convex and has one minimum; there each of these joints either stays at
+//! rest under a force of at most f, or begins to slide against a force of f.
 //!
-//! **How it is run.** Between events no joint changes between sliding and sticking, and forces are smooth functions of the state: an
-//! input. A run ends where a rate vanishes or a force becomes too large; there it is decided anew, and the run goes on.
+//! **How it is run.** Between events no joint changes between sliding and sticking, and forces are smooth functions of
+//! the state: an input. A run ends where a rate vanishes or a force becomes too large; there it is decided anew, and
+//! the run goes on.
 
 use gauss_runtime::prelude::*;
 
@@ -57,8 +58,8 @@ pub struct Dry<'k, K, const N: usize> {
     pub limits: [f64; N],
 }
 
-/// Events are so far beyond what they are for, in units of rates and of f: what begins to slide begins at rest, and is not at its end
-/// there.
+/// Events are so far beyond what they are for, in units of rates and of f: what begins to slide begins at rest, and is
+/// not at its end there.
 const HAIR: f64 = 1e-12;
 
 /// So many events in a run are more than any here has.
@@ -90,8 +91,8 @@ impl<K: Jointed<N>, const N: usize> Dry<'_, K, N> {
         Some(forces)
     }
 
-    /// What joints at rest do next, others as they are: the ways are tried one after the other, those that stick first; one of them
-    /// is the minimum.
+    /// What joints at rest do next, others as they are: the ways are tried one after the other, those that stick first;
+    /// one of them is the minimum.
     pub fn decide(&self, t: f64, q: &SVector<f64, N>, z: &SVector<f64, N>) -> Option<[Mode; N]> {
         let moving: [Option<Mode>; N] = std::array::from_fn(|k| (z[k] != 0.0).then(|| Mode::Slides(z[k].signum())));
         let ways = [Mode::Sticks, Mode::Slides(1.0), Mode::Slides(-1.0)];

@@ -1,5 +1,5 @@
-//! Dry friction exactly, sticking and sliding by turns: a slider beside its exact solution, and an arm whose two joints stick and
-//! give way, beside friction that is made smooth.
+//! Dry friction exactly, sticking and sliding by turns: a slider beside its exact solution, and an arm whose two joints
+//! stick and give way, beside friction that is made smooth.
 //!
 //! `cargo run --release --example dry_friction`
 

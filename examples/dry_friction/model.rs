@@ -36,8 +36,8 @@ impl Slider {
         PI * (self.m / self.k).sqrt()
     }
 
-    /// The exact position with the friction f, m: each half swing is a half of a cosine about ±f/k, and so takes 2f/k from the
-    /// amplitude (any textbook of vibrations).
+    /// The exact position with the friction f, m: each half swing is a half of a cosine about ±f/k, and so takes 2f/k
+    /// from the amplitude (any textbook of vibrations).
     pub fn exact(&self, f: f64, t: f64) -> f64 {
         let swing = (t / self.half_swing()).floor().min(SWINGS);
         let sign = if swing % 2.0 == 0.0 { 1.0 } else { -1.0 };
@@ -52,7 +52,8 @@ impl Slider {
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(shoulder, elbow),
-    body(upper, rotation = rotation_y(shoulder), mass = 2, center_of_mass = [0, 0, -0.2], inertia_about_center_of_mass = 0.027),
+    body(upper, rotation = rotation_y(shoulder), mass = 2, center_of_mass = [0, 0, -0.2],
+         inertia_about_center_of_mass = 0.027),
     body(lower, parent = upper, position = [0, 0, -0.4], rotation = rotation_y(elbow), mass = 1,
          center_of_mass = [0, 0, -0.15], inertia_about_center_of_mass = 0.0075),
     input(in_shoulder = "N m", in_elbow = "N m"),
@@ -67,7 +68,8 @@ pub struct Arm {
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(shoulder, elbow),
-    body(upper, rotation = rotation_y(shoulder), mass = 2, center_of_mass = [0, 0, -0.2], inertia_about_center_of_mass = 0.027),
+    body(upper, rotation = rotation_y(shoulder), mass = 2, center_of_mass = [0, 0, -0.2],
+         inertia_about_center_of_mass = 0.027),
     body(lower, parent = upper, position = [0, 0, -0.4], rotation = rotation_y(elbow), mass = 1,
          center_of_mass = [0, 0, -0.15], inertia_about_center_of_mass = 0.0075),
     friction(in_shoulder, along = shoulder, dry = f_shoulder, width = creep),

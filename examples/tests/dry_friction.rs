@@ -1,4 +1,5 @@
-//! The claims of the example `dry_friction`: the exact solution of a slider; energy and friction times way; what is decided at rest.
+//! The claims of the example `dry_friction`: the exact solution of a slider; energy and friction times way; what is
+//! decided at rest.
 
 #[path = "../dry_friction/friction.rs"]
 mod friction;

@@ -84,9 +84,10 @@ impl<'a, 'g> Articulated<'a, 'g> {
         self.combinations().solve(right, |right| self.solve_joints(right, nothing.clone(), |_| None))
     }
 
-    /// x with A x = right less what wrenches on the links ask of the speeds: on the way to the root they are gathered together
-    /// with what the motion asks for. Along the axis of a hinge that is then known, and of its motion what is relative to the
-    /// parent is found last; in [`solve`](Self::solve) it is first, since that of all links is wanted besides.
+    /// x with A x = right less what wrenches on the links ask of the speeds: on the way to the root they are gathered
+    /// together with what the motion asks for. Along the axis of a hinge that is then known, and of its motion what is
+    /// relative to the parent is found last; in [`solve`](Self::solve) it is first, since that of all links is wanted
+    /// besides.
     pub fn solve_under(&self, wrenches: &Pairs<'g>, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let links = self.tree.links.iter().zip(wrenches);
         let wrenches: Vec<Pair<'g>> =
@@ -319,8 +320,8 @@ impl<'g> Pivot<'g> {
         Self { speed, row, response, armature, inverse }
     }
 
-    /// The component of a motion that the speed is, where it is one and nothing but the links resists: what is asked along it is then
-    /// what acts along it, and the response there the pivot.
+    /// The component of a motion that the speed is, where it is one and nothing but the links resists: what is asked
+    /// along it is then what acts along it, and the response there the pivot.
     fn axis(&self) -> Option<usize> {
         let mut there = self.row.0.iter().chain(&self.row.1).enumerate().filter(|(_, e)| !e.is_zero());
         let (axis, value) = there.next()?;

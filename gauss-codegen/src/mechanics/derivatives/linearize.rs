@@ -122,8 +122,8 @@ impl<'g> Linearization<'g> {
         directions.extend(alone(graph, &[scene.time]));
         directions.extend(alone(graph, &scene.inputs));
         let derived = derived(system, &velocity, &directions);
-        // Derivatives with a form of their own solve for all columns without wrenches: where accelerations keep digits because
-        // these are gathered first, that would be asked of columns that cost half as much.
+        // Derivatives with a form of their own solve for all columns without wrenches: where accelerations keep digits
+        // because these are gathered first, that would be asked of columns that cost half as much.
         let gathered = if derived.is_empty() { Vec::new() } else { system.gathered_accelerations() };
         let arrangements = arrangements_of(Method::Acceleration).iter().filter(|outputs| !gathered.contains(outputs));
         let arrangements = arrangements.map(|outputs| velocity.iter().chain(outputs).copied().collect()).collect();
