@@ -1,5 +1,5 @@
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p gauss-benches --bench ensembles [-- A B C threads]`: many runs with steps of
-//! their own, on one thread and on more, beside runs one after another. `benches/peers/ensembles.py` is the same with heyoka.
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p gauss-benches --bench ensembles [-- A B C]`: many runs with steps of their
+//! own on one thread, beside runs one after another. `benches/peers/ensembles.py` is the same with heyoka.
 //!
 //! µs a trajectory and simulated second, the fastest of many rounds, and the largest error of the attitude at the end.
 
