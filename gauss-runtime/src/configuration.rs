@@ -155,6 +155,13 @@ pub trait Configuration: Copy + Debug {
         0.0
     }
 
+    /// [`increment_angle`](Self::increment_angle) of every lane by itself. Where it is not written it is the largest one in all of
+    /// them.
+    #[inline]
+    fn increment_angles(tangent: &Self::Tangent) -> Self::Scalar {
+        Self::Scalar::from_f64(Self::increment_angle(tangent))
+    }
+
     /// The size against which an error in component `i` of an increment is relative: 1 for rotations, the distance from
     /// the origin for translations, the value itself for a plain coordinate. The largest over the lanes.
     fn magnitude(&self, i: usize) -> f64;
@@ -253,6 +260,11 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
     #[inline]
     fn increment_angle(tangent: &Self::Tangent) -> f64 {
         norm(&tangent.data.0[0])
+    }
+
+    #[inline(always)]
+    fn increment_angles(tangent: &Self::Tangent) -> T {
+        lengths(&tangent.data.0[0])
     }
 
     #[inline]
@@ -361,6 +373,11 @@ impl<T: Real> Configuration for Isometry3<T> {
         norm(&tangent.data.0[0][3..])
     }
 
+    #[inline(always)]
+    fn increment_angles(tangent: &Self::Tangent) -> T {
+        lengths(&tangent.data.0[0][3..])
+    }
+
     #[inline]
     fn magnitude(&self, i: usize) -> f64 {
         if i < 3 { norm(&self.translation.vector.data.0[0]) } else { 1.0 }
@@ -467,6 +484,11 @@ impl<T: Real> Configuration for Isometry2<T> {
     #[inline]
     fn increment_angle(tangent: &Self::Tangent) -> f64 {
         norm(&tangent.data.0[0][2..])
+    }
+
+    #[inline(always)]
+    fn increment_angles(tangent: &Self::Tangent) -> T {
+        lengths(&tangent.data.0[0][2..])
     }
 
     #[inline]

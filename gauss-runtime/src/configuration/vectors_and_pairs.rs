@@ -174,6 +174,11 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
         A::increment_angle(&tangent.first).max(B::increment_angle(&tangent.second))
     }
 
+    #[inline(always)]
+    fn increment_angles(tangent: &Self::Tangent) -> A::Scalar {
+        Real::max(A::increment_angles(&tangent.first), B::increment_angles(&tangent.second))
+    }
+
     #[inline]
     fn magnitude(&self, i: usize) -> f64 {
         let split = <A::Tangent as VectorSpace<A::Scalar>>::DIM;
