@@ -1,5 +1,7 @@
 //! A heavy top, from a struct of parameters to a trajectory: `cargo run --release --example hello_top`.
 
+use gauss_examples::plots::write_page;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 /// A symmetric top on a fixed tip.
@@ -32,5 +34,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{:6.1} {:9.4} {:9.4} {:9.4}", sample.t, g.x, g.y, g.z);
     }
     println!("\n{}", monitor(&top, &path));
-    Ok(())
+
+    // The same as a page that plays, in `target/gauss`.
+    let page = Playback::with_pictures("A heavy top", &path, 2000)?
+        .body(
+            "top",
+            |s| Isometry3::from_parts(Translation3::identity(), s.q),
+            [
+                Shape::cylinder(0.032, 0.012).at(&Isometry3::translation(0.0, 0.0, 0.04)),
+                Shape::rod([0.0; 3], [0.0, 0.0, 0.08], 0.003).colour("#444444"),
+            ],
+        )
+        .trace("top", [0.0, 0.0, 0.08])
+        .arrow("angular momentum", 2.0, |s| (Vector3::zeros(), s.q * s.p))
+        .curve("from the vertical / °", "angle", |s| (s.q * Vector3::z()).angle(&Vector3::z()).to_degrees())
+        .energy(&top);
+    write_page("hello_top", &page)
 }

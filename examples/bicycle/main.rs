@@ -1,5 +1,5 @@
-//! A bicycle that nobody holds, at several speeds: it falls over, steers itself, or leans away slowly; its eigenvalues beside
-//! those of a published benchmark.
+//! A bicycle that nobody holds, at several speeds: it falls over, steers itself, or leans away slowly; its
+//! eigenvalues beside those of a published benchmark.
 //!
 //! `cargo run --release --example bicycle [-- FOLDER]` draws into `FOLDER`, by default `target/gauss`.
 
@@ -56,7 +56,8 @@ fn beside_the_benchmark(bicycle: &Bicycle, kernel: &BicycleKernel) -> Result<(),
         println!("{speed:8.1}   {a:<36} {b}");
     }
     println!("\nequations of lean and steer: {worst:.1e} of their largest entry from the published ones");
-    // They are printed with fourteen places after the point; entries of M⁻¹ are up to 4, those of the products up to 2000.
+    // They are printed with fourteen places after the point; entries of M⁻¹ are up to 4, those of the products up to
+    // 2000.
     if worst > 1e-12 {
         return Err("these are not the equations of the benchmark".into());
     }

@@ -1,13 +1,14 @@
-//! The bicycle of the benchmark: J. P. Meijaard, J. M. Papadopoulos, A. Ruina, A. L. Schwab, *Linearized dynamics equations for
-//! the balance and steer of a bicycle: a benchmark and review*, Proc. R. Soc. A 463 (2007) 1955–1982. Its parameters are
-//! those of table 1, its axes k₁ forward, k₂ to the right, k₃ down; SI units.
+//! The bicycle of the benchmark: J. P. Meijaard, J. M. Papadopoulos, A. Ruina, A. L. Schwab, *Linearized dynamics
+//! equations for the balance and steer of a bicycle: a benchmark and review*, Proc. R. Soc. A 463 (2007) 1955–1982.
+//! Its parameters are those of table 1, its axes k₁ forward, k₂ to the right, k₃ down; SI units.
 
 use gauss_runtime::prelude::*;
 
-/// Two wheels, a rear frame with its rider, and a fork, on the floor z = 0: any lean and steer, wheels that do not slip.
+/// Two wheels, a rear frame with its rider, and a fork, on the floor z = 0: any lean and steer, wheels that do not
+/// slip.
 ///
-/// x, y: where the rear wheel touches. That both wheels touch and roll is a constraint each way; the rates of lean, steer and
-/// of the rear wheel are left, and the others are solved for.
+/// x, y: where the rear wheel touches. That both wheels touch and roll is a constraint each way; the rates of lean,
+/// steer and of the rear wheel are left, and the others are solved for.
 #[derive(Clone, Copy, Debug, GaussDynamics)]
 #[gauss(
     coordinates(x, y, yaw, lean, pitch, steer, rear, front),
@@ -102,8 +103,9 @@ pub fn upright(bicycle: &Bicycle, speed: f64, lean_rate: f64) -> (SVector<f64, 8
 const COORDINATES: [usize; 2] = [3, 5];
 const RATES: [usize; 2] = [8, 9];
 
-/// The equations of lean and steer about the upright ride at a speed, x̄̇ = A x̄ with x̄ = (lean, steer, their rates). The other
-/// variables do not enter: neither place nor heading matter, and speed and pitch change to second order only.
+/// The equations of lean and steer about the upright ride at a speed, x̄̇ = A x̄ with x̄ = (lean, steer, their
+/// rates). The other variables do not enter: neither place nor heading matter, and speed and pitch change to second
+/// order only.
 #[must_use]
 pub fn linear(bicycle: &Bicycle, kernel: &BicycleKernel, speed: f64) -> SMatrix<f64, 4, 4> {
     let (q, z) = upright(bicycle, speed, 0.0);

@@ -117,7 +117,7 @@ pub fn draw(results: &[Results<'_>]) -> Result<String, Box<dyn Error>> {
 
 fn draw_row(root: &Area<'_>, row: &Row<'_>, y: i32) -> Result<(), Box<dyn Error>> {
     let first = row.measures[0];
-    root.draw(&Text::new(first.what.clone(), (245, y), words(22, INK, HPos::Left)))?;
+    root.draw(&Text::new(first.what.clone(), (225, y), words(22, INK, HPos::Left)))?;
     let ratios = row.measures.iter().map(|m| (place(m.reached / m.target), m.verdict()));
     let dots: Vec<(i32, Verdict)> = ratios.collect();
     let mut ends: Vec<i32> = dots.iter().map(|dot| dot.0).collect();

@@ -22,8 +22,8 @@ struct Free {
     moments: Vector3<f64>,
 }
 
-/// The complete elliptic integral K and the functions sn, cn, dn for the parameter m = k², by arithmetic-geometric means:
-/// Abramowitz and Stegun, 16.4 and 17.6.
+/// The complete elliptic integral K and the functions sn, cn, dn for the parameter m = k², by arithmetic-geometric
+/// means: Abramowitz and Stegun, 16.4 and 17.6.
 struct Elliptic {
     quarter: f64,
     m: f64,
@@ -94,8 +94,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{:6.2} {:9.5} {:9.5} {:9.5}   {apart:.0e}", s.t, s.z[0], s.z[1], s.z[2]);
     }
     println!("\nit turns over every {flip:.4} s; at most {worst:.0e} from Euler's solution");
-    // Errors of 1e-12 a step grow a hundred times from flip to flip along with the disturbance, and back again; what is left is
-    // the error of the phase, which grows along the way.
+    // Errors of 1e-12 a step grow a hundred times from flip to flip along with the disturbance, and back again; what
+    // is left is the error of the phase, which grows along the way.
     if worst > 1e-7 {
         return Err("this is not Euler's solution".into());
     }

@@ -10,8 +10,8 @@ use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
-/// Craft and load in the plane of k₁ and k₃, k₃ up, and a rope that stays taut. The rotors carry both; `push`, in N along k₁, is
-/// what they give besides.
+/// Craft and load in the plane of k₁ and k₃, k₃ up, and a rope that stays taut. The rotors carry both; `push`, in N
+/// along k₁, is what they give besides.
 #[derive(Clone, Copy, Debug, GaussDynamics)]
 #[gauss(
     coordinates(x, z, load_x, load_z),
@@ -29,8 +29,9 @@ struct Slung {
     g: f64,
 }
 
-/// Seen from the craft the load is a pendulum, whatever its angle: a craft under a constant force F falls freely but for F/m, and
-/// the force of the rope accelerates both ends. So its gravity is g (m + m_load)/m, and it swings at this rate.
+/// Seen from the craft the load is a pendulum, whatever its angle: a craft under a constant force F falls freely but
+/// for F/m, and the force of the rope accelerates both ends. So its gravity is g (m + m_load)/m, and it swings at
+/// this rate.
 fn rate(slung: &Slung) -> f64 {
     (slung.g * (1.0 + slung.m_load / slung.m) / slung.rope).sqrt()
 }

@@ -23,7 +23,8 @@ const drawAxes = (stage, length) => AXES.forEach(({ axis, colour }) => {
   stage.arrow([0, 0, 0], times(axis, length), 0.0015 * stage.distance, colourOf(colour));
 });
 
-// Squares whose side is a power of ten, or twice or five times that: a floor, at a height along what is up; or by other axes.
+// Squares whose side is a power of ten, or twice or five times that: a floor, at a height along what is up; or by
+// other axes.
 const floorOf = (stage, middle, radius, height, [e1, e2, up] = stage.world) => {
   const raw = radius / 4, power = 10 ** Math.floor(Math.log10(raw));
   const side = [1, 2, 5, 10].find((s) => s * power >= raw) * power, n = Math.ceil(1.3 * radius / side);
@@ -34,7 +35,8 @@ const floorOf = (stage, middle, radius, height, [e1, e2, up] = stage.world) => {
   return { buffer: stage.buffer(grid), count: grid.length / 3, side };
 };
 
-// Mouse and fingers: `changed` draws anew, `released` is called when the camera no longer goes with a body, `all` shows everything.
+// Mouse and fingers: `changed` draws anew, `released` is called when the camera no longer goes with a body, `all`
+// shows everything.
 const steer = (stage, canvas, { changed, released, all }) => {
   canvas.addEventListener("pointerdown", (event) => { canvas.setPointerCapture(event.pointerId); canvas.focus(); });
   canvas.addEventListener("pointermove", (event) => {

@@ -1,5 +1,5 @@
-//! The functions that the browser calls. There is one motion at a time; what they return are addresses in the memory of the
-//! module, which the scripts read.
+//! The functions that the browser calls. There is one motion at a time; what they return are addresses in the memory
+//! of the module, which the scripts read.
 
 use std::cell::RefCell;
 

@@ -1,5 +1,6 @@
-//! The front page: scenes that run in a browser, with sliders for their parameters. Their kernels are derived as anywhere
-//! else, by `#[derive(GaussDynamics)]`, and compiled to WebAssembly; nothing is computed by the scripts around them.
+//! The front page: scenes that run in a browser, with sliders for their parameters. Their kernels are derived as
+//! anywhere else, by `#[derive(GaussDynamics)]`, and compiled to WebAssembly; nothing is computed by the scripts
+//! around them.
 //!
 //! `cargo run -p gauss-web [-- FILE]` compiles the kernels and writes the page, one file without network, by default
 //! `target/gauss/gauss.html`. It needs `rustup target add wasm32-unknown-unknown`.

@@ -24,8 +24,9 @@ pub trait Motion {
     /// Why the motion cannot go on; the state is the last one that was reached.
     fn advance(&mut self, seconds: f64, tolerance: f64) -> Result<(), String>;
 
-    /// Time, kinetic and potential energy, error of the energy relative to the largest kinetic energy so far, steps so far;
-    /// then seven numbers of each pose, position and quaternion i, j, k, w; six of each arrow; one of each curve.
+    /// Time, kinetic and potential energy, error of the energy relative to the largest kinetic energy so far, steps
+    /// so far; then seven numbers of each pose, position and quaternion i, j, k, w; six of each arrow; one of each
+    /// curve.
     fn numbers(&self) -> Vec<f64>;
 }
 

@@ -1,5 +1,5 @@
-//! The page in a browser, where there is one and WebAssembly can be made: it opens, and every scene gives the numbers that the same
-//! kernel gives here.
+//! The page in a browser, where there is one and WebAssembly can be made: it opens, and every scene gives the numbers
+//! that the same kernel gives here.
 
 use std::error::Error;
 use std::fs;
@@ -17,7 +17,8 @@ fn scenes_move_in_the_browser_as_they_do_here() -> Result<(), Box<dyn Error>> {
         println!("`rustup target add {}` brings what is missing: nothing was tried", build::TARGET);
         return Ok(());
     }
-    // Six scenes are expanded: a macro that is optimised costs more than it saves. Debug information would be the page's.
+    // Six scenes are expanded: a macro that is optimised costs more than it saves. Debug information would be the
+    // page's.
     let quick = ["--config=profile.dev.package.gauss-codegen.opt-level=0", "--config=profile.dev.debug=false"];
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let file = folder.join("gauss.html");

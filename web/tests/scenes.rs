@@ -6,7 +6,8 @@ use gauss_web::scenes::{ALL, Entry};
 const KINETIC: usize = 1;
 const ERROR: usize = 3;
 
-/// Sliders in the corners of their ranges, by a number whose digits to the base three say which end or where they are at first.
+/// Sliders in the corners of their ranges, by a number whose digits to the base three say which end or where they are
+/// at first.
 fn placed(scene: &Entry, mut corner: usize) -> Vec<(usize, f64)> {
     let place = |(k, slider): (usize, &gauss_web::scene::Slider)| {
         let digit = corner % 3;
@@ -32,8 +33,8 @@ fn energy_is_kept_wherever_the_sliders_are() {
             }
             let numbers = motion.numbers();
             assert!(numbers.iter().all(|number| number.is_finite()), "scene {n}, corner {corner}: {numbers:?}");
-            // Some hundred steps at most, each within 1e-9 of each component; of speeds that are small beside the fastest
-            // one, energy has no more digits than these.
+            // Some hundred steps at most, each within 1e-9 of each component; of speeds that are small beside the
+            // fastest one, energy has no more digits than these.
             let error = numbers[ERROR].abs();
             assert!(error < 1e-5 || numbers[KINETIC] < 1e-9, "scene {n}, corner {corner}: {error}");
         }
