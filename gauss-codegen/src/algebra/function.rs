@@ -89,7 +89,7 @@ impl Function {
 
 impl Function {
     /// A number for each, for hashing.
-    pub(super) const fn word(self) -> u64 {
+    pub(crate) const fn word(self) -> u64 {
         match self {
             Function::Sin => 0,
             Function::Cos => 1,

@@ -13,6 +13,7 @@ mod cosines;
 mod differentiate;
 mod doubled;
 mod dual;
+mod elementary;
 mod evaluate;
 mod expression;
 mod function;

@@ -193,7 +193,7 @@ impl Rational {
     }
 
     /// Equal ones have the same.
-    pub(super) fn hash_word(self) -> u64 {
+    pub(crate) fn hash_word(self) -> u64 {
         match self.denominator {
             LARGE => self.to_f64().to_bits(),
             denominator => (self.numerator as u64) ^ (denominator as u64).rotate_left(32),

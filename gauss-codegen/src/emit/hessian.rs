@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::arguments::{OF_HESSIAN, declared};
+use super::arguments::OF_HESSIAN;
 use super::derived::Derived;
 
 /// The implementation, where it is asked for.
@@ -11,7 +11,6 @@ pub fn hessian_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (hessian, program) = derived.hessian.zip(derived.kernel.hessian.as_ref())?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (states, inputs) = (hessian.states, hessian.inputs);
-    let arguments = declared(&private, OF_HESSIAN);
     let (instructions, outputs) = derived.computed(program);
     let [by_state, by_input_and_state, by_input] = blocks(states, inputs).map(|block| {
         let row = |row: &Vec<usize>| {
@@ -20,21 +19,18 @@ pub fn hessian_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         };
         block.iter().map(row).collect::<Vec<_>>()
     });
+    let body = quote! {
+        #instructions
+        #private::Hessian {
+            by_state: #private::matrix([#(#by_state),*]),
+            by_input_and_state: #private::matrix([#(#by_input_and_state),*]),
+            by_input: #private::matrix([#(#by_input),*]),
+        }
+    };
+    let function = derived.function_of("hessian", OF_HESSIAN, quote!(Self::Hessian), body);
     let items = quote! {
-            type Hessian = #private::Hessian<#ty, #states, #inputs>;
-            fn hessian(
-                &self,
-                __t: Self::Scalar,
-                __q: &Self::Configuration,
-                #(#arguments,)*
-            ) -> Self::Hessian {
-                #instructions
-                #private::Hessian {
-                    by_state: #private::matrix([#(#by_state),*]),
-                    by_input_and_state: #private::matrix([#(#by_input_and_state),*]),
-                    by_input: #private::matrix([#(#by_input),*]),
-                }
-            }
+        type Hessian = #private::Hessian<#ty, #states, #inputs>;
+        #function
     };
     Some(derived.implementation(quote!(HessianSystem), items))
 }

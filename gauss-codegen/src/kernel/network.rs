@@ -1,5 +1,7 @@
 //! Sums and products of many terms as a network of nodes, with the parts that several of them contain split off.
 
+use std::hash::{Hash, Hasher};
+
 use crate::algebra::{BinaryFunction, Expr, Function, Map, NodeView, Rational};
 
 /// Parts of one sum or product that are paired with one another: the number of pairs goes with its square.
@@ -15,7 +17,7 @@ const LEVELS: u32 = 400;
 /// Index of a node of a network.
 pub type Place = usize;
 
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Node<'g> {
     Number(Rational),
     /// An argument of the function or a constant.
@@ -28,6 +30,37 @@ pub enum Node<'g> {
     Reciprocal(Place),
     Call(Function, Place),
     Binary(BinaryFunction, Place, Place),
+}
+
+/// In one word, as in `algebra/node.rs`: hashing piece by piece is most of a look-up in unoptimised code.
+impl Hash for Node<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let mut word = Spread(0);
+        match self {
+            Node::Number(value) => word.add(1, value.hash_word()),
+            Node::Leaf(e) => word.add(2, u64::from(e.key())),
+            Node::Sum(terms) => terms.iter().for_each(|(c, place)| word.add(c.hash_word(), *place as u64)),
+            Node::Product(factors) => factors.iter().for_each(|place| word.add(3, *place as u64)),
+            Node::Reciprocal(a) => word.add(4, *a as u64),
+            Node::Call(function, a) => word.add(5 + function.word(), *a as u64),
+            Node::Binary(function, a, b) => {
+                word.add(6, *a as u64);
+                word.add(*function as u64, *b as u64);
+            }
+        }
+        state.write_u64(word.0);
+    }
+}
+
+/// Numbers that are hashed together.
+struct Spread(u64);
+
+impl Spread {
+    fn add(&mut self, a: u64, b: u64) {
+        /// Any odd number whose digits look random.
+        const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
+        self.0 = (self.0.rotate_left(5) ^ a ^ b << 32).wrapping_mul(SPREAD);
+    }
 }
 
 impl Node<'_> {
@@ -260,9 +293,10 @@ impl<'g> Network<'g> {
     #[expect(clippy::mutable_key_type, reason = "an expression is hashed by its index, which never changes")]
     fn merge_duplicates(&mut self) {
         loop {
-            let mut first: Map<Node<'g>, Place> = Map::default();
+            let mut first: Map<&Node<'g>, Place> = Map::default();
+            first.reserve(self.nodes.len());
             let lead: Vec<Place> =
-                self.nodes.iter().enumerate().map(|(k, node)| *first.entry(node.clone()).or_insert(k)).collect();
+                self.nodes.iter().enumerate().map(|(k, node)| *first.entry(node).or_insert(k)).collect();
             let mut changed = false;
             let mut follow = |place: &mut Place| {
                 changed |= lead[*place] != *place;
@@ -289,10 +323,13 @@ impl<'g> Network<'g> {
                     self.nodes[k] = Node::Number(Rational::zero());
                 }
             }
-            self.index = first;
             if !changed {
-                return;
+                break;
             }
+        }
+        self.index.clear();
+        for (k, node) in self.nodes.iter().enumerate() {
+            self.index.entry(node.clone()).or_insert(k);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! From a network to straight-line code.
 
-use crate::algebra::{Expr, Function, Map, Number, Rational};
+use crate::algebra::{Expr, Function, Map, Number, Rational, Set};
 use crate::program::{Code, Instruction};
 
 use super::factor::Factoring;
@@ -23,7 +23,12 @@ impl<'g> Program<'g> {
 
     /// The symbols that the program reads.
     pub fn symbols(&self) -> Vec<Expr<'g>> {
-        self.inputs()
+        let mut seen = Set::default();
+        let new = |operand| match operand {
+            Operand::Input(symbol) if seen.insert(symbol.key()) => Some(symbol),
+            _ => None,
+        };
+        self.operands().filter_map(new).collect()
     }
 
     /// Runs the program in double precision, with values of symbols by their keys.

@@ -1,7 +1,7 @@
 //! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is short.
 
 use crate::algebra::{Expr, Map, Notation, Parts, print, print_definition, print_parts, print_with};
-use crate::mechanics::tidy::{LIMIT, readable, tidy};
+use crate::mechanics::tidy::{LIMIT, legible, readable};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
@@ -85,10 +85,10 @@ pub(in crate::mechanics) struct PrintedForces<'g> {
 impl<'g> PrintedForces<'g> {
     pub fn new(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name]) -> Self {
         if accounts.len() < 2 || whole.iter().all(|e| readable(*e).is_some()) {
-            return Self { rows: whole.into_iter().map(tidy).collect(), sections: Vec::new() };
+            return Self { rows: whole.into_iter().map(legible).collect(), sections: Vec::new() };
         }
         let row = |(k, whole): (usize, Expr<'g>)| {
-            let own = |account: &Account<'g>| match tidy(account.forces[k]) {
+            let own = |account: &Account<'g>| match legible(account.forces[k]) {
                 force if force.is_zero() || account.name == GRAVITY => force,
                 _ => {
                     let name = names[k].of(&element_name(account));
@@ -110,9 +110,9 @@ fn element_name(account: &Account<'_>) -> Name {
 /// Nothing of an element that does nothing.
 fn element_section<'g>(account: &Account<'g>, names: &[Name]) -> Option<Section<'g>> {
     let title = Name::new(&format!("of {}", account.name), &format!("of {}", account.name.replace('_', "\\_")));
-    let there = account.forces.iter().zip(names).filter(|(force, _)| !tidy(**force).is_zero());
+    let there = account.forces.iter().zip(names).filter(|(force, _)| !legible(**force).is_zero());
     let rows: Vec<Row<'g>> =
-        there.map(|(force, name)| Row::Definition(name.of(&element_name(account)), tidy(*force))).collect();
+        there.map(|(force, name)| Row::Definition(name.of(&element_name(account)), legible(*force))).collect();
     (!rows.is_empty()).then_some(Section { title, rows })
 }
 
@@ -141,7 +141,7 @@ impl<'g> Textbook<'_, 'g> {
     fn sections(&self) -> Vec<Section<'g>> {
         let Self { system, body } = self;
         let forces = PrintedForces::new(body.generalised_forces(), &system.accounts(), &system.scene.force_names);
-        let terms: Vec<_> = body.printed_bracket().into_iter().map(tidy).zip(forces.rows).collect();
+        let terms: Vec<_> = body.printed_bracket().into_iter().map(legible).zip(forces.rows).collect();
         let mut sections = vec![Section {
             title: Name::new("velocity of O and angular velocity", "velocity of $O$ and angular velocity"),
             rows: self.velocity_rows(),
@@ -174,7 +174,7 @@ impl<'g> Textbook<'_, 'g> {
             for (name, components) in [(name.clone(), vector.body), (name.hat(), vector.space)] {
                 for (i, component) in components.into_iter().enumerate() {
                     if !component.is_zero() && !kinematics.speeds.contains(&component) {
-                        rows.push(Row::Definition(name.index(i), tidy(component)));
+                        rows.push(Row::Definition(name.index(i), legible(component)));
                     }
                 }
             }
@@ -201,7 +201,7 @@ impl<'g> Textbook<'_, 'g> {
                         "angular momentum about O in body axes",
                         "angular momentum about $O$ in body axes",
                     ),
-                    rows: gamma.map(|(name, e)| Row::Definition(name, tidy(e))).collect(),
+                    rows: gamma.map(|(name, e)| Row::Definition(name, legible(e))).collect(),
                 });
             }
             return sections;
@@ -209,7 +209,7 @@ impl<'g> Textbook<'_, 'g> {
         // In a chart where a link is trivial it says x = x.
         let rows = |link: Vec<(Name, Expr<'g>)>| -> Vec<Row<'g>> {
             link.into_iter()
-                .map(|(name, e)| (name, tidy(e)))
+                .map(|(name, e)| (name, legible(e)))
                 .filter(|(name, e)| print(*e, Notation::Text) != name.text)
                 .map(|(name, e)| Row::Definition(name, e))
                 .collect()
@@ -263,8 +263,8 @@ impl<'g> Textbook<'_, 'g> {
                 Row::Equation((whole - still).collected(LIMIT), (-still).collected(LIMIT))
             }
             None => {
-                let inertia = kinematics.speed_rates.iter().map(|&dz| tidy(row.partial(dz)).group_as_is() * dz);
-                Row::Equation(inertia.sum(), tidy(-row.substitute(&at_rest)))
+                let inertia = kinematics.speed_rates.iter().map(|&dz| legible(row.partial(dz)).group_as_is() * dz);
+                Row::Equation(inertia.sum(), legible(-row.substitute(&at_rest)))
             }
         };
         self.body.collected_residual().into_iter().map(row).collect()

@@ -6,7 +6,7 @@ use crate::mechanics::print::equations::{PrintedForces, Row, Section};
 use crate::mechanics::print::names::Name;
 use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
-use crate::mechanics::tidy::tidy;
+use crate::mechanics::tidy::legible;
 
 impl<'g> System<'g> {
     /// The equations with p and F of what the author named.
@@ -20,11 +20,11 @@ impl<'g> System<'g> {
         );
         let mut sections = vec![kinematics];
         let momenta = scene.momentum_names.iter().zip(self.momentum());
-        let momenta = momenta.map(|(name, e)| Row::Definition(name.clone(), tidy(e))).collect();
+        let momenta = momenta.map(|(name, e)| Row::Definition(name.clone(), legible(e))).collect();
         let names = scene.momentum_names.iter().zip(&scene.force_names);
         let row = |((momentum, force), bracket): ((&Name, &Name), Expr<'g>)| Row::Balance {
             momentum: momentum.clone(),
-            bracket: tidy(bracket),
+            bracket: legible(bracket),
             force: Some(force.clone()),
         };
         let balance = names.zip(self.bracket()).map(row).collect();
@@ -38,7 +38,7 @@ impl<'g> System<'g> {
         ]);
         sections.extend(printed.sections);
         let constraints = self.constraints.on_velocities.iter();
-        let constraints = constraints.map(|e| Row::Equation(tidy(*e), scene.graph.zero())).collect();
+        let constraints = constraints.map(|e| Row::Equation(legible(*e), scene.graph.zero())).collect();
         sections.push(titled(
             "constraints on velocities (each adds its multiplier times its row of partial derivatives to the forces)",
             "constraints on velocities (each adds its multiplier times its row of partial derivatives to the forces)",
@@ -62,7 +62,7 @@ impl<'g> System<'g> {
             };
             for (name, rate) in names.into_iter().zip(&mut rates) {
                 if !scene.speeds.contains(&rate) {
-                    rows.push(Row::Definition(name, tidy(rate)));
+                    rows.push(Row::Definition(name, legible(rate)));
                 }
             }
         }
