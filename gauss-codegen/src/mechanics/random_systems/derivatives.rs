@@ -128,8 +128,8 @@ fn trees_have_the_derivatives_that_dual_numbers_give() {
         };
         let attempt = |random: &mut Random| {
             let plan = Plan::tree(random, shape);
-            // Second ones take longer: of every other tree.
-            check(&plan, random, trial % 2 == 1, &format!("trial {trial} of {shape:?}: {plan:?}"))
+            // Second ones take longer: of some small trees, in space and in the plane, with rates and with speeds of their own.
+            check(&plan, random, trial % 2 == 1 && trial % 3 != 2, &format!("trial {trial} of {shape:?}: {plan:?}"))
         };
         told += usize::from((0..16).any(|_| attempt(&mut random)));
     }
