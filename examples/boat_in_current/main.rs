@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (tidal, afloat, sunken) = in_a_tide(&river, turned)?;
     beside_still_water([("steady stream", river), ("tide", tidal)])?;
     let crossings = ferry(&kernel, still.thrust(SPEED))?;
-    let names = ["straight across", "crabbing", "steering for the landing"];
+    let names = ["straight across", "crabbing", "for the landing"];
     let [straight, crabbed, pursuit] = &crossings;
     let svg = picture::draw(
         [Crossing::new(names[0], straight), Crossing::new(names[1], crabbed), Crossing::new(names[2], pursuit)],
@@ -55,7 +55,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         [&from_rest, &afloat, &sunken],
         (STREAM, &tidal),
     )?;
-    plots::write("boat_in_current", &svg)
+    plots::write("boat_in_current", &svg)?;
+    let [.., pursuit] = crossings;
+    plots::write_page("boat_in_current", &picture::page(&kernel, pursuit, river.stream))
 }
 
 type Path = Vec<Sample<BoatKernel>>;
