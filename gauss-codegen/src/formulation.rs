@@ -2,8 +2,8 @@
 
 use crate::algebra::{Expr, Graph, Map, Notation};
 use crate::mechanics::{
-    Constraints, Coordinate, Elimination, Formula, InertialParameters, InverseLinearization, Linearization, Method,
-    Regressor, System, check_system_against_definition, rotation_of_quaternion,
+    Constraints, Coordinate, Elimination, Formula, Hessian, InertialParameters, InverseLinearization, Linearization,
+    Method, Regressor, System, check_system_against_definition, rotation_of_quaternion,
 };
 use crate::mistakes::{eliminate, refuse_curved_kinematics, refuse_idle_speeds, system_faults};
 use crate::model::{Model, WantedMethod};
@@ -19,6 +19,8 @@ pub struct Formulation<'g> {
     pub linearization: Option<Linearization<'g>>,
     /// Inverse dynamics and what it is differentiated along, where that is asked for.
     pub inverse: Option<InverseLinearization<'g>>,
+    /// What is differentiated twice, where that is asked for.
+    pub hessian: Option<Hessian<'g>>,
     /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
     pub regressor: Option<Regressor<'g>>,
     /// The numbers of fields.
@@ -50,6 +52,7 @@ impl<'g> Formulation<'g> {
         let (quaternions, definitions) = system_rotations(system.scene.graph, &system);
         let linearization = model.wanted.linearize.then(|| Linearization::new(&system, &formulas));
         let inverse = model.wanted.inverse.then(|| InverseLinearization::new(&system, &formulas));
+        let hessian = model.wanted.hessian.then(|| Hessian::new(&system, &formulas));
         let parameters = parameters(&model.fields, translator.sources());
         let regressor = match model.wanted.regressor {
             Some(_) => {
@@ -82,6 +85,7 @@ impl<'g> Formulation<'g> {
             formulas,
             linearization,
             inverse,
+            hessian,
             regressor,
             parameters,
             printed,

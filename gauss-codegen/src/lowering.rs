@@ -35,6 +35,7 @@ pub fn lower<'g>(
         inverse: formulation.inverse.as_ref().map(|inverse| &inverse.differentiated),
         units: if linearization.is_some() { &formulation.units } else { &[] },
         by_parameters: by_parameters.map(|linearization| linearization.by_parameters(formulas, &parameters)),
+        hessian: formulation.hessian.as_ref().map(|hessian| &hessian.curved),
         regressor: regressor.as_ref().map(|r| &r.differentiated),
     };
     let literals = translator.literals();
@@ -64,6 +65,7 @@ fn states<'g>(translator: &Translator<'_, 'g>, formulation: &Formulation<'g>) ->
         parameters: parameters.map(|parameter| (parameter.symbol, parameter.name.contains('['))).collect(),
         literals: translator.literals(),
         units,
+        weights: formulation.hessian.as_ref().map_or(&[], |hessian| &hessian.weights),
         definitions,
     };
     sample_states(&states, STATES)

@@ -141,6 +141,8 @@ by_method! {
     by_parameters,
     /// Of [`InverseLinearizedSystem::linearize_inverse`](crate::inverse::InverseLinearizedSystem::linearize_inverse).
     linearize_inverse,
+    /// Of [`HessianSystem::hessian`](crate::hessian::HessianSystem::hessian).
+    hessian,
     /// Of [`InertialRegressor::regressor`](crate::identification::InertialRegressor::regressor).
     regressor,
     /// Of [`FramedSystem::frames`](crate::frames::FramedSystem::frames).

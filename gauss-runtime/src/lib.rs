@@ -12,6 +12,7 @@
 //! | [`centroidal`] | [`CentroidalSystem`](centroidal::CentroidalSystem): centre of mass, momenta about it; gravity torques |
 //! | [`operational`] | the inertia that a frame shows, and the mass matrix factored |
 //! | [`linearize`] | [`LinearizedSystem`](linearize::LinearizedSystem): exact derivatives by state, time and input |
+//! | [`hessian`] | [`HessianSystem`](hessian::HessianSystem): second derivatives along given weights |
 //! | [`inverse`] | [`InverseLinearizedSystem`](inverse::InverseLinearizedSystem): those of inverse dynamics |
 //! | [`configuration`] | groups as configurations, linear spaces of increments |
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
@@ -75,6 +76,7 @@ mod dual;
 pub mod error;
 pub mod forces;
 pub mod frames;
+pub mod hessian;
 pub mod identification;
 pub mod integrate;
 #[cfg(feature = "mint")]

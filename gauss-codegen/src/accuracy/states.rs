@@ -20,6 +20,8 @@ pub struct States<'a, 'g> {
     pub literals: Vec<(Rational, Expr<'g>)>,
     /// Symbols that are scaled to have the norm 1, list by list.
     pub units: &'a [Vec<Expr<'g>>],
+    /// Of what second derivatives are summed with.
+    pub weights: &'a [Expr<'g>],
     /// Symbols that stand for expressions of others.
     pub definitions: &'a Map<u32, Expr<'g>>,
 }
@@ -138,7 +140,7 @@ impl<'g> States<'_, 'g> {
         }
         let twist = self.system.rigid_body().map_or(&[][..], |body| &body.twist);
         let residuals = &self.system.constraints.residuals;
-        for symbol in [&scene.speed_rates, &scene.inputs, residuals].into_iter().flatten() {
+        for symbol in [&scene.speed_rates[..], &scene.inputs, residuals, self.weights].into_iter().flatten() {
             values.put(*symbol, random_of(*symbol, seed).signed(profile.decades));
         }
         for symbol in scene.speeds.iter().chain(twist) {

@@ -132,7 +132,7 @@ impl Number for f64 {
 
 impl Function {
     /// Its derivative.
-    fn slope<N: Number>(self, x: N) -> N {
+    pub(super) fn slope<N: Number>(self, x: N) -> N {
         let one = N::number(1.0);
         match self {
             Function::Sin => x.call(Function::Cos),
@@ -168,6 +168,11 @@ impl<'a, N: Number> Evaluation<'a, N> {
     /// The same for what is to be the value indeed: functions of the user's own have none.
     pub fn of_known(symbols: &'a Map<u32, N>) -> Self {
         Self { stand_ins: false, ..Self::new(symbols) }
+    }
+
+    /// The values of symbols, by key.
+    pub fn symbols(&self) -> &'a Map<u32, N> {
+        self.symbols
     }
 
     /// The value of an expression; NaN where a symbol has none.

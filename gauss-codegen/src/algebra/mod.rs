@@ -12,6 +12,7 @@ mod budget;
 mod cosines;
 mod differentiate;
 mod doubled;
+mod dual;
 mod elementary;
 mod evaluate;
 mod expression;
@@ -36,6 +37,7 @@ mod substitute;
 mod tests;
 
 pub use doubled::Doubled;
+pub use dual::Dual;
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use function::{BinaryFunction, Function, OwnFunction};
 pub use graph::{Expr, Graph, NodeView};

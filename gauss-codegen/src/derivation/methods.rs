@@ -1,6 +1,6 @@
 //! The programs of a kernel, method by method: arguments, code, what the outputs are.
 
-use crate::emit::{Derived, OF_EQUATIONS, OF_REGRESSOR, OF_RESIDUAL, arguments_of};
+use crate::emit::{Derived, OF_EQUATIONS, OF_HESSIAN, OF_REGRESSOR, OF_RESIDUAL, arguments_of, blocks};
 use crate::kernel;
 use crate::mechanics::{FrameQuantity, Method};
 use crate::program::{ArgumentKind, Function, Instruction, Operand, Program, Results};
@@ -16,6 +16,7 @@ pub fn programs<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Res
     programs.extend(linearize(derived, signature).transpose()?);
     programs.extend(by_parameters(derived, signature).transpose()?);
     programs.extend(linearize_inverse(derived, signature).transpose()?);
+    programs.extend(hessian(derived, signature).transpose()?);
     programs.extend(regressor(derived, signature).transpose()?);
     Ok(programs)
 }
@@ -107,6 +108,19 @@ fn linearize_inverse<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -
     ];
     let arguments = with(OF_RESIDUAL);
     Some(signature.program("linearize_inverse", &arguments, &by_rows(code, &results), results))
+}
+
+fn hessian<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
+    let (hessian, code) = derived.hessian.zip(derived.kernel.hessian.as_ref())?;
+    let (states, inputs) = (hessian.states, hessian.inputs);
+    let results = vec![
+        Results::new("by_state", states, states),
+        Results::new("by_input_and_state", inputs, states),
+        Results::new("by_input", inputs, inputs),
+    ];
+    let outputs = blocks(states, inputs).iter().flatten().flatten().map(|&k| code.outputs[k]).collect();
+    let code = kernel::Program { instructions: code.instructions.clone(), outputs };
+    Some(signature.program("hessian", &with(OF_HESSIAN), &code, results))
 }
 
 fn regressor<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {

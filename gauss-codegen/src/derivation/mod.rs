@@ -90,7 +90,7 @@ impl Derivation {
         &self.constants
     }
 
-    /// One program a method of the kernel, then `evaluate`, and `linearize`, `by_parameters`, `linearize_inverse` and `regressor`
+    /// One program a method of the kernel, then `evaluate`, and `linearize`, `by_parameters`, `linearize_inverse`, `hessian` and `regressor`
     /// where they are asked for.
     /// Arguments are those of the method: constants, time and configuration first.
     pub fn programs(&self) -> &[Program] {

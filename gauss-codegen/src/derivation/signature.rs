@@ -58,6 +58,7 @@ impl<'g> Signature<'g> {
             argument(ArgumentKind::Twist, "twist", formal.twist),
             argument(ArgumentKind::Residuals, "residual", formal.residuals),
             argument(ArgumentKind::Inputs, "input", formal.inputs),
+            argument(ArgumentKind::Weights, "weights", formal.weights),
         ];
         let known = derived.kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), *value));
         let literals = derived.literals().iter().map(|(value, symbol)| (symbol.key(), *value));

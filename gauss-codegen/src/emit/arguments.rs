@@ -82,6 +82,8 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
 pub const OF_EQUATIONS: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Inputs];
 /// Those of `gauss_residual` and its derivatives.
 pub const OF_RESIDUAL: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Accelerations, ArgumentKind::Inputs];
+/// Those of `hessian`.
+pub const OF_HESSIAN: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Inputs, ArgumentKind::Weights];
 /// Those of `regressor`.
 pub const OF_REGRESSOR: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Accelerations];
 
@@ -107,6 +109,7 @@ pub fn variable(kind: ArgumentKind) -> Ident {
         ArgumentKind::Twist => "__twist",
         ArgumentKind::Residuals => "__residual",
         ArgumentKind::Inputs => "__input",
+        ArgumentKind::Weights => "__weights",
     };
     Ident::new(name, Span::call_site())
 }
@@ -120,5 +123,8 @@ fn argument_type(private: &TokenStream, kind: ArgumentKind) -> TokenStream {
         ArgumentKind::Twist => quote!(&#private::SVector<Self::Scalar, 6>),
         ArgumentKind::Residuals => quote!(&Self::Multipliers),
         ArgumentKind::Inputs => quote!(&Self::Input),
+        ArgumentKind::Weights => {
+            quote!(&<Self::Linearization as #private::LinearModel<Self::Scalar>>::Vector)
+        }
     }
 }

@@ -6,7 +6,7 @@ use quote::{ToTokens, format_ident, quote};
 use crate::algebra::{Expr, Map, Rational, Set};
 use crate::formulation::{Formulation, Printed};
 use crate::kernel::{Counts, Kernel, Program, Smoothness};
-use crate::mechanics::{Account, Formula, InverseLinearization, Linearization, Method, Regressor};
+use crate::mechanics::{Account, Formula, Hessian, InverseLinearization, Linearization, Method, Regressor};
 use crate::model::{Model, Scalar};
 use crate::program::ArgumentKind;
 use crate::translate::{DragMatrix, Law, Parameter, Translator};
@@ -40,6 +40,8 @@ pub struct Derived<'a, 'g> {
     pub linearization: Option<&'a Linearization<'g>>,
     /// Inverse dynamics and what it is differentiated along, where that is asked for.
     pub inverse: Option<&'a InverseLinearization<'g>>,
+    /// What is differentiated twice, where that is asked for.
+    pub hessian: Option<&'a Hessian<'g>>,
     /// The numbers of fields.
     pub parameters: &'a [Parameter<'g>],
     /// The equations for people, as text and in LaTeX.
@@ -73,6 +75,8 @@ pub struct Formal<'a, 'g> {
     pub twist: &'a [Expr<'g>],
     pub residuals: &'a [Expr<'g>],
     pub inputs: &'a [Expr<'g>],
+    /// Only where second derivatives are asked for.
+    pub weights: &'a [Expr<'g>],
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
@@ -108,6 +112,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             kernel,
             linearization: formulation.linearization.as_ref(),
             inverse: formulation.inverse.as_ref(),
+            hessian: formulation.hessian.as_ref(),
             parameters: &formulation.parameters,
             printed: &formulation.printed,
             regressor: formulation.regressor.as_ref(),
@@ -134,6 +139,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             twist: system.rigid_body().map_or(&[], |body| &body.twist),
             residuals: &constraints.residuals,
             inputs: &system.scene.inputs,
+            weights: self.hessian.map_or(&[], |hessian| &hessian.weights),
         }
     }
 
@@ -234,7 +240,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// Arguments taken apart and the instructions of a program; its outputs.
     pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
-        let Formal { speeds, speed_rates, momenta, twist, residuals, inputs } = self.formal();
+        let Formal { speeds, speed_rates, momenta, twist, residuals, inputs, weights } = self.formal();
         let mut names = self.constant_names(program);
         names.insert(self.subject.system.scene.time.key(), quote!(__t));
         let mut arguments = self.subject.configuration_arguments(&self.private());
@@ -245,6 +251,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             (ArgumentKind::Twist, twist),
             (ArgumentKind::Residuals, residuals),
             (ArgumentKind::Inputs, inputs),
+            (ArgumentKind::Weights, weights),
         ] {
             // Of a system that is no body in a chart there are no twists to be read.
             if kind != ArgumentKind::Twist || !symbols.is_empty() {

@@ -106,7 +106,7 @@ fn description(derived: &Derived<'_, '_>) -> String {
 }
 
 /// The methods that [`Kernel::derivatives`](crate::kernel::Kernel::derivatives) has the programs of.
-pub const DERIVATIVES: [&str; 4] = ["linearize", "by_parameters", "linearize_inverse", "regressor"];
+pub const DERIVATIVES: [&str; 5] = ["linearize", "by_parameters", "linearize_inverse", "regressor", "hessian"];
 
 /// The loss above which the documentation of a kernel warns of it: three decimal places.
 const MUCH: f64 = 1e3;

@@ -11,7 +11,7 @@
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
-//! `state` and `input` (by name, both `record`s), `of_file` (numbers of a robot's file), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `inverse`, `parametric`, `regressor`; `fallback`
+//! `state` and `input` (by name, both `record`s), `of_file` (numbers of a robot's file), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `hessian`, `inverse`, `parametric`, `regressor`; `fallback`
 //! where there are mistakes.
 
 use proc_macro2::TokenStream;
@@ -28,6 +28,7 @@ mod file;
 mod forced;
 mod framed;
 mod gauss_system;
+mod hessian;
 mod inertia;
 mod input;
 mod inverse;
@@ -55,11 +56,12 @@ mod taylor;
 mod tests;
 mod whole;
 
-pub use arguments::{OF_EQUATIONS, OF_REGRESSOR, OF_RESIDUAL, arguments_of};
+pub use arguments::{OF_EQUATIONS, OF_HESSIAN, OF_REGRESSOR, OF_RESIDUAL, arguments_of};
 pub use derived::Derived;
 pub use documentation::Equations;
 pub use fallback::fallback;
 pub use file::file;
+pub use hessian::blocks;
 
 /// The whole output of the derive.
 pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
@@ -73,6 +75,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let forced = forced::forced_system(derived);
     let taylor = taylor::taylor_system(derived);
     let linearized = linearized::linearized_system(derived);
+    let hessian = hessian::hessian_system(derived);
     let inverse = inverse::inverse_linearized_system(derived);
     let parametric = parametric::parametric_system(derived);
     let regressor = regressor::inertial_regressor(derived);
@@ -100,6 +103,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
             #forced
             #taylor
             #linearized
+            #hessian
             #inverse
             #parametric
             #regressor

@@ -6,6 +6,7 @@ use crate::accuracy::{Loss, Trial, taken, usable};
 use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Tangents};
 
 use super::columns::{Columns, LoweredColumns};
+use super::hessian::Curved;
 use super::hoist::Hoister;
 use super::tangent::{Direction, Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
 use super::write::{Operand, Operation, Program};
@@ -43,6 +44,8 @@ pub struct Derivatives<'a, 'g> {
     pub inverse: Option<&'a Differentiated<'g>>,
     /// Outputs that are affine in the symbols of their directions: their coefficients.
     pub regressor: Option<&'a Differentiated<'g>>,
+    /// A number whose second derivatives are wanted.
+    pub hessian: Option<&'a Curved<'g>>,
 }
 
 /// Two functions of a kernel, one after the other, whose derivatives by parameters are wanted. All functions by their numbers.
@@ -86,6 +89,8 @@ pub(super) struct Expected<'a, 'g> {
     outputs: Cow<'a, [Expr<'g>]>,
     directions: Cow<'a, [Direction<'g>]>,
     kept: Kept,
+    /// In place of all that, second derivatives.
+    second: Option<&'a Curved<'g>>,
 }
 
 /// The constants of a kernel, in order.
@@ -115,7 +120,12 @@ impl<'g> Differentiated<'g> {
         let costs: Vec<u32> = of_usable.iter().map(|(program, ..)| program.cost().total()).collect();
         let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
         let (program, columns) = self.cheaper(program, hoister, trial);
-        let expected = Expected { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&self.directions), kept };
+        let expected = Expected {
+            outputs: Cow::Borrowed(outputs),
+            directions: Cow::Borrowed(&self.directions),
+            kept,
+            second: None,
+        };
         ((program, expected), columns)
     }
 }
@@ -184,8 +194,12 @@ impl<'g> ByParameters<'_, 'g> {
         *constants = rates.constants_for(&program);
         let of_velocity = self.order.iter().map(|&k| outputs[self.velocity][k]);
         let outputs: Vec<Expr<'g>> = of_velocity.chain(outputs[self.acceleration].iter().copied()).collect();
-        let expected =
-            Expected { outputs: Cow::Owned(outputs), directions: Cow::Owned(along), kept: Kept::DerivativesAlone };
+        let expected = Expected {
+            outputs: Cow::Owned(outputs),
+            directions: Cow::Owned(along),
+            kept: Kept::DerivativesAlone,
+            second: None,
+        };
         (program, expected)
     }
 }
@@ -256,7 +270,12 @@ impl<'g> ConstantRates<'g> {
 impl<'a, 'g> Expected<'a, 'g> {
     /// The values of expressions.
     pub fn of(outputs: &'a [Expr<'g>]) -> Self {
-        Self { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&[]), kept: Kept::ValuesToo }
+        Self { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&[]), kept: Kept::ValuesToo, second: None }
+    }
+
+    /// The second derivatives of a number.
+    pub fn of_second(second: &'a Curved<'g>) -> Self {
+        Self { second: Some(second), ..Self::of(&second.arrangements[..1]) }
     }
 
     pub fn outputs(&self) -> &[Expr<'g>] {
@@ -265,6 +284,9 @@ impl<'a, 'g> Expected<'a, 'g> {
 
     /// By dual numbers through the expressions.
     pub fn values<N: Number>(&self, evaluation: &mut Evaluation<'_, N>) -> Vec<N> {
+        if let Some(second) = self.second {
+            return second.values(evaluation);
+        }
         let mut expected = Vec::new();
         if self.kept == Kept::ValuesToo {
             expected.extend(self.outputs.iter().map(|e| evaluation.value(*e)));

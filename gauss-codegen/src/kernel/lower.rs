@@ -30,6 +30,8 @@ pub struct Kernel<'g> {
     pub inverse: Option<Program<'g>>,
     /// The coefficients of the first parameter in outputs that are affine in them, and so on.
     pub regressor: Option<Program<'g>>,
+    /// The second derivatives of one number, along i and j up to i.
+    pub hessian: Option<Program<'g>>,
     /// The constants as symbols, in the order of the outputs of `constants`.
     pub constant_symbols: Vec<Expr<'g>>,
     /// Constants that literal numbers alone determine, with their values.
@@ -71,8 +73,9 @@ impl<'g> Kernel<'g> {
         let (tangents, expected_tangents, columns) = differentiated(wanted.by_state, Kept::ValuesToo);
         let (inverse, expected_inverse, _) = differentiated(wanted.inverse, Kept::ValuesToo);
         let (regressor, expected_regressor, _) = differentiated(wanted.regressor, Kept::DerivativesAlone);
+        let hessian = wanted.hessian.map(|wanted| wanted.lower(&mut hoister, trial));
         let in_columns = columns.as_ref().map(|columns| &columns.program);
-        let derived = tangents.iter().chain(in_columns).chain(&inverse).chain(&regressor);
+        let derived = tangents.iter().chain(in_columns).chain(&inverse).chain(&regressor).chain(&hessian);
         let read: Vec<Expr<'g>> = functions.iter().chain([&joined]).chain(derived).flat_map(Program::symbols).collect();
         let numbers: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
@@ -90,11 +93,14 @@ impl<'g> Kernel<'g> {
             by_parameters,
             inverse,
             regressor,
+            hessian,
             constant_symbols,
             known_constants,
         };
         let outputs = chosen.into_iter().chain([of_joined.as_slice()]).map(Expected::of);
-        let derived = [expected_tangents, expected_by_parameters, expected_inverse, expected_regressor];
+        let expected_hessian = wanted.hessian.map(Expected::of_second);
+        let derived =
+            [expected_tangents, expected_by_parameters, expected_inverse, expected_regressor, expected_hessian];
         let sample = Sample { definitions, units: wanted.units, literals: &numbers, folded: &folded };
         kernel.checked(outputs, derived).check(graph, &sample)?;
         Ok(kernel)
@@ -124,7 +130,9 @@ impl<'g> Kernel<'g> {
 
     /// The programs of derivatives, in the order in which their values are expected.
     pub fn derivatives(&self) -> impl Iterator<Item = Option<&Program<'g>>> {
-        [&self.tangents, &self.by_parameters, &self.inverse, &self.regressor].into_iter().map(Option::as_ref)
+        [&self.tangents, &self.by_parameters, &self.inverse, &self.regressor, &self.hessian]
+            .into_iter()
+            .map(Option::as_ref)
     }
 }
 

@@ -7,7 +7,8 @@
 //! - `factor`: common factors of the terms of a sum are pulled out.
 //! - `network`: sums and products of many terms; parts that occur more than once are split off.
 //! - `write`: networks as instructions.
-//! - `tangent`: derivatives of programs.
+//! - `tangent`, `adjoint`: derivatives of programs, forward and backward.
+//! - `hessian`: second derivatives of one number.
 //! - `derivatives`: derivatives of functions by what moves and by parameters.
 //! - `columns`: derivatives that are the solutions of one linear system, solved for together.
 //! - `check`: programs against the expressions that they were made from.
@@ -15,11 +16,13 @@
 //! Knows nothing of frames or bodies. Every program is checked before it is handed out (see [`Kernel::lower`]), and the shape of each
 //! after every pass in debug builds. Here the inputs of code are symbols; [`crate::program`] says what code is.
 
+mod adjoint;
 mod check;
 mod choice;
 mod columns;
 mod derivatives;
 mod factor;
+mod hessian;
 mod hoist;
 mod lower;
 mod network;
@@ -32,6 +35,7 @@ pub use crate::program::{Counts, Smoothness};
 pub use choice::{Aim, Candidates};
 pub use columns::{Columns, LoweredColumns, Parts, TOGETHER};
 pub use derivatives::{ByParameters, Derivatives, Derived, Differentiated, Equation};
+pub use hessian::Curved;
 pub use lower::{Kernel, Literals};
 pub use tangent::Direction;
 pub use write::{Operand, Operation, Program};

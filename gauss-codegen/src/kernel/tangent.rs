@@ -109,29 +109,29 @@ fn differentiated<'g>(
 
 /// A derivative that is not 0: ± a value.
 #[derive(Clone, Copy)]
-struct Tangent<'g> {
-    negative: bool,
-    value: Operand<'g>,
+pub(super) struct Tangent<'g> {
+    pub(super) negative: bool,
+    pub(super) value: Operand<'g>,
 }
 
 impl<'g> Tangent<'g> {
-    fn negated(self) -> Self {
+    pub(super) fn negated(self) -> Self {
         Self { negative: !self.negative, ..self }
     }
 }
 
 /// A derivative; `None` is 0.
-type Rate<'g> = Option<Tangent<'g>>;
+pub(super) type Rate<'g> = Option<Tangent<'g>>;
 
 /// Writes instructions, equal ones once.
 #[derive(Default)]
-struct Writer<'g> {
+pub(super) struct Writer<'g> {
     instructions: Vec<Operation<'g>>,
     known: Map<Operation<'g>, usize>,
 }
 
 impl<'g> Writer<'g> {
-    fn place(&mut self, operation: Operation<'g>) -> usize {
+    pub(super) fn place(&mut self, operation: Operation<'g>) -> usize {
         let next = self.instructions.len();
         let place = *self.known.entry(operation).or_insert(next);
         if place == next {
@@ -140,12 +140,16 @@ impl<'g> Writer<'g> {
         place
     }
 
-    fn push(&mut self, operation: Operation<'g>) -> Operand<'g> {
+    pub(super) fn push(&mut self, operation: Operation<'g>) -> Operand<'g> {
         Operand::Value(self.place(operation))
     }
 
     /// Copies a program, with some of its symbols replaced: where its instructions are now, and its outputs.
-    fn copy(&mut self, program: &Program<'g>, symbols: &Map<u32, Operand<'g>>) -> (Vec<usize>, Vec<Operand<'g>>) {
+    pub(super) fn copy(
+        &mut self,
+        program: &Program<'g>,
+        symbols: &Map<u32, Operand<'g>>,
+    ) -> (Vec<usize>, Vec<Operand<'g>>) {
         let mut places = Vec::with_capacity(program.instructions.len());
         for instruction in &program.instructions {
             let moved = instruction.map(|operand| moved(operand, &places, symbols));
@@ -156,11 +160,11 @@ impl<'g> Writer<'g> {
     }
 
     /// As a program, without what no output needs.
-    fn finish(self, outputs: Vec<Operand<'g>>) -> Program<'g> {
+    pub(super) fn finish(self, outputs: Vec<Operand<'g>>) -> Program<'g> {
         Program { instructions: self.instructions, outputs }.without_idle().verified()
     }
 
-    fn written(&mut self, tangent: Tangent<'g>) -> Operand<'g> {
+    pub(super) fn written(&mut self, tangent: Tangent<'g>) -> Operand<'g> {
         match (tangent.negative, tangent.value) {
             (false, value) => value,
             (true, Operand::Number(n)) => Operand::Number(-n),
@@ -169,7 +173,7 @@ impl<'g> Writer<'g> {
     }
 
     /// a b of values that are not derivatives.
-    fn multiplied(&mut self, a: Operand<'g>, b: Operand<'g>) -> Operand<'g> {
+    pub(super) fn multiplied(&mut self, a: Operand<'g>, b: Operand<'g>) -> Operand<'g> {
         match (a, b) {
             (Operand::Number(n), other) | (other, Operand::Number(n)) if n.is_one() => other,
             (Operand::Number(n), Operand::Number(m)) => Operand::Number(n * m),
@@ -178,12 +182,12 @@ impl<'g> Writer<'g> {
     }
 
     /// A number that is nearly the smallest.
-    fn least(&mut self) -> Operand<'g> {
+    pub(super) fn least(&mut self) -> Operand<'g> {
         let tiny = Operand::Number(Rational::new(1, 1 << 62));
         self.push(Operation::Multiply(tiny, tiny))
     }
 
-    fn reciprocal(&mut self, a: Operand<'g>) -> Operand<'g> {
+    pub(super) fn reciprocal(&mut self, a: Operand<'g>) -> Operand<'g> {
         match a {
             Operand::Number(n) => Operand::Number(n.recip()),
             _ => self.push(Operation::Divide(Operand::Number(Rational::one()), a)),
@@ -191,7 +195,7 @@ impl<'g> Writer<'g> {
     }
 
     /// `rate · factor`.
-    fn times(&mut self, rate: Rate<'g>, factor: Operand<'g>) -> Rate<'g> {
+    pub(super) fn times(&mut self, rate: Rate<'g>, factor: Operand<'g>) -> Rate<'g> {
         let tangent = rate?;
         let (negative, factor) = match factor {
             Operand::Number(n) if n.is_zero() => return None,
@@ -201,7 +205,7 @@ impl<'g> Writer<'g> {
         Some(Tangent { negative, value: self.multiplied(tangent.value, factor) })
     }
 
-    fn plus(&mut self, a: Rate<'g>, b: Rate<'g>) -> Rate<'g> {
+    pub(super) fn plus(&mut self, a: Rate<'g>, b: Rate<'g>) -> Rate<'g> {
         let (Some(a), Some(b)) = (a, b) else { return a.or(b) };
         if a.value == b.value && a.negative != b.negative {
             return None;
@@ -221,7 +225,7 @@ impl<'g> Writer<'g> {
     }
 
     /// `rate · factor + onto`, in one instruction where both are there.
-    fn times_plus(&mut self, rate: Rate<'g>, factor: Operand<'g>, onto: Rate<'g>) -> Rate<'g> {
+    pub(super) fn times_plus(&mut self, rate: Rate<'g>, factor: Operand<'g>, onto: Rate<'g>) -> Rate<'g> {
         let plain = |operand: Operand<'g>| matches!(operand, Operand::Number(_));
         match (rate, onto) {
             (Some(tangent), Some(sum)) if !plain(tangent.value) && !plain(factor) => {
@@ -240,7 +244,7 @@ impl<'g> Writer<'g> {
 }
 
 /// An operand where its instruction is now.
-fn moved<'g>(operand: Operand<'g>, places: &[usize], symbols: &Map<u32, Operand<'g>>) -> Operand<'g> {
+pub(super) fn moved<'g>(operand: Operand<'g>, places: &[usize], symbols: &Map<u32, Operand<'g>>) -> Operand<'g> {
     match operand {
         Operand::Input(e) => symbols.get(&e.key()).copied().unwrap_or(operand),
         _ => operand.moved(|k| places[k]),
@@ -248,17 +252,17 @@ fn moved<'g>(operand: Operand<'g>, places: &[usize], symbols: &Map<u32, Operand<
 }
 
 /// The derivatives of one program along one direction.
-struct Pass<'a, 'g> {
-    writer: &'a mut Writer<'g>,
-    program: &'a Program<'g>,
+pub(super) struct Pass<'a, 'g> {
+    pub(super) writer: &'a mut Writer<'g>,
+    pub(super) program: &'a Program<'g>,
     symbols: &'a Map<u32, Operand<'g>>,
-    places: &'a [usize],
+    pub(super) places: &'a [usize],
     /// Of symbols that move.
-    rates: Map<u32, Rate<'g>>,
+    pub(super) rates: Map<u32, Rate<'g>>,
 }
 
 impl<'a, 'g> Pass<'a, 'g> {
-    fn new(
+    pub(super) fn new(
         writer: &'a mut Writer<'g>,
         program: &'a Program<'g>,
         symbols: &'a Map<u32, Operand<'g>>,
@@ -267,14 +271,14 @@ impl<'a, 'g> Pass<'a, 'g> {
         Self { writer, program, symbols, places, rates: Map::default() }
     }
 
-    fn set_out(&mut self, direction: &Direction<'g>) {
+    pub(super) fn set_out(&mut self, direction: &Direction<'g>) {
         for (symbol, rate) in direction {
             let rate = self.rate_of_symbol(*rate);
             self.rates.insert(symbol.key(), rate);
         }
     }
 
-    fn rate_of_symbol(&self, rate: Expr<'g>) -> Rate<'g> {
+    pub(super) fn rate_of_symbol(&self, rate: Expr<'g>) -> Rate<'g> {
         if rate.is_zero() {
             return None;
         }
@@ -309,7 +313,7 @@ impl<'a, 'g> Pass<'a, 'g> {
     }
 
     /// An operand of the program, as it is read now.
-    fn here(&self, operand: Operand<'g>) -> Operand<'g> {
+    pub(super) fn here(&self, operand: Operand<'g>) -> Operand<'g> {
         moved(operand, self.places, self.symbols)
     }
 
@@ -425,7 +429,7 @@ impl<'a, 'g> Pass<'a, 'g> {
     }
 
     /// f′ at the operand of the program `a`, where f is `own`; `None` is 0.
-    fn slope(&mut self, function: Function, a: Operand<'g>, own: Operand<'g>) -> Option<Operand<'g>> {
+    pub(super) fn slope(&mut self, function: Function, a: Operand<'g>, own: Operand<'g>) -> Option<Operand<'g>> {
         let a = self.here(a);
         let number = |p: i64, q: i64| Operand::Number(Rational::new(p, q));
         Some(match function {
@@ -450,7 +454,7 @@ impl<'a, 'g> Pass<'a, 'g> {
     }
 
     /// How much of each derivative the larger or smaller of two numbers has: 1 and 0, or ½ and ½ where they are equal.
-    fn shares(&mut self, function: BinaryFunction, a: Operand<'g>, b: Operand<'g>) -> [Operand<'g>; 2] {
+    pub(super) fn shares(&mut self, function: BinaryFunction, a: Operand<'g>, b: Operand<'g>) -> [Operand<'g>; 2] {
         let half = Operand::Number(Rational::new(1, 2));
         let (x, y) = if function == BinaryFunction::Max { (a, b) } else { (b, a) };
         let difference = self.writer.push(Operation::Subtract(x, y));

@@ -50,6 +50,7 @@ pub use check::witness::{SystemFault, check_system_against_definition};
 pub use constraints::constraint::{Constraint, ConstraintKind};
 pub use constraints::elimination::{Elimination, Obstacle};
 pub use constraints::multipliers::Constraints;
+pub use derivatives::hessian::Hessian;
 pub use derivatives::inverse::InverseLinearization;
 pub use derivatives::linearize::Linearization;
 pub use derivatives::regressor::{InertialParameters, Regressor};

@@ -41,6 +41,8 @@ pub enum ArgumentKind {
     Residuals,
     /// Values that arrive at run time.
     Inputs,
+    /// What the rates (V, ż) are multiplied by and summed, before second derivatives are taken.
+    Weights,
 }
 
 impl fmt::Display for ArgumentKind {
@@ -56,6 +58,7 @@ impl fmt::Display for ArgumentKind {
             ArgumentKind::Twist => "twist",
             ArgumentKind::Residuals => "residuals",
             ArgumentKind::Inputs => "inputs",
+            ArgumentKind::Weights => "weights",
         })
     }
 }

@@ -15,7 +15,7 @@ pub struct Row {
 }
 
 /// Methods whose costs are pinned; what else `OPERATIONS` has serves checks.
-const PINNED: [&str; 19] = [
+const PINNED: [&str; 20] = [
     "acceleration",
     "momentum",
     "velocity",
@@ -28,6 +28,7 @@ const PINNED: [&str; 19] = [
     "linearize",
     "by_parameters",
     "linearize_inverse",
+    "hessian",
     "regressor",
     "frames",
     "centroidal_momentum",

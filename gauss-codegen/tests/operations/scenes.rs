@@ -179,6 +179,8 @@ fn chains() -> Vec<Scene> {
         ("structure top".into(), structures::top("")),
         ("structure arm".into(), structures::arm("")),
         ("structure arm linearize".into(), structures::arm(", linearize(inverse)")),
+        ("structure top hessian".into(), structures::top(", linearize(hessian)")),
+        ("structure arm hessian".into(), structures::arm(", linearize(hessian)")),
         (
             "structure arm frames".into(),
             structures::arm(", frames(b3, b6), methods(centroidal, nonlinear_effects, gravity_torques)"),

@@ -21,9 +21,10 @@ pub use crate::description::{Described, Equations, FrameOperations, OperationCou
 pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 pub use crate::frames::{ByFrame, FrameMotion, FrameName, FramedSystem, JacobianRates};
+pub use crate::hessian::{Hessian, HessianSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 pub use crate::inverse::{InverseLinearization, InverseLinearizedSystem};
-pub use crate::linearize::{Linearization, LinearizedSystem};
+pub use crate::linearize::{LinearModel, Linearization, LinearizedSystem};
 pub use crate::real::Real;
 pub use crate::series::{Series, TaylorSystem};
 pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};

@@ -4,6 +4,7 @@ use crate::algebra::{Expr, Factored, FactoredColumns};
 
 use crate::mechanics::arrangements::articulated::{Articulated, JointFactors};
 use crate::mechanics::derivatives::rigid::{Motion, Rates, Solved};
+use crate::mechanics::derivatives::second::Weighted;
 use crate::mechanics::links::tree::Inertia;
 use crate::mechanics::matter::rotor::add_projected;
 use crate::mechanics::system::{DENSE, System};
@@ -72,6 +73,8 @@ impl<'g> Factors<'g> {
 pub struct AccelerationsWithDerivatives<'g> {
     /// ż, then its derivatives along each of the directions.
     pub outputs: Vec<Vec<Expr<'g>>>,
+    /// A⁻¹ times what else was to be solved for.
+    pub solved: Vec<Expr<'g>>,
     /// What gives the same derivatives where all right-hand sides are solved for together.
     pub unsolved: Option<Unsolved<'g>>,
 }
@@ -93,7 +96,11 @@ fn unit(right: &[Expr<'_>]) -> Option<usize> {
 impl<'g> System<'g> {
     /// ż and its derivatives along each of the directions, in the ways that are worth trying. None where the residual is not that of
     /// links alone.
-    pub fn accelerations_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<AccelerationsWithDerivatives<'g>> {
+    pub fn accelerations_with_derivatives(
+        &self,
+        directions: &[Rates<'g>],
+        right: Option<&[Expr<'g>]>,
+    ) -> Vec<AccelerationsWithDerivatives<'g>> {
         if !self.constraints.is_empty() || self.only_body().is_some() || !self.rotors_are_plain() {
             return Vec::new();
         }
@@ -103,7 +110,42 @@ impl<'g> System<'g> {
         let factors = Factors::of(self);
         let inertias = self.scene.tree.inertias(self.is_long()).iter();
         let ways = inertias.flat_map(|&inertia| factors.iter().map(move |factors| (inertia, factors)));
-        ways.filter_map(|(inertia, factors)| self.by_recursion(inertia, factors, directions, &acting)).collect()
+        let way = |(inertia, factors): (Inertia, &Factors<'g>)| {
+            let mut way = self.by_recursion(inertia, factors, directions, &acting)?;
+            way.solved = right.map_or_else(Vec::new, |right| factors.solve(right));
+            Some(way)
+        };
+        ways.filter_map(way).collect()
+    }
+
+    /// What ∂C/∂ż has beside the inertia of links.
+    fn beside(&self) -> Vec<Expr<'g>> {
+        let (tree, speeds, zero) = (&self.scene.tree, &self.scene.speeds, self.scene.graph.zero());
+        let rotors = add_projected(&tree.rotors, speeds, vec![zero; speeds.len()], |rotor| rotor.force(&self.along));
+        rotors.iter().zip(self.acting()).map(|(rotor, force)| *rotor - force).collect()
+    }
+
+    /// `weights · ∂C/∂ż` at any ż, twice differentiated: along the first direction of each pair and then along the second. The weights
+    /// are symbols. Where [`residuals_with_derivatives`](Self::residuals_with_derivatives) has something, too.
+    pub fn weighted_residual_twice(
+        &self,
+        weights: &[Expr<'g>],
+        directions: &[Rates<'g>],
+        pairs: &[(usize, usize)],
+    ) -> Vec<Vec<Expr<'g>>> {
+        if !self.constraints.is_empty() || self.only_body().is_some() {
+            return Vec::new();
+        }
+        let tree = &self.scene.tree;
+        let beside = weights.iter().zip(self.beside()).map(|(weight, e)| *weight * e);
+        let beside = beside.fold(self.scene.graph.zero(), |sum, e| sum + e);
+        let once: Vec<Expr<'g>> = directions.iter().map(|direction| beside.derivative(direction)).collect();
+        let beside: Vec<Expr<'g>> = pairs.iter().map(|&(i, j)| once[i].derivative(&directions[j])).collect();
+        let way = |&inertia: &Inertia| {
+            let motion = Motion::new(tree, &self.loads, &self.along, None, inertia)?;
+            Some(sums(&Weighted::new(&motion, weights).second_derivatives(directions, pairs), &beside))
+        };
+        tree.inertias(self.is_long()).iter().filter_map(way).collect()
     }
 
     /// Generalised forces of what acts but fields, which are accelerations of the observer.
@@ -119,9 +161,7 @@ impl<'g> System<'g> {
         if !self.constraints.is_empty() || self.only_body().is_some() {
             return Vec::new();
         }
-        let (tree, speeds, zero) = (&self.scene.tree, &self.scene.speeds, self.scene.graph.zero());
-        let rotors = add_projected(&tree.rotors, speeds, vec![zero; speeds.len()], |rotor| rotor.force(&self.along));
-        let beside: Vec<Expr<'g>> = rotors.iter().zip(self.acting()).map(|(rotor, force)| *rotor - force).collect();
+        let (tree, beside) = (&self.scene.tree, self.beside());
         let way = |&inertia: &Inertia| {
             let motion = Motion::new(tree, &self.loads, &self.along, None, inertia)?;
             let derivatives = motion.derivatives(directions).into_iter().zip(directions);
@@ -171,6 +211,6 @@ impl<'g> System<'g> {
         let outputs = std::iter::once(rates).chain(derivatives).collect();
         let added = changes.iter().map(|change| change.taken.clone()).collect();
         let unsolved = factors.columns().map(|factors| Unsolved { factors, rights, added });
-        Some(AccelerationsWithDerivatives { outputs, unsolved })
+        Some(AccelerationsWithDerivatives { outputs, solved: Vec::new(), unsolved })
     }
 }

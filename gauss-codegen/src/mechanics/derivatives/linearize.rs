@@ -158,7 +158,7 @@ fn derived<'g>(system: &System<'g>, velocity: &[Expr<'g>], directions: &[Directi
         });
         Derived { outputs: beside(&way.outputs, &velocities), columns: unsolved }
     };
-    system.accelerations_with_derivatives(&directions).into_iter().map(way).collect()
+    system.accelerations_with_derivatives(&directions, None).into_iter().map(way).collect()
 }
 
 impl<'g> System<'g> {

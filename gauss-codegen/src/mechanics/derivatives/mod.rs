@@ -1,8 +1,10 @@
 //! What the equations are differentiated along, and rates of all numbers of a state.
 
 pub mod component_rates;
+pub mod hessian;
 pub mod implicit;
 pub mod inverse;
 pub mod linearize;
 pub mod regressor;
 pub mod rigid;
+pub mod second;

@@ -12,7 +12,7 @@
 
 use crate::algebra::{Expr, Map, Rational, Substitution};
 
-use crate::mechanics::kinematics::turn::{inward, outward};
+use crate::mechanics::kinematics::turn::{Turn, inward, outward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, cross_matrix, dot, is_zero, scale};
 use crate::mechanics::links::floating::Floating;
 use crate::mechanics::links::link::Link;
@@ -24,33 +24,46 @@ use crate::mechanics::matter::moments::Moments;
 pub type Rates<'g> = Map<u32, Expr<'g>>;
 
 /// A linear and an angular part.
-type Pair<'g> = (Triple<'g>, Triple<'g>);
+pub type Pair<'g> = (Triple<'g>, Triple<'g>);
 
 /// What one joint adds to the changes of all that hangs on it.
-struct Change<'g> {
+#[derive(Clone)]
+pub struct Change<'g> {
     /// Turn of the link and displacement of its O beyond its parent's, in its axes.
-    turn: Triple<'g>,
-    shift: Triple<'g>,
+    pub turn: Triple<'g>,
+    pub shift: Triple<'g>,
+    /// Change of v_O beyond its parent's.
+    pub drift: Triple<'g>,
     /// e, α′ and 2W.
-    linear: Triple<'g>,
-    angular: Triple<'g>,
-    twice_spin: Triple<'g>,
+    pub linear: Triple<'g>,
+    pub angular: Triple<'g>,
+    pub twice_spin: Triple<'g>,
+}
+
+/// What a joint between two links is told of their motion.
+pub struct Above<'g> {
+    /// ω and ω̇ of the parent, in its axes.
+    pub spin: Triple<'g>,
+    pub spin_rate: Triple<'g>,
+    /// a_O − g and ω of the link, in its own.
+    pub acceleration: Triple<'g>,
+    pub own_spin: Triple<'g>,
 }
 
 /// Moments of all that hangs on a link, about its O: of its matter, and with velocities relative to O.
 #[derive(Clone)]
-struct Gathered<'g> {
-    moments: Moments<'g>,
+pub struct Gathered<'g> {
+    pub moments: Moments<'g>,
     /// ∫y dm and ∫y xᵀ dm.
-    momentum: Triple<'g>,
-    mixed: [Triple<'g>; 3],
+    pub momentum: Triple<'g>,
+    pub mixed: [Triple<'g>; 3],
 }
 
 /// A row of ∂C/∂ż as a linear function of a change of all that hangs on a link.
-struct Row<'g> {
-    linear: Triple<'g>,
-    angular: Triple<'g>,
-    twice_spin: Triple<'g>,
+pub struct Row<'g> {
+    pub linear: Triple<'g>,
+    pub angular: Triple<'g>,
+    pub twice_spin: Triple<'g>,
 }
 
 /// ż, by its symbols, and what it is beyond what links that float take of their accelerations at once.
@@ -61,7 +74,7 @@ pub struct Solved<'a, 'g> {
 
 /// The motion whose residual is differentiated.
 pub struct Motion<'a, 'g> {
-    tree: &'a Tree<'g>,
+    pub tree: &'a Tree<'g>,
     loads: &'a Loads<'g>,
     /// Rates of t, q and z, with symbols for ż.
     along: &'a Rates<'g>,
@@ -70,8 +83,8 @@ pub struct Motion<'a, 'g> {
     /// Of all links, with ż.
     accelerations: Pairs<'g>,
     /// Inertia of all that hangs on a link, at its O.
-    forces: Vec<Pair<'g>>,
-    gathered: Vec<Gathered<'g>>,
+    pub forces: Vec<Pair<'g>>,
+    pub gathered: Vec<Gathered<'g>>,
     floating: Vec<Option<Floating<'g>>>,
 }
 
@@ -147,7 +160,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         let own = self.displacement(link, direction);
         let mut change = match link.parent {
             None => self.change_of_root(k, own, direction),
-            Some(parent) => self.change_below(k, parent, own, direction),
+            Some(parent) => self.change_below(k, parent, &self.above(k, parent), own, direction),
         };
         if let Some(Some(floating)) = self.floating.get(k)
             && !is_zero(&change.linear)
@@ -164,16 +177,19 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 
     /// The turn of a link beyond its parent's, in its axes, and the displacement of its O in its parent's.
-    fn displacement(&self, link: &Link<'g>, direction: &Rates<'g>) -> Pair<'g> {
-        let none = [self.tree.graph.zero(); 3];
-        let turns = &link.own_joint.turns;
-        let turn =
-            turns.iter().fold(none, |sum, turn| add(&turn.back(&sum), &turn.displacement(direction)).map(Expr::group));
+    pub fn displacement(&self, link: &Link<'g>, direction: &Rates<'g>) -> Pair<'g> {
+        let turn = self.turned(&link.own_joint.turns, direction);
         (turn, link.own_joint.offset.map(|e| self.rate(e, direction)))
     }
 
+    /// What turns are turned by along a direction, in the innermost axes.
+    pub fn turned(&self, turns: &[Turn<'g>], direction: &Rates<'g>) -> Triple<'g> {
+        let none = [self.tree.graph.zero(); 3];
+        turns.iter().fold(none, |sum, turn| add(&turn.back(&sum), &turn.displacement(direction)).map(Expr::group))
+    }
+
     /// A derivative at the ż of the motion.
-    fn rate(&self, e: Expr<'g>, direction: &Rates<'g>) -> Expr<'g> {
+    pub fn rate(&self, e: Expr<'g>, direction: &Rates<'g>) -> Expr<'g> {
         self.solved.of(e.derivative(direction)).group()
     }
 
@@ -191,7 +207,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         a.map(|e| self.solved.of(e).group())
     }
 
-    fn change_of_root(&self, k: usize, (turn, shift): Pair<'g>, direction: &Rates<'g>) -> Change<'g> {
+    pub fn change_of_root(&self, k: usize, (turn, shift): Pair<'g>, direction: &Rates<'g>) -> Change<'g> {
         let link = &self.tree.links[k];
         let frame = &link.frame;
         let omega = &link.angular_velocity;
@@ -204,21 +220,39 @@ impl<'a, 'g> Motion<'a, 'g> {
         Change {
             turn,
             shift,
+            drift: shift.map(|_| self.tree.graph.zero()),
             linear: self.seen(link, &a, &turn, direction),
             angular: add(&turning, &cross(omega, &spin)).map(Expr::group),
             twice_spin: twice(&spin),
         }
     }
 
+    /// Of the motion as it is.
+    pub fn above(&self, k: usize, parent: usize) -> Above<'g> {
+        let link = &self.tree.links[k];
+        Above {
+            spin: self.tree.links[parent].angular_velocity,
+            spin_rate: self.accelerations[parent].1,
+            acceleration: link.frame.resolve(&self.accelerations[k].0, Axes::Body),
+            own_spin: link.angular_velocity,
+        }
+    }
+
     /// That of a joint between two links.
-    fn change_below(&self, k: usize, parent: usize, (turn, shift): Pair<'g>, direction: &Rates<'g>) -> Change<'g> {
+    pub fn change_below(
+        &self,
+        k: usize,
+        parent: usize,
+        told: &Above<'g>,
+        (turn, shift): Pair<'g>,
+        direction: &Rates<'g>,
+    ) -> Change<'g> {
         let (link, above) = (&self.tree.links[k], &self.tree.links[parent]);
         let turns = &link.joint.turns;
         let named = |a: Triple<'g>| a.map(Expr::group);
         let above_axes = |a: &Triple<'g>| named(above.in_working_axes(a, Axes::Body));
-        let alpha_above = &self.accelerations[parent].1;
         // The motion of the parent, in the axes of the link.
-        let (omega, alpha) = (inward(turns, &above.angular_velocity), inward(turns, alpha_above));
+        let (omega, alpha) = (inward(turns, &told.spin), inward(turns, &told.spin_rate));
         let rate = |a: &Triple<'g>| a.map(|e| self.rate(e, direction));
         let spin_rate = link.spin.map(|e| e.derivative(self.along));
         let (more_spin, more_spin_rate) = (rate(&link.spin), rate(&spin_rate));
@@ -228,19 +262,19 @@ impl<'a, 'g> Motion<'a, 'g> {
         let shift = above_axes(&shift);
         let turned = named(cross(&omega, &turn));
         let spin = named(add(&turned, &more_spin));
-        let both = add(&omega, &link.angular_velocity);
+        let both = add(&omega, &told.own_spin);
         let angular =
             [cross(&alpha, &turn), cross(&omega, &turned), named(cross(&named(both), &more_spin)), more_spin_rate];
         let angular = angular.iter().skip(1).fold(angular[0], |sum, part| add(&sum, part));
         let moved =
             |w: &Triple<'g>, alpha: &Triple<'g>, r: &Triple<'g>| add(&cross(alpha, r), &cross(w, &named(cross(w, r))));
-        let own = add(&moved(&above.angular_velocity, alpha_above, &shift), &more_acceleration);
-        let own = add(&own, &twice(&named(cross(&above.angular_velocity, &more_rate))));
-        let acceleration = link.frame.resolve(&self.accelerations[k].0, Axes::Body);
-        let linear = add(&cross(&acceleration, &turn), &inward(turns, &named(own)));
+        let own = add(&moved(&told.spin, &told.spin_rate, &shift), &more_acceleration);
+        let own = add(&own, &twice(&named(cross(&told.spin, &more_rate))));
+        let linear = add(&cross(&told.acceleration, &turn), &inward(turns, &named(own)));
         Change {
             turn,
             shift: inward(turns, &shift),
+            drift: inward(turns, &named(add(&cross(&told.spin, &shift), &more_rate))),
             linear: named(linear),
             angular: named(angular),
             twice_spin: twice(&spin),
@@ -275,7 +309,7 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 
     /// The same function of a change of the parent.
-    fn row_above(&self, k: usize, parent: usize, row: &Row<'g>) -> Row<'g> {
+    pub fn row_above(&self, k: usize, parent: usize, row: &Row<'g>) -> Row<'g> {
         let (linear, angular) = self.tree.carried(k, &row.linear, &row.angular);
         let turns = &self.tree.links[k].joint.turns;
         let (linear, angular) = (linear.map(Expr::group), angular.map(Expr::group));
@@ -295,7 +329,8 @@ impl<'a, 'g> Motion<'a, 'g> {
                     let linear = link.frame.body_vector(*linear);
                     residual[speed] = residual[speed] + link.project(speed, &linear, angular);
                 }
-                let (a, o) = self.change_of_row(link, speed, direction, changes[k].as_ref());
+                let turn = changes[k].as_ref().map_or([self.tree.graph.zero(); 3], |change| change.turn);
+                let (a, o) = self.change_of_row(link, speed, direction, &turn);
                 residual[speed] = residual[speed] + dot(&a, &self.forces[k].0) + dot(&o, &self.forces[k].1);
             }
             let Some(parent) = link.parent else { continue };
@@ -307,18 +342,10 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 
     /// As the link sees it.
-    fn change_of_row(
-        &self,
-        link: &Link<'g>,
-        speed: usize,
-        direction: &Rates<'g>,
-        change: Option<&Change<'g>>,
-    ) -> Pair<'g> {
+    pub fn change_of_row(&self, link: &Link<'g>, speed: usize, direction: &Rates<'g>, turn: &Triple<'g>) -> Pair<'g> {
         let z = self.tree.speed(speed);
-        let none = [self.tree.graph.zero(); 3];
         if link.parent.is_none() {
-            let turn = change.map_or(none, |change| change.turn);
-            let seen = |a: &Vector<'g>| self.seen(link, a, &turn, direction);
+            let seen = |a: &Vector<'g>| self.seen(link, a, turn, direction);
             return (seen(&link.linear_rows[speed]), seen(&link.frame.body_vector(link.angular_rows[speed])));
         }
         let rate = |a: &Triple<'g>| link.in_working_axes(&a.map(|e| self.rate(e.partial(z), direction)), Axes::Body);
@@ -338,7 +365,7 @@ impl<'g> Gathered<'g> {
     }
 
     /// ∂(row)/∂(2W), of a partial velocity (a, o): `∫y dm × a + tr(∫y xᵀ dm) o − (∫x yᵀ dm) o`.
-    fn response(&self, (a, o): &Pair<'g>) -> Triple<'g> {
+    pub fn response(&self, (a, o): &Pair<'g>) -> Triple<'g> {
         let pushed = cross(&self.momentum, a);
         let mixed = &self.mixed;
         std::array::from_fn(|i| {
@@ -349,7 +376,7 @@ impl<'g> Gathered<'g> {
     }
 
     /// What a change of the joint does to the forces that it hands on, about the O that is displaced; `forces` are those of now.
-    fn force(&self, change: &Change<'g>, forces: &Pair<'g>) -> Pair<'g> {
+    pub fn force(&self, change: &Change<'g>, forces: &Pair<'g>) -> Pair<'g> {
         let Moments { mass, first, .. } = self.moments;
         let inertia = self.moments.inertia();
         let mixed = &self.mixed;
@@ -371,7 +398,7 @@ impl<'g> Gathered<'g> {
 }
 
 impl<'g> Row<'g> {
-    fn times(&self, change: &Change<'g>) -> Expr<'g> {
+    pub fn times(&self, change: &Change<'g>) -> Expr<'g> {
         let spin = dot(&self.twice_spin, &change.twice_spin);
         dot(&self.linear, &change.linear) + dot(&self.angular, &change.angular) + spin
     }
@@ -401,12 +428,12 @@ fn gathered<'g>(tree: &Tree<'g>) -> Vec<Gathered<'g>> {
 }
 
 /// v_O of a link beyond its parent's, in the parent's axes.
-fn relative_velocity<'g>(tree: &Tree<'g>, k: usize, parent: usize) -> Triple<'g> {
+pub fn relative_velocity<'g>(tree: &Tree<'g>, k: usize, parent: usize) -> Triple<'g> {
     let joint = &tree.links[k].joint;
     add(&cross(&tree.links[parent].angular_velocity, &joint.offset), &joint.offset_rate).map(Expr::group)
 }
 
-fn twice<'g>(a: &Triple<'g>) -> Triple<'g> {
+pub fn twice<'g>(a: &Triple<'g>) -> Triple<'g> {
     a.map(|e| e.scale(Rational::from_integer(2)))
 }
 

@@ -1,8 +1,9 @@
 //! The derivatives of random trees by recursion against dual numbers through their accelerations and inverse dynamics.
 
-use crate::algebra::{Evaluation, Expr, Function, Graph, Map, Number, Precise, Scalar, Tangents};
+use crate::algebra::{Evaluation, Expr, Function, Graph, Map, Number, Precise, Rational, Scalar, Tangents};
 
-use crate::kernel::Differentiated;
+use crate::kernel::{Curved, Differentiated};
+use crate::mechanics::derivatives::hessian::Hessian;
 use crate::mechanics::derivatives::inverse::InverseLinearization;
 use crate::mechanics::derivatives::linearize::Linearization;
 use crate::mechanics::system::System;
@@ -39,7 +40,7 @@ fn point<'g>(symbols: &Symbols<'g>, system: &System<'g>, state: &State) -> Map<u
 }
 
 /// Whether there are derivatives by recursion; panics where one is wrong.
-fn check(plan: &Plan, random: &mut Random, what: &str) -> bool {
+fn check(plan: &Plan, random: &mut Random, twice: bool, what: &str) -> bool {
     let states = usable_states(plan, random);
     let Some(state) = states.first() else { return false };
     let graph = Graph::new();
@@ -53,7 +54,14 @@ fn check(plan: &Plan, random: &mut Random, what: &str) -> bool {
     // Rates of the speeds, of which accelerations know nothing.
     let rates = system.scene.speed_rates.iter();
     values.extend(rates.zip(&state.speeds).map(|(symbol, z)| (symbol.key(), Precise::number(0.3 - 0.7 * z))));
-    agree(&linearization.differentiated, &values, what) && agree(&inverse.differentiated, &values, what)
+    let both = agree(&linearization.differentiated, &values, what) && agree(&inverse.differentiated, &values, what);
+    if !twice {
+        return both;
+    }
+    let hessian = Hessian::new(&system, &formulas);
+    let weights = hessian.weights.iter().enumerate();
+    values.extend(weights.map(|(k, symbol)| (symbol.key(), Precise::number(0.8 - 0.3 * k as f64))));
+    agree_twice(&hessian.curved, plan.speeds < 3, &values, what) && both
 }
 
 /// Whether there are forms of their own; panics where one is wrong.
@@ -78,6 +86,34 @@ fn agree<'g>(differentiated: &Differentiated<'g>, values: &Map<u32, Precise>, wh
     !differentiated.derived.is_empty()
 }
 
+/// Whether there are second derivatives in forms of their own; panics where one is wrong. Those of small systems are found in a third way, by
+/// differentiating expressions.
+fn agree_twice<'g>(curved: &Curved<'g>, small: bool, values: &Map<u32, Precise>, what: &str) -> bool {
+    let mut evaluation = Evaluation::new(values);
+    let expected = curved.values(&mut evaluation);
+    let mut ways = curved.derived.clone();
+    if small {
+        let along: Vec<Map<u32, Expr<'g>>> =
+            curved.directions.iter().map(|d| d.iter().map(|(s, rate)| (s.key(), *rate)).collect()).collect();
+        let once: Vec<Expr<'g>> = along.iter().map(|d| curved.arrangements[0].derivative(d)).collect();
+        let twice = |(i, j): (usize, usize)| {
+            let sum = once[i].derivative(&along[j]) + once[j].derivative(&along[i]);
+            sum.scale(Rational::new(1, 2))
+        };
+        ways.push(Curved::<'g>::pairs(along.len()).map(twice).collect());
+    }
+    for way in &ways {
+        assert_eq!(way.len(), expected.len(), "{what}");
+        let pairs = Curved::<'g>::pairs(curved.directions.len());
+        for ((pair, e), expected) in pairs.zip(way).zip(&expected) {
+            let apart = (evaluation.value(*e) - *expected).to_f64().abs();
+            let close = apart <= AGREEMENT * (1.0 + expected.to_f64().abs());
+            assert!(close, "{what}: along {pair:?} {} is {apart:e} off", expected.to_f64());
+        }
+    }
+    !curved.derived.is_empty()
+}
+
 #[test]
 fn trees_have_the_derivatives_that_dual_numbers_give() {
     let mut random = Random(41);
@@ -92,7 +128,8 @@ fn trees_have_the_derivatives_that_dual_numbers_give() {
         };
         let attempt = |random: &mut Random| {
             let plan = Plan::tree(random, shape);
-            check(&plan, random, &format!("trial {trial} of {shape:?}: {plan:?}"))
+            // Second ones take longer: of some small trees, in space and in the plane, with rates and with speeds of their own.
+            check(&plan, random, trial % 2 == 1 && trial % 3 != 2, &format!("trial {trial} of {shape:?}: {plan:?}"))
         };
         told += usize::from((0..16).any(|_| attempt(&mut random)));
     }

@@ -189,6 +189,7 @@ impl Topics {
                     match further {
                         Further::Parameters => self.wanted.by_parameters = true,
                         Further::Inverse => self.wanted.inverse = true,
+                        Further::Hessian => self.wanted.hessian = true,
                     }
                 }
             }
@@ -408,9 +409,11 @@ fn check_alone(clause: &Clause, context: &mut Context) {
 enum Further {
     Parameters,
     Inverse,
+    Hessian,
 }
 
-const FURTHER: &Table<Further> = &[("parameters", Further::Parameters), ("inverse", Further::Inverse)];
+const FURTHER: &Table<Further> =
+    &[("parameters", Further::Parameters), ("inverse", Further::Inverse), ("hessian", Further::Hessian)];
 
 /// `linearize`, `linearize(parameters, inverse)`.
 fn read_linearize(clause: &Clause, context: &mut Context) -> Vec<Further> {
@@ -420,8 +423,8 @@ fn read_linearize(clause: &Clause, context: &mut Context) -> Vec<Further> {
             context.error(
                 tokens.first().map_or(clause.name.span(), attributes::start),
                 "`linearize` takes no value after `=`; write `linearize` alone for the derivatives by state, time and \
-                 input, `linearize(parameters)` or `linearize(inverse)` to have those by the parameters or those of \
-                 inverse dynamics as well",
+                 input, and in brackets what else is wanted: `parameters` for those by the parameters, `inverse` for \
+                 those of inverse dynamics, `hessian` for second ones along given weights",
             );
             Vec::new()
         }

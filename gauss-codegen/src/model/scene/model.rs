@@ -153,6 +153,8 @@ pub struct Wanted {
     pub by_parameters: bool,
     /// `linearize(inverse)`: those of inverse dynamics, too.
     pub inverse: bool,
+    /// `linearize(hessian)`: second derivatives along given weights, too.
+    pub hessian: bool,
     /// `regressor`, where it is written: the coefficients of the inertial parameters.
     pub regressor: Option<Ident>,
     /// `frames(…)`: bodies and frames whose poses and velocities are methods, by their names, each once.

@@ -59,8 +59,8 @@ fn derivatives_only_where_they_are_asked_for() {
     assert!(state.linearize && !state.by_parameters && state.regressor.is_none());
     let all = model(&body("#[gauss(linearize(parameters), regressor)]")).wanted;
     assert!(all.linearize && all.by_parameters && !all.inverse && all.regressor.is_some());
-    let both = model(&body("#[gauss(linearize(inverse, parameters))]")).wanted;
-    assert!(both.linearize && both.by_parameters && both.inverse);
+    let both = model(&body("#[gauss(linearize(inverse, parameters, hessian))]")).wanted;
+    assert!(both.linearize && both.by_parameters && both.inverse && both.hessian);
     assert!(model(&body("#[gauss(linearize, drag(linear = [1, 1, 1, 1, 1, 1]))]")).wanted.linearize);
 }
 

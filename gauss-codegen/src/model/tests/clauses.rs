@@ -45,10 +45,11 @@ fn chart_values() {
 
 #[test]
 fn linearize_stands_alone_or_names_more() {
-    let remedy = "write `linearize` alone for the derivatives by state, time and input, `linearize(parameters)` or \
-                  `linearize(inverse)` to have those by the parameters or those of inverse dynamics as well";
+    let remedy = "write `linearize` alone for the derivatives by state, time and input, and in brackets what \
+                  else is wanted: `parameters` for those by the parameters, `inverse` for those of inverse dynamics, \
+                  `hessian` for second ones along given weights";
     check_body("#[gauss(linearize = true)]", &[("true", &format!("`linearize` takes no value after `=`; {remedy}"))]);
-    let unknown = "unknown kind of derivative `z`; expected `parameters` or `inverse`";
+    let unknown = "unknown kind of derivative `z`; expected `parameters`, `inverse` or `hessian`";
     check_body("#[gauss(linearize(z))]", &[("z", unknown)]);
     check_body("#[gauss(linearize(parameters, z))]", &[("z", unknown)]);
     let near = "unknown kind of derivative `inverted`; did you mean `inverse`?";

@@ -1,0 +1,129 @@
+//! Second derivatives of one number along many directions.
+
+use crate::accuracy::{Trial, taken, usable};
+use crate::algebra::{Dual, Evaluation, Expr, Map, Number, Rational, Tangents};
+
+use super::adjoint::gradient;
+use super::hoist::Hoister;
+use super::tangent::{Direction, with_outputs, with_tangents};
+use super::write::{Operand, Operation, Program};
+
+/// A number and the directions along which its second derivatives are wanted: of i and j, j up to i, the mean of what
+/// differentiating along i and then j gives, and along j and then i.
+pub struct Curved<'g> {
+    /// The number, in equivalent arrangements.
+    pub arrangements: Vec<Expr<'g>>,
+    /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of their own.
+    pub defined: Vec<Expr<'g>>,
+    pub directions: Vec<Direction<'g>>,
+    /// Directions with the same number need not commute; those without one commute with all.
+    pub groups: Vec<Option<usize>>,
+    /// The second derivatives in forms of their own, in the order of [`Self::pairs`].
+    pub derived: Vec<Vec<Expr<'g>>>,
+}
+
+impl<'g> Curved<'g> {
+    /// (i, j) of the outputs, j up to i.
+    pub fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
+        (0..count).flat_map(|i| (0..=i).map(move |j| (i, j)))
+    }
+
+    /// Whether differentiating along both gives the same in both orders.
+    pub fn commute(&self, i: usize, j: usize) -> bool {
+        i == j || self.groups[i].is_none() || self.groups[i] != self.groups[j]
+    }
+
+    /// The cheapest way that keeps the digits.
+    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Program<'g> {
+        let definitions = Program::lower(&hoister.hoist(&self.defined));
+        let lower = |e: &Expr<'g>| Program::lower(&hoister.hoist_undefined(&[*e]));
+        let programs: Vec<Program<'g>> = self.arrangements.iter().map(lower).collect();
+        trial.define(hoister.constants());
+        let usable = usable(&trial.losses(&programs.iter().collect::<Vec<_>>()));
+        let programs = programs.into_iter().zip(usable).filter_map(|(program, usable)| usable.then_some(program));
+        let program = programs.min_by_key(|program| program.cost().total()).expect("one of them keeps the digits best");
+        let mut ways: Vec<Program<'g>> =
+            self.derived.iter().map(|e| Program::lower(&hoister.hoist(e)).with_signs_led_back()).collect();
+        ways.push(self.of_program(&program, &definitions));
+        trial.define(hoister.constants());
+        let losses = trial.losses(&ways.iter().collect::<Vec<_>>());
+        let costs: Vec<u32> = ways.iter().map(|program| program.cost().total()).collect();
+        ways.swap_remove(taken(&losses, &costs))
+    }
+
+    /// The gradient by backward differentiation, and its tangents.
+    fn of_program(&self, program: &Program<'g>, definitions: &Program<'g>) -> Program<'g> {
+        let count = self.directions.len();
+        let gradient = gradient(program, &self.directions);
+        let all = with_tangents(&gradient, (&self.defined, definitions), &self.directions);
+        // Along j of the derivative along i.
+        let entry = |i: usize, j: usize| all.outputs[count * (1 + j) + i];
+        // Tangents of what little depends on are short, of what all depends on long: derivatives along the latter are taken last.
+        let reach: Vec<usize> = self.directions.iter().map(|direction| reach(program, direction)).collect();
+        let mut instructions = all.instructions.clone();
+        let outputs = Self::pairs(count).map(|(i, j)| {
+            if !self.commute(i, j) {
+                return mean(&mut instructions, entry(i, j), entry(j, i));
+            }
+            if reach[i] <= reach[j] { entry(i, j) } else { entry(j, i) }
+        });
+        let outputs = outputs.collect();
+        with_outputs(&Program { instructions, outputs: Vec::new() }, outputs)
+    }
+
+    /// By dual numbers of dual numbers through the expressions.
+    pub fn values<N: Number>(&self, evaluation: &mut Evaluation<'_, N>) -> Vec<N> {
+        let output = self.arrangements[0];
+        let moving: Vec<Map<u32, Dual<N>>> = self
+            .directions
+            .iter()
+            .map(|direction| {
+                let mut point: Map<u32, Dual<N>> =
+                    evaluation.symbols().iter().map(|(&key, &value)| (key, Dual::constant(value))).collect();
+                for (symbol, rate) in direction {
+                    let (value, rate) = (evaluation.value(*symbol), evaluation.value(*rate));
+                    point.insert(symbol.key(), Dual { value, rate });
+                }
+                point
+            })
+            .collect();
+        let mut evaluations: Vec<Evaluation<'_, Dual<N>>> = moving.iter().map(Evaluation::new).collect();
+        let mut second = |i: usize, j: usize| {
+            let rates = self.directions[j].iter();
+            let rates = rates.map(|(symbol, rate)| (symbol.key(), evaluations[i].value(*rate))).collect();
+            Tangents::new(&mut evaluations[i], &rates).along(output).rate
+        };
+        let pairs = Self::pairs(self.directions.len());
+        pairs
+            .map(|(i, j)| match self.commute(i, j) {
+                true => second(i, j),
+                false => (second(i, j) + second(j, i)) * N::fraction(Rational::new(1, 2)),
+            })
+            .collect()
+    }
+}
+
+fn mean<'g>(instructions: &mut Vec<Operation<'g>>, a: Operand<'g>, b: Operand<'g>) -> Operand<'g> {
+    if a == b {
+        return a;
+    }
+    let mut push = |operation: Operation<'g>| {
+        instructions.push(operation);
+        Operand::Value(instructions.len() - 1)
+    };
+    let sum = push(Operation::Add(a, b));
+    push(Operation::Multiply(sum, Operand::Number(Rational::new(1, 2))))
+}
+
+/// How many instructions give something else along a direction.
+fn reach<'g>(program: &Program<'g>, direction: &Direction<'g>) -> usize {
+    let mut moves = vec![false; program.instructions.len()];
+    for k in 0..moves.len() {
+        moves[k] = program.instructions[k].operands().any(|operand| match operand {
+            Operand::Input(e) => direction.iter().any(|(symbol, _)| *symbol == e),
+            Operand::Number(_) => false,
+            Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) => moves[k],
+        });
+    }
+    moves.into_iter().filter(|moves| *moves).count()
+}
