@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (tidal, afloat, sunken) = in_a_tide(&river, turned)?;
     beside_still_water([("steady stream", river), ("tide", tidal)])?;
     let crossings = ferry(&kernel, still.thrust(SPEED))?;
-    let names = ["straight across", "crabbing", "steering for the landing"];
+    let names = ["straight across", "crabbing", "for the landing"];
     let [straight, crabbed, pursuit] = &crossings;
     let svg = picture::draw(
         [Crossing::new(names[0], straight), Crossing::new(names[1], crabbed), Crossing::new(names[2], pursuit)],

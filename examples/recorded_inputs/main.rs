@@ -4,15 +4,14 @@
 //! `cargo run --release --example recorded_inputs [-- FILE.csv [FOLDER]]` draws into `FOLDER`, by default
 //! `target/gauss`.
 
+use std::env;
 use std::error::Error;
 use std::fs::File;
 use std::path::PathBuf;
-use std::{env, fs};
 
-use gauss_examples::figure::{COLOURS, INK, png, text_style};
-use gauss_examples::lines::{Axis, Line, Panel};
+use gauss_examples::figure::COLOURS;
+use gauss_examples::plots::{self, Line, Plot, mosaic};
 use gauss_runtime::prelude::*;
-use plotters::prelude::*;
 
 mod craft;
 mod recording;
@@ -75,49 +74,24 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("joules: {}", power_balance(&kernel, &path, |t, _, _| SVector::from(recording.at(t))));
 
     let svg = draw(&samples, rows)?;
-    fs::create_dir_all(&folder)?;
-    for (name, contents) in [("recorded_inputs.svg", svg.clone().into_bytes()), ("recorded_inputs.png", png(&svg)?)] {
-        let file = folder.join(name);
-        fs::write(&file, contents)?;
-        println!("written: {}", file.display());
-    }
-    Ok(())
+    plots::write_into(&folder, "recorded_inputs", &svg)
 }
 
 /// What was recorded above, the way below.
 fn draw(samples: &[Sample<CraftKernel>], rows: &[Row]) -> Result<String, Box<dyn Error>> {
     let [blue, orange, green, _] = COLOURS;
-    let line = |points: Vec<(f64, f64)>, colour, name| Line { points, colour, width: 4, dashed: false, name };
-    let recorded = |value: fn(&Row) -> f64| rows.iter().map(|row| (row.time, value(row))).collect::<Vec<_>>();
     let end = rows[rows.len() - 1].time;
-    let mut svg = String::new();
-    {
-        let root = SVGBackend::with_string(&mut svg, (1640, 1140)).into_drawing_area();
-        root.fill(&WHITE)?;
-        root.draw(&Text::new("A vehicle driven by recorded inputs", (30, 22), text_style(36, INK)))?;
-        let (_, body) = root.split_vertically(80);
-        let (upper, lower) = body.split_vertically(390);
-        let (left, right) = upper.split_horizontally(820);
-        let time = || Axis::linear("time, s", 0.0..end);
-        let thrust =
-            Panel { title: "Recorded thrust".into(), x: time(), y: Axis::linear("thrust, N", 0.0..6.0), equal: false };
-        thrust.draw(&left, &[line(recorded(|row| row.thrust), orange, ("", 0.0, 0.0))])?;
-        let rudder = Panel {
-            title: "Recorded rudder".into(),
-            x: time(),
-            y: Axis::linear("rudder, °", -12.0..12.0),
-            equal: false,
-        };
-        rudder.draw(&right, &[line(recorded(|row| row.rudder.to_degrees()), green, ("", 0.0, 0.0))])?;
-        let way = Panel {
-            title: "The way of the vehicle".into(),
-            x: Axis::linear("east, m", -56.0..4.0),
-            y: Axis::linear("north, m", -2.0..30.0),
-            equal: true,
-        };
-        let points: Vec<_> = samples.iter().map(|s| (s.q.translation.vector.y, s.q.translation.vector.x)).collect();
-        way.draw(&lower, &[line(points, blue, ("start", 1.0, 0.0)), line(vec![], blue, ("end", -55.5, 23.5))])?;
-        root.present()?;
-    }
-    Ok(svg)
+    let recorded = |title, colour, y, value: fn(&Row) -> f64| {
+        let line = Line::new("", colour, rows.iter().map(|row| (row.time, value(row))));
+        Plot::new(title, ("time, s", 0.0..end), y, vec![line])
+    };
+    let thrust = recorded("Recorded thrust", orange, ("thrust, N", 0.0..6.0), |row| row.thrust);
+    let rudder = recorded("Recorded rudder", green, ("rudder, °", -12.0..12.0), |row| row.rudder.to_degrees());
+    let points: Vec<_> = samples.iter().map(|s| (s.q.translation.vector.y, s.q.translation.vector.x)).collect();
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let marks = vec![(first.0, first.1, "start".into()), (last.0, last.1, "end".into())];
+    let (x, y) = (("east, m", -56.0..4.0), ("north, m", -2.0..30.0));
+    let way = Plot::new("The way of the vehicle", x, y, vec![Line::new("", blue, points)]).to_scale().marked(marks);
+    let plots = [([0, 0, 850, 420], thrust), ([850, 0, 850, 420], rudder), ([0, 420, 1700, 700], way)];
+    mosaic("A vehicle driven by recorded inputs", (1700, 1210), &plots)
 }

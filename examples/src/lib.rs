@@ -9,13 +9,11 @@
 //! | [`timing`] | nanoseconds per evaluation |
 //! | [`report`] | the text |
 //! | [`figure`] | the picture, its panels in [`panels`] |
-//! | [`lines`] | panels of curves with their names beside them |
 //! | [`rolling`] | the picture of `rolling_disk` |
 //! | [`statistics`] | random numbers, quartiles |
 //! | [`plots`] | plots with plain axes, and where pictures are written |
 
 pub mod figure;
-pub mod lines;
 pub mod measure;
 pub mod panels;
 pub mod plots;

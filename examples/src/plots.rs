@@ -248,10 +248,17 @@ fn picture(
 /// # Errors
 /// When a file cannot be written, or the text is no SVG.
 pub fn write(name: &str, svg: &str) -> Result<(), Box<dyn Error>> {
-    let folder = folder();
-    fs::create_dir_all(&folder)?;
+    write_into(&folder(), name, svg)
+}
+
+/// The same into a folder.
+///
+/// # Errors
+/// When a file cannot be written, or the text is no SVG.
+pub fn write_into(folder: &Path, name: &str, svg: &str) -> Result<(), Box<dyn Error>> {
+    fs::create_dir_all(folder)?;
     let put = |ending: &str, contents: &[u8]| {
-        let file = Path::new(&folder).join(format!("{name}.{ending}"));
+        let file = folder.join(format!("{name}.{ending}"));
         fs::write(&file, contents)?;
         println!("written: {}", file.display());
         Ok::<(), std::io::Error>(())

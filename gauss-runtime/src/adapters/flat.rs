@@ -107,13 +107,7 @@ impl<'k, S: GaussSystem, F, I, J> FlatSystem<SystemProblem<'k, S, F, I>, J> {
     where
         G: Fn(S::Scalar, &[S::Scalar], &[S::Scalar], &mut [S::Scalar]),
     {
-        self.jacobian_from(Given(product))
-    }
-
-    /// The same from any [`JacobianProduct`](super::jacobian::JacobianProduct).
-    #[must_use]
-    pub fn jacobian_from<K>(self, jacobian: K) -> FlatSystem<SystemProblem<'k, S, F, I>, K> {
-        FlatSystem { problem: self.problem, jacobian }
+        FlatSystem { problem: self.problem, jacobian: Given(product) }
     }
 
     /// The kernel.

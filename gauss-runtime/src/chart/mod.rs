@@ -105,12 +105,6 @@ impl EulerSequence {
         let [a, b, c] = self.axes;
         a < 3 && b < 3 && c < 3 && a != b && b != c
     }
-
-    /// Whether the first axis is also the last.
-    #[must_use]
-    pub const fn is_proper(self) -> bool {
-        self.axes[0] == self.axes[2]
-    }
 }
 
 impl fmt::Display for EulerSequence {

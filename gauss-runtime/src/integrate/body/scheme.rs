@@ -1,5 +1,7 @@
 //! Lengths of kicks and drifts: splitting methods as tables.
 
+use crate::integrate::structure::composition::Composition;
+
 /// A symmetric splitting method: kick, drift, kick, …, kick, as fractions of the step.
 ///
 /// A kick changes the momentum by the force at rest, a drift is free motion.
@@ -77,36 +79,8 @@ const BLANES_MOAN_KICKS: [f64; 7] = {
     [b1, b2, b3, 1.0 - 2.0 * (b1 + b2 + b3), b3, b2, b1]
 };
 
-const KAHAN_LI_6: [f64; 9] = mirrored(&[
-    0.392_161_444_007_314_1,
-    0.332_599_136_789_359_43,
-    -0.706_246_172_557_639_3,
-    0.082_213_596_293_550_8,
-    0.798_543_990_934_83,
-]);
-
-const KAHAN_LI_8: [f64; 17] = mirrored(&[
-    0.130_202_483_088_890_07,
-    0.561_162_981_775_108_4,
-    -0.389_474_962_644_847_27,
-    0.158_841_906_555_155_6,
-    -0.395_903_894_133_237_57,
-    0.184_539_640_978_315_7,
-    0.258_374_387_686_322_04,
-    0.295_011_723_609_310_3,
-    -0.605_508_533_830_034_6,
-]);
-
-/// The first half and the middle, continued backwards.
-const fn mirrored<const N: usize>(half: &[f64]) -> [f64; N] {
-    let mut all = [0.0; N];
-    let mut i = 0;
-    while i < N {
-        all[i] = half[if 2 * i < N { i } else { N - 1 - i }];
-        i += 1;
-    }
-    all
-}
+const KAHAN_LI_6: [f64; 9] = Composition::KAHAN_LI_6.doubles();
+const KAHAN_LI_8: [f64; 17] = Composition::KAHAN_LI_8.doubles();
 
 /// Kicks of a composition of Strang steps: neighbouring half kicks at one place are one.
 const fn halves<const N: usize, const K: usize>(drifts: &[f64; N]) -> [f64; K] {
