@@ -40,6 +40,12 @@ fuzz:
 guide:
     mdbook build guide
 
+# What CI leaves out because of what it depends on: Arrow and Parquet, Bevy, Rerun.
+neighbours:
+    cargo test -p gauss-tables --features parquet
+    cargo test --manifest-path examples/bevy/Cargo.toml --target-dir target/neighbours
+    cargo test --manifest-path gauss-rerun/Cargo.toml --target-dir target/neighbours
+
 # The front page, with kernels that run in it, in `target/gauss`: `rustup target add wasm32-unknown-unknown` once.
 page:
     cargo run -p gauss-web

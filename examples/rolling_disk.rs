@@ -4,6 +4,7 @@
 
 use gauss_examples::plots;
 use gauss_examples::rolling::{Floor, Hoop, draw};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 /// A thin hoop on the floor z = 0. Its axis leans by `lean` from the vertical: at a right angle the hoop stands upright, at zero
@@ -83,7 +84,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Floor { grid: 0.25, shown: 8, among: 81 },
         "A hoop rolls for 12 s: where it touched the floor, and its last 0.8 s",
     )?;
-    plots::write("rolling_disk", &svg)
+    plots::write("rolling_disk", &svg)?;
+    plots::write_page("rolling_disk", &page(&kernel, &path)?)
 }
 
 /// Where the hoop is, a hundred times a second.
@@ -97,4 +99,34 @@ fn hoops(path: &Trajectory<RollingDiskKernel>) -> Vec<Hoop> {
             Hoop { centre: Vector3::new(x, y, z), rotation, radius: RADIUS }
         })
         .collect()
+}
+
+/// The hoop and the force of the floor on it, where it touches.
+fn page(
+    kernel: &RollingDiskKernel,
+    path: &Trajectory<RollingDiskKernel>,
+) -> Result<Playback<RollingDiskKernel>, IntegrationError> {
+    let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
+    let pose = move |s: &Sample<RollingDiskKernel>| {
+        let RollingDiskState { x, y, z, heading, lean, spin, .. } = RollingDiskState::of(&s.q, &s.z);
+        let rotation = turn(Vector3::z_axis(), heading) * turn(Vector3::x_axis(), lean) * turn(Vector3::z_axis(), spin);
+        Isometry3::from_parts(Translation3::new(x, y, z), rotation)
+    };
+    let floor = move |s: &Sample<RollingDiskKernel>| {
+        let place = pose(s);
+        let axis = place.rotation * Vector3::z();
+        let up = (Vector3::z() - axis * axis.z).normalize();
+        // The multipliers are forces along the heading, across it, and upwards.
+        let heading = turn(Vector3::z_axis(), RollingDiskState::of(&s.q, &s.z).heading);
+        (place.translation.vector - up * RADIUS, heading * kernel.multipliers(s.t, &s.q, &s.z, &()))
+    };
+    Ok(Playback::with_pictures("A hoop that rolls", path, 1200)?
+        .body("hoop", pose, [Shape::cylinder(RADIUS, 0.02)])
+        .trace("hoop", [0.0; 3])
+        .arrow("force of the floor", 0.5 / (MASS * GRAVITY), floor)
+        .curve("force of the floor / N", "normal", |s| kernel.multipliers(s.t, &s.q, &s.z, &())[2])
+        .curve("force of the floor / N", "friction", |s| {
+            kernel.multipliers(s.t, &s.q, &s.z, &()).fixed_rows::<2>(0).norm()
+        })
+        .energy(kernel))
 }

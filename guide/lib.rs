@@ -24,6 +24,7 @@ chapters! {
     Embedded: "src/embedded.md",
     Robots: "src/robots.md",
     Seeing: "src/seeing.md",
+    Results: "src/results.md",
     Tasks: "src/tasks.md",
     FromSympy: "src/from_sympy.md",
     FromPinocchioMujoco: "src/from_pinocchio_mujoco.md",

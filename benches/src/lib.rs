@@ -3,6 +3,7 @@
 //! - `scenes`: S1–S7, as a user writes them, and their parameters.
 //! - `by_hand`: the same equations by someone who knows the structure: everything constant computed once, plain scalars.
 //! - `matrices`: the same equations as one types them with nalgebra, a factorisation a call.
+//! - `packs`: scenes in any scalar, for batches and ensembles.
 //! - `states`: 64 states of each scene.
 //! - `measure`: times that alternate, so that ratios mean something on a busy machine.
 //! - `entries`: one function for each evaluation that is timed, whose instructions are counted.
@@ -15,6 +16,7 @@ pub mod cases;
 pub mod entries;
 pub mod matrices;
 pub mod measure;
+pub mod packs;
 pub mod peers;
 pub mod report;
 #[cfg(feature = "robots")]

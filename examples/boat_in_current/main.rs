@@ -55,7 +55,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         [&from_rest, &afloat, &sunken],
         (STREAM, &tidal),
     )?;
-    plots::write("boat_in_current", &svg)
+    plots::write("boat_in_current", &svg)?;
+    let [.., pursuit] = crossings;
+    plots::write_page("boat_in_current", &picture::page(&kernel, pursuit, river.stream))
 }
 
 type Path = Vec<Sample<BoatKernel>>;

@@ -4,6 +4,7 @@ use std::error::Error;
 
 use gauss_examples::figure::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, mosaic};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 use crate::boat::{Boat, BoatKernel};
@@ -90,4 +91,27 @@ fn ways_across<'a>(title: &'a str, crossings: [Crossing<'_>; 3], ratio: f64, wid
     lines.append(&mut boats);
     let (x, y) = (("east, m", -6.0..22.0), ("north, m", -2.0..width + 2.0));
     Plot::new(title, x, y, lines).to_scale()
+}
+
+/// A crossing as a page.
+pub fn page(kernel: &BoatKernel, path: Vec<Sample<BoatKernel>>, stream: Vector3<f64>) -> Playback<BoatKernel> {
+    let place = |s: &Sample<BoatKernel>| kernel.pose(s.t, &s.q).translation.vector;
+    let velocity = |s: &Sample<BoatKernel>| s.q.rotation * s.z.fixed_rows::<2>(0);
+    Playback::of_samples("A boat crosses a river, steering for the landing", path)
+        .up([0.0, 0.0, -1.0])
+        .from_above()
+        .body(
+            "boat",
+            |s| kernel.pose(s.t, &s.q),
+            [
+                Shape::ellipsoid([0.63, 0.145, 0.12]),
+                Shape::cuboid([0.3, 0.16, 0.16]).at(&Isometry3::translation(0.25, 0.0, -0.1)).colour("#444444"),
+            ],
+        )
+        .trace("boat", [0.0; 3])
+        .arrow("velocity", 5.0, |s| (place(s), Vector3::new(velocity(s).x, velocity(s).y, 0.0)))
+        .arrow("stream", 5.0, move |s| (place(s), stream))
+        .curve("angle / °", "heading", |s| s.q.rotation.angle().to_degrees())
+        .curve("velocity / (m/s)", "to the north", move |s| velocity(s).x)
+        .curve("velocity / (m/s)", "to the east", move |s| velocity(s).y)
 }

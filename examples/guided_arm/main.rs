@@ -6,7 +6,8 @@
 use std::error::Error;
 
 use gauss_examples::figure::COLOURS;
-use gauss_examples::plots::{Line, Plot, sheet, write};
+use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 mod model;
@@ -48,6 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let missed = (runs[1].errors[(0.4 / H).round() as usize] - expected(0.4)).abs();
     println!("\ncomputed torque is {missed:.1e} off its linear equation after 0.4 s");
     write("guided_arm", &sheet("An arm from its file follows a way", (1100, 700), &[vec![picture(&runs)]])?)?;
+    write_page("guided_arm", &page(&arm, &regulated)?)?;
     let right = (of_regulated / predicted - 1.0).abs() < 1e-4 && of_regulated < of_computed && missed < 1e-8;
     if right { Ok(()) } else { Err("a law does not do what it was designed for".into()) }
 }
@@ -93,6 +95,28 @@ fn run(
     Ok(Followed { cost: inside + off.component_mul(&cost.at_the_end).dot(&off), errors })
 }
 
+/// The skeleton of its frames under a law, started beside the way.
+fn page(arm: &ArmKernel, law: &dyn Fn(f64, &Joints, &Joints) -> Joints) -> Result<Playback<ArmKernel>, Box<dyn Error>> {
+    let [place, rate, _] = wanted(0.0);
+    let input = |t: f64, q: &Joints, z: &Joints| law(t, q, z);
+    let path =
+        Simulation::new(arm).input(input).fixed_step(H).run(place + beside(0.1).fixed_rows::<9>(0), rate, 0.0..END)?;
+    let mut page = Playback::new("An arm from its file follows a way", &path)?.frames(arm);
+    let link = |k: usize| if k == 0 { "base_link".to_owned() } else { format!("panda_joint{k}_link") };
+    for k in 0..7 {
+        page = page.rod(&link(k), &link(k + 1), 0.04);
+    }
+    for finger in ["panda_finger_joint1_link", "panda_finger_joint2_link"] {
+        let shape = Shape::cuboid([0.02, 0.015, 0.06]).at(&Isometry3::translation(0.0, 0.0, 0.03));
+        page = page.shape(finger, shape).rod("panda_joint7_link", finger, 0.015);
+    }
+    for k in [0, 1, 3] {
+        page =
+            page.curve("angle beside the way / rad", &format!("joint {}", k + 1), move |s| error(s.t, &s.q, &s.z)[k]);
+    }
+    Ok(page.trace("panda_finger_joint1_link", [0.0, 0.0, 0.06]).energy(arm))
+}
+
 fn picture(runs: &[Followed; 3]) -> Plot<'static> {
     let names = ["efforts of the way alone", "computed torque", "regulator"];
     let curve = |k: usize| {
@@ -101,8 +125,8 @@ fn picture(runs: &[Followed; 3]) -> Plot<'static> {
     };
     Plot::new(
         "largest error of an angle",
-        ("s", 0.0..1.0),
-        ("rad, power of ten", -9.0..1.0),
+        ("time, s", 0.0..1.0),
+        ("log₁₀ of the error in rad", -9.0..1.0),
         vec![curve(0), curve(1), curve(2)],
     )
 }

@@ -4,7 +4,23 @@ use gauss_runtime::prelude::*;
 
 /// An arm with two fingers, each joint with an effort.
 #[derive(GaussDynamics)]
-#[gauss(urdf = "../tests/robots/panda.urdf", gravity = 9.81, linearize)]
+#[gauss(
+    urdf = "../tests/robots/panda.urdf",
+    gravity = 9.81,
+    linearize,
+    frames(
+        base_link,
+        panda_joint1_link,
+        panda_joint2_link,
+        panda_joint3_link,
+        panda_joint4_link,
+        panda_joint5_link,
+        panda_joint6_link,
+        panda_joint7_link,
+        panda_finger_joint1_link,
+        panda_finger_joint2_link,
+    )
+)]
 pub struct Arm;
 
 pub type Joints = SVector<f64, 9>;

@@ -49,7 +49,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         distance(&poses(&other), &poses(turn))
     );
     let svg = picture::draw(&picture::Shown { flights: [straight, turn, dive], apart, closed })?;
-    plots::write("remus100", &svg)
+    plots::write("remus100", &svg)?;
+    plots::write_page("remus100", &picture::page(&kernel, turn))
 }
 
 type Curve = Vec<(f64, f64)>;

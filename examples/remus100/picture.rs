@@ -4,8 +4,11 @@ use std::error::Error;
 
 use gauss_examples::figure::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet};
+use gauss_playback::{Playback, Shape};
+use gauss_runtime::prelude::*;
 
 use crate::manoeuvres::{Flight, Moment};
+use crate::vehicle::RemusKernel;
 
 /// What the panels show.
 pub struct Shown<'a> {
@@ -98,4 +101,28 @@ fn distances(apart: &[Vec<(f64, f64)>; 3]) -> Plot<'static> {
     });
     let title = "Distance from the equations written by hand";
     over_time(title, 60.0, ("log₁₀ of the distance in m", -16.0..-6.0), lines.collect())
+}
+
+/// A flight as a page.
+pub fn page(kernel: &RemusKernel, flight: &Flight) -> Playback<RemusKernel> {
+    let sample = |m: &Moment| Sample { t: m.t, q: m.pose, z: m.twist, p: kernel.momentum(m.t, &m.pose, &m.twist) };
+    let fin = |edges: [f64; 3]| Shape::cuboid(edges).at(&Isometry3::translation(-0.63, 0.0, 0.0)).colour("#444444");
+    let hull = [Shape::ellipsoid([0.665, 0.095, 0.095]), fin([0.09, 0.31, 0.01]), fin([0.09, 0.01, 0.31])];
+    let velocity = |s: &Sample<RemusKernel>| (s.q.translation.vector, s.q.rotation * s.z.fixed_rows::<3>(0));
+    let mut page = Playback::of_samples("The REMUS 100 turns", flight.moments.iter().map(sample).collect())
+        .up([0.0, 0.0, -1.0])
+        .body("REMUS 100", |s| s.q, hull)
+        .follow("REMUS 100")
+        .trace("REMUS 100", [0.0; 3])
+        .arrow("velocity", 0.6, velocity)
+        .curve("velocity in its axes / (m/s)", "ahead", |s| s.z[0])
+        .curve("velocity in its axes / (m/s)", "to starboard", |s| s.z[1]);
+    for (k, name) in ["roll", "pitch"].into_iter().enumerate() {
+        let angle = move |s: &Sample<RemusKernel>| {
+            let (roll, pitch, _) = s.q.rotation.euler_angles();
+            [roll, pitch][k].to_degrees()
+        };
+        page = page.curve("angle / °", name, angle);
+    }
+    page.energy(kernel)
 }

@@ -56,7 +56,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         SlewerKernel::OPERATIONS.acceleration.multiplications
     );
 
-    plots::write("satellite", &picture::draw(&librations, &falling, &slewer, &calm)?)
+    plots::write("satellite", &picture::draw(&librations, &falling, &slewer, &calm)?)?;
+    plots::write_page("satellite", &picture::page(&kernel, &librations[2].1)?)
 }
 
 /// From the attitude that is not stable.

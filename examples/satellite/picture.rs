@@ -4,9 +4,12 @@ use std::error::Error;
 
 use gauss_examples::figure::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
-use crate::model::{OrbiterKernel, Slewer, SlewerKernel, libration_frequency, libration_period, mean_motion, pitch};
+use crate::model::{
+    OrbiterKernel, RADIUS, Slewer, SlewerKernel, libration_frequency, libration_period, mean_motion, pitch,
+};
 
 /// Draws librations about the upright attitude, the fall from the other one, and the slew.
 pub fn draw(
@@ -90,4 +93,32 @@ fn by_the_wheel(slewer: &Slewer, slew: &Trajectory<SlewerKernel>) -> Vec<Plot<'s
         ],
     );
     vec![angles, shares]
+}
+
+/// The satellite on its orbit as a page: the orbit two metres wide, for the satellite to be seen.
+///
+/// # Errors
+/// When the run cannot be read between its samples.
+pub fn page(
+    kernel: &OrbiterKernel,
+    path: &Trajectory<OrbiterKernel>,
+) -> Result<Playback<OrbiterKernel>, IntegrationError> {
+    let near = |s: &Sample<OrbiterKernel>| {
+        Isometry3::from_parts((s.q.translation.vector * (1.0 / RADIUS)).into(), s.q.rotation)
+    };
+    let earth = 0.5 * 6371e3 / RADIUS;
+    Ok(Playback::with_pictures("A CubeSat swings in the gradient of gravity; its orbit is drawn small", path, 1500)?
+        .body("CubeSat", near, [Shape::cuboid([0.366, 0.2263, 0.1])])
+        .body("the Earth, smaller still", |_| Isometry3::identity(), [Shape::ball(earth)])
+        .trace("CubeSat", [0.0; 3])
+        .trace("CubeSat", [0.183, 0.0, 0.0])
+        .arrow("to the Earth", 0.4, move |s| {
+            let place = near(s).translation.vector;
+            (place, -place.normalize())
+        })
+        .curve("long axis from the vertical / °", "pitch", |s| pitch(&s.q).to_degrees())
+        .curve("energy of rotation / 10⁻⁹ J", "½ ω · I ω", |s| {
+            let momentum = kernel.momentum(s.t, &s.q, &s.z);
+            0.5e9 * s.z.fixed_rows::<3>(3).dot(&momentum.fixed_rows::<3>(3))
+        }))
 }

@@ -152,9 +152,11 @@ pub fn path(area: &Area<'_>, runs: &[Run], title: &str, view: View) -> Result<()
 
     // One metre is the same length in both directions of the paper.
     let corners = [(south, west), (south, east), (north, west), (north, east)];
-    let corners = corners.iter().flat_map(|&(n, e)| [project(n, e, top), project(n, e, floor)]);
+    // What is drawn: the floor, the upright axis, the path. Two upper corners of the box would be empty paper.
+    let drawn = corners.iter().map(|&(n, e)| project(n, e, floor)).chain([project(south, west, top)]);
+    let drawn = drawn.chain(positions().map(|p| on_paper(&p)));
     let (mut x, mut y) = ((f64::INFINITY, f64::NEG_INFINITY), (f64::INFINITY, f64::NEG_INFINITY));
-    for (right, up) in corners {
+    for (right, up) in drawn {
         x = (x.0.min(right), x.1.max(right));
         y = (y.0.min(up), y.1.max(up));
     }

@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 use std::time::{Duration, Instant};
 
 use gauss_examples::figure::COLOURS;
-use gauss_examples::plots::{Line, Plot, sheet, write};
+use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 mod ddp;
@@ -21,9 +22,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     if cfg!(debug_assertions) {
         println!("Times of a program that is not optimised say nothing: run it with --release.\n");
     }
-    let (pole, costs) = swing_up()?;
+    let plots = swing_up()?;
     reach()?;
-    write("swing_up", &sheet("A pole swung up", (1800, 700), &[vec![pole, costs]])?)
+    write("swing_up", &sheet("A pole swung up", (1600, 1200), &plots)?)
 }
 
 /// Both ways to the same plan, and how long they took.
@@ -69,7 +70,7 @@ const STEPS: usize = 125;
 const END: f64 = H * STEPS as f64;
 
 /// The pole hangs; in two and a half seconds it is to stand, the cart where it was.
-fn swing_up() -> Result<(Plot<'static>, Plot<'static>), Box<dyn Error>> {
+fn swing_up() -> Result<Vec<Vec<Plot<'static>>>, Box<dyn Error>> {
     println!("A POLE SWUNG UP BY ITS CART\n");
     let kernel = CartPole { cart: 1.0, bob: 0.3, length: 0.5, g: 9.81 }.kernel()?;
     let task = Task {
@@ -94,11 +95,13 @@ fn swing_up() -> Result<(Plot<'static>, Plot<'static>), Box<dyn Error>> {
     if !both.agree() || end.amax() > 0.05 || regulated > 0.05 {
         return Err("the pole was not swung up".into());
     }
-    Ok((plot_of_way(&way, plan), plot_of_costs(&both)))
+    write_page("swing_up", &page(&kernel, plan, &way))?;
+    let [pole, cart, push] = plots_of_way(&way, plan);
+    Ok(vec![vec![pole, cart], vec![push, plot_of_costs(&both)]])
 }
 
 /// Where it was, and the state at the end.
-type Replay = (Vec<(f64, Vector<2>)>, Vector<4>);
+type Replay = (Vec<Sample<CartPoleKernel>>, Vector<4>);
 
 /// The equations themselves, by an integrator that chooses its steps, under the pushes that were found, from a start that is
 /// `beside` in the angle.
@@ -109,26 +112,44 @@ fn replay(kernel: &CartPoleKernel, plan: &Plan<4, 1>, beside: f64, regulated: bo
         let held = |_: f64, _: &Vector<2>, _: &Vector<2>| push + regulation;
         let (q, z) = parts::<2, 4>(&x);
         let run = Simulation::new(kernel).input(held).adaptive(1e-11, 1e-11).run(q, z, 0.0..H)?;
-        way.extend(run.iter().map(|s| (k as f64 * H + s.t, s.q)));
+        // Each interval begins at time zero; the last state of one is the first of the next.
+        way.extend(run.iter().skip(usize::from(k > 0)).map(|s| Sample { t: k as f64 * H + s.t, ..*s }));
         x = joined(&run.last().q, &run.last().z);
     }
     Ok((way, x))
 }
 
-fn plot_of_way(way: &[(f64, Vector<2>)], plan: &Plan<4, 1>) -> Plot<'static> {
+fn plots_of_way(way: &[Sample<CartPoleKernel>], plan: &Plan<4, 1>) -> [Plot<'static>; 3] {
     let [blue, orange, green] = [COLOURS[0], COLOURS[1], COLOURS[2]];
-    let coordinate = |name: &str, colour, k: usize| Line::new(name, colour, way.iter().map(|(t, q)| (*t, q[k])));
-    let pushes = plan.inputs.iter().enumerate().flat_map(|(k, u)| [k, k + 1].map(|n| (n as f64 * H, 0.1 * u[0])));
-    Plot::new(
-        "the way up",
-        ("s", 0.0..END),
-        ("", -3.5..4.5),
-        vec![
-            Line::new("push, 10 N", green, pushes).wide(2),
-            coordinate("cart, m", orange, 0),
-            coordinate("angle from upright, rad", blue, 1),
-        ],
-    )
+    let coordinate = |colour, k: usize| Line::new("", colour, way.iter().map(|s| (s.t, s.q[k])));
+    let pushes = plan.inputs.iter().enumerate().flat_map(|(k, u)| [k, k + 1].map(|n| (n as f64 * H, u[0])));
+    let over_time = |title, unit, ends, line| Plot::new(title, ("time, s", 0.0..END), (unit, ends), vec![line]);
+    [
+        over_time("The pole", "angle from upright, rad", -1.0..4.0, coordinate(blue, 1)),
+        over_time("The cart", "place, m", -1.0..1.0, coordinate(orange, 0)),
+        over_time("The push", "N", -20.0..20.0, Line::new("", green, pushes).wide(3)),
+    ]
+}
+
+/// The pole as it is swung up, and the push on the cart.
+fn page(kernel: &CartPoleKernel, plan: &Plan<4, 1>, way: &[Sample<CartPoleKernel>]) -> Playback<CartPoleKernel> {
+    let push = |s: &Sample<CartPoleKernel>| plan.inputs[((s.t / H) as usize).min(STEPS - 1)][0];
+    let cart = |s: &Sample<CartPoleKernel>| Isometry3::translation(s.q[0], 0.0, 0.0);
+    let pole = move |s: &Sample<CartPoleKernel>| cart(s) * Isometry3::rotation(Vector3::y() * s.q[1]);
+    Playback::of_samples("A pole swung up by its cart", way.to_vec())
+        .body("cart", cart, [Shape::cuboid([0.4, 0.2, 0.12])])
+        .body(
+            "pole",
+            pole,
+            [
+                Shape::rod([0.0, -0.12, 0.0], [0.0, -0.12, 0.5], 0.012),
+                Shape::ball(0.06).at(&Isometry3::translation(0.0, -0.12, 0.5)),
+            ],
+        )
+        .trace("pole", [0.0, -0.12, 0.5])
+        .arrow("push", 0.05, move |s| (cart(s).translation.vector, Vector3::x() * push(s)))
+        .curve("push / N", "u", push)
+        .energy(kernel)
 }
 
 fn plot_of_costs(both: &Both<4, 1>) -> Plot<'static> {
@@ -137,9 +158,9 @@ fn plot_of_costs(both: &Both<4, 1>) -> Plot<'static> {
         Line::new(name, COLOURS[k], costs.iter().enumerate().map(|(n, cost)| (n as f64, cost.log10())))
     };
     Plot::new(
-        "cost by iteration",
-        ("", 0.0..both.plans.iter().map(|(plan, _)| plan.costs.len()).max().unwrap_or(1) as f64),
-        ("power of ten", -1.0..5.0),
+        "What the plan costs",
+        ("iteration", 0.0..both.plans.iter().map(|(plan, _)| plan.costs.len()).max().unwrap_or(1) as f64),
+        ("log₁₀ of the cost", -1.0..5.0),
         vec![curve(0, "exact derivatives"), curve(1, "finite differences").dashed()],
     )
 }

@@ -9,6 +9,10 @@ use gauss_runtime::prelude::*;
     base = floating,
     inputs = none,
     gravity = 9.81,
+    frames(
+        base_link, LF_HAA_link, LF_HFE_link, LF_KFE_link, LH_HAA_link, LH_HFE_link, LH_KFE_link, RF_HAA_link, RF_HFE_link,
+        RF_KFE_link, RH_HAA_link, RH_HFE_link, RH_KFE_link,
+    ),
     spring(along = LF_HAA, stiffness = k, damping = c),
     spring(along = LF_HFE, stiffness = k, length = 0.7, damping = c),
     spring(along = LF_KFE, stiffness = k, length = -1.4, damping = c),

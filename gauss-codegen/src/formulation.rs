@@ -71,6 +71,7 @@ impl<'g> Formulation<'g> {
                 WantedMethod::Centroidal => formulas.extend(system.centroidal_formulas()),
                 WantedMethod::NonlinearEffects => formulas.push(system.nonlinear_effects(&formulas)),
                 WantedMethod::GravityTorques => formulas.push(system.gravity_torques()),
+                WantedMethod::JacobianRates => formulas.extend(system.jacobian_rates(&translator.links_of_frames())),
             }
         }
         formulas.extend(regressor.iter().flat_map(|regressor: &Regressor<'g>| regressor.formulas.clone()));

@@ -21,7 +21,7 @@
 /// | `linearize` | alone, also of systems: the kernel implements `LinearizedSystem`, exact derivatives of the equations by state, time and input; `linearize(parameters)`: by the parameters, too (`ParametricSystem`); `linearize(inverse)`: those of inverse dynamics, too (`InverseLinearizedSystem`); `linearize(parameters, inverse)` | not written: several times the code of the accelerations |
 /// | `regressor` | alone, also of systems: the kernel implements `InertialRegressor`, the forces of inertia as a linear function of inertial parameters | not written |
 /// | `frames` | `frames(tool, left_foot)`: names of bodies and frames, also of systems: the kernel implements `FramedSystem`, pose, twist, Jacobian and acceleration of each, and there is an enum `NameFrame` of them | not written |
-/// | `methods` | words, also of systems: `centroidal`, centre of mass and momenta about it (`CentroidalSystem`); `nonlinear_effects`, inverse dynamics at ż = 0 as a program of its own; `gravity_torques`, what holds the weight (`GravityTorques`) | not written |
+/// | `methods` | words, also of systems: `centroidal`, centre of mass and momenta about it (`CentroidalSystem`); `nonlinear_effects`, inverse dynamics at ż = 0 as a program of its own; `gravity_torques`, what holds the weight (`GravityTorques`); `jacobian_rates`, J̇ of the `frames` (`JacobianRates`) | not written |
 /// | `crate` | where the runtime is, when it has another name | `::gauss_runtime` |
 ///
 /// # The fields: `#[gauss(role)]`
@@ -85,6 +85,7 @@
 /// let twist = kernel.twist_of(ArmFrame::tool, t, &q, &z);      // (u, ω): of the origin, in the axes of the frame
 /// let jacobian = kernel.jacobian_of(ArmFrame::tool, t, &q);    // (u, ω) = J z
 /// let bias = kernel.bias_of(ArmFrame::tool, t, &q, &z);        // (a, ω̇) = J ż + bias, a the acceleration of the origin
+/// let rate = kernel.jacobian_rate_of(ArmFrame::tool, t, &q, &z); // J̇, with methods(jacobian_rates): (a, ω̇) = J ż + J̇ z
 /// let all = kernel.frames(t, &q, &z);                          // of all frames at once: all[ArmFrame::tool].twist
 /// ```
 ///
@@ -176,7 +177,8 @@
 /// clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures, with the square of `mechanicalReduction`.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references, damping, dry
-/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms that are no meshes; classes of defaults;
+/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms that are no meshes, scaled to
+/// `settotalmass`; classes of defaults;
 /// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
 /// as coupled joints, others as constraints; points in common and welds as constraints; springs and dampers of fixed tendons; actuators
 /// along joints and fixed tendons that are linear in their control. A ball is a `Rotation`, a free joint a `Pose`. Keyframes are

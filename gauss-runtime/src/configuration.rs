@@ -10,6 +10,7 @@
 //!
 //! All increments are *left-trivialised*: they are seen from the body, `q ↦ q ∘ exp(σ)`.
 
+mod check;
 mod vectors_and_pairs;
 
 use core::fmt::Debug;
@@ -19,6 +20,10 @@ use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 use crate::lie::{carried, se2, se3, so3};
 use crate::real::Real;
 use crate::triple::{lengths, norm, quaternion, rotate, rotate_back, triple, unit_quaternion};
+
+#[cfg(feature = "serde")]
+pub(crate) use check::all_finite;
+pub use check::{StateError, check};
 
 pub(crate) use crate::vector_space::add_carrying;
 pub use crate::vector_space::{Product, VectorSpace};
@@ -115,6 +120,21 @@ pub trait Configuration: Copy + Debug {
     /// Whether every component is finite.
     fn is_finite(&self) -> bool;
 
+    /// The unit of component `i` where all else is in units of the SI, `"1"` of a pure number; empty where the scene decides, as of
+    /// a plain coordinate.
+    #[must_use]
+    fn component_unit(i: usize) -> &'static str {
+        let _ = i;
+        ""
+    }
+
+    /// That of component `i` of an increment per time.
+    #[must_use]
+    fn rate_unit(i: usize) -> &'static str {
+        let _ = i;
+        ""
+    }
+
     /// The change of the components that brings norms back to 1, to first order: what a method that works on components adds
     /// to the change of a step before it is rounded, as [`advance`](Self::advance) does. Zero where there is nothing to keep.
     fn norm_correction(&self) -> Self::Components {
@@ -133,6 +153,13 @@ pub trait Configuration: Copy + Debug {
     fn increment_angle(tangent: &Self::Tangent) -> f64 {
         let _ = tangent;
         0.0
+    }
+
+    /// [`increment_angle`](Self::increment_angle) of every lane by itself. Where it is not written it is the largest one in all of
+    /// them.
+    #[inline]
+    fn increment_angles(tangent: &Self::Tangent) -> Self::Scalar {
+        Self::Scalar::from_f64(Self::increment_angle(tangent))
     }
 
     /// The size against which an error in component `i` of an increment is relative: 1 for rotations, the distance from
@@ -207,6 +234,14 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
         SVector::from(so3::tangent(quaternion(self), change.data.0[0]))
     }
 
+    fn component_unit(_: usize) -> &'static str {
+        "1"
+    }
+
+    fn rate_unit(_: usize) -> &'static str {
+        "rad/s"
+    }
+
     #[inline]
     fn is_finite(&self) -> bool {
         quaternion(self).iter().all(|c| c.is_finite())
@@ -225,6 +260,11 @@ impl<T: Real> Configuration for UnitQuaternion<T> {
     #[inline]
     fn increment_angle(tangent: &Self::Tangent) -> f64 {
         norm(&tangent.data.0[0])
+    }
+
+    #[inline(always)]
+    fn increment_angles(tangent: &Self::Tangent) -> T {
+        lengths(&tangent.data.0[0])
     }
 
     #[inline]
@@ -304,6 +344,14 @@ impl<T: Real> Configuration for Isometry3<T> {
         se3::join(rotate_back(rotation, [a, b, c]), so3::tangent(rotation, [x, y, z, w]))
     }
 
+    fn component_unit(i: usize) -> &'static str {
+        if i < 4 { "1" } else { "m" }
+    }
+
+    fn rate_unit(i: usize) -> &'static str {
+        if i < 3 { "m/s" } else { "rad/s" }
+    }
+
     #[inline]
     fn is_finite(&self) -> bool {
         Configuration::is_finite(&self.rotation) && VectorSpace::is_finite(&self.translation.vector)
@@ -323,6 +371,11 @@ impl<T: Real> Configuration for Isometry3<T> {
     #[inline]
     fn increment_angle(tangent: &Self::Tangent) -> f64 {
         norm(&tangent.data.0[0][3..])
+    }
+
+    #[inline(always)]
+    fn increment_angles(tangent: &Self::Tangent) -> T {
+        lengths(&tangent.data.0[0][3..])
     }
 
     #[inline]
@@ -402,6 +455,14 @@ impl<T: Real> Configuration for Isometry2<T> {
         SVector::from([turn.re * x + turn.im * y, turn.re * y - turn.im * x, angle])
     }
 
+    fn component_unit(i: usize) -> &'static str {
+        if i < 2 { "1" } else { "m" }
+    }
+
+    fn rate_unit(i: usize) -> &'static str {
+        if i < 2 { "m/s" } else { "rad/s" }
+    }
+
     #[inline]
     fn is_finite(&self) -> bool {
         let rotation = self.rotation.as_ref();
@@ -423,6 +484,11 @@ impl<T: Real> Configuration for Isometry2<T> {
     #[inline]
     fn increment_angle(tangent: &Self::Tangent) -> f64 {
         norm(&tangent.data.0[0][2..])
+    }
+
+    #[inline(always)]
+    fn increment_angles(tangent: &Self::Tangent) -> T {
+        lengths(&tangent.data.0[0][2..])
     }
 
     #[inline]

@@ -176,13 +176,22 @@ pub struct FrameOperations {
     pub jacobian: OperationCount,
     /// Of `bias_of`.
     pub bias: OperationCount,
+    /// Of `jacobian_rate_of`, where that is asked for.
+    pub jacobian_rate: OperationCount,
 }
 
 impl FrameOperations {
     /// From the costs of pose, twist, Jacobian and bias.
     #[must_use]
     pub const fn new(name: &'static str, [pose, twist, jacobian, bias]: [OperationCount; 4]) -> Self {
-        Self { name, pose, twist, jacobian, bias }
+        let jacobian_rate = OperationCount::new(0, 0, 0, 0, 0);
+        Self { name, pose, twist, jacobian, bias, jacobian_rate }
+    }
+
+    /// With the cost of the rate of the Jacobian.
+    #[must_use]
+    pub const fn with_jacobian_rate(self, jacobian_rate: OperationCount) -> Self {
+        Self { jacobian_rate, ..self }
     }
 }
 
@@ -198,8 +207,11 @@ impl fmt::Display for Operations {
                 write!(f, "{separator}{name:<20}{count}")?;
             }
         }
-        for FrameOperations { name, pose, twist, jacobian, bias } in self.of_frames {
+        for FrameOperations { name, pose, twist, jacobian, bias, jacobian_rate } in self.of_frames {
             write!(f, "\n{name:<20}pose {pose}; twist {twist}; jacobian {jacobian}; bias {bias}")?;
+            if jacobian_rate.total() > 0 {
+                write!(f, "; jacobian rate {jacobian_rate}")?;
+            }
         }
         Ok(())
     }

@@ -114,6 +114,25 @@ pub trait FramedSystem: GaussSystem {
     fn frames(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Frames;
 }
 
+/// A system that says how the Jacobians of its frames change: `frames(tool), methods(jacobian_rates)`.
+///
+/// The rate is the one that the observer sees, with components in the axes of the frame: `J̇ = Rᵀ d(R J)/dt`. So the
+/// acceleration of a frame is `J ż + J̇ z`, and `J̇ z` is [`bias_of`](FramedSystem::bias_of) where nothing is moved as
+/// a function of time. [`in_observers_axes`] of it is the rate of [`in_observers_axes`] of J (Pinocchio's
+/// `getFrameJacobianTimeVariation`, `LOCAL_WORLD_ALIGNED`). The rate of the components in the turning axes of the frame
+/// (`LOCAL` there) is J̇ less ω × both parts of each column of J. Where `J̇ z` is all that is wanted, `bias_of` costs a
+/// fraction.
+pub trait JacobianRates: FramedSystem {
+    /// J̇, a column for each speed: rows as [`twist_of`](FramedSystem::twist_of).
+    fn jacobian_rate_of(
+        &self,
+        frame: Self::Frame,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+    ) -> Self::Jacobian;
+}
+
 /// Names of frames: an enum with a variant for each, generated.
 pub trait FrameName: Copy + Debug + PartialEq + 'static {
     /// All of them, in the order in which `frames(…)` names them.

@@ -22,6 +22,8 @@
 //! | [`error`] | parameters that no body has, and warnings |
 //! | [`real`] | the scalar: floats, SIMD lanes, dual numbers |
 //! | [`simd`] | packs of numbers that are worked on in lockstep |
+//! | `saved` | parameters, states and runs as data, for `serde` |
+//! | `interchange` | poses in the types of `mint` and `glam` |
 //! | `batch` | many states of one scene at once: lanes times threads |
 //!
 //! Mathematics and numbers of equations: Massa & Vignolo, *Newton–Euler, Lagrange and Kirchhoff formulations of rigid body
@@ -38,6 +40,8 @@
 //!   scalars, for the widest instructions that the target has; see [`simd`].
 //! - `rayon`: batches on all threads.
 //! - `num-dual`: the dual numbers of that crate as scalars; see [`real`].
+//! - `mint`, `glam030` to `glam033`: vectors, rotations and poses in the types of these crates: the module `interchange`.
+//! - `serde`: parameters, states and runs as data: the module `saved`.
 //! - `differential-equations`, `diffsol`, `ode_solvers`: [`adapters`] to the crates of these names; each implies `std`.
 
 #![no_std]
@@ -73,6 +77,8 @@ pub mod forces;
 pub mod frames;
 pub mod identification;
 pub mod integrate;
+#[cfg(feature = "mint")]
+pub mod interchange;
 pub mod inverse;
 pub mod lie;
 pub mod linearize;
@@ -80,6 +86,8 @@ pub mod monitor;
 pub mod operational;
 pub mod prelude;
 pub mod real;
+#[cfg(feature = "serde")]
+pub mod saved;
 pub mod series;
 pub mod simd;
 pub mod system;

@@ -13,7 +13,7 @@ pub use crate::constraint::{ConstrainedSystem, ProjectionError};
 pub use crate::description::{Described, Equations, OperationCount, Operations};
 pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
-pub use crate::frames::{FrameName, FramedSystem};
+pub use crate::frames::{FrameName, FramedSystem, JacobianRates};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;

@@ -201,6 +201,12 @@ pub trait Real:
     ///
     /// What is not chosen may be NaN or infinite and must leave no trace.
     fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self;
+
+    /// Whether `a < b` in every lane: one branch for all of them, where a vector has an instruction for it.
+    #[inline(always)]
+    fn all_lt(a: Self, b: Self) -> bool {
+        (0..Self::LANES).all(|i| a.lane(i) < b.lane(i))
+    }
 }
 
 #[cfg(feature = "std")]

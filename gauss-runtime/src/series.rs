@@ -88,10 +88,14 @@ pub trait PowerSeries<T: Real> {
 #[repr(align(64))]
 struct Row<T, const L: usize>([T; L]);
 
-/// The series of V variables, and of both factors of L products of what is computed from them.
+/// The series of V variables, and of the D factors of L products of what is computed from them.
+///
+/// Of numbers both factors of each product are kept, row by row, so that products lie side by side in vectors. Packs are vectors
+/// themselves: of them each factor is kept once, in all its orders one after the other, which is a fraction of the memory.
 #[derive(Clone, Debug)]
-pub struct Series<T, const V: usize, const L: usize> {
+pub struct Series<T, const V: usize, const D: usize, const L: usize> {
     variables: [SVector<T, V>; MAX_ORDER + 1],
+    factors: [[T; MAX_ORDER + 1]; D],
     left: [Row<T, L>; MAX_ORDER + 1],
     right: [Row<T, L>; MAX_ORDER + 1],
     /// What is known of the sums of the next order.
@@ -113,7 +117,7 @@ macro_rules! add_products {
     };
 }
 
-impl<T: Real, const V: usize, const L: usize> Series<T, V, L> {
+impl<T: Real, const V: usize, const D: usize, const L: usize> Series<T, V, D, L> {
     /// The coefficients of order k.
     #[inline(always)]
     pub fn variables(&self, k: usize) -> [T; V] {
@@ -126,19 +130,39 @@ impl<T: Real, const V: usize, const L: usize> Series<T, V, L> {
         self.variables[k] = SVector::from(values);
     }
 
-    /// Sets the factors of order k of all products.
+    /// Sets the factors of order k: each once, and those of all products.
     #[inline(always)]
-    pub fn set_factors(&mut self, k: usize, left: [T; L], right: [T; L]) {
-        self.left[k] = Row(left);
-        self.right[k] = Row(right);
+    pub fn set_factors(&mut self, k: usize, factors: [T; D], left: [T; L], right: [T; L]) {
+        if T::LANES > 1 {
+            for i in 0..D {
+                self.factors[i][k] = factors[i];
+            }
+        } else {
+            self.left[k] = Row(left);
+            self.right[k] = Row(right);
+        }
     }
 
     /// `Σ_{0 < j < k} leftⱼ rightₖ₋ⱼ` of every product: all but the first and the last term of the coefficient of order k. Orders
-    /// are to be asked for one after the other, from 1.
+    /// are to be asked for one after the other, from 1. `pairs`: which factors those of each product are.
     // Inlined, its packs would be taken apart to suit what their elements are added to.
     #[inline(never)]
-    pub fn convolution(&mut self, k: usize) -> [T; L] {
+    pub fn convolution(&mut self, k: usize, pairs: &[[usize; 2]; L]) -> [T; L] {
         let mut sums = [T::zero(); L];
+        if T::LANES > 1 {
+            assert!(k <= MAX_ORDER, "an order beyond the highest");
+            let (parts, _) = pairs.as_chunks::<PACK>();
+            let places = sums.as_chunks_mut::<PACK>().0.iter_mut().zip(self.ahead.0.as_chunks_mut::<PACK>().0);
+            for (part, (sums, ahead)) in parts.iter().zip(places) {
+                let factor = |i: usize| part.map(|pair| &self.factors[pair[i]]);
+                if k % 2 == 1 {
+                    (*sums, *ahead) = odd_of_packs(k, factor(0), factor(1));
+                } else {
+                    *sums = even_of_packs(k, *ahead, factor(0), factor(1));
+                }
+            }
+            return sums;
+        }
         let mut from = 0;
         macro_rules! blocks {
             ($width:expr) => {
@@ -203,6 +227,65 @@ impl<T: Real, const V: usize, const L: usize> Series<T, V, L> {
     }
 }
 
+/// All orders of one factor.
+type Orders<T> = [T; MAX_ORDER + 1];
+
+/// [`Series::odd`] of factors that are kept by themselves, and with its bits: the sums, and what is known of the next ones.
+#[inline(always)]
+fn odd_of_packs<T: Real>(k: usize, left: [&Orders<T>; PACK], right: [&Orders<T>; PACK]) -> ([T; PACK], [T; PACK]) {
+    let (mut sums, mut ahead) = ([T::zero(); PACK], [T::zero(); PACK]);
+    macro_rules! add {
+        ($to:ident, $a:expr, $b:expr) => {
+            for i in 0..PACK {
+                $to[i] = left[i][$a].fma(right[i][$b], $to[i]);
+            }
+        };
+    }
+    if k > 1 {
+        // What is read for the one is kept for the other.
+        let mut above = [T::zero(); PACK];
+        for i in 0..PACK {
+            above[i] = right[i][k - 2];
+        }
+        for j in 3..k - 1 {
+            for i in 0..PACK {
+                let (a, below) = (left[i][j], right[i][k - j]);
+                sums[i] = a.fma(below, sums[i]);
+                ahead[i] = a.fma(above[i], ahead[i]);
+                above[i] = below;
+            }
+        }
+        if k > 3 {
+            add!(sums, 2, k - 2);
+        }
+        add!(sums, 1, k - 1);
+        add!(ahead, 2, k - 1);
+        add!(sums, k - 1, 1);
+        if k > 3 {
+            add!(ahead, k - 1, 2);
+        }
+    }
+    (sums, ahead)
+}
+
+/// [`Series::even`] likewise.
+#[inline(always)]
+fn even_of_packs<T: Real>(
+    k: usize,
+    ahead: [T; PACK],
+    left: [&Orders<T>; PACK],
+    right: [&Orders<T>; PACK],
+) -> [T; PACK] {
+    let mut sums = ahead;
+    for i in 0..PACK {
+        sums[i] = left[i][1].fma(right[i][k - 1], sums[i]);
+        if k > 2 {
+            sums[i] = left[i][k - 1].fma(right[i][1], sums[i]);
+        }
+    }
+    sums
+}
+
 /// N elements of a row.
 #[inline(always)]
 fn part<T: Real, const L: usize, const N: usize>(row: &Row<T, L>, from: usize) -> [T; N] {
@@ -211,13 +294,14 @@ fn part<T: Real, const L: usize, const N: usize>(row: &Row<T, L>, from: usize) -
     part
 }
 
-impl<T: Real, const V: usize, const L: usize> PowerSeries<T> for Series<T, V, L> {
+impl<T: Real, const V: usize, const D: usize, const L: usize> PowerSeries<T> for Series<T, V, D, L> {
     type Variables = SVector<T, V>;
 
     fn zero() -> Self {
         let row = Row([T::zero(); L]);
         Self {
             variables: [VectorSpace::zero(); MAX_ORDER + 1],
+            factors: [[T::zero(); MAX_ORDER + 1]; D],
             left: [row; MAX_ORDER + 1],
             right: [row; MAX_ORDER + 1],
             ahead: row,

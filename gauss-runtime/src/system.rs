@@ -278,6 +278,14 @@ pub enum Smoothness {
 /// `RigidBody<T, AboutCenterOfMass<T>>` keeps it, made by [`about_center_of_mass`](RigidBody::about_center_of_mass).
 /// Where the centre of mass is far from O that is the only way to have all digits: m c² of I_O hides them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize, I: serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>, I: serde::Deserialize<'de>"
+    ))
+)]
 pub struct RigidBody<T, I = Matrix3<T>> {
     /// m.
     pub mass: T,
@@ -289,6 +297,14 @@ pub struct RigidBody<T, I = Matrix3<T>> {
 
 /// I_G: an inertia tensor about the centre of mass, body axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct AboutCenterOfMass<T>(pub Matrix3<T>);
 
 impl<T> RigidBody<T, AboutCenterOfMass<T>> {

@@ -23,6 +23,15 @@ struct Body {
     i: f64,
 }
 
+#[derive(GaussDynamics)]
+#[gauss(methods(jacobian_rates))]
+struct Alone {
+    #[gauss(mass)]
+    m: f64,
+    #[gauss(inertia)]
+    i: f64,
+}
+
 fn main() {
     let kernel = Arm { g: 9.81 }.kernel().unwrap();
     let _ = kernel.pose_of(ArmFrame::tool, 0.0, &SVector::from([0.0]));

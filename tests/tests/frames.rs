@@ -38,8 +38,8 @@ fn sums(a: &[Bounded], b: &[Bounded]) -> Vec<Bounded> {
 fn check<C, B, D>(origin: &C, bounded: &B, dual: &D)
 where
     C: Configuration<Scalar = f64> + Parts<f64>,
-    B: FramedSystem<Scalar = Bounded, Configuration: Parts<Bounded>>,
-    D: FramedSystem<Scalar = Moving, Configuration: Parts<Moving>, Frame = B::Frame>,
+    B: JacobianRates<Scalar = Bounded, Configuration: Parts<Bounded>>,
+    D: JacobianRates<Scalar = Moving, Configuration: Parts<Moving>, Frame = B::Frame>,
 {
     let mut random = Random(11);
     let mut told = 0;
@@ -85,6 +85,15 @@ where
             let bias = bounded.bias_of(frame, t, &q, &speeds_now);
             let found = sums(&product(&jacobian, &acceleration), &list(&bias));
             equal(&what("acceleration"), &found, &expected).unwrap();
+            // J̇ is the rate of J as the observer sees it: of each column that of its components, and ω × both parts.
+            let rate = bounded.jacobian_rate_of(frame, t, &q, &speeds_now);
+            let moved_jacobian = dual.jacobian_of(frame, moving_t, &moving_q);
+            for k in 0..B::DOF {
+                let column = [0, 1, 2, 3, 4, 5].map(|i| moved_jacobian[(i, k)]);
+                let turned = |first: usize| cross(omega, [0, 1, 2].map(|i| column[first + i].value));
+                let expected = sums(&rates(column), &[turned(0), turned(3)].concat());
+                equal(&what("J̇"), &[0, 1, 2, 3, 4, 5].map(|i| rate[(i, k)]), &expected).unwrap();
+            }
             let size = expected.iter().fold(1.0_f64, |m, x| m.max(x.value.abs()));
             told += usize::from(found.iter().chain(&expected).all(|x| x.bound <= 1e-10 * size));
             all += 1;
@@ -129,6 +138,7 @@ fn rigid<T: Real>(mass: f64, x: f64) -> RigidBody<T> {
     body(arm, parent = moved, position = [l, 0, 0], rotation = rotation_y(elbow)),
     frame(tool, parent = arm, position = [0, l, 0.5], rotation = rotation_z(pi / 2) * rotation_x(0.4)),
     frames(tool, hull, moved, arm, rotor),
+    methods(jacobian_rates),
 )]
 struct Gyrostat<T> {
     #[gauss(body)]
@@ -173,6 +183,7 @@ fn groups_quasi_velocities_and_given_motions() {
          inertia = [0.5, 0.5, 0.1]),
     frame(tip, parent = lower, position = [0.1, 0.2, l * a], rotation = rotation_y(0.3)),
     frames(tip, lower, cart),
+    methods(jacobian_rates),
 )]
 struct Plane<T> {
     l: T,
@@ -195,9 +206,9 @@ fn in_the_plane() {
 /// One body in a chart, with a frame on it and without.
 macro_rules! charted {
     ($test:ident: $alone:ident $fitted:ident, [$($chart:tt)+], $motion:ident, $origin:expr) => {
-        charted!(@ $alone [$($chart)+] $motion frames(body));
+        charted!(@ $alone [$($chart)+] $motion frames(body), methods(jacobian_rates));
         charted!(@ $fitted [$($chart)+] $motion
-            frame(sensor, parent = body, position = [0.3, 0.1 * t, 0.2], rotation = rotation_x(0.5)), frames(sensor, body));
+            frame(sensor, parent = body, position = [0.3, 0.1 * t, 0.2], rotation = rotation_x(0.5)), frames(sensor, body), methods(jacobian_rates));
 
         #[test]
         fn $test() {
@@ -328,4 +339,5 @@ fn operations_are_counted() {
         .sum();
     assert!(tip.jacobian.total() > 0 && operations.frames.total() < apart, "{operations}");
     assert!(operations.to_string().contains("\ntip                 pose "), "{operations}");
+    assert!(tip.jacobian_rate.total() > tip.bias.total(), "{operations}");
 }

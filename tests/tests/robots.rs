@@ -302,6 +302,41 @@ fn mass_data_in_fields() {
     }
 }
 
+/// A gripper by published numbers: ten links that mimics tie to one motor.
+#[derive(GaussDynamics)]
+#[gauss(urdf = "robots/robotiq_2f_85.urdf", gravity = 9.81, limits = none, frames(left_pad, right_pad))]
+struct Robotiq;
+
+/// Knuckles and outer fingers turn about the palm; inner fingers turn as far back, and so move on circles: the inertia is the same
+/// wherever they are, and the pads stay parallel.
+#[test]
+fn a_published_gripper() {
+    let kernel = Robotiq.kernel().unwrap();
+    let about_pivot = |moment: f64, mass: f64, y: f64, z: f64| moment + mass * (y * y + z * z);
+    let knuckle = about_pivot(2.89328108496468e-6, 0.00853198276973456, 0.0199435877845359, 0.0292245259211331);
+    let [y, z] = [0.0315 + 0.0373907951953854, -0.0041 - 0.0208027427000385];
+    let outer_finger = about_pivot(1.52518312458174e-5, 0.022614240507152, y, z);
+    let inner_knuckle = about_pivot(2.61910379223783e-5, 0.0271177346495152, 0.0507850843201817, 0.00103968640075166);
+    let inner_finger = about_pivot(0.0, 0.0104003125914103, 0.0315 + 0.0061, -0.0041 + 0.0471);
+    let inertia = 2.0 * (knuckle + outer_finger + inner_knuckle + inner_finger);
+    let pad = |frame, q: &SVector<f64, 1>| kernel.pose_of(frame, 0.0, q);
+    let open = pad(RobotiqFrame::right_pad, &SVector::zeros());
+    // Lengths of the file: a stroke of 85 mm between pads of 6.35 mm.
+    let half = 0.0306011 + 0.0315 + 0.0061 - 0.0220203446692936;
+    assert!((open.translation.y - half).abs() <= 4.0 * EPSILON && (2.0 * half - 0.00635 - 0.085).abs() < 1.1e-3);
+    for angle in [0.0, 0.3, 0.81] {
+        let q = SVector::from([angle]);
+        let found = kernel.mass_matrix(0.0, &q)[0];
+        // Some twenty products for each of eight links.
+        assert!((found - inertia).abs() <= 100.0 * EPSILON * inertia, "{found} {inertia}");
+        let [left, right] = [RobotiqFrame::left_pad, RobotiqFrame::right_pad].map(|frame| pad(frame, &q));
+        let [l, r] = [left, right].map(|pose| pose.translation.vector);
+        assert!((l - Vector3::new(-r.x, -r.y, r.z)).amax() <= 8.0 * EPSILON, "{l} {r}");
+        assert!((right.rotation.matrix() - open.rotation.matrix()).amax() <= 8.0 * EPSILON);
+        assert!(angle == 0.0 || r.y < open.translation.y);
+    }
+}
+
 /// Inputs of the two joints that transmissions drive; the tips are joined by clauses of the struct.
 #[derive(GaussDynamics)]
 #[gauss(

@@ -82,7 +82,7 @@ fn panel(study: &Study) -> Chart {
     Chart {
         title: study.scene.about.title.split(" (").next().unwrap_or_default().into(),
         subtitle: gains.join(", "),
-        x: Axis { label: "error at the end".into(), ends: 0.0..-16.0, decades: true },
+        x: Axis { label: "error at the end (smaller to the right)".into(), ends: 0.0..-16.0, decades: true },
         y: Axis { label: "µs per simulated second".into(), ..y },
         series,
         size: PANEL,

@@ -42,7 +42,7 @@ fn of_method<'g>(
         Method::MassMatrix | Method::ElementForces => {
             signature.program(name, &arguments, code, results(rows, count / rows))
         }
-        Method::OfFrame(FrameQuantity::Jacobian, _) | Method::CentroidalMatrix => {
+        Method::OfFrame(FrameQuantity::Jacobian | FrameQuantity::JacobianRate, _) | Method::CentroidalMatrix => {
             signature.program(name, &arguments, code, results(6, rows))
         }
         Method::Regularity => signature.program(name, &arguments, &regularity(code), results(1, 1)),

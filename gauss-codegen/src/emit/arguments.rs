@@ -53,7 +53,7 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::BodyMomentum
         | Method::VelocityResidual
         | Method::ComponentRates
-        | Method::OfFrame(FrameQuantity::Twist | FrameQuantity::Bias, _)
+        | Method::OfFrame(FrameQuantity::Twist | FrameQuantity::Bias | FrameQuantity::JacobianRate, _)
         | Method::Frames
         | Method::CentroidalMomentum
         | Method::CentroidalBias => &[Speeds],

@@ -1,4 +1,4 @@
-//! `FramedSystem`: poses, twists, Jacobians and accelerations of the frames that are asked for, and their names.
+//! `FramedSystem`: poses, twists, Jacobians and accelerations of the frames that are asked for, and their names; `JacobianRates`.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -18,7 +18,10 @@ pub fn frame_operations(derived: &Derived<'_, '_>) -> Option<TokenStream> {
             let program = derived.program(Method::OfFrame(quantity, number));
             derived.count(program.counts())
         });
-        quote!(#private::FrameOperations::new(#name, [#(#counts),*]))
+        let rate = Method::OfFrame(FrameQuantity::JacobianRate, number);
+        let rate = derived.has(rate).then(|| derived.count(derived.program(rate).counts()));
+        let rate = rate.map(|count| quote!(.with_jacobian_rate(#count)));
+        quote!(#private::FrameOperations::new(#name, [#(#counts),*]) #rate)
     };
     let all: Vec<TokenStream> = derived.frames().iter().enumerate().map(of).collect();
     (!all.is_empty()).then(|| quote!(of_frames = &[#(#all),*]))
@@ -35,8 +38,14 @@ pub fn framed_system(derived: &Derived<'_, '_>) -> [Option<TokenStream>; 2] {
         return [None, None];
     }
     let [names, named] = names(derived);
-    let system = system(derived);
-    [Some(names), Some(quote!(#named #system))]
+    let (system, rates) = (system(derived), jacobian_rates(derived));
+    [Some(names), Some(quote!(#named #system #rates))]
+}
+
+fn jacobian_rates(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let wanted = derived.has(Method::OfFrame(FrameQuantity::JacobianRate, 0));
+    let result = quote!(Self::Jacobian);
+    wanted.then(|| derived.implementation(quote!(JacobianRates), method(derived, FrameQuantity::JacobianRate, &result)))
 }
 
 fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
@@ -142,7 +151,7 @@ fn size_of(quantity: FrameQuantity, n: usize) -> usize {
     match quantity {
         FrameQuantity::Pose => 12,
         FrameQuantity::Twist | FrameQuantity::Bias => 6,
-        FrameQuantity::Jacobian => 6 * n,
+        FrameQuantity::Jacobian | FrameQuantity::JacobianRate => 6 * n,
     }
 }
 
@@ -156,7 +165,7 @@ fn made(derived: &Derived<'_, '_>, quantity: FrameQuantity, outputs: &[TokenStre
             quote!(#private::frame_pose([#(#position),*], [#(#rows),*]))
         }
         FrameQuantity::Twist | FrameQuantity::Bias => quote!(#private::vector([#(#outputs),*])),
-        FrameQuantity::Jacobian => {
+        FrameQuantity::Jacobian | FrameQuantity::JacobianRate => {
             let rows = outputs.chunks(outputs.len() / 6).map(|row| quote!([#(#row),*]));
             quote!(#private::matrix([#(#rows),*]))
         }

@@ -42,8 +42,10 @@ struct Order<'a, 'g> {
     moving: Vec<bool>,
     /// What is added up within the one instruction that reads it.
     inlined: Vec<bool>,
-    /// Factors of order k of each lane.
-    lanes: Vec<(TokenStream, TokenStream)>,
+    /// The series that are factors, in order k.
+    factors: Vec<TokenStream>,
+    /// The two factors of each lane.
+    lanes: Vec<[usize; 2]>,
     /// What is computed once, after order 0.
     once: TokenStream,
 }
@@ -62,6 +64,7 @@ impl<'a, 'g> Order<'a, 'g> {
             scalar,
             moving: program.moving(|symbol| !coefficients.contains_key(&symbol.key())),
             inlined: program.added_once(),
+            factors: Vec::new(),
             lanes: Vec::new(),
             once: TokenStream::new(),
         }
@@ -105,9 +108,19 @@ impl<'a, 'g> Order<'a, 'g> {
 
     /// The sum over the products of two series; their coefficients of order k are given.
     fn lane(&mut self, left: TokenStream, right: TokenStream) -> TokenStream {
-        self.lanes.push((left, right));
+        let factors = [self.factor(left), self.factor(right)];
+        self.lanes.push(factors);
         let lane = self.lanes.len() - 1;
         quote!(__sums[#lane])
+    }
+
+    /// The place of a series among the factors.
+    fn factor(&mut self, coefficient: TokenStream) -> usize {
+        let text = coefficient.to_string();
+        self.factors.iter().position(|known| known.to_string() == text).unwrap_or_else(|| {
+            self.factors.push(coefficient);
+            self.factors.len() - 1
+        })
     }
 
     /// The reciprocal of something of order 0, computed once.
@@ -373,13 +386,17 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let line = order.line();
     let of_order: Vec<TokenStream> =
         program.outputs.iter().map(|o| order.coefficient(o).unwrap_or(zero.clone())).collect();
-    let Order { mut lanes, once, .. } = order;
-    lanes.resize(lanes.len().next_multiple_of(PACK), (zero.clone(), zero));
-    let (left, right): (Vec<_>, Vec<_>) = lanes.into_iter().unzip();
+    let missing = order.lanes.len().next_multiple_of(PACK) - order.lanes.len();
+    if missing > 0 {
+        let nothing = order.factor(zero);
+        order.lanes.extend(core::iter::repeat_n([nothing; 2], missing));
+    }
+    let Order { factors, lanes, once, .. } = order;
+    let (left, right): (Vec<_>, Vec<_>) = lanes.iter().map(|&[left, right]| (left, right)).unzip();
     let Variables { names, declarations, .. } = &variables;
-    let (count, width, groups) = (names.len(), left.len(), component_groups(derived));
+    let (count, kinds, width, groups) = (names.len(), factors.len(), left.len(), component_groups(derived));
     let items = quote! {
-        type Series = #private::Series<#ty, #count, #width>;
+        type Series = #private::Series<#ty, #count, #kinds, #width>;
         const GROUPS: &'static [::core::primitive::usize] = &[#(#groups),*];
         fn expand(
             &self,
@@ -403,9 +420,10 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
                 let __over = #real::recip(__order);
                 let __next = #real::recip(__order + __one);
                 let __x = __series.variables(__k);
-                let __sums = __series.convolution(__k);
+                let __sums = __series.convolution(__k, &[#([#left, #right]),*]);
                 #line
-                __series.set_factors(__k, [#(#left),*], [#(#right),*]);
+                let __f = [#(#factors),*];
+                __series.set_factors(__k, __f, [#(__f[#left]),*], [#(__f[#right]),*]);
                 __series.set_variables(__k + 1, [#(#of_order * __next),*]);
                 __time = __zero;
             }

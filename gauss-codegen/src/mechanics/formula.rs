@@ -65,10 +65,12 @@ pub enum FrameQuantity {
     Jacobian,
     /// The acceleration of the origin and ω̇ at ż = 0.
     Bias,
+    /// Of the Jacobian, row by row, as the observer sees it; by `methods(jacobian_rates)`.
+    JacobianRate,
 }
 
 impl FrameQuantity {
-    /// All of them, in their order.
+    /// Those that every frame has which is asked for, in their order.
     pub const ALL: [Self; 4] = [Self::Pose, Self::Twist, Self::Jacobian, Self::Bias];
 
     fn name(self) -> &'static str {
@@ -77,6 +79,7 @@ impl FrameQuantity {
             FrameQuantity::Twist => "twist_of",
             FrameQuantity::Jacobian => "jacobian_of",
             FrameQuantity::Bias => "bias_of",
+            FrameQuantity::JacobianRate => "jacobian_rate_of",
         }
     }
 }

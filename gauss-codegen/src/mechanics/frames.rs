@@ -17,6 +17,7 @@ impl<'g> System<'g> {
             FrameQuantity::Pose => vec![tree.pose_of(link)],
             FrameQuantity::Twist => vec![tree.twist_of(link)],
             FrameQuantity::Jacobian => tree.jacobians_of(link).into(),
+            FrameQuantity::JacobianRate => tree.jacobian_rates_of(link).into(),
             FrameQuantity::Bias => vec![tree.bias_of(link, &accelerations)],
         };
         let mut formulas = Vec::new();
@@ -33,5 +34,13 @@ impl<'g> System<'g> {
         }
         formulas.push(Formula { method: Method::Frames, arrangements: together.into() });
         formulas
+    }
+    /// Rates of the Jacobians of the links with these numbers.
+    pub fn jacobian_rates(&self, links: &[usize]) -> Vec<Formula<'g>> {
+        let of = |(number, &link): (usize, &usize)| Formula {
+            method: Method::OfFrame(FrameQuantity::JacobianRate, number),
+            arrangements: self.scene.tree.jacobian_rates_of(link).into(),
+        };
+        links.iter().enumerate().map(of).collect()
     }
 }

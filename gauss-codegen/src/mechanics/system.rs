@@ -10,7 +10,7 @@ use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::kinematics::vector::{Vector, is_zero};
 use crate::mechanics::links::link::Link;
-use crate::mechanics::links::tree::{Inertia, Tree};
+use crate::mechanics::links::tree::{Inertia, Tree, UnderWay};
 use crate::mechanics::links::working::Working;
 use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
@@ -401,12 +401,34 @@ impl<'g> System<'g> {
     /// ∂C/∂ż of the unconstrained C at ż = ζ, and ζ: what links that float have of the accelerations at ż = 0, along
     /// speeds that no constraint mentions.
     pub(in crate::mechanics) fn floating(&self, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
-        let held = |speed: usize| self.constraints.jacobian.iter().any(|row| !row[speed].is_zero());
-        // What a rotor needs besides is no acceleration of the observer.
-        let geared = |speed: usize| self.scene.tree.rotors.iter().any(|r| !r.row(self.scene.speeds[speed]).is_zero());
-        let held: Vec<bool> = (0..self.scene.speeds.len()).map(|speed| held(speed) || geared(speed)).collect();
-        let (rows, taken) = self.tree().floating_residual(inertia, self.loads(), &held);
+        let (rows, taken) = self.tree().floating_residual(inertia, self.loads(), &self.held());
         [self.without_others(rows), taken]
+    }
+
+    /// Speeds whose rates are not taken at once where links float: constraints mention them, or rotors need something
+    /// besides, which is no acceleration of the observer.
+    fn held(&self) -> Vec<bool> {
+        let held = |speed: usize| self.constraints.jacobian.iter().any(|row| !row[speed].is_zero());
+        let geared = |speed: usize| self.scene.tree.rotors.iter().any(|r| !r.row(self.scene.speeds[speed]).is_zero());
+        (0..self.scene.speeds.len()).map(|speed| held(speed) || geared(speed)).collect()
+    }
+
+    /// ż link by link, with what acts gathered together with what the motion asks for.
+    pub(in crate::mechanics) fn gathered_accelerations(&self) -> Vec<Vec<Expr<'g>>> {
+        let articulated = if self.is_long() { Articulated::new(self.tree()) } else { None };
+        let of = |articulated: &Articulated<'_, 'g>, inertia: Inertia| {
+            let [relative, taken] = self.gathered(articulated, inertia);
+            sums(&relative, &taken)
+        };
+        let inertias = self.tree().inertias(true);
+        articulated.iter().flat_map(|articulated| inertias.iter().map(|&inertia| of(articulated, inertia))).collect()
+    }
+
+    /// The same as ż′ and ζ.
+    fn gathered(&self, articulated: &Articulated<'_, 'g>, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
+        let UnderWay { wrenches, rows, taken } = self.tree().under_way(inertia, self.loads(), &self.held());
+        let right: Vec<Expr<'g>> = self.without_others(rows).into_iter().map(|row| -row).collect();
+        [articulated.solve_under(&wrenches, &right), taken]
     }
 
     /// ż and λ: with `ż = ζ + ż′`, `A ż′ = −∂C/∂ż(ζ) + Jᵀλ`.
@@ -460,7 +482,7 @@ impl<'g> System<'g> {
         };
         let orthogonal = self.elements();
         let orthogonal = orthogonal.iter().map(|elements| elements.accelerations(&self.loads, &self.other_forces()));
-        arrangements.iter().flat_map(solve).chain(orthogonal).collect()
+        arrangements.iter().flat_map(solve).chain(self.gathered_accelerations()).chain(orthogonal).collect()
     }
 
     /// C as a sum of squares, where several speeds share it. Where a speed turns a root and moves its O as well, as those of

@@ -144,6 +144,16 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
         Product { first: self.0.tangent(&change.first), second: self.1.tangent(&change.second) }
     }
 
+    fn component_unit(i: usize) -> &'static str {
+        let split = <A::Components as VectorSpace<A::Scalar>>::DIM;
+        if i < split { A::component_unit(i) } else { B::component_unit(i - split) }
+    }
+
+    fn rate_unit(i: usize) -> &'static str {
+        let split = <A::Tangent as VectorSpace<A::Scalar>>::DIM;
+        if i < split { A::rate_unit(i) } else { B::rate_unit(i - split) }
+    }
+
     #[inline]
     fn is_finite(&self) -> bool {
         self.0.is_finite() && self.1.is_finite()
@@ -162,6 +172,11 @@ impl<A: Configuration, B: Configuration<Scalar = A::Scalar>> Configuration for (
     #[inline]
     fn increment_angle(tangent: &Self::Tangent) -> f64 {
         A::increment_angle(&tangent.first).max(B::increment_angle(&tangent.second))
+    }
+
+    #[inline(always)]
+    fn increment_angles(tangent: &Self::Tangent) -> A::Scalar {
+        Real::max(A::increment_angles(&tangent.first), B::increment_angles(&tangent.second))
     }
 
     #[inline]

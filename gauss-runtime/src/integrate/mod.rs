@@ -43,7 +43,7 @@ pub use drive::search::Crossing;
 pub use drive::simulation::Simulation;
 pub use drive::summary::{End, Summary};
 #[cfg(feature = "alloc")]
-pub use drive::table::Table;
+pub use drive::table::{Column, Table, UnknownColumns};
 #[cfg(feature = "alloc")]
 pub use drive::trajectory::{EventSample, Trajectory};
 #[cfg(feature = "alloc")]

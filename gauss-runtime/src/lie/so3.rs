@@ -155,7 +155,8 @@ pub(crate) fn tangent<T: Real>(q: [T; 4], change: [T; 4]) -> [T; 3] {
 #[inline]
 pub fn renormalise<T: Real>(rotation: &UnitQuaternion<T>) -> UnitQuaternion<T> {
     let q = quaternion(rotation);
-    let far = |q: [T; 4]| (0..T::LANES).any(|i| defect(q).lane(i).abs() > 0.5);
+    // A NaN, which counts as far, is none the worse for it.
+    let far = |q: [T; 4]| !T::all_lt(defect(q).abs(), T::ratio(1, 2));
     let brought = |q: [T; 4]| {
         let factor = norm_factor(defect(q));
         q.map(|c| c.fma(factor, c))
@@ -175,7 +176,7 @@ pub(super) fn norm_factor<T: Real>(defect: T) -> T {
     // Σ from the second order on: 3/8 d² + 5/16 d³ + …
     let near = half.omitting(half * defect / (T::one() - defect));
     // Nearly always so: nothing should wait for the root then.
-    if (0..T::LANES).all(|i| defect.lane(i) * defect.lane(i) < T::EPSILON) {
+    if T::all_lt(defect * defect, T::from_f64(T::EPSILON)) {
         near
     } else {
         T::select_lt(defect * defect, T::from_f64(T::EPSILON), near, far_correction(defect))

@@ -20,7 +20,7 @@ pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};
 pub use crate::description::{Described, Equations, FrameOperations, OperationCount, Operations};
 pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
-pub use crate::frames::{ByFrame, FrameMotion, FrameName, FramedSystem};
+pub use crate::frames::{ByFrame, FrameMotion, FrameName, FramedSystem, JacobianRates};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 pub use crate::inverse::{InverseLinearization, InverseLinearizedSystem};
 pub use crate::linearize::{Linearization, LinearizedSystem};

@@ -198,4 +198,10 @@ impl<T: Real, const N: usize> Real for Lanes<T, N> {
     fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
         Self::from_fn(|i| T::select_lt(a.0[i], b.0[i], x.0[i], y.0[i]))
     }
+
+    #[inline(always)]
+    fn all_lt(a: Self, b: Self) -> bool {
+        // Without a branch at every lane.
+        a.0.iter().zip(b.0).fold(true, |all, (&a, b)| all & T::all_lt(a, b))
+    }
 }

@@ -96,6 +96,11 @@ macro_rules! implement_real {
             fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
                 a.simd_lt(b).select(x, y)
             }
+
+            #[inline(always)]
+            fn all_lt(a: Self, b: Self) -> bool {
+                a.simd_lt(b).all()
+            }
         }
 
         impl Packed for $vector {

@@ -13,7 +13,7 @@ use crate::algebra::{Expr, Factored, FactoredColumns, Rational};
 use crate::mechanics::kinematics::turn::{Turn, inward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, cross_matrix, dot, subtract};
 use crate::mechanics::links::link::Link;
-use crate::mechanics::links::tree::Tree;
+use crate::mechanics::links::tree::{Pairs, Tree};
 use crate::mechanics::matter::moments::Moments;
 
 type Matrix<'g> = [Triple<'g>; 3];
@@ -79,7 +79,20 @@ impl<'a, 'g> Articulated<'a, 'g> {
 
     /// x with A x = right.
     pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        self.combinations().solve(right, |right| self.solve_joints(right))
+        let none = [self.tree.graph.zero(); 3];
+        let nothing = vec![(none, none); self.tree.links.len()];
+        self.combinations().solve(right, |right| self.solve_joints(right, nothing.clone(), |_| None))
+    }
+
+    /// x with A x = right less what wrenches on the links ask of the speeds: on the way to the root they are gathered
+    /// together with what the motion asks for. Along the axis of a hinge that is then known, and of its motion what is
+    /// relative to the parent is found last; in [`solve`](Self::solve) it is first, since that of all links is wanted
+    /// besides.
+    pub fn solve_under(&self, wrenches: &Pairs<'g>, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let links = self.tree.links.iter().zip(wrenches);
+        let wrenches: Vec<Pair<'g>> =
+            links.map(|(link, (linear, angular))| (link.frame.resolve(linear, Axes::Body), *angular)).collect();
+        self.combinations().solve(right, |right| self.solve_joints(right, wrenches.clone(), Pivot::axis))
     }
 
     fn combinations(&self) -> Combinations {
@@ -118,12 +131,16 @@ impl<'a, 'g> Articulated<'a, 'g> {
         JointFactors { combinations: self.combinations(), factored: Factored::of_columns(order, rest) }
     }
 
-    /// y with A_y y = right.
-    fn solve_joints(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    /// y with A_y y = right less what is asked of the links; where a pivot is that of an axis, along that.
+    fn solve_joints(
+        &self,
+        right: &[Expr<'g>],
+        mut asked: Vec<Pair<'g>>,
+        axis: impl Fn(&Pivot<'g>) -> Option<usize>,
+    ) -> Vec<Expr<'g>> {
         let zero = self.tree.graph.zero();
         let links = &self.tree.links;
         let nothing: Pair<'g> = ([zero; 3], [zero; 3]);
-        let mut asked = vec![nothing; links.len()];
         let mut reduced = right.to_vec();
         for k in (0..links.len()).rev() {
             for pivot in &self.pivots[k] {
@@ -131,6 +148,9 @@ impl<'a, 'g> Articulated<'a, 'g> {
                 reduced[pivot.speed] = rest.group();
                 let share = (reduced[pivot.speed] * pivot.inverse).group();
                 asked[k] = moved(&asked[k], share, &pivot.response);
+                if let Some(axis) = axis(pivot) {
+                    *component(&mut asked[k], axis) = right[pivot.speed];
+                }
             }
             if let Some(parent) = links[k].parent {
                 let (linear, angular) = self.tree.carried(k, &asked[k].0, &asked[k].1);
@@ -151,6 +171,14 @@ impl<'a, 'g> Articulated<'a, 'g> {
                 }
             };
             for pivot in self.pivots[k].iter().rev() {
+                if let Some(axis) = axis(pivot) {
+                    let before = std::mem::replace(component(&mut motion, axis), zero);
+                    let rest = reduced[pivot.speed] - pair(&pivot.response, &motion);
+                    let whole = (rest.group() * pivot.inverse).group();
+                    solution[pivot.speed] = (whole - before).group();
+                    *component(&mut motion, axis) = whole;
+                    continue;
+                }
                 let rest = reduced[pivot.speed] - pair(&pivot.response, &motion);
                 solution[pivot.speed] = (rest.group() * pivot.inverse).group();
                 motion = moved(&motion, solution[pivot.speed], &pivot.row);
@@ -291,6 +319,19 @@ impl<'g> Pivot<'g> {
         let inverse = (pair(&row, &response) + armature).group().recip();
         Self { speed, row, response, armature, inverse }
     }
+
+    /// The component of a motion that the speed is, where it is one and nothing but the links resists: what is asked
+    /// along it is then what acts along it, and the response there the pivot.
+    fn axis(&self) -> Option<usize> {
+        let mut there = self.row.0.iter().chain(&self.row.1).enumerate().filter(|(_, e)| !e.is_zero());
+        let (axis, value) = there.next()?;
+        (there.next().is_none() && *value == value.graph().one() && self.armature.is_zero()).then_some(axis)
+    }
+}
+
+/// Of a linear and an angular part, counted on.
+fn component<'a, 'g>(pair: &'a mut Pair<'g>, axis: usize) -> &'a mut Expr<'g> {
+    if axis < 3 { &mut pair.0[axis] } else { &mut pair.1[axis - 3] }
 }
 
 impl<'g> ArticulatedInertia<'g> {

@@ -118,12 +118,15 @@ impl<'g> Linearization<'g> {
         };
         let kinematics = &arrangements_of(Method::Kinematics)[0];
         let velocity: Vec<Expr<'g>> = order.iter().map(|&k| kinematics[k]).collect();
-        let arrangements = arrangements_of(Method::Acceleration).iter();
-        let arrangements = arrangements.map(|outputs| velocity.iter().chain(outputs).copied().collect()).collect();
         directions.extend(alone(graph, &scene.speeds));
         directions.extend(alone(graph, &[scene.time]));
         directions.extend(alone(graph, &scene.inputs));
         let derived = derived(system, &velocity, &directions);
+        // Derivatives with a form of their own solve for all columns without wrenches: where accelerations keep digits
+        // because these are gathered first, that would be asked of columns that cost half as much.
+        let gathered = if derived.is_empty() { Vec::new() } else { system.gathered_accelerations() };
+        let arrangements = arrangements_of(Method::Acceleration).iter().filter(|outputs| !gathered.contains(outputs));
+        let arrangements = arrangements.map(|outputs| velocity.iter().chain(outputs).copied().collect()).collect();
         Self {
             differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived },
             increments,

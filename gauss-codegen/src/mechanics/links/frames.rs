@@ -38,6 +38,20 @@ impl<'g> Tree<'g> {
         [outward, self.columns_from(k)].map(|columns: Vec<Pair<'g>>| self.rows_in_axes_of(k, &columns))
     }
 
+    /// Of the Jacobian as the observer sees it, with components in the axes of the link: Rᵀ d(R J)/dt, row by row.
+    pub fn jacobian_rates_of(&self, k: usize) -> [Vec<Expr<'g>>; 2] {
+        let (_, spin) = self.links[k].twist();
+        self.jacobians_of(k).map(|rows| {
+            let columns = rows.len() / 6;
+            let rate = |first: usize, column: usize| -> Triple<'g> {
+                let own: Triple<'g> = std::array::from_fn(|i| rows[(first + i) * columns + column]);
+                add(&own.map(|e| e.derivative(self.rates())), &cross(&spin, &own)).map(Expr::group)
+            };
+            let rates: Vec<Pair<'g>> = (0..columns).map(|column| (rate(0, column), rate(3, column))).collect();
+            rows_of(&rates)
+        })
+    }
+
     /// ∂v_O/∂z and ∂ω/∂z in working axes. On the way to the root `axes` are those of the link seen from the axes of k, row by
     /// row, and `lever` is from its O to that of k.
     fn columns_from(&self, k: usize) -> Vec<Pair<'g>> {
@@ -68,8 +82,13 @@ impl<'g> Tree<'g> {
         let link = &self.links[k];
         let own = |a: &Triple<'g>| link.in_body_axes(&link.frame.body_vector(*a));
         let columns: Vec<Pair<'g>> = columns.iter().map(|(linear, angular)| (own(linear), own(angular))).collect();
-        let linear = (0..3).flat_map(|i| columns.iter().map(move |(linear, _)| linear[i]));
-        let angular = (0..3).flat_map(|i| columns.iter().map(move |(_, angular)| angular[i]));
-        linear.chain(angular).collect()
+        rows_of(&columns)
     }
+}
+
+/// A matrix row by row, the linear ones first.
+fn rows_of<'g>(columns: &[Pair<'g>]) -> Vec<Expr<'g>> {
+    let linear = (0..3).flat_map(|i| columns.iter().map(move |(linear, _)| linear[i]));
+    let angular = (0..3).flat_map(|i| columns.iter().map(move |(_, angular)| angular[i]));
+    linear.chain(angular).collect()
 }

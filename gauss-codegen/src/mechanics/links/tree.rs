@@ -35,6 +35,16 @@ enum Observers<'a, 'g> {
     Relative(&'a [Expr<'g>]),
 }
 
+/// `∂C/∂ż` at ż = ζ before it is gathered: see [`Tree::under_way`].
+pub struct UnderWay<'g> {
+    /// Forces of inertia of every link by itself, less the loads on it.
+    pub wrenches: Pairs<'g>,
+    /// What rotors add.
+    pub rows: Vec<Expr<'g>>,
+    /// ζ.
+    pub taken: Vec<Expr<'g>>,
+}
+
 /// Links, parents before children.
 pub struct Tree<'g> {
     pub graph: &'g Graph,
@@ -293,6 +303,14 @@ impl<'g> Tree<'g> {
         (self.balance(&self.rates, inertia, loads, &accelerations), taken)
     }
 
+    /// The same before it is gathered, for those who gather something else on the way to the root as well.
+    pub fn under_way(&self, inertia: Inertia, loads: &Loads<'g>, held: &[bool]) -> UnderWay<'g> {
+        let (accelerations, taken) = self.floating_accelerations(loads, held);
+        let wrenches = self.wrenches(&self.rates, inertia, loads, &accelerations);
+        let rows = self.with_rotors(vec![self.graph.zero(); self.speeds.len()], &self.rates);
+        UnderWay { wrenches, rows, taken }
+    }
+
     /// `a_O − g` and ω̇ of every link at ż = ζ for these observers, and ζ.
     pub fn floating_accelerations(&self, loads: &Loads<'g>, held: &[bool]) -> (Pairs<'g>, Vec<Expr<'g>>) {
         let mut taken = vec![self.graph.zero(); self.speeds.len()];
@@ -323,6 +341,22 @@ impl<'g> Tree<'g> {
         loads: &Loads<'g>,
         accelerations: &Pairs<'g>,
     ) -> Vec<Expr<'g>> {
+        let wrenches = self.wrenches(along, inertia, loads, accelerations);
+        self.with_rotors(self.projected(&self.gathered(wrenches)), along)
+    }
+
+    fn with_rotors(&self, rows: Vec<Expr<'g>>, along: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
+        add_projected(&self.rotors, &self.speeds, rows, |rotor| rotor.force(along))
+    }
+
+    /// Forces of inertia of every link by itself, less the loads on it.
+    fn wrenches(
+        &self,
+        along: &Map<u32, Expr<'g>>,
+        inertia: Inertia,
+        loads: &Loads<'g>,
+        accelerations: &Pairs<'g>,
+    ) -> Pairs<'g> {
         let inertia_forces = self.links.iter().zip(accelerations);
         let mut pairs: Pairs<'g> =
             inertia_forces.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
@@ -331,8 +365,7 @@ impl<'g> Tree<'g> {
             *linear = linear.minus(&force).map(Expr::group);
             *angular = subtract(angular, &torque).map(Expr::group);
         }
-        let rows = self.projected(&self.gathered(pairs));
-        add_projected(&self.rotors, &self.speeds, rows, |rotor| rotor.force(along))
+        pairs
     }
 
     /// `R·a_α + M_O·o_α` of what acts on links.

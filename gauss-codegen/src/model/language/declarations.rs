@@ -93,6 +93,7 @@ const METHODS: &Table<WantedMethod> = &[
     ("centroidal", WantedMethod::Centroidal),
     ("nonlinear_effects", WantedMethod::NonlinearEffects),
     ("gravity_torques", WantedMethod::GravityTorques),
+    ("jacobian_rates", WantedMethod::JacobianRates),
 ];
 
 /// `methods(centroidal, gravity_torques)`: words, each once.

@@ -15,7 +15,7 @@ use super::statements::{self, STATEMENTS, Statement, Statements};
 use super::synonyms;
 use super::words::{self, Table};
 use crate::model::scene::charts::{Chart, InChart, Motion, RotationChart};
-use crate::model::scene::model::Wanted;
+use crate::model::scene::model::{Wanted, WantedMethod};
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::Parser;
@@ -129,6 +129,7 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
             statements.miss(&clause);
         }
     }
+    topics.check(context);
     let Topics { charts, motion, runtime, wanted, .. } = topics;
     // A clause left out means its default; a clause that could not be read is known to be unknown.
     let motion = motion.unwrap_or(Some(Motion::Free));
@@ -154,6 +155,8 @@ struct Topics {
     wanted: Wanted,
     /// The topics of clauses so far, each with the clause.
     first: Vec<(Topic, String)>,
+    /// Where methods are asked for.
+    methods: Option<Span>,
 }
 
 impl Topics {
@@ -194,7 +197,23 @@ impl Topics {
                 check_alone(clause, context);
             }
             Topic::Frames => self.wanted.frames.extend(declarations::read_frames(clause, context)),
-            Topic::Methods => self.wanted.methods.extend(declarations::read_methods(clause, context)),
+            Topic::Methods => {
+                self.methods = Some(clause.name.span());
+                self.wanted.methods.extend(declarations::read_methods(clause, context));
+            }
+        }
+    }
+
+    /// Rates of Jacobians are those of frames that are asked for.
+    fn check(&self, context: &mut Context) {
+        let framed = self.first.iter().any(|(topic, _)| *topic == Topic::Frames);
+        if let Some(span) =
+            self.methods.filter(|_| !framed && self.wanted.methods.contains(&WantedMethod::JacobianRates))
+        {
+            context.error(
+                span,
+                "`jacobian_rates` are those of the frames that are asked for; add `frames(…)` with their names",
+            );
         }
     }
 }

@@ -170,6 +170,8 @@ pub enum WantedMethod {
     NonlinearEffects,
     /// What holds weight and buoyancy.
     GravityTorques,
+    /// d/dt of the Jacobians of the frames that are asked for.
+    JacobianRates,
 }
 
 /// The number type that kernels compute with.

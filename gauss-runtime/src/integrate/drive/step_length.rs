@@ -11,6 +11,7 @@
 //! - the first step after a rejection is judged by its own error alone: the memory of the controller is from before it;
 //! - steps grow by less at a time, which keeps them from leaping over what the stages have not seen.
 
+use crate::integrate::drive::logarithms::{exponential, logarithm};
 use crate::real::Real;
 use crate::system::Smoothness;
 
@@ -72,13 +73,27 @@ impl StepLength {
 
     /// A step of this error (in tolerances, within the limit) is accepted: the factor from its length to that of the next.
     pub(in crate::integrate) fn accept(&mut self, error: f64) -> f64 {
-        let logarithm = Real::ln(error.max(1e-10));
-        let k = self.estimate_order;
-        let factor = 0.9
-            * Real::exp(match self.previous {
-                Some(previous) => (0.4 * previous - 0.7 * logarithm) / k,
-                None => -logarithm / k,
-            });
+        let logarithm = logarithm(Self::told(error));
+        self.grow(logarithm, exponential(self.exponent(logarithm)))
+    }
+
+    /// What the controller makes of an error: logarithms have no zero, and steps that are far too short grow no faster.
+    pub(in crate::integrate) fn told(error: f64) -> f64 {
+        error.max(1e-10)
+    }
+
+    /// The logarithm of the factor, but for bounds and margin, after a step with this logarithm of its error.
+    pub(in crate::integrate) fn exponent(&self, logarithm: f64) -> f64 {
+        match self.previous {
+            Some(previous) => (0.4 * previous - 0.7 * logarithm) / self.estimate_order,
+            None => -logarithm / self.estimate_order,
+        }
+    }
+
+    /// [`accept`](Self::accept) with what lanes work out together: the logarithm of the error, and the exponential of
+    /// [`exponent`](Self::exponent).
+    pub(in crate::integrate) fn grow(&mut self, logarithm: f64, growth: f64) -> f64 {
+        let factor = 0.9 * growth;
         // No growth right after a rejection. Smooth systems may find their length fast; others keep to the usual 1.5 to 5
         // (Hairer, Nørsett & Wanner II.4).
         let most = match (self.rejected, self.smoothness) {

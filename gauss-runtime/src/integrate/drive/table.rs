@@ -2,10 +2,11 @@
 
 use core::fmt;
 
-use alloc::string::String;
+use alloc::format;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use alloc::{format, vec};
 
+use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::description::Described;
 use crate::forces::ForcedSystem;
@@ -70,18 +71,76 @@ assert!(energy.len() == 101 && energy.windows(2).all(|pair| pair[1] <= pair[0] +
 
 /// Named columns of numbers, a row for each of some states; of packs of numbers the first lane. As text it is CSV
 /// (RFC 4180, with the names in the first line, and every digit that tells a number from its neighbours).
-#[derive(Clone, Debug)]
+///
+/// Columns have units where these were [given](Self::units) or are those of the [SI](Self::si); the heading of CSV is then
+/// `angle / rad`. Other formats and plots are in the crate `gauss-tables`.
 pub struct Table<S: GaussSystem> {
     samples: Vec<Sample<S>>,
-    names: Vec<String>,
-    columns: Vec<Vec<f64>>,
+    columns: Vec<Stored>,
+}
+
+// Written by hand: deriving would ask the same of the system S, which is only named here.
+impl<S: GaussSystem> Clone for Table<S> {
+    fn clone(&self) -> Self {
+        Self { samples: self.samples.clone(), columns: self.columns.clone() }
+    }
+}
+
+impl<S: GaussSystem> fmt::Debug for Table<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+/// A column of a [`Table`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Column<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its unit, `"1"` of pure numbers; nothing where none was given.
+    pub unit: Option<&'a str>,
+    /// A number for each row.
+    pub values: &'a [f64],
+}
+
+impl fmt::Display for Column<'_> {
+    /// What stands at an axis and above a column: `angle / rad`, or the name alone.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.unit {
+            Some(unit) if unit.contains(['/', ' ']) => write!(f, "{} / ({unit})", self.name),
+            Some(unit) => write!(f, "{} / {unit}", self.name),
+            None => f.write_str(self.name),
+        }
+    }
+}
+
+/// Units for names that no column has: all of these.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownColumns(pub Vec<String>);
+
+impl fmt::Display for UnknownColumns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the table has no column `{}`", self.0.join("`, `"))
+    }
+}
+
+impl core::error::Error for UnknownColumns {}
+
+#[derive(Clone, Debug)]
+struct Stored {
+    name: String,
+    unit: Option<String>,
+    /// What the unit is in the SI, where the column says so by itself; else empty.
+    si: &'static str,
+    values: Vec<f64>,
 }
 
 impl<S: GaussSystem> Table<S> {
     /// A table of states, with their times.
     #[must_use]
     pub fn new(samples: Vec<Sample<S>>) -> Self {
-        Self { samples, names: Vec::new(), columns: Vec::new() }.column("t", |sample| sample.t)
+        Self { samples, columns: Vec::new() }.with([("t", "s")], |sample, put| put(sample.t))
     }
 
     /// One more column: a function of the state.
@@ -97,7 +156,7 @@ impl<S: GaussSystem> Table<S> {
         names: [&str; N],
         mut function: impl FnMut(&Sample<S>) -> [S::Scalar; N],
     ) -> Self {
-        self.with(names.map(String::from).to_vec(), |sample, put| function(sample).into_iter().for_each(put))
+        self.with(names.map(|name| (name, "")), |sample, put| function(sample).into_iter().for_each(put))
     }
 
     /// The numbers that the state consists of, under the names of coordinates and speeds. Of a rotation they are those of its
@@ -114,8 +173,12 @@ impl<S: GaussSystem> Table<S> {
             let name = move |i: usize| known.get(i).map_or_else(|| format!("{letter}{}", i + 1), |&name| name.into());
             (0..count).map(name)
         };
-        let names = named(S::COORDINATE_NAMES, "q", of_q).chain(named(S::SPEED_NAMES, "z", S::Speeds::DIM));
-        self.with(names.collect(), |sample, put| {
+        // Of quasi-velocities of bodies; what other speeds are is the scene's affair.
+        let of_body = matches!(S::CHART, Chart::LeftInvariant | Chart::RightInvariant | Chart::Hybrid);
+        let rate_unit = |i| if of_body { S::Configuration::rate_unit(i) } else { "" };
+        let coordinates = named(S::COORDINATE_NAMES, "q", of_q).zip((0..of_q).map(S::Configuration::component_unit));
+        let speeds = named(S::SPEED_NAMES, "z", S::Speeds::DIM).zip((0..S::Speeds::DIM).map(rate_unit));
+        self.with(coordinates.chain(speeds), |sample, put| {
             let components = sample.q.components();
             (0..of_q).for_each(|i| put(components.component(i)));
             (0..S::Speeds::DIM).for_each(|i| put(sample.z.component(i)));
@@ -125,10 +188,10 @@ impl<S: GaussSystem> Table<S> {
     /// The kinetic energy, the potential energy, and the two together.
     #[must_use]
     pub fn energies(self, system: &S) -> Self {
-        self.columns(["kinetic energy", "potential energy", "energy"], |sample| {
+        self.with(["kinetic energy", "potential energy", "energy"].map(|name| (name, "J")), |sample, put| {
             let kinetic = system.kinetic_energy(sample.t, &sample.q, &sample.z);
             let potential = system.potential_energy(sample.t, &sample.q);
-            [kinetic, potential, kinetic + potential]
+            [kinetic, potential, kinetic + potential].into_iter().for_each(put);
         })
     }
 
@@ -138,26 +201,57 @@ impl<S: GaussSystem> Table<S> {
     where
         S: ForcedSystem,
     {
-        let names = S::ELEMENTS.iter().map(|element| format!("{} power", element.name)).collect();
+        let names = S::ELEMENTS.iter().map(|element| (format!("{} power", element.name), "W"));
         self.with(names, |Sample { t, q, z, .. }, put| {
             let powers = system.powers(*t, q, z, &input(*t, q, z));
             (0..S::ELEMENTS.len()).for_each(|i| put(powers.component(i)));
         })
     }
 
-    /// Columns of names, to whose end each sample puts its numbers.
-    fn with(mut self, names: Vec<String>, mut row: impl FnMut(&Sample<S>, &mut dyn FnMut(S::Scalar))) -> Self {
-        let mut columns = vec![Vec::with_capacity(self.samples.len()); names.len()];
+    /// Columns of names with their units in the SI, to whose end each sample puts its numbers.
+    fn with<N: Into<String>>(
+        mut self,
+        names: impl IntoIterator<Item = (N, &'static str)>,
+        mut row: impl FnMut(&Sample<S>, &mut dyn FnMut(S::Scalar)),
+    ) -> Self {
+        let column = |(name, si): (N, _)| Stored { name: name.into(), unit: None, si, values: Vec::new() };
+        let mut columns: Vec<Stored> = names.into_iter().map(column).collect();
         for sample in &self.samples {
             let mut places = columns.iter_mut();
             row(sample, &mut |number| {
                 if let Some(column) = places.next() {
-                    column.push(number.lane(0));
+                    column.values.push(number.lane(0));
                 }
             });
         }
-        self.names.extend(names);
         self.columns.extend(columns);
+        self
+    }
+
+    /// Says in which units columns are, by their names: what headings and axes show. Nothing is converted.
+    ///
+    /// # Errors
+    /// [`UnknownColumns`]: the names that no column has.
+    pub fn units<'a>(mut self, units: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, UnknownColumns> {
+        let mut unknown = Vec::new();
+        for (name, unit) in units {
+            match self.columns.iter_mut().find(|column| column.name == name) {
+                Some(column) => column.unit = Some(unit.into()),
+                None => unknown.push(name.into()),
+            }
+        }
+        if unknown.is_empty() { Ok(self) } else { Err(UnknownColumns(unknown)) }
+    }
+
+    /// Says that the scene is in units of the SI: those of time, energies and powers, of poses and rotations, and of the velocities of a
+    /// body in a chart without coordinates are then known. The other columns, such as coordinates of your own, are left as they are.
+    #[must_use]
+    pub fn si(mut self) -> Self {
+        for column in &mut self.columns {
+            if !column.si.is_empty() {
+                column.unit = Some(column.si.into());
+            }
+        }
         self
     }
 
@@ -167,34 +261,38 @@ impl<S: GaussSystem> Table<S> {
         &self.samples
     }
 
+    /// The columns in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Column<'_>> + Clone {
+        self.columns.iter().map(|Stored { name, unit, values, .. }| Column { name, unit: unit.as_deref(), values })
+    }
+
     /// The names of the columns.
     pub fn names(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.names.iter().map(String::as_str)
+        self.iter().map(|column| column.name)
     }
 
     /// The column of a name.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&[f64]> {
-        let column = self.names.iter().position(|known| known == name)?;
-        Some(&self.columns[column])
+        self.iter().find(|column| column.name == name).map(|column| column.values)
     }
 }
 
 impl<S: GaussSystem> fmt::Display for Table<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (n, name) in self.names.iter().enumerate() {
-            let comma = if n == 0 { "" } else { "," };
-            if name.contains([',', '"', '\n', '\r']) {
-                write!(f, "{comma}\"{}\"", name.replace('"', "\"\""))?;
+        for (n, column) in self.iter().enumerate() {
+            let (comma, heading) = (if n == 0 { "" } else { "," }, column.to_string());
+            if heading.contains([',', '"', '\n', '\r']) {
+                write!(f, "{comma}\"{}\"", heading.replace('"', "\"\""))?;
             } else {
-                write!(f, "{comma}{name}")?;
+                write!(f, "{comma}{heading}")?;
             }
         }
         f.write_str("\n")?;
         for row in 0..self.samples.len() {
-            for (n, column) in self.columns.iter().enumerate() {
+            for (n, column) in self.iter().enumerate() {
                 let comma = if n == 0 { "" } else { "," };
-                write!(f, "{comma}{:?}", column[row])?;
+                write!(f, "{comma}{:?}", column.values[row])?;
             }
             f.write_str("\n")?;
         }
@@ -206,7 +304,7 @@ impl<S: GaussSystem> fmt::Display for Table<S> {
 mod tests {
     use super::*;
     use nalgebra::SVector;
-    use std::string::ToString;
+    use std::borrow::ToOwned;
 
     use crate::integrate::Simulation;
     use crate::testing::oscillator::{Oscillator, Viscous};
@@ -239,5 +337,12 @@ mod tests {
         }
         assert_eq!(run.table().samples().len(), run.len());
         assert!(run.table_at([0.5, 3.5]).is_err());
+        let heading = |table: Table<_>| table.to_string().lines().next().map(str::to_owned);
+        let table = table.si().units([("q1", "m"), ("z1", "m/s"), ("a, \"b\"", "N m")]).expect("are there");
+        let heads = "t / s,q1 / m,z1 / (m/s),kinetic energy / J,potential energy / J,energy / J,spring power / W,\
+                     law power / W,drive power / W,\"a, \"\"b\"\" / (N m)\"";
+        assert_eq!(heading(table.clone()).as_deref(), Some(heads));
+        let unknown = table.units([("q1", "mm"), ("q2", "m"), ("q 1", "m")]).expect_err("are not there");
+        assert_eq!(unknown.to_string(), "the table has no column `q2`, `q 1`");
     }
 }

@@ -153,16 +153,28 @@ impl Tolerance {
         (combined(fine, coarse) * S::Scalar::from_f64(1.0 / components)).sqrt()
     }
 
-    /// The same above a floor. Runs that stay above rounding hold no copy of it.
+    /// [`error`](Self::error) above a floor. Runs that stay above rounding hold no copy of it.
     #[cold]
     #[inline(never)]
     pub(in crate::integrate) fn error_above<S: GaussSystem>(
         &self,
         floor: &Floor<S>,
+        states: (&State<S>, &State<S>, S::Scalar),
+        estimates: (&Rates<S>, Option<&Rates<S>>),
+    ) -> f64 {
+        worst_lane(self.errors_above(floor, states, estimates))
+    }
+
+    /// [`errors`](Self::errors) above a floor: from a state to another, and the length of the step; its estimates, fine and coarse.
+    #[cold]
+    #[inline(never)]
+    pub(in crate::integrate) fn errors_above<S: GaussSystem>(
+        &self,
+        floor: &Floor<S>,
         (from, to, length): (&State<S>, &State<S>, S::Scalar),
         (fine, coarse): (&Rates<S>, Option<&Rates<S>>),
-    ) -> f64 {
-        self.error(&Trial { from, to, length, floor: Some(floor) }, fine, coarse)
+    ) -> S::Scalar {
+        self.errors(&Trial { from, to, length, floor: Some(floor) }, fine, coarse)
     }
 
     /// How many times the tolerance rounding is where it is more, the largest of the components and lanes; 0 where it is nowhere.

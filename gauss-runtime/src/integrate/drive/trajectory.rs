@@ -14,6 +14,17 @@ use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// A state in which a function passed through zero: see [`Simulation::event`](crate::integrate::Simulation::event).
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        deny_unknown_fields,
+        bound(
+            serialize = "S: GaussSystem<Scalar: serde::Serialize> + crate::description::Described",
+            deserialize = "S: GaussSystem<Scalar: serde::Deserialize<'de>> + crate::description::Described"
+        )
+    )
+)]
 #[non_exhaustive]
 pub struct EventSample<S: GaussSystem> {
     /// Which event, counted from 0 in the order in which they were asked for.

@@ -3,11 +3,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::called::Called;
 use super::{Group, LaneControl, Verdict, chosen_state, largest, number, numbers_of, ones_in};
 use crate::batch::BatchSystem;
 use crate::integrate::drive::adaptive::{Adaptive, ROUNDED};
 use crate::integrate::drive::cause::{Gave, change};
 use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest};
+use crate::integrate::drive::logarithms::{exponential, logarithm};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::drive::step_length::StepLength;
 use crate::integrate::drive::tolerance::{Floor, Trial};
@@ -30,6 +32,13 @@ struct Lane {
     used: f64,
     last: bool,
     error: f64,
+}
+
+impl Lane {
+    /// Whether the error of the trial is too large.
+    fn rejects(&self) -> bool {
+        self.error.is_nan() || self.error > self.lengths.limit()
+    }
 }
 
 #[doc(hidden)]
@@ -93,32 +102,34 @@ impl<S: BatchSystem> Memory<S> {
     #[inline(always)]
     fn judge<P: Problem<System = S>>(&mut self, problem: &P, group: &mut Group<S>, floors: Option<S::Scalar>) {
         let (mut look, mut forget, most) = (false, false, self.longest);
-        for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0) {
-            if lane.error.is_nan() || lane.error > lane.lengths.limit() {
-                lane.length = lane.used * lane.lengths.reject(lane.error);
-                lane.rejected += 1;
-                group.verdicts[n] = Verdict::Rejected;
-                continue;
+        for (part, lanes) in self.lanes.chunks_mut(TOGETHER).enumerate() {
+            let excesses = floors.map(|floors| excesses(floors, part * TOGETHER, lanes));
+            let (logarithms, growths) = growths(lanes, &excesses);
+            for (n, lane) in lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0) {
+                let verdict = &mut group.verdicts[part * TOGETHER + n];
+                if lane.rejects() {
+                    lane.length = lane.used * lane.lengths.reject(lane.error);
+                    lane.rejected += 1;
+                    *verdict = Verdict::Rejected;
+                    continue;
+                }
+                let excess = excesses.map_or(0.0, |excesses| excesses[n]);
+                lane.length = (lane.used * lane.lengths.grow(logarithms[n], growths[n])).min(most);
+                // Where rounding is in the way it is asked for again, elsewhere when steps have become short.
+                let short = lane.length < 0.5 * lane.looked;
+                let again = excess > 0.0 || short;
+                forget |= lane.floored;
+                look |= again;
+                lane.floored = again;
+                if again {
+                    lane.looked = lane.length;
+                }
+                lane.looked = lane.looked.max(lane.length);
+                let rejected = core::mem::take(&mut lane.rejected);
+                *verdict = Verdict::Taken(Taken { rejected, excess }, lane.last);
+                // For those that are asked for below.
+                lane.used = if again { f64::INFINITY } else { lane.used };
             }
-            let beyond = floors.filter(|_| lane.floored).map_or(0.0, |floors| largest(floors, n));
-            let excess = if beyond > 1.0 { beyond } else { 0.0 };
-            // Well below what rounding does there is nothing to be learnt of the step.
-            let told = if excess > 0.0 && lane.error < 0.5 { lane.error.min(ROUNDED) } else { lane.error };
-            lane.length = (lane.used * lane.lengths.accept(told)).min(most);
-            // Where rounding is in the way it is asked for again, elsewhere when steps have become short.
-            let short = lane.length < 0.5 * lane.looked;
-            let again = excess > 0.0 || short;
-            forget |= lane.floored;
-            look |= again;
-            lane.floored = again;
-            if again {
-                lane.looked = lane.length;
-            }
-            lane.looked = lane.looked.max(lane.length);
-            let rejected = core::mem::take(&mut lane.rejected);
-            group.verdicts[n] = Verdict::Taken(Taken { rejected, excess }, lane.last);
-            // For those that are asked for below.
-            lane.used = if again { f64::INFINITY } else { lane.used };
         }
         if forget {
             self.forget();
@@ -127,6 +138,44 @@ impl<S: BatchSystem> Memory<S> {
             self.look(problem, group, |lane| lane.used == f64::INFINITY);
         }
     }
+}
+
+/// So many lanes have their logarithms and exponentials formed together.
+const TOGETHER: usize = 8;
+
+/// How many times the tolerance rounding is in some lanes, the first of which is given; 0 where it is not more.
+#[cold]
+#[inline(never)]
+fn excesses<T: Real + Packed<Single: Real>>(floors: T, first: usize, lanes: &[Lane]) -> [f64; TOGETHER] {
+    core::array::from_fn(|n| match lanes.get(n) {
+        Some(lane) if lane.floored => Some(largest(floors, first + n)).filter(|&beyond| beyond > 1.0).unwrap_or(0.0),
+        _ => 0.0,
+    })
+}
+
+/// Logarithms of errors, and the factors that the controller makes of them.
+#[inline(always)]
+fn growths(lanes: &[Lane], excesses: &Option<[f64; TOGETHER]>) -> ([f64; TOGETHER], [f64; TOGETHER]) {
+    let mut values = [1.0; TOGETHER];
+    for (n, (value, lane)) in values.iter_mut().zip(lanes).enumerate() {
+        let excess = excesses.map_or(0.0, |excesses| excesses[n]);
+        // Well below what rounding does there is nothing to be learnt of the step.
+        let told = if excess > 0.0 && lane.error < 0.5 { lane.error.min(ROUNDED) } else { lane.error };
+        *value = StepLength::told(told);
+    }
+    // Not `map` of arrays, which compilers leave a call.
+    let mut logarithms = [0.0; TOGETHER];
+    for n in 0..TOGETHER {
+        logarithms[n] = logarithm(values[n]);
+    }
+    let mut growths = [0.0; TOGETHER];
+    for (n, lane) in lanes.iter().enumerate() {
+        growths[n] = lane.lengths.exponent(logarithms[n]);
+    }
+    for growth in &mut growths {
+        *growth = exponential(*growth);
+    }
+    (logarithms, growths)
 }
 
 impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
@@ -180,28 +229,36 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         memory: &mut Memory<S>,
     ) -> Result<(), IntegrationErrorKind> {
         let (h, lengths) = memory.lengths(group, who);
-        let (step, coarse) = self.method.step_and_estimates(problem, &group.state, &group.rates, h)?;
+        let called = Called(problem);
+        let (step, coarse) = self.method.step_and_estimates(&called, &group.state, &group.rates, h)?;
         let tolerance = &self.tolerance;
-        let trial = Trial { from: &group.state, to: &step.state, length: lengths, floor: memory.floor.as_ref() };
-        let errors = tolerance.errors(&trial, &step.error, coarse.as_ref());
-        let too_large = |lane: &Lane| lane.error.is_nan() || lane.error > lane.lengths.limit();
+        let states = (&group.state, &step.state, lengths);
+        let estimates = (&step.error, coarse.as_ref());
+        let errors = match &memory.floor {
+            None => {
+                let trial = Trial { from: states.0, to: states.1, length: lengths, floor: None };
+                tolerance.errors(&trial, estimates.0, estimates.1)
+            }
+            Some(floor) => tolerance.errors_above(floor, states, estimates),
+        };
         let mut look = false;
         for (n, lane) in memory.lanes.iter_mut().enumerate() {
             lane.error = if lane.used > 0.0 { largest(errors, n) } else { 0.0 };
-            look |= too_large(lane) && !lane.floored;
+            look |= lane.rejects() && !lane.floored;
         }
         if look {
             // It may be rounding that is too much.
-            memory.look(problem, group, |lane| too_large(lane) && !lane.floored);
-            let trial = Trial { from: &group.state, to: &step.state, length: lengths, floor: memory.floor.as_ref() };
-            let errors = tolerance.errors(&trial, &step.error, coarse.as_ref());
-            for (n, lane) in memory.lanes.iter_mut().enumerate().filter(|(_, lane)| too_large(lane) && !lane.floored) {
+            memory.look(problem, group, |lane| lane.rejects() && !lane.floored);
+            let states = (&group.state, &step.state, lengths);
+            let above = |floor: &Floor<S>| tolerance.errors_above(floor, states, (&step.error, coarse.as_ref()));
+            let errors = memory.floor.as_ref().map_or(errors, above);
+            for (n, lane) in memory.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.rejects() && !lane.floored) {
                 (lane.error, lane.floored) = (largest(errors, n), true);
             }
         }
 
         // Lanes that do not take the step stay where they are.
-        let takes = |n: usize| memory.lanes[n].used > 0.0 && !too_large(&memory.lanes[n]);
+        let takes = |n: usize| memory.lanes[n].used > 0.0 && !memory.lanes[n].rejects();
         let all = (0..memory.lanes.len()).all(takes);
         let ones = if all { S::Scalar::one() } else { ones_in(takes) };
         let mut reached = step.state;

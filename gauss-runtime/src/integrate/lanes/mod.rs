@@ -6,6 +6,7 @@
 //! steps the more the runs differ.
 
 mod adaptive;
+mod called;
 pub(crate) mod run;
 mod taylor;
 

@@ -61,6 +61,8 @@ struct Lanes<'a, S: BatchSystem, P, C: LaneControl<S>, E> {
     group: Group<S>,
     memory: C::Memory,
     running: Vec<Option<Running<'a, S, P, C, E>>>,
+    /// Which lanes make the present step.
+    who: Vec<bool>,
 }
 
 impl<S, P, C, E> InLanes<'_, P, C, E>
@@ -144,7 +146,8 @@ where
         let width = S::Scalar::WIDTH;
         let (verdicts, end) = (vec![Verdict::Rejected; width], S::Scalar::from_f64(self.times.1));
         let group = Group { state, rates, verdicts, end, span };
-        let mut lanes = Lanes { all: self, group, memory, running: (0..width).map(|_| None).collect() };
+        let mut lanes =
+            Lanes { all: self, group, memory, running: (0..width).map(|_| None).collect(), who: vec![false; width] };
         for (lane, (number, ..)) in firsts.iter().enumerate() {
             if refused.iter().all(|(bad, _)| *bad != lane) {
                 lanes.enter(lane, *number, runs);
@@ -263,7 +266,8 @@ where
                 self.give_up(lane, Gave::Out { limit: self.all.limit, hopeless }, runs);
             }
         }
-        let who: Vec<bool> = self.running.iter().map(Option::is_some).collect();
+        let mut who = core::mem::take(&mut self.who);
+        who.iter_mut().zip(&self.running).for_each(|(who, running)| *who = running.is_some());
         let before = (E::COUNT > 0).then_some((self.group.state, self.group.rates));
         self.attempt(&who);
         if let Some(before) = &before {
@@ -285,6 +289,7 @@ where
                 }
             }
         }
+        self.who = who;
     }
 
     /// Tries a step in some lanes. When it fails it is tried in each of them alone: they are independent, and a step of length zero

@@ -41,9 +41,13 @@ pub(in crate::integrate) fn check_increment<S: GaussSystem>(increment: &Rates<S>
     check_turn::<S>(&increment.configuration)
 }
 
-/// [`check_increment`] of the increment of a configuration.
+/// [`check_increment`] of the increment of a configuration: one test for all lanes, nearly always.
 #[inline(always)]
 pub(in crate::integrate) fn check_turn<S: GaussSystem>(increment: &TangentOf<S>) -> Result<(), IntegrationErrorKind> {
+    let half = S::Scalar::from_f64(core::f64::consts::PI);
+    if S::Scalar::all_lt(S::Configuration::increment_angles(increment), half) {
+        return Ok(());
+    }
     let angle = S::Configuration::increment_angle(increment);
     if angle > core::f64::consts::PI && angle.is_finite() {
         Err(IntegrationErrorKind::IncrementTooLarge { angle })

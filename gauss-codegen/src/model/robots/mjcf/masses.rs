@@ -27,6 +27,20 @@ impl<'a> File<'a> {
         }
     }
 
+    /// Multiplies all masses, and the inertias with them, by what makes their sum that which the file asks for.
+    pub fn scale_masses(&mut self) {
+        let Some(wanted) = self.total_mass else { return };
+        let own = || self.description.links.iter().filter_map(|link| link.inertial);
+        let sum: f64 = own().map(|own| own.mass).sum();
+        if sum > 0.0 {
+            for own in self.description.links.iter_mut().filter_map(|link| link.inertial.as_mut()) {
+                let factor = wanted / sum;
+                own.mass *= factor;
+                own.inertia = own.inertia.map(|row| row.map(|entry| entry * factor));
+            }
+        }
+    }
+
     fn written(&mut self, node: Node<'a, 'a>) -> Option<Inertial> {
         let mass = self.reading.required_number(node, "mass");
         let center: Triple = self.reading.numbers(node, "pos").unwrap_or_default();

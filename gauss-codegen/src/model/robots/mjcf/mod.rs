@@ -138,6 +138,7 @@ pub fn read(text: &str) -> Result<Description, Vec<Fault>> {
         description: Description { only_driven: true, ..Description::default() },
         automatic: true,
         geoms: Geoms::Missing,
+        total_mass: None,
         bodies: root
             .descendants()
             .filter(|node| node.tag_name().name() == "body")
@@ -151,6 +152,7 @@ pub fn read(text: &str) -> Result<Description, Vec<Fault>> {
     for world in file.reading.children(root, "worldbody") {
         file.world(world);
     }
+    file.scale_masses();
     file.reading.children(root, "equality").into_iter().for_each(|section| file.equalities(section));
     file.reading.children(root, "tendon").into_iter().for_each(|section| file.tendons(section));
     file.reading.children(root, "actuator").into_iter().for_each(|section| file.actuators(section));
@@ -186,6 +188,8 @@ struct File<'a> {
     /// A range limits without being told to.
     automatic: bool,
     geoms: Geoms,
+    /// What all bodies weigh together, where masses are to be scaled to that.
+    total_mass: Option<f64>,
     /// Names of bodies.
     bodies: Vec<String>,
 }
@@ -217,6 +221,8 @@ impl<'a> File<'a> {
                 Some("false") => self.geoms = Geoms::None,
                 _ => {}
             }
+            // Zero and less mean that nothing is scaled.
+            self.total_mass = self.reading.number(node, "settotalmass").filter(|mass| *mass > 0.0).or(self.total_mass);
             if self.reading.text(node, "coordinate").is_some_and(|word| word != "local") {
                 self.reading.fault(node, "places are relative to parents, `coordinate=\"local\"`");
             }

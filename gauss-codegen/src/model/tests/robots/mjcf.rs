@@ -1,7 +1,8 @@
 //! MJCF: what is read, what is told, what is refused.
 
 use super::{Scratch, read};
-use crate::model::{ConstraintKind, ForceKind, Model, ValueOfState};
+use crate::model::scene::clauses::{RoleClause, RoleValue};
+use crate::model::{ConstraintKind, ForceKind, Model, Role, ValueOfState};
 
 const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
 
@@ -154,4 +155,22 @@ fn masses_of_geoms() {
     let read = model(inside, "");
     let ball = read.bodies.iter().find(|body| body.name.as_ref().is_some_and(|name| name == "ball")).unwrap();
     assert!(!ball.massless && ball.position.is_some());
+}
+
+/// `settotalmass` scales all masses, and inertias with them; zero and less do not.
+#[test]
+fn masses_are_scaled_to_their_total() {
+    let masses = |total: &str| -> Vec<f64> {
+        let heavy = INERTIAL.replace("mass=\"1\"", "mass=\"3\"");
+        let arms = format!("<joint name=\"a\"/><body>{heavy}<joint name=\"b\"/></body></body></worldbody>");
+        let read = model(&format!("{arms}<compiler settotalmass=\"{total}\"/>"), "");
+        let roles = read.bodies.iter().flat_map(|body| &body.role_clauses);
+        let value = |clause: &RoleClause| match &clause.value {
+            RoleValue::Expression(value) => value.literal().expect("a number"),
+            _ => f64::NAN,
+        };
+        roles.filter(|clause| clause.role == Role::Mass).map(value).collect()
+    };
+    assert_eq!(masses("-1"), [1.0, 3.0]);
+    assert_eq!(masses("8"), [2.0, 6.0]);
 }

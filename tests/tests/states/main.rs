@@ -1,6 +1,8 @@
 //! Coordinates and speeds by name: every kind of both, in every chart, to and from configurations and speeds.
 
-use gauss_runtime::integrate::Crossing;
+mod saved;
+
+use gauss_runtime::integrate::{Crossing, Table};
 use gauss_runtime::prelude::*;
 
 /// Scalars before, between and after elements of groups, which come first in the configuration.
@@ -124,6 +126,24 @@ fn charts() {
     assert_eq!((arm.q().1[0], arm.z()[6]), (0.3, 0.7));
 }
 
+/// The speeds of a body in a chart without coordinates are velocities of the body; a chart with further coordinates is
+/// `Own`.
+#[test]
+fn units_of_charts() {
+    fn units<S: GaussSystem<Scalar = f64> + Described>(q: S::Configuration, z: S::Speeds) -> String {
+        let table = Table::<S>::new(vec![Sample { t: 0.0, q, z, p: z }]).state().si();
+        table.iter().map(|column| column.unit.unwrap_or("?")).collect::<Vec<_>>().join(" ")
+    }
+    let free = FreeState::default();
+    assert_eq!(units::<FreeKernel>(free.q(), free.z()), "s 1 1 1 1 m m m m/s m/s m/s rad/s rad/s rad/s");
+    let arm = ArmState::default();
+    assert_eq!(units::<ArmKernel>(arm.q(), arm.z()), "s 1 1 1 1 m m m ? ? ? ? ? ? ? ?");
+    let plane = PlanarState::default();
+    assert_eq!(units::<PlanarKernel>(plane.q(), plane.z()), "s 1 1 m m m/s m/s rad/s");
+    let jet = JetState::default();
+    assert_eq!(units::<JetKernel>(jet.q(), jet.z()), "s ? ? ? ? ? ? ? ? ? ? ? ?");
+}
+
 /// Constraints that are solved leave single components of a vector of speeds.
 #[derive(GaussDynamics)]
 #[gauss(
@@ -167,6 +187,9 @@ fn columns_of_tables_have_names() {
     );
     let first = |name: &str| table.get(name).map(|column| column[0]);
     let turn = state.craft.rotation;
+    // Units of groups are known, those of coordinates and speeds of one's own are not.
+    let units = |table: &Table<_>| table.iter().map(|column| column.unit.unwrap_or("?")).collect::<Vec<_>>().join(" ");
+    assert_eq!(units(&table.clone().si()), "s 1 1 1 1 m m m 1 1 1 1 ? ? ? ? ? ? ? ? ? ? ? ? ? ? ?");
     for (name, value) in
         [("before", 0.1), ("after", 0.3), ("craft_z", 3.0), ("craft_i", turn.i), ("craft_w", turn.w), ("third", -3.0)]
     {

@@ -1,0 +1,51 @@
+//! Why a table does not become a file.
+
+use std::error::Error;
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// Why there is no file, or no picture.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum TableError {
+    /// The file cannot be written.
+    Io {
+        /// Which.
+        file: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A picture is SVG: the name of the file ends otherwise.
+    NotSvg(PathBuf),
+    /// There are fewer than two rows, or no column beside the first.
+    NothingToPlot,
+    /// The picture cannot be laid out.
+    Plot(String),
+    /// What the writer of Arrow or Parquet says.
+    Format(Box<dyn Error + Send + Sync>),
+}
+
+impl fmt::Display for TableError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io { file, source } => write!(f, "`{}` cannot be written: {source}", file.display()),
+            Self::NotSvg(file) => {
+                write!(f, "pictures are SVG, so a file should be called `….svg`, not `{}`", file.display())
+            }
+            Self::NothingToPlot => f.write_str("a plot needs two rows, and a column beside the first"),
+            Self::Plot(reason) => write!(f, "the plot cannot be laid out: {reason}"),
+            Self::Format(error) => write!(f, "the table cannot be written: {error}"),
+        }
+    }
+}
+
+impl Error for TableError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Io { source, .. } => Some(source),
+            Self::Format(error) => Some(&**error),
+            _ => None,
+        }
+    }
+}

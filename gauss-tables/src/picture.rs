@@ -1,0 +1,179 @@
+//! Columns as curves: panels below one another over a common axis, one for each unit.
+
+mod axis;
+mod points;
+
+use gauss_runtime::integrate::Column;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use crate::error::TableError;
+use axis::Axis;
+
+/// So many units of the drawing make a pixel: curves go through whole units, and would look jagged through whole
+/// pixels.
+const FINE: u32 = 8;
+/// Pixels.
+const WIDTH: u32 = 960;
+const LOWEST: u32 = 190;
+const LABELS: (u32, u32) = (84, 26);
+const NAME: u32 = 24;
+const MARGIN: u32 = 14;
+const TEXT: u32 = 15;
+/// Letters that have room beside the lowest panel.
+const LETTERS: usize = 20;
+
+/// From the palette of Okabe and Ito, told apart by every kind of colour vision.
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(230, 159, 0),
+    RGBColor(120, 120, 120),
+];
+const INK: RGBColor = RGBColor(45, 45, 45);
+const PALE: RGBColor = RGBColor(222, 222, 222);
+
+/// Columns with one unit, or one without any.
+struct Panel<'a> {
+    columns: Vec<Column<'a>>,
+}
+
+pub fn draw(columns: &[Column<'_>]) -> Result<String, TableError> {
+    let Some((over, rest)) = columns.split_first() else { return Err(TableError::NothingToPlot) };
+    let panels = panels(rest);
+    let Some(last) = panels.len().checked_sub(1) else { return Err(TableError::NothingToPlot) };
+    if over.values.len() < 2 {
+        return Err(TableError::NothingToPlot);
+    }
+    // Names stand on the right, and all panels are as wide as one another.
+    let longest = panels.iter().flat_map(Panel::names).map(|name| name.chars().count() as u32).max();
+    let right = longest.map_or(2 * MARGIN, |count| (46 + 8 * count).min(WIDTH / 3));
+    let heights: Vec<u32> = panels.iter().map(Panel::height).collect();
+    let size = (WIDTH, heights.iter().sum::<u32>() + NAME + MARGIN);
+    let mut svg = String::new();
+    {
+        let mut place = SVGBackend::with_string(&mut svg, (size.0 * FINE, size.1 * FINE)).into_drawing_area();
+        place.fill(&WHITE).map_err(reason)?;
+        for (n, (panel, height)) in panels.iter().zip(heights).enumerate() {
+            let name = if n == last { NAME } else { 0 };
+            let (here, below) = place.split_vertically(fine(height + name));
+            panel.draw(&here, over, right, n == last).map_err(reason)?;
+            place = below;
+        }
+        place.present().map_err(reason)?;
+    }
+    // The units stay those of the view box.
+    let sized = |size: (u32, u32)| format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+    Ok(svg.replacen(&sized((size.0 * FINE, size.1 * FINE)), &sized(size), 1))
+}
+
+fn reason(error: impl ToString) -> TableError {
+    TableError::Plot(error.to_string())
+}
+
+fn fine(pixels: u32) -> i32 {
+    (pixels * FINE) as i32
+}
+
+fn writing(colour: RGBColor) -> TextStyle<'static> {
+    ("sans-serif", f64::from(TEXT * FINE)).into_font().color(&colour)
+}
+
+fn panels<'a>(columns: &[Column<'a>]) -> Vec<Panel<'a>> {
+    let mut panels: Vec<Panel<'a>> = Vec::new();
+    for &column in columns {
+        match panels.iter_mut().find(|panel| column.unit.is_some() && panel.columns[0].unit == column.unit) {
+            Some(panel) => panel.columns.push(column),
+            None => panels.push(Panel { columns: vec![column] }),
+        }
+    }
+    panels
+}
+
+/// Where a panel lies.
+type Area<'s> = DrawingArea<SVGBackend<'s>, Shift>;
+
+impl Panel<'_> {
+    /// One curve is named at the axis, if there is room for it.
+    fn alone(&self) -> Option<String> {
+        let [one] = &self.columns[..] else { return None };
+        Some(one.to_string()).filter(|name| name.chars().count() <= LETTERS)
+    }
+
+    /// What stands on the right.
+    fn names(&self) -> impl Iterator<Item = &str> {
+        let named = if self.alone().is_none() { &self.columns[..] } else { &[] };
+        named.iter().map(|column| column.name)
+    }
+
+    fn height(&self) -> u32 {
+        LOWEST.max(2 * MARGIN + LABELS.1 + (TEXT + 6) * self.names().count() as u32)
+    }
+
+    /// What stands at the axis.
+    fn label(&self) -> String {
+        self.alone().unwrap_or_else(|| self.columns[0].unit.unwrap_or_default().to_owned())
+    }
+
+    fn draw(
+        &self,
+        area: &Area<'_>,
+        over: &Column<'_>,
+        right: u32,
+        named: bool,
+    ) -> Result<(), Box<dyn std::error::Error>> {
+        let x = Axis::of(over.values, 0.0);
+        let y = Axis::of(self.columns.iter().flat_map(|column| column.values), 0.04);
+        let height = self.height() - MARGIN - LABELS.1;
+        let mut chart = ChartBuilder::on(area)
+            .margin_top(fine(MARGIN))
+            .margin_left(fine(MARGIN))
+            .margin_right(fine(right))
+            .x_label_area_size(fine(LABELS.1 + if named { NAME } else { 0 }))
+            .y_label_area_size(fine(LABELS.0))
+            .build_cartesian_2d(x.range(), y.range())?;
+        let mut mesh = chart.configure_mesh();
+        mesh.light_line_style(TRANSPARENT)
+            .bold_line_style(PALE.stroke_width(FINE))
+            .axis_style(INK.stroke_width(FINE))
+            .set_all_tick_mark_size(fine(4))
+            .axis_desc_style(writing(INK))
+            .label_style(writing(INK))
+            .x_labels(9)
+            .y_labels((height / 32) as usize)
+            .y_desc(self.label());
+        if named {
+            mesh.x_desc(over.to_string());
+        }
+        mesh.x_label_formatter(&|value| x.label(*value)).y_label_formatter(&|value| y.label(*value)).draw()?;
+        for (n, column) in self.columns.iter().enumerate() {
+            let style = COLOURS[n % COLOURS.len()].stroke_width(2 * FINE);
+            for line in points::lines(over.values, column.values, (x.range(), y.range())) {
+                if n < COLOURS.len() {
+                    chart.draw_series(LineSeries::new(line, style))?;
+                } else {
+                    chart.draw_series(DashedLineSeries::new(line, fine(8), fine(5), style))?;
+                }
+            }
+        }
+        self.legend(area, right)?;
+        Ok(())
+    }
+
+    fn legend(&self, area: &Area<'_>, right: u32) -> Result<(), Box<dyn std::error::Error>> {
+        let left = WIDTH - right + 10;
+        for (n, name) in self.names().enumerate() {
+            let (top, colour) = (MARGIN + (TEXT + 6) * n as u32, COLOURS[n % COLOURS.len()]);
+            let strokes = if n < COLOURS.len() { &[(0, 18)][..] } else { &[(0, 7), (11, 18)] };
+            for (from, to) in strokes {
+                let ends = [from, to].map(|along| (fine(left + along), fine(top + TEXT / 2)));
+                area.draw(&PathElement::new(ends.to_vec(), colour.stroke_width(2 * FINE)))?;
+            }
+            area.draw(&Text::new(name.to_owned(), (fine(left + 24), fine(top)), writing(INK)))?;
+        }
+        Ok(())
+    }
+}
