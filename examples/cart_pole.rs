@@ -64,8 +64,10 @@ fn riccati(a: &Square, b: &State, q: &Square, r: f64) -> Option<Square> {
 fn main() -> Result<(), Box<dyn Error>> {
     let kernel = CartPole { cart: 1.0, bob: 0.2, length: 0.6, g: 9.81 }.kernel()?;
     let (upright, still) = (SVector::from([0.0, 0.0]), SVector::from([0.0, 0.0]));
+    // ANCHOR: regulator
     let linear = kernel.linearize(0.0, &upright, &still, &SVector::from([0.0]));
     let (a, b) = (linear.by_state, linear.by_input);
+    // ANCHOR_END: regulator
     println!("d/dt (δx, δθ, δẋ, δθ̇) = A (δx, δθ, δẋ, δθ̇) + B push\nA ={a:.4}B ={b:.4}");
 
     // The pole matters more than where the cart is, and pushes cost little.
@@ -75,11 +77,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("push = −K (x, θ, ẋ, θ̇), K ={gains:.3}");
     let residual = (a.transpose() * p + p * a - p * b * b.transpose() * p / r + q).amax();
 
+    // ANCHOR: law
     let law = |_: f64, q: &_, z: &_| {
         let CartPoleState { x, theta, x_dot, theta_dot } = CartPoleState::of(q, z);
         -gains * State::new(x, theta, x_dot, theta_dot)
     };
     let simulation = Simulation::new(&kernel).input(law);
+    // ANCHOR_END: law
     println!("    t/s     x/m  θ/rad   push/N");
     let tilted = CartPoleState { theta: 0.6, ..CartPoleState::default() };
     let fall = simulation.adaptive(1e-9, 1e-9).run(tilted.q(), tilted.z(), 0.0..8.0)?;

@@ -114,10 +114,12 @@ fn first_estimate(measured: &[Measured]) -> Result<Unknown, Box<dyn Error>> {
         let t = INTERVAL * (k + 3) as f64;
         // Σ j² = 28 for j = −3 … 3.
         let slope = (-3..=3).zip(window).map(|(j, m)| m.omega * (f64::from(j) / (28.0 * INTERVAL))).sum();
+        // ANCHOR: regressor
         let y = kernel.regressor(t, &window[3].attitude, &window[3].omega, &slope);
         let y = y.fixed_columns::<UNKNOWN>(FIRST);
         normal += y.transpose() * y;
         right += y.transpose() * torque(t);
+        // ANCHOR_END: regressor
     }
     let mut estimate = normal.try_inverse().ok_or("the motion does not tell the parameters")? * right;
     (0..3).for_each(|i| estimate[i] /= MASS);

@@ -1,8 +1,7 @@
 //! Equations as a page: MathML, which browsers set without any script.
 
 use gauss_codegen::Notation;
-use pulldown_latex::config::{DisplayMode, RenderConfig};
-use pulldown_latex::{Parser, Storage, push_mathml};
+use gauss_codegen::mathml::{self, escaped};
 
 use crate::show::{Shown, loss, programs};
 
@@ -54,39 +53,8 @@ fn line(line: &str) -> String {
     if line.is_empty() {
         return String::new();
     }
-    if let Some(heading) = line.strip_prefix("&\\text{").and_then(|rest| rest.strip_suffix('}')) {
-        return format!("<h2>{}</h2>\n", text(heading));
+    match line.strip_prefix("&\\text{").and_then(|rest| rest.strip_suffix('}')) {
+        Some(heading) => format!("<h2>{}</h2>\n", mathml::words(heading)),
+        None => format!("<p>{}</p>\n", mathml::line(line)),
     }
-    match line.split_once('&') {
-        Some((left, right)) => {
-            format!("<p>{}{}</p>\n", math(left, DisplayMode::Inline), math(right, DisplayMode::Inline))
-        }
-        None => format!("<p>{}</p>\n", math(line, DisplayMode::Inline)),
-    }
-}
-
-/// Words with formulas between dollars.
-fn text(words: &str) -> String {
-    let piece = |(k, piece): (usize, &str)| if k % 2 == 0 { escaped(piece) } else { math(piece, DisplayMode::Inline) };
-    words.split('$').enumerate().map(piece).collect()
-}
-
-/// A formula; what cannot be set stays as it is written.
-fn math(latex: &str, display_mode: DisplayMode) -> String {
-    let storage = Storage::new();
-    let latex = latex.trim();
-    let events: Result<Vec<_>, _> = Parser::new(latex, &storage).collect();
-    let mut out = String::new();
-    let config = RenderConfig { display_mode, ..RenderConfig::default() };
-    match events {
-        Ok(events) => {
-            let events = events.into_iter().map(Ok::<_, pulldown_latex::ParserError>);
-            if push_mathml(&mut out, events, config).is_ok() { out } else { format!("<code>{}</code>", escaped(latex)) }
-        }
-        Err(_) => format!("<code>{}</code>", escaped(latex)),
-    }
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

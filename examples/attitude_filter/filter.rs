@@ -47,7 +47,9 @@ impl Estimate {
         let (looked, strength) = (*self, DISTURBANCE * DISTURBANCE);
         for n in 0..STEPS {
             let torque = wheels(from + n);
+            // ANCHOR: predict
             let step = CommutatorFree4.step_linearized(kernel, 0.0, &self.state.0, &self.state.1, &torque, STEP)?;
+            // ANCHOR_END: predict
             // How the covariance grows, from which one, and over which time.
             let ((by_state, by_torque), earlier, time) = match transition {
                 Transition::Exact => ((step.by_state, step.by_input), self.covariance, STEP),

@@ -2,6 +2,7 @@
 
 use gauss_runtime::prelude::*;
 
+// ANCHOR: runner
 /// In the air: a mass and its weight.
 #[derive(GaussDynamics)]
 #[gauss(coordinates(x, y), particle(mass = m, position = [x, 0, y]))]
@@ -31,6 +32,7 @@ pub struct Stance {
     #[gauss(gravity, unit = "m/s^2")]
     pub g: f64,
 }
+// ANCHOR_END: runner
 
 /// A runner that puts its leg down at one angle, whatever happens.
 #[derive(Clone, Copy)]

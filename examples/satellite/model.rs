@@ -25,6 +25,7 @@ pub fn mean_motion() -> f64 {
 /// SI units: rotations are known to 10⁻¹⁶, places to 10⁻⁹ m, and neither spoils the other, because in the hybrid chart ḃ and
 /// ω have equations of their own. The right-invariant chart would not do here: its momentum about Ω is 10¹⁵ times the angular
 /// momentum of the body about G, which is lost in the rounding; see [`FromTheCentre`].
+// ANCHOR: orbiter
 #[derive(GaussDynamics)]
 #[gauss(chart = hybrid, central_gravity(earth, mu = mu))]
 pub struct Orbiter {
@@ -37,6 +38,7 @@ pub struct Orbiter {
     /// m³/s².
     pub mu: f64,
 }
+// ANCHOR_END: orbiter
 
 /// The same body in the chart whose pole is the centre of the Earth: to show what is lost.
 #[derive(GaussDynamics)]

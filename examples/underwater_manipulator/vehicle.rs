@@ -23,6 +23,7 @@ pub const SHOULDER: [f64; 3] = [0.25, 0.0, 0.12];
     chart = left_invariant,
     coordinates(shoulder, elbow),
     input(yaw_torque, pitch_torque),
+    // ANCHOR: arm
     medium(velocity = current),
     drag(hull, linear = linear, quadratic = quadratic),
     frame(turret, parent = body, position = mount, rotation = rotation_z(shoulder)),
@@ -39,6 +40,7 @@ pub const SHOULDER: [f64; 3] = [0.25, 0.0, 0.12];
     ),
     drag(upper_arm, body = upper, quadratic = [0, link_drag, link_drag, 0, link_swirl, link_swirl]),
     drag(forearm, body = fore, quadratic = [0, link_drag, link_drag, 0, link_swirl, link_swirl]),
+    // ANCHOR_END: arm
     drive(motors, shoulder = yaw_torque, elbow = pitch_torque),
 )]
 pub struct Vehicle {

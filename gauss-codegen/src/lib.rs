@@ -10,6 +10,7 @@ mod expand;
 mod formulation;
 mod kernel;
 mod lowering;
+pub mod mathml;
 mod mechanics;
 mod mistakes;
 mod model;

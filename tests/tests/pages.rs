@@ -128,10 +128,31 @@ fn every_chapter_is_listed_and_compiled() {
         let file = page.path.file_name().expect("a name").to_string_lossy();
         if file != "SUMMARY.md" {
             assert!(list.contains(&format!("({file})")), "guide/src/SUMMARY.md does not list {file}");
-            let compiled = library.contains(&format!("src/{file}\"")) || !page.text.contains("```rust");
+            // What is included from an example is compiled there.
+            let compiled = library.contains(&format!("src/{file}\"")) || !page.text.contains("```rust\n");
             assert!(compiled, "guide/lib.rs does not compile {file}");
         }
     }
+}
+
+/// Parts of examples that the guide shows are there, by their names.
+#[test]
+fn what_the_guide_includes_is_there() {
+    let mut included = 0;
+    for page in pages().iter().filter(|page| page.name.starts_with("guide/src/")) {
+        for (_, rest) in page.text.match_indices("{{#include ").map(|(at, start)| page.text.split_at(at + start.len()))
+        {
+            let (file, name) =
+                rest.split_once("}}").and_then(|(link, _)| link.split_once(':')).expect("a file and a name");
+            let text =
+                fs::read_to_string(page.path.with_file_name(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+            let marks = [format!("// ANCHOR: {name}\n"), format!("// ANCHOR_END: {name}\n")];
+            let places = marks.each_ref().map(|mark| text.find(mark).unwrap_or_else(|| panic!("{file} has no {mark}")));
+            assert!(places[0] < places[1], "{file}: {name}");
+            included += 1;
+        }
+    }
+    assert!(included >= 10, "only {included} parts are included");
 }
 
 #[test]

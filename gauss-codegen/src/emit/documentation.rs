@@ -4,6 +4,7 @@ use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
 use crate::formulation::Printed;
+use crate::mathml;
 use crate::mechanics::Method;
 use crate::model::{InChart, InputKind, Role};
 
@@ -111,23 +112,54 @@ pub const DERIVATIVES: [&str; 5] = ["linearize", "by_parameters", "linearize_inv
 /// The loss above which the documentation of a kernel warns of it: three decimal places.
 const MUCH: f64 = 1e3;
 
+/// LaTeX that is longer is not set in rustdoc: pages of a megabyte are read by nobody, and every compilation writes them.
+const TOO_LONG: usize = 12_000;
+
 /// Rustdoc of the kernel: what it is, what it takes, its equations, its costs. What a scene does not have is not on it.
-pub fn rustdoc(derived: &Derived<'_, '_>, equations: &str) -> String {
+pub struct Documentation {
+    /// What stands before the equations.
+    pub before: String,
+    /// The equations as text: what editors show, which set no formulas.
+    pub text: String,
+    /// The same as formulas, unless they are very long.
+    pub formulas: Option<String>,
+    /// What stands after them.
+    pub after: String,
+}
+
+/// Everything that is known of a kernel, for its page.
+pub fn rustdoc(derived: &Derived<'_, '_>, equations: &Equations) -> Documentation {
     let legend = legend(derived).into_iter().map(|(letter, field, text)| vec![letter.into(), code(&field), text]);
-    let mut out = format!(
+    let before = format!(
         "Equations of motion of [`{name}`], derived from the Gauss condition (Massa & Vignolo, eq. 3.4).\n\n\
-         {description}.\n{states}{input}\n# Equations\n\n{letters}\n\n```text\n{equations}```\n{legend}",
+         {description}.\n{states}{input}\n# Equations\n\n{letters}\n",
         name = derived.item().ident,
         description = description(derived),
         states = states(derived),
         input = input(derived),
-        letters = letters(derived, equations),
-        legend = table(["letter", "field", ""], legend.collect()),
+        letters = letters(derived, &equations.text),
     );
-    out.push_str(&acting(derived));
-    out.push_str(&frames(derived));
-    out.push_str(&super::file::documentation(derived));
-    out.push_str(&costs(derived));
+    let mut after = table(["letter", "field", ""], legend.collect());
+    after.push_str(&acting(derived));
+    after.push_str(&frames(derived));
+    after.push_str(&super::file::documentation(derived));
+    after.push_str(&costs(derived));
+    let formulas = (equations.latex.len() <= TOO_LONG).then(|| formulas(&derived.printed[1]));
+    Documentation { before, text: format!("```text\n{}```\n", equations.text), formulas, after }
+}
+
+/// Equations as HTML. No line is empty: an empty one would end it, in Markdown.
+fn formulas(printed: &Printed) -> String {
+    let mut out = String::from("<div style=\"overflow-x:auto\">\n");
+    for (title, lines) in printed {
+        out.push_str(&format!("<p style=\"margin:0.7em 0 0.2em\"><em>{}</em></p>\n", mathml::words(title)));
+        for line in lines {
+            let set = mathml::line(&line.replacen(" = ", " &= ", 1));
+            out.push_str(&format!("<p style=\"margin:0.25em 0;padding-left:4em;text-indent:-2em\">{set}</p>\n"));
+        }
+    }
+    // What follows is Markdown again after an empty line.
+    out.push_str("</div>\n\n");
     out
 }
 

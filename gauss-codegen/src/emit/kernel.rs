@@ -5,7 +5,7 @@ use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 
 use super::derived::{Derived, Item, KernelGenerics};
-use super::documentation::{Equations, rustdoc};
+use super::documentation::{Documentation, Equations, rustdoc};
 use super::laws::warnings;
 use super::parameters::kernel_body;
 use super::program::table_name;
@@ -15,9 +15,16 @@ use crate::model::{FunctionClause, FunctionKind};
 pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let (visibility, name, fields) = (derived.item().visibility, derived.kernel_name(), derived.constant_fields());
     let (ty, KernelGenerics { declared, .. }) = (derived.scalar().ty(), derived.kernel_generics());
-    let documentation = rustdoc(derived, &equations.text);
+    let Documentation { before, text, formulas, after } = rustdoc(derived, equations);
+    let equations = match formulas {
+        // Editors show what is compiled, and HTML as it is written.
+        Some(formulas) => quote!(#[cfg_attr(doc, doc = #formulas)] #[cfg_attr(not(doc), doc = #text)]),
+        None => quote!(#[doc = #text]),
+    };
     quote! {
-        #[doc = #documentation]
+        #[doc = #before]
+        #equations
+        #[doc = #after]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
         #[allow(non_camel_case_types)]
         #visibility struct #name #declared { #(#fields: #ty),* }

@@ -11,26 +11,32 @@ mod latex;
 mod scenes;
 mod sources;
 mod table;
+#[path = "../common/tex.rs"]
+mod tex;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use counts::Row;
+use gauss_codegen::mathml;
 use proc_macro2::{TokenStream, TokenTree};
 use scenes::Scene;
 use table::Table;
 
-/// Expands every scene, on all threads; or says which ones are refused.
-fn measured(scenes: &[Scene]) -> Result<Table, String> {
+/// Expands every scene, on all threads: what it costs, and its equations in LaTeX; or says which ones are refused.
+fn measured(scenes: &[Scene]) -> Result<(Table, Vec<(String, String)>), String> {
     let next = AtomicUsize::new(0);
-    let found = Mutex::new((Table::default(), String::new()));
+    let found = Mutex::new((Table::default(), Vec::new(), String::new()));
     let work = || {
         while let Some(scene) = scenes.get(next.fetch_add(1, Ordering::Relaxed)) {
             let rows = rows(scene);
-            let (table, refused) = &mut *found.lock().expect("no thread panics with the table");
+            let (table, equations, refused) = &mut *found.lock().expect("no thread panics with the table");
             match rows {
-                Ok(rows) => table.add(&scene.name, rows),
+                Ok((rows, latex)) => {
+                    table.add(&scene.name, rows);
+                    equations.push((scene.name.clone(), latex));
+                }
                 Err(error) => *refused += &format!("{}: {error}\n", scene.name),
             }
         }
@@ -41,18 +47,31 @@ fn measured(scenes: &[Scene]) -> Result<Table, String> {
             scope.spawn(work);
         }
     });
-    let (table, refused) = found.into_inner().expect("no thread panics with the table");
-    if refused.is_empty() { Ok(table) } else { Err(refused) }
+    let (table, mut equations, refused) = found.into_inner().expect("no thread panics with the table");
+    equations.sort();
+    if refused.is_empty() { Ok((table, equations)) } else { Err(refused) }
 }
 
-fn rows(scene: &Scene) -> syn::Result<Vec<(String, Row)>> {
+fn rows(scene: &Scene) -> syn::Result<(Vec<(String, Row)>, String)> {
     let code = gauss_codegen::expand(&syn::parse_str(&scene.source)?)?;
     let equations = equations(code.clone()).unwrap_or_default();
-    let complaints = latex::complaints(&equations);
+    let mut complaints = latex::complaints(&equations);
+    complaints.extend(equations.split("\\\\\n").filter_map(left_of_latex));
     if !complaints.is_empty() {
         return Err(syn::Error::new(proc_macro2::Span::call_site(), complaints.join("\n")));
     }
-    counts::of_code(code)
+    Ok((counts::of_code(code)?, equations))
+}
+
+/// What MathML has left of a line of LaTeX, which should be nothing.
+fn left_of_latex(line: &str) -> Option<String> {
+    let line = line.trim_start_matches("\\begin{align*}\n").trim_end_matches("\\end{align*}\n");
+    let set = match line.strip_prefix("&\\text{").and_then(|rest| rest.strip_suffix("} ")) {
+        Some(words) => mathml::words(words),
+        None => mathml::line(line),
+    };
+    let (_, rest) = set.split_once('\\')?;
+    Some(format!("\\{} is not known to MathML: {line}", rest.chars().take(20).collect::<String>()))
 }
 
 /// The LaTeX of `Equations::new(text, latex)`.
@@ -71,7 +90,10 @@ fn equations(code: TokenStream) -> Option<String> {
 #[test]
 fn no_method_costs_more_than_before() {
     let scenes = scenes::all();
-    let measured = measured(&scenes).unwrap_or_else(|refused| panic!("\n{refused}"));
+    let (measured, equations) = measured(&scenes).unwrap_or_else(|refused| panic!("\n{refused}"));
+    if let Some(complaints) = tex::complaints("all_scenes", &equations) {
+        assert!(complaints.is_empty(), "\n{complaints}");
+    }
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/operations/table.csv");
     if std::env::var("UPDATE_OPERATIONS").is_ok_and(|value| value == "1") {
         std::fs::write(path, measured.to_csv()).expect("the table can be written");
