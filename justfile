@@ -40,6 +40,10 @@ fuzz:
 guide:
     mdbook build guide
 
+# The front page, with kernels that run in it, in `target/gauss`: `rustup target add wasm32-unknown-unknown` once.
+page:
+    cargo run -p gauss-web
+
 # How long a derive takes with an unoptimised macro.
 expansion:
     cargo run --profile unoptimised --example expansion_time

@@ -13,6 +13,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use gauss_examples::statistics::quartiles;
 use gauss_runtime::batch::{Batch, BatchSystem, States};
 use gauss_runtime::integrate::OneStep;
 use gauss_runtime::prelude::*;
@@ -179,11 +180,6 @@ fn time(mut work: impl FnMut()) -> f64 {
     }
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    values[values.len() / 2]
-}
-
 /// Floating-point operations a second in registers, on vectors of eight and of four, whichever is faster.
 fn peak() -> f64 {
     /// Chains of multiply-adds that do not wait for one another: enough for two units of latency four, few enough for sixteen registers.
@@ -308,8 +304,8 @@ fn throughput() {
                     ["one by one", "batch of f64", "Lanes<f64, 4>", "Lanes<f64, 8>", "wide::f64x4", "wide::f64x8"];
                 print!("{:26}", format!("{} {what}", $name));
                 for (n, name) in names.into_iter().enumerate() {
-                    let value = median(rounds.iter().map(|round| round[n][k]).collect());
-                    let ratio = median(rounds.iter().map(|round| round[0][k] / round[n][k]).collect());
+                    let value = quartiles(rounds.iter().map(|round| round[n][k]).collect())[1];
+                    let ratio = quartiles(rounds.iter().map(|round| round[0][k] / round[n][k]).collect())[1];
                     print!(" | {name} {value:.2} ({ratio:.2}x)");
                 }
                 println!();

@@ -202,6 +202,25 @@ fn refine(first: Unknown, measured: &[Measured]) -> Result<Fit, Box<dyn Error>> 
     Err("the fit does not converge".into())
 }
 
+/// One fit, parameter by parameter.
+fn report(truth: &Unknown, first: &Unknown, fit: &Fit) {
+    println!("parameter                true  by torques  by motion  deviation  error/deviation");
+    for i in 0..UNKNOWN {
+        let name = SatelliteKernel::PARAMETERS[FIRST + i];
+        let (unit, scale) = if i < 3 { ("mm", 1e3) } else { ("kg m²", 1.0) };
+        let deviation = fit.covariance[(i, i)].sqrt();
+        println!(
+            "{name:13} {unit:6}{:9.5}  {:10.5}  {:9.5}  {:9.5}  {:15.2}",
+            scale * truth[i],
+            scale * first[i],
+            scale * fit.parameters[i],
+            scale * deviation,
+            (fit.parameters[i] - truth[i]) / deviation
+        );
+    }
+    println!("(Gauss–Newton: {} iterations)\n", fit.iterations);
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let truth = Unknown::from(TRUTH);
     let body = satellite(&truth).kernel()?;
@@ -234,21 +253,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         distance += error.dot(&(information * error));
         misfit += fit.misfit;
         if run == 0 {
-            println!("parameter                true  by torques  by motion  deviation  error/deviation");
-            for i in 0..UNKNOWN {
-                let name = SatelliteKernel::PARAMETERS[FIRST + i];
-                let (unit, scale) = if i < 3 { ("mm", 1e3) } else { ("kg m²", 1.0) };
-                let deviation = fit.covariance[(i, i)].sqrt();
-                println!(
-                    "{name:13} {unit:6}{:9.5}  {:10.5}  {:9.5}  {:9.5}  {:15.2}",
-                    scale * truth[i],
-                    scale * first[i],
-                    scale * fit.parameters[i],
-                    scale * deviation,
-                    error[i] / deviation
-                );
-            }
-            println!("(Gauss–Newton: {} iterations)\n", fit.iterations);
+            report(&truth, &first, &fit);
         }
     }
 

@@ -1,11 +1,8 @@
 //! A hoop that rolls and wobbles: constraints, consistent initial values, integrals, and the force of the ground.
 //!
-//! `cargo run --release --example rolling_disk [-- FOLDER]` draws its path into `FOLDER`, by default `target/rolling_disk`.
+//! `cargo run --release --example rolling_disk [-- FOLDER]` draws its path into `FOLDER`, by default `target/gauss`.
 
-use std::path::PathBuf;
-use std::{env, fs};
-
-use gauss_examples::figure;
+use gauss_examples::plots;
 use gauss_examples::rolling::{Floor, Hoop, draw};
 use gauss_runtime::prelude::*;
 
@@ -36,7 +33,6 @@ const MASS: f64 = 1.5;
 const GRAVITY: f64 = 9.81;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/rolling_disk"), PathBuf::from);
     // Nearly all mass in the rim.
     let about_axis = 0.9 * MASS * RADIUS * RADIUS;
     let inertia = Matrix3::from_diagonal(&Vector3::new(0.5, 0.5, 1.0)) * about_axis;
@@ -81,25 +77,24 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("largest deviation from the constraints in {} steps: {off:.1e} m and m/s", path.len() - 1);
     println!("{}", monitor(&kernel, &path));
 
+    let hoops = hoops(&path);
+    let svg = draw(
+        &hoops,
+        Floor { grid: 0.25, shown: 8, among: 81 },
+        "A hoop rolls for 12 s: where it touched the floor, and its last 0.8 s",
+    )?;
+    plots::write("rolling_disk", &svg)
+}
+
+/// Where the hoop is, a hundred times a second.
+fn hoops(path: &Trajectory<RollingDiskKernel>) -> Vec<Hoop> {
     let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
-    let hoops: Vec<Hoop> = (0..=1200)
+    (0..=1200)
         .map(|n| {
             let s = path.at(0.01 * f64::from(n)).expect("inside the run");
             let RollingDiskState { x, y, z, heading, lean, .. } = RollingDiskState::of(&s.q, &s.z);
             let rotation = turn(Vector3::z_axis(), heading) * turn(Vector3::x_axis(), lean);
             Hoop { centre: Vector3::new(x, y, z), rotation, radius: RADIUS }
         })
-        .collect();
-    let svg = draw(
-        &hoops,
-        Floor { grid: 0.25, shown: 8, among: 81 },
-        "A hoop rolls for 12 s: where it touched the floor, and its last 0.8 s",
-    )?;
-    fs::create_dir_all(&folder)?;
-    for (name, contents) in [("rolling_disk.svg", svg.clone().into_bytes()), ("rolling_disk.png", figure::png(&svg)?)] {
-        let file = folder.join(name);
-        fs::write(&file, contents)?;
-        println!("written: {}", file.display());
-    }
-    Ok(())
+        .collect()
 }

@@ -4,5 +4,5 @@
 pub mod fault;
 #[path = "../gauss-codegen/tests/mutations/mutate.rs"]
 pub mod mutate;
-#[path = "../gauss-codegen/tests/mutations/random.rs"]
+#[path = "../gauss-codegen/src/accuracy/random.rs"]
 pub mod random;

@@ -16,6 +16,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
+use gauss_benches::measure::Spread;
+
 /// A structure: its name, its source with further clauses, a value of it, a configuration and the number of speeds.
 struct Structure {
     name: &'static str,
@@ -158,11 +160,6 @@ fn build(folder: &Path, program: &str, profile: &str) -> Result<f64, Box<dyn Err
     if status.success() { Ok(seconds) } else { Err(format!("{program} does not compile").into()) }
 }
 
-fn quarters(mut values: Vec<f64>) -> [f64; 3] {
-    values.sort_unstable_by(f64::total_cmp);
-    [0.25, 0.5, 0.75].map(|part| values[((values.len() - 1) as f64 * part).round() as usize])
-}
-
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let rounds: usize = arguments.next().map_or(Ok(5), |rounds| rounds.parse())?;
@@ -193,10 +190,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                     seconds[k].push(build(&folder, &format!("{}_{usage}", structure.name), profile)?);
                 }
             }
-            let [_, without, _] = quarters(seconds[0].clone());
+            let without = Spread::of(seconds[0].clone()).median;
             let added = (1..USES.len()).map(|k| {
                 let differences = seconds[k].iter().zip(&seconds[0]).map(|(with, without)| with - without).collect();
-                let [lower, median, upper] = quarters(differences);
+                let Spread { lower, median, upper, .. } = Spread::of(differences);
                 format!("{median:+.2} ({lower:.2} – {upper:.2})")
             });
             let added: Vec<String> = added.collect();

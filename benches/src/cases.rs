@@ -79,97 +79,36 @@ fn operations<S: Described>(_: &Generated<S>) -> OperationCount {
 pub fn all() -> Result<Vec<Case>, Box<dyn Error>> {
     let peers = peers::Peers::load()?;
     Ok(vec![
-        case!(
-            peers,
-            "s1",
-            "S1",
-            "free body, principal axes",
-            scenes::free_body()?,
-            of_a_body(),
-            s1_generated,
-            by_hand::FreeBody::new(),
-            s1_by_hand,
-            matrices::Body::free(),
-            s1_matrices
-        ),
-        case!(
-            peers,
-            "s2",
-            "S2",
-            "heavy body, O off its centre of mass",
-            scenes::heavy_body()?,
-            of_a_body(),
-            s2_generated,
-            by_hand::HeavyBody::new(),
-            s2_by_hand,
-            matrices::Body::heavy(),
-            s2_matrices
-        ),
-        case!(
-            peers,
-            "s3",
-            "S3",
-            "body in fluid, full kinetic matrix",
-            scenes::immersed()?,
-            of_a_body(),
-            s3_generated,
-            by_hand::Immersed::new(),
-            s3_by_hand,
-            matrices::Body::immersed(),
-            s3_matrices
-        ),
-        case!(
-            peers,
-            "s4",
-            "S4",
-            "heavy top, Euler angles",
-            scenes::top()?,
-            of_the_top(),
-            s4_generated,
-            by_hand::Top::new(),
-            s4_by_hand,
-            matrices::Top::new(),
-            s4_matrices
-        ),
-        case!(
-            peers,
-            "s5",
-            "S5",
-            "double pendulum, angles from the vertical",
-            scenes::double_pendulum()?,
-            of_angles::<2>(),
-            s5_generated,
-            by_hand::DoublePendulum::new(),
-            s5_by_hand,
-            matrices::DoublePendulum,
+        case! {
+            peers, "s1", "S1", "free body, principal axes", scenes::free_body()?, of_a_body(), s1_generated,
+            by_hand::FreeBody::new(), s1_by_hand, matrices::Body::free(), s1_matrices
+        },
+        case! {
+            peers, "s2", "S2", "heavy body, O off its centre of mass", scenes::heavy_body()?, of_a_body(),
+            s2_generated, by_hand::HeavyBody::new(), s2_by_hand, matrices::Body::heavy(), s2_matrices
+        },
+        case! {
+            peers, "s3", "S3", "body in fluid, full kinetic matrix", scenes::immersed()?, of_a_body(),
+            s3_generated, by_hand::Immersed::new(), s3_by_hand, matrices::Body::immersed(), s3_matrices
+        },
+        case! {
+            peers, "s4", "S4", "heavy top, Euler angles", scenes::top()?, of_the_top(), s4_generated,
+            by_hand::Top::new(), s4_by_hand, matrices::Top::new(), s4_matrices
+        },
+        case! {
+            peers, "s5", "S5", "double pendulum, angles from the vertical", scenes::double_pendulum()?,
+            of_angles::<2>(), s5_generated, by_hand::DoublePendulum::new(), s5_by_hand, matrices::DoublePendulum,
             s5_matrices
-        ),
-        case!(
-            peers,
-            "s5_jointed",
-            "S5′",
-            "the same, angle of the joint",
-            scenes::jointed_pendulum()?,
-            of_angles::<2>(),
-            s5_jointed_generated,
-            by_hand::JointedPendulum::default(),
-            s5_jointed_by_hand,
-            matrices::JointedPendulum,
-            s5_jointed_matrices
-        ),
-        case!(
-            peers,
-            "s6",
-            "S6",
-            "cart and pole",
-            scenes::cart_pole()?,
-            of_angles::<2>(),
-            s6_generated,
-            by_hand::CartPole::new(),
-            s6_by_hand,
-            matrices::CartPole,
-            s6_matrices
-        ),
+        },
+        case! {
+            peers, "s5_jointed", "S5′", "the same, angle of the joint", scenes::jointed_pendulum()?,
+            of_angles::<2>(), s5_jointed_generated, by_hand::JointedPendulum::default(), s5_jointed_by_hand,
+            matrices::JointedPendulum, s5_jointed_matrices
+        },
+        case! {
+            peers, "s6", "S6", "cart and pole", scenes::cart_pole()?, of_angles::<2>(), s6_generated,
+            by_hand::CartPole::new(), s6_by_hand, matrices::CartPole, s6_matrices
+        },
         case!(peers, "s7", "S7", "arm of seven joints", scenes::arm()?, of_angles::<7>(), s7_generated),
     ])
 }

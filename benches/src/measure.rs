@@ -67,7 +67,8 @@ pub struct Spread {
 }
 
 impl Spread {
-    fn of(mut figures: Vec<f64>) -> Self {
+    /// Of one figure at least.
+    pub fn of(mut figures: Vec<f64>) -> Self {
         figures.sort_by(f64::total_cmp);
         let at = |part: f64| figures[((figures.len() - 1) as f64 * part) as usize];
         Self { lower: at(0.25), median: at(0.5), upper: at(0.75), least: at(0.0) }

@@ -13,9 +13,10 @@ mod study;
 use std::error::Error;
 
 use gauss_examples::plots;
+use gauss_examples::statistics::Random;
 
 use filter::Transition;
-use model::{ARCSECOND, DISTURBANCE, FIRST, LOOKS, Random, STEP, STEPS, TRACKER, happens, nominal, spacecraft};
+use model::{ARCSECOND, DISTURBANCE, FIRST, LOOKS, STEP, STEPS, TRACKER, happens, nominal, spacecraft};
 use study::{Followed, interval};
 
 /// How many motions the filters are tried on.
@@ -30,9 +31,8 @@ fn name(transition: Transition) -> &'static str {
     }
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let kernel = spacecraft().kernel()?;
-    let count = gauss_examples::runs(MOTIONS);
+/// What is simulated, in words.
+fn introduce(count: usize) {
     println!("A satellite that turns by {:.1} °/s; its wheels push, and so does a torque that nobody knows,", {
         nominal().1.norm().to_degrees()
     });
@@ -49,6 +49,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         FIRST.1.to_degrees(),
         STEP * (STEPS * LOOKS) as f64
     );
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let kernel = spacecraft().kernel()?;
+    let count = gauss_examples::runs(MOTIONS);
+    introduce(count);
     let mut random = Random(1);
     let motions = (0..count).map(|_| happens(&kernel, &mut random)).collect::<Result<Vec<_>, _>>()?;
     let followed = [Transition::Exact, Transition::FirstOrder, Transition::FirstOrderPerLook]

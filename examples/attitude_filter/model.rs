@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use gauss_examples::statistics::Random;
 use gauss_runtime::prelude::*;
 
 /// A rigid satellite about its centre of mass O: the torque of its wheels, known, and one that nobody knows, both in body axes.
@@ -56,27 +57,9 @@ pub fn wheels(step: usize) -> Vector3<f64> {
     Vector3::new(phase.sin(), (2.0 * phase).cos(), -phase.cos()) * 2e-4
 }
 
-/// Random numbers: splitmix64, and normal ones by Box and Muller.
-pub struct Random(pub u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        radius * (TAU * self.uniform()).cos()
-    }
-
-    /// Independent components of these standard deviations.
-    pub fn vector(&mut self, deviations: [f64; 3]) -> Vector3<f64> {
-        Vector3::from(deviations.map(|deviation| deviation * self.normal()))
-    }
+/// Independent random components of these standard deviations.
+fn vector(random: &mut Random, deviations: [f64; 3]) -> Vector3<f64> {
+    Vector3::from(deviations.map(|deviation| deviation * random.normal()))
 }
 
 /// What happened: the states after each step, the first one at 0, and what the tracker saw.
@@ -92,16 +75,16 @@ pub struct Truth {
 /// When the run does not reach the end.
 pub fn happens(kernel: &SpacecraftKernel, random: &mut Random) -> Result<Truth, IntegrationError> {
     let (q, z) = nominal();
-    let mut state = (q.retract(&random.vector([FIRST.0; 3])), z + random.vector([FIRST.1; 3]));
+    let mut state = (q.retract(&vector(random, [FIRST.0; 3])), z + vector(random, [FIRST.1; 3]));
     let mut truth = Truth { states: vec![state], looks: vec![] };
     for step in 0..LOOKS * STEPS {
-        let torque = wheels(step) + random.vector([DISTURBANCE / STEP.sqrt(); 3]);
+        let torque = wheels(step) + vector(random, [DISTURBANCE / STEP.sqrt(); 3]);
         let run = Simulation::new(kernel).input(|_, _: &_, _: &_| torque).fixed_step(STEP / 10.0);
         let end = run.run_to_end(state.0, state.1, 0.0..STEP)?;
         state = (end.q, end.z);
         truth.states.push(state);
         if (step + 1) % STEPS == 0 {
-            truth.looks.push(state.0.retract(&random.vector(TRACKER)));
+            truth.looks.push(state.0.retract(&vector(random, TRACKER)));
         }
     }
     Ok(truth)

@@ -21,6 +21,12 @@ const OTHERS: usize = 15;
 /// When they cannot be laid out.
 pub fn draw(followed: &[Followed]) -> Result<String, Box<dyn Error>> {
     let look = STEP * STEPS as f64;
+    let rows = [errors_within_bounds(followed, look), by_transition(followed, look)];
+    sheet("A tumbling satellite, its star tracker every ten seconds, and no gyroscope", (1800, 1300), &rows)
+}
+
+/// Errors of single motions beside what the filter takes them for.
+fn errors_within_bounds(followed: &[Followed], look: f64) -> Vec<Plot<'static>> {
     let span = 2.0 * look..32.0 * look;
     let within = |title, unit, component: usize, height: f64| {
         let runs = &followed[0].runs;
@@ -36,11 +42,15 @@ pub fn draw(followed: &[Followed]) -> Result<String, Box<dyn Error>> {
         let bound = |sign: f64| curve(&runs[0], &|m: &Moment| sign * 3.0 * m.deviations[component]);
         lines.push(Line::new("±3σ of the filter", COLOURS[1], bound(1.0)).wide(3));
         lines.push(Line::new("", COLOURS[1], bound(-1.0)).wide(3));
-        Plot { title, x: ("time, s", span.clone()), y: (unit, -height..height), equal: false, lines, marks: vec![] }
+        Plot::new(title, ("time, s", span.clone()), (unit, -height..height), lines)
     };
     let attitude = within("Error of the attitude about e₁", "arcseconds", 0, 240.0);
     let rate = within("Error of the rate about e₁", "arcseconds per second", 3, 36.0);
+    vec![attitude, rate]
+}
 
+/// What the transition matrix does to the errors.
+fn by_transition(followed: &[Followed], look: f64) -> Vec<Plot<'static>> {
     let short = |transition| match transition {
         Transition::Exact => "of the step, exact",
         Transition::FirstOrder => "1 + hF, 1 s",
@@ -61,31 +71,24 @@ pub fn draw(followed: &[Followed]) -> Result<String, Box<dyn Error>> {
     }
     let worst = followed[followed.len() - 1].after_looks();
     let above = format!("{:.0} at 20 s, {:.0} at 30 s", worst[1].normalised, worst[2].normalised);
-    let normalised = Plot {
-        title: "eᵀP⁻¹e, mean of all motions: 95 % should lie between the dashes",
-        x: ("time, s", look..end),
-        y: ("normalised error squared", bottom..top + 0.4),
-        equal: false,
+    let normalised = Plot::new(
+        "eᵀP⁻¹e, mean of all motions: 95 % should lie between the dashes",
+        ("time, s", look..end),
+        ("normalised error squared", bottom..top + 0.4),
         lines,
-        marks: vec![(worst[2].t, top, above)],
-    };
+    )
+    .marked(vec![(worst[2].t, top, above)]);
     let beginning = 2.0 * look..12.0 * look;
     let mut lines = vec![];
     for (all, colour) in followed.iter().zip(colours).rev() {
         let seen = all.after_looks().into_iter().filter(|look| look.t >= beginning.start && look.t <= beginning.end);
         lines.push(Line::new(short(all.transition), colour, seen.map(|look| (look.t, look.rate.0 / ARCSECOND))));
     }
-    let learnt = Plot {
-        title: "Error of the rate, root mean square, by transition matrix",
-        x: ("time, s", beginning.clone()),
-        y: ("arcseconds per second", 0.0..150.0),
-        equal: false,
+    let learnt = Plot::new(
+        "Error of the rate, root mean square, by transition matrix",
+        ("time, s", beginning.clone()),
+        ("arcseconds per second", 0.0..150.0),
         lines,
-        marks: vec![],
-    };
-    sheet(
-        "A tumbling satellite, its star tracker every ten seconds, and no gyroscope",
-        (1800, 1300),
-        &[vec![attitude, rate], vec![normalised, learnt]],
-    )
+    );
+    vec![normalised, learnt]
 }

@@ -3,10 +3,8 @@
 //! `cargo run --release --example boat_in_current [-- FOLDER]` draws into `FOLDER`, by default `target/gauss`.
 
 use std::error::Error;
-use std::path::PathBuf;
-use std::{env, fs};
 
-use gauss_examples::figure;
+use gauss_examples::plots;
 use gauss_runtime::prelude::*;
 
 mod boat;
@@ -24,7 +22,6 @@ const SPEED: f64 = 0.4;
 const WIDTH: f64 = 30.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
     let still = Boat::cyber_ship();
     let river = Boat { stream: Vector3::new(0.0, STREAM, 0.0), ..still };
     println!("A BOAT IN A STREAM\n\nCyberShip II, 1.255 m and 23.8 kg, published added mass and drag.");
@@ -46,19 +43,42 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("\nadrift          released with the stream: {off:.1e} m from where the water goes in a minute");
     let from_rest = run(&kernel, Isometry2::identity(), Speeds::zeros(), 120.0, |_, _, _| [0.0; 2])?;
 
+    let (tidal, afloat, sunken) = in_a_tide(&river, turned)?;
+    beside_still_water([("steady stream", river), ("tide", tidal)])?;
+    let crossings = ferry(&kernel, still.thrust(SPEED))?;
+    let names = ["straight across", "crabbing", "steering for the landing"];
+    let [straight, crabbed, pursuit] = &crossings;
+    let svg = picture::draw(
+        [Crossing::new(names[0], straight), Crossing::new(names[1], crabbed), Crossing::new(names[2], pursuit)],
+        STREAM / SPEED,
+        WIDTH,
+        [&from_rest, &afloat, &sunken],
+        (STREAM, &tidal),
+    )?;
+    plots::write("boat_in_current", &svg)
+}
+
+type Path = Vec<Sample<BoatKernel>>;
+
+/// The tide, and the ways of a boat as heavy as its water and of one twice as heavy.
+fn in_a_tide(river: &Boat, turned: Isometry2<f64>) -> Result<(Boat, Path, Path), Box<dyn Error>> {
     // A tide carries what floats; what is heavier than the water it displaces lags behind.
-    let tidal = Boat { tide: Vector3::new(0.1, 0.15, 0.0), frequency: 0.1, ..river };
+    let tidal = Boat { tide: Vector3::new(0.1, 0.15, 0.0), frequency: 0.1, ..*river };
     let afloat = run(&tidal.kernel()?, turned, with_it_at(&tidal, turned), 120.0, |_, _, _| [0.0; 2])?;
     let off = afloat.iter().map(|s| (s.q.translation.vector - tidal.drift(s.t).xy()).norm()).fold(0.0, f64::max);
     println!("tide            afloat it stays with the water as well: {off:.1e} m, as ρV ċ at G is what m ċ takes");
-    let heavy = Boat { mass: 2.0 * still.mass, inertia: 2.0 * still.inertia, ..tidal };
+    let heavy = Boat { mass: 2.0 * river.mass, inertia: 2.0 * river.inertia, ..tidal };
     let sunken = run(&heavy.kernel()?, turned, with_it_at(&heavy, turned), 120.0, |_, _, _| [0.0; 2])?;
     let lag = sunken.iter().map(|s| (s.q.translation.vector - heavy.drift(s.t).xy()).norm()).fold(0.0, f64::max);
     println!("                twice as heavy as its water, it is up to {lag:.2} m off");
 
-    // Galilei, against equations in still water written by hand.
+    Ok((tidal, afloat, sunken))
+}
+
+/// Galilei, against equations in still water written by hand.
+fn beside_still_water(boats: [(&str, Boat); 2]) -> Result<(), Box<dyn Error>> {
     let by_hand = in_still_water(0.3, winding, 120, 100);
-    for (name, boat) in [("steady stream", river), ("tide", tidal)] {
+    for (name, boat) in boats {
         let start = Isometry2::rotation(0.3);
         let path =
             run(&boat.kernel()?, start, with_it_at(&boat, start), 120.0, |t, q, _| winding(t, q.rotation.angle()))?;
@@ -72,17 +92,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
 
-    // The river.
-    let thrust = still.thrust(SPEED);
+    Ok(())
+}
+
+/// Across the river: straight, crabbing, steering for the landing.
+fn ferry(kernel: &BoatKernel, thrust: f64) -> Result<[Path; 3], Box<dyn Error>> {
     let crab = -(STREAM / SPEED).asin();
     let steer = |wanted: f64, q: &Isometry2<f64>, z: &Speeds| {
         let off = (UnitComplex::new(wanted).inverse() * q.rotation).angle();
         [thrust, -4.0 * off - 4.0 * z[2]]
     };
     let landing = |q: &Isometry2<f64>| (-q.translation.vector.y).atan2(WIDTH - q.translation.vector.x);
-    let across = crossing(&kernel, 0.0, |_, q, z| steer(0.0, q, z))?;
-    let crabbed = crossing(&kernel, crab, |_, q, z| steer(crab, q, z))?;
-    let pursuit = crossing(&kernel, 0.0, |_, q, z| steer(landing(q), q, z))?;
+    let across = crossing(kernel, 0.0, |_, q, z| steer(0.0, q, z))?;
+    let crabbed = crossing(kernel, crab, |_, q, z| steer(crab, q, z))?;
+    let pursuit = crossing(kernel, 0.0, |_, q, z| steer(landing(q), q, z))?;
     println!("\nferry           {WIDTH} m at {SPEED} m/s through water that runs at {STREAM} m/s:");
     for (name, path, time) in [
         ("straight across", &across, WIDTH / SPEED),
@@ -97,26 +120,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("  {name:24} {t:6.2} s, without inertia {time:6.2} s; lands {east:+7.3} m to the east");
     }
     println!("  where it turns it slips sideways, which the heading does not make up for");
-    let svg = picture::draw(
-        [
-            Crossing::new("straight across", &across),
-            Crossing::new("crabbing", &crabbed),
-            Crossing::new("steering for the landing", &pursuit),
-        ],
-        STREAM / SPEED,
-        WIDTH,
-        [&from_rest, &afloat, &sunken],
-        (STREAM, &tidal),
-    )?;
-    fs::create_dir_all(&folder)?;
-    for (name, contents) in
-        [("boat_in_current.svg", svg.clone().into_bytes()), ("boat_in_current.png", figure::png(&svg)?)]
-    {
-        let file = folder.join(name);
-        fs::write(&file, contents)?;
-        println!("written: {}", file.display());
-    }
-    Ok(())
+    Ok([across, crabbed, pursuit])
 }
 
 /// Speeds of a boat that moves with the water at t = 0.

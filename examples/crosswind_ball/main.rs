@@ -38,6 +38,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         calm.added_mass[0] * 1e3
     );
 
+    drop_it(&calm)?;
+    let spin = straightening_spin()?;
+    println!("a pass of 26 m/s at 35°        range/m  aside/m  time/s   from a mass point by hand/m");
+    let (above, beside) = passes(spin)?;
+    let along = ("along the kick, m", 0.0..46.0);
+    let title = "From above: the wind blows to the left (up), the ball flies to the right";
+    let above = Plot::new(title, along.clone(), ("aside, m", -1.0..7.0), above);
+    let beside = Plot::new("From the side", along, ("height, m", 0.0..12.0), beside);
+    write("crosswind_ball", &sheet("A long pass in gusty wind", (1600, 1300), &[vec![above], vec![beside]])?)
+}
+
+fn drop_it(calm: &Ball) -> Result<(), Box<dyn std::error::Error>> {
     // Dropped in calm air: (m + m_a) v̇ = (m − m_d) g − c v² has the solution v∞ tanh(t/τ).
     let (terminal, tau) = (calm.terminal_speed(), calm.terminal_speed() * calm.total_mass() / calm.heaviness());
     let kernel = calm.kernel()?;
@@ -50,7 +62,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
     println!("  largest distance from v∞ tanh(t/τ): {error:.1e} m/s\n");
 
-    // The sidespin that brings the ball back to the line in 8 m/s of crosswind, by bisection.
+    Ok(())
+}
+
+/// The sidespin that brings the ball back to the line in 8 m/s of crosswind, by bisection.
+fn straightening_spin() -> Result<f64, Box<dyn std::error::Error>> {
     let crosswind = Ball::football(Vector3::new(0.0, 8.0, 0.0)).kernel()?;
     let landing = |spin: f64| -> Result<f64, Box<dyn std::error::Error>> {
         let path = fly(&crosswind, kick(), Vector3::z() * spin, 3.5)?;
@@ -61,8 +77,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let middle = 0.5 * (low + high);
         if landing(middle)? > 0.0 { high = middle } else { low = middle }
     }
-    let spin = 0.5 * (low + high);
+    Ok(0.5 * (low + high))
+}
 
+/// A pass in several winds, from above and from the side.
+fn passes(spin: f64) -> Result<(Vec<Line>, Vec<Line>), Box<dyn std::error::Error>> {
     let [blue, red, green, pink] = COLOURS;
     let grey = RGBColor(110, 110, 110);
     let passes = [
@@ -72,7 +91,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("the same, with sidespin", pink, Vector3::new(0.0, 8.0, 0.0), spin),
         ("8 m/s against", green, Vector3::new(-8.0, 0.0, 0.0), 0.0),
     ];
-    println!("a pass of 26 m/s at 35°        range/m  aside/m  time/s   from a mass point by hand/m");
     let (mut above, mut beside) = (vec![], vec![]);
     for (name, colour, wind, spin) in passes {
         let ball = Ball::football(wind);
@@ -100,22 +118,5 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }
         }
     }
-
-    let above = Plot {
-        title: "From above: the wind blows to the left (up), the ball flies to the right",
-        x: ("along the kick, m", 0.0..46.0),
-        y: ("aside, m", -1.0..7.0),
-        equal: false,
-        lines: above,
-        marks: vec![],
-    };
-    let beside = Plot {
-        title: "From the side",
-        x: ("along the kick, m", 0.0..46.0),
-        y: ("height, m", 0.0..12.0),
-        equal: false,
-        lines: beside,
-        marks: vec![],
-    };
-    write("crosswind_ball", &sheet("A long pass in gusty wind", (1600, 1300), &[vec![above], vec![beside]])?)
+    Ok((above, beside))
 }

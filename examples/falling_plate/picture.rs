@@ -25,14 +25,7 @@ pub fn draw(
     tumble: &Trajectory<PlateKernel>,
 ) -> Result<String, Box<dyn Error>> {
     let turns = |path| places(path).into_iter().step_by(THINNED).map(|(t, [.., angle])| (t, angle / (2.0 * PI)));
-    let over_time = |title, y, ends, lines| Plot {
-        title,
-        x: ("time, a/U", 0.0..flutter.last().t),
-        y: (y, ends),
-        equal: false,
-        lines,
-        marks: Vec::new(),
-    };
+    let over_time = |title, y, ends, lines| Plot::new(title, ("time, a/U", 0.0..flutter.last().t), (y, ends), lines);
     let angles =
         vec![Line::new("it flutters", COLOURS[0], turns(flutter)), Line::new("it tumbles", COLOURS[1], turns(tumble))];
     mosaic(
@@ -90,7 +83,7 @@ fn fall(
         }
     }
     let (x, y) = (("sideways, a", ends(0)), ("height, a", ends(1)));
-    Plot { title, x, y, equal: true, lines, marks: Vec::new() }
+    Plot::new(title, x, y, lines).to_scale()
 }
 
 /// The plate that tumbles, as a page.

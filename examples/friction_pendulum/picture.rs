@@ -26,14 +26,7 @@ pub fn draw(
     let of_path = |value: &dyn Fn(&Sample<PendulumKernel>) -> f64| -> Vec<(f64, f64)> {
         path.iter().step_by(2).map(|s| (s.t, value(s))).collect()
     };
-    let plot = |title, y, ends, lines| Plot {
-        title,
-        x: ("time, s", 0.0..end),
-        y: (y, ends),
-        equal: false,
-        lines,
-        marks: Vec::new(),
-    };
+    let plot = |title, y, ends, lines| Plot::new(title, ("time, s", 0.0..end), (y, ends), lines);
 
     let buffer = Line::new("buffer", COLOURS[1], [(0.0, pendulum.limit), (end, pendulum.limit)]).dashed();
     let rod = Line::new("rod", COLOURS[0], of_path(&|s| s.q[0]));
@@ -64,19 +57,17 @@ pub fn draw(
     let powers = plot("Power (peaks of the buffer are cut off)", "W", LEAST_POWER..0.05, losses);
 
     let smooth = |creep: f64| distances(&slider.smooth(creep).kernel()?, slider);
-    let errors = Plot {
-        title: "A sliding mass: distance from the exact solution",
-        x: ("time, s", 0.0..slider.rests()),
-        y: ("log₁₀ of metres", -13.0..-2.0),
-        equal: false,
-        lines: vec![
+    let errors = Plot::new(
+        "A sliding mass: distance from the exact solution",
+        ("time, s", 0.0..slider.rests()),
+        ("log₁₀ of metres", -13.0..-2.0),
+        vec![
             Line::new("signum", INK, distances(&slider.kernel()?, slider)?).wide(3),
             Line::new("ε = 10⁻² m/s", COLOURS[1], smooth(1e-2)?).wide(3),
             Line::new("10⁻³", COLOURS[2], smooth(1e-3)?).wide(3),
             Line::new("10⁻⁴", COLOURS[0], smooth(1e-4)?).wide(3),
         ],
-        marks: Vec::new(),
-    };
+    );
     let title = "A pendulum with dry friction, a spiral spring and a buffer";
     sheet(title, (1600, 1300), &[vec![angle, energy], vec![powers, errors]])
 }

@@ -99,12 +99,10 @@ fn picture(runs: &[Followed; 3]) -> Plot<'static> {
         let points = runs[k].errors.iter().enumerate().map(|(n, e)| (n as f64 * H, e.max(1e-9).log10()));
         Line::new(names[k], COLOURS[k], points.filter(|(t, _)| *t <= 1.0))
     };
-    Plot {
-        title: "largest error of an angle",
-        x: ("s", 0.0..1.0),
-        y: ("rad, power of ten", -9.0..1.0),
-        equal: false,
-        lines: vec![curve(0), curve(1), curve(2)],
-        marks: vec![],
-    }
+    Plot::new(
+        "largest error of an angle",
+        ("s", 0.0..1.0),
+        ("rad, power of ten", -9.0..1.0),
+        vec![curve(0), curve(1), curve(2)],
+    )
 }

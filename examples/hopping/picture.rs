@@ -44,14 +44,7 @@ fn path(run: &Run) -> Plot<'static> {
     lines.push(Line::new("hip", COLOURS[0], hip).wide(5));
     lines.push(Line::new("leg at touchdown and lift-off", COLOURS[2], []));
     lines.push(Line::new("leg when it is shortest", COLOURS[1], []));
-    Plot {
-        title: "Five steps at 5 m/s",
-        x: ("way, m", 0.0..end),
-        y: ("height, m", 0.0..1.3),
-        equal: true,
-        lines,
-        marks: Vec::new(),
-    }
+    Plot::new("Five steps at 5 m/s", ("way, m", 0.0..end), ("height, m", 0.0..1.3), lines).to_scale()
 }
 
 fn apices(runner: &Runner) -> Result<Plot<'static>, Box<dyn Error>> {
@@ -63,14 +56,7 @@ fn apices(runner: &Runner) -> Result<Plot<'static>, Box<dyn Error>> {
         let points = run.steps.iter().enumerate().map(|(n, step)| (n as f64, step.apex.1[1]));
         lines.push(Line::new(format!("{height} m"), colour, points));
     }
-    Ok(Plot {
-        title: "Heights of apices from several starts",
-        x: ("step", 0.0..8.0),
-        y: ("m", 0.9..1.2),
-        equal: false,
-        lines,
-        marks: Vec::new(),
-    })
+    Ok(Plot::new("Heights of apices from several starts", ("step", 0.0..8.0), ("m", 0.9..1.2), lines))
 }
 
 fn heights(ball: &BallKernel, path: &Trajectory<'_, BallKernel>) -> Result<Plot<'static>, Box<dyn Error>> {
@@ -81,15 +67,13 @@ fn heights(ball: &BallKernel, path: &Trajectory<'_, BallKernel>) -> Result<Plot<
         let (times, values) = (table.get("t").unwrap_or_default(), table.get(name).unwrap_or_default());
         times.iter().copied().zip(values.iter().copied()).collect()
     };
-    Ok(Plot {
-        title: "A ball that keeps 0.7 of its speed",
-        x: ("time, s", 0.0..end),
-        y: ("m, and J", 0.0..1.1),
-        equal: false,
-        lines: vec![
+    Ok(Plot::new(
+        "A ball that keeps 0.7 of its speed",
+        ("time, s", 0.0..end),
+        ("m, and J", 0.0..1.1),
+        vec![
             Line::new("height", COLOURS[0], column("height")),
             Line::new("energy", COLOURS[1], column("energy")).wide(3),
         ],
-        marks: Vec::new(),
-    })
+    ))
 }

@@ -11,6 +11,7 @@ use std::time::Instant;
 
 use gauss_examples::figure::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, mosaic, write};
+use gauss_examples::statistics::Random;
 use gauss_runtime::batch::{Batch, Packs, States};
 use gauss_runtime::prelude::*;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -26,24 +27,6 @@ const THROWS: usize = 100_000;
 const DRAWN: usize = 2500;
 /// How many spins the sweep has.
 const SPINS: usize = 600;
-
-/// Random numbers: splitmix64, and normal ones by Box and Muller.
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        radius * (TAU * self.uniform()).cos()
-    }
-}
 
 /// Where throws end, with parameters and states of their own in every lane.
 fn throw(throws: &[[f64; 6]], bar: &ProgressBar) -> Result<Vec<[f64; 2]>, Box<dyn Error>> {
@@ -157,6 +140,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         100.0 * (1.0 - (-2.0_f64).exp())
     );
 
+    let scatter = scatter(&ends, (mean, covariance), (centre, prediction));
+    let (range, drift) = sweep()?;
+    let plots = [([0, 0, 1000, 900], scatter), ([1000, 0, 800, 450], range), ([1000, 450, 800, 450], drift)];
+    write("monte_carlo", &mosaic("An oval ball of uncertain inertia and spin", (1800, 1000), &plots)?)
+}
+
+/// Range and drift over the spin.
+fn sweep() -> Result<(Plot<'static>, Plot<'static>), Box<dyn Error>> {
     let spins: Vec<[f64; 6]> = (0..SPINS)
         .map(|i| {
             let mut throw = MEAN;
@@ -167,6 +158,25 @@ fn main() -> Result<(), Box<dyn Error>> {
     let swept = throw(&spins, &ProgressBar::hidden())?;
     let curve = |k: usize| spins.iter().zip(&swept).map(move |(throw, end)| (throw[3] / TAU, end[k]));
 
+    let x = ("spin about the long axis, turns a second", 0.0..40.0 / TAU);
+    let bounds = |k: usize| {
+        let (low, high) =
+            curve(k).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (_, y)| (low.min(y), high.max(y)));
+        let margin = 0.08 * (high - low);
+        low - margin..high + margin
+    };
+    let of = |k: usize, title, what, colour| {
+        Plot::new(title, x.clone(), (what, bounds(k)), vec![Line::new("", colour, curve(k))])
+    };
+    Ok((of(0, "A sweep: the range", "along, m", COLOURS[2]), of(1, "and the drift", "aside, m", INK)))
+}
+
+/// Where throws end, and ellipses of their covariance and of that which is predicted.
+fn scatter(
+    ends: &[[f64; 2]],
+    (mean, covariance): ([f64; 2], Covariance),
+    (centre, prediction): ([f64; 2], Covariance),
+) -> Plot<'static> {
     let reach = |i: usize, radii: f64| {
         let deviation = if i == 0 { prediction[0] } else { prediction[2] }.sqrt();
         centre[i] - radii * deviation..centre[i] + radii * deviation
@@ -183,42 +193,5 @@ fn main() -> Result<(), Box<dyn Error>> {
         scatter.push(Line::new(name("linearised"), COLOURS[1], ellipse(centre, prediction, radius)).dashed());
     }
     let (x, y) = (("along the throw, m", reach(0, 4.0)), ("aside, m", reach(1, 4.0)));
-    let scatter = Plot {
-        title: "Where throws are after 1.6 s; one and two deviations",
-        x,
-        y,
-        equal: false,
-        lines: scatter,
-        marks: vec![],
-    };
-    let over_spin = |title, y, lines| Plot {
-        title,
-        x: ("spin about the long axis, turns a second", 0.0..40.0 / TAU),
-        y,
-        equal: false,
-        lines,
-        marks: vec![],
-    };
-    let bounds = |k: usize| {
-        let (low, high) =
-            curve(k).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (_, y)| (low.min(y), high.max(y)));
-        let margin = 0.08 * (high - low);
-        low - margin..high + margin
-    };
-    let svg = mosaic(
-        "An oval ball of uncertain inertia and spin",
-        (1800, 1000),
-        &[
-            ([0, 0, 1000, 900], scatter),
-            (
-                [1000, 0, 800, 450],
-                over_spin("A sweep: the range", ("along, m", bounds(0)), vec![Line::new("", COLOURS[2], curve(0))]),
-            ),
-            (
-                [1000, 450, 800, 450],
-                over_spin("and the drift", ("aside, m", bounds(1)), vec![Line::new("", INK, curve(1))]),
-            ),
-        ],
-    )?;
-    write("monte_carlo", &svg)
+    Plot::new("Where throws are after 1.6 s; one and two deviations", x, y, scatter)
 }

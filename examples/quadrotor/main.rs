@@ -51,20 +51,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     )?;
     println!("flight of {FLIGHT} s in {} steps of an adaptive method of order 5", path.len() - 1);
 
-    // The same flight by hand, by another method.
-    let (h, mut apart) = (1e-3, (0.0_f64, 0.0_f64));
-    let steps = (FLIGHT / h).round() as usize;
-    for (n, hand) in newton_euler::fly(&craft, h, steps).iter().enumerate().step_by(10) {
-        let sample = path.at((n as f64 * h).min(FLIGHT)).expect("inside the run");
-        let ours = seen(&sample.q, &sample.z);
-        apart.0 = apart.0.max((ours.position - hand.position).norm());
-        apart.1 = apart.1.max((ours.rotation - hand.rotation).norm());
-    }
-    println!(
-        "against Newton–Euler by hand with 1000 classical steps a second: {:.1e} m, rotation {:.1e}",
-        apart.0, apart.1
-    );
-
+    beside_newton_euler(&craft, &path);
     let (mut error, mut most) = (0.0_f64, 0.0_f64);
     for sample in path.iter() {
         error = error.max((sample.q.translation.vector - wanted(sample.t).position).norm());
@@ -74,7 +61,39 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "the pilot is {error:.3} m off at most; the fastest rotor turns {:.2} times as fast as at hover\n",
         most / hover
     );
+    powers(&kernel, &path, control);
+    println!("balance: {}", power_balance(&kernel, &path, control));
+    let count = QuadrotorKernel::OPERATIONS.acceleration;
+    println!(
+        "one evaluation of the accelerations: {} additions, {} multiplications, {} exponential\n",
+        count.additions, count.multiplications, count.transcendentals
+    );
 
+    plots::write("quadrotor", &picture::draw(&craft, &kernel, &path, control)?)?;
+    plots::write_page("quadrotor", &picture::page(&craft, &kernel, &path, control)?)
+}
+
+/// The same flight by hand, by another method.
+fn beside_newton_euler(craft: &Quadrotor, path: &Trajectory<QuadrotorKernel>) {
+    let (h, mut apart) = (1e-3, (0.0_f64, 0.0_f64));
+    let steps = (FLIGHT / h).round() as usize;
+    for (n, hand) in newton_euler::fly(craft, h, steps).iter().enumerate().step_by(10) {
+        let sample = path.at((n as f64 * h).min(FLIGHT)).expect("inside the run");
+        let ours = seen(&sample.q, &sample.z);
+        apart.0 = apart.0.max((ours.position - hand.position).norm());
+        apart.1 = apart.1.max((ours.rotation - hand.rotation).norm());
+    }
+    println!(
+        "against Newton–Euler by hand with 1000 classical steps a second: {:.1e} m, rotation {:.1e}",
+        apart.0, apart.1
+    );
+}
+
+fn powers(
+    kernel: &QuadrotorKernel,
+    path: &Trajectory<QuadrotorKernel>,
+    control: impl Fn(f64, &Isometry3<f64>, &SVector<f64, 6>) -> SVector<f64, 4>,
+) {
     println!("element         mean power/W   least/W   most/W   over the flight");
     let times = || (0..=2800).map(|n| f64::from(n) * FLIGHT / 2800.0);
     for (e, element) in QuadrotorKernel::ELEMENTS.iter().enumerate() {
@@ -88,13 +107,4 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         println!("{:14} {:13.5} {low:9.4} {high:8.4}", element.name, sum / 2801.0);
     }
-    println!("balance: {}", power_balance(&kernel, &path, control));
-    let count = QuadrotorKernel::OPERATIONS.acceleration;
-    println!(
-        "one evaluation of the accelerations: {} additions, {} multiplications, {} exponential\n",
-        count.additions, count.multiplications, count.transcendentals
-    );
-
-    plots::write("quadrotor", &picture::draw(&craft, &kernel, &path, control)?)?;
-    plots::write_page("quadrotor", &picture::page(&craft, &kernel, &path, control)?)
 }

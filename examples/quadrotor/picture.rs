@@ -20,78 +20,87 @@ pub fn draw(
     control: impl Fn(f64, &Isometry3<f64>, &SVector<f64, 6>) -> SVector<f64, 4>,
 ) -> Result<String, Box<dyn Error>> {
     let end = path.last().t;
-    let times = || (0..=700).map(|n| f64::from(n) * end / 700.0);
     let at = |t: f64| path.at(t).expect("inside the run");
     let place = |t: f64| at(t).q.translation.vector;
     let input = |t: f64| control(t, &at(t).q, &at(t).z);
-    let powers = |t: f64| kernel.powers(t, &at(t).q, &at(t).z, &input(t));
-    let [blue, red, green, pink] = COLOURS;
+    let [blue, red, ..] = COLOURS;
 
     let gust = [-1.0, 0.0, 1.0].map(|n| craft.gust_time + n * craft.gust_length);
-    let blown = times().filter(|t| (gust[0]..gust[2]).contains(t));
-    let above = Plot {
-        title: "The path from above",
-        x: ("k₁, m", -1.9..1.9),
-        y: ("k₂, m", -1.1..1.1),
-        equal: true,
-        lines: vec![
-            Line::new("wanted", GREY, times().map(wanted).map(|w| (w.position.x, w.position.y))).dashed(),
-            Line::new("flown", blue, times().map(place).map(|b| (b.x, b.y))),
+    let blown = times(end).filter(|t| (gust[0]..gust[2]).contains(t));
+    let above = Plot::new(
+        "The path from above",
+        ("k₁, m", -1.9..1.9),
+        ("k₂, m", -1.1..1.1),
+        vec![
+            Line::new("wanted", GREY, times(end).map(wanted).map(|w| (w.position.x, w.position.y))).dashed(),
+            Line::new("flown", blue, times(end).map(place).map(|b| (b.x, b.y))),
             Line::new("in the gust", red, blown.map(place).map(|b| (b.x, b.y))).wide(7),
         ],
-        marks: vec![],
-    };
-    let distance = Plot {
-        title: "Distance from the wanted path; the gust",
-        x: ("time, s", 0.0..end),
-        y: ("cm, m/s", 0.0..16.0),
-        equal: false,
-        lines: vec![
+    )
+    .to_scale();
+    let distance = Plot::new(
+        "Distance from the wanted path; the gust",
+        ("time, s", 0.0..end),
+        ("cm, m/s", 0.0..16.0),
+        vec![
             Line::new(
                 "gust, m/s",
                 red,
-                times().map(|t| (t, craft.gust.y * (-((t - craft.gust_time) / craft.gust_length).powi(2)).exp())),
+                times(end).map(|t| (t, craft.gust.y * (-((t - craft.gust_time) / craft.gust_length).powi(2)).exp())),
             ),
-            Line::new("distance, cm", blue, times().map(|t| (t, 100.0 * (place(t) - wanted(t).position).norm()))),
+            Line::new("distance, cm", blue, times(end).map(|t| (t, 100.0 * (place(t) - wanted(t).position).norm()))),
         ],
-        marks: vec![],
-    };
-    let rotor = |n: usize, name: &str, colour| Line::new(name, colour, times().map(|t| (t, input(t)[n]))).wide(3);
-    let hover = craft.hover_speed();
-    let rotors = Plot {
-        title: "Speeds of the rotors (dashed: hovering)",
-        x: ("time, s", 0.0..end),
-        y: ("rad/s", 1700.0..2100.0),
-        equal: false,
-        lines: vec![
+    );
+    let rows = [vec![above, distance], vec![rotors(path, &input, craft.hover_speed()), powers(kernel, path, &input)]];
+    sheet("A Crazyflie flies eights and meets a gust", (1700, 1300), &rows)
+}
+
+fn times(end: f64) -> impl Iterator<Item = f64> {
+    (0..=700).map(move |n| f64::from(n) * end / 700.0)
+}
+
+fn rotors(path: &Trajectory<QuadrotorKernel>, input: &dyn Fn(f64) -> SVector<f64, 4>, hover: f64) -> Plot<'static> {
+    let ([blue, red, green, pink], end) = (COLOURS, path.last().t);
+    let rotor = |n: usize, name: &str, colour| Line::new(name, colour, times(end).map(|t| (t, input(t)[n]))).wide(3);
+    Plot::new(
+        "Speeds of the rotors (dashed: hovering)",
+        ("time, s", 0.0..end),
+        ("rad/s", 1700.0..2100.0),
+        vec![
             rotor(0, "front right", blue),
             rotor(1, "back right", red),
             rotor(2, "back left", green),
             rotor(3, "front left", pink),
             Line::new("", GREY, [(0.0, hover), (end, hover)]).dashed(),
         ],
-        marks: vec![],
-    };
+    )
+}
+
+fn powers(
+    kernel: &QuadrotorKernel,
+    path: &Trajectory<QuadrotorKernel>,
+    input: &dyn Fn(f64) -> SVector<f64, 4>,
+) -> Plot<'static> {
+    let ([blue, red, green, _], end) = (COLOURS, path.last().t);
+    let at = |t: f64| path.at(t).expect("inside the run");
+    let powers = |t: f64| kernel.powers(t, &at(t).q, &at(t).z, &input(t));
     let named = |names: &'static [&'static str]| {
         let indices: Vec<usize> = (0..QuadrotorKernel::ELEMENTS.len())
             .filter(|&e| names.contains(&QuadrotorKernel::ELEMENTS[e].name))
             .collect();
         move |t: f64| (t, indices.iter().map(|&e| powers(t)[e]).sum::<f64>())
     };
-    let power = Plot {
-        title: "Powers of what acts",
-        x: ("time, s", 0.0..end),
-        y: ("W", -0.3..0.3),
-        equal: false,
-        lines: vec![
-            Line::new("weight", GREY, times().map(named(&["gravity"]))),
-            Line::new("lift", blue, times().map(named(&["front_right", "back_right", "back_left", "front_left"]))),
-            Line::new("blade drag", green, times().map(named(&["blade_drag"]))),
-            Line::new("frame drag", red, times().map(named(&["airframe"]))),
+    Plot::new(
+        "Powers of what acts",
+        ("time, s", 0.0..end),
+        ("W", -0.3..0.3),
+        vec![
+            Line::new("weight", GREY, times(end).map(named(&["gravity"]))),
+            Line::new("lift", blue, times(end).map(named(&["front_right", "back_right", "back_left", "front_left"]))),
+            Line::new("blade drag", green, times(end).map(named(&["blade_drag"]))),
+            Line::new("frame drag", red, times(end).map(named(&["airframe"]))),
         ],
-        marks: vec![],
-    };
-    sheet("A Crazyflie flies eights and meets a gust", (1700, 1300), &[vec![above, distance], vec![rotors, power]])
+    )
 }
 
 /// The flight as a page: lift of each rotor as an arrow, and the rotors' speeds below.

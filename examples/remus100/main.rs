@@ -3,10 +3,8 @@
 //! `cargo run --release --example remus100 [-- FOLDER]` draws them into `FOLDER`, by default `target/gauss`.
 
 use std::error::Error;
-use std::path::PathBuf;
-use std::{env, fs};
 
-use gauss_examples::figure;
+use gauss_examples::plots;
 use gauss_runtime::prelude::*;
 
 mod fossen;
@@ -22,7 +20,6 @@ use vehicle::{Remus, RemusByAngles, RemusByAnglesKernel, RemusKernel, Table};
 const STEPS: u32 = 100;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
     let table = Table::published()?;
     let published = Remus::from_table(&table)?;
     // Neutrally buoyant.
@@ -43,11 +40,33 @@ fn main() -> Result<(), Box<dyn Error>> {
     let flights = [fly(&neutral, &manoeuvres[0])?, fly(&kernel, &manoeuvres[1])?, fly(&kernel, &manoeuvres[2])?];
     let [straight, turn, dive] = &flights;
 
+    let closed = results(&table, published.mass, &manoeuvres, &flights)?;
+    let apart = beside_fossen(&table, &manoeuvres, &flights)?;
+    let other = fly(&by_angles, &manoeuvres[1])?;
+    let poses = |flight: &Flight| flight.moments.iter().map(|m| m.pose).collect::<Vec<_>>();
+    println!(
+        "  the turn in Euler angles: {:.1e} m from that in body velocities",
+        distance(&poses(&other), &poses(turn))
+    );
+    let svg = picture::draw(&picture::Shown { flights: [straight, turn, dive], apart, closed })?;
+    plots::write("remus100", &svg)
+}
+
+type Curve = Vec<(f64, f64)>;
+
+/// What the manoeuvres come to; the speed of the straight run in closed form.
+fn results(
+    table: &Table,
+    mass: f64,
+    manoeuvres: &[Manoeuvre; 3],
+    flights: &[Flight; 3],
+) -> Result<Curve, Box<dyn Error>> {
+    let [straight, turn, dive] = flights;
     println!("Power of each element at the end, W:\n");
     print!("{:16}", "");
     RemusKernel::ELEMENTS.iter().for_each(|element| print!("{:>11}", element.name));
     println!("{:>11}", "sum");
-    for (manoeuvre, flight) in manoeuvres.iter().zip(&flights) {
+    for (manoeuvre, flight) in manoeuvres.iter().zip(flights) {
         let powers = &end(flight).powers;
         print!("{:16}", manoeuvre.name);
         powers.iter().for_each(|power| print!("{power:11.3}"));
@@ -56,7 +75,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let (thrust, drag) = (table.number("propeller/Xprop")?, -table.number("drag/Xuu")?);
     let terminal = (thrust / drag).sqrt();
-    let surge = published.mass - table.number("added_mass_derivatives/Xudot")?;
+    let surge = mass - table.number("added_mass_derivatives/Xudot")?;
     let closed = |t: f64| terminal * (t * (thrust * drag).sqrt() / surge).tanh();
     let off = straight.moments.iter().map(|m| (m.twist[0] - closed(m.t)).abs()).fold(0.0, f64::max);
     println!("\nstraight run    {:.6} m/s after a minute, √(X/|Xuu|) = {terminal:.6} m/s;", end(straight).twist[0]);
@@ -70,11 +89,20 @@ fn main() -> Result<(), Box<dyn Error>> {
     let deepest = dive.moments.iter().map(|m| m.pose.translation.z).fold(0.0, f64::max);
     println!("depth change    at {:.3} m in the end, {deepest:.3} m at most", end(dive).pose.translation.z);
 
+    Ok((0..=240).map(|n| EVERY * f64::from(n)).map(|t| (t, closed(t))).collect())
+}
+
+/// Distances from Fossen's equations, over time.
+fn beside_fossen(
+    table: &Table,
+    manoeuvres: &[Manoeuvre; 3],
+    flights: &[Flight; 3],
+) -> Result<[Curve; 3], Box<dyn Error>> {
     println!("\nAgainst Fossen's equations, written by hand and integrated by their own Runge–Kutta method:");
     let (weight, buoyancy) = (table.number("weight_N")?, table.number("buoyancy_N")?);
     let mut apart = Vec::new();
-    for ((manoeuvre, flight), buoyancy) in manoeuvres.iter().zip(&flights).zip([weight, buoyancy, buoyancy]) {
-        let by_hand = Fossen::new(&table, buoyancy)?;
+    for ((manoeuvre, flight), buoyancy) in manoeuvres.iter().zip(flights).zip([weight, buoyancy, buoyancy]) {
+        let by_hand = Fossen::new(table, buoyancy)?;
         let [poses, coarser] = [STEPS, STEPS / 2].map(|steps| by_hand.fly(manoeuvre, steps));
         println!(
             "  {:15} {:.1e} m apart; half as many steps move them by {:.1e} m; energy {:+.4} J = work {:+.4} J within {:.0e} J",
@@ -88,23 +116,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let metres = |(m, pose): (&manoeuvres::Moment, &Isometry3<f64>)| (m.t, distance([&m.pose], [pose]));
         apart.push(flight.moments.iter().zip(&poses).map(metres).collect::<Vec<_>>());
     }
-    let other = fly(&by_angles, &manoeuvres[1])?;
-    let poses = |flight: &Flight| flight.moments.iter().map(|m| m.pose).collect::<Vec<_>>();
-    println!(
-        "  the turn in Euler angles: {:.1e} m from that in body velocities",
-        distance(&poses(&other), &poses(turn))
-    );
-
-    let closed = (0..=240).map(|n| EVERY * f64::from(n)).map(|t| (t, closed(t))).collect();
-    let apart = apart.try_into().map_err(|_| "three manoeuvres are drawn")?;
-    let svg = picture::draw(&picture::Shown { flights: [straight, turn, dive], apart, closed })?;
-    fs::create_dir_all(&folder)?;
-    for (name, contents) in [("remus100.svg", svg.clone().into_bytes()), ("remus100.png", figure::png(&svg)?)] {
-        let file = folder.join(name);
-        fs::write(&file, contents)?;
-        println!("written: {}", file.display());
-    }
-    Ok(())
+    apart.try_into().map_err(|_| "three manoeuvres are drawn".into())
 }
 
 fn end(flight: &Flight) -> &manoeuvres::Moment {

@@ -38,19 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         librations.push((degrees, path));
     }
 
-    println!("\ne₁ along the path, where I₂ > I₁ is upright: it falls over at the rate n√(3(I₂ − I₁)/I₃)");
-    let deviation = 1e-4_f64.to_radians();
-    let falling = orbit(&kernel, start(FRAC_PI_2 + deviation, 0.0), 2.0 * period)?;
-    let angle = |t: f64| pitch(&falling.at(t).expect("inside the run").q) - FRAC_PI_2;
-    let (early, late) = (0.6 * period, 1.2 * period);
-    let rate = (angle(late) / angle(early)).ln() / (late - early);
-    let grown = |t: f64| (libration_frequency() * t).cosh();
-    let theory = (grown(late) / grown(early)).ln() / (late - early);
-    println!(
-        "rate from 0.6 to 1.2 orbits {rate:.9e} /s, theory {theory:.9e} /s, relative difference {:.1e} (a deviation of {:.2}° is not quite small)",
-        (rate / theory - 1.0).abs(),
-        angle(late).to_degrees()
-    );
+    let falling = fall_over(&kernel, period)?;
     let watched = monitor_body(&kernel, &librations[1].1);
     let kept = |relative: Option<f64>| relative.unwrap_or(f64::NAN);
     println!(
@@ -61,7 +49,40 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let slewer = Slewer::cubesat();
     let wheel = slewer.kernel()?;
-    let by = |roll: f64| slew(&wheel, &slewer, FRAC_PI_2, SLEW, roll);
+    let calm = quarter_turn(&slewer, &wheel)?;
+    println!(
+        "multiplications for the accelerations: in orbit {}, with the wheel {}\n",
+        OrbiterKernel::OPERATIONS.acceleration.multiplications,
+        SlewerKernel::OPERATIONS.acceleration.multiplications
+    );
+
+    plots::write("satellite", &picture::draw(&librations, &falling, &slewer, &calm)?)
+}
+
+/// From the attitude that is not stable.
+fn fall_over(kernel: &OrbiterKernel, period: f64) -> Result<Trajectory<'_, OrbiterKernel>, Box<dyn Error>> {
+    println!("\ne₁ along the path, where I₂ > I₁ is upright: it falls over at the rate n√(3(I₂ − I₁)/I₃)");
+    let deviation = 1e-4_f64.to_radians();
+    let falling = orbit(kernel, start(FRAC_PI_2 + deviation, 0.0), 2.0 * period)?;
+    let angle = |t: f64| pitch(&falling.at(t).expect("inside the run").q) - FRAC_PI_2;
+    let (early, late) = (0.6 * period, 1.2 * period);
+    let rate = (angle(late) / angle(early)).ln() / (late - early);
+    let grown = |t: f64| (libration_frequency() * t).cosh();
+    let theory = (grown(late) / grown(early)).ln() / (late - early);
+    println!(
+        "rate from 0.6 to 1.2 orbits {rate:.9e} /s, theory {theory:.9e} /s, relative difference {:.1e} (a deviation of {:.2}° is not quite small)",
+        (rate / theory - 1.0).abs(),
+        angle(late).to_degrees()
+    );
+    Ok(falling)
+}
+
+/// By the wheel, from rest and while it tumbles; the way from rest.
+fn quarter_turn<'k>(
+    slewer: &'k Slewer,
+    wheel: &'k SlewerKernel,
+) -> Result<Trajectory<'k, SlewerKernel>, Box<dyn Error>> {
+    let by = |roll: f64| slew(wheel, slewer, FRAC_PI_2, SLEW, roll);
     let (calm, tumbling) = (by(0.0)?, by(0.01)?);
     let (hub, about) = slewer.moments();
     println!("a quarter turn in {SLEW} s by a wheel of {about:.2e} kg m² about e₃");
@@ -81,20 +102,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     println!("  hub + J_w/(J + J_w) · wheel: {closed:.1e} rad at most");
     println!("  the same while it tumbles with 0.01 rad/s: angular momentum kept to {lost:.1e} of its size");
-    let by_hand = tumble_by_hand(&slewer, 0.01, |t| slew_torque(&slewer, FRAC_PI_2, SLEW, t), 0.01, 12_000);
+    let by_hand = tumble_by_hand(slewer, 0.01, |t| slew_torque(slewer, FRAC_PI_2, SLEW, t), 0.01, 12_000);
     println!(
         "  and its speeds against a gyrostat by hand: {:.1e} of the wheel's",
         (tumbling.last().z - by_hand).norm() / tumbling.iter().map(|s| s.z.norm()).fold(0.0, f64::max)
     );
-    let motor = |t: f64, _: &_, _: &_| SVector::from([slew_torque(&slewer, FRAC_PI_2, SLEW, t)]);
-    println!("  balance: {}", power_balance(&wheel, &tumbling, motor));
-    println!(
-        "multiplications for the accelerations: in orbit {}, with the wheel {}\n",
-        OrbiterKernel::OPERATIONS.acceleration.multiplications,
-        SlewerKernel::OPERATIONS.acceleration.multiplications
-    );
-
-    plots::write("satellite", &picture::draw(&librations, &falling, &slewer, &calm)?)
+    let motor = |t: f64, _: &_, _: &_| SVector::from([slew_torque(slewer, FRAC_PI_2, SLEW, t)]);
+    println!("  balance: {}", power_balance(wheel, &tumbling, motor));
+    Ok(calm)
 }
 
 /// What is lost in a chart with its pole in the centre of the Earth.

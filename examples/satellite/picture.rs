@@ -15,22 +15,22 @@ pub fn draw(
     slewer: &Slewer,
     slew: &Trajectory<SlewerKernel>,
 ) -> Result<String, Box<dyn Error>> {
-    let [blue, red, green, pink] = COLOURS;
+    let [blue, red, green, _] = COLOURS;
     let turn = std::f64::consts::TAU / mean_motion();
-    let times = |end: f64| (0..=500).map(move |n| end * f64::from(n) / 500.0);
     let angle = |path: &Trajectory<OrbiterKernel>, t: f64| pitch(&path.at(t).expect("inside the run").q).to_degrees();
 
     let swing = |(degrees, path): &(f64, Trajectory<OrbiterKernel>), colour| {
         let points = times(4.0 * turn).map(|t| (t / turn, angle(path, t)));
         Line::new(format!("{degrees}°"), colour, points)
     };
-    let stable = Plot {
-        title: "Smallest moment upwards (dots: theory)",
-        x: ("orbits", 0.0..4.0),
-        y: ("long axis from the vertical, °", -50.0..50.0),
-        equal: false,
-        lines: librations.iter().rev().zip([blue, red, green]).map(|(one, colour)| swing(one, colour)).collect(),
-        marks: librations
+    let stable = Plot::new(
+        "Smallest moment upwards (dots: theory)",
+        ("orbits", 0.0..4.0),
+        ("long axis from the vertical, °", -50.0..50.0),
+        librations.iter().rev().zip([blue, red, green]).map(|(one, colour)| swing(one, colour)).collect(),
+    )
+    .marked(
+        librations
             .iter()
             .flat_map(|(degrees, _)| {
                 let period = libration_period(degrees.to_radians()) / turn;
@@ -38,14 +38,13 @@ pub fn draw(
             })
             .filter(|mark| mark.0 < 4.0)
             .collect(),
-    };
+    );
     let deviation = |t: f64| angle(falling, t) - 90.0;
-    let unstable = Plot {
-        title: "Long axis along the path: it falls over",
-        x: ("orbits", 0.0..2.0),
-        y: ("log₁₀ of the deviation in °", -5.0..3.0),
-        equal: false,
-        lines: vec![
+    let unstable = Plot::new(
+        "Long axis along the path: it falls over",
+        ("orbits", 0.0..2.0),
+        ("log₁₀ of the deviation in °", -5.0..3.0),
+        vec![
             Line::new("run", red, times(2.0 * turn).map(|t| (t / turn, deviation(t).abs().log10()))).wide(5),
             Line::new(
                 "theory: deviation · cosh(λt)",
@@ -54,41 +53,41 @@ pub fn draw(
             )
             .dashed(),
         ],
-        marks: vec![],
-    };
+    );
+    let title = "A CubeSat turned by the gradient of gravity, and by a wheel";
+    sheet(title, (1700, 1300), &[vec![stable, unstable], by_the_wheel(slewer, slew)])
+}
 
-    let end = slew.last().t;
+fn times(end: f64) -> impl Iterator<Item = f64> {
+    (0..=500).map(move |n| end * f64::from(n) / 500.0)
+}
+
+/// The slew: angle of the hub, and who has how much of the angular momentum.
+fn by_the_wheel(slewer: &Slewer, slew: &Trajectory<SlewerKernel>) -> Vec<Plot<'static>> {
+    let ([blue, red, green, pink], end) = (COLOURS, slew.last().t);
     let at = |t: f64| slew.at(t).expect("inside the run");
     let hub = |t: f64| at(t).q.0.scaled_axis().z.to_degrees();
     let (hub_moment, about) = slewer.moments();
     let closed = |t: f64| -about / (hub_moment + about) * at(t).q.1[0].to_degrees();
-    let angles = Plot {
-        title: "A quarter turn by the reaction wheel",
-        x: ("time, s", 0.0..end),
-        y: ("angle of the hub, °", 0.0..100.0),
-        equal: false,
-        lines: vec![
+    let angles = Plot::new(
+        "A quarter turn by the reaction wheel",
+        ("time, s", 0.0..end),
+        ("angle of the hub, °", 0.0..100.0),
+        vec![
             Line::new("run", red, times(end).map(|t| (t, hub(t)))).wide(7),
             Line::new("theory: −J_w/(J + J_w) · wheel", blue, times(end).map(|t| (t, closed(t)))).dashed(),
         ],
-        marks: vec![],
-    };
+    );
     let momentum = |t: f64| (at(t).z[2] * hub_moment * 1e3, (at(t).z[2] + at(t).z[3]) * about * 1e3);
-    let shares = Plot {
-        title: "Angular momentum about e₃ goes to the wheel",
-        x: ("time, s", 0.0..end),
-        y: ("10⁻³ N m s", -6.0..6.0),
-        equal: false,
-        lines: vec![
+    let shares = Plot::new(
+        "Angular momentum about e₃ goes to the wheel",
+        ("time, s", 0.0..end),
+        ("10⁻³ N m s", -6.0..6.0),
+        vec![
             Line::new("hub", red, times(end).map(|t| (t, momentum(t).0))),
             Line::new("wheel", green, times(end).map(|t| (t, momentum(t).1))),
             Line::new("sum", pink, times(end).map(|t| (t, momentum(t).0 + momentum(t).1))),
         ],
-        marks: vec![],
-    };
-    sheet(
-        "A CubeSat turned by the gradient of gravity, and by a wheel",
-        (1700, 1300),
-        &[vec![stable, unstable], vec![angles, shares]],
-    )
+    );
+    vec![angles, shares]
 }

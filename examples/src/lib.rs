@@ -11,6 +11,7 @@
 //! | [`figure`] | the picture, its panels in [`panels`] |
 //! | [`lines`] | panels of curves with their names beside them |
 //! | [`rolling`] | the picture of `rolling_disk` |
+//! | [`statistics`] | random numbers, quartiles |
 //! | [`plots`] | plots with plain axes, and where pictures are written |
 
 pub mod figure;
@@ -21,6 +22,7 @@ pub mod plots;
 pub mod report;
 pub mod rolling;
 pub mod simulate;
+pub mod statistics;
 pub mod timing;
 pub mod vehicle;
 

@@ -83,28 +83,31 @@ fn writing(size: u32) -> TextStyle<'static> {
     text_style(size * FINE, INK)
 }
 
-impl Plot<'_> {
+impl<'a> Plot<'a> {
+    /// Curves over axes with these names and ranges.
+    pub fn new(title: &'a str, x: (&'a str, Range<f64>), y: (&'a str, Range<f64>), lines: Vec<Line>) -> Self {
+        Self { title, x, y, equal: false, lines, marks: Vec::new() }
+    }
+
+    /// The same with one scale for both axes.
+    #[must_use]
+    pub fn to_scale(self) -> Self {
+        Self { equal: true, ..self }
+    }
+
+    /// The same with dots, and words to their right.
+    #[must_use]
+    pub fn marked(self, marks: Vec<(f64, f64, String)>) -> Self {
+        Self { marks, ..self }
+    }
+
     /// Draws it into a place.
     ///
     /// # Errors
     /// When the place is too small.
     pub fn draw(&self, area: &Area<'_>) -> Result<(), Box<dyn Error>> {
         area.draw(&Text::new(self.title.to_owned(), (LEFT, fine(14)), writing(32)))?;
-        let named: Vec<&Line> = self.lines.iter().filter(|line| !line.name.is_empty()).collect();
-        let mut left = LEFT;
-        for line in &named {
-            let (y, end) = (TITLE + fine(20), left + fine(38));
-            let style = line.colour.stroke_width(line.width.max(5) * FINE);
-            let strokes: &[(i32, i32)] =
-                if line.dashed { &[(left, left + fine(15)), (left + fine(23), end)] } else { &[(left, end)] };
-            for &(from, to) in strokes {
-                area.draw(&PathElement::new(vec![(from, y), (to, y)], style))?;
-            }
-            area.draw(&Text::new(line.name.clone(), (end + fine(10), TITLE + fine(6)), writing(27)))?;
-            left = end + fine(38) + fine(12) * line.name.chars().count() as i32;
-        }
-
-        let head = TITLE + if named.is_empty() { fine(6) } else { LEGEND };
+        let head = TITLE + if self.legend(area)? { LEGEND } else { fine(6) };
         let (width, height) = area.dim_in_pixel();
         let inside = (
             width.saturating_sub(LABELS.0 + MARGIN + MARGIN / 2),
@@ -119,12 +122,6 @@ impl Plot<'_> {
             .x_label_area_size(LABELS.1)
             .y_label_area_size(LABELS.0)
             .build_cartesian_2d(x, y)?;
-        let number = |value: &f64| {
-            // Ticks are sums of steps: what is left of their rounding is not written.
-            let text = format!("{value:.4}");
-            let short = text.trim_end_matches('0').trim_end_matches('.');
-            if short == "-0" { "0".to_owned() } else { short.replace('-', "−") }
-        };
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
@@ -157,6 +154,24 @@ impl Plot<'_> {
         Ok(())
     }
 
+    /// Names of the lines in a row; whether there are any.
+    fn legend(&self, area: &Area<'_>) -> Result<bool, Box<dyn Error>> {
+        let named = self.lines.iter().filter(|line| !line.name.is_empty());
+        let mut left = LEFT;
+        for line in named {
+            let (y, end) = (TITLE + fine(20), left + fine(38));
+            let style = line.colour.stroke_width(line.width.max(5) * FINE);
+            let strokes: &[(i32, i32)] =
+                if line.dashed { &[(left, left + fine(15)), (left + fine(23), end)] } else { &[(left, end)] };
+            for &(from, to) in strokes {
+                area.draw(&PathElement::new(vec![(from, y), (to, y)], style))?;
+            }
+            area.draw(&Text::new(line.name.clone(), (end + fine(10), TITLE + fine(6)), writing(27)))?;
+            left = end + fine(38) + fine(12) * line.name.chars().count() as i32;
+        }
+        Ok(left > LEFT)
+    }
+
     /// The ranges of the axes in a rectangle of this width and height.
     fn ranges(&self, (width, height): (f64, f64)) -> (Range<f64>, Range<f64>) {
         let (x, y) = (self.x.1.clone(), self.y.1.clone());
@@ -170,6 +185,13 @@ impl Plot<'_> {
         };
         (widened(x, width), widened(y, height))
     }
+}
+
+/// A number at a tick. Ticks are sums of steps: what is left of their rounding is not written.
+fn number(value: &f64) -> String {
+    let text = format!("{value:.4}");
+    let short = text.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" { "0".to_owned() } else { short.replace('-', "−") }
 }
 
 /// A picture of a size in pixels, with plots side by side in rows of one height below a title.

@@ -160,12 +160,18 @@ pub fn results(comparison: &Comparison) -> Result<String, fmt::Error> {
         &comparison.everyday,
     )?;
 
+    without_gravity(&mut text, comparison)?;
+    Ok(text)
+}
+
+/// What is left of the errors, and the momenta that are constant without weight.
+fn without_gravity(text: &mut String, comparison: &Comparison) -> fmt::Result {
     writeln!(
         text,
         "\nWhat is left in the first four rows is rounding: more steps do not lessen it. The right-invariant chart has more of it\n\
          because of its pole: Ω is 70 m away, and the velocity of O is a difference of numbers so much larger.\n"
     )?;
-    heading(&mut text, "Without gravity: six constants")?;
+    heading(text, "Without gravity: six constants")?;
     writeln!(
         text,
         "The same body without weight and buoyancy, order 4, {:.0} steps a second. Leaving out two fields leaves their terms out of\n\
@@ -181,7 +187,7 @@ pub fn results(comparison: &Comparison) -> Result<String, fmt::Error> {
         let bits = if run.name.starts_with("Newton") { format!("{same} of {of}") } else { "(body axes)".into() };
         writeln!(text, "{:<30} {bits:>16} {drift:>22.1e} {energy:>12.1e}", run.name)?;
     }
-    Ok(text)
+    Ok(())
 }
 
 fn largest(series: &[(f64, f64)]) -> f64 {

@@ -10,6 +10,7 @@ use gauss_runtime::prelude::*;
 
 use crate::measure::Fleet;
 use crate::simulate::{Moment, Run, Vessel};
+use crate::statistics::quartiles;
 
 /// One generated function.
 #[derive(Clone, Debug)]
@@ -60,10 +61,8 @@ pub fn time(fleet: &Fleet, run: &Run, batches: usize) -> Result<Vec<Timing>, Cha
     }
 
     let finish = |candidate: Candidate<'_>| {
-        let Candidate { name, method, operations, mut times, .. } = candidate;
-        times.sort_by(f64::total_cmp);
-        let quartile = |n: usize| times[(times.len() - 1) * n / 4];
-        Timing { name, method, operations, quartiles: [quartile(1), quartile(2), quartile(3)] }
+        let Candidate { name, method, operations, times, .. } = candidate;
+        Timing { name, method, operations, quartiles: quartiles(times) }
     };
     Ok(candidates.into_iter().map(finish).collect())
 }

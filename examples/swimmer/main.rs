@@ -93,49 +93,48 @@ fn draw(fish: &Fish, path: &[Sample<FishKernel>]) -> Result<String, Box<dyn Erro
             })
         })
         .collect();
-    let stroke = Plot {
-        title: "one stroke, top to bottom in quarters",
-        x: ("semi-axes", -4.0..4.0),
-        y: ("semi-axes; each fish 2.6 below the last", -12.6..2.0),
-        equal: true,
-        lines: shapes,
-        marks: vec![],
-    };
+    let stroke = Plot::new(
+        "one stroke, top to bottom in quarters",
+        ("semi-axes", -4.0..4.0),
+        ("semi-axes; each fish 2.6 below the last", -12.6..2.0),
+        shapes,
+    )
+    .to_scale();
     let track: Vec<(f64, f64)> = path.iter().map(|s| (s.q.translation.vector.x, s.q.translation.vector.y)).collect();
     let range = |of: &dyn Fn(&(f64, f64)) -> f64| {
         let (low, high) = track.iter().map(of).fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
         let air = 0.15 * (high - low).max(0.2);
         low - air..high + air
     };
-    let way = Plot {
-        title: "its middle over three strokes",
-        x: ("x, semi-axes", range(&|p| p.0)),
-        y: ("y, semi-axes", range(&|p| p.1)),
-        equal: true,
-        lines: vec![Line::new("kernel", blue, track.iter().copied())],
-        marks: (0..=STROKES)
+    let way = Plot::new(
+        "its middle over three strokes",
+        ("x, semi-axes", range(&|p| p.0)),
+        ("y, semi-axes", range(&|p| p.1)),
+        vec![Line::new("kernel", blue, track.iter().copied())],
+    )
+    .to_scale()
+    .marked(
+        (0..=STROKES)
             .map(|n| {
                 let (x, y) = track[(STATES * n) as usize];
                 (x, y, format!("{n}"))
             })
             .collect(),
-    };
+    );
     let lags: Vec<f64> = (0..=24).map(|k| TAU * f64::from(k) / 24.0 / 2.0).collect();
     let gain = |amplitude: f64| -> Vec<(f64, f64)> {
         let far = |lag: f64| Fish::new(amplitude, lag).by_hand(TAU, 200).translation.vector.norm();
         lags.iter().map(|&lag| (lag.to_degrees(), far(lag))).collect()
     };
-    let phases = Plot {
-        title: "one stroke, by the hinges' lag",
-        x: ("lag, °", 0.0..180.0),
-        y: ("distance, semi-axes", 0.0..3.2),
-        equal: false,
-        lines: vec![
+    let phases = Plot::new(
+        "one stroke, by the hinges' lag",
+        ("lag, °", 0.0..180.0),
+        ("distance, semi-axes", 0.0..3.2),
+        vec![
             Line::new("1.25 rad", orange, gain(1.25)),
             Line::new("1 rad", blue, gain(1.0)),
             Line::new("0.5 rad", green, gain(0.5)),
         ],
-        marks: vec![],
-    };
+    );
     sheet("Swimming without an impulse", (1800, 900), &[vec![stroke, way, phases]])
 }

@@ -119,18 +119,16 @@ fn plot_of_way(way: &[(f64, Vector<2>)], plan: &Plan<4, 1>) -> Plot<'static> {
     let [blue, orange, green] = [COLOURS[0], COLOURS[1], COLOURS[2]];
     let coordinate = |name: &str, colour, k: usize| Line::new(name, colour, way.iter().map(|(t, q)| (*t, q[k])));
     let pushes = plan.inputs.iter().enumerate().flat_map(|(k, u)| [k, k + 1].map(|n| (n as f64 * H, 0.1 * u[0])));
-    Plot {
-        title: "the way up",
-        x: ("s", 0.0..END),
-        y: ("", -3.5..4.5),
-        equal: false,
-        lines: vec![
+    Plot::new(
+        "the way up",
+        ("s", 0.0..END),
+        ("", -3.5..4.5),
+        vec![
             Line::new("push, 10 N", green, pushes).wide(2),
             coordinate("cart, m", orange, 0),
             coordinate("angle from upright, rad", blue, 1),
         ],
-        marks: vec![],
-    }
+    )
 }
 
 fn plot_of_costs(both: &Both<4, 1>) -> Plot<'static> {
@@ -138,14 +136,12 @@ fn plot_of_costs(both: &Both<4, 1>) -> Plot<'static> {
         let costs = &both.plans[k].0.costs;
         Line::new(name, COLOURS[k], costs.iter().enumerate().map(|(n, cost)| (n as f64, cost.log10())))
     };
-    Plot {
-        title: "cost by iteration",
-        x: ("", 0.0..both.plans.iter().map(|(plan, _)| plan.costs.len()).max().unwrap_or(1) as f64),
-        y: ("power of ten", -1.0..5.0),
-        equal: false,
-        lines: vec![curve(0, "exact derivatives"), curve(1, "finite differences").dashed()],
-        marks: vec![],
-    }
+    Plot::new(
+        "cost by iteration",
+        ("", 0.0..both.plans.iter().map(|(plan, _)| plan.costs.len()).max().unwrap_or(1) as f64),
+        ("power of ten", -1.0..5.0),
+        vec![curve(0, "exact derivatives"), curve(1, "finite differences").dashed()],
+    )
 }
 
 /// Seven angles, then two fingers, which are light; of a state places and then rates.

@@ -10,10 +10,11 @@ mod model;
 #[path = "../attitude_filter/study.rs"]
 mod study;
 
+use gauss_examples::statistics::Random;
 use gauss_runtime::prelude::*;
 
 use filter::{Estimate, Transition};
-use model::{DISTURBANCE, FIRST, LOOKS, Random, STEP, STEPS, TRACKER, happens, nominal, spacecraft};
+use model::{DISTURBANCE, FIRST, LOOKS, STEP, STEPS, TRACKER, happens, nominal, spacecraft};
 use study::{DIMENSION, Followed, interval};
 
 /// Ten steps of the filter are a map whose derivatives carry the covariance: differences of that map say the same.

@@ -48,26 +48,22 @@ fn throw() -> Result<[Plot<'static>; 2], Box<dyn Error>> {
 
 fn plots_of_flight(wholes: &[(f64, Whole, f64)]) -> [Plot<'static>; 2] {
     let [blue, orange, green] = [COLOURS[0], COLOURS[1], COLOURS[2]];
-    let flight = Plot {
-        title: "heights",
-        x: ("s", 0.0..FLIGHT),
-        y: ("m", 0.9..2.1),
-        equal: false,
-        lines: vec![
+    let flight = Plot::new(
+        "heights",
+        ("s", 0.0..FLIGHT),
+        ("m", 0.9..2.1),
+        vec![
             Line::new("base", orange, wholes.iter().map(|(t, _, z)| (*t, *z))),
             Line::new("centre of mass", blue, wholes.iter().map(|(t, whole, _)| (*t, whole.center.z))),
         ],
-        marks: vec![],
-    };
+    );
     let most = wholes[0].1.spin.amax() * 1.3;
     let spin = |name: &str, colour, k: usize| Line::new(name, colour, wholes.iter().map(|(t, w, _)| (*t, w.spin[k])));
-    let spins = Plot {
-        title: "spin about the centre of mass",
-        x: ("s", 0.0..FLIGHT),
-        y: ("kg m²/s", -most..most),
-        equal: false,
-        lines: vec![spin("k₁", blue, 0), spin("k₂", orange, 1), spin("k₃", green, 2)],
-        marks: vec![],
-    };
+    let spins = Plot::new(
+        "spin about the centre of mass",
+        ("s", 0.0..FLIGHT),
+        ("kg m²/s", -most..most),
+        vec![spin("k₁", blue, 0), spin("k₂", orange, 1), spin("k₃", green, 2)],
+    );
     [flight, spins]
 }

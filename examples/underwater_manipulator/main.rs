@@ -124,12 +124,8 @@ fn draw(
         samples.iter().map(|s| (s.t, of(s))).collect::<Vec<_>>()
     };
     let angles = |s: &Sample<VehicleKernel>| s.q.0.rotation.euler_angles();
-    let plan = Plot {
-        title: "from above, carried along by the current",
-        x: ("east, m", -0.4..0.6),
-        y: ("north, m", -0.4..0.95),
-        equal: true,
-        lines: {
+    let plan =
+        Plot::new("from above, carried along by the current", ("east, m", -0.4..0.6), ("north, m", -0.4..0.95), {
             let [first, last] = [&wet[0], &wet[wet.len() - 1]];
             let outline = |s: &Sample<VehicleKernel>, colour| {
                 let links = Line::new("", colour, arm(&s.q).map(|p| east(s, p))).wide(7);
@@ -140,37 +136,32 @@ fn draw(
             lines.push(Line::new("tip of the arm", blue, path(wet, &tip)));
             lines.push(Line::new("with a dry arm", orange, path(dry, &tip)).dashed());
             lines
-        },
-        marks: vec![],
-    };
+        })
+        .to_scale();
     let lowest = |line: &[(f64, f64)]| line.iter().map(|p| p.1).fold(0.0, f64::min);
     let highest = |line: &[(f64, f64)]| line.iter().map(|p| p.1).fold(0.0, f64::max);
     let pair = |title: &'static str, unit: &'static str, of: &dyn Fn(&Sample<VehicleKernel>) -> f64| {
         let (a, b) = (over_time(of, wet), over_time(of, dry));
         let (low, high) = (lowest(&a).min(lowest(&b)), highest(&a).max(highest(&b)));
         let air = 0.1 * (high - low);
-        Plot {
+        Plot::new(
             title,
-            x: ("time, s", 0.0..f64::from(TENTHS) / 10.0),
-            y: (unit, low - air..high + air),
-            equal: false,
-            lines: vec![Line::new("all bodies in water", blue, a), Line::new("a dry arm", orange, b).dashed()],
-            marks: vec![],
-        }
+            ("time, s", 0.0..f64::from(TENTHS) / 10.0),
+            (unit, low - air..high + air),
+            vec![Line::new("all bodies in water", blue, a), Line::new("a dry arm", orange, b).dashed()],
+        )
     };
     let errors: Vec<(f64, f64)> = wet
         .iter()
         .zip(hand)
         .map(|(s, (place, _))| (s.t, 1e12 * (s.q.0.translation.vector - place.0.translation.vector).norm()))
         .collect();
-    let check = Plot {
-        title: "between the kernel and equations by hand",
-        x: ("time, s", 0.0..f64::from(TENTHS) / 10.0),
-        y: ("distance, 10⁻¹² m", 0.0..1.15 * highest(&errors).max(1e-3)),
-        equal: false,
-        lines: vec![Line::new("", green, errors.iter().copied())],
-        marks: vec![],
-    };
+    let check = Plot::new(
+        "between the kernel and equations by hand",
+        ("time, s", 0.0..f64::from(TENTHS) / 10.0),
+        ("distance, 10⁻¹² m", 0.0..1.15 * highest(&errors).max(1e-3)),
+        vec![Line::new("", green, errors.iter().copied())],
+    );
     let yaw = pair("the hull yaws as the arm swings out", "yaw, °", &|s| angles(s).2.to_degrees());
     let pitch = pair("and pitches as the elbow bends", "pitch, °", &|s| angles(s).1.to_degrees());
     sheet("A vehicle with an arm of two joints in a current", (1600, 1280), &[vec![plan, yaw], vec![pitch, check]])

@@ -12,11 +12,12 @@ const ticks = (low, high, count) => {
   return { all, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
 };
 const label = (value, digits) =>
-  digits > 4 || Math.abs(value) >= 1e6 ? value.toExponential(2) : value.toFixed(digits).replace("-", "−");
+  digits > 4 || Math.abs(value) >= 1e6 ? value.toExponential(2).replaceAll("-", "−") : value.toFixed(digits).replace("-", "−");
 
 class Curves {
-  constructor(panel, times, seek) {
-    Object.assign(this, { panel, times, seek });
+  constructor(panel, times, seek, least = 1) {
+    // `least`: half the axis of what is zero throughout.
+    Object.assign(this, { panel, times, seek, least });
     const box = document.createElement("div");
     box.className = "panel";
     this.canvas = box.appendChild(document.createElement("canvas"));
@@ -29,19 +30,24 @@ class Curves {
       key.textContent = curve.name;
     });
     document.getElementById("panels").appendChild(box);
-    const all = panel.curves.flatMap((curve) => [Math.min(...curve.values), Math.max(...curve.values)]);
-    let [low, high] = [Math.min(...all), Math.max(...all)];
-    // What is constant but for rounding is a straight line, not noise across the panel.
-    const least = 1e-9 * Math.max(Math.abs(low), Math.abs(high)) || 1;
-    if (high - low < least) [low, high] = [low - least, high + least];
-    const room = 0.06 * (high - low);
-    [this.low, this.high] = [low - room, high + room];
+    this.fit();
     const go = (event) => {
       const x = (event.offsetX - MARGIN.left) / (this.canvas.clientWidth - MARGIN.left - MARGIN.right);
       seek(times[0] + Math.min(1, Math.max(0, x)) * (times.at(-1) - times[0]));
     };
     this.canvas.addEventListener("pointerdown", (event) => { this.canvas.setPointerCapture(event.pointerId); go(event); });
     this.canvas.addEventListener("pointermove", (event) => { if (event.buttons) go(event); });
+  }
+
+  // The axis so that every value is on it.
+  fit() {
+    const all = this.panel.curves.flatMap((curve) => [Math.min(...curve.values), Math.max(...curve.values)]);
+    let [low, high] = [Math.min(...all), Math.max(...all)];
+    // What is constant but for rounding is a straight line, not noise across the panel.
+    const least = 1e-9 * Math.max(Math.abs(low), Math.abs(high)) || this.least;
+    if (high - low < least) [low, high] = [low - least, high + least];
+    const room = 0.06 * (high - low);
+    [this.low, this.high] = [low - room, high + room];
   }
 
   draw(t, style) {
@@ -55,7 +61,7 @@ class Curves {
     const y = (v) => MARGIN.top + (this.high - v) / (this.high - this.low) * (h - MARGIN.top - MARGIN.bottom);
     pen.font = "12px system-ui, sans-serif";
     pen.strokeStyle = style.line; pen.fillStyle = style.pale; pen.lineWidth = 1;
-    const rows = ticks(this.low, this.high, 4), columns = ticks(Math.min(times[0], times.at(-1)), Math.max(times[0], times.at(-1)), 8);
+    const rows = ticks(this.low, this.high, 5), columns = ticks(Math.min(times[0], times.at(-1)), Math.max(times[0], times.at(-1)), 8);
     pen.beginPath();
     pen.textAlign = "right"; pen.textBaseline = "middle";
     for (const v of rows.all) {

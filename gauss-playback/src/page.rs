@@ -9,6 +9,7 @@ const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 const SOLIDS: &str = include_str!("solids.js");
 const STAGE: &str = include_str!("stage.js");
+const CAMERA: &str = include_str!("camera.js");
 const CURVES: &str = include_str!("curves.js");
 const PLAYER: &str = include_str!("player.js");
 
@@ -98,7 +99,7 @@ impl Page {
         // Inside a script `</` could end it; in strings of JSON the slash may be escaped.
         let data = serde_json::to_string(self).expect("numbers and strings").replace("</", "<\\/");
         let title = self.title.replace('&', "&amp;").replace('<', "&lt;");
-        let scripts = [SOLIDS, STAGE, CURVES, PLAYER].concat();
+        let scripts = [SOLIDS, STAGE, CURVES, CAMERA, PLAYER].concat();
         // The data last: what they hold is not searched for marks.
         TEMPLATE
             .replace("{{title}}", &title)

@@ -3,18 +3,8 @@
 const data = JSON.parse(document.getElementById("data").textContent);
 const { times: clock, bodies, rods, traces, arrows } = data;
 const byId = (id) => document.getElementById(id);
-const styleNow = () => {
-  const style = getComputedStyle(document.documentElement);
-  return Object.fromEntries(["ink", "pale", "line", "ground"].map((k) => [k, style.getPropertyValue(`--${k}`).trim()]));
-};
 const [begin, end] = [clock[0], clock.at(-1)];
 const span = end - begin;
-
-const AXES = [
-  { name: "k₁", axis: [1, 0, 0], colour: "#c0392b" },
-  { name: "k₂", axis: [0, 1, 0], colour: "#27ae60" },
-  { name: "k₃", axis: [0, 0, 1], colour: "#2c6fbb" },
-];
 
 // Between two pictures everything goes straight; quaternions by the shorter way.
 const place = (time) => {
@@ -64,8 +54,6 @@ try { stage = new Stage(byId("stage"), data.up); } catch (error) {
 const FROM = {
   slant: { azimuth: 0.6, elevation: 0.42 }, top: { azimuth: -Math.PI / 2, elevation: 1.55 },
 };
-// So far that a ball of this radius fills the height.
-const distanceTo = (size) => 1.05 * size / Math.sin(0.3);
 const seeAll = () => Object.assign(stage, { target: middle, distance: distanceTo(radius), ...FROM[data.view] });
 const buffers = { traces: [], grid: null };
 if (stage) {
@@ -76,21 +64,14 @@ if (stage) {
     const { at, axes } = poseAt(bodies[trace.body], [n, n, 0]);
     return add(at, turned3(axes, trace.point));
   }), Math.min(0.004 * radius, stage.distance * 0.0015)));
-  // A floor below everything, of squares whose side is a power of ten, or twice or five times that.
-  const raw = radius / 4, power = 10 ** Math.floor(Math.log10(raw));
-  const side = [1, 2, 5, 10].find((s) => s * power >= raw) * power, n = Math.ceil(1.3 * radius / side);
-  const [e1, e2, up] = stage.world, grid = [];
+  // The floor is below everything.
   const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((c) => [0, 1, 2].map((k) => (c >> k & 1 ? bounds.high : bounds.low)[k]));
-  const floor = times(up, Math.min(...corners.map((corner) => dot(corner, up))));
-  const centre = [e1, e2].map((e) => Math.round(dot(middle, e) / side) * side);
-  const at = (u, v) => add(floor, add(times(e1, centre[0] + u * side), times(e2, centre[1] + v * side)));
-  for (let k = -n; k <= n; k++) grid.push(...at(k, -n), ...at(k, n), ...at(-n, k), ...at(n, k));
-  buffers.grid = { buffer: stage.buffer(grid), count: grid.length / 3, side };
+  const height = Math.min(...corners.map((corner) => dot(corner, stage.world[2])));
+  buffers.grid = floorOf(stage, middle, radius, height);
 }
 
 let now = begin, playing = false, last = null;
 const panels = data.panels.map((panel) => new Curves(panel, clock, (t) => seek(t)));
-const bodyColour = (k) => COLOURS[k % COLOURS.length];
 const arrowColour = (k) => COLOURS[(bodies.filter((b) => b.shapes.length).length + k + 1) % COLOURS.length];
 
 const drawStage = (where, style) => {
@@ -100,14 +81,8 @@ const drawStage = (where, style) => {
   stage.begin(paper);
   const ink = colourOf(style.ink);
   stage.lines(buffers.grid.buffer, buffers.grid.count, [...ink, 0.13]);
-  AXES.forEach(({ axis, colour }) => {
-    stage.arrow([0, 0, 0], times(axis, 0.18 * radius), 0.0015 * stage.distance, colourOf(colour));
-  });
-  poses.forEach(({ at, axes }, k) => bodies[k].shapes.forEach((shape) => {
-    const own = axesOf(shape.pose.slice(3)).map((e) => turned3(axes, e));
-    stage.draw(shape.kind, own, add(at, turned3(axes, shape.pose.slice(0, 3))), shape.size,
-      colourOf(shape.colour || bodyColour(k)));
-  }));
+  drawAxes(stage, 0.18 * radius);
+  poses.forEach((pose, k) => drawBody(stage, bodies[k].shapes, pose, bodyColour(k)));
   rods.forEach(({ from, to, radius: r }) => {
     stage.rod(poses[from].at, poses[to].at, r, colourOf(bodyColour(0)));
     [from, to].forEach((k) => stage.draw("ellipsoid", axesOf([0, 0, 0, 1]), poses[k].at, [1.5 * r, 1.5 * r, 1.5 * r],
@@ -157,16 +132,11 @@ speeds.sort((a, b) => a - b).forEach((s) => byId("speed").add(new Option(`${s}×
 byId("speed").value = Math.abs(span) >= 2 && Math.abs(span) <= 30 ? 1 : Number(natural.toPrecision(2));
 bodies.forEach((body, k) => byId("follow").add(new Option(body.name, k)));
 byId("follow").value = data.follow ?? "";
-const key = (name, colour) => {
-  const item = byId("legend").appendChild(document.createElement("span"));
-  item.className = "key";
-  item.style.setProperty("--colour", colour);
-  item.textContent = name;
-};
-bodies.forEach((body, k) => { if (body.shapes.length) key(body.name, body.shapes[0].colour || bodyColour(k)); });
-arrows.forEach((arrow, k) => key(arrow.name, arrowColour(k)));
-if (stage) AXES.forEach(({ name, colour }) => key(name, colour));
-if (stage) key(`squares of ${Number(buffers.grid.side.toPrecision(3))}`, "var(--line)");
+const legend = byId("legend");
+bodies.forEach((body, k) => { if (body.shapes.length) key(legend, body.name, body.shapes[0].colour || bodyColour(k)); });
+arrows.forEach((arrow, k) => key(legend, arrow.name, arrowColour(k)));
+if (stage) AXES.forEach(({ name, colour }) => key(legend, name, colour));
+if (stage) key(legend, `squares of ${Number(buffers.grid.side.toPrecision(3))}`, "var(--line)");
 
 byId("play").addEventListener("click", toggle);
 byId("slider").addEventListener("input", (event) => { playing = false; seek(begin + event.target.value * span); });
@@ -179,27 +149,8 @@ window.addEventListener("keydown", (event) => {
   if (step) seek(span > 0 ? Math.min(end, Math.max(begin, now + step * span / 200)) : now);
 });
 if (stage) {
-  const canvas = byId("stage");
-  canvas.addEventListener("pointerdown", (event) => { canvas.setPointerCapture(event.pointerId); canvas.focus(); });
-  canvas.addEventListener("pointermove", (event) => {
-    if (!event.buttons) return;
-    if (event.shiftKey || event.buttons === 2) {
-      const scale = 2 * Math.tan(0.3) * stage.distance / canvas.clientHeight, { x, y } = stage.axes;
-      byId("follow").value = "";
-      stage.target = add(stage.target, add(times(x, -event.movementX * scale), times(y, event.movementY * scale)));
-    } else {
-      stage.azimuth -= event.movementX * 0.008;
-      stage.elevation = Math.min(1.55, Math.max(-1.55, stage.elevation + event.movementY * 0.008));
-    }
-    requestAnimationFrame(draw);
-  });
-  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    stage.distance *= Math.exp(event.deltaY * 0.001);
-    requestAnimationFrame(draw);
-  }, { passive: false });
-  canvas.addEventListener("dblclick", () => { byId("follow").value = ""; seeAll(); draw(); });
+  const released = () => { byId("follow").value = ""; };
+  steer(stage, byId("stage"), { changed: () => draw(), released, all: seeAll });
 }
 // `#t=1.5` opens the page at that time.
 const wanted = /[#&]t=([-+.\de]+)/.exec(location.hash);

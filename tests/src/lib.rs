@@ -5,6 +5,8 @@
 //! | [`scene`] | a reference solution, read from `data/reference` |
 //! | [`double_double`] | a scalar of some 31 digits |
 //! | [`pages`] | sections of Markdown pages that tests write |
+//! | [`top`] | a heavy top in any scalar |
+//! | [`random`] | random numbers |
 //! | [`order8`] | the Dormand–Prince method of order 8 on the group, with step control |
 //! | [`integrals`] | what a motion conserves |
 //! | [`laws`] | what holds for every system at every state, and for two descriptions of one |
@@ -20,6 +22,8 @@ pub mod laws;
 pub mod nonholonomic;
 pub mod order8;
 pub mod pages;
+pub mod random;
 pub mod scene;
+pub mod top;
 pub mod trajectory;
 pub mod watchdog;

@@ -56,6 +56,21 @@ fn ratio<S: GaussSystem<Scalar = f64>>(from: &State<S>, to: &State<S>, error: &R
     worst
 }
 
+/// As the controls of the runtime do: the end of every step goes onto the constraints.
+fn projected<S, P>(problem: &P, state: State<S>) -> Result<State<S>, IntegrationErrorKind>
+where
+    S: GaussSystem<Scalar = f64>,
+    P: Problem<System = S>,
+{
+    if !S::CONSTRAINED {
+        return Ok(state);
+    }
+    let speeds = problem.speeds(state.t, &state.q, &state.y);
+    let projected = problem.system().project(state.t, &state.q, &speeds);
+    let (q, z) = projected.map_err(|error| IntegrationErrorKind::Projection { error })?;
+    Ok(problem.state(state.t, q, &z))
+}
+
 impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
     fn drive<P: Problem<System = S>>(
         &self,
@@ -109,13 +124,7 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
             if last {
                 state.t = end;
             }
-            if S::CONSTRAINED {
-                // As the controls of the runtime do: the end of every step goes onto the constraints.
-                let speeds = problem.speeds(state.t, &state.q, &state.y);
-                let projected = problem.system().project(state.t, &state.q, &speeds);
-                let (q, z) = projected.map_err(|error| stopped(&before, IntegrationErrorKind::Projection { error }))?;
-                state = problem.state(state.t, q, &z);
-            }
+            state = projected(problem, state).map_err(|kind| stopped(&before, kind))?;
             rates = problem.rates(&state);
             if !rates.is_finite() {
                 return Err(stopped(&before, IntegrationErrorKind::NonFinite { part: Part::Step }));

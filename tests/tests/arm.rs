@@ -6,6 +6,7 @@ use std::path::Path;
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Sizes, System, Time, corresponds, laws, least};
+use gauss_tests::random::Random;
 use gauss_tests::trajectory::{number, numbers, reference, triple};
 use proptest::prelude::*;
 use serde_json::Value;
@@ -90,20 +91,6 @@ arm!(
 
 type Joints = SVector<f64, 7>;
 
-/// A reproducible stream of numbers in [−1, 1].
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn joints(&mut self, size: f64) -> Joints {
-        Joints::from_fn(|_, _| size * self.next())
-    }
-}
-
 /// The links of the reference under one of its two keys, moments about O.
 fn links(key: &str) -> [RigidBody<f64>; 7] {
     let scene = reference("seven_joint_arm");
@@ -133,7 +120,7 @@ fn accelerations_and_forces_have_derivatives_that_agree() {
     let (arm, ..) = arms();
     let mut random = Random(5);
     for _ in 0..20 {
-        let (q, z) = (random.joints(3.0), random.joints(2.0));
+        let (q, z): (Joints, Joints) = (random.vector(3.0), random.vector(2.0));
         let linear = arm.linearize(0.0, &q, &z, &());
         let rate = linear.rate.fixed_rows::<7>(7).into_owned();
         let inverse = arm.linearize_inverse(0.0, &q, &z, &rate, &());
@@ -261,7 +248,7 @@ fn base_parameters_can_be_told_apart() {
     let mut random = Random(3);
     let mut columns = vec![Vec::new(); ArmKernel::INERTIAL_PARAMETERS.len()];
     for _ in 0..40 {
-        let (q, z, rate) = (random.joints(3.0), random.joints(2.0), random.joints(3.0));
+        let [q, z, rate]: [Joints; 3] = [3.0, 2.0, 3.0].map(|size| random.vector(size));
         let regressor = arm.regressor(0.0, &q, &z, &rate);
         columns.iter_mut().enumerate().for_each(|(k, column)| column.extend(regressor.column(k).iter()));
     }
@@ -284,7 +271,7 @@ fn derivatives_by_parameters_are_in_the_regressor() {
     let links = links("links");
     let mut random = Random(8);
     for _ in 0..20 {
-        let (q, z) = (random.joints(3.0), random.joints(2.0));
+        let (q, z): (Joints, Joints) = (random.vector(3.0), random.vector(2.0));
         let by_parameters = arm.by_parameters(0.0, &q, &z, &());
         let regressor = arm.regressor(0.0, &q, &z, &arm.acceleration(0.0, &q, &z, &()));
         let mass_matrix = arm.mass_matrix(0.0, &q);

@@ -2,6 +2,7 @@
 
 use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, Method, Rkmk, Scheme, Splitting};
 use gauss_runtime::prelude::*;
+use gauss_tests::top::{Top, TopKernel};
 
 /// x = cos t from (1, 0).
 #[derive(GaussDynamics)]
@@ -13,20 +14,6 @@ use gauss_runtime::prelude::*;
     spring(spring, along = x, stiffness = 1),
 )]
 struct Unit {}
-
-/// A heavy top.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point, taylor)]
-struct Top {
-    #[gauss(mass)]
-    mass: f64,
-    #[gauss(center_of_mass)]
-    center: Vector3<f64>,
-    #[gauss(inertia)]
-    inertia: Vector3<f64>,
-    #[gauss(gravity)]
-    g: f64,
-}
 
 type One = SVector<f64, 1>;
 
@@ -86,7 +73,7 @@ fn of_tops_as_well_also_where_steps_do_not_resolve_the_spin() {
     let (q, z) = (UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0), Vector3::new(0.1, 0.2, 40.0));
     let run = Simulation::new(&kernel);
     let exact = run.adaptive(1e-13, 1e-13).run(q, z, 0.0..2.0).expect("runs");
-    let error = |s: &Sample<TopKernel>| {
+    let error = |s: &Sample<TopKernel<f64>>| {
         let truth = exact.at(s.t).expect("inside");
         (s.q.to_rotation_matrix().matrix() - truth.q.to_rotation_matrix().matrix())
             .amax()

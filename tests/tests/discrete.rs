@@ -10,24 +10,7 @@ use common::dual::Dual;
 use gauss_runtime::integrate::{Feedback, OneStep, Part, Problem, State, SystemProblem};
 use gauss_runtime::linearize::error_matrix;
 use gauss_runtime::prelude::*;
-
-/// A reproducible stream of numbers in [−1, 1].
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn vector<T: Real, V: VectorSpace<T>>(&mut self) -> V {
-        let mut v = V::zero();
-        for i in 0..V::DIM {
-            v.set_component(i, T::from_f64(self.next()));
-        }
-        v
-    }
-}
+use gauss_tests::random::Random;
 
 type Increment<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
@@ -72,9 +55,9 @@ where
     let positions = Increment::<B>::DIM;
     let (mut told, mut all) = (0, 0);
     for _ in 0..6 {
-        let q = origin.retract(&random.vector());
-        let (z, input): (B::Speeds, B::Input) = (random.vector(), random.vector());
-        let (t, h) = (Bounded::from_f64(random.next()), Bounded::from_f64(0.2));
+        let q = origin.retract(&random.vector(1.0));
+        let (z, input): (B::Speeds, B::Input) = (random.vector(1.0), random.vector(1.0));
+        let (t, h) = (Bounded::from_f64(random.number()), Bounded::from_f64(0.2));
         let found = CommutatorFree4.step_linearized(bounded, t, &q, &z, &input, h).expect("steps");
         let (q_end, z_end) = step(bounded, t, &q, &z, &input, h);
         equal("configuration", &list(&found.q.components()), &list(&q_end.components())).unwrap();
@@ -292,8 +275,8 @@ const SLOPE_ERROR: f64 = 4.0 * 1e-12 * 1e3 / 120.0 + 100.0 * f64::EPSILON / 1e-3
 fn differences_of_the_same_step() {
     let kernel = FreeHybrid::<f64>::sample().kernel().unwrap();
     let mut random = Random(3);
-    let start = (Isometry3::identity().retract(&random.vector()), random.vector());
-    let (t, h, input) = (0.4, 0.1, random.vector());
+    let start = (Isometry3::identity().retract(&random.vector(1.0)), random.vector(1.0));
+    let (t, h, input) = (0.4, 0.1, random.vector(1.0));
     let found = CommutatorFree4.step_linearized(&kernel, t, &start.0, &start.1, &input, h).unwrap();
     let end = (found.q, found.z);
     type S = FreeHybridKernel<f64>;
@@ -327,8 +310,8 @@ fn steps_after_one_another() {
     type S = GyrostatKernel<f64>;
     let mut random = Random(11);
     let home = (Isometry3::identity(), (UnitQuaternion::identity(), SVector::from([0.4])));
-    let start: (_, SVector<f64, 10>) = (home.retract(&random.vector()), random.vector());
-    let held: SVector<f64, 4> = random.vector();
+    let start: (_, SVector<f64, 10>) = (home.retract(&random.vector(1.0)), random.vector(1.0));
+    let held: SVector<f64, 4> = random.vector(1.0);
     let (t, h, steps) = (0.3, 0.05, 12);
     let run = |(q, z): (<S as GaussSystem>::Configuration, SVector<f64, 10>), t: f64, held: SVector<f64, 4>| {
         let mut state = (q, z);
@@ -411,8 +394,8 @@ fn steps_keep_the_volume_up_to_their_order() {
 fn short_steps_are_the_equations() {
     let kernel = FreeLeft::<f64>::sample().kernel().unwrap();
     let mut random = Random(5);
-    let (q, z) = (Isometry3::identity().retract(&random.vector()), random.vector());
-    let (t, input) = (0.2, random.vector());
+    let (q, z) = (Isometry3::identity().retract(&random.vector(1.0)), random.vector(1.0));
+    let (t, input) = (0.2, random.vector(1.0));
     let linear = kernel.linearize(t, &q, &z, &input);
     let step = |h: f64| CommutatorFree4.step_linearized(&kernel, t, &q, &z, &input, h).unwrap();
     let h = 1e-4;

@@ -2,21 +2,8 @@
 
 use gauss_runtime::linearize::{Factored, Lu};
 use gauss_runtime::prelude::*;
+use gauss_tests::top::Top;
 use num_dual::{Dual2_64, Dual64, DualSVec64, HyperDual64};
-
-/// A body that turns about O.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
-struct Top<T> {
-    #[gauss(mass)]
-    mass: T,
-    #[gauss(center_of_mass)]
-    center: Vector3<T>,
-    #[gauss(inertia)]
-    inertia: Vector3<T>,
-    #[gauss(gravity)]
-    g: T,
-}
 
 /// The angular velocity after one second, by its mass and its height of the centre of mass.
 fn spin<T: Real>(mass: T, height: T) -> [T; 3] {

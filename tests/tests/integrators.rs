@@ -4,20 +4,7 @@ use gauss_runtime::integrate::{Composed, Composition, OneStep, Properties, Rkmk,
 use gauss_runtime::prelude::*;
 use gauss_tests::integrals::Moment;
 use gauss_tests::scene::{Scene, quaternion_of};
-
-/// A fixed point and weight.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
-struct HeavyTop {
-    #[gauss(mass)]
-    mass: f64,
-    #[gauss(center_of_mass)]
-    center: Vector3<f64>,
-    #[gauss(inertia)]
-    inertia: Vector3<f64>,
-    #[gauss(gravity)]
-    gravity: f64,
-}
+use gauss_tests::top::{Top, TopKernel};
 
 /// A body in fluid.
 #[derive(GaussDynamics)]
@@ -32,9 +19,9 @@ struct Kirchhoff {
 }
 
 /// The largest error of an entry of R at the end of a scene, by steps of one length.
-fn error_on_the_heavy_top(scene: &Scene, method: impl OneStep<HeavyTopKernel>, steps: u32) -> f64 {
+fn error_on_the_heavy_top(scene: &Scene, method: impl OneStep<TopKernel<f64>>, steps: u32) -> f64 {
     let p = &scene.parameters;
-    let top = HeavyTop { mass: p.mass, center: p.center, inertia: p.principal, gravity: p.gravity };
+    let top = Top { mass: p.mass, center: p.center, inertia: p.principal, g: p.gravity };
     let kernel = top.kernel().expect("a top");
     let end = Simulation::new(&kernel)
         .control(Fixed::by(method, scene.duration / f64::from(steps)))
@@ -44,7 +31,7 @@ fn error_on_the_heavy_top(scene: &Scene, method: impl OneStep<HeavyTopKernel>, s
 }
 
 /// The order between two numbers of steps whose errors are above rounding.
-fn order<M: OneStep<HeavyTopKernel> + Copy>(scene: &Scene, method: M, steps: [u32; 2]) -> (u32, bool, f64) {
+fn order<M: OneStep<TopKernel<f64>> + Copy>(scene: &Scene, method: M, steps: [u32; 2]) -> (u32, bool, f64) {
     let Properties { order, symmetric, .. } = method.properties();
     let [coarse, fine] = steps.map(|n| error_on_the_heavy_top(scene, method, n));
     // A thousand steps leave some √1000 roundings, which this motion multiplies by ten.

@@ -8,22 +8,7 @@ use common::Bounded;
 use common::agreement::equal;
 use common::body::{Parts, list, speeds};
 use gauss_runtime::prelude::*;
-
-/// A reproducible stream of numbers in [−1, 1].
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn vector<V: VectorSpace<Bounded>>(&mut self, size: f64) -> V {
-        let mut v = V::zero();
-        (0..V::DIM).for_each(|i| v.set_component(i, Bounded::from_f64(size * self.next())));
-        v
-    }
-}
+use gauss_tests::random::Random;
 
 /// What a kernel is made of: the same geometry, other masses for each scale.
 trait Scene {
@@ -34,7 +19,7 @@ trait Scene {
 
 /// A unit vector: rounded components stand for exact ones up to their bounds.
 fn unit<const N: usize>(random: &mut Random) -> [Bounded; N] {
-    let parts: [f64; N] = std::array::from_fn(|k| random.next() + if k + 1 == N { 1.5 } else { 0.0 });
+    let parts: [f64; N] = std::array::from_fn(|k| random.number() + if k + 1 == N { 1.5 } else { 0.0 });
     let norm = parts.iter().map(|x| x * x).sum::<f64>().sqrt();
     parts.map(|x| Bounded::measured(x / norm, 4.0 * f64::EPSILON))
 }
@@ -105,7 +90,7 @@ fn at_random<S: Scene>(
     for _ in 0..20 {
         let q = S::configuration(&mut random);
         let (z, rate, input) = (random.vector(1.0), random.vector(1.0), random.vector(1.0));
-        check(&kernel, number(random.next()), &q, [&z, &rate], &input);
+        check(&kernel, number(random.number()), &q, [&z, &rate], &input);
     }
 }
 

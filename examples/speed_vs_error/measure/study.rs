@@ -7,6 +7,8 @@
 use std::error::Error;
 use std::time::{Duration, Instant};
 
+use gauss_examples::statistics::quartiles;
+
 use super::entry::{Ask, Entry, Setting, Side};
 use super::scene::Scene;
 
@@ -234,10 +236,9 @@ fn time(entries: &[Entry], points: &mut [Point], duration: f64, effort: &Effort,
         }
         progress((round + 1) as f64 / effort.rounds as f64);
     }
-    for (&n, times) in timed.iter().zip(&mut times) {
-        times.sort_by(f64::total_cmp);
-        points[n].time = [1, 2, 3].map(|quarter| times[(times.len() - 1) * quarter / 4]);
+    for (&n, times) in timed.iter().zip(times) {
         points[n].rounds = times.len();
+        points[n].time = quartiles(times);
     }
 }
 

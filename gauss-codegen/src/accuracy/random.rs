@@ -1,7 +1,7 @@
-//! Pseudo-random choices, the same in every run.
+//! Pseudo-random choices, the same in every run. Tests of this crate and the fuzz target read this file as well.
 
 /// A sequence that a seed determines (Steele, Lea & Flood, Fast splittable pseudorandom number generators, 2014).
-pub struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
@@ -16,8 +16,15 @@ impl Random {
         z ^ (z >> 31)
     }
 
+    /// Below a bound, which is not zero.
     pub fn below(&mut self, bound: usize) -> usize {
         (self.next() % bound as u64) as usize
+    }
+
+    /// One of a list that is not empty.
+    #[allow(dead_code, reason = "only tests choose from lists")]
+    pub fn of<'a, T>(&mut self, all: &'a [T]) -> &'a T {
+        &all[self.below(all.len())]
     }
 
     /// From 0 to 1.

@@ -6,6 +6,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::elementary::{self, ManyDigits};
 use super::evaluate::{Number, Scalar};
 use super::function::{BinaryFunction, Function};
 use super::precise::Precise;
@@ -17,13 +18,6 @@ pub struct Doubled {
     high: f64,
     low: f64,
 }
-
-/// π/2 and ln 2 in three doubles.
-const QUARTER_TURN: [f64; 3] = [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_183_3e-33];
-const LN_2: [f64; 3] = [std::f64::consts::LN_2, 2.319_046_813_846_299_6e-17, 5.707_708_438_416_212e-34];
-
-/// Terms of a series, each smaller than the last by a factor of four at least, after which nothing is left of 106 digits.
-const TERMS: u32 = 30;
 
 impl Doubled {
     const fn new(value: f64) -> Self {
@@ -54,83 +48,6 @@ impl Doubled {
         let high = value.to_f64();
         Self { high, low: (value - Precise::number(high)).to_f64() }
     }
-
-    /// n·(a + b + c), for an integer n.
-    fn multiple(n: f64, [a, b, c]: [f64; 3]) -> Self {
-        Self::product(n, a) + Self::product(n, b) + Self::product(n, c)
-    }
-
-    fn times(self, factor: f64) -> Self {
-        self * Self::new(factor)
-    }
-
-    /// `Σ xᵏ/k!` over k = first, first + step, …; with alternating signs where x² is given negative.
-    fn series(first: Self, square: Self, from: u32, step: u32) -> Self {
-        let (mut sum, mut term, mut k) = (first, first, from);
-        for _ in 0..TERMS {
-            for _ in 0..step {
-                k += 1;
-                term = term / Self::new(f64::from(k));
-            }
-            term = term * square;
-            let next = sum + term;
-            if (next.high, next.low) == (sum.high, sum.low) {
-                break;
-            }
-            sum = next;
-        }
-        sum
-    }
-
-    fn exp(self) -> Self {
-        if self.high.abs() > 700.0 {
-            return Self::new(self.high.exp());
-        }
-        let halvings = (self.high / LN_2[0]).round();
-        // Below ln 2/128.
-        let rest = (self - Self::multiple(halvings, LN_2)).times(1.0 / 64.0);
-        let small = Self::series(Self::new(1.0), rest, 0, 1);
-        let power = (0..6).fold(small, |power, _| power * power);
-        power.times(2.0_f64.powi(halvings as i32))
-    }
-
-    /// From the nearest double, by Newton's iteration on the exponential.
-    fn ln(self) -> Self {
-        let guess = Self::new(self.high.ln());
-        guess + (self * (-guess).exp() - Self::new(1.0))
-    }
-
-    /// By series near zero, where the exponentials cancel.
-    fn tanh(self) -> Self {
-        if self.high.abs() < 0.5 {
-            let square = self * self;
-            return Self::series(self, square, 1, 2) / Self::series(Self::new(1.0), square, 0, 2);
-        }
-        if self.high.abs() > 80.0 {
-            return Self::new(self.high.signum());
-        }
-        let (up, down) = (self.exp(), (-self).exp());
-        (up - down) / (up + down)
-    }
-
-    fn sqrt(self) -> Self {
-        let root = self.high.sqrt();
-        if root == 0.0 || !root.is_finite() {
-            return Self::new(root);
-        }
-        let guess = Self::new(root);
-        guess + (self - Self::product(root, root)) / guess.times(2.0)
-    }
-
-    /// From the nearest double, by Newton's iteration on the tangent of what is left.
-    fn atan2(self, x: Self) -> Self {
-        let guess = Self::new(self.high.atan2(x.high));
-        if guess.high == 0.0 {
-            return guess;
-        }
-        let (sin, cos) = guess.sine_cosine();
-        guess + (self * cos - x * sin) / (x * cos + self * sin)
-    }
 }
 
 impl Scalar for Doubled {
@@ -148,54 +65,15 @@ impl Scalar for Doubled {
     }
 
     fn sine_cosine(self) -> (Self, Self) {
-        let turns = (self.high / QUARTER_TURN[0]).round();
-        let x = self - Self::multiple(turns, QUARTER_TURN);
-        let square = -(x * x);
-        let (sin, cos) = (Self::series(x, square, 1, 2), Self::series(Self::new(1.0), square, 0, 2));
-        match turns.rem_euclid(4.0) as u8 {
-            0 => (sin, cos),
-            1 => (cos, -sin),
-            2 => (-sin, -cos),
-            _ => (-cos, sin),
-        }
+        elementary::sine_cosine(self)
     }
 
     fn call(self, function: Function) -> Self {
-        match function {
-            Function::Sin => self.sine_cosine().0,
-            Function::Cos => self.sine_cosine().1,
-            Function::Exp => self.exp(),
-            Function::Ln => self.ln(),
-            Function::Sqrt => self.sqrt(),
-            Function::Abs if self.high < 0.0 => -self,
-            Function::Abs => self,
-            Function::Signum => Self::new(self.high.call(Function::Signum)),
-            Function::Tanh => self.tanh(),
-            Function::Own(_) => Self::new(f64::NAN),
-        }
+        elementary::call(self, function)
     }
 
     fn call_with(self, function: BinaryFunction, other: Self) -> Self {
-        match function {
-            BinaryFunction::Atan2 => self.atan2(other),
-            BinaryFunction::Powf if other.high == 0.0 => Self::new(1.0),
-            BinaryFunction::Powf if self.high == 0.0 => Self::new(self.high.powf(other.high)),
-            BinaryFunction::Powf => (other * self.ln()).exp(),
-            BinaryFunction::Min => {
-                if self > other {
-                    other
-                } else {
-                    self
-                }
-            }
-            BinaryFunction::Max => {
-                if self < other {
-                    other
-                } else {
-                    self
-                }
-            }
-        }
+        elementary::call_with(self, function, other)
     }
 }
 
@@ -210,17 +88,20 @@ impl Number for Doubled {
     fn is_finite(self) -> bool {
         self.high.is_finite() && self.low.is_finite()
     }
+}
 
-    fn powi(self, exponent: i32) -> Self {
-        let (mut power, mut square, mut remaining) = (Self::new(1.0), self, exponent.unsigned_abs());
-        while remaining > 0 {
-            if remaining & 1 == 1 {
-                power = power * square;
-            }
-            square = square * square;
-            remaining >>= 1;
-        }
-        if exponent < 0 { Self::new(1.0) / power } else { power }
+impl ManyDigits for Doubled {
+    const STEPS: u32 = 1;
+
+    fn magnitude(self) -> i64 {
+        (self.high.to_bits() >> 52 & 0x7ff) as i64 - 1022
+    }
+
+    fn times_two_to(self, power: i64) -> Self {
+        // In two parts, each in the range of doubles.
+        let power = power.clamp(-2000, 2000) as i32;
+        let parts = [power / 2, power - power / 2].map(|power| 2.0_f64.powi(power));
+        Self { high: self.high * parts[0] * parts[1], low: self.low * parts[0] * parts[1] }
     }
 }
 

@@ -86,7 +86,18 @@ pub trait Number: Scalar + Copy + PartialOrd {
     fn is_finite(self) -> bool;
 
     /// An integer power.
-    fn powi(self, exponent: i32) -> Self;
+    fn powi(self, exponent: i32) -> Self {
+        let one = Self::number(1.0);
+        let (mut power, mut square, mut remaining) = (one, self, exponent.unsigned_abs());
+        while remaining > 0 {
+            if remaining & 1 == 1 {
+                power = power * square;
+            }
+            square = square * square;
+            remaining >>= 1;
+        }
+        if exponent < 0 { one / power } else { power }
+    }
 
     /// A function, where those of the user's own, of which nothing is known, are stood in for by shifted sines: what holds of any
     /// function holds of these.

@@ -12,6 +12,7 @@ mod budget;
 mod cosines;
 mod differentiate;
 mod doubled;
+mod elementary;
 mod evaluate;
 mod expression;
 mod function;

@@ -6,6 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_bigint::{BigInt, BigUint, Sign};
 
+use super::elementary::{self, ManyDigits};
 use super::evaluate::{Number, Scalar};
 use super::function::{BinaryFunction, Function};
 use super::rational::Rational;
@@ -65,112 +66,6 @@ impl Precise {
     fn is_zero(self) -> bool {
         self.defined && self.mantissa == [0; 4]
     }
-
-    /// The power of two next to it.
-    fn magnitude(self) -> i64 {
-        self.exponent + DIGITS
-    }
-
-    fn times_two_to(self, power: i64) -> Self {
-        if self.is_zero() { self } else { Self { exponent: self.exponent + power, ..self } }
-    }
-
-    fn integer(value: i64) -> Self {
-        Self::rounded(value.into(), 0)
-    }
-
-    /// x/2ᵏ below 2⁻⁸, and k; `None` where doubling k times would lose too many digits.
-    fn halved(self) -> Option<(Self, i64)> {
-        let steps = if self.is_zero() { 0 } else { (self.magnitude() + 8).max(0) };
-        (self.defined && steps <= DIGITS / 2).then(|| (self.times_two_to(-steps), steps))
-    }
-
-    /// `Σ xᵏ/k!` over even or odd k with alternating signs, or over all k.
-    fn series(self, first: i64, step: i64, alternating: bool) -> Self {
-        let mut term = if first == 0 { Self::integer(1) } else { self };
-        let (mut sum, mut k) = (term, first);
-        // Each pair of factors is below 2⁻¹⁶, so the end is sure.
-        while !term.is_zero() && term.magnitude() > sum.magnitude() - DIGITS - 8 {
-            for _ in 0..step {
-                k += 1;
-                term = term * self / Self::integer(k);
-            }
-            if alternating {
-                term = -term;
-            }
-            sum = sum + term;
-        }
-        sum
-    }
-
-    fn exp(self) -> Self {
-        let Some((x, doublings)) = self.halved() else { return Self::UNDEFINED };
-        (0..doublings).fold(x.series(0, 1, false), |power, _| power * power)
-    }
-
-    /// From the nearest double, by Halley's iteration, which makes the digits three times as many.
-    fn ln(self) -> Self {
-        if !self.defined || self.negative || self.is_zero() {
-            return Self::UNDEFINED;
-        }
-        let mantissa = self.times_two_to(-self.magnitude()).to_f64();
-        let guess = mantissa.ln() + self.magnitude() as f64 * std::f64::consts::LN_2;
-        (0..3).fold(Self::number(guess), |y, _| {
-            let power = y.exp();
-            y + ((self - power) / (self + power)).times_two_to(1)
-        })
-    }
-
-    fn sqrt(self) -> Self {
-        match (self.defined, self.is_zero(), self.negative) {
-            (true, true, _) => Self::ZERO,
-            (true, false, false) => {
-                // An even exponent, and twice the digits.
-                let shift = DIGITS + 2 + (self.exponent & 1);
-                let root = (self.signed() << shift).sqrt();
-                Self::rounded(root, (self.exponent - shift) / 2)
-            }
-            _ => Self::UNDEFINED,
-        }
-    }
-
-    /// sinh and cosh of a small part, doubled; far from zero the difference from ±1 has no digit here.
-    fn tanh(self) -> Self {
-        if self.defined && !self.is_zero() && self.magnitude() > 8 {
-            return self.call(Function::Signum);
-        }
-        let Some((x, doublings)) = self.halved() else { return Self::UNDEFINED };
-        let start = (x.series(1, 2, false), x.series(0, 2, false));
-        let double = |(sinh, cosh): (Self, Self), _| ((sinh * cosh).times_two_to(1), cosh * cosh + sinh * sinh);
-        let (sinh, cosh) = (0..doublings).fold(start, double);
-        sinh / cosh
-    }
-
-    /// Of a base that is not negative.
-    fn powf(self, exponent: Self) -> Self {
-        match (self.is_zero(), exponent.is_zero(), exponent.negative) {
-            (_, true, _) => Self::integer(1),
-            (true, _, true) => Self::UNDEFINED,
-            (true, _, false) if exponent.defined => Self::ZERO,
-            _ => (exponent * self.ln()).exp(),
-        }
-    }
-
-    /// From the nearest double, by Newton's iteration on the tangent of what is left.
-    fn atan2(self, x: Self) -> Self {
-        if !self.defined || !x.defined {
-            return Self::UNDEFINED;
-        }
-        if self.is_zero() && (x.is_zero() || !x.negative) {
-            return Self::ZERO;
-        }
-        let scale = -self.magnitude().max(x.magnitude());
-        let guess = self.times_two_to(scale).to_f64().atan2(x.times_two_to(scale).to_f64());
-        (0..4).fold(Self::number(guess), |angle, _| {
-            let (sin, cos) = angle.sine_cosine();
-            angle + (self * cos - x * sin) / (x * cos + self * sin)
-        })
-    }
 }
 
 impl Scalar for Precise {
@@ -191,34 +86,15 @@ impl Scalar for Precise {
     }
 
     fn sine_cosine(self) -> (Self, Self) {
-        let Some((x, doublings)) = self.halved() else { return (Self::UNDEFINED, Self::UNDEFINED) };
-        let start = (x.series(1, 2, true), x.series(0, 2, true));
-        (0..doublings).fold(start, |(sin, cos), _| ((sin * cos).times_two_to(1), cos * cos - sin * sin))
+        elementary::sine_cosine(self)
     }
 
     fn call(self, function: Function) -> Self {
-        match function {
-            Function::Sin => self.sine_cosine().0,
-            Function::Cos => self.sine_cosine().1,
-            Function::Exp => self.exp(),
-            Function::Ln => self.ln(),
-            Function::Sqrt => self.sqrt(),
-            Function::Abs => Self { negative: false, ..self },
-            Function::Signum if !self.defined || self.is_zero() => self,
-            Function::Signum => Self::integer(if self.negative { -1 } else { 1 }),
-            Function::Tanh => self.tanh(),
-            Function::Own(_) => Self::UNDEFINED,
-        }
+        elementary::call(self, function)
     }
 
     fn call_with(self, function: BinaryFunction, other: Self) -> Self {
-        match (function, self.partial_cmp(&other)) {
-            (BinaryFunction::Atan2, _) => self.atan2(other),
-            (BinaryFunction::Powf, _) => self.powf(other),
-            (_, None) => Self::UNDEFINED,
-            (BinaryFunction::Min, Some(Ordering::Greater)) | (BinaryFunction::Max, Some(Ordering::Less)) => other,
-            _ => self,
-        }
+        elementary::call_with(self, function, other)
     }
 }
 
@@ -239,17 +115,17 @@ impl Number for Precise {
     fn is_finite(self) -> bool {
         self.defined
     }
+}
 
-    fn powi(self, exponent: i32) -> Self {
-        let (mut power, mut square, mut remaining) = (Self::integer(1), self, exponent.unsigned_abs());
-        while remaining > 0 {
-            if remaining & 1 == 1 {
-                power = power * square;
-            }
-            square = square * square;
-            remaining >>= 1;
-        }
-        if exponent < 0 { Self::integer(1) / power } else { power }
+impl ManyDigits for Precise {
+    const STEPS: u32 = 2;
+
+    fn magnitude(self) -> i64 {
+        if self.is_zero() { -RANGE } else { self.exponent + DIGITS }
+    }
+
+    fn times_two_to(self, power: i64) -> Self {
+        if self.is_zero() { self } else { Self { exponent: self.exponent + power, ..self } }
     }
 }
 

@@ -292,12 +292,20 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// A method of a trait, with its result.
     pub fn function(&self, method: Method, result: TokenStream) -> TokenStream {
-        let (function, body) = (Ident::new(method.name(), Span::call_site()), self.method_body(method));
-        let arguments = declared(&self.private(), arguments_of(method));
-        quote! {
-            #[inline]
-            fn #function(&self, __t: Self::Scalar, __q: &Self::Configuration, #(#arguments),*) -> #result { #body }
-        }
+        let function = self.function_of(method.name(), arguments_of(method), result, self.method_body(method));
+        quote!(#[inline] #function)
+    }
+
+    /// A function of time, configuration and further arguments.
+    pub fn function_of(
+        &self,
+        name: &str,
+        arguments: &[ArgumentKind],
+        result: TokenStream,
+        body: TokenStream,
+    ) -> TokenStream {
+        let (name, arguments) = (Ident::new(name, Span::call_site()), declared(&self.private(), arguments));
+        quote!(fn #name(&self, __t: Self::Scalar, __q: &Self::Configuration, #(#arguments),*) -> #result { #body })
     }
 
     /// Is the scalar a type parameter?

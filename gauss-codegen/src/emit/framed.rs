@@ -88,7 +88,6 @@ fn system(derived: &Derived<'_, '_>) -> TokenStream {
         (FrameQuantity::Bias, six),
     ];
     let methods = methods.map(|(quantity, result)| method(derived, quantity, &result));
-    let arguments = declared(&private, arguments_of(Method::Frames));
     let (instructions, outputs) = derived.computed(derived.program(Method::Frames));
     let size = outputs.len() / count;
     let all = outputs.chunks(size).map(|of_frame| {
@@ -100,16 +99,15 @@ fn system(derived: &Derived<'_, '_>) -> TokenStream {
         });
         quote!(#private::FrameMotion::new(#(#parts),*))
     });
+    let body = quote!(#instructions #private::ByFrame::new([#(#all),*]));
+    let frames = derived.function_of("frames", arguments_of(Method::Frames), quote!(Self::Frames), body);
     let items = quote! {
         type Frame = #name;
         type Jacobian = #jacobian;
         type Frames = #private::ByFrame<#name, #private::FrameMotion<#ty, #jacobian>, #count>;
         #(#methods)*
         #[inline]
-        fn frames(&self, __t: Self::Scalar, __q: &Self::Configuration, #(#arguments),*) -> Self::Frames {
-            #instructions
-            #private::ByFrame::new([#(#all),*])
-        }
+        #frames
     };
     derived.implementation(quote!(FramedSystem), items)
 }

@@ -6,7 +6,7 @@ use quote::quote;
 use crate::kernel::Smoothness;
 use crate::mechanics::Method;
 
-use super::arguments::{OF_EQUATIONS, declared};
+use super::arguments::OF_EQUATIONS;
 use super::constrained::projection;
 use super::derived::Derived;
 
@@ -80,22 +80,15 @@ fn methods(derived: &Derived<'_, '_>) -> TokenStream {
 /// `evaluate`: q̇, ż and the energies at once.
 fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
     let private = derived.private();
-    let arguments = declared(&private, OF_EQUATIONS);
     let (instructions, outputs) = derived.computed(&derived.kernel.joined);
     let (configuration, rest) = outputs.split_at(derived.program(Method::Kinematics).outputs.len());
     let (speeds, energies) = rest.split_at(derived.degrees_of_freedom());
     let velocity = derived.subject.tangent(&derived.private(), configuration);
-    quote! {
-        #[inline]
-        fn evaluate(
-            &self,
-            __t: Self::Scalar,
-            __q: &Self::Configuration,
-            #(#arguments,)*
-        ) -> #private::Evaluated<Self> {
-            #instructions
-            let [__kinetic, __potential] = [#(#energies),*];
-            #private::Evaluated::new(#velocity, #private::vector([#(#speeds),*]), __kinetic, __potential)
-        }
-    }
+    let body = quote! {
+        #instructions
+        let [__kinetic, __potential] = [#(#energies),*];
+        #private::Evaluated::new(#velocity, #private::vector([#(#speeds),*]), __kinetic, __potential)
+    };
+    let function = derived.function_of("evaluate", OF_EQUATIONS, quote!(#private::Evaluated<Self>), body);
+    quote!(#[inline] #function)
 }

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::arguments::{OF_RESIDUAL, declared};
+use super::arguments::OF_RESIDUAL;
 use super::derived::Derived;
 use super::linearized::rows;
 
@@ -12,7 +12,6 @@ pub fn inverse_linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStrea
     let (inverse, program) = derived.inverse.zip(derived.kernel.inverse.as_ref())?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (increments, speeds, inputs) = (inverse.increments, inverse.speeds, inverse.inputs);
-    let arguments = declared(&private, OF_RESIDUAL);
     let (instructions, outputs) = derived.computed(program);
     // Outputs are the forces, and then their derivatives, one column of the matrices after the other.
     let (force, derivatives) = outputs.split_at(speeds);
@@ -23,24 +22,21 @@ pub fn inverse_linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStrea
     };
     let (by_configuration, by_speeds, by_acceleration) = (next(increments), next(speeds), next(speeds));
     let (by_time, by_input) = (next(1), next(inputs));
+    let body = quote! {
+        #instructions
+        #private::InverseLinearization {
+            force: #private::vector([#(#force),*]),
+            by_configuration: #private::matrix([#(#by_configuration),*]),
+            by_speeds: #private::matrix([#(#by_speeds),*]),
+            by_acceleration: #private::matrix([#(#by_acceleration),*]),
+            by_time: #private::matrix([#(#by_time),*]),
+            by_input: #private::matrix([#(#by_input),*]),
+        }
+    };
+    let function = derived.function_of("linearize_inverse", OF_RESIDUAL, quote!(Self::InverseLinearization), body);
     let items = quote! {
-            type InverseLinearization = #private::InverseLinearization<#ty, #increments, #speeds, #inputs>;
-            fn linearize_inverse(
-                &self,
-                __t: Self::Scalar,
-                __q: &Self::Configuration,
-                #(#arguments,)*
-            ) -> Self::InverseLinearization {
-                #instructions
-                #private::InverseLinearization {
-                    force: #private::vector([#(#force),*]),
-                    by_configuration: #private::matrix([#(#by_configuration),*]),
-                    by_speeds: #private::matrix([#(#by_speeds),*]),
-                    by_acceleration: #private::matrix([#(#by_acceleration),*]),
-                    by_time: #private::matrix([#(#by_time),*]),
-                    by_input: #private::matrix([#(#by_input),*]),
-                }
-            }
+        type InverseLinearization = #private::InverseLinearization<#ty, #increments, #speeds, #inputs>;
+        #function
     };
     Some(derived.implementation(quote!(InverseLinearizedSystem), items))
 }

@@ -8,7 +8,7 @@ use quote::quote;
 use crate::algebra::Rational;
 use crate::kernel::{LoweredColumns, Operand, Parts, Program, TOGETHER};
 
-use super::arguments::{OF_EQUATIONS, declared};
+use super::arguments::OF_EQUATIONS;
 use super::derived::Derived;
 
 /// The implementation, where it is asked for.
@@ -16,7 +16,6 @@ pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (linearization, program) = derived.linearization.zip(derived.kernel.tangents.as_ref())?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (states, inputs) = (linearization.increments + linearization.speeds, linearization.inputs);
-    let arguments = declared(&private, OF_EQUATIONS);
     // Outputs are the rates, and then their derivatives, one column of the matrices after the other.
     let (of_states, of_time, of_inputs) = (1..states + 1, states + 1, states + 2..states + 2 + inputs);
     let body = match &derived.kernel.columns {
@@ -39,18 +38,12 @@ pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     };
     let (state_pattern, input_pattern) = (pattern(program, states, of_states), pattern(program, states, of_inputs));
     let boolean = quote!(&'static [&'static [::core::primitive::bool]]);
+    let function = derived.function_of("linearize", OF_EQUATIONS, quote!(Self::Linearization), body);
     let items = quote! {
-            type Linearization = #private::Linearization<#ty, #states, #inputs>;
-            const STATE_PATTERN: #boolean = &[#(#state_pattern),*];
-            const INPUT_PATTERN: #boolean = &[#(#input_pattern),*];
-            fn linearize(
-                &self,
-                __t: Self::Scalar,
-                __q: &Self::Configuration,
-                #(#arguments,)*
-            ) -> Self::Linearization {
-                #body
-            }
+        type Linearization = #private::Linearization<#ty, #states, #inputs>;
+        const STATE_PATTERN: #boolean = &[#(#state_pattern),*];
+        const INPUT_PATTERN: #boolean = &[#(#input_pattern),*];
+        #function
     };
     Some(derived.implementation(quote!(LinearizedSystem), items))
 }

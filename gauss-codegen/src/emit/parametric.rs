@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::arguments::{OF_EQUATIONS, declared};
+use super::arguments::OF_EQUATIONS;
 use super::derived::Derived;
 use super::linearized::{pattern, rows};
 
@@ -13,22 +13,15 @@ pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (states, count) = (linearization.increments + linearization.speeds, derived.parameters.len());
     let names = derived.parameters.iter().map(|parameter| &parameter.name);
-    let arguments = declared(&private, OF_EQUATIONS);
     let (instructions, outputs) = derived.computed(program);
     let (matrix, pattern) = (rows(&outputs, states, 0..count), pattern(program, states, 0..count));
+    let body = quote!(#instructions #private::matrix([#(#matrix),*]));
+    let function = derived.function_of("by_parameters", OF_EQUATIONS, quote!(Self::ByParameters), body);
     let items = quote! {
-            type ByParameters = #private::SMatrix<#ty, #states, #count>;
-            const PARAMETERS: &'static [&'static ::core::primitive::str] = &[#(#names),*];
-            const PARAMETER_PATTERN: &'static [&'static [::core::primitive::bool]] = &[#(#pattern),*];
-            fn by_parameters(
-                &self,
-                __t: Self::Scalar,
-                __q: &Self::Configuration,
-                #(#arguments,)*
-            ) -> Self::ByParameters {
-                #instructions
-                #private::matrix([#(#matrix),*])
-            }
+        type ByParameters = #private::SMatrix<#ty, #states, #count>;
+        const PARAMETERS: &'static [&'static ::core::primitive::str] = &[#(#names),*];
+        const PARAMETER_PATTERN: &'static [&'static [::core::primitive::bool]] = &[#(#pattern),*];
+        #function
     };
     Some(derived.implementation(quote!(ParametricSystem), items))
 }

@@ -5,7 +5,7 @@ use quote::quote;
 
 use crate::mechanics::Method;
 
-use super::arguments::{OF_REGRESSOR, arguments_of, declared};
+use super::arguments::{OF_REGRESSOR, arguments_of};
 use super::derived::Derived;
 use super::linearized::{pattern, rows};
 
@@ -15,37 +15,24 @@ pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let (rates, count) = (derived.degrees_of_freedom(), regressor.parameters.len());
     let names = regressor.parameters.iter().map(|parameter| &parameter.name);
-    let arguments = declared(&private, OF_REGRESSOR);
-    let of_forces = declared(&private, arguments_of(Method::OtherForces));
     let (instructions, outputs) = derived.computed(program);
     let (matrix, pattern) = (rows(&outputs, rates, 0..count), pattern(program, rates, 0..count));
     let (parameters, forces) =
         (derived.method_body(Method::InertialParameters), derived.method_body(Method::OtherForces));
+    let body = quote!(#instructions #private::matrix([#(#matrix),*]));
+    let regressor = derived.function_of("regressor", OF_REGRESSOR, quote!(Self::Regressor), body);
+    let of_forces = arguments_of(Method::OtherForces);
+    let other_forces = derived.function_of("other_forces", of_forces, quote!(Self::Speeds), forces);
     let items = quote! {
-            type Regressor = #private::SMatrix<#ty, #rates, #count>;
-            type InertialParameters = #private::SVector<#ty, #count>;
-            const INERTIAL_PARAMETERS: &'static [&'static ::core::primitive::str] = &[#(#names),*];
-            const REGRESSOR_PATTERN: &'static [&'static [::core::primitive::bool]] = &[#(#pattern),*];
-            fn regressor(
-                &self,
-                __t: Self::Scalar,
-                __q: &Self::Configuration,
-                #(#arguments,)*
-            ) -> Self::Regressor {
-                #instructions
-                #private::matrix([#(#matrix),*])
-            }
-            fn inertial_parameters(&self) -> Self::InertialParameters {
-                #parameters
-            }
-            fn other_forces(
-                &self,
-                __t: Self::Scalar,
-                __q: &Self::Configuration,
-                #(#of_forces,)*
-            ) -> Self::Speeds {
-                #forces
-            }
+        type Regressor = #private::SMatrix<#ty, #rates, #count>;
+        type InertialParameters = #private::SVector<#ty, #count>;
+        const INERTIAL_PARAMETERS: &'static [&'static ::core::primitive::str] = &[#(#names),*];
+        const REGRESSOR_PATTERN: &'static [&'static [::core::primitive::bool]] = &[#(#pattern),*];
+        #regressor
+        fn inertial_parameters(&self) -> Self::InertialParameters {
+            #parameters
+        }
+        #other_forces
     };
     Some(derived.implementation(quote!(InertialRegressor), items))
 }

@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::mechanics::Method;
+use crate::program::ArgumentKind;
 
 use super::derived::Derived;
 use super::pose::pose_bodies;
@@ -26,11 +27,9 @@ fn placed_by_chart(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (pose, configuration) = pose_bodies(derived, derived.subject.model.one_body())?;
     let private = derived.private();
     let speeds = derived.function(Method::Speeds, quote!(Self::Speeds));
+    let pose = pose_function(derived, pose);
     Some(quote! {
-        #[inline]
-        fn pose(&self, __t: Self::Scalar, __q: &Self::Configuration) -> #private::Isometry3<Self::Scalar> {
-            #pose
-        }
+        #pose
         #[inline]
         fn configuration_at(
             &self,
@@ -53,12 +52,14 @@ fn placed_by_coordinates(derived: &Derived<'_, '_>) -> TokenStream {
     let (by_configuration, columns) = derived.computed(derived.program(Method::PoseByConfiguration));
     let columns: Vec<_> = columns.chunks(6).map(|column| quote!([#(#column),*])).collect();
     let increments = columns.len();
+    let pose = quote!(#instructions #private::pose_from_rows([#(#rows),*], [#(#position),*]));
+    let pose = pose_function(derived, pose);
+    let speeds_of = quote!(#private::speeds_of_twist::<Self, #speeds>(self, __t, __q, __twist));
+    let speeds_of = derived.function_of("speeds", &[ArgumentKind::Twist], quote!(Self::Speeds), speeds_of);
+    let determinacy = quote!(#private::determinacy_of_speeds::<Self, #speeds>(self, __t, __q));
+    let determinacy = derived.function_of("determinacy", &[], quote!(Self::Scalar), determinacy);
     quote! {
-        #[inline]
-        fn pose(&self, __t: Self::Scalar, __q: &Self::Configuration) -> #private::Isometry3<Self::Scalar> {
-            #instructions
-            #private::pose_from_rows([#(#rows),*], [#(#position),*])
-        }
+        #pose
         fn configuration_at(
             &self,
             __t: Self::Scalar,
@@ -75,16 +76,13 @@ fn placed_by_coordinates(derived: &Derived<'_, '_>) -> TokenStream {
                 },
             )
         }
-        fn speeds(
-            &self,
-            __t: Self::Scalar,
-            __q: &Self::Configuration,
-            __twist: &#private::SVector<Self::Scalar, 6>,
-        ) -> Self::Speeds {
-            #private::speeds_of_twist::<Self, #speeds>(self, __t, __q, __twist)
-        }
-        fn determinacy(&self, __t: Self::Scalar, __q: &Self::Configuration) -> Self::Scalar {
-            #private::determinacy_of_speeds::<Self, #speeds>(self, __t, __q)
-        }
+        #speeds_of
+        #determinacy
     }
+}
+
+fn pose_function(derived: &Derived<'_, '_>, body: TokenStream) -> TokenStream {
+    let private = derived.private();
+    let function = derived.function_of("pose", &[], quote!(#private::Isometry3<Self::Scalar>), body);
+    quote!(#[inline] #function)
 }

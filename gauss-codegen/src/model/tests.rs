@@ -9,6 +9,7 @@ mod items;
 mod robots;
 mod role_clauses;
 mod roles;
+mod synonyms;
 mod systems;
 mod units;
 
@@ -58,3 +59,9 @@ fn check_body(attributes: &str, expected: &[Mistake<'_>]) {
 
 const INERTIA: &str = "the inertia about O is one number, three principal moments or a tensor: \
     expected `f64` (spherical), `Vector3<f64>` (principal) or `Matrix3<f64>` (full)";
+
+const ALL_CLAUSES: &str = "what moves is said by `chart`, `motion`, `coordinates`, `speeds`, `kinematics`, `body`, `frame`, \
+    `particle`, `constraint` or `independent`, what acts and more by `point`, `potential`, `input`, `force`, `torque`, \
+    `wrench`, `drive`, `spring`, `stop`, `drag`, `friction`, `armature`, `damping`, `medium`, `central_gravity`, `define`, \
+    `function`, `table`, `waive` or `limit`, and what is wanted by `crate`, `taylor`, `linearize`, `regressor`, `frames` or \
+    `methods`";

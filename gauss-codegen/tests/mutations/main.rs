@@ -9,6 +9,8 @@ mod corpus;
 mod derive;
 mod fault;
 mod mutate;
+#[allow(dead_code, reason = "the choices of samples are not made here")]
+#[path = "../../src/accuracy/random.rs"]
 mod random;
 mod scenes;
 mod watch;

@@ -4,6 +4,9 @@
 //! `SCENES=5000 cargo test -p gauss-codegen --test random_scenes` makes more of them than every run does.
 
 mod numbers;
+#[allow(dead_code, reason = "the choices of samples are not made here")]
+#[path = "../../src/accuracy/random.rs"]
+mod random;
 mod scene;
 
 /// How many by default: some seconds.

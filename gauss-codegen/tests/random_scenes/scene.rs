@@ -1,7 +1,7 @@
 //! Random scenes as users write them: a struct and its attribute. All are valid: whatever moves has mass, and functions are
 //! defined everywhere.
 
-use crate::numbers::Random;
+use crate::random::Random;
 
 /// The source of a scene.
 pub fn source(seed: u64) -> String {
@@ -52,10 +52,10 @@ impl Scene {
 
     /// One body in a chart.
     fn one_body(&mut self, random: &mut Random) {
-        let motion = random.pick(&["free", "free", "fixed_point", "planar"]);
+        let motion = *random.of(&["free", "free", "fixed_point", "planar"]);
         let mut charts = vec!["left_invariant", "right_invariant", "hybrid"];
-        charts.push(if motion == "planar" { "jet" } else { random.pick(&["jet(euler_zyx)", "jet(euler_zxz)"]) });
-        let chart = random.pick(&charts);
+        charts.push(if motion == "planar" { "jet" } else { *random.of(&["jet(euler_zyx)", "jet(euler_zxz)"]) });
+        let chart = *random.of(&charts);
         self.clauses.push(format!("chart = {chart}, motion = {motion}, {}", mass_data(random, motion == "planar")));
         if random.once_in(2) {
             self.clauses.push(format!("gravity = {}", random.positive()));
@@ -111,7 +111,7 @@ impl Scene {
     fn link(&mut self, random: &mut Random, k: usize, parent: Option<usize>) {
         let mut place = parent.map_or(String::new(), |parent| format!(", parent = b{parent}"));
         let axis = ["x", "y", "z"];
-        let turn = |random: &mut Random, angle: String| format!("rotation_{}({angle})", random.pick(&axis));
+        let turn = |random: &mut Random, angle: String| format!("rotation_{}({angle})", random.of(&axis));
         match random.below(6) {
             0 if parent.is_none() => {
                 let pose = self.group("Pose");

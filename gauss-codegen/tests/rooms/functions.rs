@@ -1,5 +1,8 @@
 //! Functions by the lines between their braces.
 
+use std::fs;
+use std::path::Path;
+
 use syn::spanned::Spanned;
 use syn::{Block, ImplItem, Item, TraitItem};
 
@@ -14,15 +17,34 @@ pub struct Function {
 
 /// Every function of a crate, but those of tests.
 pub fn functions(modules: &Modules) -> Vec<Function> {
+    modules.iter().flat_map(|(_, module)| of_items(&module.file, &module.items)).collect()
+}
+
+/// Every function in the files of a folder, but those in folders of tests.
+pub fn functions_below(folder: &Path) -> Vec<Function> {
+    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut found = Vec::new();
-    for (_, module) in modules.iter() {
-        for item in &module.items {
-            of_item(item, &mut |name, block| {
-                let span = block.span();
-                let lines = (span.end().line - span.start().line).saturating_sub(1);
-                found.push(Function { file: module.file.clone(), name, lines });
-            });
+    for path in entries.map(|entry| entry.expect("an entry").path()) {
+        if path.is_dir() && !path.ends_with("tests") && !path.ends_with("target") {
+            found.extend(functions_below(&path));
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            let name = path.display().to_string();
+            let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let parsed = syn::parse_file(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+            found.extend(of_items(&name, &parsed.items));
         }
+    }
+    found
+}
+
+fn of_items(file: &str, items: &[Item]) -> Vec<Function> {
+    let mut found = Vec::new();
+    for item in items {
+        of_item(item, &mut |name, block| {
+            let span = block.span();
+            let lines = (span.end().line - span.start().line).saturating_sub(1);
+            found.push(Function { file: file.to_owned(), name, lines });
+        });
     }
     found
 }

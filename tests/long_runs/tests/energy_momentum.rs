@@ -1,9 +1,11 @@
 //! The energy–momentum method on derived kernels: bodies in fluid with weight and buoyancy at different points, in space and in the
-//! plane, a top on a spring. Energy and momenta over 10⁵ steps; the order against reference solutions.
+//! plane, a top on a spring. Energy and momenta over up to 10⁵ steps; the order against reference solutions.
 
+use gauss_long_runs::steps;
 use gauss_runtime::integrate::{Composed, Composition, EnergyMomentum, OneStep};
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::{Scene, quaternion_of};
+use gauss_tests::top::{Top, TopKernel};
 
 /// A body in fluid, in space or in the plane.
 macro_rules! body {
@@ -52,20 +54,6 @@ macro_rules! body {
 body!(InSpace, free);
 body!(InPlane, planar);
 
-/// A fixed point and weight.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
-struct HeavyTop {
-    #[gauss(mass)]
-    mass: f64,
-    #[gauss(center_of_mass)]
-    center: Vector3<f64>,
-    #[gauss(inertia)]
-    inertia: Vector3<f64>,
-    #[gauss(gravity)]
-    gravity: f64,
-}
-
 /// A top whose tip hangs on a spring: a potential that is not linear in R.
 #[derive(GaussDynamics)]
 #[gauss(
@@ -82,7 +70,12 @@ struct Tethered {
     rest: f64,
 }
 
-/// What a run of 10⁵ steps does to quantities that should not change, given with the size that rounding is relative to: the
+/// Steps of a run.
+fn usual() -> u32 {
+    steps(100_000)
+}
+
+/// What a run of the usual length does to quantities that should not change, given with the size that rounding is relative to: the
 /// largest deviation, and the change along the line through a hundred samples, each relative to the largest size.
 fn changes<S, M, const K: usize>(
     kernel: &S,
@@ -95,12 +88,12 @@ where
     S: GaussSystem<Scalar = f64, Input = ()>,
     M: OneStep<S>,
 {
-    changes_over(1e5, kernel, start, method, step, kept)
+    changes_over(usual(), kernel, start, method, step, kept)
 }
 
 /// The same of any number of steps.
 fn changes_over<S, M, const K: usize>(
-    steps: f64,
+    steps: u32,
     kernel: &S,
     (q, z): (S::Configuration, S::Speeds),
     method: M,
@@ -115,9 +108,9 @@ where
     Simulation::new(kernel)
         .momentum_form()
         .control(Fixed::by(method, step))
-        .every(1000)
+        .every(u64::from(steps) / 100)
         .observe(|sample| samples.push(kept(sample)))
-        .run_to_end(q, z, 0.0..step * steps)
+        .run_to_end(q, z, 0.0..step * f64::from(steps))
         .expect("runs");
     let n = samples.len() as f64;
     core::array::from_fn(|i| {
@@ -130,9 +123,10 @@ where
     })
 }
 
-/// A walk of 10⁵ steps, each of which rounds what is kept by some 4ε; a walk has no slope but the one to where it ends.
+/// A walk of the usual length, each step of which rounds what is kept by some 4ε; it has no slope but the one to where it
+/// ends.
 fn walks<const K: usize>(changes: [(f64, f64); K]) {
-    let walk = 4.0 * f64::EPSILON * 1e5_f64.sqrt();
+    let walk = 4.0 * f64::EPSILON * f64::from(usual()).sqrt();
     assert!(changes.iter().all(|&(worst, along)| worst < walk && along < walk), "{changes:?} {walk:e}");
 }
 
@@ -183,7 +177,7 @@ fn a_potential_that_is_not_linear_in_the_attitude() {
     let [coarse, fine] = two.map(|[energy, _]| energy);
     // The motion is chaotic, and what is left of the energy's error walks: in four times the time twice as far, where a drift
     // would go four times as far.
-    let [longer, _] = changes_over(4e5, &kernel, start, EnergyMomentum::new(), 0.02, kept);
+    let [longer, _] = changes_over(4 * usual(), &kernel, start, EnergyMomentum::new(), 0.02, kept);
     assert!(coarse.0 < 1e-7 && longer.0 < 3.0 * coarse.0, "{coarse:?} {longer:?}");
     let order = (coarse.0 / fine.0).log2();
     // Each of the two is the largest of a hundred samples of one oscillation.
@@ -191,9 +185,9 @@ fn a_potential_that_is_not_linear_in_the_attitude() {
 }
 
 /// The largest error of an entry of R at the end of a reference solution.
-fn error_on_the_heavy_top(scene: &Scene, method: impl OneStep<HeavyTopKernel>, steps: u32) -> f64 {
+fn error_on_the_heavy_top(scene: &Scene, method: impl OneStep<TopKernel<f64>>, steps: u32) -> f64 {
     let p = &scene.parameters;
-    let top = HeavyTop { mass: p.mass, center: p.center, inertia: p.principal, gravity: p.gravity };
+    let top = Top { mass: p.mass, center: p.center, inertia: p.principal, g: p.gravity };
     let kernel = top.kernel().expect("a top");
     let end = Simulation::new(&kernel)
         .control(Fixed::by(method, scene.duration / f64::from(steps)))

@@ -5,16 +5,7 @@ use gauss_runtime::prelude::*;
 use super::Bounded;
 use super::body::Parts;
 
-/// A reproducible stream of numbers in [−1, 1].
-pub struct Random(pub u64);
-
-impl Random {
-    /// The next one.
-    pub fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
+pub use gauss_tests::random::Random;
 
 /// Pairs, for systems: the parts of the first factor are those of a quaternion or of a pose.
 impl<T: Real, A: Grouped<T>, B: Parts<T>> Parts<T> for (A, B) {

@@ -10,10 +10,11 @@ use gauss_runtime::integrate::{
     Compensated, Composed, Composition, Control, EnergyMomentum, FreeFlow, Method, Rkmk, Scheme, Splitting, Variational,
 };
 use gauss_runtime::prelude::*;
+use gauss_tests::top::TopKernel;
 use gauss_tests::watchdog::within;
 
 use crate::scenes::{
-    Angles, Bead, Driven, GenericTop, GenericTopKernel, Inclined, Pendulum, PendulumKernel, Spring, Top, TopKernel, one,
+    Angles, Bead, Driven, GenericTop, GenericTopKernel, Inclined, Pendulum, PendulumKernel, Spring, one, toy,
 };
 
 /// What numbers can be. Beside each other they make steps of which a run is refused, or has few: not the millions that somebody
@@ -44,7 +45,7 @@ const HOSTILE: [f64; 22] = [
 ];
 
 /// Draws for each entry.
-const DRAWS: u32 = 150;
+const DRAWS: u32 = 75;
 
 /// All draws of an entry come back in so many seconds, on a slow machine that does other things too.
 const SECONDS: u64 = 240;
@@ -62,9 +63,7 @@ fn each(what: &'static str, function: impl Fn(Numbers) + Send + 'static) {
     within(SECONDS, what, move || {
         let config = Config { cases: DRAWS, failure_persistence: None, max_shrink_iters: 100, ..Config::default() };
         let run = TestRunner::new(config).run(&numbers(), |numbers| {
-            let clock = std::time::Instant::now();
             function(numbers);
-            prop_assert!(clock.elapsed().as_secs() < 30, "{numbers:?} took {:?}", clock.elapsed());
             Ok(())
         });
         if let Err(error) = run {
@@ -120,8 +119,8 @@ fn pendulum() -> PendulumKernel {
     Pendulum { g: 9.81 }.kernel().expect("a pendulum")
 }
 
-fn top() -> TopKernel {
-    Top::toy().kernel().expect("a top")
+fn top() -> TopKernel<f64> {
+    toy().kernel().expect("a top")
 }
 
 /// A pendulum by a control of two numbers, with events and a jump.

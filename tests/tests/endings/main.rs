@@ -9,7 +9,7 @@ use gauss_runtime::integrate::{DEFAULT_LIMIT, Part, Summary};
 use gauss_runtime::prelude::*;
 use gauss_tests::watchdog::within;
 
-use scenes::{Angles, Comet, Inclined, Moon, Pendulum, Rodrigues, Slider, Spring, Top, one};
+use scenes::{Angles, Comet, Inclined, Moon, Pendulum, Rodrigues, Slider, Spring, one, toy};
 
 /// Seconds in which each of these runs ends, on a slow machine that does other things too.
 const SOON: u64 = 60;
@@ -83,7 +83,7 @@ fn what_is_too_fast_is_told_at_once() {
                 assert!(matches!(error.kind, IntegrationErrorKind::TooFast { rate, .. } if rate > 1e149), "{error}");
             }
         }
-        let top = Top::toy().kernel().expect("a top");
+        let top = toy().kernel().expect("a top");
         let spin = Vector3::z() * 1e150;
         let error =
             refusal(Simulation::new(&top).adaptive(1e-9, 1e-9).attempt(UnitQuaternion::identity(), spin, 0.0..1.0));

@@ -1,6 +1,7 @@
 //! Scenes on which runs could end badly.
 
 use gauss_runtime::prelude::*;
+use gauss_tests::top::Top;
 
 /// One coordinate, or one speed.
 pub fn one(x: f64) -> SVector<f64, 1> {
@@ -28,26 +29,11 @@ pub struct Rodrigues {
 }
 
 /// A heavy top in ω.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
-pub struct Top {
-    #[gauss(mass)]
-    pub mass: f64,
-    #[gauss(center_of_mass)]
-    pub center: Vector3<f64>,
-    #[gauss(inertia)]
-    pub inertia: Vector3<f64>,
-    #[gauss(gravity)]
-    pub g: f64,
+pub fn toy() -> Top<f64> {
+    Top { mass: 1.0, center: Vector3::z() * 0.4, inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 }
 }
 
-impl Top {
-    pub fn toy() -> Self {
-        Self { mass: 1.0, center: Vector3::z() * 0.4, inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 }
-    }
-}
-
-/// The same in any scalar.
+/// A free one in any scalar.
 #[derive(GaussDynamics)]
 #[gauss(motion = fixed_point)]
 pub struct GenericTop<T> {
@@ -80,7 +66,7 @@ pub struct Inclined {
 
 impl Inclined {
     pub fn toy() -> Self {
-        let Top { mass, center, inertia, g } = Top::toy();
+        let Top { mass, center, inertia, g } = toy();
         Self { mass, center, inertia, g }
     }
 }

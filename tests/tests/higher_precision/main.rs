@@ -2,21 +2,9 @@
 
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
+use gauss_tests::top::Top;
 use gauss_tests::trajectory::reference;
 use serde_json::Value;
-
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point, taylor)]
-struct Top<T> {
-    #[gauss(mass)]
-    mass: T,
-    #[gauss(center_of_mass)]
-    center: Vector3<T>,
-    #[gauss(inertia)]
-    inertia: Vector3<T>,
-    #[gauss(gravity)]
-    g: T,
-}
 
 #[derive(GaussDynamics)]
 #[gauss(

@@ -2,20 +2,7 @@
 
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::Scene;
-
-/// A top whose axes are principal.
-#[derive(GaussDynamics)]
-#[gauss(chart = left_invariant, motion = fixed_point)]
-pub struct Top {
-    #[gauss(mass)]
-    pub mass: f64,
-    #[gauss(center_of_mass)]
-    pub center: Vector3<f64>,
-    #[gauss(inertia)]
-    pub principal: Vector3<f64>,
-    #[gauss(gravity)]
-    pub gravity: f64,
-}
+use gauss_tests::top::{Top, TopKernel};
 
 /// A top with products of inertia.
 #[derive(GaussDynamics)]
@@ -93,9 +80,9 @@ pub struct Dragged {
 }
 
 /// The top of a scene; without gravity where the scene has none.
-pub fn top(scene: &Scene) -> TopKernel {
+pub fn top(scene: &Scene) -> TopKernel<f64> {
     let p = &scene.parameters;
-    Top { mass: p.mass, center: p.center, principal: p.principal, gravity: p.gravity }.kernel().expect("a top")
+    Top { mass: p.mass, center: p.center, inertia: p.principal, g: p.gravity }.kernel().expect("a top")
 }
 
 /// The free body of a scene.

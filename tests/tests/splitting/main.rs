@@ -3,14 +3,17 @@
 
 mod bodies;
 
-use bodies::{Afloat, Dragged, Observed, OffCentre, Skewed, TopKernel, attitude_error, flying, top};
+use bodies::{Afloat, Dragged, Observed, OffCentre, Skewed, attitude_error, flying, top};
 use gauss_runtime::integrate::{OneStep, Scheme, Splitting, SplittingError};
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::Scene;
+use gauss_tests::top::TopKernel;
 
 const EPSILON: f64 = f64::EPSILON;
 
-fn run(scene: &Scene, kernel: &TopKernel, method: &(impl OneStep<TopKernel> + Copy), steps: u32) -> Sample<TopKernel> {
+type Top = TopKernel<f64>;
+
+fn run(scene: &Scene, kernel: &Top, method: &(impl OneStep<Top> + Copy), steps: u32) -> Sample<Top> {
     Simulation::new(kernel)
         .momentum_form()
         .control(Fixed::by(*method, scene.duration / f64::from(steps)))
@@ -126,7 +129,7 @@ fn heavy_tops_as_measured_elsewhere() {
 
 /// A hundred thousand steps: the energy swings and does not drift, the momentum about gravity is kept up to rounding of random
 /// sign, the quaternion has norm 1.
-fn keeps_energy_and_momentum(scene: &Scene, kernel: &TopKernel, method: &(impl OneStep<TopKernel> + Copy)) {
+fn keeps_energy_and_momentum(scene: &Scene, kernel: &Top, method: &(impl OneStep<Top> + Copy)) {
     let (q, z) = (scene.initial.pose().rotation, scene.initial.omega);
     let (steps, h) = (100_000_u32, 0.1);
     let about_gravity = |q: &UnitQuaternion<f64>, p: &Vector3<f64>| (q * p).z;

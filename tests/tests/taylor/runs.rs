@@ -3,23 +3,11 @@
 use gauss_runtime::integrate::{IntegrationErrorKind, Part};
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::{Scene, quaternion_of};
+use gauss_tests::top::{Top, TopKernel};
 
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point, taylor)]
-struct Top {
-    #[gauss(mass)]
-    mass: f64,
-    #[gauss(center_of_mass)]
-    center: Vector3<f64>,
-    #[gauss(inertia)]
-    inertia: Vector3<f64>,
-    #[gauss(gravity)]
-    gravity: f64,
-}
-
-fn top(scene: &Scene) -> TopKernel {
+fn top(scene: &Scene) -> TopKernel<f64> {
     let p = &scene.parameters;
-    Top { mass: p.mass, center: p.center, inertia: p.principal, gravity: p.gravity }.kernel().expect("a top")
+    Top { mass: p.mass, center: p.center, inertia: p.principal, g: p.gravity }.kernel().expect("a top")
 }
 
 /// The largest error of an entry of R at the end, and the number of steps.

@@ -7,7 +7,7 @@ use super::role_words::{ROLES, SYSTEM_ROLES};
 use super::shapes::{self, Reading, TypeKind};
 use super::statements::{self, STATEMENTS};
 use super::struct_clauses::CLAUSES;
-use super::{units, words};
+use super::{synonyms, units, words};
 use crate::model::scene::roles::{Role, Shape};
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Data, DeriveInput, Expr, ExprLit, FieldsNamed, Generics, Lit, Meta, Type};
@@ -182,6 +182,11 @@ impl Reader<'_> {
         }
         if words::nearest(word, ROLES).is_none() && words::nearest(word, &[(UNIT, ())]).is_some() {
             context.error(span, format!("unknown role `{word}`; did you mean `{UNIT}`?"));
+            return;
+        }
+        if let Some((meant, remedy)) = synonyms::instead(word, synonyms::FOR_ROLES) {
+            context.error(span, format!("unknown role `{word}`; {remedy}"));
+            self.meant.extend(meant);
             return;
         }
         if let Err(Some(meant)) =

@@ -20,5 +20,6 @@ pub mod role_words;
 pub mod shapes;
 pub mod statements;
 pub mod struct_clauses;
+pub mod synonyms;
 pub mod units;
 pub mod words;

@@ -2,7 +2,7 @@
 //! potential, the dissipation function, and the limit on the size of the code.
 
 use super::arguments::{self, brackets, equals, value};
-use super::attributes::{self, Clause, Owner};
+use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::declarations::{self, Definition, Kinematics, Names};
 use super::words::{self, Table, same};
@@ -403,16 +403,27 @@ fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintC
         return None;
     }
     let (arguments, _) = arguments::arguments(group, Owner::Constraint, context);
-    let mut read = None;
-    for (index, argument) in arguments.iter().enumerate() {
+    let (mut read, mut several) = (None, false);
+    for argument in &arguments {
         let name = &argument.name;
+        if matches!(argument.value, Content::Absent) && words::nearest(&argument.word(), CONSTRAINT).is_none() {
+            context.error(
+                name.span(),
+                format!(
+                    "a constraint has no name: nothing refers to it; write `constraint(position = …)` or \
+                     `constraint(velocity = …)` without `{name}`"
+                ),
+            );
+            continue;
+        }
         let Ok(kind) = words::resolve("argument of `constraint`:", name, CONSTRAINT, context) else { continue };
-        if index > 0 {
+        if several {
             context.error(
                 name.span(),
                 format!("a clause has one constraint; write `constraint({name} = …)` in a clause of its own"),
             );
         }
+        several = true;
         let example = match kind {
             ConstraintKind::Position => "x - l",
             ConstraintKind::Velocity => "v - r * w",

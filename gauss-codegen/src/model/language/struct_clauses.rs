@@ -12,6 +12,7 @@ use super::robots::{self, FILES, RobotClauses};
 use super::role_clauses;
 use super::role_words::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
+use super::synonyms;
 use super::words::{self, Table};
 use crate::model::scene::charts::{Chart, InChart, Motion, RotationChart};
 use crate::model::scene::model::Wanted;
@@ -124,7 +125,7 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
         } else if let Some(&(_, topic)) = CLAUSES.iter().find(|(name, _)| *name == word) {
             topics.read(topic, &clause, context);
         } else {
-            refuse(&clause, &word, own, beside_file, context);
+            refuse(&clause, &word, beside_file, context);
             statements.miss(&clause);
         }
     }
@@ -199,7 +200,7 @@ impl Topics {
 }
 
 /// Notes why a clause is none of the struct's.
-fn refuse(clause: &Clause, word: &str, own: bool, beside_file: bool, context: &mut Context) {
+fn refuse(clause: &Clause, word: &str, beside_file: bool, context: &mut Context) {
     let span = clause.name.span();
     let message = if word == UNIT {
         "units are those of fields and inputs; write `#[gauss(unit = \"N\")]` on a field, or `input(thrust = \"N\")`"
@@ -221,19 +222,31 @@ fn refuse(clause: &Clause, word: &str, own: bool, beside_file: bool, context: &m
         format!("`{word}` is a motion; write `motion = {word}`")
     } else if ROTATIONS.iter().any(|(name, _)| *name == word) {
         format!("`{word}` is a rotation chart; write `chart = jet({word})`")
+    } else if let Some(remedy) = synonyms::instead(word, synonyms::FOR_CLAUSES) {
+        format!("unknown clause `{word}`; {remedy}")
     } else if let Some(name) = words::nearest(word, CLAUSES).map(|(name, _)| name).or(robots::near(word, beside_file)) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
     } else if let Some((name, _)) = words::nearest(word, STATEMENTS) {
         format!("unknown clause `{word}`; did you mean `{name}`?")
-    } else if own {
-        format!(
-            "unknown clause `{word}`; expected {}, `crate`, `taylor`, `linearize`, `regressor`, `frames` or `methods`",
-            words::list(STATEMENTS).replace(" or ", ", ")
-        )
     } else {
-        format!("unknown clause `{word}`; expected {}, or what acts, such as `force(…)`", words::list(CLAUSES))
+        format!("unknown clause `{word}`; {}", all_clauses())
     };
     context.error(span, message);
+}
+
+/// What the struct can say, by what it is about.
+fn all_clauses() -> String {
+    let names = |chosen: &dyn Fn(Statement) -> bool| {
+        STATEMENTS.iter().filter(|(_, statement)| chosen(*statement)).map(|&(name, _)| (name, ())).collect::<Vec<_>>()
+    };
+    let topics = |chosen: &dyn Fn(Topic) -> bool| {
+        CLAUSES.iter().filter(|(_, topic)| chosen(*topic)).map(|&(name, _)| (name, ())).collect::<Vec<_>>()
+    };
+    let of_motion = |topic| matches!(topic, Topic::Chart | Topic::Motion);
+    let moves = [topics(&of_motion), names(&Statement::makes_system)].concat();
+    let (acts, wanted) = (names(&|statement| !statement.makes_system()), topics(&|topic| !of_motion(topic)));
+    let [moves, acts, wanted] = [moves, acts, wanted].map(|table| words::list(&table));
+    format!("what moves is said by {moves}, what acts and more by {acts}, and what is wanted by {wanted}")
 }
 
 fn read_chart(clause: &Clause, context: &mut Context) -> Option<Written> {

@@ -313,13 +313,7 @@ impl<P, O, E, M> Simulation<P, Adaptive<M>, O, E> {
     }
 }
 
-impl<S, P, C, O, E> Simulation<P, C, O, E>
-where
-    S: GaussSystem,
-    P: Problem<System = S>,
-    O: Observer<S>,
-    E: Events<S>,
-{
+impl<P, C, O, E> Simulation<P, C, O, E> {
     /// Integrates from (q₀, z₀) over the interval, which may run backwards, and keeps every sample. The
     /// [`Trajectory`] gives the states between them as well, [as accurate as they are](Trajectory::at), for which it
     /// borrows the kernel.
@@ -327,16 +321,17 @@ where
     /// # Errors
     /// When the run does not reach the end; [`attempt`](Self::attempt) then gives what there is.
     #[cfg(feature = "alloc")]
-    pub fn run<'t>(
+    pub fn run<'t, S: GaussSystem>(
         self,
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
     ) -> Result<Trajectory<'t, S>, IntegrationError>
     where
-        P: 't,
-        C: 't,
-        C: Control<S>,
+        P: Problem<System = S> + 't,
+        C: Control<S> + 't,
+        O: Observer<S>,
+        E: Events<S>,
     {
         match self.attempt(q0, z0, interval) {
             (trajectory, None) => Ok(trajectory),
@@ -347,16 +342,17 @@ where
     /// Like [`run`](Self::run), but gives the trajectory up to the last good state when the end is not reached, with the
     /// reason.
     #[cfg(feature = "alloc")]
-    pub fn attempt<'t>(
+    pub fn attempt<'t, S: GaussSystem>(
         self,
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
     ) -> (Trajectory<'t, S>, Option<IntegrationError>)
     where
-        P: 't,
-        C: 't,
-        C: Control<S>,
+        P: Problem<System = S> + 't,
+        C: Control<S> + 't,
+        O: Observer<S>,
+        E: Events<S>,
     {
         let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, observer, events, every, limit } = self;
@@ -371,14 +367,17 @@ where
     ///
     /// # Errors
     /// When the run does not reach the end.
-    pub fn run_to_end(
+    pub fn run_to_end<S: GaussSystem>(
         self,
         q0: S::Configuration,
         z0: S::Speeds,
         interval: Range<S::Scalar>,
     ) -> Result<End<S>, IntegrationError>
     where
+        P: Problem<System = S>,
         C: Control<S>,
+        O: Observer<S>,
+        E: Events<S>,
     {
         let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, mut observer, events, every, limit } = self;
@@ -391,7 +390,10 @@ where
         Ok(End { sample: problem.sample(&state), stopped_by: reached.stopped_by, summary: reached.summary })
     }
 
-    fn start(&self, q0: S::Configuration, z0: &S::Speeds, t: S::Scalar) -> State<S> {
+    fn start<S: GaussSystem>(&self, q0: S::Configuration, z0: &S::Speeds, t: S::Scalar) -> State<S>
+    where
+        P: Problem<System = S>,
+    {
         self.problem.state(t, q0.renormalise(), z0)
     }
 }

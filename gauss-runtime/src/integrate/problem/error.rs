@@ -170,29 +170,26 @@ pub enum Part {
     Jump,
 }
 
+impl Part {
+    /// What was found there, and the remedy.
+    fn finding(self) -> &'static str {
+        match self {
+            Self::Event => "the function of an event is undefined; give it a value wherever the run may come",
+            Self::Jump => "the state after the jump at an event is infinite or undefined; check what sets it",
+            Self::InitialState => "the initial state is undefined, or so large that squares overflow",
+            Self::Derivative => "the equations of motion are infinite or undefined here; check parameters and inputs",
+            Self::Step => {
+                "the next step is undefined, or so large that squares overflow; check parameters and inputs, and whether \
+                 the motion itself runs away"
+            }
+        }
+    }
+}
+
 impl fmt::Display for IntegrationErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NonFinite { part } => {
-                let (whence, remedy) = match part {
-                    Part::Event => {
-                        ("the function of an event is", "undefined; give it a value wherever the run may come")
-                    }
-                    Part::Jump => {
-                        ("the state after the jump at an event is", "infinite or undefined; check what sets it")
-                    }
-                    Part::InitialState => ("the initial state is", "undefined, or so large that squares overflow"),
-                    Part::Derivative => {
-                        ("the equations of motion are", "infinite or undefined here; check parameters and inputs")
-                    }
-                    Part::Step => (
-                        "the next step is",
-                        "undefined, or so large that squares overflow; check parameters and inputs, and whether the motion \
-                         itself runs away",
-                    ),
-                };
-                write!(f, "{whence} {remedy}")
-            }
+            Self::NonFinite { part } => f.write_str(part.finding()),
             Self::StepTooSmall { step } => write!(
                 f,
                 "steps shrink to {step:.1e} and less: the motion is singular here, or a force jumps where nothing can move as it \

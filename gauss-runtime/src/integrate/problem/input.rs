@@ -58,6 +58,12 @@ assert!((end.q.translation.vector - Vector3::new(1.0, 2.0, 0.0)).norm() < 1e-6 &
 ```
 "##
 )]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not give the inputs of `{S}`",
+    label = "this needs a function of time, configuration and speeds that returns the inputs",
+    note = "write the closure within the call, `.input(|t, q, z| SVector::from([…]))`, or give its arguments types where it \
+            stands alone: `let motor = |t: f64, q: &_, z: &_| SVector::from([…]);`"
+)]
 pub trait InputSource<S: GaussSystem> {
     /// The input at time t in the state (q, z).
     fn input(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input;
@@ -67,9 +73,26 @@ pub trait InputSource<S: GaussSystem> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoInput;
 
-impl<S: GaussSystem<Input = ()>> InputSource<S> for NoInput {
+impl<S: GaussSystem<Input: Absent>> InputSource<S> for NoInput {
     #[inline(always)]
-    fn input(&self, _: S::Scalar, _: &S::Configuration, _: &S::Speeds) {}
+    fn input(&self, _: S::Scalar, _: &S::Configuration, _: &S::Speeds) -> S::Input {
+        S::Input::NONE
+    }
+}
+
+/// The inputs of a scene that has none.
+#[diagnostic::on_unimplemented(
+    message = "it is not said what the inputs are: the scene has some, and they have no source",
+    label = "this run has no `.input(…)`",
+    note = "add `.input(|t, q, z| SVector::from([…]))` before the run, with a number for each input in the order of the scene"
+)]
+pub trait Absent {
+    /// Nothing.
+    const NONE: Self;
+}
+
+impl Absent for () {
+    const NONE: Self = ();
 }
 
 /// An input given by a function of time and state: a control law, or a table.

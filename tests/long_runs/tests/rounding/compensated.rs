@@ -1,5 +1,6 @@
 //! How rounding errors grow with the number of steps, carried and not.
 
+use gauss_long_runs::steps;
 use gauss_runtime::integrate::{Collocation, Compensated, Fixed, Simulation, Tableau};
 use gauss_runtime::prelude::*;
 use gauss_runtime::system::Smoothness;
@@ -78,7 +79,7 @@ fn expected(n: u32) -> f64 {
 
 #[test]
 fn rounding_grows_like_the_root_of_the_number_of_steps() {
-    for n in [1 << 12, 1 << 14, 1 << 16, 1 << 18] {
+    for n in [1 << 12, 1 << 14, steps(1 << 18)] {
         let [carried, plain] = rounding(n);
         assert!(carried < expected(n), "{n}: {carried:e}");
         assert!(plain > 20.0 * carried, "{n}: {carried:e}, not carried {plain:e}");
@@ -91,7 +92,7 @@ fn quadratic_integrals_are_kept_to_rounding() {
     let start = start_by_velocity();
     let p0 = TOP.momentum(0.0, &start.q, &start.y);
     let energy = TOP.kinetic_energy(0.0, &start.q, &start.y);
-    let n = 1 << 16;
+    let n = steps(1 << 16);
     let run = Simulation::new(&TOP).input_from(NONE).momentum_form();
     let end = run.control(Compensated::by(Collocation::order_6(), STEP));
     let end = end.run_to_end(start.q, start.y, 0.0..f64::from(n) * STEP).expect("runs");
@@ -109,7 +110,7 @@ fn quadratic_integrals_are_kept_to_rounding() {
 fn rounded_coefficients_do_not_add_up() {
     let start = start_by_velocity();
     let energy = TOP.kinetic_energy(0.0, &start.q, &start.y);
-    let n = 1 << 19;
+    let n = steps(1 << 19);
     let run = Simulation::new(&TOP).input_from(NONE).control(Compensated::with(&Tableau::DORMAND_PRINCE_8, 1.0 / 60.0));
     let end = run.run_to_end(start.q, start.y, 0.0..f64::from(n) / 60.0).expect("runs");
     let error = TOP.kinetic_energy(0.0, &end.q, &end.z) / energy - 1.0;
@@ -124,7 +125,7 @@ fn rounded_coefficients_do_not_add_up() {
 fn attitudes_do_not_drift() {
     let start = start_by_velocity();
     let momentum = start.q * TOP.momentum(0.0, &start.q, &start.y);
-    let n = 1 << 18;
+    let n = steps(1 << 18);
     let run = Simulation::new(&TOP).input_from(NONE).momentum_form();
     let run = run.control(Fixed::by(Collocation::order_6(), STEP));
     let end = run.run_to_end(start.q, start.y, 0.0..f64::from(n) * STEP).expect("runs");

@@ -1,5 +1,6 @@
-//! What the energy–momentum method keeps of a top typed by hand, over 10⁵ steps.
+//! What the energy–momentum method keeps of a top typed by hand, over up to 10⁵ steps.
 
+use gauss_long_runs::steps;
 use gauss_runtime::integrate::{
     Compensated, Composed, Composition, EnergyMomentum, Feedback, OneStep, Simulation, State, SystemProblem,
 };
@@ -31,7 +32,7 @@ fn slope(samples: &[f64], steps: u32) -> f64 {
     (over / under).abs() * n / f64::from(steps)
 }
 
-/// 10⁵ steps: the largest deviation of what is kept is a walk of roundings, and has no slope beyond that of a walk.
+/// The largest deviation of what is kept is a walk of roundings, and has no slope beyond that of a walk.
 fn stays<const K: usize>(
     method: &impl OneStep<FreeTop<f64>>,
     input: Feedback<Torque>,
@@ -39,7 +40,8 @@ fn stays<const K: usize>(
     h: f64,
     roundings: f64,
 ) {
-    let (steps, every) = (100_000_u32, 1000);
+    let steps = steps(100_000);
+    let every = steps / 100;
     let problem = SystemProblem { system: &TOP, form: MomentumForm, input };
     let mut state = start_by_momentum();
     let first = kept(&state);
@@ -123,9 +125,9 @@ fn other_potentials_are_kept_with_more_points() {
 #[test]
 fn carried_increments_make_less_rounding() {
     let run = |control| Simulation::new(&TOP).input_from(NONE).momentum_form().control(control);
-    let start = start_by_velocity();
-    let end = run(Compensated::by(method(), 0.05)).run_to_end(start.q, start.y, 0.0..5000.0).expect("runs");
+    let (start, n) = (start_by_velocity(), f64::from(steps(100_000)));
+    let end = run(Compensated::by(method(), 0.05)).run_to_end(start.q, start.y, 0.0..0.05 * n).expect("runs");
     let drift = (end.q * end.p - start.q * TOP.momentum(0.0, &start.q, &start.y)).amax();
     // One rounding of q and p at the end, and a walk of √n h ε.
-    assert!(drift < (4.0 + 0.05 * 4.0 * 100_000_f64.sqrt()) * f64::EPSILON, "{drift:e}");
+    assert!(drift < (4.0 + 0.05 * 4.0 * n.sqrt()) * f64::EPSILON, "{drift:e}");
 }

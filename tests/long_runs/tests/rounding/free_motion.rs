@@ -1,5 +1,6 @@
-//! Free bodies over 10⁶ steps of the exact motion and of the discrete one.
+//! Free bodies over up to 10⁶ steps of the exact motion and of the discrete one.
 
+use gauss_long_runs::steps;
 use gauss_runtime::integrate::body::FreeMotion;
 use gauss_runtime::integrate::{FreeFlow, MoserVeselov};
 use gauss_runtime::lie::so3;
@@ -43,7 +44,7 @@ fn long_runs_do_not_drift() {
         assert!((state.0.coords.norm_squared() - 1.0).abs() <= 4.0 * EPSILON);
     };
     let discrete = MoserVeselov::new(i);
-    check(&|state| advance(&discrete, state, 0.1), 1_000_000, 10.0);
+    check(&|state| advance(&discrete, state, 0.1), steps(1_000_000), 10.0);
     let exact = FreeFlow::new(i);
-    check(&|state| advance(&exact, state, 0.1), 1_000_000, 4.0 / 3.0_f64.sqrt());
+    check(&|state| advance(&exact, state, 0.1), steps(1_000_000), 4.0 / 3.0_f64.sqrt());
 }

@@ -1,4 +1,4 @@
-//! How rounding grows over 10⁵ steps and more, on the bodies typed by hand that the tests of the runtime have: a kernel
+//! How rounding grows over tens of thousands of steps and more, on the bodies typed by hand that the tests of the runtime have: a kernel
 //! would add rounding of its own.
 
 // Modules that the included ones know as those of their crate.

@@ -77,6 +77,20 @@ fn clauses() {
 }
 
 #[test]
+fn a_name() {
+    let unnamed = "a constraint has no name: nothing refers to it; write `constraint(position = …)` or \
+                   `constraint(velocity = …)` without `closing`";
+    mistake("constraint(closing, position = x - y)", "closing", unnamed);
+    check(
+        &moving("constraint(position = x - y, closing, velocity = v)"),
+        &[
+            ("closing", unnamed),
+            ("velocity", "a clause has one constraint; write `constraint(velocity = …)` in a clause of its own"),
+        ],
+    );
+}
+
+#[test]
 fn kinds() {
     mistake(
         "constraint(position = arm.rotation)",

@@ -1,0 +1,192 @@
+//! Words of the field that the language does not have, and what says the same in it.
+
+use super::words::Table;
+use crate::model::scene::roles::Role;
+
+/// What is written in the place of `word`, if it is a word of this table; case and underscores count for nothing.
+pub fn instead<T: Copy>(word: &str, table: &Table<T>) -> Option<T> {
+    let plain = |name: &str| name.replace('_', "").to_lowercase();
+    table.iter().find(|(name, _)| plain(name) == plain(word)).map(|&(_, entry)| entry)
+}
+
+const STATES: &str = "what the configuration is made of is declared by `coordinates(x, pose: Pose)`";
+const RATES: &str = "speeds of one's own are `speeds(v), kinematics(x = v)`; without them the rates are taken";
+const LINK: &str = "a rigid body is `body(arm, parent = other, position = […], rotation = …)`";
+const HINGE: &str = "a hinge is a body that a coordinate turns: `coordinates(angle), \
+                     body(arm, parent = other, rotation = rotation_z(angle))`";
+const SLIDER: &str = "a slider is a body that a coordinate moves: `coordinates(x), body(cart, parent = other, \
+                      position = [x, 0, 0])`";
+const BALL: &str = "a ball joint is a coordinate that is a rotation: `coordinates(turn: Rotation), \
+                    body(arm, parent = other, rotation = turn)`";
+const FIXED: &str = "what is fixed in a body is `frame(name, parent = other, position = […])`, or `point(…)`";
+const POINT_MASS: &str = "a point with mass is `particle(mass = m, position = […])`";
+const MOMENT: &str = "a moment is `torque(body = other, value = [0, 0, m])`";
+const THRUST: &str = "what arrives at run time is an input, and acts by a clause: `input(thrust), force(body = hull, at = […], \
+                      value = [thrust, 0, 0])`";
+const MOTOR: &str = "a motor is an input with a torque and its reaction: `input(motor), torque(body = wheel, \
+                     value = [0, 0, motor], reaction = hull)`, or `drive(angle = motor)`";
+const INPUT: &str = "what arrives at run time is declared by `input(name)`, and acts where `force(…)`, `torque(…)` or \
+                     `drive(…)` names it";
+const LOAD: &str = "a force is `force(body = hull, at = […], value = […])`";
+const WEIGHT: &str = "weight is `gravity = 9.81` here, or a field with `#[gauss(gravity)]`; it acts on all mass";
+const BUOYANCY: &str = "buoyancy is `displaced_mass` with `center_of_buoyancy`: roles of fields, or arguments of \
+                        `body(…)`; it needs `gravity`";
+const STREAM: &str = "a wind or a current is `medium(velocity = […])`: drags and added mass feel it";
+const RESISTANCE: &str = "resistance is `drag(linear = [six numbers], quadratic = [six numbers])`, or `force(…)` with \
+                          `body.relative_velocity` in its value";
+const LIFT: &str = "lift is `force(body = hull, at = […], value = […])`, with `body.relative_velocity` and a `function(…)` or a \
+                    `table(…)` in its value";
+const DAMPER: &str = "a damper is `friction(along = x, viscous = c)`, or `damping = c` of a `spring(…)`";
+const ROLLING: &str = "what rolls or does not slip is `constraint(velocity = …)`; a loop is `constraint(position = …)`";
+const CONTACT: &str =
+    "a contact is `stop(along = height, least = 0, stiffness = k, width = e)`; friction is `force(…)`";
+const RANGE: &str = "limits of a coordinate are `stop(along = x, least = a, most = b, stiffness = k, width = e)`";
+const GEAR: &str = "a gear is one coordinate for both: `rotation = rotation_z(n * angle)`; the inertia of a rotor behind \
+                    it is `armature(angle = a)`";
+const ROTOR: &str = "a wheel is a body that a coordinate turns: `coordinates(angle), body(wheel, parent = hull, \
+                     rotation = rotation_z(angle), mass = m, inertia = [a, a, c])`";
+const ENERGY: &str = "the kinetic energy follows from what has mass; a potential is `potential = …`";
+const INTEGRATOR: &str = "how to integrate is said at run time: `Simulation::new(&kernel).adaptive(1e-9, 1e-12)`";
+const PARAMETER: &str = "the fields of the struct are its parameters, by their names";
+const DERIVATIVES: &str = "derivatives of the equations are `linearize`; Jacobians of bodies and frames `frames(…)`";
+const POSITION: &str = "where something is belongs into its clause: `body(arm, position = […], rotation = …)`";
+const UNITS: &str = "units are those of fields and inputs: `#[gauss(unit = \"N\")]`, `input(thrust = \"N\")`";
+const REFERENCE: &str =
+    "the observer needs no clause; what moves in a way that is known is `frame(name, position = …)`";
+
+/// In the place of a clause of the struct.
+pub const FOR_CLAUSES: &Table<&'static str> = &[
+    ("state", STATES),
+    ("states", STATES),
+    ("dof", STATES),
+    ("degrees_of_freedom", STATES),
+    ("generalized_coordinates", STATES),
+    ("generalised_coordinates", STATES),
+    ("configuration", STATES),
+    ("velocity", RATES),
+    ("velocities", RATES),
+    ("quasi_velocities", RATES),
+    ("rates", RATES),
+    ("link", LINK),
+    ("rigid_body", LINK),
+    ("hinge", HINGE),
+    ("joint", HINGE),
+    ("revolute", HINGE),
+    ("pin", HINGE),
+    ("pivot", HINGE),
+    ("axle", HINGE),
+    ("slider", SLIDER),
+    ("prismatic", SLIDER),
+    ("rail", SLIDER),
+    ("ball_joint", BALL),
+    ("spherical", BALL),
+    ("fixed", FIXED),
+    ("weld", FIXED),
+    ("site", FIXED),
+    ("marker", FIXED),
+    ("point_mass", POINT_MASS),
+    ("moment", MOMENT),
+    ("couple", MOMENT),
+    ("thrust", THRUST),
+    ("thruster", THRUST),
+    ("propeller", THRUST),
+    ("engine", THRUST),
+    ("motor", MOTOR),
+    ("actuator", MOTOR),
+    ("servo", MOTOR),
+    ("control", INPUT),
+    ("controls", INPUT),
+    ("command", INPUT),
+    ("inputs", INPUT),
+    ("load", LOAD),
+    ("push", LOAD),
+    ("external_force", LOAD),
+    ("weight", WEIGHT),
+    ("gravitation", WEIGHT),
+    ("g", WEIGHT),
+    ("buoyancy", BUOYANCY),
+    ("displacement", BUOYANCY),
+    ("wind", STREAM),
+    ("current", STREAM),
+    ("stream", STREAM),
+    ("flow", STREAM),
+    ("water", STREAM),
+    ("resistance", RESISTANCE),
+    ("aerodynamics", RESISTANCE),
+    ("hydrodynamics", RESISTANCE),
+    ("lift", LIFT),
+    ("wing", LIFT),
+    ("rudder", LIFT),
+    ("fin", LIFT),
+    ("damper", DAMPER),
+    ("dashpot", DAMPER),
+    ("viscous", DAMPER),
+    ("rolling", ROLLING),
+    ("no_slip", ROLLING),
+    ("nonholonomic", ROLLING),
+    ("holonomic", ROLLING),
+    ("loop_closure", ROLLING),
+    ("contact", CONTACT),
+    ("ground", CONTACT),
+    ("floor", CONTACT),
+    ("range", RANGE),
+    ("limits", RANGE),
+    ("joint_limits", RANGE),
+    ("bumper", RANGE),
+    ("gear", GEAR),
+    ("transmission", GEAR),
+    ("rotor", ROTOR),
+    ("wheel", ROTOR),
+    ("flywheel", ROTOR),
+    ("kinetic_energy", ENERGY),
+    ("lagrangian", ENERGY),
+    ("energy", ENERGY),
+    ("integrator", INTEGRATOR),
+    ("solver", INTEGRATOR),
+    ("timestep", INTEGRATOR),
+    ("parameter", PARAMETER),
+    ("parameters", PARAMETER),
+    ("constant", PARAMETER),
+    ("jacobian", DERIVATIVES),
+    ("derivatives", DERIVATIVES),
+    ("position", POSITION),
+    ("rotation", POSITION),
+    ("units", UNITS),
+    ("world", REFERENCE),
+    ("observer", REFERENCE),
+];
+
+/// In the place of the role of a field: what is meant, if it is a role.
+pub const FOR_ROLES: &Table<(Option<Role>, &'static str)> = &[
+    ("m", (Some(Role::Mass), "write `mass`")),
+    ("weight", (Some(Role::Gravity), "weight follows from `mass` and `gravity`")),
+    ("g", (Some(Role::Gravity), "write `gravity`")),
+    ("gravitation", (Some(Role::Gravity), "write `gravity`")),
+    ("com", (Some(Role::CenterOfMass), "write `center_of_mass`, from O in body axes")),
+    ("cog", (Some(Role::CenterOfMass), "write `center_of_mass`, from O in body axes")),
+    ("cg", (Some(Role::CenterOfMass), "write `center_of_mass`, from O in body axes")),
+    ("center_of_gravity", (Some(Role::CenterOfMass), "write `center_of_mass`, from O in body axes")),
+    ("centre_of_gravity", (Some(Role::CenterOfMass), "write `center_of_mass`, from O in body axes")),
+    ("centroid", (Some(Role::CenterOfMass), "write `center_of_mass`, from O in body axes")),
+    ("moment_of_inertia", (Some(Role::Inertia), "write `inertia`, about O in body axes")),
+    ("moments_of_inertia", (Some(Role::Inertia), "write `inertia`, about O in body axes")),
+    ("inertia_tensor", (Some(Role::Inertia), "write `inertia`, about O in body axes")),
+    ("principal_moments", (Some(Role::Inertia), "write `inertia`, about O in body axes")),
+    ("cob", (Some(Role::CenterOfBuoyancy), "write `center_of_buoyancy`, from O in body axes")),
+    ("cb", (Some(Role::CenterOfBuoyancy), "write `center_of_buoyancy`, from O in body axes")),
+    ("buoyancy", (Some(Role::DisplacedMass), "write `displaced_mass`, in kg")),
+    ("volume", (Some(Role::DisplacedMass), "write `displaced_mass`: the density of the fluid times the volume, in kg")),
+    ("displacement", (Some(Role::DisplacedMass), "write `displaced_mass`, in kg")),
+    ("added_inertia", (Some(Role::AddedMass), "write `added_mass`, six numbers or a matrix")),
+    ("hydrodynamic_mass", (Some(Role::AddedMass), "write `added_mass`, six numbers or a matrix")),
+    ("rigid_body", (Some(Role::Body), "write `body`")),
+    ("parameter", (None, "a field that clauses name needs no attribute")),
+    ("constant", (None, "a field that clauses name needs no attribute")),
+    (
+        "stiffness",
+        (None, "a field that clauses name needs no attribute; a spring is the clause `spring(…)` of the struct"),
+    ),
+    ("length", (None, "a field that clauses name needs no attribute")),
+    ("position", (None, "where a body is at the start is an argument of the run, not of the struct")),
+    ("velocity", (None, "how fast a body is at the start is an argument of the run, not of the struct")),
+];

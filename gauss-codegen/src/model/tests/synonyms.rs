@@ -1,0 +1,110 @@
+//! Words of the field that the language does not have: one message, which says what is written instead.
+
+use super::{check, check_body, read, with};
+use crate::model::language::role_words::ROLES;
+use crate::model::language::statements::STATEMENTS;
+use crate::model::language::struct_clauses::CLAUSES;
+use crate::model::language::synonyms::{FOR_CLAUSES, FOR_ROLES};
+
+#[test]
+fn clauses_beside_a_chart() {
+    check_body(
+        "#[gauss(chart = hybrid, moment(value = [0, 0, 1]))]",
+        &[("moment", "unknown clause `moment`; a moment is `torque(body = other, value = [0, 0, m])`")],
+    );
+    check_body(
+        "#[gauss(Thruster = 3)]",
+        &[(
+            "Thruster",
+            "unknown clause `Thruster`; what arrives at run time is an input, and acts by a clause: `input(thrust), \
+             force(body = hull, at = […], value = [thrust, 0, 0])`",
+        )],
+    );
+}
+
+#[test]
+fn what_would_have_moved_is_not_missing_as_well() {
+    check(
+        "#[gauss(hinge(angle), body(arm, mass = 1, inertia = 1, rotation = rotation_z(angle)))] struct Arm { l: f64 }",
+        &[(
+            "hinge",
+            "unknown clause `hinge`; a hinge is a body that a coordinate turns: `coordinates(angle), \
+             body(arm, parent = other, rotation = rotation_z(angle))`",
+        )],
+    );
+}
+
+#[test]
+fn roles() {
+    check(
+        &with("#[gauss(com)] c: Vector3<f64>, #[gauss(volume)] v: f64"),
+        &[
+            ("com", "unknown role `com`; write `center_of_mass`, from O in body axes"),
+            (
+                "volume",
+                "unknown role `volume`; write `displaced_mass`: the density of the fluid times the volume, in kg",
+            ),
+        ],
+    );
+    // What is meant is not missing as well.
+    check(
+        "struct Body { #[gauss(mass)] m: f64, #[gauss(inertia_tensor)] j: Matrix3<f64> }",
+        &[("inertia_tensor", "unknown role `inertia_tensor`; write `inertia`, about O in body axes")],
+    );
+}
+
+/// No word of the language has a synonym's message, and each message is about one word.
+#[test]
+fn words_are_new_and_stand_once() {
+    let clauses: Vec<_> = FOR_CLAUSES.iter().map(|(word, _)| *word).collect();
+    let roles: Vec<_> = FOR_ROLES.iter().map(|(word, _)| *word).collect();
+    for word in &clauses {
+        assert!(!CLAUSES.iter().any(|(name, _)| name == word), "{word}");
+        assert!(!STATEMENTS.iter().any(|(name, _)| name == word), "{word}");
+        assert!(!ROLES.iter().any(|(name, _)| name == word), "{word}");
+    }
+    assert!(roles.iter().all(|word| !ROLES.iter().any(|(name, _)| name == word)));
+    for words in [clauses, roles] {
+        let mut sorted = words.clone();
+        sorted.sort_unstable();
+        sorted.dedup();
+        assert_eq!(sorted.len(), words.len());
+    }
+}
+
+/// The clauses that the messages tell to write are clauses: those that stand alone are read without complaint.
+#[test]
+fn remedies_are_read() {
+    let scene = |clauses: &str| {
+        format!(
+            "#[gauss(coordinates(x), body(hull, position = [x, 0, 0], mass = 1, inertia = 1), {clauses})] \
+             struct Scene {{ m: f64, k: f64, e: f64, a: f64, b: f64, c: f64 }}"
+        )
+    };
+    for clauses in [
+        "torque(body = hull, value = [0, 0, m])",
+        "input(thrust), force(body = hull, at = [0, 0, 0], value = [thrust, 0, 0])",
+        "particle(mass = m, position = [x, 0, 0])",
+        "gravity = 9.81, body(tank, mass = 1, inertia = 1, position = [0, x, 0], displaced_mass = m, \
+         center_of_buoyancy = [0, 0, a])",
+        "medium(velocity = [1, 0, 0]), drag(body = hull, linear = [1, 1, 1, 1, 1, 1])",
+        "friction(along = x, viscous = c)",
+        "stop(along = x, least = 0, stiffness = k, width = e)",
+        "stop(along = x, least = a, most = b, stiffness = k, width = e)",
+        "armature(x = a)",
+        "frame(site, parent = hull, position = [1, 0, 0])",
+    ] {
+        if let Err(error) = read(&scene(clauses)) {
+            panic!("{clauses}: {error}");
+        }
+    }
+    let joints = "#[gauss(coordinates(angle, x, turn: Rotation), body(hull, mass = 1, inertia = 1), \
+                  body(arm, parent = hull, rotation = rotation_z(angle), mass = m, inertia = [a, a, c]), \
+                  body(cart, parent = hull, position = [x, 0, 0], mass = 1, inertia = 1), \
+                  body(ball, parent = hull, rotation = turn, mass = 1, inertia = 1), \
+                  input(motor), torque(body = arm, value = [0, 0, motor], reaction = hull), drive(angle = motor))] \
+                  struct Scene { m: f64, a: f64, c: f64 }";
+    if let Err(error) = read(joints) {
+        panic!("{error}");
+    }
+}
