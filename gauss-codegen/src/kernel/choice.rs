@@ -49,7 +49,7 @@ impl<'g> Candidates<'g> {
         let first = Some(lowered[0].outputs).filter(|_| usable(&losses)[0]);
         let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         // A power series takes a negation of an addend for an instruction like any other.
-        let program = if self.aim == Aim::Values { program.with_signs_led_back() } else { program };
+        let program = if self.aim == Aim::Values { program.with_signs_led_back().ordered() } else { program };
         (Lowered { outputs, program, loss: losses.into_iter().nth(best).unwrap_or_default() }, first)
     }
 

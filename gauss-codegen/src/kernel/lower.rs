@@ -158,7 +158,7 @@ fn lower_together<'g>(
             parts[place] = won;
         }
     }
-    (best.0.with_signs_led_back(), best.1)
+    (best.0.with_signs_led_back().ordered(), best.1)
 }
 
 /// Symbols of constants and what they stand for.

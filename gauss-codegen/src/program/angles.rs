@@ -55,7 +55,7 @@ impl<S: Copy> Code<S> {
     }
 
     /// The same instructions in another order, given by their places in this one.
-    fn in_order(&self, order: &[usize]) -> Self {
+    pub(super) fn in_order(&self, order: &[usize]) -> Self {
         let mut places = vec![0; order.len()];
         order.iter().enumerate().for_each(|(place, &k)| places[k] = place);
         let moved = |operand: Operand<S>| operand.moved(|k| places[k]);

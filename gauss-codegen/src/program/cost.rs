@@ -76,6 +76,34 @@ pub enum Smoothness {
     Jumps,
 }
 
+impl<S: Copy> Operand<S> {
+    /// The cycle in which it is there, after those of the instructions.
+    pub(crate) fn ready(self, ready: &[u32]) -> u32 {
+        self.instruction().map_or(0, |k| ready[k])
+    }
+}
+
+impl<S: Copy> Instruction<S> {
+    /// Cycles from its operands to its result (Fog, Instruction tables: four for additions and products, fifteen for divisions and
+    /// roots; forty for inlined sines and cosines).
+    pub(super) fn cycles(&self) -> u32 {
+        match self {
+            Instruction::Negate(_) => 1,
+            Instruction::Divide(..) | Instruction::Call(Function::Sqrt, _) => 15,
+            Instruction::SineCosine(_) => 40,
+            Instruction::Call(Function::Abs | Function::Signum, _)
+            | Instruction::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => 4,
+            Instruction::Call(..) | Instruction::Binary(..) => 60,
+            _ => 4,
+        }
+    }
+
+    /// The cycle in which its result is there, after those of the instructions before it, were there no limit to what runs at once.
+    pub(crate) fn ready(&self, ready: &[u32]) -> u32 {
+        self.operands().map(|operand| operand.ready(ready)).max().unwrap_or(0) + self.cycles()
+    }
+}
+
 impl<S: Copy> Code<S> {
     /// Its operations by kind.
     pub fn counts(&self) -> Counts {
@@ -106,25 +134,13 @@ impl<S: Copy> Code<S> {
         Cost { operations: self.counts().weighted(), chain: self.chain() }
     }
 
-    /// Cycles from the arguments to the last output, were there no limit to what runs at once (Fog, Instruction tables: four for
-    /// additions and products, fifteen for divisions and roots; forty for inlined sines and cosines).
+    /// Cycles from the arguments to the last output, were there no limit to what runs at once.
     fn chain(&self) -> u32 {
         let mut ready: Vec<u32> = Vec::with_capacity(self.instructions.len());
-        let of = |operand: &Operand<S>, ready: &[u32]| operand.instruction().map_or(0, |k| ready[k]);
         for instruction in &self.instructions {
-            let own = match instruction {
-                Instruction::Negate(_) => 1,
-                Instruction::Divide(..) | Instruction::Call(Function::Sqrt, _) => 15,
-                Instruction::SineCosine(_) => 40,
-                Instruction::Call(Function::Abs | Function::Signum, _)
-                | Instruction::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => 4,
-                Instruction::Call(..) | Instruction::Binary(..) => 60,
-                _ => 4,
-            };
-            let start = instruction.operands().map(|operand| of(&operand, &ready)).max().unwrap_or(0);
-            ready.push(start + own);
+            ready.push(instruction.ready(&ready));
         }
-        self.outputs.iter().map(|output| of(output, &ready)).max().unwrap_or(0)
+        self.outputs.iter().map(|output| output.ready(&ready)).max().unwrap_or(0)
     }
 
     /// That of its roughest instruction.

@@ -40,6 +40,7 @@ mod function;
 mod input;
 mod instruction;
 mod interpret;
+mod order;
 mod print;
 mod series;
 mod signs;
