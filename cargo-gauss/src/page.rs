@@ -23,7 +23,7 @@ pub fn html(file: &str, all: &[Shown]) -> String {
 
 fn section(shown: &Shown) -> String {
     let derivation = &shown.derivation;
-    let lines: String = derivation.equations(Notation::Latex).split("\\\\\n").map(line).collect();
+    let lines: String = mathml::lines(derivation.equations(Notation::Latex)).map(line).collect();
     let rows: String = programs(derivation)
         .map(|program| {
             let cost = program.code.cost();
@@ -49,10 +49,6 @@ fn section(shown: &Shown) -> String {
 
 /// A line of an aligned environment: a heading, or one side and the other.
 fn line(line: &str) -> String {
-    let line = line.trim().trim_start_matches("\\begin{align*}").trim_end_matches("\\end{align*}").trim();
-    if line.is_empty() {
-        return String::new();
-    }
     match line.strip_prefix("&\\text{").and_then(|rest| rest.strip_suffix('}')) {
         Some(heading) => format!("<h2>{}</h2>\n", mathml::words(heading)),
         None => format!("<p>{}</p>\n", mathml::line(line)),

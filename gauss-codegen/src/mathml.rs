@@ -9,6 +9,12 @@ pub fn mathml(latex: &str) -> String {
     Reader { rest: latex }.row(End::Line)
 }
 
+/// Lines of equations, which stand in `align*` environments.
+pub fn lines(latex: &str) -> impl Iterator<Item = &str> {
+    let equations = latex.lines().filter(|line| !matches!(*line, "\\begin{align*}" | "\\end{align*}"));
+    equations.map(|line| line.strip_suffix(" \\\\").unwrap_or(line))
+}
+
 /// A line `left = a + b` with `&` before the sign of equality, as HTML that breaks before signs of its outermost sum.
 pub fn line(latex: &str) -> String {
     let (left, right) = latex.split_once('&').unwrap_or(("", latex));
@@ -36,7 +42,7 @@ pub fn escaped(text: &str) -> String {
 }
 
 /// The outermost sum in its terms, each with its sign.
-fn terms(latex: &str) -> Vec<&str> {
+pub(crate) fn terms(latex: &str) -> Vec<&str> {
     let (mut depth, mut begin, mut out) = (0_i32, 0, Vec::new());
     let bytes = latex.as_bytes();
     for at in 0..bytes.len() {

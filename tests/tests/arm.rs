@@ -194,7 +194,8 @@ fn an_evaluation_costs_what_composite_inertias_cost() {
         ("by other speeds", ArmByOtherSpeedsKernel::OPERATIONS.acceleration),
     ] {
         assert!(cost.additions + cost.multiplications <= 1500, "{name}: {cost}");
-        assert_eq!(cost.divisions, 7, "{name}: {cost}");
+        // One for each joint at most.
+        assert!(cost.divisions <= 7, "{name}: {cost}");
         // The angle of the first joint does not enter: the base does not move, and gravity is along its axis.
         assert_eq!((cost.transcendentals, cost.roots), (12, 0), "{name}: {cost}");
     }

@@ -13,7 +13,7 @@ const SHORT: [(&str, &str, &str, &str); 12] = [
     ("separatrix", "60 s", "power series", "the same, and ten times less of it"),
     ("fast_top", "150 rad/s, h", "order", "general methods resolve the spin, splitting does not need to"),
     ("fast_top", "50 rad/s, h", "order 8", "the same"),
-    ("far_away", "10 s", "observer's axes, Ω, momenta", "(Q, Γ_Ω) and ξ̂ cancel at |b|: Ω should move with the body"),
+    ("far_away", "10 s", "observer's axes, Ω", "ξ̂, and (Q, Γ_Ω) more so, cancel at |b|: Ω should move with the body"),
     (
         "needle",
         "2 s",

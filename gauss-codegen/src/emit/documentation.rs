@@ -53,14 +53,32 @@ fn text(derived: &Derived<'_, '_>, printed: &Printed) -> String {
     out
 }
 
+/// Lines of one `align*`: TeX sets it as a whole, and no box is higher than 5.7 m.
+const LINES_OF_TEX: usize = 100;
+
+/// Bytes of a right side of LaTeX before it goes on below, at a sign of its outermost sum: some hand's breadths on paper.
+const WIDTH_OF_TEX: usize = 1000;
+
 fn latex(printed: &Printed) -> String {
-    let mut out = String::from("\\begin{align*}\n");
-    for (title, lines) in printed {
-        out.push_str(&format!("&\\text{{{title}}} \\\\\n"));
-        lines.iter().for_each(|line| out.push_str(&format!("{} \\\\\n", line.replacen(" = ", " &= ", 1))));
+    let mut lines = Vec::new();
+    for (title, equations) in printed {
+        lines.push(format!("&\\text{{{title}}} \\\\\n"));
+        for equation in equations {
+            let (left, right) = equation.split_once(" = ").unwrap_or(("", equation));
+            let mut line = format!("{left} &= ");
+            let mut width = 0;
+            for term in mathml::terms(right) {
+                if width > 0 && width + term.len() > WIDTH_OF_TEX {
+                    lines.push(format!("{line} \\\\\n"));
+                    (line, width) = (String::from("&\\quad"), 0);
+                }
+                line.push_str(term);
+                width += term.len();
+            }
+            lines.push(format!("{line} \\\\\n"));
+        }
     }
-    out.push_str("\\end{align*}\n");
-    out
+    lines.chunks(LINES_OF_TEX).map(|lines| format!("\\begin{{align*}}\n{}\\end{{align*}}\n", lines.concat())).collect()
 }
 
 /// What the letters of the equations stand for: (letter, field, what its author says of it).

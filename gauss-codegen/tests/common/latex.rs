@@ -1,5 +1,7 @@
 //! Whether LaTeX is what TeX can set and a reader understands, seen from its structure alone: no TeX is needed.
 
+use gauss_codegen::mathml;
+
 /// A token of a formula.
 #[derive(Clone, Debug, PartialEq)]
 enum Token {
@@ -11,12 +13,14 @@ enum Token {
     Words(String),
 }
 
-/// What is wrong with equations: one `align*` environment.
+/// What is wrong with equations: `align*` environments.
 pub fn complaints(latex: &str) -> Vec<String> {
-    let body = latex.trim().strip_prefix("\\begin{align*}").and_then(|body| body.strip_suffix("\\end{align*}"));
+    let body = latex.strip_prefix("\\begin{align*}\n").and_then(|body| body.strip_suffix("\\end{align*}\n"));
     let Some(body) = body else { return vec!["it is no `align*` environment".into()] };
-    let lines = body.split("\\\\\n").map(str::trim).filter(|line| !line.is_empty());
-    lines.filter_map(|line| line_is_right(line).err().map(|error| format!("{error}: {line}"))).collect()
+    if body.matches("\\end{align*}\n\\begin{align*}\n").count() != body.matches("{align*}").count() / 2 {
+        return vec!["environments do not follow one another".into()];
+    }
+    mathml::lines(latex).filter_map(|line| line_is_right(line).err().map(|error| format!("{error}: {line}"))).collect()
 }
 
 fn line_is_right(line: &str) -> Result<(), String> {

@@ -56,7 +56,7 @@ fn rows(scene: &Scene) -> syn::Result<(Vec<(String, Row)>, String)> {
     let code = gauss_codegen::expand(&syn::parse_str(&scene.source)?)?;
     let equations = equations(code.clone()).unwrap_or_default();
     let mut complaints = latex::complaints(&equations);
-    complaints.extend(equations.split("\\\\\n").filter_map(left_of_latex));
+    complaints.extend(mathml::lines(&equations).filter_map(left_of_latex));
     if !complaints.is_empty() {
         return Err(syn::Error::new(proc_macro2::Span::call_site(), complaints.join("\n")));
     }
@@ -65,8 +65,7 @@ fn rows(scene: &Scene) -> syn::Result<(Vec<(String, Row)>, String)> {
 
 /// What MathML has left of a line of LaTeX, which should be nothing.
 fn left_of_latex(line: &str) -> Option<String> {
-    let line = line.trim_start_matches("\\begin{align*}\n").trim_end_matches("\\end{align*}\n");
-    let set = match line.strip_prefix("&\\text{").and_then(|rest| rest.strip_suffix("} ")) {
+    let set = match line.strip_prefix("&\\text{").and_then(|rest| rest.strip_suffix("}")) {
         Some(words) => mathml::words(words),
         None => mathml::line(line),
     };

@@ -140,8 +140,9 @@ fn steps_do_not_chase_rounding_in_coordinates_that_become_singular() {
             path.summary().steps + path.summary().rejected
         })
     });
-    // By order 8 a hundredth of the tolerance takes 1.8 times the steps, a ten thousandth 3.2 times.
-    assert!(steps.windows(2).all(|pair| pair[1] < 3 * pair[0]) && steps[3] < 5 * steps[0], "{steps:?}");
+    // By order 8 a hundredth of the tolerance takes 1.8 times the steps, a ten thousandth 3.2 times. At 1e-14, 45 roundings,
+    // the last digits of the controller decide how often a step is tried again near the end, a fifth of all: twice is noise.
+    assert!(steps.windows(2).all(|pair| pair[1] < 3 * pair[0]) && steps[3] < 7 * steps[0], "{steps:?}");
 }
 
 #[test]

@@ -14,8 +14,8 @@ use crate::mechanics::{Coordinate, Method, acceleration_by_definition};
 use super::random::Random;
 use scenes::Scene;
 
-/// How many by default: some seconds.
-const SCENES: u64 = 104;
+/// How many by default: some seconds. Of half as many one is expected to lose much, a number of which nothing can be said.
+const SCENES: u64 = 208;
 /// Changes of all numbers at once, with signs of their own, and their size.
 const CHANGES: u64 = 2;
 const CHANGE: f64 = 1.0 / (1_u64 << 44) as f64;
