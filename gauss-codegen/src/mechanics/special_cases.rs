@@ -7,7 +7,7 @@ use crate::model::{Chart, Motion};
 use crate::mechanics::check::definition::stationarity;
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, add, dot};
-use crate::mechanics::links::tree::Inertia;
+use crate::mechanics::links::inertia::Inertia;
 use crate::mechanics::loads::forces::{Action, Element, Field, Force, Loads};
 use crate::mechanics::loads::observed::Observed;
 use crate::mechanics::proof::{GENERAL, relations};

@@ -5,7 +5,7 @@ use crate::algebra::{Expr, Factored, FactoredColumns};
 use crate::mechanics::arrangements::articulated::{Articulated, JointFactors};
 use crate::mechanics::derivatives::rigid::{Motion, Rates, Solved};
 use crate::mechanics::derivatives::second::Weighted;
-use crate::mechanics::links::tree::Inertia;
+use crate::mechanics::links::inertia::Inertia;
 use crate::mechanics::matter::rotor::add_projected;
 use crate::mechanics::system::{DENSE, System};
 use crate::mechanics::tidy::sums;

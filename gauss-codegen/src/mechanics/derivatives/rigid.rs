@@ -15,8 +15,9 @@ use crate::algebra::{Expr, Map, Rational, Substitution};
 use crate::mechanics::kinematics::turn::{Turn, inward, outward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, cross_matrix, dot, is_zero, scale};
 use crate::mechanics::links::floating::Floating;
+use crate::mechanics::links::inertia::Inertia;
 use crate::mechanics::links::link::Link;
-use crate::mechanics::links::tree::{Inertia, Pairs, Tree};
+use crate::mechanics::links::tree::{Pairs, Tree};
 use crate::mechanics::loads::forces::Loads;
 use crate::mechanics::matter::moments::Moments;
 

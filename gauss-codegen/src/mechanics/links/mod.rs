@@ -3,6 +3,7 @@
 pub mod centroidal;
 pub mod floating;
 pub mod frames;
+pub mod inertia;
 pub mod link;
 pub mod regroup;
 pub mod tree;

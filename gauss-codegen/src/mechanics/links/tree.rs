@@ -6,24 +6,15 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::mechanics::kinematics::turn::{Turn, angular_acceleration, inward, outward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, scale, subtract};
 use crate::mechanics::links::floating::Floating;
-use crate::mechanics::links::link::{Description, Link, Matter, Placement, impulse, reaction};
+use crate::mechanics::links::inertia::{Inertia, acceleration_gradient, apply, force_of_inertia};
+use crate::mechanics::links::link::{Description, Link, Matter, Placement, impulse};
 use crate::mechanics::links::regroup::regroup;
 use crate::mechanics::loads::forces::{Force, Loads};
-use crate::mechanics::matter::body::Body;
 use crate::mechanics::matter::moments::Moments;
 use crate::mechanics::matter::rotor::{Rotor, add_projected};
 
 /// A linear and an angular part at the pole O of each link: momenta, forces or accelerations.
 pub type Pairs<'g> = Vec<(Vector<'g>, Triple<'g>)>;
-
-/// The rate of the angular momentum of a link: two ways to form it, one cheaper here, the other there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inertia {
-    /// `I ω̇ + ω × I ω`.
-    Tensor,
-    /// `∫x × Ξ x dm` with the acceleration field `a_O + Ξ x`, `Ξ = [ω̇]× + [ω]×²`.
-    Field,
-}
 
 /// What links that float have of their accelerations at once, seen by observers who move so.
 enum Observers<'a, 'g> {
@@ -329,7 +320,7 @@ impl<'g> Tree<'g> {
         let observers = relative.map_or(Observers::Still, Observers::Relative);
         let accelerations = self.accelerations(along, Some(loads), observers);
         let of_links = self.links.iter().zip(&accelerations);
-        let forces = of_links.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
+        let forces = of_links.map(|(link, (a, alpha))| self.inertia_force(link, (a, alpha), along, inertia)).collect();
         let forces = self.gathered(forces);
         (accelerations, forces)
     }
@@ -359,7 +350,7 @@ impl<'g> Tree<'g> {
     ) -> Pairs<'g> {
         let inertia_forces = self.links.iter().zip(accelerations);
         let mut pairs: Pairs<'g> =
-            inertia_forces.map(|(link, (a, alpha))| self.inertia_force(link, a, alpha, along, inertia)).collect();
+            inertia_forces.map(|(link, (a, alpha))| self.inertia_force(link, (a, alpha), along, inertia)).collect();
         for (link, force, torque) in loads.forces.iter().filter_map(|force| force.load(&self.links)) {
             let (linear, angular) = &mut pairs[link];
             *linear = linear.minus(&force).map(Expr::group);
@@ -468,67 +459,14 @@ impl<'g> Tree<'g> {
         accelerations
     }
 
-    /// `∫(a_P − g) dm` and `∫x × (a_P − g) dm`, and what the fluid needs to follow.
     fn inertia_force(
         &self,
         link: &Link<'g>,
-        a: &Vector<'g>,
-        alpha: &Triple<'g>,
+        (a, alpha): (&Vector<'g>, &Triple<'g>),
         along: &Map<u32, Expr<'g>>,
         inertia: Inertia,
     ) -> (Vector<'g>, Triple<'g>) {
-        let (frame, moments, w) = (&link.frame, &link.moments, &link.angular_velocity);
-        let first = &moments.first;
-        let (turning, mut torque) = match inertia {
-            Inertia::Field => {
-                let field = acceleration_gradient(w, alpha);
-                // ∫x × Ξx dm is the axial vector of Ξ J.
-                let product = |i: usize, j: usize| dot(&field[i], &moments.second[j]);
-                let torque = std::array::from_fn(|i| {
-                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                    product(k, j) - product(j, k)
-                });
-                (apply(&field, first), torque)
-            }
-            Inertia::Tensor => {
-                let tensor = moments.inertia();
-                let spin = apply(&tensor, w).map(Expr::group);
-                let turning = add(&cross(alpha, first), &cross(w, &cross(w, first).map(Expr::group)));
-                (turning, add(&apply(&tensor, alpha), &cross(w, &spin)))
-            }
-        };
-        let mut force = a.times(moments.mass).plus(&frame.body_vector(turning));
-        if !is_zero(first) {
-            torque = add(&torque, &cross(first, &frame.resolve(a, Axes::Body)));
-        }
-        if let Some(body) = link.body() {
-            let (more, moment) = self.fluid_force(link, body, along);
-            force = force.plus(&more);
-            torque = add(&torque, &moment);
-        }
-        (force.map(Expr::group), torque.map(Expr::group))
-    }
-
-    /// `dQ_f/dt` and `dΓ_f/dt + v_O × Q_f` of the fluid's impulse, minus buoyancy.
-    fn fluid_force(&self, link: &Link<'g>, body: &Body<'g>, along: &Map<u32, Expr<'g>>) -> (Vector<'g>, Triple<'g>) {
-        let frame = &link.frame;
-        let zero = [self.graph.zero(); 3];
-        let (mut force, mut torque) = (frame.zero(), zero);
-        if let Some(added) = &body.added_mass {
-            let (u, w) = (frame.resolve(&link.velocity, Axes::Body), &link.angular_velocity);
-            let rate = |a: &Triple<'g>| add(&a.map(|e| e.derivative(along)), &cross(w, a));
-            let (resultant, moment) = reaction(added, &u, w, rate);
-            force = frame.body_vector(resultant);
-            torque = moment;
-        }
-        if let (Some((mass, center)), Some(gravity)) = (link.displaced(), self.gravity) {
-            let lift = frame.space_vector(scale(mass, &gravity));
-            let turned = frame.resolve(&lift, Axes::Body);
-            torque = add(&torque, &cross(&center, &turned));
-            // What is handed on to a parent is in body axes.
-            force = force.plus(&if link.is_alone() { lift } else { frame.body_vector(turned) });
-        }
-        (force, torque)
+        force_of_inertia((self.graph, self.gravity), link, (a, alpha), along, inertia)
     }
 
     /// `Σ Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α` with the momenta of all that moves together.
@@ -602,21 +540,4 @@ impl<'g> Tree<'g> {
         let links = terms.fold(self.graph.zero(), |sum, e| sum + e);
         self.rotors.iter().fold(links, |sum, rotor| sum + rotor.momentum() * rotor.rate)
     }
-}
-
-/// Ξ of the acceleration field `a_O + Ξ x`: `[ω̇]× + [ω]×²`.
-fn acceleration_gradient<'g>(omega: &Triple<'g>, alpha: &Triple<'g>) -> [Triple<'g>; 3] {
-    let turn = crate::mechanics::kinematics::vector::cross_matrix(alpha);
-    let square: Expr<'g> = dot(omega, omega);
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| {
-            let own = omega[i] * omega[j];
-            let centripetal = if i == j { own - square } else { own };
-            (turn[i][j] + centripetal).group()
-        })
-    })
-}
-
-fn apply<'g>(matrix: &[Triple<'g>; 3], a: &Triple<'g>) -> Triple<'g> {
-    std::array::from_fn(|i| dot(&matrix[i], a))
 }
