@@ -285,7 +285,19 @@ pub fn write_into(folder: &Path, name: &str, svg: &str) -> Result<(), Box<dyn Er
 /// # Errors
 /// What the page says is wrong, or when the file cannot be written.
 pub fn write_page<S: GaussSystem<Scalar = f64>>(name: &str, page: &Playback<S>) -> Result<(), Box<dyn Error>> {
-    let file = folder().join(format!("{name}.html"));
+    write_page_into(&folder(), name, page)
+}
+
+/// The same into a folder.
+///
+/// # Errors
+/// As [`write_page`].
+pub fn write_page_into<S: GaussSystem<Scalar = f64>>(
+    folder: &Path,
+    name: &str,
+    page: &Playback<S>,
+) -> Result<(), Box<dyn Error>> {
+    let file = folder.join(format!("{name}.html"));
     page.write(&file)?;
     println!("written: {}", file.display());
     Ok(())

@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 
 use gauss_examples::figure::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
-use gauss_playback::{Playback, Shape};
+use gauss_examples::stage;
+use gauss_playback::Playback;
 use gauss_runtime::prelude::*;
 
 mod ddp;
@@ -134,22 +135,8 @@ fn plots_of_way(way: &[Sample<CartPoleKernel>], plan: &Plan<4, 1>) -> [Plot<'sta
 /// The pole as it is swung up, and the push on the cart.
 fn page(kernel: &CartPoleKernel, plan: &Plan<4, 1>, way: &[Sample<CartPoleKernel>]) -> Playback<CartPoleKernel> {
     let push = |s: &Sample<CartPoleKernel>| plan.inputs[((s.t / H) as usize).min(STEPS - 1)][0];
-    let cart = |s: &Sample<CartPoleKernel>| Isometry3::translation(s.q[0], 0.0, 0.0);
-    let pole = move |s: &Sample<CartPoleKernel>| cart(s) * Isometry3::rotation(Vector3::y() * s.q[1]);
-    Playback::of_samples("A pole swung up by its cart", way.to_vec())
-        .body("cart", cart, [Shape::cuboid([0.4, 0.2, 0.12])])
-        .body(
-            "pole",
-            pole,
-            [
-                Shape::rod([0.0, -0.12, 0.0], [0.0, -0.12, 0.5], 0.012),
-                Shape::ball(0.06).at(&Isometry3::translation(0.0, -0.12, 0.5)),
-            ],
-        )
-        .trace("pole", [0.0, -0.12, 0.5])
-        .arrow("push", 0.05, move |s| (cart(s).translation.vector, Vector3::x() * push(s)))
-        .curve("push / N", "u", push)
-        .energy(kernel)
+    let page = Playback::of_samples("A pole swung up by its cart", way.to_vec());
+    stage::cart_and_pole(page, 0.5, 0.05, push).energy(kernel)
 }
 
 fn plot_of_costs(both: &Both<4, 1>) -> Plot<'static> {
