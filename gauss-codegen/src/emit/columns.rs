@@ -8,8 +8,8 @@ use crate::kernel::{LoweredColumns, Operand, Parts, TOGETHER};
 
 use super::derived::Derived;
 
-/// What a program computes before a linear system is solved, the substitution for bundles of columns, and the results where they
-/// belong.
+/// What a program computes before a linear system is solved, the substitution for bundles of columns, and the results
+/// where they belong.
 pub fn solved_together<'g>(derived: &Derived<'_, 'g>, columns: &LoweredColumns<'g>, states: usize) -> TokenStream {
     let (private, scalar) = (derived.private(), derived.scalar());
     let zero = scalar.number(&Rational::zero());
@@ -124,7 +124,8 @@ fn substitution(columns: &LoweredColumns<'_>, private: &TokenStream) -> TokenStr
         let (__factors, __idle) = ((__entries, __reciprocals), [#(#idle),*]);
         let mut __bundle = 0usize;
         while __bundle < #bundles {
-            // Read where they are used: compilers would spread each of them over lanes beforehand, which is eight times as much to load.
+            // Read where they are used: compilers would spread each of them over lanes beforehand, which is eight times
+            // as much to load.
             let (__entries, __reciprocals) = ::core::hint::black_box(&__factors);
             let (__y, __idle) = (&mut __x[__bundle], &__idle[__bundle]);
             #(#down)*
@@ -135,8 +136,8 @@ fn substitution(columns: &LoweredColumns<'_>, private: &TokenStream) -> TokenStr
     }
 }
 
-/// What is known of derivatives before the system is solved, entry by entry, but for zeros; and statements that put `__known` where it
-/// belongs: beside what is solved for.
+/// What is known of derivatives before the system is solved, entry by entry, but for zeros; and statements that put
+/// `__known` where it belongs: beside what is solved for.
 fn known_derivatives(
     columns: &LoweredColumns<'_>,
     outputs: &[TokenStream],

@@ -17,8 +17,8 @@ const FEW: usize = 400;
 
 /// Outputs whose derivatives are in part solutions of a linear system.
 pub struct Columns<'g> {
-    /// What the program computes: values; of every direction what is known or added to the solution; L below its diagonal; D⁻¹;
-    /// the right-hand sides of the directions that have some.
+    /// What the program computes: values; of every direction what is known or added to the solution; L below its
+    /// diagonal; D⁻¹; the right-hand sides of the directions that have some.
     before: Vec<Expr<'g>>,
     shape: Shape,
 }
@@ -110,8 +110,8 @@ impl Shape {
 }
 
 impl Shape {
-    /// Unknowns in a row that are eliminated together: each is left out as soon as the one before, and what is below the last is below
-    /// all of them. Nothing else leads into the middle.
+    /// Unknowns in a row that are eliminated together: what is below each of them are the rest of them and what is below
+    /// the last. Nothing else leads into the middle.
     pub fn groups(&self) -> Vec<Range<usize>> {
         let count = self.order.len();
         let leading = |k: usize| self.below.iter().filter(|rows| rows.first() == Some(&k)).count();

@@ -8,7 +8,7 @@ use crate::real::Real;
 /// Columns that go through the substitution together, as many as registers hold two or four of.
 const TOGETHER: usize = 8;
 
-/// A row of a bundle, on a cache line where numbers are doubles: registers of 64 bytes are then loaded from one line, not two.
+/// A row of a bundle, on a cache line where numbers are doubles: registers of 64 bytes are then loaded from one line.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Lanes<T>(pub [T; TOGETHER]);
@@ -62,8 +62,8 @@ pub fn zeros<T: Real, const R: usize, const C: usize>() -> SMatrix<T, R, C> {
     SMatrix::from([[T::zero(); R]; C])
 }
 
-/// A linearization whose derivatives are filled in where it is handed over: in a function as long as a program compilers would fill a
-/// copy.
+/// A linearization whose derivatives are filled in where it is handed over: in a function as long as a program compilers
+/// would fill a copy.
 #[inline(always)]
 pub fn filled<T: Real, const D: usize, const U: usize>(
     rate: [T; D],
