@@ -1,6 +1,9 @@
 //! Robots from their files: what they do at states that Pinocchio computed, and against mass matrices and weights
 //! that are summed link by link from the numbers of the file.
 
+mod asked;
+mod quadrotor;
+
 use std::fs;
 use std::path::Path;
 
@@ -127,7 +130,8 @@ fn a_biped() {
     joint_friction = smooth(width),
     limits = stop(stiffness = 1e4, width = 1e-3),
     point(pad, body = left_finger, at = [0, 0, 0.04]),
-    frames(upper_arm, left_finger)
+    frames(upper_arm, left_finger),
+    methods(centroidal, nonlinear_effects, gravity_torques, jacobian_rates)
 )]
 struct Gripper {
     width: f64,
@@ -557,7 +561,9 @@ fn a_point_and_a_place_in_common() {
 fn files_are_tracked() {
     let executable = std::env::current_exe().unwrap();
     let dependencies = fs::read_to_string(executable.with_extension("d")).unwrap();
-    for file in ["panda.urdf", "anymal.urdf", "gripper.urdf", "five_bar.urdf", "linkage.xml", "loop.xml"] {
+    for file in
+        ["panda.urdf", "anymal.urdf", "gripper.urdf", "five_bar.urdf", "linkage.xml", "quadrotor.xml", "parts/load.xml"]
+    {
         assert!(dependencies.contains(file), "{file}");
     }
 }
