@@ -304,7 +304,7 @@ mod vectors {
                 };
                 // Vectors have their own.
                 let fma = |a: f64, b: f64, c: f64| a * b + c;
-                let x = $vector::new(core::array::from_fn(|i| x[i % $half]));
+                let x = $vector::new(core::array::from_fn(|i| if i < $half { x[i] } else { x[i - $half] }));
 
                 let Reduced { shifted, y, excess } = reduced::<true, $vector>(x, fma);
                 let holds = within_limit(part(shifted, 0));
