@@ -14,12 +14,9 @@ from robots import EPSILON, MOST, SITE, Comparison, Ours
 FOLDERS = ["dm_control/suite", "dm_control/third_party", "gymnasium/envs/mujoco/assets", "pybullet_data/mjcf"]
 # What is read without something that counts, and says so.
 NAMED = {
-    "cheetah": "`settotalmass` is not read",
-    "half_cheetah": "`settotalmass` is not read",
     "dog": "masses of meshes are not read",
     "jaco_arm": "masses of meshes are not read",
     "jaco_hand": "masses of meshes are not read",
-    "striker": "armature of a free joint is not read",
 }
 STATES = 6
 FREE, BALL = int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtJoint.mjJNT_BALL)

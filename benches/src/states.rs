@@ -54,8 +54,7 @@ pub fn of_angles<const N: usize>() -> Vec<(SVector<f64, N>, SVector<f64, N>)> {
 pub type Floating<const N: usize> = (Isometry3<f64>, SVector<f64, N>);
 
 /// Poses of a base and angles of joints, and their rates: any attitude, up to π, 2 m/s and 2 rad/s.
-pub fn of_a_floating_base<const N: usize, const D: usize>() -> Vec<((Isometry3<f64>, SVector<f64, N>), SVector<f64, D>)>
-{
+pub fn of_a_floating_base<const N: usize, const D: usize>() -> Vec<(Floating<N>, SVector<f64, D>)> {
     let random = &mut Random::new();
     let mut state = || {
         let pose = Isometry3::new(random.vector(1.0), random.vector(3.0));

@@ -131,7 +131,7 @@
 /// | `particle(mass = m, position = […], parent = other)` | a point with mass; the position in observer's axes from Ω, or in the axes of the parent from its O |
 /// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |
 /// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once |
-/// | `armature(elbow = a, wrist = 2 * a)` | inertia of the rates of scalar coordinates, ½ a q̇² in T: rotors behind gears, of which a coordinate feels the inertia times the square of the ratio. It has no weight, and counts in no centre of mass and no momentum of the whole |
+/// | `armature(elbow = a, wrist = 2 * a)` | inertia of the rates of coordinates, ½ a q̇² in T: rotors behind gears, of which a coordinate feels the inertia times the square of the ratio; of a `Rotation` ½ a ω², of a `Pose` ½ a (v² + ω²). It has no weight, and counts in no centre of mass and no momentum of the whole |
 /// | `independent(v, w.x)` | the speeds that stay, or components of them, when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
 /// | `waive(triangle_inequality)` | see above |
 /// | `limit = 50000` | the most operations that the generated code may have, also of one body |
@@ -169,9 +169,11 @@
 ///
 /// ```text
 /// let start = ArmState { elbow: 0.3, ..Default::default() };                     // elbow_dot is its rate
-/// let input = ArmInput { elbow: 2.0, ..Default::default() }.input();             // N m; elbow_effort in expressions
+/// let input = ArmInput { elbow: 2.0, ..Default::default() }.input();             // N m; input.elbow in expressions
 /// let pose = kernel.pose_of(ArmFrame::named("tool0").unwrap(), 0.0, &start.q()); // with frames(tool0)
 /// ```
+///
+/// In expressions `input.elbow` is this input, also where `elbow` is the coordinate: `drive(wrist = 0.1 * input.elbow)`.
 ///
 /// What acts is called `efforts`, `joint_damping`, `joint_friction`, and `elbow_limits`. A URDF says nothing of `gravity`: without the
 /// clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures, with the square of `mechanicalReduction`.
@@ -181,8 +183,12 @@
 /// `settotalmass`; classes of defaults;
 /// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
 /// as coupled joints, others as constraints; points in common and welds as constraints; springs and dampers of fixed tendons; actuators
-/// along joints and fixed tendons that are linear in their control. A ball is a `Rotation`, a free joint a `Pose`. Keyframes are
-/// functions `ArmState::home()`, by their names, and `ArmState::start()` is where the file has everything at first, if that is not zero.
+/// along joints and fixed tendons that are linear in their control, and at sites, without `refsite`: those are wrenches, each with its
+/// control for an input whatever `inputs` asks for. A ball is a `Rotation`, a free joint a `Pose`; armature and damping act in both.
+/// Keyframes are functions `ArmState::home()`, by their names, and `ArmInput::home()` where inputs are controls;
+/// `ArmState::start()` is where the file has everything at first, if that is not zero. `<include>` puts what is in the root of another
+/// file in its place: its path is relative to the folder of the first, an edit of it compiles the struct anew as well, mistakes are
+/// shown where they are written, and no file is included twice.
 ///
 /// Nothing is left out in silence. What acts in the file and not in the equations (elements and attributes that are not known, laws of
 /// joints with several speeds, actuators with states) is a warning of the compiler with its line, one for all of a kind. The page of

@@ -99,6 +99,19 @@ pair!(of_quasi_velocities: GearedCraft BesideCraft,
          inertia = [0.5, 0.5, 0.2])
 ] [armature(turn = a, s = 0.1)] [particle(mass = a, position = [turn, 0, 0]), particle(mass = 0.1, position = [s, 0, 0])]);
 
+// Of a pose a body that is the same about all axes, without weight; of a rotation a ring of no mass.
+pair!(of_poses_and_rotations: GearedBall BesideBall,
+    (Isometry3::<f64>::identity(), UnitQuaternion::<f64>::identity()), [
+    coordinates(base: Pose, ball: Rotation),
+    body(hull, pose = base, mass = 2, center_of_mass = [0.1, 0, 0.2], inertia = [1, 1, 0.5]),
+    body(arm, parent = hull, position = [0.3, 0, 0], rotation = ball, mass = 1, center_of_mass = [0, 0.1, 0.3],
+         inertia = [0.5, 0.5, 0.2])
+] [armature(base = 0.2, ball = a)] [
+    body(heavy, pose = base, mass = 0.2, inertia = [0.2, 0.2, 0.2]),
+    force(lift, body = heavy, value = [0, 0, 0.2 * g], axes = observer),
+    body(ring, rotation = ball, mass = 0, inertia = [a, a, a])
+]);
+
 // A coordinate that moves a free body: it floats no more.
 pair!(of_what_floats: GearedCart BesideCart, SVector::from([0.3, 1.0, -0.4]), [
     coordinates(x, y, turn),

@@ -10,7 +10,7 @@ use crate::model::{InChart, InputKind, Role};
 
 use super::chart::{chart_name, motion_name};
 use super::derived::Derived;
-use super::input::{called, input_name};
+use super::input::input_name;
 use super::record::{Part, PartKind};
 use super::state::{parts, state_name};
 
@@ -293,7 +293,7 @@ fn input(derived: &Derived<'_, '_>) -> String {
         };
         let range = if count == 1 { next.to_string() } else { format!("{next}–{}", next + count - 1) };
         let unit = input.unit.clone().unwrap_or_default();
-        let (called, ident) = (called(input).unraw().to_string(), input.ident.unraw().to_string());
+        let (called, ident) = (input.called().unraw().to_string(), input.ident.unraw().to_string());
         let inside = if called == ident { String::new() } else { format!(", `{ident}` in expressions") };
         rows.push(vec![range, format!("`{called}`{what}{inside}"), unit]);
         next += count;

@@ -10,7 +10,7 @@ use super::derived::Derived;
 /// Beside what is derived, where it is compiled: the file as a constant that nobody reads, and a warning for
 /// everything that acts in it and not in the equations.
 pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
-    let Some(Described { path, span, remarks, .. }) = &derived.subject.model.described else {
+    let Some(Described { paths, span, remarks, .. }) = &derived.subject.model.described else {
         return TokenStream::new();
     };
     // The compiler warns of what is deprecated, in the words of its note; macros have no other way to. Only at a
@@ -24,7 +24,7 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
     };
     let warnings = remarks.iter().filter(|remark| remark.ignored).map(warning);
     quote! {
-        const _: &[::core::primitive::u8] = ::core::include_bytes!(#path);
+        #(const _: &[::core::primitive::u8] = ::core::include_bytes!(#paths);)*
         #(#warnings)*
     }
 }

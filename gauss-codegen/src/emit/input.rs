@@ -13,16 +13,10 @@ pub fn input_name(derived: &Derived<'_, '_>) -> Ident {
     format_ident!("{}Input", derived.item().ident)
 }
 
-/// What an input is called outside of expressions.
-pub fn called(input: &InputName) -> Ident {
-    let word = input.field.as_deref().and_then(|word| syn::parse_str::<Ident>(word).ok());
-    word.map_or_else(|| input.ident.clone(), |word| Ident::new(&word.to_string(), input.ident.span()))
-}
-
 /// In their order: one number, a vector, or of a wrench two.
 fn parts(derived: &Derived<'_, '_>) -> Vec<Part> {
     let part = |input: &InputName| {
-        let ident = called(input);
+        let ident = input.called();
         let unit = input.unit.as_deref().map(|unit| format!(", in {unit}")).unwrap_or_default();
         let of_wrench =
             |end: &str, label: &str| Part::new(format_ident!("{}_{}", ident.unraw(), end), PartKind::Vector(3), label);

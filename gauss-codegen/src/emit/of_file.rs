@@ -7,6 +7,7 @@ use syn::ext::IdentExt;
 use crate::model::{BodyOfFile, Field, Scalar, Shape, StateOfFile, ValueOfState, exact};
 
 use super::derived::{Derived, Item, KernelGenerics};
+use super::input::input_name;
 use super::kernel::bound;
 use super::state::{parts, state_name};
 
@@ -15,7 +16,8 @@ pub fn of_file(derived: &Derived<'_, '_>) -> TokenStream {
     let Some(file) = &derived.subject.model.described else { return TokenStream::new() };
     let constructor = (!file.bodies.is_empty()).then(|| constructor(derived, &file.bodies));
     let states = (!file.states.is_empty()).then(|| states(derived, &file.states));
-    quote!(#constructor #states)
+    let inputs = inputs(derived, &file.states);
+    quote!(#constructor #states #inputs)
 }
 
 /// The struct with the mass data of the file; what it does not say are arguments.
@@ -111,6 +113,34 @@ fn states(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> TokenStream {
         #[allow(dead_code, non_snake_case)]
         impl #bounded #name #used { #(#functions)* }
     }
+}
+
+/// Functions of the inputs, of the states of the file that have some.
+fn inputs(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> Option<TokenStream> {
+    let (name, visibility) = (input_name(derived), derived.item().visibility);
+    let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
+    let functions = states.iter().filter(|state| !state.inputs.is_empty()).map(|state| {
+        let values = state.inputs.iter().map(|(field, value)| {
+            let value = number(derived, *value);
+            quote!(#field: #value)
+        });
+        let (function, documentation) = (&state.name, format!("The controls of `{}` of the file.", state.written));
+        quote! {
+            #[doc = #documentation]
+            #[allow(clippy::needless_update, clippy::excessive_precision)]
+            #visibility fn #function() -> Self {
+                Self { #(#values,)* ..::core::default::Default::default() }
+            }
+        }
+    });
+    let functions: Vec<TokenStream> = functions.collect();
+    (!functions.is_empty()).then(|| {
+        quote! {
+            #[allow(clippy::all, clippy::pedantic)]
+            #[allow(dead_code, non_snake_case)]
+            impl #bounded #name #used { #(#functions)* }
+        }
+    })
 }
 
 fn state_value(derived: &Derived<'_, '_>, value: ValueOfState) -> TokenStream {

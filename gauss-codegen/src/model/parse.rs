@@ -3,6 +3,7 @@
 use crate::model::assembly;
 use crate::model::language::context::Context;
 use crate::model::language::{fields, nesting, struct_clauses};
+use crate::model::names::inputs;
 use crate::model::robots;
 use crate::model::scene::model::Model;
 use proc_macro2::TokenStream;
@@ -34,6 +35,7 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     let model = named_fields(input, without, &mut context).and_then(|named| {
         let reader = fields::read(named, &input.generics, clauses.own, &mut context);
         let described = robots::compose(&clauses.robot, &reader, &mut clauses.statements, &mut context);
+        inputs::name(&mut clauses.statements, &reader.fields, &mut context);
         let model = assembly::model(input, clauses, reader, &mut context)?;
         Some(Model { described, ..model })
     });

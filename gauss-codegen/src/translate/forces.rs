@@ -9,7 +9,9 @@ use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
 use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, entrained};
-use crate::model::{Coefficients, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Property};
+use crate::model::{
+    Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Property,
+};
 
 use super::drag::DragMatrix;
 use super::laws::{Law, LawKind};
@@ -313,12 +315,27 @@ impl<'g> Translator<'_, 'g> {
 
     /// Inertia of rates, of which note is taken.
     pub(super) fn rotors(&self, tree: &Tree<'g>) -> syn::Result<Vec<Rotor<'g>>> {
-        let rotor = |(coordinate, inertia): &(Ident, Expression)| -> syn::Result<Rotor<'g>> {
+        let mut rotors = Vec::new();
+        for (coordinate, inertia) in &self.model.armatures {
             let label = coordinate.unraw().to_string();
             let inertia = self.constant(LawKind::NonNegative, ("armature", &label), inertia, tree)?;
-            Ok(Rotor { rate: self.rate_of_coordinate(coordinate)?, inertia })
-        };
-        self.model.armatures.iter().map(rotor).collect()
+            let rates = match self.coordinate(coordinate)?.1 {
+                CoordinateKind::Scalar => vec![self.rate_of_coordinate(coordinate)?],
+                CoordinateKind::Rotation => self.turning(&label, coordinate)?.to_vec(),
+                CoordinateKind::Pose => {
+                    let moving = self.velocity_of_coordinate(&label, Property::Velocity);
+                    let moving = moving.ok_or_else(|| bug(coordinate.span()))?;
+                    moving.into_iter().chain(self.turning(&label, coordinate)?).collect()
+                }
+            };
+            rotors.extend(rates.into_iter().map(|rate| Rotor { rate, inertia }));
+        }
+        Ok(rotors)
+    }
+
+    /// The angular velocity of a coordinate, in its own axes.
+    fn turning(&self, label: &str, name: &Ident) -> syn::Result<Triple<'g>> {
+        self.velocity_of_coordinate(label, Property::BodyAngularVelocity).ok_or_else(|| bug(name.span()))
     }
 
     /// `−(d ẋ + f ẋ/√(ẋ² + w²))` along ẋ, of which the part with f is dry friction.
@@ -344,8 +361,13 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// ψ of a scalar coordinate.
-    fn rate_of_coordinate(&self, name: &Ident) -> syn::Result<Expr<'g>> {
+    fn coordinate(&self, name: &Ident) -> syn::Result<(usize, CoordinateKind)> {
         let index = self.model.coordinates.iter().position(|q| q.ident == *name).ok_or_else(|| bug(name.span()))?;
+        Ok((index, self.model.coordinates[index].kind))
+    }
+
+    fn rate_of_coordinate(&self, name: &Ident) -> syn::Result<Expr<'g>> {
+        let (index, _) = self.coordinate(name)?;
         Ok(self.declared.rate_of(self.declared.before + index, &self.kinematics)[0])
     }
 }

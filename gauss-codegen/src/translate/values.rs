@@ -59,6 +59,7 @@ impl<'g> Translator<'_, 'g> {
             ExpressionKind::Name(name) => {
                 self.names.get(&name.unraw().to_string()).cloned().ok_or_else(|| bug(e.span))?
             }
+            ExpressionKind::Input(_) => return Err(bug(e.span)),
             ExpressionKind::Property(inner, property) => self.property(inner, *property, tree)?,
             ExpressionKind::Component(inner, k) => {
                 Value::Scalar(*self.vector(inner, tree)?.get(*k).ok_or_else(|| bug(e.span))?)
@@ -163,7 +164,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// A velocity of a coordinate that is a pose or a rotation, as the kinematics have it.
-    fn velocity_of_coordinate(&self, word: &str, property: Property) -> Option<Triple<'g>> {
+    pub(super) fn velocity_of_coordinate(&self, word: &str, property: Property) -> Option<Triple<'g>> {
         let own = self.model.coordinates.iter().position(|q| q.ident.unraw() == *word)?;
         let k = self.declared.before + own;
         let matrix = self.declared.coordinates[k].rotation()?;

@@ -42,7 +42,7 @@ pub fn check(statements: &Statements, context: &mut Context) {
 /// What an armature does, in words.
 const ARMATURE: &str = "an armature turns with the rates";
 
-/// Scalar coordinates, each of them once; what is done to them, and what does it, in words.
+/// Scalar coordinates, of armatures all, each of them once; what is done to them, and what does it, in words.
 fn check_drive(
     rates: &[(Ident, Expression)],
     [done, doing]: [&str; 2],
@@ -50,9 +50,10 @@ fn check_drive(
     context: &mut Context,
 ) {
     let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
-    let scalars: Vec<String> =
-        coordinates().filter(|q| q.kind == CoordinateKind::Scalar).map(|q| word(&q.ident)).collect();
-    let table: Vec<(&str, ())> = scalars.iter().map(|name| (name.as_str(), ())).collect();
+    let (any, noun) = (doing == ARMATURE, if doing == ARMATURE { "coordinates" } else { "scalar coordinates" });
+    let expected: Vec<String> =
+        coordinates().filter(|q| any || q.kind == CoordinateKind::Scalar).map(|q| word(&q.ident)).collect();
+    let table: Vec<(&str, ())> = expected.iter().map(|name| (name.as_str(), ())).collect();
     for (index, (name, _)) in rates.iter().enumerate() {
         if rates[..index].iter().any(|(earlier, _)| same(earlier, name)) {
             context.error(name.span(), format!("`{name}` is {done}; write the sum of the two"));
@@ -60,10 +61,7 @@ fn check_drive(
         }
         match coordinates().find(|q| same(&q.ident, name)).map(|q| q.kind) {
             Some(CoordinateKind::Scalar) => {}
-            Some(_) if doing == ARMATURE => context.error(
-                name.span(),
-                format!("`{name}` is no scalar coordinate, and {doing} of those; give a body its inertia instead"),
-            ),
+            Some(_) if any => {}
             Some(CoordinateKind::Rotation) => context.error(
                 name.span(),
                 format!(
@@ -90,7 +88,7 @@ fn check_drive(
                     None if table.is_empty() => "write `force(…)` or `torque(…)`".into(),
                     None => format!("expected {}", words::list(&table)),
                 };
-                context.error(name.span(), format!("`{name}` {problem}, and {doing} of scalar coordinates; {remedy}"));
+                context.error(name.span(), format!("`{name}` {problem}, and {doing} of {noun}; {remedy}"));
             }
             None => {}
         }

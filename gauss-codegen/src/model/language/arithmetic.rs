@@ -5,7 +5,8 @@
 
 use super::context::Context;
 use super::functions::{FUNCTIONS, Function, PROPERTIES};
-use super::{attributes, chains, nesting, number, words};
+use super::words::{self, INPUT};
+use super::{attributes, chains, nesting, number};
 use crate::model::scene::clauses::Coefficients;
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName};
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
@@ -294,6 +295,8 @@ fn member(field: &ExprField, context: &mut Context) -> Option<Expression> {
         ExpressionKind::Component(Box::new(base?), index)
     } else if let Some(&(_, property)) = PROPERTIES.iter().find(|(known, _)| *known == word) {
         ExpressionKind::Property(Box::new(base?), property)
+    } else if matches!(&*field.base, Expr::Path(base) if base.path.is_ident(INPUT)) {
+        ExpressionKind::Input(name.clone())
     } else {
         let message = if FUNCTIONS.iter().any(|(function, _)| *function == word) {
             format!("the function `{word}` needs brackets; write `.{word}()`")

@@ -72,6 +72,9 @@ pub const PI: &str = "pi";
 /// What a body without a name of its own is called in expressions and clauses.
 pub const UNNAMED: &str = "body";
 
+/// What stands before the name of an input, `input.elbow`.
+pub const INPUT: &str = "input";
+
 /// The name without `r#`.
 pub fn word(name: &Ident) -> String {
     name.unraw().to_string()

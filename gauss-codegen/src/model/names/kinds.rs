@@ -42,6 +42,8 @@ impl Checker<'_> {
         match &expression.kind {
             ExpressionKind::Number { .. } => Some(Kind::Scalar),
             ExpressionKind::Name(name) => self.name(name),
+            // It names no input, which is noted.
+            ExpressionKind::Input(_) => None,
             ExpressionKind::Property(base, property) => self.property(base, *property, expression.span),
             ExpressionKind::Component(base, _) => {
                 let kind = self.kind(base)?;

@@ -3,6 +3,7 @@
 pub mod declared;
 pub mod definitions;
 pub mod expressions;
+pub mod inputs;
 pub mod kinds;
 pub mod moving;
 pub mod naming;

@@ -41,7 +41,7 @@ fn acting(statements: &Statements) -> Vec<Named<'_>> {
 }
 
 /// What expressions can name.
-fn declared<'a>(statements: &'a Statements, fields: &[ReadField<'a>]) -> Vec<Named<'a>> {
+pub(super) fn declared<'a>(statements: &'a Statements, fields: &[ReadField<'a>]) -> Vec<Named<'a>> {
     let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
     let speeds = statements.speeds.iter().flat_map(|names| &names.names);
     let inputs = statements.inputs.iter().flat_map(|names| &names.names);

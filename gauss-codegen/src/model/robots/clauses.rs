@@ -1,7 +1,5 @@
 //! A description → the clauses that say the same, before those of the struct.
 
-use std::path::Path;
-
 use proc_macro2::Ident;
 use quote::format_ident;
 use syn::ext::IdentExt;
@@ -13,6 +11,7 @@ use super::mimic::Coupling;
 use super::names::Names;
 use super::source;
 use super::structure::Structure;
+use super::text::Text;
 use crate::model::language::context::Context;
 use crate::model::language::declarations;
 use crate::model::language::fields::{ReadField, Reader};
@@ -41,9 +40,8 @@ pub fn compose(
         context.error(file.span, "an MJCF file says by <freejoint/> what moves freely; remove `base`");
     }
     let path = source::path(file);
-    let read = source::text(&path).map_err(|message| vec![message]).and_then(|text| {
-        let faults =
-            |faults: Vec<Fault>| faults.iter().map(|f| source::located(file, f.at, &f.message)).collect::<Vec<_>>();
+    let read = source::text(file, &path).and_then(|text| {
+        let faults = |faults: Vec<Fault>| source::all_located(&text.names(), &faults);
         let description = source::read(file.format, &text).map_err(faults)?;
         let structure = Structure::new(&description).map_err(faults)?;
         let robot = Robot::new(file, clauses, reader, &description, &structure);
@@ -51,7 +49,7 @@ pub fn compose(
         let moves = statements.coordinates.is_some() || statements.in_chart;
         let idle = if idle.is_empty() && !moves { robot.without_motion(file) } else { idle };
         let idle = if idle.is_empty() { robot.impossible(&statements.formal) } else { idle };
-        if idle.is_empty() { Ok(robot.written(file, &path, statements, context)) } else { Err(faults(idle)) }
+        if idle.is_empty() { Ok(robot.written(file, &text, statements, context)) } else { Err(faults(idle)) }
     });
     match read {
         Ok(described) => Some(described),
@@ -180,7 +178,7 @@ impl<'a> Robot<'a> {
     }
 
     /// Puts the clauses before those of the struct; gives back what is to be known of the file.
-    fn written(mut self, file: &File, path: &Path, statements: &mut Statements, context: &mut Context) -> Described {
+    fn written(mut self, file: &File, text: &Text, statements: &mut Statements, context: &mut Context) -> Described {
         let span = self.writer.span;
         statements.first.get_or_insert_with(|| Ident::new("urdf", span));
         self.require_fields(context);
@@ -207,7 +205,7 @@ impl<'a> Robot<'a> {
         let forces = self.forces();
         statements.forces_of_file = forces.len();
         statements.forces.splice(0..0, forces);
-        self.described(file, path)
+        self.described(file, text)
     }
 
     /// Those of joints, with those of the struct.
@@ -222,18 +220,19 @@ impl<'a> Robot<'a> {
         }
     }
 
-    fn described(&mut self, file: &File, path: &Path) -> Described {
+    fn described(&mut self, file: &File, text: &Text) -> Described {
         self.notes = Note::gathered(std::mem::take(&mut self.notes));
         let known = |what: &String| self.clauses.ignored.iter().any(|word| word == what.as_str());
+        let names = text.names();
         let remark = |note: &Note| Remark {
-            text: source::located(file, note.at, &note.text),
+            text: source::located(&names, note.at, &note.text),
             ignored: note.ignored.as_ref().is_some_and(|what| !known(what)),
         };
         let links = self.links.iter().zip(&self.description.links);
         let called =
             links.filter(|(ident, link)| *ident != &link.name).map(|(ident, link)| (ident.clone(), link.name.clone()));
         Described {
-            path: path.to_string_lossy().into_owned(),
+            paths: text.paths(),
             file: file.path.clone(),
             span: file.span,
             remarks: self.notes.iter().map(remark).collect(),

@@ -5,8 +5,17 @@ use super::rotation::{Matrix, Rotation, Triple};
 /// A place in the file, counted from one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct At {
+    /// Of the files that are read, that of the clause being 0, those that it includes after it.
+    pub file: u32,
     pub line: u32,
     pub column: u32,
+}
+
+impl At {
+    /// The line, as it is said at another place.
+    pub fn line_from(self, other: At) -> String {
+        if self.file == other.file { self.line.to_string() } else { format!("{} of another file", self.line) }
+    }
 }
 
 /// What is wrong, and where.
@@ -51,7 +60,7 @@ impl Note {
             if places.len() <= FEW {
                 gathered.push(note.clone());
             } else if !gathered.iter().any(|earlier| alike(earlier, note)) {
-                let text = format!("{}; likewise in {}", note.text, lines(&places[1..]));
+                let text = format!("{}; likewise in {}", note.text, lines(note.at, &places[1..]));
                 gathered.push(Note { text, ..note.clone() });
             }
         }
@@ -59,10 +68,10 @@ impl Note {
     }
 }
 
-/// `lines 12, 30, 31, 44 and 4 more`.
-pub fn lines(places: &[At]) -> String {
+/// `lines 12, 30, 31, 44 and 4 more`, as it is said at a place.
+pub fn lines(here: At, places: &[At]) -> String {
     const SHOWN: usize = 4;
-    let lines: Vec<String> = places.iter().take(SHOWN).map(|at| at.line.to_string()).collect();
+    let lines: Vec<String> = places.iter().take(SHOWN).map(|at| at.line_from(here)).collect();
     let more = if places.len() > SHOWN { format!(" and {} more", places.len() - SHOWN) } else { String::new() };
     format!("line{} {}{more}", if places.len() == 1 { "" } else { "s" }, lines.join(", "))
 }
@@ -174,13 +183,16 @@ impl Joint {
     }
 }
 
-/// What drives joints by a control u: along the length l = Σ c q the force gain · u + b₀ + b₁ l + b₂ l̇.
+/// What drives joints by a control u: along the length l = Σ c q the force gain · u + b₀ + b₁ l + b₂ l̇; or by a wrench
+/// on a frame, whose l stays zero.
 #[derive(Clone, Debug)]
 pub struct Drive {
     pub name: String,
     pub at: At,
     /// Joints, with the c of each.
     pub along: Vec<(String, f64)>,
+    /// A link, and the force and torque at it, in its axes, of a unit of force of the drive; `along` is empty then.
+    pub at_link: Option<(String, [Triple; 2])>,
     pub gain: f64,
     pub bias: Triple,
 }
@@ -213,6 +225,8 @@ pub struct Posture {
     pub values: Vec<(String, Vec<f64>)>,
     /// Joints with their rates: one, ω in own axes, or the velocity in observer's axes and ω.
     pub rates: Vec<(String, Vec<f64>)>,
+    /// Drives, by their indices, with their controls.
+    pub controls: Vec<(usize, f64)>,
 }
 
 /// Two links that have a point in common, which is at `anchor` in the axes of the first.

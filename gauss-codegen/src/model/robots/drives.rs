@@ -30,48 +30,64 @@ pub fn inputs(
     let usual = if description.only_driven { Inputs::Transmissions } else { Inputs::All };
     let is_driven =
         |joint: &str| description.drives.iter().any(|drive| drive.along.iter().any(|(name, _)| name == joint));
-    let unit = |kind: JointKind| if kind == JointKind::Turning { "N m" } else { "N" };
-    let input = |ident: Ident, field: &str, unit: Option<&str>, of| {
-        let name =
-            InputName { ident, kind: InputKind::Scalar, unit: unit.map(str::to_owned), field: Some(field.to_owned()) };
-        Input { name, of }
-    };
     match asked.unwrap_or(usual) {
         Inputs::None => Vec::new(),
-        Inputs::Actuators => {
-            let drives = description.drives.iter().enumerate();
-            drives
-                .map(|(index, drive)| {
-                    let ident = names.identifier(&drive.name, "control", drive.at);
-                    let kind =
-                        |name: &String| description.joints.iter().find(|joint| joint.name == *name).map(|j| j.kind);
-                    // The control of a gain has whatever unit that gives it.
-                    let plain = drive.gain == 1.0 && drive.bias == [0.0; 3];
-                    let unit = drive.along.first().filter(|_| plain).and_then(|(name, _)| kind(name)).map(unit);
-                    input(ident, &drive.name, unit, Driven::Drive(index))
-                })
-                .collect()
-        }
+        Inputs::Actuators => controls(description, |_| true, names),
         asked => {
             let joints = description.joints.iter().enumerate().zip(coordinates);
             let own = joints.filter(|((_, joint), own)| joint.kind.is_scalar() && own.len() == 1);
             let driven = own.filter(|((_, joint), _)| asked == Inputs::All || is_driven(&joint.name));
-            driven
+            let efforts: Vec<Input> = driven
                 .map(|((index, joint), own)| {
                     let word = own[0].ident.to_string();
                     let ident = names.chosen(&format!("{}_effort", word.trim_start_matches("r#")));
                     input(ident, &joint.name, Some(unit(joint.kind)), Driven::Joint(index))
                 })
-                .collect()
+                .collect();
+            // What acts at a frame has no joint whose effort it could be.
+            let others = controls(description, |drive| drive.at_link.is_some(), names);
+            efforts.into_iter().chain(others).collect()
         }
     }
 }
 
+/// The controls of some drives, by their names.
+fn controls(description: &Description, which: impl Fn(&Drive) -> bool, names: &mut Names) -> Vec<Input> {
+    let kind = |name: &String| description.joints.iter().find(|joint| joint.name == *name).map(|j| j.kind);
+    let drives = description.drives.iter().enumerate().filter(|(_, drive)| which(drive));
+    drives
+        .map(|(index, drive)| {
+            // Links keep their names, as joints do.
+            let of_link = description.links.iter().any(|link| link.name == drive.name);
+            let ident = match of_link {
+                true => names.chosen(&format!("{}_control", drive.name)),
+                false => names.identifier(&drive.name, "control", drive.at),
+            };
+            // The control of a gain has whatever unit that gives it.
+            let plain = drive.gain == 1.0 && drive.bias == [0.0; 3];
+            let unit = drive.along.first().filter(|_| plain).and_then(|(name, _)| kind(name)).map(unit);
+            input(ident, &drive.name, unit, Driven::Drive(index))
+        })
+        .collect()
+}
+
+fn unit(kind: JointKind) -> &'static str {
+    if kind == JointKind::Turning { "N m" } else { "N" }
+}
+
+fn input(ident: Ident, field: &str, unit: Option<&str>, of: Driven) -> Input {
+    let name =
+        InputName { ident, kind: InputKind::Scalar, unit: unit.map(str::to_owned), field: Some(field.to_owned()) };
+    Input { name, of }
+}
+
 /// What drives with gears or gains and has an effort for an input.
 pub fn notes(description: &Description, inputs: &[Input]) -> Vec<Note> {
-    let is_drive = |input: &Input| matches!(input.of, Driven::Drive(_));
+    let is_drive =
+        |input: &Input| matches!(input.of, Driven::Drive(drive) if description.drives[drive].at_link.is_none());
     let plain = |drive: &&Drive| {
-        drive.gain != 1.0 || drive.bias != [0.0; 3] || drive.along.iter().any(|(_, factor)| *factor != 1.0)
+        let geared = drive.along.iter().any(|(_, factor)| *factor != 1.0);
+        drive.at_link.is_none() && (geared || drive.gain != 1.0 || drive.bias != [0.0; 3])
     };
     let told = |drive: &Drive| {
         let text = format!(

@@ -23,6 +23,7 @@ impl Robot<'_> {
         if !efforts.is_empty() {
             forces.push(named("efforts", ForceKind::Drive { rates: efforts }));
         }
+        forces.extend(self.thrusts());
         let damping = self.damping().map(|function| named("joint_damping", ForceKind::Dissipation(function)));
         forces.extend(damping);
         forces.extend(self.springs());
@@ -52,7 +53,7 @@ impl Robot<'_> {
         })
     }
 
-    /// Σ ½ d (m q̇)², of balls Σ ½ d ω².
+    /// Σ ½ d (m q̇)², of balls Σ ½ d ω², of what moves freely Σ ½ d (v² + ω²).
     fn damping(&self) -> Option<Expression> {
         let writer = self.writer;
         let terms =
@@ -61,14 +62,25 @@ impl Robot<'_> {
                 let factor = writer.number(joint.damping * multiplier * multiplier / 2.0);
                 writer.times(factor, writer.times(rate.clone(), rate))
             });
-        let balls = self.description.joints.iter().zip(&self.coordinates);
-        let balls = balls.filter(|(joint, _)| joint.kind == JointKind::Ball && joint.damping > 0.0);
-        let of_balls = balls.filter_map(|(joint, coordinates)| {
-            let rate = writer.property(&coordinates.first()?.ident, Property::BodyAngularVelocity);
-            let square = writer.call(FunctionName::Dot, vec![rate.clone(), rate]);
-            Some(writer.times(writer.number(joint.damping / 2.0), square))
+        let of_groups = self.groups().filter(|(joint, _)| joint.damping > 0.0).flat_map(|(joint, q)| {
+            let moving = (joint.kind == JointKind::Floating).then_some(Property::Velocity);
+            moving.into_iter().chain([Property::BodyAngularVelocity]).map(move |velocity| {
+                let rate = writer.property(q, velocity);
+                let square = writer.call(FunctionName::Dot, vec![rate.clone(), rate]);
+                writer.times(writer.number(joint.damping / 2.0), square)
+            })
         });
-        terms.chain(of_balls).reduce(|a, b| writer.plus(a, b))
+        terms.chain(of_groups).reduce(|a, b| writer.plus(a, b))
+    }
+
+    /// Joints whose coordinate is a rotation or a pose.
+    fn groups(&self) -> impl Iterator<Item = (&Joint, &Ident)> {
+        self.description.joints.iter().zip(&self.coordinates).filter_map(|(joint, own)| {
+            match (joint.kind, own.as_slice()) {
+                (JointKind::Ball | JointKind::Floating, [q]) => Some((joint, &q.ident)),
+                _ => None,
+            }
+        })
     }
 
     /// Inertia of the rates of coordinates: m² times the armature of every joint that moves with one.
@@ -81,6 +93,8 @@ impl Robot<'_> {
                 None => all.push((q.clone(), inertia)),
             }
         }
+        let of_groups = self.groups().filter(|(joint, _)| joint.armature > 0.0);
+        all.extend(of_groups.map(|(joint, q)| (q.clone(), joint.armature)));
         all
     }
 

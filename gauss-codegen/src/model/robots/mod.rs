@@ -12,7 +12,7 @@
 //! | `drives`, `efforts`, `laws`, `relations` | inputs; what they do; what else acts in joints; what joins links beside the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
-//! | `source` | the file: where it is, what is read |
+//! | `source`, `text` | the file: where it is, what is read; its text, with what it includes |
 
 mod clauses;
 #[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
@@ -32,6 +32,8 @@ mod rotation;
 mod source;
 mod states;
 mod structure;
+#[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
+mod text;
 #[cfg(feature = "urdf")]
 mod urdf;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::description::{At, Description, Fault};
 use super::mimic::hold_followers_of_fixed;
+use super::text::{self, Text, Written};
 use crate::model::language::robots::{File, Format};
 
 /// The path from the folder of the package that is compiled; of a tool without one from where it runs.
@@ -14,21 +15,26 @@ pub fn path(file: &File) -> PathBuf {
 }
 
 /// # Errors
-/// Why there is no such text.
-pub fn text(path: &Path) -> Result<String, String> {
-    let bytes = std::fs::read(path).map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
-    String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))
+/// Why it cannot be read: the file, or one that it includes.
+pub fn text(file: &File, path: &Path) -> Result<Text, Vec<String>> {
+    let main =
+        Written { shown: file.path.clone(), path: path.to_owned(), text: text::read(path).map_err(|e| vec![e])? };
+    match file.format {
+        #[cfg(feature = "mjcf")]
+        Format::Mjcf => super::mjcf::included(main).map_err(|(text, faults)| all_located(&text.names(), &faults)),
+        _ => Ok(Text::of(main)),
+    }
 }
 
 /// # Errors
 /// Everything that is wrong in it.
-pub fn read(format: Format, text: &str) -> Result<Description, Vec<Fault>> {
+pub fn read(format: Format, text: &Text) -> Result<Description, Vec<Fault>> {
     let mut description = by_format(format, text)?;
     hold_followers_of_fixed(&mut description);
     Ok(description)
 }
 
-fn by_format(format: Format, text: &str) -> Result<Description, Vec<Fault>> {
+fn by_format(format: Format, text: &Text) -> Result<Description, Vec<Fault>> {
     match format {
         #[cfg(feature = "urdf")]
         Format::Urdf => super::urdf::read(text),
@@ -43,15 +49,20 @@ fn by_format(format: Format, text: &str) -> Result<Description, Vec<Fault>> {
 
 /// A reader that is not compiled in.
 #[cfg(not(all(feature = "urdf", feature = "mjcf")))]
-fn without(feature: &str, _: &str) -> Vec<Fault> {
+fn without(feature: &str, _: &Text) -> Vec<Fault> {
     let message = format!("such files are read with the feature `{feature}` of gauss-runtime; add it in Cargo.toml");
     vec![Fault { at: At::default(), message }]
 }
 
-/// `robots/arm.urdf:12:3: message`.
-pub fn located(file: &File, at: At, message: &str) -> String {
+/// `robots/arm.urdf:12:3: message`, with the names of the files.
+pub fn located(names: &[String], at: At, message: &str) -> String {
+    let name = names.get(at.file as usize).map_or("", String::as_str);
     match at {
-        At { line: 0, .. } => format!("{}: {message}", file.path),
-        At { line, column } => format!("{}:{line}:{column}: {message}", file.path),
+        At { line: 0, .. } => format!("{name}: {message}"),
+        At { line, column, .. } => format!("{name}:{line}:{column}: {message}"),
     }
+}
+
+pub fn all_located(names: &[String], faults: &[Fault]) -> Vec<String> {
+    faults.iter().map(|fault| located(names, fault.at, &fault.message)).collect()
 }

@@ -6,6 +6,7 @@ use syn::ext::IdentExt;
 
 use super::clauses::Robot;
 use super::description::{JointKind, Posture};
+use super::drives::{Driven, Input};
 use super::rotation::{Matrix, Rotation, Triple, turned};
 use crate::model::scene::clauses::CoordinateKind;
 use crate::model::scene::described::{BodyOfFile, StateOfFile, ValueOfState};
@@ -24,6 +25,7 @@ impl Robot<'_> {
                 .map(|joint| (joint.name.clone(), at_start(joint.kind, joint.reference, &joint.start)))
                 .collect(),
             rates: Vec::new(),
+            controls: Vec::new(),
         };
         let moved = joints.iter().any(|joint| joint.reference != 0.0 || joint.start != ([0.0; 3], Rotation::none()));
         let all = moved.then_some(&start).into_iter().chain(&self.description.postures);
@@ -64,7 +66,12 @@ impl Robot<'_> {
                 _ => {}
             }
         }
-        StateOfFile { name: Ident::new(&free, self.writer.span), written: posture.name.clone(), values }
+        let control = |input: &Input| match input.of {
+            Driven::Drive(drive) => posture.controls.iter().find(|(of, _)| *of == drive).map(|(_, value)| *value),
+            Driven::Joint(_) => None,
+        };
+        let inputs = self.inputs.iter().filter_map(|input| Some((input.name.called(), control(input)?))).collect();
+        StateOfFile { name: Ident::new(&free, self.writer.span), written: posture.name.clone(), values, inputs }
     }
 
     /// The mass data that the file has for bodies that are fields.

@@ -177,7 +177,10 @@ fn refuse_twice<'a>(noun: &str, names: impl Iterator<Item = (&'a String, At)>, f
         match known.iter().find(|(earlier, _)| *earlier == name) {
             Some((_, first)) => faults.push(Fault {
                 at,
-                message: format!("a second {noun} is called `{name}`, the first is in line {}; rename one", first.line),
+                message: format!(
+                    "a second {noun} is called `{name}`, the first is in line {}; rename one",
+                    first.line_from(at)
+                ),
             }),
             None => known.push((name, at)),
         }
@@ -206,7 +209,10 @@ fn parents(description: &Description, faults: &mut Vec<Fault>) -> (Vec<Option<us
                 "the link `{}` hangs by the joint `{}` and by `{}` in line {}; in a file each has one parent: \
                  remove one, and \
                  write the other as a `constraint(…)` of the struct",
-                joint.child, joint.name, earlier.name, earlier.at.line
+                joint.child,
+                joint.name,
+                earlier.name,
+                earlier.at.line_from(joint.at)
             );
             faults.push(Fault { at: joint.at, message });
             continue;
@@ -239,13 +245,17 @@ fn root(description: &Description, parent_of: &[Option<usize>], faults: &mut Vec
     }
     let roots: Vec<usize> = (0..links.len()).filter(|&link| parent_of[link].is_none()).collect();
     match roots.as_slice() {
-        [] => faults.push(Fault { at: At { line: 1, column: 1 }, message: "there are no links".into() }),
+        [] => {
+            faults.push(Fault { at: At { line: 1, column: 1, ..At::default() }, message: "there are no links".into() })
+        }
         [_] => {}
         [first, others @ ..] => faults.extend(others.iter().map(|&other| Fault {
             at: links[other].at,
             message: format!(
                 "the link `{}` hangs on nothing, and so does `{}` in line {}; join the two",
-                links[other].name, links[*first].name, links[*first].at.line
+                links[other].name,
+                links[*first].name,
+                links[*first].at.line_from(links[other].at)
             ),
         })),
     }

@@ -5,6 +5,7 @@ use roxmltree::Node;
 use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link, Mimic, Note};
 use super::names::unknown;
 use super::rotation::{Rotation, Triple, direction, turned_tensor};
+use super::text::Text;
 use super::xml::{Reading, Silent, parse, shown};
 
 /// Turns of a joint without an axis, by the specification.
@@ -18,9 +19,9 @@ const SILENT: Silent = Silent {
 
 /// # Errors
 /// Everything that is wrong in the elements of the file, each by itself.
-pub fn read(text: &str) -> Result<Description, Vec<Fault>> {
-    let document = parse(text).map_err(|fault| vec![fault])?;
-    let mut reading = Reading::new(&document);
+pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
+    let document = parse(&text.whole).map_err(|fault| vec![fault])?;
+    let mut reading = Reading::new(&document, text);
     let robot = document.root_element();
     let mut description = Description::default();
     if robot.tag_name().name() != "robot" {
@@ -224,7 +225,14 @@ fn transmission<'a>(node: Node<'a, 'a>, description: &mut Description, reading: 
     }
     for (index, joint) in joints.iter().enumerate() {
         let (name, gear) = (name(joint, motors.get(index)), if simple { gear } else { 1.0 });
-        description.drives.push(Drive { name, at, along: vec![(joint.clone(), gear)], gain: 1.0, bias: [0.0; 3] });
+        description.drives.push(Drive {
+            name,
+            at,
+            along: vec![(joint.clone(), gear)],
+            at_link: None,
+            gain: 1.0,
+            bias: [0.0; 3],
+        });
         let own = description.joints.iter_mut().find(|own| own.name == *joint);
         if let (Some(own), Some(rotor), true) = (own, rotor, simple) {
             own.armature += gear * gear * rotor;

@@ -7,10 +7,12 @@ use std::ops::Range;
 use roxmltree::{Document, Node, NodeId};
 
 use super::description::{At, Fault, Note, lines};
+use super::text::Text;
 
 /// A file while it is read.
 pub struct Reading<'a> {
     document: &'a Document<'a>,
+    text: &'a Text,
     pub faults: Vec<Fault>,
     pub notes: Vec<Note>,
     /// Elements that were looked at; what else there is has been ignored.
@@ -36,14 +38,16 @@ pub fn parse(text: &str) -> Result<Document<'_>, Fault> {
         // The place stands before the message.
         let text = error.to_string();
         let text = text.split(" at ").next().unwrap_or_default();
-        Fault { at: At { line: row, column: col }, message: format!("this is no XML: {text}") }
+        Fault { at: At { line: row, column: col, ..At::default() }, message: format!("this is no XML: {text}") }
     })
 }
 
 impl<'a> Reading<'a> {
-    pub fn new(document: &'a Document<'a>) -> Self {
+    /// Of a text, parsed.
+    pub fn new(document: &'a Document<'a>, text: &'a Text) -> Self {
         let reading = Self {
             document,
+            text,
             faults: Vec::new(),
             notes: Vec::new(),
             seen: RefCell::default(),
@@ -59,8 +63,7 @@ impl<'a> Reading<'a> {
     }
 
     fn place(&self, range: Range<usize>) -> At {
-        let roxmltree::TextPos { row, col } = self.document.text_pos_at(range.start);
-        At { line: row, column: col }
+        self.text.at(range.start)
     }
 
     /// Notes what is wrong with an element.
@@ -187,7 +190,7 @@ impl<'a> Reading<'a> {
         self.unread(self.document.root_element(), silent, &mut quiet, &mut acting);
         for Kind { key, first, shown, places } in acting.kinds {
             let others =
-                if places.len() > 1 { format!("; likewise in {}", lines(&places[1..])) } else { String::new() };
+                if places.len() > 1 { format!("; likewise in {}", lines(first, &places[1..])) } else { String::new() };
             self.notes.push(Note::ignored(first, key, format!("{shown} is not read{others}")));
         }
         if let Some(Kind { first, .. }) = quiet.kinds.first() {

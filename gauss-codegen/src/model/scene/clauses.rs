@@ -190,6 +190,14 @@ pub struct InputName {
     pub field: Option<String>,
 }
 
+impl InputName {
+    /// What it is called outside of expressions.
+    pub fn called(&self) -> Ident {
+        let word = self.field.as_deref().and_then(|word| syn::parse_str::<Ident>(word).ok());
+        word.map_or_else(|| self.ident.clone(), |word| Ident::new(&word.to_string(), self.ident.span()))
+    }
+}
+
 /// How many values are under one name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputKind {

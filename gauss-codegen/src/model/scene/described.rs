@@ -5,8 +5,9 @@ use proc_macro2::{Ident, Span};
 /// A robot that was read from a file.
 #[derive(Clone)]
 pub struct Described {
-    /// Where the file is: the generated code names it, so that an edit compiles the struct anew.
-    pub path: String,
+    /// Where the file is, and those that it includes: the generated code names them, so that an edit compiles the struct
+    /// anew.
+    pub paths: Vec<String>,
     /// As it is written.
     pub file: String,
     /// The string of the clause.
@@ -37,6 +38,8 @@ pub struct StateOfFile {
     pub written: String,
     /// Coordinates and speeds that it has values of.
     pub values: Vec<(Ident, ValueOfState)>,
+    /// Inputs, as they are called outside of expressions, that it has values of.
+    pub inputs: Vec<(Ident, f64)>,
 }
 
 #[derive(Clone, Copy)]

@@ -27,6 +27,8 @@ pub enum ExpressionKind {
     },
     /// A coordinate, a speed, an input, a field that is a scalar or a vector, a point, or `t`.
     Name(Ident),
+    /// `input.elbow`: an input by what it is called outside of expressions; only until `names::inputs` has named it.
+    Input(Ident),
     /// `arm.position`: of a body, a frame or a coordinate that is a pose, which is the name before it.
     Property(Box<Expression>, Property),
     /// `a.x`, `a[0]`: component 0, 1 or 2 of a vector.
@@ -152,7 +154,7 @@ impl Expression {
     /// Calls `visit` with each of its parts, not with the parts of these.
     pub fn parts(&self, visit: &mut dyn FnMut(&Expression)) {
         match &self.kind {
-            ExpressionKind::Number { .. } | ExpressionKind::Name(_) => {}
+            ExpressionKind::Number { .. } | ExpressionKind::Name(_) | ExpressionKind::Input(_) => {}
             ExpressionKind::Component(inner, _)
             | ExpressionKind::Property(inner, _)
             | ExpressionKind::Negate(inner)
@@ -170,7 +172,7 @@ impl Expression {
     /// Calls `change` with each of its parts, not with the parts of these.
     pub fn each_part(&mut self, change: &mut dyn FnMut(&mut Expression)) {
         match &mut self.kind {
-            ExpressionKind::Number { .. } | ExpressionKind::Name(_) => {}
+            ExpressionKind::Number { .. } | ExpressionKind::Name(_) | ExpressionKind::Input(_) => {}
             ExpressionKind::Component(inner, _)
             | ExpressionKind::Property(inner, _)
             | ExpressionKind::Negate(inner)

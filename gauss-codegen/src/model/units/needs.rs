@@ -51,7 +51,8 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     checker.places(statements);
     for (index, clause) in statements.forces.iter().enumerate() {
         // Numbers of a file are in units of the SI: they need not say so.
-        if index < statements.forces_of_file && matches!(clause.kind, ForceKind::Dissipation(_)) {
+        let has_numbers = matches!(clause.kind, ForceKind::Dissipation(_) | ForceKind::Wrench { .. });
+        if index < statements.forces_of_file && has_numbers {
             continue;
         }
         checker.force(&clause.kind);

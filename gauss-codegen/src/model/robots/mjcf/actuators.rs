@@ -1,32 +1,64 @@
-//! Actuators: controls along joints and tendons.
+//! Actuators: controls along joints and tendons, and of wrenches at sites.
 
 use roxmltree::Node;
 
 use super::File;
 use crate::model::robots::description::Drive;
+use crate::model::robots::names::unknown;
 use crate::model::robots::rotation::Triple;
 
 /// Elements of defaults that all set the same.
 const ACTUATOR: &[&str] =
     &["general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "muscle", "adhesion"];
 
+/// What an actuator acts on.
+enum ActsOn {
+    /// With what its length changes by each.
+    Joints(Vec<(String, f64)>),
+    /// With the force and the torque there.
+    Link(String, [Triple; 2]),
+}
+
 impl<'a> File<'a> {
     pub fn actuators(&mut self, section: Node<'a, 'a>) {
         for node in self.reading.elements(section) {
-            let Some(along) = self.along(node) else { continue };
-            let Some((gain, bias)) = self.law(node) else { continue };
-            let name = match (self.reading.text(node, "name"), along.as_slice()) {
-                (Some(name), _) => name.to_owned(),
-                (None, [(joint, _), ..]) => joint.clone(),
-                (None, []) => continue,
-            };
-            self.description.drives.push(Drive { name, at: self.reading.at(node), along, gain, bias });
+            let drive = self.acts_on(node).and_then(|on| self.drive(node, on));
+            // Keyframes count those that are not read as well.
+            self.controls.push(drive.as_ref().map(|_| self.description.drives.len()));
+            self.description.drives.extend(drive);
         }
     }
 
-    /// The joints that an actuator acts on, with what its length changes by those.
-    fn along(&mut self, node: Node<'a, 'a>) -> Option<Vec<(String, f64)>> {
+    fn drive(&mut self, node: Node<'a, 'a>, on: ActsOn) -> Option<Drive> {
+        let (gain, bias) = self.law(node)?;
+        let (along, at_link) = match on {
+            ActsOn::Joints(along) => (along, None),
+            ActsOn::Link(link, wrench) => (Vec::new(), Some((link, wrench))),
+        };
+        let named = self.reading.text(node, "name").map(str::to_owned);
+        let first = along.first().map(|(joint, _)| joint).or(at_link.as_ref().map(|(link, _)| link)).cloned();
+        Some(Drive { name: named.or(first)?, at: self.reading.at(node), along, at_link, gain, bias })
+    }
+
+    fn acts_on(&mut self, node: Node<'a, 'a>) -> Option<ActsOn> {
         let gears = self.list(node, ACTUATOR, "gear", None).unwrap_or_default();
+        let Some(site) = self.reading.text(node, "site") else { return self.along(node, &gears).map(ActsOn::Joints) };
+        if self.reading.text(node, "refsite").is_some() {
+            self.ignored(node, "a `refsite` is not read; of sites alone the wrench at `site` is");
+            return None;
+        }
+        let Some((_, link)) = self.sites.iter().find(|(name, _)| name == site) else {
+            let message = unknown("site", site, self.sites.iter().map(|(name, _)| name.as_str()));
+            self.reading.fault(node, format!("it acts at {message}"));
+            return None;
+        };
+        let usual = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let gear = |k: usize| gears.get(k).copied().unwrap_or(if gears.is_empty() { usual[k] } else { 0.0 });
+        Some(ActsOn::Link(link.clone(), [[0, 1, 2], [3, 4, 5]].map(|part| part.map(gear))))
+    }
+
+    /// The joints that an actuator acts on, with what its length changes by those.
+    fn along(&mut self, node: Node<'a, 'a>, gears: &[f64]) -> Option<Vec<(String, f64)>> {
         let gear = gears.first().copied().unwrap_or(1.0);
         let named = |name: &str| self.description.tendons.iter().find(|tendon| tendon.name.as_deref() == Some(name));
         let joint = self.reading.text(node, "joint").or(self.reading.text(node, "jointinparent"));
@@ -37,7 +69,7 @@ impl<'a> File<'a> {
                 along.into_iter().map(|(joint, factor)| (joint, gear * factor)).collect()
             }
             _ => {
-                self.ignored(node, "it acts on no joint, and on no tendon that is read");
+                self.ignored(node, "it acts on no joint, no site, and no tendon that is read");
                 return None;
             }
         };

@@ -33,10 +33,15 @@ impl<'a> File<'a> {
             if is_free || self.text(element, JOINT, "type", class) == Some("free") {
                 // Its pose is that in the world.
                 self.hang(element, own, (&parent, name), JointKind::Floating, ([0.0; 3], Rotation::none()));
+                // `<freejoint>` has no defaults.
+                let [damping, armature] =
+                    ["damping", "armature"].map(|law| if is_free { 0.0 } else { self.amount(element, law, class) });
                 if let Some(joint) = self.description.joints.last_mut() {
-                    joint.start = (position, rotation);
+                    *joint = Joint { start: (position, rotation), damping, armature, ..joint.clone() };
                 }
-                self.refuse_laws(element, class, !is_free);
+                if !is_free {
+                    self.refuse_laws(element, class);
+                }
                 return;
             }
             let anchor = self.triple(element, "joint", "pos", class);
@@ -55,14 +60,10 @@ impl<'a> File<'a> {
         }
     }
 
-    /// What joints with several speeds have not; `<freejoint>` has no defaults.
-    fn refuse_laws(&mut self, node: Node<'a, 'a>, class: Option<&'a str>, defaults: bool) {
-        for name in ["damping", "frictionloss", "stiffness", "armature"] {
-            let amount = match self.classes.carrier((node, JOINT), name, class, &self.reading) {
-                Some(carrier) if defaults || carrier == node => self.reading.list(carrier, name),
-                _ => None,
-            };
-            if amount.is_some_and(|all| all.iter().any(|amount| *amount != 0.0)) {
+    /// What joints with several speeds have not.
+    fn refuse_laws(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) {
+        for name in ["frictionloss", "stiffness"] {
+            if self.amount(node, name, class) > 0.0 {
                 self.reading
                     .ignored(node, format!("`{name}` of {} does not act: it has not one coordinate", shown(node)));
             }
@@ -94,9 +95,12 @@ impl<'a> File<'a> {
         let joint = Joint::new(name, self.reading.at(node), kind, parent.to_owned(), child.to_owned());
         let joint = Joint { position, rotation, axis, ..joint };
         let joint = if kind == JointKind::Ball {
-            let damping = self.amount(node, "damping", class);
-            self.refuse_laws_of_ball(node, class);
-            Joint { damping, ..joint }
+            let [damping, armature] = ["damping", "armature"].map(|law| self.amount(node, law, class));
+            self.refuse_laws(node, class);
+            if self.numbers::<2>(node, JOINT, "range", class).is_some() {
+                self.reading.note(node, format!("the limit of the ball joint {} does not act", shown(node)));
+            }
+            Joint { damping, armature, ..joint }
         } else {
             self.with_laws(node, joint, class)
         };
@@ -107,18 +111,6 @@ impl<'a> File<'a> {
         match self.classes.carrier((node, JOINT), name, class, &self.reading) {
             Some(carrier) => self.reading.amount(carrier, name),
             None => 0.0,
-        }
-    }
-
-    fn refuse_laws_of_ball(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) {
-        for name in ["frictionloss", "stiffness", "armature"] {
-            if self.amount(node, name, class) > 0.0 {
-                self.reading
-                    .ignored(node, format!("`{name}` of {} does not act: it has not one coordinate", shown(node)));
-            }
-        }
-        if self.numbers::<2>(node, JOINT, "range", class).is_some() {
-            self.reading.note(node, format!("the limit of the ball joint {} does not act", shown(node)));
         }
     }
 

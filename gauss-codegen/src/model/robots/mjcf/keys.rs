@@ -37,7 +37,17 @@ impl<'a> File<'a> {
                 Some(parts.collect::<Vec<_>>())
             });
             let (values, rates) = (values.unwrap_or_default(), rates.unwrap_or_default());
-            self.description.postures.push(Posture { name, values, rates });
+            let controls = self.reading.list(node, "ctrl").map_or(Vec::new(), |all| self.controls_of(node, &all));
+            self.description.postures.push(Posture { name, values, rates, controls });
         }
+    }
+
+    /// Drives with their controls; those of actuators that are not read are left out.
+    fn controls_of(&mut self, node: Node<'a, 'a>, numbers: &[f64]) -> Vec<(usize, f64)> {
+        let (expected, found) = (self.controls.len(), numbers.len());
+        if expected != found {
+            self.reading.fault(node, format!("`ctrl` is {expected} numbers in this file, found {found}"));
+        }
+        self.controls.iter().zip(numbers).filter_map(|(drive, value)| Some(((*drive)?, *value))).collect()
     }
 }

@@ -6,6 +6,7 @@
 //! | `joints` | the joints of a body |
 //! | `masses` | mass data: of `<inertial>`, and of geoms |
 //! | `relations` | equalities and tendons |
+//! | `include` | the text of several files |
 //! | `actuators`, `keys` | what drives joints; states with names |
 //!
 //! Of several joints in a body all but the last have a link of their own, without mass; so has one whose anchor is
@@ -13,18 +14,21 @@
 
 mod actuators;
 mod classes;
+mod include;
 mod joints;
 mod keys;
 mod masses;
 mod relations;
 mod rotations;
 
+pub use self::include::included;
 use roxmltree::Node;
 
 use self::classes::Classes;
 use self::rotations::Angles;
 use super::description::{Description, Fault, Inertial, Joint, JointKind, Link};
 use super::rotation::{Matrix, Rotation, Triple, multiply, turned};
+use super::text::Text;
 use super::xml::{Reading, Silent, parse, shown};
 
 /// What says nothing of the motion: looks, contacts of which none are modelled, and how MuJoCo solves.
@@ -60,7 +64,6 @@ const SILENT: Silent = Silent {
         "condim",
         "cone",
         "contype",
-        "ctrl",
         "ctrllimited",
         "ctrlrange",
         "discardvisual",
@@ -125,9 +128,9 @@ type Place = (Triple, Matrix);
 
 /// # Errors
 /// Everything that is wrong in the elements of the file, each by itself.
-pub fn read(text: &str) -> Result<Description, Vec<Fault>> {
-    let document = parse(text).map_err(|fault| vec![fault])?;
-    let mut reading = Reading::new(&document);
+pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
+    let document = parse(&text.whole).map_err(|fault| vec![fault])?;
+    let mut reading = Reading::new(&document, text);
     let root = document.root_element();
     if root.tag_name().name() != "mujoco" {
         reading.fault(root, "an MJCF file is a <mujoco>");
@@ -139,6 +142,8 @@ pub fn read(text: &str) -> Result<Description, Vec<Fault>> {
         automatic: true,
         geoms: Geoms::Missing,
         total_mass: None,
+        sites: Vec::new(),
+        controls: Vec::new(),
         bodies: root
             .descendants()
             .filter(|node| node.tag_name().name() == "body")
@@ -192,6 +197,10 @@ struct File<'a> {
     total_mass: Option<f64>,
     /// Names of bodies.
     bodies: Vec<String>,
+    /// Names of sites, with those of their links.
+    sites: Vec<(String, String)>,
+    /// Of each actuator the index of its drive, if it is read.
+    controls: Vec<Option<usize>>,
 }
 
 impl<'a> File<'a> {
@@ -269,7 +278,9 @@ impl<'a> File<'a> {
         let Some(name) = self.reading.text(node, "name") else { return };
         // Sites have names of their own.
         let taken = |name: &str| self.bodies.iter().any(|body| body == name);
-        let name = if taken(name) { format!("{name}_site") } else { name.to_owned() };
+        let called = if taken(name) { format!("{name}_site") } else { name.to_owned() };
+        self.sites.push((name.to_owned(), called.clone()));
+        let name = called;
         self.link(name.clone(), node, None);
         let rotation = Rotation::from_matrix(&matrix);
         self.hang(node, format!("{name} mount"), (parent, &name), JointKind::Fixed, (position, rotation));

@@ -1,6 +1,6 @@
 //! Inputs by transmissions: gears, rotors, interfaces.
 
-use super::{joint, link, mistakes, model, remarks, robot};
+use super::{arm, joint, link, mistakes, model, remarks, robot};
 use crate::model::ForceKind;
 
 fn geared(inside: &str) -> String {
@@ -44,4 +44,20 @@ fn what_transmissions_say_besides() {
     // Without a rotor no inertia depends on it.
     let told = remarks(&geared(&broken.replace("<rotorInertia>1e-4</rotorInertia>", "")), "");
     assert!(told[0].1 && told[0].0.contains("<mechanicalReduction> is no number but `fifty`"), "{told:?}");
+}
+
+/// In expressions `input.elbow` is what `ArmInput { elbow }` is, whatever the input is called there itself.
+#[test]
+fn inputs_by_the_names_of_the_file() {
+    let torque = |value: &str| format!(", input(push: Wrench), torque(body = arm, value = {value}, axes = observer)");
+    let text = arm("");
+    for value in ["[input.elbow, 0, 0]", "rotation_x(0.1) * [0, 2 * input.elbow, 0]"] {
+        let whole = format!("{}, torque(body = arm, value = input.push.torque)", torque(value));
+        assert_eq!(model(&text, &whole, "").inputs.len(), 2);
+    }
+    let defined = ", define(pushed = 2 * input.elbow), drive(elbow = pushed)";
+    assert_eq!(model(&text, defined, "").inputs.len(), 1);
+    let found = |value: &str| mistakes(&text, &torque(value), "");
+    assert_eq!(found("[input.elbw, 0, 0]"), ["there is no input `elbw`; did you mean `input.elbow`?"]);
+    assert_eq!(found("[input.gravity, 0, 0]"), ["there is no input `gravity`; `input(gravity)` declares one"]);
 }

@@ -31,9 +31,9 @@ fn what_is_told_and_refused() {
             Some("3:49: <spatial name=\"s\"> does not act: only tendons that are linear in joints are read"),
         ),
         (
-            "<site name=\"arm\"/><joint type=\"ball\" armature=\"1\"/></body></worldbody>".to_owned(),
+            "<site name=\"arm\"/><joint type=\"ball\" frictionloss=\"1\"/></body></worldbody>".to_owned(),
             "",
-            Some("3:19: `armature` of <joint> does not act: it has not one coordinate"),
+            Some("3:19: `frictionloss` of <joint> does not act: it has not one coordinate"),
         ),
         (
             format!("{hinge}<actuator><position joint=\"hinge\"/></actuator>"),
@@ -47,6 +47,21 @@ fn what_is_told_and_refused() {
             format!("{hinge}<actuator><motor joint=\"hing\"/></actuator>"),
             "",
             Some("3:51: `hing` drives `hing`, which is no joint; did you mean `hinge`?"),
+        ),
+        (
+            format!("<site name=\"a\"/>{hinge}<actuator><motor site=\"b\"/></actuator>"),
+            "",
+            Some("3:67: <motor>: it acts at `b`, which is no site; did you mean `a`?"),
+        ),
+        (
+            format!("<site name=\"a\"/>{hinge}<actuator><motor site=\"a\" refsite=\"a\"/></actuator>"),
+            "",
+            Some("3:67: <motor> does not act: a `refsite` is not read; of sites alone the wrench at `site` is"),
+        ),
+        (
+            format!("{hinge}<actuator><motor joint=\"hinge\"/></actuator><keyframe><key ctrl=\"1 2\"/></keyframe>"),
+            "",
+            Some("3:94: <key>: `ctrl` is 1 numbers in this file, found 2"),
         ),
         (
             "<joint type=\"hing\"/></body></worldbody>".to_owned(),
@@ -173,4 +188,80 @@ fn masses_are_scaled_to_their_total() {
     };
     assert_eq!(masses("-1"), [1.0, 3.0]);
     assert_eq!(masses("8"), [2.0, 6.0]);
+}
+
+/// A wrench at a site by each of its actuators, which have controls of their own whatever inputs are asked for, and
+/// keyframes with these.
+#[test]
+fn actuators_at_sites() {
+    let inside = "<joint name=\"a\"/><site name=\"s\"/><site name=\"arm\" pos=\"0 0 1\"/></body></worldbody>\
+                  <actuator><motor name=\"lift\" site=\"s\" gear=\"0 0 3 0 0 -0.1\"/><motor joint=\"a\"/>\
+                  <velocity site=\"arm\" kv=\"2\"/></actuator><keyframe><key name=\"up\" ctrl=\"4 5 6\"/></keyframe>";
+    let read = model(inside, "");
+    let inputs: Vec<String> = read.inputs.iter().map(|input| input.ident.to_string()).collect();
+    assert_eq!(inputs, ["a_effort", "lift", "arm_site_control"]);
+    let wrench = |force: &ForceKind| match force {
+        ForceKind::Wrench { body, force, torque, .. } => Some((body.to_string(), force.is_some(), torque.is_some())),
+        _ => None,
+    };
+    let wrenches: Vec<_> = read.forces.iter().filter_map(|force| wrench(&force.kind)).collect();
+    assert_eq!(wrenches, [("s".to_owned(), true, true), ("arm_site".to_owned(), true, false)]);
+    let controls = |read: Model| -> Vec<(String, f64)> {
+        let up = read.described.unwrap().states.remove(0);
+        up.inputs.into_iter().map(|(name, value)| (name.to_string(), value)).collect()
+    };
+    assert_eq!(controls(read), [("lift".to_owned(), 4.0), ("arm_site".to_owned(), 6.0)]);
+    let all = controls(model(inside, ", inputs = actuators"));
+    assert_eq!(all, [("lift".to_owned(), 4.0), ("a".to_owned(), 5.0), ("arm_site".to_owned(), 6.0)]);
+}
+
+/// Armatures and dampers of joints whose coordinates are rotations and poses.
+#[test]
+fn laws_of_balls_and_free_joints() {
+    let inside = "<joint name=\"a\" type=\"ball\" armature=\"0.1\" damping=\"2\"/></body>\
+                  <body name=\"b\"><joint name=\"f\" type=\"free\" armature=\"0.2\" damping=\"3\"/>\
+                  <geom size=\"1\"/></body></worldbody>";
+    let read = model(inside, "");
+    assert_eq!(read.armatures.iter().map(|(q, _)| q.to_string()).collect::<Vec<_>>(), ["a", "f"]);
+    assert!(read.forces.iter().any(|force| matches!(force.kind, ForceKind::Dissipation(_))));
+    assert!(read.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
+}
+
+/// What is in the root of an included file stands where it is included; mistakes are in the file where they are written.
+#[test]
+fn files_that_include_others() {
+    let part = |inside: &str| Scratch::called(&format!("<mujocoinclude>\n{inside}\n</mujocoinclude>"), "xml");
+    let name = |file: &Scratch| file.0.file_name().unwrap().to_string_lossy().into_owned();
+    let include = |file: &Scratch| format!("<include file=\"{}\"/>", name(file));
+    let whole = |parts: &str| {
+        let text = format!("<mujoco>\n<worldbody><body name=\"arm\">{INERTIAL}\n{parts}</body></worldbody>\n</mujoco>");
+        let main = Scratch::called(&text, "xml");
+        let names = |text: String| text.replace(&format!("{}/", main.0.parent().unwrap().to_string_lossy()), "");
+        let read = read(&main.of("", ""));
+        let mistakes = read.as_ref().err().cloned().into_iter().flatten().map(|mistake| names(mistake.to_string()));
+        let mistakes = mistakes.collect::<Vec<_>>().join("\n").replace(&name(&main), "main");
+        (read.ok(), mistakes)
+    };
+    let hinge = part("<joint name=\"a\"/><site name=\"s\"/>");
+    let both = part(&format!("{}\n<site name=\"t\"/>", include(&hinge)));
+    let (read, mistakes) = whole(&include(&both));
+    let read = read.unwrap_or_else(|| panic!("{mistakes}"));
+    assert_eq!((read.coordinates.len(), read.bodies.len()), (1, 4));
+    assert_eq!(read.described.unwrap().paths.len(), 3);
+
+    let wrong = part("<joint\n name=\"a\" type=\"hing\"/>");
+    let text = format!("{}:2:1: <joint name=\"a\">: a joint is free, ball, slide or hinge, found `hing`", name(&wrong));
+    assert_eq!(whole(&include(&wrong)).1, text);
+    let broken = part("<joint>");
+    assert!(whole(&include(&broken)).1.starts_with(&format!("{}:3:1: this is no XML: ", name(&broken))));
+    let twice = format!("{}\n{}", include(&hinge), include(&hinge));
+    let text =
+        format!("main:4:1: <include>: `{}` is included a second time; each file can be included once", name(&hinge));
+    assert_eq!(whole(&twice).1, text);
+    let circle = part("");
+    std::fs::write(&circle.0, format!("<mujoco>{}</mujoco>", include(&circle))).unwrap();
+    let text = format!("{0}:1:9: <include>: files include each other in a circle: `{0}` includes `{0}`", name(&circle));
+    assert_eq!(whole(&include(&circle)).1, text);
+    assert_eq!(whole("<include/>").1, "main:3:1: <include>: the attribute `file` is missing");
+    assert!(whole("<include file=\"nowhere.xml\"/>").1.starts_with("main:3:1: <include>: cannot read `nowhere.xml`"));
 }

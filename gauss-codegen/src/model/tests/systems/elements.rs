@@ -104,19 +104,13 @@ fn friction_and_armatures() {
             ("top", "`top` varies, and the dry part of friction is constant; write numbers and fields only"),
             ("theta", "`theta` is given an armature twice; write the sum of the two"),
             (
-                "pose",
-                "`pose` is no scalar coordinate, and an armature turns with the rates of those; give a body its inertia \
-                 instead",
-            ),
-            (
                 "thta",
-                "`thta` is no coordinate, and an armature turns with the rates of scalar coordinates; did you mean \
-                 `theta`?",
+                "`thta` is no coordinate, and an armature turns with the rates of coordinates; did you mean `theta`?",
             ),
             ("theta", "`theta` is given an armature twice; write the sum of the two"),
             (
                 "v",
-                "`v` is a speed, not a coordinate, and an armature turns with the rates of scalar coordinates; expected \
+                "`v` is a speed, not a coordinate, and an armature turns with the rates of coordinates; expected `pose` or \
                  `theta`",
             ),
         ],
@@ -339,8 +333,7 @@ fn media() {
         &[
             ("medium", "`medium` is given twice; keep one of the two"),
             ("medium", "`medium` is given twice; keep one of the two"),
-            ("speed", "unknown argument of `medium`: `speed`; expected `velocity`"),
-            ("medium", "a medium needs its velocity; add `velocity = [cx, cy, cz]`"),
+            ("speed", "unknown argument of `medium`: `speed`; write `velocity`"),
             ("medium", "`medium` is given twice; keep one of the two"),
             ("(", "`medium()` says nothing; write `medium(velocity = [cx, cy, cz])` or remove it"),
             ("medium", "`medium` is given twice; keep one of the two"),

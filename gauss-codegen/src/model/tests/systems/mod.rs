@@ -49,7 +49,7 @@ pub(super) fn show(expression: &Expression) -> String {
     match &expression.kind {
         ExpressionKind::Own(name, argument) => format!("({name} {})", show(argument)),
         ExpressionKind::Number { value } => format!("{value:?}"),
-        ExpressionKind::Name(name) => name.to_string(),
+        ExpressionKind::Name(name) | ExpressionKind::Input(name) => name.to_string(),
         ExpressionKind::Component(base, index) => format!("{}[{index}]", show(base)),
         ExpressionKind::Property(base, property) => format!("{}.{property:?}", show(base)),
         ExpressionKind::Negate(inner) => format!("(-{})", show(inner)),
