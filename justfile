@@ -36,6 +36,15 @@ fuzz:
     mkdir -p fuzz/corpus
     cargo +nightly fuzz run -s none derive fuzz/corpus fuzz/seeds -- -max_len=8192 -timeout=60 -rss_limit_mb=2048
 
+# Features of the published crates, in a clone: `cargo install --locked cargo-hack` once.
+features:
+    rm -rf target/features && git clone --quiet . target/features
+    cd target/features && export RUSTFLAGS="-D warnings" CARGO_TARGET_DIR="$PWD/target" && \
+    cargo hack check -p gauss-codegen -p gauss-derive -p gauss-tables --feature-powerset --no-dev-deps && \
+    cargo hack check -p gauss-runtime --feature-powerset --depth 2 --no-dev-deps --at-least-one-of std,libm \
+        --exclude-features default --group-features urdf,mjcf \
+        --group-features glam030,glam031,glam032,glam033 --group-features ode_solvers,differential-equations,diffsol
+
 # The guide as pages: `cargo install mdbook mdbook-katex` once.
 guide:
     mdbook build guide

@@ -1,10 +1,13 @@
 //! A pole balanced on a cart by a linear–quadratic regulator: `cargo run --release --example cart_pole`.
 //!
 //! `#[gauss(linearize)]` has the derive write the exact derivatives of the equations; upright they are the A and B that the
-//! regulator is designed for. It is then tried on the equations themselves.
+//! regulator is designed for. It is then tried on the equations themselves. The page that plays goes to `target/gauss`.
 
 use std::error::Error;
 
+use gauss_examples::plots::write_page;
+use gauss_examples::stage;
+use gauss_playback::Playback;
 use gauss_runtime::prelude::*;
 
 /// A cart on a rail, and a pole on its hinge; the angle is from upright.
@@ -110,5 +113,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if residual > 1e-9 || (cost / expected - 1.0).abs() > 1e-4 || last.q.amax() > 1e-2 {
         return Err("the regulator does not do what it was designed for".into());
     }
-    Ok(())
+    let page = Playback::new("A pole balanced by its cart", &fall)?;
+    let page = stage::cart_and_pole(page, 0.6, 0.05, |s| law(s.t, &s.q, &s.z)[0]);
+    write_page("cart_pole", &page.energy(&kernel))
 }

@@ -7,6 +7,8 @@
 
 use std::error::Error;
 
+use gauss_examples::plots::write_page;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 /// A crate that was thrown, and tumbles.
@@ -95,5 +97,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("the motion depends on the frames".into());
     }
     println!("after 250 steps: the same bits at all rates");
-    Ok(())
+    // The edges of a uniform box with these moments.
+    let page = Playback::new("A crate that was thrown", &exact)?
+        .body("crate", |s| s.q, [Shape::cuboid([1.05_f64.sqrt(), 0.45_f64.sqrt(), 0.15_f64.sqrt()])])
+        .follow("crate")
+        .trace("crate", [0.0; 3])
+        .trace("crate", [0.5, 0.0, 0.0])
+        .arrow("velocity", 0.2, |s| (s.q.translation.vector, s.z.fixed_rows::<3>(0).into()))
+        .arrow("angular velocity", 0.2, |s| {
+            (s.q.translation.vector, s.q.rotation * Vector3::from(s.z.fixed_rows::<3>(3)))
+        });
+    write_page("game_loop", &page.energy(&kernel))
 }

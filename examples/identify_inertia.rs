@@ -14,6 +14,8 @@
 use std::error::Error;
 use std::f64::consts::TAU;
 
+use gauss_examples::plots::write_page;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::linearize::error_matrix;
 use gauss_runtime::prelude::*;
 
@@ -238,6 +240,21 @@ fn main() -> Result<(), Box<dyn Error>> {
         NOISE[0],
         NOISE[1]
     );
+
+    let path = motion(&body, start, 4)?;
+    let page = Playback::of_samples("A satellite on an air bearing, shaken to tell its inertia", path)
+        .body(
+            "satellite",
+            |s| Isometry3::from_parts(Translation3::identity(), s.q),
+            [Shape::of_inertia(MASS, [truth[0], truth[1], truth[2]], &satellite(&truth).inertia)],
+        )
+        .trace("satellite", [0.0, 0.0, 0.5])
+        .arrow("torque", 2.0, |s| (Vector3::zeros(), s.q * torque(s.t)))
+        .arrow("angular velocity", 0.8, |s| (Vector3::zeros(), s.q * s.z))
+        .curve("angular velocity / (rad/s)", "ω₁", |s| s.z[0])
+        .curve("angular velocity / (rad/s)", "ω₂", |s| s.z[1])
+        .curve("angular velocity / (rad/s)", "ω₃", |s| s.z[2]);
+    write_page("identify_inertia", &page.energy(&body))?;
 
     let runs = gauss_examples::runs(50);
     let (mut distance, mut misfit) = (0.0, 0.0);

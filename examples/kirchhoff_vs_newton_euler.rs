@@ -27,9 +27,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     fs::create_dir_all(&folder)?;
     let svg = figure::svg(&comparison, &timings)?;
+    let page = figure::page(&fleet.kirchhoff, &comparison).html()?;
     let files = [
         ("kirchhoff_vs_newton_euler.svg", svg.clone().into_bytes(), "the picture"),
         ("kirchhoff_vs_newton_euler.png", figure::png(&svg)?, "the same in pixels"),
+        ("kirchhoff_vs_newton_euler.html", page.into_bytes(), "the motion, as a page that plays"),
         (
             "equations.txt",
             report::all_equations(&fleet)?.into_bytes(),

@@ -6,6 +6,9 @@
 
 use std::error::Error;
 
+use gauss_examples::plots::write_page;
+use gauss_examples::stage;
+use gauss_playback::Playback;
 use gauss_runtime::prelude::*;
 
 /// A cart on a rail, and a pole on its hinge; the angle is from upright.
@@ -136,6 +139,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let limit = 4.0;
     let (mut q, mut z) = (SVector::from([0.0, 0.3]), still);
     let (mut worst, mut at_limit) = (0.0_f64, 0);
+    let (mut path, mut pushes) = (Vec::new(), Vec::new());
     println!("   t/s    x/m  θ/rad  push/N");
     for n in 0..160 {
         let x = State::new(q[0], q[1], z[0], z[1]);
@@ -152,12 +156,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let held = SVector::from([plan[0]]);
         let run = Simulation::new(&kernel).input(move |_t, _q, _z| held).adaptive(1e-9, 1e-9);
-        let next = run.run_to_end(q, z, 0.0..SAMPLE)?;
-        (q, z) = (next.q, next.z);
+        let next = run.run(q, z, 0.0..SAMPLE)?;
+        // Each interval begins at time zero; the last state of one is the first of the next.
+        path.extend(next.iter().skip(usize::from(n > 0)).map(|s| Sample { t: f64::from(n) * SAMPLE + s.t, ..*s }));
+        pushes.push(plan[0]);
+        (q, z) = (next.last().q, next.last().z);
     }
     println!("at the limit for {at_limit} samples; worst residual of the conditions {worst:.0e}");
     if at_limit < 3 || worst > 1e-9 || q.amax() > 1e-2 || z.amax() > 1e-2 {
         return Err("the pole is not balanced by best plans".into());
     }
-    Ok(())
+    let page = Playback::of_samples("A pole balanced by plans, with at most 4 N", path);
+    let push = |s: &Sample<CartPoleKernel>| pushes[((s.t / SAMPLE) as usize).min(pushes.len() - 1)];
+    write_page("mpc_step", &stage::cart_and_pole(page, 0.6, 0.1, push).energy(&kernel))
 }

@@ -1,16 +1,21 @@
 //! An arm of seven joints draws a circle with its tool, controlled in operational space: the error of the tool obeys the linear
-//! equation that the controller wants, whatever the arm does besides. `cargo run --release --example operational_space`.
+//! equation that the controller wants, whatever the arm does besides. `cargo run --release --example operational_space`
+//! writes the motion as a page into `target/gauss`.
 //!
 //! Joints are those of the public description of the Franka Emika Panda; links are like cylinders of its masses.
 
+use gauss_examples::plots::write_page;
+use gauss_examples::stage;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::frames::in_observers_axes;
 use gauss_runtime::operational::{OperationalError, OperationalSpace};
 use gauss_runtime::prelude::*;
 
-/// What is asked for beside the equations: the motion of the tool, and inverse dynamics at rest.
+/// What is asked for beside the equations: the motion of the tool, and inverse dynamics at rest; the other frames are for the
+/// page.
 #[derive(GaussDynamics)]
 #[gauss(
-    frames(tool),
+    frames(b1, b2, b3, b4, b5, b6, b7, tool),
     methods(nonlinear_effects),
     coordinates(q1, q2, q3, q4, q5, q6, q7),
     body(b1, position = [0, 0, 0.333], rotation = rotation_z(q1),
@@ -102,5 +107,28 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     // Some hundred steps with a tolerance of 1e-10 each, on angles that move the tool by up to a metre.
     assert!(worst < 1e-7, "the tool is {worst:e} m off the equation of its error");
-    Ok(())
+    write_page("operational_space", &page(&arm, &path)?)
+}
+
+/// The arm as its skeleton, and where its tool should be.
+fn page<'k>(arm: &'k ArmKernel, path: &Trajectory<'k, ArmKernel>) -> Result<Playback<ArmKernel>, IntegrationError> {
+    let goal = |s: &Sample<ArmKernel>| Isometry3::from(Translation3::from(wanted(s.t)[0]));
+    let off = |s: &Sample<ArmKernel>| 1e3 * error(arm, s.t, &s.q, &s.z)[0].norm();
+    let page = Playback::new("An arm draws a circle with its tool", path)?
+        .frames(arm)
+        .body("base", |_| Isometry3::identity(), [Shape::cylinder(0.09, 0.06)])
+        .body("where the tool should be", goal, [Shape::ball(0.015)])
+        .shape("tool", Shape::cylinder(0.03, 0.04));
+    let mut page = stage::chain(page, &["base", "b1", "b2", "b3", "b4", "b5", "b6", "b7", "tool"], 0.035)
+        .trace("tool", [0.0; 3])
+        .arrow("velocity of the tool", 0.5, |s| {
+            let tool = arm.frames(s.t, &s.q, &s.z)[ArmFrame::tool].in_observers_axes();
+            (tool.pose.translation.vector, tool.twist.fixed_rows::<3>(0).into())
+        })
+        .curve("tool from where it should be / mm", "distance", off);
+    for k in [0, 1, 3] {
+        let torque = move |s: &Sample<ArmKernel>| torques(arm, s.t, &s.q, &s.z).map_or(f64::NAN, |torques| torques[k]);
+        page = page.curve("torque / (N m)", &format!("joint {}", k + 1), torque);
+    }
+    Ok(page.energy(arm))
 }

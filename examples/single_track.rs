@@ -5,6 +5,8 @@
 
 use std::error::Error;
 
+use gauss_examples::plots::write_page;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 /// A car in the plane: O is its centre of mass, e₁ forward, e₂ to the left. What a tyre does is its stiffness times the
@@ -106,5 +108,45 @@ fn main() -> Result<(), Box<dyn Error>> {
     if (stable / critical - 1.0).abs() > 1e-9 {
         return Err("the critical speed is another".into());
     }
-    Ok(())
+    write_page("single_track", &page(&car(90e3, 55.0), &car(150e3, 55.0))?)
+}
+
+/// Two cars faster than the critical speed of the second, each steered for a moment: what its tyres give.
+fn page(understeers: &Car, oversteers: &Car) -> Result<Playback<CarKernel>, Box<dyn Error>> {
+    let steer = |t: f64| SVector::from([0.01 * (-8.0 * (t - 1.0).powi(2)).exp()]);
+    let kernels = [understeers.kernel()?, oversteers.kernel()?];
+    let follow = |kernel: &CarKernel, car: &Car| {
+        let start = (Isometry2::identity(), Vector3::new(car.speed, 0.0, 0.0));
+        let run = Simulation::new(kernel).input(move |t, _q: &_, _z: &_| steer(t)).adaptive(1e-9, 1e-9);
+        run.run(start.0, start.1, 0.0..4.0)?.at_times((0..600).map(|n| 4.0 * f64::from(n) / 599.0))
+    };
+    let paths = [follow(&kernels[0], understeers)?, follow(&kernels[1], oversteers)?];
+    let names = ["soft in front", "stiff in front"];
+    let mut page = Playback::of_samples("Two cars steered for a moment, above the critical speed", paths[0].clone());
+    for (((name, kernel), path), car) in names.into_iter().zip(&kernels).zip(&paths).zip([understeers, oversteers]) {
+        // Both are sampled at the same times.
+        let of = |s: &Sample<CarKernel>| path[path.partition_point(|other| other.t < s.t).min(path.len() - 1)];
+        let pose = |s: &Sample<CarKernel>| kernel.pose(s.t, &of(s).q);
+        let tyre = |(x, side): (f64, f64)| {
+            Shape::cuboid([0.6, 0.2, 0.6]).at(&Isometry3::translation(x, side, -0.1)).colour("#444444")
+        };
+        let hull = Shape::cuboid([4.2, 1.6, 0.7]).at(&Isometry3::translation(0.0, 0.0, 0.4));
+        let tyres = [(car.a, 0.8), (car.a, -0.8), (-car.b, 0.8), (-car.b, -0.8)].map(tyre);
+        page = page.body(name, pose, [hull].into_iter().chain(tyres)).trace(name, [0.0; 3]);
+        for (axle, at) in [("front", car.a), ("rear", -car.b)] {
+            let Some(k) = CarKernel::ELEMENTS.iter().position(|element| element.name == axle) else { continue };
+            // The speeds are (u, v, r): what acts on them are a force in body axes and a torque.
+            page = page.arrow(&format!("{axle} tyres, {name}"), 2e-4, |s| {
+                let forces = kernel.element_forces(s.t, &of(s).q, &of(s).z, &steer(s.t));
+                let pose = pose(s);
+                let place = pose.translation.vector + pose.rotation * Vector3::new(at, 0.0, 0.0);
+                (place, pose.rotation * Vector3::new(forces[(0, k)], forces[(1, k)], 0.0))
+            });
+        }
+        page = page
+            .curve("turn / (°/s)", name, |s| of(s).z[2].to_degrees())
+            .curve("drift / °", name, |s| of(s).z[1].atan2(of(s).z[0]).to_degrees())
+            .curve("kinetic energy / kJ", name, |s| 1e-3 * kernel.kinetic_energy(s.t, &of(s).q, &of(s).z));
+    }
+    Ok(page.from_above().follow(names[1]))
 }

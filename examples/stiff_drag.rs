@@ -8,6 +8,8 @@
 use std::error::Error;
 use std::time::{Duration, Instant};
 
+use gauss_examples::plots::write_page;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::integrate::Control;
 use gauss_runtime::prelude::*;
 
@@ -78,5 +80,31 @@ fn main() -> Result<(), Box<dyn Error>> {
     if disagreement > 1.0 {
         return Err("the methods disagree by more than their tolerances".into());
     }
-    Ok(())
+    write_page("stiff_drag", &page(&kernel)?)
+}
+
+/// The capsule, the spring, and what the oil and the spring do.
+fn page(kernel: &CapsuleKernel) -> Result<Playback<CapsuleKernel>, IntegrationError> {
+    let control = Adaptive::by(Rosenbrock, 1e-8, 1e-8);
+    let path =
+        Simulation::new(kernel).control(control).run(Isometry3::identity(), Vector6::zeros(), 0.0..20.0 * SPAN)?;
+    let eye = Vector3::new(0.0, 0.0, 0.3);
+    let mut page = Playback::new("A capsule creeps through thick oil", &path)?
+        .body("capsule", |s| s.q, [Shape::ellipsoid([0.15, 0.15, 0.3])])
+        .body("eye", |s| s.q * Isometry3::from(Translation3::from(eye)), [])
+        .body("hook", |_| Isometry3::translation(1.0, 2.0, 3.0), [Shape::ball(0.05).colour("#444444")])
+        .rod("hook", "eye", 0.01)
+        .trace("capsule", [0.0; 3]);
+    for (k, element) in CapsuleKernel::ELEMENTS.iter().enumerate() {
+        // The speeds are (u, ω): what acts on them are a force in body axes and a torque.
+        let force = |s: &Sample<CapsuleKernel>| -> Vector3<f64> {
+            kernel.element_forces(s.t, &s.q, &s.z, &()).fixed_view::<3, 1>(0, k).into()
+        };
+        page = page.arrow(element.name, 4e-4, |s| (s.q.translation.vector, s.q.rotation * force(s))).curve(
+            "force / N",
+            element.name,
+            |s| force(s).norm(),
+        );
+    }
+    Ok(page.energy(kernel))
 }

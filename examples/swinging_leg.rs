@@ -6,6 +6,8 @@
 
 use std::error::Error;
 
+use gauss_examples::plots::write_page;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 /// A thigh on a fixed hip, and a shank with its foot. Angles are about k₂: of the thigh from straight down, forward
@@ -14,6 +16,7 @@ use gauss_runtime::prelude::*;
 #[derive(GaussDynamics)]
 #[gauss(
     linearize,
+    frames(thigh, shank),
     coordinates(hip, knee),
     body(thigh, rotation = rotation_y(-hip)),
     body(shank, parent = thigh, position = [0, 0, -length], rotation = rotation_y(knee)),
@@ -140,5 +143,30 @@ fn main() -> Result<(), Box<dyn Error>> {
     if run.stopped_by() != Some(0) || end.t > 0.5 || hip < 0.0 || knee_dot > 0.0 || lost > 1e-8 {
         return Err("that is no step".into());
     }
-    Ok(())
+    write_page("swinging_leg", &page(&kernel, &run)?)
+}
+
+/// The leg, and the weights of its segments.
+fn page(kernel: &LegKernel, path: &Trajectory<LegKernel>) -> Result<Playback<LegKernel>, IntegrationError> {
+    let (mass, depth, _) = lower_leg();
+    let weight = |s: &Sample<LegKernel>, frame: LegFrame, depth: f64, mass: f64| {
+        let pose = kernel.pose_of(frame, s.t, &s.q);
+        (pose.translation.vector - pose.rotation * Vector3::z() * depth, Vector3::z() * (-mass * 9.81))
+    };
+    let ankle = [0.0, 0.0, -SHANK.length];
+    let foot = Shape::cuboid([FOOT.length, 0.08, 0.05]).at(&Isometry3::translation(0.08, 0.0, -SHANK.length - 0.02));
+    Ok(Playback::new("A leg that swings by its weight alone", path)?
+        .frames(kernel)
+        .from_the_side()
+        .shape("thigh", Shape::ball(0.07))
+        .shape("thigh", Shape::rod([0.0; 3], [0.0, 0.0, -THIGH.length], 0.06))
+        .shape("shank", Shape::ball(0.06))
+        .shape("shank", Shape::rod([0.0; 3], ankle, 0.045))
+        .shape("shank", foot.colour("#444444"))
+        .trace("shank", ankle)
+        .arrow("weight of the thigh", 3e-3, |s| weight(s, LegFrame::thigh, THIGH.depth(), THIGH.mass()))
+        .arrow("weight of shank and foot", 3e-3, |s| weight(s, LegFrame::shank, depth, mass))
+        .curve("angle / °", "hip", |s| s.q[0].to_degrees())
+        .curve("angle / °", "knee", |s| s.q[1].to_degrees())
+        .energy(kernel))
 }

@@ -102,6 +102,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!();
     plots::write("attitude_filter", &picture::draw(&followed)?)?;
+    plots::write_page("attitude_filter", &picture::page(&kernel, &motions[0], &followed[0].runs[0]))?;
 
     let (mean, error) = followed[0].settled();
     // Of 60 looks 57 are expected inside, ±1.7 if they were independent; neighbours are not quite.

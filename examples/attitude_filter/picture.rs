@@ -4,10 +4,12 @@ use std::error::Error;
 
 use gauss_examples::figure::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, sheet};
+use gauss_playback::{Playback, Shape};
+use gauss_runtime::prelude::*;
 use plotters::style::RGBColor;
 
 use crate::filter::{Moment, Transition};
-use crate::model::{ARCSECOND, STEP, STEPS};
+use crate::model::{ARCSECOND, STEP, STEPS, SpacecraftKernel, State, Truth, spacecraft};
 use crate::study::{Followed, interval};
 
 /// Other motions, behind the one that is drawn.
@@ -37,7 +39,7 @@ fn errors_within_bounds(followed: &[Followed], look: f64) -> Vec<Plot<'static>> 
         };
         let error = |m: &Moment| m.error[component];
         let mut lines: Vec<Line> =
-            runs[1..=OTHERS].iter().map(|run| Line::new("", FAINT, curve(run, &error)).wide(2)).collect();
+            runs.iter().skip(1).take(OTHERS).map(|run| Line::new("", FAINT, curve(run, &error)).wide(2)).collect();
         lines.push(Line::new("one motion, others behind it", COLOURS[0], curve(&runs[0], &error)).wide(4));
         let bound = |sign: f64| curve(&runs[0], &|m: &Moment| sign * 3.0 * m.deviations[component]);
         lines.push(Line::new("±3σ of the filter", COLOURS[1], bound(1.0)).wide(3));
@@ -91,4 +93,37 @@ fn by_transition(followed: &[Followed], look: f64) -> Vec<Plot<'static>> {
         lines,
     );
     vec![normalised, learnt]
+}
+
+/// One of the motions: the satellite, where the filter takes it to look, and how wrong that is.
+pub fn page(kernel: &SpacecraftKernel, truth: &Truth, run: &[Moment]) -> Playback<SpacecraftKernel> {
+    let sample = |(step, &(q, z)): (usize, &State)| {
+        let t = step as f64 * STEP;
+        Sample { t, q, z, p: kernel.momentum(t, &q, &z) }
+    };
+    // After each step, before what the tracker sees then.
+    let moments: Vec<&Moment> = run.iter().filter(|m| !m.updated).collect();
+    let at = |s: &Sample<SpacecraftKernel>| moments[((s.t / STEP).round() as usize).min(moments.len() - 1)];
+    let part = |v: &Vector6<f64>, from: usize| -> Vector3<f64> { v.fixed_rows::<3>(from).into() };
+    let estimated = |s: &Sample<SpacecraftKernel>| s.q.retract(&-part(&at(s).error, 0));
+    let samples = truth.states.iter().enumerate().map(sample).collect();
+    let log_arcseconds = |v: &Vector6<f64>, from: usize| (part(v, from).norm() / ARCSECOND).log10();
+    Playback::of_samples("A filter follows a satellite", samples)
+        .body(
+            "satellite",
+            |s| Isometry3::from_parts(Translation3::identity(), s.q),
+            [
+                Shape::of_inertia(30.0, [0.0; 3], &spacecraft().inertia),
+                Shape::cylinder(0.08, 0.2).at(&Isometry3::translation(0.0, 0.0, 0.35)).colour("#444444"),
+            ],
+        )
+        .trace("satellite", [0.0, 0.0, 0.8])
+        .arrow("where the tracker looks", 0.8, |s| (Vector3::zeros(), s.q * Vector3::z()))
+        .arrow("where the filter takes it to look", 0.8, |s| (Vector3::zeros(), estimated(s) * Vector3::z()))
+        .arrow("angular velocity", 10.0, |s| (Vector3::zeros(), s.q * s.z))
+        .curve("attitude, log₁₀ of ″", "error", |s| log_arcseconds(&at(s).error, 0))
+        .curve("attitude, log₁₀ of ″", "as the filter has it", |s| log_arcseconds(&at(s).deviations, 0))
+        .curve("rate, log₁₀ of ″/s", "error", |s| log_arcseconds(&at(s).error, 3))
+        .curve("rate, log₁₀ of ″/s", "as the filter has it", |s| log_arcseconds(&at(s).deviations, 3))
+        .curve("energy / J", "of rotation", |s| kernel.kinetic_energy(s.t, &s.q, &s.z))
 }

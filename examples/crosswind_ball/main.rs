@@ -5,7 +5,8 @@
 mod model;
 
 use gauss_examples::figure::COLOURS;
-use gauss_examples::plots::{Line, Plot, sheet, write};
+use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 use plotters::style::RGBColor;
 
@@ -46,7 +47,36 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let title = "From above: the wind blows to the left (up), the ball flies to the right";
     let above = Plot::new(title, along.clone(), ("aside, m", -1.0..7.0), above);
     let beside = Plot::new("From the side", along, ("height, m", 0.0..12.0), beside);
-    write("crosswind_ball", &sheet("A long pass in gusty wind", (1600, 1300), &[vec![above], vec![beside]])?)
+    write("crosswind_ball", &sheet("A long pass in gusty wind", (1600, 1300), &[vec![above], vec![beside]])?)?;
+    page(spin)
+}
+
+/// The pass that comes back to its line, with the forces on the ball.
+fn page(spin: f64) -> Result<(), Box<dyn std::error::Error>> {
+    let ball = Ball::football(Vector3::new(0.0, 8.0, 0.0));
+    let kernel = ball.kernel()?;
+    let path = fly(&kernel, kick(), Vector3::z() * spin, 3.5)?;
+    let (lands, _) = until_ground(&path);
+    let path = path.at_times((0..600).map(|n| lands * f64::from(n) / 599.0))?;
+    let place = |s: &Sample<BallKernel>| s.q.translation.vector;
+    let radius = (1.5 * ball.inertia / ball.mass).sqrt();
+    // A dark panel shows how it spins.
+    let panel = Shape::cylinder(0.5 * radius, 0.02).at(&Isometry3::translation(0.95 * radius, 0.0, 0.0));
+    let mut page = Playback::of_samples("A long pass in a crosswind, with sidespin", path)
+        .body("ball", |s| kernel.pose(s.t, &s.q), [Shape::ball(radius), panel.colour("#444444")])
+        .follow("ball")
+        .trace("ball", [0.0; 3])
+        .arrow("wind", 0.05, |s| (place(s), ball.air(s.t).0));
+    // The speeds are ḃ and ω: the first three of what acts on them are a force by the observer.
+    for (k, element) in BallKernel::ELEMENTS.iter().enumerate().filter(|(_, e)| ["drag", "magnus"].contains(&e.name)) {
+        let force = |s: &Sample<BallKernel>| -> Vector3<f64> {
+            kernel.element_forces(s.t, &s.q, &s.z, &()).fixed_view::<3, 1>(0, k).into()
+        };
+        page = page
+            .arrow(element.name, 0.25, |s| (place(s), force(s)))
+            .curve("force / N", element.name, |s| force(s).norm());
+    }
+    write_page("crosswind_ball", &page.curve("aside / m", "y", |s| place(s).y).energy(&kernel))
 }
 
 fn drop_it(calm: &Ball) -> Result<(), Box<dyn std::error::Error>> {

@@ -159,6 +159,24 @@ impl<K: Jointed<N>, const N: usize> Dry<'_, K, N> {
         Ok(all)
     }
 
+    /// The states of a run that had these moments, at most `apart` seconds from one another.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn path(&self, moments: &[Moment<N>], apart: f64) -> Result<Vec<Sample<K>>, IntegrationError> {
+        let mut path = Vec::new();
+        for pair in moments.windows(2) {
+            let friction = |t: f64, q: &SVector<f64, N>, z: &SVector<f64, N>| {
+                self.forces(&pair[0].modes, t, q, z).unwrap_or_else(|| SVector::from([f64::NAN; N]))
+            };
+            let run = Simulation::new(self.kernel).input(friction).adaptive(1e-9, 1e-9).largest_step(apart);
+            let part = run.run(pair[0].q, pair[0].z, pair[0].t..pair[1].t)?;
+            // The last state of a part is the first one of the next.
+            path.extend(part.iter().skip(usize::from(!path.is_empty())).copied());
+        }
+        Ok(path)
+    }
+
     /// The joint that made the event rests exactly, or gives way.
     fn after(&self, Moment { t, q, mut z, mut modes }: Moment<N>) -> Option<Moment<N>> {
         let margins = self.margins(&modes, t, &q, &z);

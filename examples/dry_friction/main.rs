@@ -1,14 +1,17 @@
 //! Dry friction exactly, sticking and sliding by turns: a slider beside its exact solution, and an arm whose two joints
 //! stick and give way, beside friction that is made smooth.
 //!
-//! `cargo run --release --example dry_friction`
+//! `cargo run --release --example dry_friction [-- FOLDER]` writes the motion of the arm as a page into `FOLDER`, by default
+//! `target/gauss`.
 
 mod friction;
 mod model;
 
 use friction::{Dry, Mode};
+use gauss_examples::plots::write_page;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
-use model::{Arm, SWINGS, Slider, SmoothArm};
+use model::{Arm, ArmFrame, ArmKernel, SWINGS, Slider, SmoothArm};
 
 /// Friction of the slider, N; of shoulder and elbow, N m.
 const ON_THE_FLOOR: f64 = 0.2;
@@ -59,5 +62,31 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let last = run.run_to_end(SVector::from(LET_GO), SVector::zeros(), 0.0..WATCHED)?.sample;
         println!("  {creep:.0e}      {:.1e}", (last.q - end).amax());
     }
-    Ok(())
+    write_page("dry_friction", &page(&dry, &moments)?)
+}
+
+/// The arm, the friction of each joint, and which of them stick.
+fn page(dry: &Dry<'_, ArmKernel, 2>, moments: &[friction::Moment<2>]) -> Result<Playback<ArmKernel>, IntegrationError> {
+    let kernel = dry.kernel;
+    let modes = |t: f64| moments.iter().rev().find(|m| m.t <= t).unwrap_or(&moments[0]).modes;
+    let friction =
+        |s: &Sample<ArmKernel>, k: usize| dry.forces(&modes(s.t), s.t, &s.q, &s.z).map_or(f64::NAN, |forces| forces[k]);
+    let weight = |s: &Sample<ArmKernel>, frame: ArmFrame, depth: f64, mass: f64| {
+        let pose = kernel.pose_of(frame, s.t, &s.q);
+        (pose.translation.vector - pose.rotation * Vector3::z() * depth, Vector3::z() * (-mass * 9.81))
+    };
+    let rod = |length: f64| Shape::rod([0.0; 3], [0.0, 0.0, -length], 0.02);
+    let mut page = Playback::of_samples("Dry friction, sticking and sliding by turns", dry.path(moments, 0.01)?)
+        .frames(kernel)
+        .from_the_side()
+        .shape("upper", rod(0.4))
+        .shape("lower", rod(0.3))
+        .trace("lower", [0.0, 0.0, -0.3])
+        .arrow("weight of the upper rod", 0.01, |s| weight(s, ArmFrame::upper, 0.2, 2.0))
+        .arrow("weight of the lower rod", 0.01, |s| weight(s, ArmFrame::lower, 0.15, 1.0));
+    for (k, joint) in ["shoulder", "elbow"].into_iter().enumerate() {
+        let sticks = |s: &Sample<ArmKernel>| f64::from(u8::from(modes(s.t)[k] == Mode::Sticks));
+        page = page.curve("friction / (N m)", joint, |s| friction(s, k)).curve("sticks: 1", joint, sticks);
+    }
+    Ok(page.energy(kernel))
 }

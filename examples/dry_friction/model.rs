@@ -52,6 +52,7 @@ impl Slider {
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(shoulder, elbow),
+    frames(upper, lower),
     body(upper, rotation = rotation_y(shoulder), mass = 2, center_of_mass = [0, 0, -0.2],
          inertia_about_center_of_mass = 0.027),
     body(lower, parent = upper, position = [0, 0, -0.4], rotation = rotation_y(elbow), mass = 1,

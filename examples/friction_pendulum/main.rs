@@ -6,7 +6,7 @@
 mod picture;
 mod scene;
 
-use gauss_examples::plots::write;
+use gauss_examples::plots::{write, write_page};
 use gauss_runtime::prelude::*;
 
 use scene::{Pendulum, PendulumKernel, PendulumState, Slider};
@@ -56,7 +56,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("  with ε = 1e-4 m/s {steps} steps cover {:.3} s", reached - slider.rests());
 
     let svg = picture::draw(&pendulum, &kernel, &path, &slider)?;
-    write("friction_pendulum", &svg)
+    write("friction_pendulum", &svg)?;
+    write_page("friction_pendulum", &picture::page(&kernel, &path, pendulum.limit)?)
 }
 
 /// ∫ power dt of each element, J: Simpson's rule from sample to sample.

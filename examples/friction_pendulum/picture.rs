@@ -4,9 +4,10 @@ use std::error::Error;
 
 use gauss_examples::figure::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, sheet};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
-use crate::scene::{Pendulum, PendulumKernel, Slider};
+use crate::scene::{LENGTH, Pendulum, PendulumFrame, PendulumKernel, Slider};
 use crate::{Sliding, slide};
 
 /// Lower end of the axis of powers, W: what the buffer takes is far below it.
@@ -77,4 +78,35 @@ fn distances<K: Sliding>(kernel: &K, slider: &Slider) -> Result<Vec<(f64, f64)>,
     let path = slide(kernel, slider, 1e-10)?;
     let samples = path.at_times((1..=400).map(|n| slider.rests() * f64::from(n) / 400.0))?;
     Ok(samples.iter().map(|s| (s.t, (s.q[0] - slider.exact(s.t)).abs().max(1e-13).log10())).collect())
+}
+
+/// The rod, every torque as a force at its end, and what each element delivers.
+///
+/// # Errors
+/// When the path has no state at a time.
+pub fn page(
+    kernel: &PendulumKernel,
+    path: &Trajectory<PendulumKernel>,
+    limit: f64,
+) -> Result<Playback<PendulumKernel>, IntegrationError> {
+    let end = Vector3::new(0.0, 0.0, -LENGTH);
+    // Beside the rod where it meets the buffer.
+    let buffer = Isometry3::rotation(Vector3::y() * limit) * Isometry3::translation(0.035, 0.0, -0.8 * LENGTH);
+    let mut page = Playback::new("A pendulum with dry friction, a spiral spring and a buffer", path)?
+        .frames(kernel)
+        .from_the_side()
+        .shape("rod", Shape::rod([0.0; 3], end.into(), 0.012))
+        .body("buffer", |_| buffer, [Shape::cuboid([0.04, 0.06, 0.06]).colour("#444444")])
+        .trace("rod", end.into());
+    for (k, element) in PendulumKernel::ELEMENTS.iter().enumerate() {
+        let torque = |s: &Sample<PendulumKernel>| kernel.element_forces(s.t, &s.q, &s.z, &())[(0, k)];
+        // A torque about the pivot as the force at the end of the rod that has it.
+        page = page
+            .arrow(element.name, 0.08, |s| {
+                let rotation = kernel.pose_of(PendulumFrame::rod, s.t, &s.q).rotation;
+                (rotation * end, rotation * Vector3::x() * (-torque(s) / LENGTH))
+            })
+            .curve("power / W", element.name, |s| kernel.powers(s.t, &s.q, &s.z, &())[k]);
+    }
+    Ok(page.energy(kernel))
 }

@@ -11,6 +11,7 @@ use gauss_runtime::prelude::*;
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(theta),
+    frames(rod),
     body(rod, rotation = rotation_y(theta)),
     drive(friction, theta = -dry * rate(theta) / hypot(rate(theta), creep)),
     spring(spiral, along = theta, stiffness = spiral, length = relaxed),
@@ -40,11 +41,14 @@ pub struct Pendulum {
     pub g: f64,
 }
 
+/// Length of the rod, m.
+pub const LENGTH: f64 = 0.5;
+
 impl Pendulum {
-    /// A uniform rod of 0.2 kg and 0.5 m: a desk model.
+    /// A uniform rod of 0.2 kg: a desk model.
     #[must_use]
     pub fn desk() -> Self {
-        let (mass, length) = (0.2, 0.5);
+        let (mass, length) = (0.2, LENGTH);
         let rod = RigidBody {
             mass,
             center_of_mass: Vector3::new(0.0, 0.0, -0.5 * length),

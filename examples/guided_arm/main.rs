@@ -7,6 +7,7 @@ use std::error::Error;
 
 use gauss_examples::figure::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
+use gauss_examples::stage;
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
@@ -103,9 +104,8 @@ fn page(arm: &ArmKernel, law: &dyn Fn(f64, &Joints, &Joints) -> Joints) -> Resul
         Simulation::new(arm).input(input).fixed_step(H).run(place + beside(0.1).fixed_rows::<9>(0), rate, 0.0..END)?;
     let mut page = Playback::new("An arm from its file follows a way", &path)?.frames(arm);
     let link = |k: usize| if k == 0 { "base_link".to_owned() } else { format!("panda_joint{k}_link") };
-    for k in 0..7 {
-        page = page.rod(&link(k), &link(k + 1), 0.04);
-    }
+    let links: Vec<String> = (0..=7).map(link).collect();
+    page = stage::chain(page, &links.iter().map(String::as_str).collect::<Vec<_>>(), 0.04);
     for finger in ["panda_finger_joint1_link", "panda_finger_joint2_link"] {
         let shape = Shape::cuboid([0.02, 0.015, 0.06]).at(&Isometry3::translation(0.0, 0.0, 0.03));
         page = page.shape(finger, shape).rod("panda_joint7_link", finger, 0.015);

@@ -6,7 +6,7 @@
 mod model;
 mod picture;
 
-use gauss_examples::plots::write;
+use gauss_examples::plots::{write, write_page};
 
 use model::{Ball, Runner, bounce};
 
@@ -49,5 +49,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let table = path.table_at((0..=5).map(|n| 0.5 * f64::from(n)))?.column("height", |s| s.q[0]).energies(&ball);
     print!("\n{table}");
-    write("hopping", &picture::draw(&runner, &run, &ball, &path)?)
+    write("hopping", &picture::draw(&runner, &run, &ball, &path)?)?;
+    write_page("hopping", &picture::page(&runner, &run)?)
 }

@@ -99,12 +99,18 @@ impl Runner {
         self.m * (0.5 * (u * u + v * v) + self.g * y)
     }
 
+    /// It, on a foot at this place.
+    pub fn stance(&self, foot: f64) -> Stance {
+        let &Self { m, k, l, g, .. } = self;
+        Stance { m, k, l, foot, g }
+    }
+
     /// Some steps from an apex of a height with a speed.
     ///
     /// # Errors
     /// When the numbers make no runner, or a flight or a stance does not reach its end.
     pub fn run(&self, height: f64, speed: f64, steps: usize) -> Result<Run, Box<dyn std::error::Error>> {
-        let &Self { m, k, l, attack, g } = self;
+        let &Self { m, l, attack, g, .. } = self;
         let flight = Flight { m, g }.kernel()?;
         let touch = l * attack.sin();
         let fly = Simulation::new(&flight).adaptive(1e-12, 1e-12);
@@ -124,7 +130,7 @@ impl Runner {
             }
             // The foot stands where it touches: the same state goes on with another kernel.
             let foot = last.q[0] + l * attack.cos();
-            let stance = Stance { m, k, l, foot, g }.kernel()?;
+            let stance = self.stance(foot).kernel()?;
             let stand = Simulation::new(&stance)
                 .until(Crossing::Rising, |_, q, _| f64::hypot(q[0] - foot, q[1]) - l)
                 .until(Crossing::Falling, |_, q, _| q[1])

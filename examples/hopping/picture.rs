@@ -4,9 +4,10 @@ use std::error::Error;
 
 use gauss_examples::figure::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, sheet};
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
-use crate::model::{BallKernel, Run, Runner};
+use crate::model::{BallKernel, Flight, FlightKernel, Moment, Run, Runner, StanceKernel};
 
 /// Steps that the path shows.
 const SHOWN: usize = 5;
@@ -76,4 +77,62 @@ fn heights(ball: &BallKernel, path: &Trajectory<'_, BallKernel>) -> Result<Plot<
             Line::new("energy", COLOURS[1], column("energy")).wide(3),
         ],
     ))
+}
+
+/// The runner as a page: the hip, the leg, and its force where it stands.
+///
+/// # Errors
+/// When the numbers make no runner.
+pub fn page(runner: &Runner, run: &Run) -> Result<Playback<FlightKernel>, ParameterError> {
+    let flight = Flight { m: runner.m, g: runner.g }.kernel()?;
+    let steps = &run.steps[..SHOWN.min(run.steps.len())];
+    let stances: Vec<StanceKernel> =
+        steps.iter().map(|step| runner.stance(step.foot).kernel()).collect::<Result<_, _>>()?;
+    let sample = |&(t, q, z): &Moment| {
+        let (q, z) = (q.into(), z.into());
+        Sample { t, q, z, p: flight.momentum(t, &q, &z) }
+    };
+    // Flights and stances share their ends.
+    let mut path: Vec<Sample<FlightKernel>> = steps.iter().flat_map(|step| &step.path).map(sample).collect();
+    path.dedup_by(|later, before| later.t <= before.t);
+
+    let hip = |s: &Sample<FlightKernel>| Vector3::new(s.q[0], 0.0, s.q[1]);
+    let stance = |s: &Sample<FlightKernel>| {
+        steps.iter().position(|step| (step.touchdown.0..step.liftoff.0).contains(&s.t)).map(|n| (n, &stances[n]))
+    };
+    // In the air the leg is held as it will be put down.
+    let ahead = Vector3::new(runner.attack.cos(), 0.0, -runner.attack.sin()) * runner.l;
+    let foot = |s: &Sample<FlightKernel>| match stance(s) {
+        Some((n, _)) => Vector3::new(steps[n].foot, 0.0, 0.0),
+        None => hip(s) + ahead,
+    };
+    // The coordinates are x and height: what acts on them is a force.
+    let push = |s: &Sample<FlightKernel>| match stance(s) {
+        Some((_, kernel)) => {
+            let leg = StanceKernel::ELEMENTS.iter().position(|element| element.name == "leg").unwrap_or(0);
+            let force = kernel.element_forces(s.t, &s.q, &s.z, &()).column(leg).into_owned();
+            Vector3::new(force[0], 0.0, force[1])
+        }
+        None => Vector3::zeros(),
+    };
+    let at = |place: Vector3<f64>| Isometry3::from(Translation3::from(place));
+    let spring = |s: &Sample<FlightKernel>| {
+        stance(s).map_or(0.0, |(_, kernel)| kernel.potential_energy(s.t, &s.q) - flight.potential_energy(s.t, &s.q))
+    };
+    let end = path.last().map_or(0.0, |s| s.q[0]);
+    let ground = Shape::cuboid([end + 2.0, 0.6, 0.02]).at(&Isometry3::translation(0.5 * end, 0.0, -0.03));
+    Ok(Playback::of_samples("A runner on a springy leg", path)
+        .body("hip", |s| at(hip(s)), [Shape::ball(0.12)])
+        .body("foot", |s| at(foot(s)), [Shape::ball(0.04).colour("#444444")])
+        .body("ground", |_| Isometry3::identity(), [ground.colour("#bbbbbb")])
+        .from_the_side()
+        .rod("hip", "foot", 0.012)
+        .trace("hip", [0.0; 3])
+        .arrow("force of the ground", 5e-4, |s| (foot(s), push(s)))
+        .arrow("weight", 5e-4, |s| (hip(s), Vector3::new(0.0, 0.0, -runner.m * runner.g)))
+        .curve("force of the leg / N", "leg", |s| push(s).norm())
+        .curve("energy / J", "kinetic", |s| flight.kinetic_energy(s.t, &s.q, &s.z))
+        .curve("energy / J", "of the height", |s| flight.potential_energy(s.t, &s.q))
+        .curve("energy / J", "of the leg", spring)
+        .curve("energy / J", "sum", |s| flight.energy(s.t, &s.q, &s.z) + spring(s)))
 }

@@ -10,8 +10,9 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use gauss_examples::figure::{COLOURS, INK};
-use gauss_examples::plots::{Line, Plot, mosaic, write};
+use gauss_examples::plots::{Line, Plot, mosaic, write, write_page};
 use gauss_examples::statistics::Random;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::batch::{Batch, Packs, States};
 use gauss_runtime::prelude::*;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -143,7 +144,32 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scatter = scatter(&ends, (mean, covariance), (centre, prediction));
     let (range, drift) = sweep()?;
     let plots = [([0, 0, 1000, 900], scatter), ([1000, 0, 800, 450], range), ([1000, 450, 800, 450], drift)];
-    write("monte_carlo", &mosaic("An oval ball of uncertain inertia and spin", (1800, 1000), &plots)?)
+    write("monte_carlo", &mosaic("An oval ball of uncertain inertia and spin", (1800, 1000), &plots)?)?;
+    write_page("monte_carlo", &mean_throw()?)
+}
+
+/// The mean throw as a page.
+fn mean_throw() -> Result<Playback<OvalKernel<f64>>, Box<dyn Error>> {
+    let (kernel, (q, z)) = (kernel(&MEAN)?, start(&MEAN));
+    let path = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(q, z, 0.0..FLIGHT)?;
+    let place = |s: &Sample<OvalKernel<f64>>| s.q.translation.vector;
+    let mut page = Playback::new("The mean throw", &path)?
+        .body("ball", |s| s.q, [Shape::ellipsoid([0.14, 0.095, 0.095])])
+        .follow("ball")
+        .trace("ball", [0.0; 3])
+        .trace("ball", [0.14, 0.0, 0.0]);
+    for (k, element) in OvalKernel::<f64>::ELEMENTS.iter().enumerate() {
+        // The speeds are (u, ω): what acts on them are a force in body axes and a torque.
+        let force = |s: &Sample<OvalKernel<f64>>| -> Vector3<f64> {
+            kernel.element_forces(s.t, &s.q, &s.z, &()).fixed_view::<3, 1>(0, k).into()
+        };
+        page = page.arrow(element.name, 0.08, |s| (place(s), s.q.rotation * force(s))).curve(
+            "force / N",
+            element.name,
+            |s| force(s).norm(),
+        );
+    }
+    Ok(page.energy(&kernel))
 }
 
 /// Range and drift over the spin.

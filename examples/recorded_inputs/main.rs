@@ -11,6 +11,8 @@ use std::path::PathBuf;
 
 use gauss_examples::figure::COLOURS;
 use gauss_examples::plots::{self, Line, Plot, mosaic};
+use gauss_examples::stage;
+use gauss_playback::Playback;
 use gauss_runtime::prelude::*;
 
 mod craft;
@@ -74,7 +76,36 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("joules: {}", power_balance(&kernel, &path, |t, _, _| SVector::from(recording.at(t))));
 
     let svg = draw(&samples, rows)?;
-    plots::write_into(&folder, "recorded_inputs", &svg)
+    plots::write_into(&folder, "recorded_inputs", &svg)?;
+    plots::write_page_into(&folder, "recorded_inputs", &page(&kernel, &recording, samples))
+}
+
+/// The vehicle, with what thrust, hull and fins push with.
+fn page(kernel: &CraftKernel, recording: &Recording, samples: Vec<Sample<CraftKernel>>) -> Playback<CraftKernel> {
+    let pose = |s: &Sample<CraftKernel>| kernel.pose(s.t, &s.q);
+    let mut page = Playback::of_samples("A vehicle driven by recorded inputs", samples)
+        .up([0.0, 0.0, -1.0])
+        .from_above()
+        .body("REMUS 100", pose, stage::torpedo())
+        .follow("REMUS 100")
+        .trace("REMUS 100", [0.0; 3]);
+    // The speeds are (u, v, r): what acts on them are a force in body axes and a torque. Fins push 0.63 m behind O.
+    for (k, element) in CraftKernel::ELEMENTS.iter().enumerate() {
+        let at = if element.name == "fins" { Vector3::new(-0.63, 0.0, 0.0) } else { Vector3::zeros() };
+        page = page.arrow(element.name, 0.15, |s| {
+            let forces = kernel.element_forces(s.t, &s.q, &s.z, &SVector::from(recording.at(s.t)));
+            let pose = pose(s);
+            (
+                pose.translation.vector + pose.rotation * at,
+                pose.rotation * Vector3::new(forces[(0, k)], forces[(1, k)], 0.0),
+            )
+        });
+    }
+    page.curve("thrust / N", "recorded", |s| recording.at(s.t)[0])
+        .curve("angle / °", "rudder", |s| recording.at(s.t)[1].to_degrees())
+        .curve("angle / °", "drift", |s| (-s.z[1]).atan2(s.z[0]).to_degrees())
+        .curve("speed / (m/s)", "ahead", |s| s.z[0])
+        .energy(kernel)
 }
 
 /// What was recorded above, the way below.

@@ -4,7 +4,8 @@ use std::error::Error;
 
 use gauss_examples::figure::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet};
-use gauss_playback::{Playback, Shape};
+use gauss_examples::stage;
+use gauss_playback::Playback;
 use gauss_runtime::prelude::*;
 
 use crate::manoeuvres::{Flight, Moment};
@@ -106,12 +107,10 @@ fn distances(apart: &[Vec<(f64, f64)>; 3]) -> Plot<'static> {
 /// A flight as a page.
 pub fn page(kernel: &RemusKernel, flight: &Flight) -> Playback<RemusKernel> {
     let sample = |m: &Moment| Sample { t: m.t, q: m.pose, z: m.twist, p: kernel.momentum(m.t, &m.pose, &m.twist) };
-    let fin = |edges: [f64; 3]| Shape::cuboid(edges).at(&Isometry3::translation(-0.63, 0.0, 0.0)).colour("#444444");
-    let hull = [Shape::ellipsoid([0.665, 0.095, 0.095]), fin([0.09, 0.31, 0.01]), fin([0.09, 0.01, 0.31])];
     let velocity = |s: &Sample<RemusKernel>| (s.q.translation.vector, s.q.rotation * s.z.fixed_rows::<3>(0));
     let mut page = Playback::of_samples("The REMUS 100 turns", flight.moments.iter().map(sample).collect())
         .up([0.0, 0.0, -1.0])
-        .body("REMUS 100", |s| s.q, hull)
+        .body("REMUS 100", |s| s.q, stage::torpedo())
         .follow("REMUS 100")
         .trace("REMUS 100", [0.0; 3])
         .arrow("velocity", 0.6, velocity)

@@ -1,14 +1,18 @@
-//! The picture: what is where on it, and from SVG to PNG.
+//! The picture: what is where on it, and from SVG to PNG; the motion as a page.
 
 use std::error::Error;
 
+use gauss_playback::Playback;
+use gauss_runtime::prelude::*;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use resvg::{tiny_skia, usvg};
 
 use crate::measure::{Comparison, EVERYDAY_STEP, PRECISE_RATE, differences, energy_drift, momentum_drift};
 use crate::panels::{Curve, LogPanel, Note, View, bars, path};
+use crate::stage::torpedo;
 use crate::timing::Timing;
+use crate::vehicle::KirchhoffKernel;
 
 /// A part of the picture.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -142,4 +146,29 @@ pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height()).ok_or("the picture has no size")?;
     resvg::render(&tree, tiny_skia::Transform::default(), &mut pixels.as_mut());
     Ok(pixels.encode_png()?)
+}
+
+/// The motion, with its momenta in space, which gravity along k₃ changes along k₃ only, and how far each chart is from the
+/// reference at an everyday step.
+#[must_use]
+pub fn page(kernel: &KirchhoffKernel, comparison: &Comparison) -> Playback<KirchhoffKernel> {
+    let moments = &comparison.reference.moments;
+    let samples = moments.iter().map(|m| Sample { t: m.t, q: m.pose, z: m.twist, p: m.p }).collect();
+    let place = |s: &Sample<KirchhoffKernel>| s.q.translation.vector;
+    let momentum = |s: &Sample<KirchhoffKernel>| kernel.space_momentum(s.t, &s.q, &s.z);
+    let mut page = Playback::of_samples("One vehicle, the motor off, in four charts", samples)
+        .up([0.0, 0.0, -1.0])
+        .body("REMUS 100", |s| kernel.pose(s.t, &s.q), torpedo())
+        .follow("REMUS 100")
+        .trace("REMUS 100", [0.0; 3])
+        .arrow("momentum", 0.01, |s| (place(s), momentum(s).fixed_rows::<3>(0).into()))
+        .arrow("velocity", 0.5, |s| (place(s), s.q.rotation * Vector3::from(s.z.fixed_rows::<3>(0))))
+        .energy(kernel);
+    for run in &comparison.everyday {
+        let apart = differences(run, &comparison.reference);
+        let last = apart.len() - 1;
+        let metres = |s: &Sample<KirchhoffKernel>| apart[apart.partition_point(|d| d.0 < s.t).min(last)].1;
+        page = page.curve("distance from the reference, log₁₀ of m", run.name, |s| metres(s).max(1e-16).log10());
+    }
+    page
 }

@@ -10,6 +10,7 @@
 //! | [`report`] | the text |
 //! | [`figure`] | the picture, its panels in [`panels`] |
 //! | [`rolling`] | the picture of `rolling_disk` |
+//! | [`stage`] | what several pages that play show: a cart with its pole, a torpedo, links |
 //! | [`statistics`] | random numbers, quartiles |
 //! | [`plots`] | plots with plain axes, and where pictures are written |
 
@@ -20,6 +21,7 @@ pub mod plots;
 pub mod report;
 pub mod rolling;
 pub mod simulate;
+pub mod stage;
 pub mod statistics;
 pub mod timing;
 pub mod vehicle;

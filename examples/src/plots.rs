@@ -62,7 +62,12 @@ pub struct Plot<'a> {
     pub lines: Vec<Line>,
     /// Dots with words to their right.
     pub marks: Vec<(f64, f64, String)>,
+    /// Rectangles below all else.
+    pub cells: Vec<Cell>,
 }
+
+/// A rectangle between two corners, and its colour.
+pub type Cell = ([(f64, f64); 2], RGBColor);
 
 /// So many units of the drawing make a pixel: curves go through whole units, and would look jagged through whole pixels.
 const FINE: u32 = 8;
@@ -86,7 +91,7 @@ fn writing(size: u32) -> TextStyle<'static> {
 impl<'a> Plot<'a> {
     /// Curves over axes with these names and ranges.
     pub fn new(title: &'a str, x: (&'a str, Range<f64>), y: (&'a str, Range<f64>), lines: Vec<Line>) -> Self {
-        Self { title, x, y, equal: false, lines, marks: Vec::new() }
+        Self { title, x, y, equal: false, lines, marks: Vec::new(), cells: Vec::new() }
     }
 
     /// The same with one scale for both axes.
@@ -99,6 +104,12 @@ impl<'a> Plot<'a> {
     #[must_use]
     pub fn marked(self, marks: Vec<(f64, f64, String)>) -> Self {
         Self { marks, ..self }
+    }
+
+    /// The same with coloured rectangles below all else.
+    #[must_use]
+    pub fn with_cells(self, cells: Vec<Cell>) -> Self {
+        Self { cells, ..self }
     }
 
     /// Draws it into a place.
@@ -137,6 +148,7 @@ impl<'a> Plot<'a> {
             .x_label_formatter(&number)
             .y_label_formatter(&number)
             .draw()?;
+        chart.draw_series(self.cells.iter().map(|&(corners, colour)| Rectangle::new(corners, colour.filled())))?;
         for line in &self.lines {
             let (style, points) = (line.colour.stroke_width(line.width * FINE), line.points.iter().copied());
             if line.dashed {
@@ -273,7 +285,19 @@ pub fn write_into(folder: &Path, name: &str, svg: &str) -> Result<(), Box<dyn Er
 /// # Errors
 /// What the page says is wrong, or when the file cannot be written.
 pub fn write_page<S: GaussSystem<Scalar = f64>>(name: &str, page: &Playback<S>) -> Result<(), Box<dyn Error>> {
-    let file = folder().join(format!("{name}.html"));
+    write_page_into(&folder(), name, page)
+}
+
+/// The same into a folder.
+///
+/// # Errors
+/// As [`write_page`].
+pub fn write_page_into<S: GaussSystem<Scalar = f64>>(
+    folder: &Path,
+    name: &str,
+    page: &Playback<S>,
+) -> Result<(), Box<dyn Error>> {
+    let file = folder.join(format!("{name}.html"));
     page.write(&file)?;
     println!("written: {}", file.display());
     Ok(())

@@ -1,9 +1,10 @@
-//! Differential dynamic programming with derivatives of first order (iLQR): Tassa, Erez, Todorov, *Synthesis and stabilization of
-//! complex behaviors through online trajectory optimization*, IROS 2012.
+//! Differential dynamic programming: Tassa, Erez, Todorov, *Synthesis and stabilization of complex behaviors through
+//! online trajectory optimization*, IROS 2012. With derivatives of first order (iLQR, the method of Gauss and Newton),
+//! or with the second ones of the steps where the plant has them, as Jacobson and Mayne had it in 1970.
 
 use std::time::{Duration, Instant};
 
-use crate::model::{Matrix, Plant, Vector};
+use crate::model::{Expansion, Matrix, Plant, Vector, flat};
 
 /// ½ Σ (uᵀ R u + (x − goal)ᵀ Q (x − goal)) and, at the end, ½ (x − goal)ᵀ F (x − goal); all three diagonal.
 pub struct Task<const D: usize, const U: usize> {
@@ -48,7 +49,7 @@ impl<const D: usize, const U: usize> Task<D, U> {
     }
 
     /// The best inputs from a first guess; `None` where the guess leaves all bounds.
-    pub fn solve(&self, plant: &impl Plant<D, U>, guess: &[Vector<U>]) -> Option<Plan<D, U>> {
+    pub fn solve<P: Plant<D, U>>(&self, plant: &P, guess: &[Vector<U>]) -> Option<Plan<D, U>> {
         let (mut states, mut inputs) = (vec![self.start], guess.to_vec());
         for u in guess {
             states.push(plant.step(&states[states.len() - 1], u));
@@ -58,17 +59,19 @@ impl<const D: usize, const U: usize> Task<D, U> {
         costs[0].is_finite().then_some(())?;
         while costs.len() < 500 {
             let start = Instant::now();
-            let derivatives: Vec<_> = states.iter().zip(&inputs).map(|(x, u)| plant.derivatives(x, u)).collect();
+            let expansions: Vec<_> = states.iter().zip(&inputs).map(|(x, u)| plant.expansion(x, u)).collect();
             in_derivatives += start.elapsed();
             let last = costs[costs.len() - 1];
             let found = loop {
-                let change = self.backward(&states, &inputs, &derivatives, damping);
-                let better = change.and_then(|change| {
+                let mut attempt = |curved: bool| {
+                    let along = (states.as_slice(), inputs.as_slice());
+                    let change = self.backward(plant, along, &expansions, (curved, damping), &mut in_derivatives)?;
                     let small = change.first.abs() <= 1e-10 * last;
                     let (states, inputs, cost) = self.forward(plant, &states, &inputs, &change, last)?;
                     Some((states, inputs, cost, change.gains, small))
-                });
-                match better {
+                };
+                // Where the bowl is none with the curvature of steps, it is one without.
+                match attempt(true).or_else(|| P::IS_CURVED.then(|| attempt(false)).flatten()) {
                     Some(better) => break Some(better),
                     None if damping > 1e10 => break None,
                     None => damping *= 10.0,
@@ -86,30 +89,37 @@ impl<const D: usize, const U: usize> Task<D, U> {
     }
 
     /// From the end to the start: the value of each state to second order; `None` where an input has no best value.
-    fn backward(
+    fn backward<P: Plant<D, U>>(
         &self,
-        states: &[Vector<D>],
-        inputs: &[Vector<U>],
-        derivatives: &[(Matrix<D, D>, Matrix<D, U>)],
-        damping: f64,
+        plant: &P,
+        (states, inputs): (&[Vector<D>], &[Vector<U>]),
+        expansions: &[Expansion<P::Stages, D, U>],
+        (curved, damping): (bool, f64),
+        in_derivatives: &mut Duration,
     ) -> Option<Change<D, U>> {
         let mut slope = (states[self.steps] - self.goal).component_mul(&self.at_the_end);
         let mut value = Matrix::from_diagonal(&self.at_the_end);
         let (mut ahead, mut gains, mut first, mut second) = (Vec::new(), Vec::new(), 0.0, 0.0);
         for k in (0..self.steps).rev() {
-            let (a, b) = &derivatives[k];
+            let Expansion { by_state: a, by_input: b, stages } = &expansions[k];
+            // The value of where a step ends, along which the step is curved.
+            let start = Instant::now();
+            let curved = if curved { plant.curvature(stages, &inputs[k], &slope) } else { flat() };
+            *in_derivatives += start.elapsed();
             let by_state = (states[k] - self.goal).component_mul(&self.on_the_way) + a.tr_mul(&slope);
             let by_input = inputs[k].component_mul(&self.effort) + b.tr_mul(&slope);
             let (av, bv) = (a.tr_mul(&value), b.tr_mul(&value));
             let damped = bv + b.transpose() * damping;
-            let bowl = (damped * b + Matrix::from_diagonal(&self.effort)).cholesky()?;
-            let (change, gain) = (-bowl.solve(&by_input), -bowl.solve(&(damped * a)));
-            let plain = bv * b + Matrix::from_diagonal(&self.effort);
-            let mixed = bv * a;
+            let of_inputs = Matrix::from_diagonal(&self.effort) + curved.by_input;
+            let bowl = (damped * b + of_inputs).cholesky()?;
+            let (change, gain) = (-bowl.solve(&by_input), -bowl.solve(&(damped * a + curved.by_input_and_state)));
+            let plain = bv * b + of_inputs;
+            let mixed = bv * a + curved.by_input_and_state;
             first += change.dot(&by_input);
             second += 0.5 * change.dot(&(plain * change));
             slope = by_state + gain.tr_mul(&(plain * change)) + gain.tr_mul(&by_input) + mixed.tr_mul(&change);
             value = Matrix::from_diagonal(&self.on_the_way)
+                + curved.by_state
                 + av * a
                 + gain.tr_mul(&(plain * gain))
                 + gain.tr_mul(&mixed)

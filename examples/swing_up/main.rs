@@ -1,5 +1,6 @@
 //! Trajectories that are found: a pole swung up by its cart and an arm that reaches, by differential dynamic programming with the
-//! exact derivatives that `linearize` generates, beside a run of the same with finite differences.
+//! exact derivatives that `linearize` generates, of first order (iLQR) and with the second ones of `hessian`, beside a
+//! run with finite differences.
 //!
 //! `cargo run --release --example swing_up [-- FOLDER]` draws into `FOLDER`, by default `target/gauss`.
 
@@ -9,14 +10,18 @@ use std::time::{Duration, Instant};
 
 use gauss_examples::figure::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
-use gauss_playback::{Playback, Shape};
+use gauss_examples::stage;
+use gauss_playback::Playback;
 use gauss_runtime::prelude::*;
 
+mod check;
 mod ddp;
 mod model;
+mod second;
 
 use ddp::{Plan, Task};
 use model::{Arm, CartPole, CartPoleKernel, Differences, Exact, Scalar, Vector, joined, parts};
+use second::Second;
 
 fn main() -> Result<(), Box<dyn Error>> {
     if cfg!(debug_assertions) {
@@ -27,32 +32,36 @@ fn main() -> Result<(), Box<dyn Error>> {
     write("swing_up", &sheet("A pole swung up", (1600, 1200), &plots)?)
 }
 
-/// Both ways to the same plan, and how long they took.
-struct Both<const D: usize, const U: usize> {
-    plans: [(Plan<D, U>, Duration); 2],
+/// Ways to the same plan, and how long they took.
+struct Ways<const D: usize, const U: usize> {
+    plans: [(Plan<D, U>, Duration); 3],
 }
 
-impl<const D: usize, const U: usize> Both<D, U> {
+const WAYS: [&str; 3] = ["first order", "second order", "differences"];
+
+impl<const D: usize, const U: usize> Ways<D, U> {
     fn find<K: Scalar<N, D, U>, const N: usize>(
         task: &Task<D, U>,
         kernel: &K,
         h: f64,
         guess: &[Vector<U>],
     ) -> Result<Self, Box<dyn Error>> {
-        let exact = Exact::<K, N> { kernel, h };
+        let exact = || Exact::<K, N> { kernel, h };
+        check::second_order(&Second(exact()), &task.start, &guess[0])?;
         let timed = |plant: &dyn Fn() -> Option<Plan<D, U>>| {
             let start = Instant::now();
             plant().map(|plan| (plan, start.elapsed())).ok_or("the first guess leaves all bounds")
         };
-        let first = timed(&|| task.solve(&exact, guess))?;
-        let differences = Differences(exact);
-        let second = timed(&|| task.solve(&differences, guess))?;
-        Ok(Self { plans: [first, second] })
+        let first = timed(&|| task.solve(&exact(), guess))?;
+        let second = timed(&|| task.solve(&Second(exact()), guess))?;
+        let differences = timed(&|| task.solve(&Differences(exact()), guess))?;
+        check::times(kernel, &task.start, &guess[0]);
+        Ok(Self { plans: [first, second, differences] })
     }
 
     fn report(&self) {
         println!("derivatives          iterations   final cost   time, ms   of which derivatives");
-        for (name, (plan, time)) in ["exact", "finite differences"].into_iter().zip(&self.plans) {
+        for (name, (plan, time)) in WAYS.into_iter().zip(&self.plans) {
             let (iterations, cost) = (plan.costs.len() - 1, plan.costs[plan.costs.len() - 1]);
             let [all, derivatives] = [*time, plan.in_derivatives].map(|time| 1e3 * time.as_secs_f64());
             println!("{name:<20} {iterations:>10} {cost:>12.8} {all:>10.1} {derivatives:>22.1}");
@@ -60,8 +69,8 @@ impl<const D: usize, const U: usize> Both<D, U> {
     }
 
     fn agree(&self) -> bool {
-        let [a, b] = [0, 1].map(|k| self.plans[k].0.costs[self.plans[k].0.costs.len() - 1]);
-        (a - b).abs() <= 1e-6 * a
+        let [a, b, c] = [0, 1, 2].map(|k| self.plans[k].0.costs[self.plans[k].0.costs.len() - 1]);
+        (a - b).abs() <= 1e-6 * a && (a - c).abs() <= 1e-6 * a
     }
 }
 
@@ -82,9 +91,9 @@ fn swing_up() -> Result<Vec<Vec<Plot<'static>>>, Box<dyn Error>> {
         steps: STEPS,
     };
     let guess: Vec<_> = (0..STEPS).map(|k| Vector::from([(0.1 * k as f64).sin()])).collect();
-    let both = Both::find(&task, &kernel, H, &guess)?;
-    both.report();
-    let (plan, _) = &both.plans[0];
+    let ways = Ways::find(&task, &kernel, H, &guess)?;
+    ways.report();
+    let (plan, _) = &ways.plans[0];
 
     let (way, end) = replay(&kernel, plan, 0.0, false)?;
     let most = plan.inputs.iter().map(|u| u[0].abs()).fold(0.0, f64::max);
@@ -92,12 +101,12 @@ fn swing_up() -> Result<Vec<Vec<Plot<'static>>>, Box<dyn Error>> {
     let [open, regulated] = [off(0.1, false)?, off(0.1, true)?];
     println!("\nafter {END:.1} s: angle {:.1e} rad, cart {:.1e} m; pushes of up to {most:.1} N", end[1], end[0]);
     println!("started 0.1 rad beside: off by {open:.1e}, with the regulator that was found too by {regulated:.1e}\n");
-    if !both.agree() || end.amax() > 0.05 || regulated > 0.05 {
+    if !ways.agree() || end.amax() > 0.05 || regulated > 0.05 {
         return Err("the pole was not swung up".into());
     }
     write_page("swing_up", &page(&kernel, plan, &way))?;
     let [pole, cart, push] = plots_of_way(&way, plan);
-    Ok(vec![vec![pole, cart], vec![push, plot_of_costs(&both)]])
+    Ok(vec![vec![pole, cart], vec![push, plot_of_costs(&ways)]])
 }
 
 /// Where it was, and the state at the end.
@@ -134,34 +143,24 @@ fn plots_of_way(way: &[Sample<CartPoleKernel>], plan: &Plan<4, 1>) -> [Plot<'sta
 /// The pole as it is swung up, and the push on the cart.
 fn page(kernel: &CartPoleKernel, plan: &Plan<4, 1>, way: &[Sample<CartPoleKernel>]) -> Playback<CartPoleKernel> {
     let push = |s: &Sample<CartPoleKernel>| plan.inputs[((s.t / H) as usize).min(STEPS - 1)][0];
-    let cart = |s: &Sample<CartPoleKernel>| Isometry3::translation(s.q[0], 0.0, 0.0);
-    let pole = move |s: &Sample<CartPoleKernel>| cart(s) * Isometry3::rotation(Vector3::y() * s.q[1]);
-    Playback::of_samples("A pole swung up by its cart", way.to_vec())
-        .body("cart", cart, [Shape::cuboid([0.4, 0.2, 0.12])])
-        .body(
-            "pole",
-            pole,
-            [
-                Shape::rod([0.0, -0.12, 0.0], [0.0, -0.12, 0.5], 0.012),
-                Shape::ball(0.06).at(&Isometry3::translation(0.0, -0.12, 0.5)),
-            ],
-        )
-        .trace("pole", [0.0, -0.12, 0.5])
-        .arrow("push", 0.05, move |s| (cart(s).translation.vector, Vector3::x() * push(s)))
-        .curve("push / N", "u", push)
-        .energy(kernel)
+    let page = Playback::of_samples("A pole swung up by its cart", way.to_vec());
+    stage::cart_and_pole(page, 0.5, 0.05, push).energy(kernel)
 }
 
-fn plot_of_costs(both: &Both<4, 1>) -> Plot<'static> {
-    let curve = |k: usize, name: &str| {
-        let costs = &both.plans[k].0.costs;
-        Line::new(name, COLOURS[k], costs.iter().enumerate().map(|(n, cost)| (n as f64, cost.log10())))
+/// Above the least cost that was found, as far as rounding of costs lets it be told.
+fn plot_of_costs(ways: &Ways<4, 1>) -> Plot<'static> {
+    let costs = |k: usize| ways.plans[k].0.costs.iter().copied();
+    let least = (0..WAYS.len()).flat_map(costs).fold(f64::INFINITY, f64::min);
+    let curve = |k: usize| {
+        let above = costs(k).map(|cost| (cost - least).max(1e-12).log10());
+        Line::new(WAYS[k], COLOURS[k], above.enumerate().map(|(n, cost)| (n as f64, cost)))
     };
+    let longest = (0..WAYS.len()).map(|k| costs(k).count()).max().unwrap_or(1);
     Plot::new(
-        "What the plan costs",
-        ("iteration", 0.0..both.plans.iter().map(|(plan, _)| plan.costs.len()).max().unwrap_or(1) as f64),
-        ("log₁₀ of the cost", -1.0..5.0),
-        vec![curve(0, "exact derivatives"), curve(1, "finite differences").dashed()],
+        "What the plan costs, above the best",
+        ("iteration", 0.0..longest as f64),
+        ("log₁₀ of the difference", -12.0..4.0),
+        vec![curve(0), curve(1), curve(2).dashed()],
     )
 }
 
@@ -187,15 +186,15 @@ fn reach() -> Result<(), Box<dyn Error>> {
     };
     // The first guess holds the arm where it is.
     let held = kernel.inverse_dynamics(0.0, &from.into(), &Vector::zeros(), &Vector::zeros(), &Vector::zeros());
-    let both = Both::find(&task, &kernel, h, &vec![held; steps])?;
-    both.report();
-    let end = both.plans[0].0.states[steps] - task.goal;
+    let ways = Ways::find(&task, &kernel, h, &vec![held; steps])?;
+    ways.report();
+    let end = ways.plans[0].0.states[steps] - task.goal;
     println!(
         "\nat the end off by {:.1e} rad or m, and {:.1e} in a second",
         end.rows(0, 9).amax(),
         end.rows(9, 9).amax()
     );
-    if !both.agree() || end.amax() > 0.02 {
+    if !ways.agree() || end.amax() > 0.02 {
         return Err("the arm did not get there".into());
     }
     Ok(())

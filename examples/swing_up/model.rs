@@ -6,7 +6,7 @@ use gauss_runtime::prelude::*;
 /// A cart on a rail, and a pole on its hinge; the angle is from upright.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize,
+    linearize(hessian),
     coordinates(x, theta),
     particle(mass = cart, position = [x, 0, 0]),
     particle(mass = bob, position = [x + length * sin(theta), 0, length * cos(theta)]),
@@ -27,7 +27,7 @@ pub struct CartPole {
 
 /// An arm of seven joints with two fingers, an effort in each.
 #[derive(GaussDynamics)]
-#[gauss(urdf = "../tests/robots/panda.urdf", gravity = 9.81, linearize)]
+#[gauss(urdf = "../tests/robots/panda.urdf", gravity = 9.81, linearize(hessian))]
 pub struct Arm;
 
 pub type Vector<const N: usize> = SVector<f64, N>;
@@ -35,31 +35,53 @@ pub type Matrix<const N: usize, const M: usize> = SMatrix<f64, N, M>;
 
 /// A step from a state x = (q, z) with an input that is held, and its derivatives.
 pub trait Plant<const D: usize, const U: usize> {
+    /// What second derivatives are made of.
+    type Stages;
+    /// Whether it has some.
+    const IS_CURVED: bool = false;
     /// Where it ends.
     fn step(&self, x: &Vector<D>, u: &Vector<U>) -> Vector<D>;
     /// ∂(end)/∂x and ∂(end)/∂u.
-    fn derivatives(&self, x: &Vector<D>, u: &Vector<U>) -> (Matrix<D, D>, Matrix<D, U>);
+    fn expansion(&self, x: &Vector<D>, u: &Vector<U>) -> Expansion<Self::Stages, D, U>;
+    /// ∂²(weights · end), where that is known; else zero.
+    fn curvature(&self, _: &Self::Stages, _: &Vector<U>, _: &Vector<D>) -> Hessian<f64, D, U> {
+        flat()
+    }
+}
+
+/// No curvature.
+pub fn flat<const D: usize, const U: usize>() -> Hessian<f64, D, U> {
+    Hessian { by_state: Matrix::zeros(), by_input_and_state: Matrix::zeros(), by_input: Matrix::zeros() }
+}
+
+/// The derivatives of a step.
+pub struct Expansion<S, const D: usize, const U: usize> {
+    pub by_state: Matrix<D, D>,
+    pub by_input: Matrix<D, U>,
+    pub stages: S,
 }
 
 /// A kernel of N scalar coordinates.
 pub trait Scalar<const N: usize, const D: usize, const U: usize>:
-    LinearizedSystem<
+    HessianSystem<
         Scalar = f64,
         Configuration = Vector<N>,
         Speeds = Vector<N>,
         Input = Vector<U>,
         Linearization = Linearization<f64, D, U>,
+        Hessian = Hessian<f64, D, U>,
     >
 {
 }
 
 impl<K, const N: usize, const D: usize, const U: usize> Scalar<N, D, U> for K where
-    K: LinearizedSystem<
+    K: HessianSystem<
             Scalar = f64,
             Configuration = Vector<N>,
             Speeds = Vector<N>,
             Input = Vector<U>,
             Linearization = Linearization<f64, D, U>,
+            Hessian = Hessian<f64, D, U>,
         >
 {
 }
@@ -80,6 +102,8 @@ pub struct Exact<'k, K, const N: usize> {
 }
 
 impl<K: Scalar<N, D, U>, const N: usize, const D: usize, const U: usize> Plant<D, U> for Exact<'_, K, N> {
+    type Stages = ();
+
     fn step(&self, x: &Vector<D>, u: &Vector<U>) -> Vector<D> {
         let Exact { kernel, h } = *self;
         let (q, y) = parts::<N, D>(x);
@@ -93,12 +117,13 @@ impl<K: Scalar<N, D, U>, const N: usize, const D: usize, const U: usize> Plant<D
         }
     }
 
-    fn derivatives(&self, x: &Vector<D>, u: &Vector<U>) -> (Matrix<D, D>, Matrix<D, U>) {
+    fn expansion(&self, x: &Vector<D>, u: &Vector<U>) -> Expansion<(), D, U> {
         let (q, z) = parts::<N, D>(x);
-        match CommutatorFree4.step_linearized(self.kernel, 0.0, &q, &z, u, self.h) {
+        let (by_state, by_input) = match CommutatorFree4.step_linearized(self.kernel, 0.0, &q, &z, u, self.h) {
             Ok(step) => (step.by_state, step.by_input),
             Err(_) => (Matrix::repeat(f64::NAN), Matrix::repeat(f64::NAN)),
-        }
+        };
+        Expansion { by_state, by_input, stages: () }
     }
 }
 
@@ -113,11 +138,13 @@ fn apart<const N: usize>(k: usize) -> Vector<N> {
 }
 
 impl<P: Plant<D, U>, const D: usize, const U: usize> Plant<D, U> for Differences<P> {
+    type Stages = ();
+
     fn step(&self, x: &Vector<D>, u: &Vector<U>) -> Vector<D> {
         self.0.step(x, u)
     }
 
-    fn derivatives(&self, x: &Vector<D>, u: &Vector<U>) -> (Matrix<D, D>, Matrix<D, U>) {
+    fn expansion(&self, x: &Vector<D>, u: &Vector<U>) -> Expansion<(), D, U> {
         let column = |dx: Vector<D>, du: Vector<U>| {
             let [there, back] = [1.0, -1.0].map(|way| self.0.step(&(x + dx * way), &(u + du * way)));
             (there - back) / (2.0 * APART)
@@ -129,6 +156,6 @@ impl<P: Plant<D, U>, const D: usize, const U: usize> Plant<D, U> for Differences
         for k in 0..U {
             b.set_column(k, &column(Vector::zeros(), apart(k)));
         }
-        (a, b)
+        Expansion { by_state: a, by_input: b, stages: () }
     }
 }

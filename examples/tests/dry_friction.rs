@@ -107,3 +107,17 @@ fn smooth_friction_comes_closer() {
     // A hundredth of the width: ε² ln ε while it slides, ε where it turns.
     assert!(narrow < 0.05 * wide, "{wide:e} {narrow:e}");
 }
+
+/// What the page shows: the states between the events, in the order of time, to where the run ended.
+#[test]
+fn the_path_leads_through_all_events() {
+    let kernel = Arm { g: 9.81 }.kernel().unwrap();
+    let moments = arm(3.0, 1e-11);
+    let path = Dry { kernel: &kernel, limits: LIMITS }.path(&moments, 0.01).unwrap();
+    assert!(path.windows(2).all(|pair| pair[0].t < pair[1].t && pair[1].t - pair[0].t < 0.01 + 1e-12));
+    for event in &moments {
+        let beside = path.iter().find(|s| s.t == event.t).expect("every event");
+        // Some hundred steps with a tolerance of 1e-9 from one event to the next.
+        assert!((beside.q - event.q).amax() < 1e-7, "{}", event.t);
+    }
+}

@@ -17,6 +17,8 @@ pub struct Formulation<'g> {
     pub formulas: Vec<Formula<'g>>,
     /// What is differentiated by the state, where that is asked for.
     pub linearization: Option<Linearization<'g>>,
+    /// Its derivatives by parameters in forms of their own, where those are asked for.
+    pub derived_by_parameters: Vec<Vec<Expr<'g>>>,
     /// Inverse dynamics and what it is differentiated along, where that is asked for.
     pub inverse: Option<InverseLinearization<'g>>,
     /// What is differentiated twice, where that is asked for.
@@ -54,6 +56,10 @@ impl<'g> Formulation<'g> {
         let inverse = model.wanted.inverse.then(|| InverseLinearization::new(&system, &formulas));
         let hessian = model.wanted.hessian.then(|| Hessian::new(&system, &formulas));
         let parameters = parameters(&model.fields, translator.sources());
+        let symbols: Vec<Expr<'g>> = parameters.iter().map(|parameter| parameter.symbol).collect();
+        let by_parameters = linearization.iter().filter(|_| model.wanted.by_parameters);
+        let derived_by_parameters =
+            by_parameters.flat_map(|linearization| linearization.derived_by_parameters(&system, &symbols)).collect();
         let regressor = match model.wanted.regressor {
             Some(_) => {
                 let names = names_of(&parameters);
@@ -84,6 +90,7 @@ impl<'g> Formulation<'g> {
             elimination,
             formulas,
             linearization,
+            derived_by_parameters,
             inverse,
             hessian,
             regressor,

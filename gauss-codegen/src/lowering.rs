@@ -30,11 +30,13 @@ pub fn lower<'g>(
     let functions: Vec<_> = formulas.iter().map(candidates).collect();
     let parameters: Vec<Expr<'g>> = formulation.parameters.iter().map(|parameter| parameter.symbol).collect();
     let by_parameters = linearization.as_ref().filter(|_| model.wanted.by_parameters);
+    let by_parameters = by_parameters
+        .map(|linearization| linearization.by_parameters(formulas, &parameters, &formulation.derived_by_parameters));
     let wanted = Derivatives {
         by_state: linearization.as_ref().map(|l| &l.differentiated),
         inverse: formulation.inverse.as_ref().map(|inverse| &inverse.differentiated),
         units: if linearization.is_some() { &formulation.units } else { &[] },
-        by_parameters: by_parameters.map(|linearization| linearization.by_parameters(formulas, &parameters)),
+        by_parameters,
         hessian: formulation.hessian.as_ref().map(|hessian| &hessian.curved),
         regressor: regressor.as_ref().map(|r| &r.differentiated),
     };

@@ -143,6 +143,13 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         self
     }
 
+    /// Looks at the motion from the side at first, along k₂ where k₃ is up: for motion in the plane of k₁ and k₃.
+    #[must_use]
+    pub fn from_the_side(mut self) -> Self {
+        self.page.view = "side";
+        self
+    }
+
     /// Lets the camera go with a body, and come near it; without this it sees everything from where it is.
     #[must_use]
     pub fn follow(mut self, body: &str) -> Self {

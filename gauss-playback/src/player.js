@@ -29,20 +29,34 @@ const poseAt = (body, where) => {
 // How large everything is.
 const reach = (body) => Math.max(0, ...body.shapes.map((shape) => Math.hypot(...shape.pose.slice(0, 3)) + Math.max(...shape.size)));
 const bounds = (() => {
-  const [low, high] = [[0, 0, 0], [0, 0, 0]].map((_, k) => [0, 0, 0].fill(k ? -Infinity : Infinity));
-  for (const body of bodies) for (const pose of body.poses) for (let k = 0; k < 3; k++) {
-    low[k] = Math.min(low[k], pose[k] - reach(body));
-    high[k] = Math.max(high[k], pose[k] + reach(body));
-  }
-  for (const arrow of arrows) for (const row of arrow.values) for (let k = 0; k < 3; k++) {
-    low[k] = Math.min(low[k], row[k], row[k] + row[k + 3]);
-    high[k] = Math.max(high[k], row[k], row[k] + row[k + 3]);
+  const [low, high] = [Infinity, -Infinity].map((v) => [v, v, v]);
+  const take = (point, size) => [0, 1, 2].forEach((k) => {
+    low[k] = Math.min(low[k], point[k] - size[k]);
+    high[k] = Math.max(high[k], point[k] + size[k]);
+  });
+  for (const body of bodies) body.poses.forEach((_, n) => {
+    const { at, axes } = poseAt(body, [n, n, 0]);
+    take(at, [0, 0, 0]);
+    for (const shape of body.shapes) {
+      const own = axesOf(shape.pose.slice(3)).map((e) => turned3(axes, e));
+      const half = [0, 1, 2].map((k) => own.reduce((sum, e, i) => sum + Math.abs(e[k]) * shape.size[i], 0));
+      take(add(at, turned3(axes, shape.pose.slice(0, 3))), half);
+    }
+  });
+  for (const arrow of arrows) for (const row of arrow.values) {
+    const from = row.slice(0, 3);
+    for (const point of [from, add(from, row.slice(3))]) take(point, [0, 0, 0]);
   }
   if (!Number.isFinite(low[0])) return { low: [-1, -1, -1], high: [1, 1, 1] };
   return { low, high };
 })();
+const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((c) => [0, 1, 2].map((k) => (c >> k & 1 ? bounds.high : bounds.low)[k]));
 const middle = times(add(bounds.low, bounds.high), 0.5);
 const radius = Math.hypot(...sub(bounds.high, bounds.low)) / 2 || 1;
+
+let now = begin, playing = false, last = null;
+// Before the stage: they leave it the height that it has.
+const panels = data.panels.map((panel) => new Curves(panel, clock, (t) => seek(t)));
 
 let stage = null;
 try { stage = new Stage(byId("stage"), data.up); } catch (error) {
@@ -53,25 +67,31 @@ try { stage = new Stage(byId("stage"), data.up); } catch (error) {
 // Where the eye is at first: azimuth and elevation.
 const FROM = {
   slant: { azimuth: 0.6, elevation: 0.42 }, top: { azimuth: -Math.PI / 2, elevation: 1.55 },
+  side: { azimuth: -Math.PI / 2, elevation: 0.1 },
 };
-const seeAll = () => Object.assign(stage, { target: middle, distance: distanceTo(radius), ...FROM[data.view] });
+// So near that all corners are still in the picture.
+const seeAll = () => {
+  Object.assign(stage, { target: middle, ...FROM[data.view] });
+  const z = stage.back(), x = unit(cross(stage.world[2], z)), y = cross(z, x);
+  const wide = stage.canvas.clientWidth / stage.canvas.clientHeight || 1;
+  const needed = corners.map((corner) => sub(corner, middle)).map((c) =>
+    dot(c, z) + Math.max(Math.abs(dot(c, y)), Math.abs(dot(c, x)) / wide) / Math.tan(0.3));
+  stage.distance = 1.1 * Math.max(...needed) || distanceTo(radius);
+};
 const buffers = { traces: [], grid: null };
 if (stage) {
   seeAll();
   const largest = Math.max(...bodies.map(reach));
-  if (data.follow !== null) stage.distance = Math.min(distanceTo(radius), distanceTo(2.5 * (reach(bodies[data.follow]) || largest)));
+  if (data.follow !== null) stage.distance = Math.min(stage.distance, distanceTo(2.5 * (reach(bodies[data.follow]) || largest)));
   buffers.traces = traces.map((trace) => stage.tube(clock.map((_, n) => {
     const { at, axes } = poseAt(bodies[trace.body], [n, n, 0]);
     return add(at, turned3(axes, trace.point));
   }), Math.min(0.004 * radius, stage.distance * 0.0015)));
   // The floor is below everything.
-  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((c) => [0, 1, 2].map((k) => (c >> k & 1 ? bounds.high : bounds.low)[k]));
   const height = Math.min(...corners.map((corner) => dot(corner, stage.world[2])));
   buffers.grid = floorOf(stage, middle, radius, height);
 }
 
-let now = begin, playing = false, last = null;
-const panels = data.panels.map((panel) => new Curves(panel, clock, (t) => seek(t)));
 const arrowColour = (k) => COLOURS[(bodies.filter((b) => b.shapes.length).length + k + 1) % COLOURS.length];
 
 const drawStage = (where, style) => {

@@ -179,6 +179,8 @@ pub trait GaussSystem {
 
     /// The state nearest to (q, z), measured by the kinetic energy, that satisfies the constraints up to rounding; the state
     /// as it is where there are none ([`CONSTRAINED`](Self::CONSTRAINED)). Use it to make initial states consistent.
+    /// It goes any distance; how far it went is [`q.difference(&nearest)`](Configuration::difference) and the difference of the
+    /// speeds.
     ///
     /// # Errors
     /// [`ProjectionError`] when none is found from there: see [`project`](crate::constraint::project).

@@ -40,6 +40,9 @@ fn energy<T: Real>(kernel: &GenericKernel<T>) -> T {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let body = Body { mass: 1.0, inertia: Vector3::new(1.0, 2.0, 3.0) };
     let kernel = body.kernel()?;
+    let start = BodyState { omega_x: 1.0, ..Default::default() };
+    let BodyState { omega_y, .. } = start;
+    println!("{omega_y} {:?}", BodyState { omega_z: 2.0, ..at_rest() }.q());
     let (q, z) = (Isometry3::identity(), SVector::from([0.0, 0.0, 0.0, 1.0, 2.0, 3.0]));
     let acceleration = kernel.acceleration(0.0, &q, &z, &());
     println!("{acceleration} {} {}", acceleration[2], BodyKernel::DOF);

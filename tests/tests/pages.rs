@@ -46,7 +46,7 @@ fn prose(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// Targets of `[…](…)`, without what stands between backquotes.
+/// Targets of `[…](…)` and of pictures in tables, `src="…"`, without what stands between backquotes.
 fn targets(line: &str) -> Vec<&str> {
     let mut out = Vec::new();
     for part in line.split('`').step_by(2) {
@@ -55,6 +55,7 @@ fn targets(line: &str) -> Vec<&str> {
             let target = &part[at + 2..];
             out.push(&target[..target.find(')').unwrap_or(target.len())]);
         }
+        out.extend(part.split("src=\"").skip(1).filter_map(|target| target.split('"').next()));
     }
     out
 }
@@ -161,10 +162,11 @@ fn the_readme_is_short() {
     assert!(lines <= 150, "README.md has {lines} lines; what is over 150 belongs into the guide or BENCHMARKS.md");
 }
 
-/// Rows of the tables of a page by their first cell, each with its cells.
-fn rows(text: &str) -> Vec<Vec<&str>> {
+/// The table whose heading begins so, as cells; the heading is the first row.
+fn table<'p>(page: &'p str, heading: &str) -> Vec<Vec<&'p str>> {
     let cells = |line| str::trim_matches(line, '|').split('|').map(str::trim).collect();
-    text.lines().filter(|line| line.starts_with('|')).map(cells).collect()
+    let lines = page.lines().skip_while(|line| !line.starts_with(heading));
+    lines.take_while(|line| line.starts_with('|')).map(cells).collect()
 }
 
 /// The numbers of a cell: `7.4 (1.086) gcc` has two.
@@ -172,30 +174,36 @@ fn numbers(cell: &str) -> Vec<f64> {
     cell.split([' ', '(', ')', '–']).filter_map(|word| word.parse().ok()).collect()
 }
 
-/// The times of the README: what BENCHMARKS.md has, of five scenes.
+/// The times of the README: what BENCHMARKS.md has, of five scenes and of two robots.
 #[test]
 fn readme_shows_the_times_of_benchmarks() {
-    const SCENES: [(&str, &str); 5] = [
+    const SCENES: [(&str, &str); 7] = [
         ("S1", "free body"),
         ("S3", "body in fluid"),
         ("S4", "heavy top"),
         ("S5", "double pendulum"),
         ("S7", "7-joint arm"),
+        ("S8 forward", "quadruped, 18"),
+        ("S9 forward", "biped, 38"),
     ];
-    const PEERS: [(&str, &str); 6] = [
-        ("by hand, in Rust", "by hand, in Rust"),
-        ("casadi by hand", "CasADi, accelerations derived by hand"),
-        ("sympy kane", "SymPy, Kane + cse"),
-        ("pinocchio casadi", "Pinocchio through CasADi"),
-        ("pinocchio", "Pinocchio, ABA"),
-        ("mujoco", "MuJoCo, forward"),
+    // In the README, in the table of peers, in the table of robots.
+    const PEERS: [(&str, &str, &str); 5] = [
+        ("CasADi, accelerations derived by hand", "casadi by hand", ""),
+        ("SymPy, Kane + cse", "sympy kane", ""),
+        ("Pinocchio through CasADi", "pinocchio casadi", "Pinocchio through CasADi"),
+        ("Pinocchio, ABA", "pinocchio", "Pinocchio, ABA and RNEA"),
+        ("MuJoCo, forward", "mujoco", "MuJoCo, `mj_forward`"),
     ];
     let page = fs::read_to_string(repository().join("BENCHMARKS.md")).expect("BENCHMARKS.md is there");
-    let rows = rows(&page);
-    let row = |name: &str| rows.iter().find(|row| row[0] == name).unwrap_or_else(|| panic!("no row {name}"));
-    let heading = rows.iter().find(|row| row[0].starts_with("ns (generated / peer)")).expect("the table of peers");
-    let ours = row("generated");
-    let column = |scene: &str| heading.iter().position(|cell| *cell == scene).expect(scene);
+    let mut by_hand = table(&page, "| scene | operations | generated, ns |");
+    // `S1 free body, …`.
+    by_hand.iter_mut().for_each(|row| row[0] = row[0].split(' ').next().unwrap_or_default());
+    let [peers, robots] = ["| ns (generated / peer)", "| ns | S7′ forward |"].map(|heading| table(&page, heading));
+    let of = |table: &[Vec<&str>], row: &str, column: &str| {
+        let column = table[0].iter().position(|cell| *cell == column);
+        let row = table.iter().find(|cells| cells[0] == row);
+        row.zip(column).map_or(String::new(), |(row, column)| row[column].to_owned())
+    };
     let shown = |ns: f64| if ns < 100.0 { format!("{ns:.1}") } else { format!("{ns:.0}") };
     // Ratios are those of neighbours in time, not of the medians.
     let cell = |ns: &str, ratio: &str| match (numbers(ns).first(), numbers(ratio).first()) {
@@ -203,17 +211,23 @@ fn readme_shows_the_times_of_benchmarks() {
         _ => "–".to_owned(),
     };
 
-    let mut out = format!("| | {} |\n|---|---|---|---|---|---|\n| Gauss |", SCENES.map(|(_, name)| name).join(" | "));
-    for (scene, _) in SCENES {
-        write!(out, " {} |", shown(numbers(ours[column(scene)])[0])).expect("a string");
-    }
-    for (name, shown) in PEERS {
-        write!(out, "\n| {shown} |").expect("a string");
-        for (scene, _) in SCENES {
-            let both = row(name)[column(scene)];
-            let ratio = both.split_once('(').map_or("", |(_, ratio)| ratio);
-            write!(out, " {} |", cell(both, ratio)).expect("a string");
-        }
+    let mut out = format!("| | {} |\n|{}", SCENES.map(|(_, name)| name).join(" | "), "---|".repeat(SCENES.len() + 1));
+    let mut row = |name: &str, cell: &dyn Fn(&str) -> String| {
+        write!(out, "\n| {name} | {} |", SCENES.map(|(scene, _)| cell(scene)).join(" | ")).expect("a string");
+    };
+    row("Gauss", &|scene| {
+        let ns = of(&peers, "generated", scene) + &of(&robots, "generated", scene);
+        shown(numbers(&ns)[0])
+    });
+    row("by hand, in Rust", &|scene| {
+        cell(&of(&by_hand, scene, "by hand, ns"), &of(&by_hand, scene, "generated / by hand"))
+    });
+    for (name, peer, robot) in PEERS {
+        row(name, &|scene| {
+            let both = of(&peers, peer, scene) + &of(&robots, robot, scene);
+            let (ns, ratio) = both.split_once('(').unwrap_or_default();
+            cell(ns, ratio)
+        });
     }
     out += "\n";
     keep("README.md", "peers", &out);

@@ -113,7 +113,11 @@ fn errors_fall_with_the_order() {
     for name in ["hlw_free_body", "hlw_heavy_top"] {
         let scene = scene(name);
         for entry in scene.about.entries(&scene).unwrap() {
-            let Setting::Step(stated) = entry.setting else { continue };
+            let (Setting::Step(stated) | Setting::LongStep(stated)) = entry.setting else { continue };
+            // Where its steps are short enough to be stable, its errors are below 1e-10: no slope is to be seen.
+            if entry.method == "Adams 12" {
+                continue;
+            }
             if ["body velocities", "body axes", "ω and quaternion"].contains(&entry.chart) {
                 let found = order(&entry, &scene);
                 assert!(found > f64::from(stated) - 0.3, "{}: {found} instead of {stated}", named(&scene, &entry));

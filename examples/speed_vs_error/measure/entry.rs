@@ -25,6 +25,8 @@ pub enum Side {
 pub enum Setting {
     /// The length of the steps, s, of a method of this order.
     Step(u32),
+    /// The same, where how fast the body turns costs nothing: longer steps are tried, too.
+    LongStep(u32),
     /// The relative and absolute tolerance.
     Tolerance,
     /// Nothing: the motion is exact, and one call goes to the end.

@@ -1,7 +1,7 @@
 //! The methods of Gauss, one line each. What no forces act on has more of them in `free_motion`.
 
 use gauss_runtime::integrate::body::BodyConfiguration;
-use gauss_runtime::integrate::{Composed, Composition, Form, Scheme, Splitting, SplittingError, Variational};
+use gauss_runtime::integrate::{Adams, Composed, Composition, Form, Scheme, Splitting, SplittingError, Variational};
 use gauss_runtime::prelude::*;
 
 use super::counted::Counted;
@@ -22,6 +22,8 @@ fn explicit_in<S: Kernel, F: Form<Counted<S>> + 'static>(
     entries.extend([
         s.entry(("RK 4", Step(4)), form, |h| Fixed::by(RungeKutta(Classical4), h)),
         s.entry(("DP 8, fixed", Step(8)), form, |h| Fixed::by(RungeKutta(DormandPrince8), h)),
+        s.entry(("Adams 10", Step(9)), form, Adams::<_, 10>::new),
+        s.entry(("Adams 12", Step(9)), form, Adams::<_, 12>::new),
         s.entry(("DP 8", Tolerance), form, |tolerance| Adaptive::by(RungeKutta(DormandPrince8), tolerance, tolerance)),
         s.entry(("Verner 9(8)", Tolerance), form, |tolerance| Adaptive::by(RungeKutta(Verner9), tolerance, tolerance)),
     ]);
@@ -87,11 +89,11 @@ pub fn splitting<S: Kernel>(entries: &mut Vec<Entry>, s: &Setup<S>) -> Result<()
 where
     S::Configuration: BodyConfiguration<Tangent = S::Speeds, MassMatrix = S::MassMatrix>,
 {
-    use Setting::Step;
+    use Setting::{LongStep, Step};
     let form = ("momentum", MomentumForm);
     let exact = |name, order, scheme| {
         let method = Splitting::exact(&s.kernel, scheme)?;
-        Ok(s.entry((name, Step(order)), form, move |h| Fixed::by(method, h)))
+        Ok(s.entry((name, LongStep(order)), form, move |h| Fixed::by(method, h)))
     };
     let discrete = |name, order, scheme| {
         let method = Splitting::discrete(&s.kernel, scheme)?;
@@ -101,6 +103,7 @@ where
         exact("splitting 2, exact flow", 2, Scheme::STRANG)?,
         exact("splitting 4, exact flow", 4, Scheme::BLANES_MOAN_4)?,
         exact("splitting 6, exact flow", 6, Scheme::KAHAN_LI_6)?,
+        exact("splitting 6 of Blanes and Moan, exact flow", 6, Scheme::BLANES_MOAN_6)?,
         exact("splitting 8, exact flow", 8, Scheme::KAHAN_LI_8)?,
         discrete("splitting 2, Moser–Veselov", 2, Scheme::STRANG)?,
         discrete("splitting 4, Moser–Veselov", 4, Scheme::BLANES_MOAN_4)?,

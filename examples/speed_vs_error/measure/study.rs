@@ -126,10 +126,11 @@ fn settings(entry: &Entry, scene: &Scene, effort: &Effort) -> Vec<f64> {
             let count = (26.0 * effort.density) as i32;
             (0..=count).map(|n| 10.0_f64.powf(-2.0 - 13.0 * f64::from(n) / f64::from(count))).collect()
         }
-        Setting::Step(order) => {
+        Setting::Step(order) | Setting::LongStep(order) => {
+            let longest = if let Setting::Step(_) = entry.setting { 1.6 } else { 25.6 };
             // About two settings for each power of ten of the error, and not less than one for each halving.
             let ratio = 10.0_f64.powf(0.5 / f64::from(order)).powf(1.0 / effort.density).clamp(1.15, 4.0);
-            (0..80).map(|n| 1.6 / scene.about.rate / ratio.powi(n)).collect()
+            (0..80).map(|n| longest / scene.about.rate / ratio.powi(n)).collect()
         }
     }
 }
@@ -141,7 +142,7 @@ fn ladder(number: usize, entry: &Entry, scene: &Scene, effort: &Effort) -> (Vec<
     let most = effort.most_evaluations * scene.about.rate * scene.duration;
     let most = if entry.setting == Setting::Tolerance { 4.0 * most } else { most };
     for setting in settings(entry, scene, effort) {
-        if let Setting::Step(_) = entry.setting
+        if let Setting::Step(_) | Setting::LongStep(_) = entry.setting
             && scene.duration / setting > most
         {
             break;

@@ -155,7 +155,7 @@ fn setting(entry: &Entry, point: &Point) -> String {
     match entry.setting {
         Setting::Once => "one call".into(),
         Setting::Tolerance => format!("tolerance {:.0e}", point.setting),
-        Setting::Step(_) => format!("h = {:.2e} s", point.setting),
+        Setting::Step(_) | Setting::LongStep(_) => format!("h = {:.2e} s", point.setting),
     }
 }
 

@@ -12,7 +12,7 @@ use super::machine::Machine;
 
 fn kind(setting: Setting) -> &'static str {
     match setting {
-        Setting::Step(_) => "step",
+        Setting::Step(_) | Setting::LongStep(_) => "step",
         Setting::Tolerance => "tolerance",
         Setting::Once => "span",
     }

@@ -144,6 +144,16 @@ impl Trial {
         }
     }
 
+    /// The same of constants that a program computes from parameters.
+    pub fn compute(&mut self, symbols: &[Expr<'_>], program: &Code<Expr<'_>>) {
+        let (tape, keys): (Tape, Vec<u32>) = (Tape::new(program), symbols.iter().map(|symbol| symbol.key()).collect());
+        for point in &mut self.points {
+            compute_in(&mut point.given, &tape, &keys);
+            compute_in(&mut point.exact, &tape, &keys);
+            point.changed.iter_mut().for_each(|changed| compute_in(changed, &tape, &keys));
+        }
+    }
+
     /// The losses of programs that should compute the same, beside the best of them in 106 binary digits: what it loses
     /// of 53 it has to spare there, unless that is nearly all.
     pub fn losses(&self, programs: &[&Code<Expr<'_>>]) -> Vec<Loss> {
@@ -225,6 +235,11 @@ fn define_in<'g, N: Number>(values: &mut Map<u32, N>, constants: &[(Expr<'g>, Ex
     let mut evaluation = Evaluation::new(values);
     let known: Vec<_> = constants.iter().map(|(symbol, e)| (symbol.key(), evaluation.value(*e))).collect();
     values.extend(known);
+}
+
+fn compute_in<N: Number>(values: &mut Map<u32, N>, tape: &Tape, symbols: &[u32]) {
+    let computed = tape.run(values, |_| None);
+    values.extend(symbols.iter().copied().zip(computed));
 }
 
 impl Point {

@@ -58,11 +58,14 @@ impl<'g> Expr<'g> {
                 let turned = x * y.differentiate(rates, memo) - y * x.differentiate(rates, memo);
                 if turned.is_zero() { turned } else { turned * (x * x + y * y).group().recip() }
             }
-            // The exponent is constant.
             NodeView::Binary(BinaryFunction::Powf, base, exponent) => {
-                let rate = base.differentiate(rates, memo);
+                let (rate, of_exponent) = (base.differentiate(rates, memo), exponent.differentiate(rates, memo));
                 let slope = || exponent * base.binary(BinaryFunction::Powf, exponent - graph.one());
-                if rate.is_zero() { rate } else { rate * slope() }
+                let by_base = if rate.is_zero() { rate } else { rate * slope() };
+                // Of 0 the power is 0, which the logarithm must not spoil.
+                let least = graph.number(Rational::new(1, 1 << 62)).powi(2);
+                let logarithm = || graph.call(Function::Ln, base.binary(BinaryFunction::Max, least));
+                if of_exponent.is_zero() { by_base } else { by_base + of_exponent * self * logarithm() }
             }
             // Of the smaller or the larger: half the sum, and half the difference by which of them it is.
             NodeView::Binary(function, a, b) => {

@@ -3,7 +3,8 @@
 use super::Map;
 use super::ideal::Ideal;
 use super::{
-    Evaluation, Expr, Graph, Notation, Parts, Rational, Solver, inverse_of_symmetric, print, print_parts, print_with,
+    BinaryFunction, Evaluation, Expr, Graph, Notation, Parts, Rational, Solver, inverse_of_symmetric, print,
+    print_parts, print_with,
 };
 
 fn symbols<'g, const N: usize>(graph: &'g Graph, names: [&str; N]) -> [Expr<'g>; N] {
@@ -81,6 +82,18 @@ fn rewriting_sines_in_denominators_ends() {
     assert!(quotient.expand(1000).is_some());
     // It is s c² = s − s³ on the other side too.
     assert!(zero(quotient - (sin - sin.powi(3)) * sum.recip()));
+}
+
+/// (x^p)˙ = p x^(p − 1) ẋ + x^p ln x ṗ, and nothing where x is 0.
+#[test]
+fn exponents_move_as_well() {
+    let graph = Graph::new();
+    let [x, p] = symbols(&graph, ["x", "p"]);
+    let f = x.binary(BinaryFunction::Powf, p);
+    let value = |e: Expr<'_>, base: f64| Evaluation::new(&Map::from_iter([(x.key(), base), (p.key(), 1.5)])).value(e);
+    assert!((value(f.partial(p), 2.0) - 2.0_f64.powf(1.5) * 2.0_f64.ln()).abs() < 1e-15);
+    assert_eq!(value(f.partial(p), 0.0), 0.0);
+    assert!((value(f.partial(x), 2.0) - 1.5 * 2.0_f64.sqrt()).abs() < 1e-15);
 }
 
 #[test]

@@ -2,7 +2,8 @@
 //!
 //! The type of a kernel depends on clauses that may be the ones that are wrong, so no implementation of a trait would fit the
 //! code that uses it. `NameKernel` is a type that contains the first mistake instead, as the length of an array: the compiler
-//! reports that one and is silent about whatever depends on it.
+//! reports that one and is silent about whatever depends on it. Only that an array has no fields would be told of
+//! `NameState { … }`: `NameState` is therefore what a trait gives of it, which is not even known to be an array.
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{format_ident, quote};
@@ -43,7 +44,7 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
         #[allow(non_camel_case_types, dead_code)]
         #vis type #name #declared = [#element; #first];
         #[allow(non_camel_case_types, dead_code)]
-        #vis type #state #declared = #name #declared;
+        #vis type #state #declared = <#name #declared as ::core::iter::Iterator>::Item;
         #(#mistakes)*
 
         const _: () = {

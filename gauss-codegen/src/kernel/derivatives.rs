@@ -1,15 +1,15 @@
-//! Derivatives of functions: along what moves, and by parameters through the constants that are made of them.
+//! Derivatives of functions along what moves, and what programs of derivatives should compute.
 
 use std::borrow::Cow;
 
 use crate::accuracy::{Loss, Trial, taken, usable};
-use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Tangents};
+use crate::algebra::{Evaluation, Expr, Number, Tangents};
 
 use super::columns::{Columns, LoweredColumns};
 use super::hessian::Curved;
 use super::hoist::Hoister;
-use super::tangent::{Direction, Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
-use super::write::{Operand, Operation, Program};
+use super::tangent::{Direction, tangents_alone, with_tangents};
+use super::write::Program;
 
 /// Functions and the directions along which their derivatives are wanted.
 pub struct Differentiated<'g> {
@@ -28,47 +28,6 @@ pub struct Derived<'g> {
     pub outputs: Vec<Expr<'g>>,
     /// The same, where the last step is a linear system with a right-hand side for each direction.
     pub columns: Option<Columns<'g>>,
-}
-
-/// What is differentiated beside the functions of a kernel.
-#[derive(Default)]
-pub struct Derivatives<'a, 'g> {
-    /// Outputs that are wanted together with their derivatives.
-    pub by_state: Option<&'a Differentiated<'g>>,
-    /// Symbols that are the components of one unit vector or quaternion, and so on: equations are solved for the accelerations with
-    /// the help of that, so points at which derivatives are checked must have it, too.
-    pub units: &'a [Vec<Expr<'g>>],
-    /// Velocities and accelerations by the parameters.
-    pub by_parameters: Option<ByParameters<'a, 'g>>,
-    /// Inverse dynamics together with its derivatives.
-    pub inverse: Option<&'a Differentiated<'g>>,
-    /// Outputs that are affine in the symbols of their directions: their coefficients.
-    pub regressor: Option<&'a Differentiated<'g>>,
-    /// A number whose second derivatives are wanted.
-    pub hessian: Option<&'a Curved<'g>>,
-}
-
-/// Two functions of a kernel, one after the other, whose derivatives by parameters are wanted. All functions by their numbers.
-#[derive(Clone, Copy)]
-pub struct ByParameters<'a, 'g> {
-    pub parameters: &'a [Expr<'g>],
-    pub velocity: usize,
-    /// The outputs of the velocity in another order.
-    pub order: &'a [usize],
-    pub acceleration: usize,
-    /// What the acceleration solves, where nothing else restricts it.
-    pub equation: Option<Equation<'a, 'g>>,
-}
-
-/// `residual = 0`, solved for the accelerations.
-#[derive(Clone, Copy)]
-pub struct Equation<'a, 'g> {
-    pub residual: usize,
-    /// The accelerations in it.
-    pub unknowns: &'a [Expr<'g>],
-    /// Affine in `loads`, with the inverse of the matrix of the residual.
-    pub solution: usize,
-    pub loads: &'a [Expr<'g>],
 }
 
 /// Whether the outputs themselves are wanted.
@@ -93,12 +52,6 @@ pub(super) struct Expected<'a, 'g> {
     second: Option<&'a Curved<'g>>,
 }
 
-/// The constants of a kernel, in order.
-pub(super) struct Constants<'g> {
-    pub program: Program<'g>,
-    pub symbols: Vec<Expr<'g>>,
-}
-
 impl<'g> Differentiated<'g> {
     /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple where
     /// those of its definition are not: R σ̂ beside what a quaternion makes of it.
@@ -120,6 +73,7 @@ impl<'g> Differentiated<'g> {
         let costs: Vec<u32> = of_usable.iter().map(|(program, ..)| program.cost().total()).collect();
         let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
         let (program, columns) = self.cheaper(program, hoister, trial);
+        let program = program.ordered();
         let expected = Expected {
             outputs: Cow::Borrowed(outputs),
             directions: Cow::Borrowed(&self.directions),
@@ -160,114 +114,13 @@ impl<'g> Differentiated<'g> {
     }
 }
 
-impl<'g> ByParameters<'_, 'g> {
-    /// Programs read constants, not parameters: the program of the constants is differentiated first, and what their
-    /// derivatives are, unless numbers, becomes constants too, computed once. Accelerations are differentiated as they are
-    /// computed, or as the solution of their equation, whose constants are simpler; the cheaper program is taken.
-    pub(super) fn lower<'b>(
-        &self,
-        graph: &'g Graph,
-        (programs, outputs): (&[Program<'g>], &[&[Expr<'g>]]),
-        constants: &mut Constants<'g>,
-    ) -> Lowered<'b, 'g> {
-        let along: Vec<Direction<'g>> =
-            self.parameters.iter().map(|&parameter| vec![(parameter, graph.one())]).collect();
-        let rates = ConstantRates::new(graph, constants, &along);
-        let velocity = &programs[self.velocity];
-        let ordered = self.order.iter().map(|&k| velocity.outputs[k]).collect();
-        let velocity = Program { instructions: velocity.instructions.clone(), outputs: ordered };
-        let acceleration = &programs[self.acceleration];
-        let mut candidates =
-            vec![tangents_alone(&joined(&velocity, acceleration), (&[], &Program::nothing()), &rates.directions)];
-        candidates.extend(self.equation.map(|equation| {
-            let implicit = Implicit {
-                root: acceleration,
-                residual: &programs[equation.residual],
-                unknowns: equation.unknowns,
-                solution: &programs[equation.solution],
-                loads: equation.loads,
-            };
-            implicit_tangents(&velocity, &implicit, &rates.directions)
-        }));
-        let cost = |program: &Program<'g>| program.cost().total() + rates.constants_for(program).program.cost().total();
-        let program = candidates.into_iter().min_by_key(cost).expect("one way at least");
-        *constants = rates.constants_for(&program);
-        let of_velocity = self.order.iter().map(|&k| outputs[self.velocity][k]);
-        let outputs: Vec<Expr<'g>> = of_velocity.chain(outputs[self.acceleration].iter().copied()).collect();
-        let expected = Expected {
-            outputs: Cow::Owned(outputs),
-            directions: Cow::Owned(along),
-            kept: Kept::DerivativesAlone,
-            second: None,
-        };
-        (program, expected)
-    }
-}
-
-/// The derivatives of constants by parameters.
-struct ConstantRates<'g> {
-    /// Values of the constants, then the derivatives of all by the first parameter, and so on.
-    extended: Program<'g>,
-    symbols: Vec<Expr<'g>>,
-    /// Derivatives that are neither numbers nor constants already.
-    added: Vec<(Operand<'g>, Expr<'g>)>,
-    /// For each parameter the constants that depend on it, and how.
-    directions: Vec<Direction<'g>>,
-}
-
-impl<'g> ConstantRates<'g> {
-    #[expect(
-        clippy::mutable_key_type,
-        reason = "expressions are compared by their place in the graph, which never changes"
-    )]
-    fn new(graph: &'g Graph, constants: &Constants<'g>, along: &[Direction<'g>]) -> Self {
-        let nothing = Program::nothing();
-        let extended = with_tangents(&constants.program, (&[], &nothing), along);
-        let symbols = constants.symbols.clone();
-        let count = symbols.len();
-        let (values, derivatives) = extended.outputs.split_at(count);
-        let mut known: Map<Operand<'g>, Expr<'g>> = values.iter().copied().zip(symbols.iter().copied()).collect();
-        let mut added: Vec<(Operand<'g>, Expr<'g>)> = Vec::new();
-        let mut rate = |derivative: Operand<'g>| {
-            let (negative, operand) = match derivative {
-                Operand::Value(k) => match extended.instructions[k] {
-                    Operation::Negate(a) => (true, a),
-                    _ => (false, derivative),
-                },
-                _ => (false, derivative),
-            };
-            let value = match operand {
-                Operand::Number(value) => graph.number(value),
-                _ => *known.entry(operand).or_insert_with(|| {
-                    let name = format!("k{}", count + added.len());
-                    let symbol = graph.symbol(name.clone(), name, false);
-                    added.push((operand, symbol));
-                    symbol
-                }),
-            };
-            if negative { -value } else { value }
-        };
-        let directions = (0..along.len())
-            .map(|k| {
-                let rates = derivatives[count * k..count * (k + 1)].iter().map(|&derivative| rate(derivative));
-                symbols.iter().copied().zip(rates).filter(|(_, rate)| !rate.is_zero()).collect()
-            })
-            .collect();
-        Self { extended, symbols, added, directions }
-    }
-
-    /// The constants as they were, and the derivatives that the program reads.
-    fn constants_for(&self, program: &Program<'g>) -> Constants<'g> {
-        let read = program.symbols();
-        let added = || self.added.iter().filter(|(_, symbol)| read.contains(symbol));
-        let values = self.extended.outputs[..self.symbols.len()].iter().copied();
-        let outputs = values.chain(added().map(|(operand, _)| *operand)).collect();
-        let symbols = self.symbols.iter().copied().chain(added().map(|(_, symbol)| *symbol)).collect();
-        Constants { program: with_outputs(&self.extended, outputs), symbols }
-    }
-}
-
 impl<'a, 'g> Expected<'a, 'g> {
+    /// Derivatives of functions alone.
+    pub fn of_derivatives(outputs: Vec<Expr<'g>>, directions: Vec<Direction<'g>>) -> Self {
+        let (outputs, directions) = (Cow::Owned(outputs), Cow::Owned(directions));
+        Self { outputs, directions, kept: Kept::DerivativesAlone, second: None }
+    }
+
     /// The values of expressions.
     pub fn of(outputs: &'a [Expr<'g>]) -> Self {
         Self { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&[]), kept: Kept::ValuesToo, second: None }

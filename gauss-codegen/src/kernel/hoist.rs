@@ -48,10 +48,6 @@ impl<'a, 'g> Hoister<'a, 'g> {
         &self.constants
     }
 
-    pub fn into_constants(self) -> Vec<(Expr<'g>, Expr<'g>)> {
-        self.constants
-    }
-
     /// Whether a symbol is that of a constant.
     pub fn is_hoisted(&self, symbol: Expr<'g>) -> bool {
         self.constants.iter().any(|(constant, _)| *constant == symbol)

@@ -1,13 +1,16 @@
 //! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
 use crate::accuracy::{Loss, Trial};
-use crate::algebra::{Evaluation, Expr, Graph, Map, Rational, Set};
+use crate::algebra::{Expr, Graph, Map, Rational};
 
 use super::check::{Checked, Miscompiled, Sample};
 use super::choice::{Candidates, Lowered};
 use super::columns::LoweredColumns;
-use super::derivatives::{Constants, Derivatives, Differentiated, Expected, Kept};
+use super::constants::{Constants, Hoisted, Source};
+use super::derivatives::{Differentiated, Expected, Kept};
+use super::hessian::Curved;
 use super::hoist::Hoister;
+use super::parametric::ByParameters;
 use super::write::Program;
 
 /// Programs of a set of functions that share their constants.
@@ -36,6 +39,24 @@ pub struct Kernel<'g> {
     pub constant_symbols: Vec<Expr<'g>>,
     /// Constants that literal numbers alone determine, with their values.
     pub known_constants: Vec<(Expr<'g>, f64)>,
+}
+
+/// What is differentiated beside the functions of a kernel.
+#[derive(Default)]
+pub struct Derivatives<'a, 'g> {
+    /// Outputs that are wanted together with their derivatives.
+    pub by_state: Option<&'a Differentiated<'g>>,
+    /// Symbols that are the components of one unit vector or quaternion, and so on: equations are solved for the
+    /// accelerations with the help of that, so points at which derivatives are checked must have it, too.
+    pub units: &'a [Vec<Expr<'g>>],
+    /// Velocities and accelerations by the parameters.
+    pub by_parameters: Option<ByParameters<'a, 'g>>,
+    /// Inverse dynamics together with its derivatives.
+    pub inverse: Option<&'a Differentiated<'g>>,
+    /// Outputs that are affine in the symbols of their directions: their coefficients.
+    pub regressor: Option<&'a Differentiated<'g>>,
+    /// A number whose second derivatives are wanted.
+    pub hessian: Option<&'a Curved<'g>>,
 }
 
 /// Symbols that stand for literal numbers. Where the scalar is not known before run time, there is no value to fold.
@@ -79,10 +100,14 @@ impl<'g> Kernel<'g> {
         let read: Vec<Expr<'g>> = functions.iter().chain([&joined]).chain(derived).flat_map(Program::symbols).collect();
         let numbers: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
-        let (mut constants, known_constants, folded) = constants(hoister, &read, literals.map(|_| &numbers));
-        let by_parameters = wanted.by_parameters.map(|by| by.lower(graph, (&functions, &chosen), &mut constants));
+        let source = Source { read: &read, literals: literals.map(|_| &numbers) };
+        let lowered =
+            wanted.by_parameters.map(|by| by.lower(graph, (&functions, &chosen), &source, &mut hoister, trial));
+        let (by_parameters, hoisted) = lowered.unzip();
         let (by_parameters, expected_by_parameters) = by_parameters.unzip();
-        let Constants { program, symbols: constant_symbols } = constants;
+        let hoisted = hoisted.unwrap_or_else(|| source.hoisted(&hoister, &[]));
+        let Hoisted { constants: Constants { program, symbols: constant_symbols }, known: known_constants, folded } =
+            hoisted;
         let kernel = Self {
             constants: program,
             functions,
@@ -159,41 +184,4 @@ fn lower_together<'g>(
         }
     }
     (best.0.with_signs_led_back().ordered(), best.1)
-}
-
-/// Symbols of constants and what they stand for.
-type Definitions<'g> = Vec<(Expr<'g>, Expr<'g>)>;
-
-/// The constants that are read, and of these those that `literals` alone determine, with their values and with their
-/// definitions. Constants that only a dearer arrangement wanted are dropped.
-fn constants<'g>(
-    hoister: Hoister<'_, 'g>,
-    read: &[Expr<'g>],
-    literals: Option<&Map<u32, f64>>,
-) -> (Constants<'g>, Vec<(Expr<'g>, f64)>, Definitions<'g>) {
-    let known = |definition: Expr<'g>| {
-        let literals = literals?;
-        let value = Evaluation::of_known(literals).value(definition);
-        let is_made_of_literals =
-            || Program::lower(&[definition]).symbols().iter().all(|symbol| literals.contains_key(&symbol.key()));
-        // What has no value is left to `kernel()`, which refuses it; nearly all that is made of parameters has none here.
-        Some(value).filter(|value| value.is_finite() && is_made_of_literals())
-    };
-    let read: Set<u32> = read.iter().map(|symbol| symbol.key()).collect();
-    let (mut symbols, mut values) = (Vec::new(), Vec::new());
-    let (mut known_constants, mut folded) = (Vec::new(), Vec::new());
-    for (symbol, definition) in hoister.into_constants().into_iter().filter(|(symbol, _)| read.contains(&symbol.key()))
-    {
-        match known(definition) {
-            Some(value) => {
-                known_constants.push((symbol, value));
-                folded.push((symbol, definition));
-            }
-            None => {
-                symbols.push(symbol);
-                values.push(definition);
-            }
-        }
-    }
-    (Constants { program: Program::lower(&values), symbols }, known_constants, folded)
 }

@@ -3,13 +3,13 @@
 //!
 //! - `lower`: the functions of a kernel together.
 //! - `choice`: of several arrangements of a function, the one that is taken.
-//! - `hoist`: what depends on parameters alone becomes a constant, computed once.
+//! - `hoist`: what depends on parameters alone becomes a constant, computed once; `constants`: those that are read.
 //! - `factor`: common factors of the terms of a sum are pulled out.
 //! - `network`: sums and products of many terms; parts that occur more than once are split off.
 //! - `write`: networks as instructions.
 //! - `tangent`, `adjoint`: derivatives of programs, forward and backward.
 //! - `hessian`: second derivatives of one number.
-//! - `derivatives`: derivatives of functions by what moves and by parameters.
+//! - `derivatives`: derivatives of functions by what moves; `parametric`: by parameters.
 //! - `columns`: derivatives that are the solutions of one linear system, solved for together.
 //! - `check`: programs against the expressions that they were made from.
 //!
@@ -20,12 +20,14 @@ mod adjoint;
 mod check;
 mod choice;
 mod columns;
+mod constants;
 mod derivatives;
 mod factor;
 mod hessian;
 mod hoist;
 mod lower;
 mod network;
+mod parametric;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -34,8 +36,9 @@ mod write;
 pub use crate::program::{Counts, Smoothness};
 pub use choice::{Aim, Candidates};
 pub use columns::{Columns, LoweredColumns, Parts, TOGETHER};
-pub use derivatives::{ByParameters, Derivatives, Derived, Differentiated, Equation};
+pub use derivatives::{Derived, Differentiated};
 pub use hessian::Curved;
-pub use lower::{Kernel, Literals};
+pub use lower::{Derivatives, Kernel, Literals};
+pub use parametric::{ByParameters, Equation};
 pub use tangent::Direction;
 pub use write::{Operand, Operation, Program};

@@ -65,7 +65,7 @@ fn every_pass_keeps_the_values_of_random_expressions() {
         let mut hoister = Hoister::new(&graph, &definitions);
         let hoisted = hoister.hoist(&outputs);
         let mut with_constants = point.clone();
-        for (symbol, definition) in hoister.into_constants() {
+        for &(symbol, definition) in hoister.constants() {
             let value = values(&[definition], &point)[0];
             with_constants.insert(symbol.key(), value);
         }
@@ -300,7 +300,7 @@ fn parameters_move_constants() {
     let expected = symbolic(&[n * x, acceleration], &directions, &point);
     for equation in [None, Some(equation)] {
         let by_parameters =
-            ByParameters { parameters: &parameters, velocity: 0, order: &[0], acceleration: 1, equation };
+            ByParameters { parameters: &parameters, velocity: 0, order: &[0], acceleration: 1, equation, derived: &[] };
         let wanted = Derivatives { by_parameters: Some(by_parameters), ..Derivatives::default() };
         let kernel = Kernel::lower(&graph, &candidates, &[], &Map::default(), &wanted, None, &mut Trial::default())
             .expect("a program");

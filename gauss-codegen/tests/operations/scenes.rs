@@ -179,6 +179,7 @@ fn chains() -> Vec<Scene> {
         ("structure top".into(), structures::top("")),
         ("structure arm".into(), structures::arm("")),
         ("structure arm linearize".into(), structures::arm(", linearize(inverse)")),
+        ("structure arm parameters".into(), structures::arm(", linearize(parameters)")),
         ("structure top hessian".into(), structures::top(", linearize(hessian)")),
         ("structure arm hessian".into(), structures::arm(", linearize(hessian)")),
         (

@@ -38,33 +38,35 @@ pub struct ProjectionError {
     pub level: ConstraintLevel,
     /// What happened.
     pub failure: ProjectionFailure,
-    /// The largest component of the residual where the search was given up, in the unit of that constraint; NaN where it is
+    /// The largest component of the residual of the state that was given, in the unit of that constraint; NaN where it is
     /// undefined.
+    pub given: f64,
+    /// The same where the search was given up.
     pub residual: f64,
 }
 
 impl ProjectionError {
-    /// From its parts, in the order of the fields: for projections that are written by hand.
+    /// From its parts, for projections that are written by hand: `residual` is that of the state that was given.
     #[must_use]
     pub const fn new(level: ConstraintLevel, failure: ProjectionFailure, residual: f64) -> Self {
-        Self { level, failure, residual }
+        Self { level, failure, given: residual, residual }
     }
 }
 
 impl fmt::Display for ProjectionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { level, failure, residual } = self;
+        let Self { level, failure, given, residual } = self;
         write!(f, "no state that satisfies the constraints was found: ")?;
         match failure {
             ProjectionFailure::NonFinite => write!(
                 f,
-                "the correction of the {level} is infinite or undefined (residual {residual:e}); the state is, or \
-                 constraints depend on one another there"
+                "the correction of the {level} is infinite or undefined (residual {given:e}, then {residual:e}); \
+                 the state is, or constraints depend on one another there"
             ),
             ProjectionFailure::NotConverged => write!(
                 f,
-                "corrections of the {level} do not settle (residual {residual:e}); the state is too far from the \
-                 constraints, or they contradict each other"
+                "corrections of the {level} do not settle: the given state misses the constraints by {given:e}, the \
+                 nearest that was found by {residual:e}; it is too far from them, or they contradict each other"
             ),
         }
     }

@@ -84,8 +84,8 @@ const OTHER_STARTS: [f64; 10] = [-0.5, 2.0, -1.0, 3.0, -2.0, 5.0, -4.0, 9.0, -8.
 /// away on either side; what is found then need not be the nearest.
 ///
 /// # Errors
-/// [`ProjectionError`] when corrections are undefined, or none of the starts leads to the constraints: with the smallest residual
-/// that was seen where a search was given up.
+/// [`ProjectionError`] when corrections are undefined, or none of the starts leads to the constraints: with the residual of the
+/// given state, and the smallest one where a search was given up.
 pub fn project<S: ConstrainedSystem>(
     system: &S,
     t: S::Scalar,
@@ -159,9 +159,11 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
         M: Fn(&X, &K) -> X,
         F: Fn(&X) -> bool,
     {
-        let stopped =
-            |failure, residual: &L| Err(ProjectionError { level: self.level, failure, residual: residual.max_norm() });
         let mut left = (self.residual)(&point);
+        let given = left.max_norm();
+        let stopped = |failure, residual: &L| {
+            Err(ProjectionError { level: self.level, failure, given, residual: residual.max_norm() })
+        };
         for _ in 0..MOST_CORRECTIONS {
             let step = (self.correction)(&point, &left);
             let next = (self.moved)(&point, &step);

@@ -116,6 +116,8 @@ fn constraints_without_a_common_point_are_named() {
     assert_eq!((error.level, error.failure), (ConstraintLevel::Position, ProjectionFailure::NotConverged));
     // Nowhere are both residuals below (5 − √13)/2: there |x² − 1| = |x − 2|, with y = 0.
     assert!(error.residual >= (5.0 - 13.0_f64.sqrt()) / 2.0 - 1e-12, "{error:?}");
+    // On the circle, and 1.4 from the line.
+    assert!((error.given - 1.4).abs() < 1e-15, "{error:?}");
     let text = error.to_string();
     assert!(text.contains("corrections of the position do not settle") && text.contains("contradict"), "{text}");
 

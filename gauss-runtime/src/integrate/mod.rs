@@ -9,11 +9,13 @@
 //! | [`structure`] | [`collocation`](structure::collocation): Gauss' implicit methods of orders 2, 4, 6, symmetric; [`composition`](structure::composition): symmetric methods composed to higher orders; [`variational`](structure::variational): symplectic in the left-invariant chart; [`energy_momentum`](structure::energy_momentum): energy and momenta of bodies at once |
 //! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov, splitting |
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
+//! | [`adams`] | multistep methods: of what earlier steps knew |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
 //! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`table`](drive::table), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
 //! | `lanes` | many runs in lockstep, each with steps of its own |
 //! | [`tune`] | [`method`](tune::method): methods and forms chosen at run time; `measure`: the cheapest for a scene, measured on it |
 
+pub mod adams;
 pub mod body;
 pub mod drive;
 #[cfg(feature = "alloc")]
@@ -27,6 +29,7 @@ pub mod structure;
 pub mod taylor;
 pub mod tune;
 
+pub use adams::Adams;
 pub use body::{FreeFlow, MoserVeselov, Scheme, Splitting, SplittingError};
 pub use drive::adaptive::Adaptive;
 pub use drive::compensated::Compensated;

@@ -58,10 +58,18 @@ fn runs() {
         .expect("a run");
     let text = to_string(&run).expect("data");
     let read: Record<MixedKernel<f64>> = from_str(&text).expect("a run");
-    assert_eq!((read.samples.len(), read.events.len(), read.stopped_by), (run.len(), 1, Some(0)));
-    for (read, made) in read.samples.iter().chain([&read.events[0].sample]).zip(run.iter().chain([run.last()])) {
-        assert_eq!((read.t, read.q, read.z, read.p), (made.t, made.q, made.z, made.p));
+    // Numbers alone, in their order: 8 bytes each and few besides.
+    let bytes = postcard::to_allocvec(&run).expect("bytes");
+    let sample = 1 + MixedKernel::<f64>::COORDINATE_NAMES.len() + 2 * MixedKernel::<f64>::DOF;
+    assert!(bytes.len() < 9 * sample * (run.len() + 1), "{} bytes", bytes.len());
+    let again: Record<MixedKernel<f64>> = postcard::from_bytes(&bytes).expect("a run");
+    for read in [&read, &again] {
+        assert_eq!((read.samples.len(), read.events.len(), read.stopped_by), (run.len(), 1, Some(0)));
+        for (read, made) in read.samples.iter().chain([&read.events[0].sample]).zip(run.iter().chain([run.last()])) {
+            assert_eq!((read.t, read.q, read.z, read.p), (made.t, made.q, made.z, made.p));
+        }
     }
+    assert!(postcard::from_bytes::<Record<MixedKernel<f64>>>(&bytes[..bytes.len() - 9]).is_err());
     assert_eq!(to_string(&read).expect("data"), text);
     let first = &to_value(&run).expect("data")["samples"][0];
     assert_eq!((&first["q"]["craft_z"], &first["z"]["third"], &first["t"]), (&json!(3.0), &json!(1.0), &json!(0.0)));

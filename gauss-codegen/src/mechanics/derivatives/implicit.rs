@@ -11,7 +11,7 @@ use crate::mechanics::system::{DENSE, System};
 use crate::mechanics::tidy::sums;
 
 /// A, ready for right-hand sides.
-enum Factors<'g> {
+pub(super) enum Factors<'g> {
     Dense(Factored<'g>),
     /// By what an elimination link by link leaves at each joint: no large terms are taken from one another.
     Joints(JointFactors<'g>),
@@ -19,7 +19,7 @@ enum Factors<'g> {
 
 impl<'g> Factors<'g> {
     /// The ways that are worth trying.
-    fn of(system: &System<'g>) -> Vec<Self> {
+    pub(super) fn of(system: &System<'g>) -> Vec<Self> {
         let articulated = if system.is_long() { Articulated::new(&system.scene.tree) } else { None };
         let mut ways: Vec<Self> = articulated.iter().map(|a| Self::Joints(a.factored())).collect();
         if ways.is_empty() || system.scene.speeds.len() <= DENSE {
@@ -51,7 +51,7 @@ impl<'g> Factors<'g> {
     }
 
     /// Solutions for many right-hand sides. Of columns of A⁻¹ entries above its diagonal are those below.
-    fn solve_each(&self, rights: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
+    pub(super) fn solve_each(&self, rights: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
         let mut solutions: Vec<Vec<Expr<'g>>> = rights.iter().map(|right| self.solve(right)).collect();
         let units: Vec<(usize, usize)> =
             rights.iter().enumerate().filter_map(|(k, right)| Some((k, unit(right)?))).collect();
@@ -119,7 +119,7 @@ impl<'g> System<'g> {
     }
 
     /// What ∂C/∂ż has beside the inertia of links.
-    fn beside(&self) -> Vec<Expr<'g>> {
+    pub(super) fn beside(&self) -> Vec<Expr<'g>> {
         let (tree, speeds, zero) = (&self.scene.tree, &self.scene.speeds, self.scene.graph.zero());
         let rotors = add_projected(&tree.rotors, speeds, vec![zero; speeds.len()], |rotor| rotor.force(&self.along));
         rotors.iter().zip(self.acting()).map(|(rotor, force)| *rotor - force).collect()
@@ -175,7 +175,7 @@ impl<'g> System<'g> {
     }
 
     /// Rotors add a constant multiple of ż to the residual, and nothing to what is taken at once where links float.
-    fn rotors_are_plain(&self) -> bool {
+    pub(super) fn rotors_are_plain(&self) -> bool {
         let (tree, speeds) = (&self.scene.tree, &self.scene.speeds);
         tree.rotors.iter().all(|rotor| {
             let rows: Vec<Expr<'g>> = speeds.iter().map(|&z| rotor.row(z)).collect();
@@ -186,13 +186,8 @@ impl<'g> System<'g> {
         })
     }
 
-    fn by_recursion(
-        &self,
-        inertia: Inertia,
-        factors: &Factors<'g>,
-        directions: &[Rates<'g>],
-        acting: &[Vec<Expr<'g>>],
-    ) -> Option<AccelerationsWithDerivatives<'g>> {
+    /// ż, and the motion with it.
+    pub(super) fn solved(&self, inertia: Inertia, factors: &Factors<'g>) -> Option<(Vec<Expr<'g>>, Motion<'_, 'g>)> {
         let [rows, taken] = self.floating(inertia);
         let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
         let relative: Vec<Expr<'g>> = factors.solve(&right).iter().map(|e| e.group()).collect();
@@ -201,6 +196,17 @@ impl<'g> System<'g> {
         let solved =
             Solved { rates: symbols.map(|(dz, value)| (dz.key(), value.group())).collect(), relative: &relative };
         let motion = Motion::new(&self.scene.tree, &self.loads, &self.along, Some(solved), inertia)?;
+        Some((rates, motion))
+    }
+
+    fn by_recursion(
+        &self,
+        inertia: Inertia,
+        factors: &Factors<'g>,
+        directions: &[Rates<'g>],
+        acting: &[Vec<Expr<'g>>],
+    ) -> Option<AccelerationsWithDerivatives<'g>> {
+        let (rates, motion) = self.solved(inertia, factors)?;
         let changes = motion.derivatives(directions);
         let difference = |(f, r): (&Expr<'g>, &Expr<'g>)| *f - *r;
         let rights = changes.iter().zip(acting);

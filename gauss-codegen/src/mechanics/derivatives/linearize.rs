@@ -86,9 +86,29 @@ pub fn alone<'g>(graph: &'g Graph, symbols: &[Expr<'g>]) -> Vec<Direction<'g>> {
 }
 
 impl<'g> Linearization<'g> {
+    /// The derivatives of V and ż by parameters, one after the other, in forms of their own.
+    pub fn derived_by_parameters(&self, system: &System<'g>, parameters: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
+        let velocity = &self.differentiated.arrangements[0][..self.increments];
+        let one = system.scene.graph.one();
+        let directions: Vec<Rates<'g>> = parameters.iter().map(|p| Rates::from_iter([(p.key(), one)])).collect();
+        let beside = |accelerations: Vec<Expr<'g>>| {
+            let accelerations = accelerations.chunks(self.speeds).zip(&directions);
+            let both = accelerations.flat_map(|(rates, direction)| {
+                velocity.iter().map(|v| v.derivative(direction)).chain(rates.iter().copied())
+            });
+            both.collect()
+        };
+        system.accelerations_by_parameters(&directions).into_iter().map(beside).collect()
+    }
+
     /// The derivatives of the same functions by parameters. Without constraints accelerations solve ∂C/∂ż = 0, whose matrix A is
-    /// the one that takes z to the momenta.
-    pub fn by_parameters<'a>(&'a self, formulas: &[Formula<'g>], parameters: &'a [Expr<'g>]) -> ByParameters<'a, 'g> {
+    /// the one that takes z to the momenta. `derived` are forms of their own.
+    pub fn by_parameters<'a>(
+        &'a self,
+        formulas: &[Formula<'g>],
+        parameters: &'a [Expr<'g>],
+        derived: &'a [Vec<Expr<'g>>],
+    ) -> ByParameters<'a, 'g> {
         let number = |method: Method| {
             let number = formulas.iter().position(|formula| formula.method == method);
             number.expect("every kernel has the methods of a system")
@@ -104,6 +124,7 @@ impl<'g> Linearization<'g> {
                 solution: number(Method::Velocity),
                 loads: &self.momenta,
             }),
+            derived,
         }
     }
 

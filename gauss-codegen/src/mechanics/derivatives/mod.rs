@@ -5,6 +5,7 @@ pub mod hessian;
 pub mod implicit;
 pub mod inverse;
 pub mod linearize;
+pub mod parametric;
 pub mod regressor;
 pub mod rigid;
 pub mod second;

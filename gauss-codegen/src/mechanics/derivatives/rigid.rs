@@ -131,7 +131,13 @@ impl<'a, 'g> Motion<'a, 'g> {
         Some(Self { tree, loads, along, solved, accelerations, forces, gathered, floating })
     }
 
-    /// Along each of the directions, rates of symbols.
+    /// `a_O − g` and ω̇ of a link, working axes.
+    pub fn acceleration(&self, k: usize) -> Pair<'g> {
+        let (linear, angular) = &self.accelerations[k];
+        (self.tree.links[k].frame.resolve(linear, Axes::Body), *angular)
+    }
+
+    /// Along each of the directions, rates of symbols that moments of links do not depend on.
     pub fn derivatives(&self, directions: &[Rates<'g>]) -> Vec<Derivative<'g>> {
         let (tree, zero) = (self.tree, self.tree.graph.zero());
         let count = tree.speed_count();

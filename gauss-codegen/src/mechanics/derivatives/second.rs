@@ -367,7 +367,7 @@ impl<'g> Sums<'g> {
 }
 
 /// The velocities that μ gives.
-fn velocities<'g>(motion: &Motion<'_, 'g>, weights: &[Expr<'g>]) -> Vec<Pair<'g>> {
+pub(super) fn velocities<'g>(motion: &Motion<'_, 'g>, weights: &[Expr<'g>]) -> Vec<Pair<'g>> {
     let none = [motion.tree.graph.zero(); 3];
     let mut velocities: Vec<Pair<'g>> = Vec::with_capacity(motion.tree.links.len());
     for link in &motion.tree.links {

@@ -20,6 +20,17 @@ pub enum Matter<'g> {
     Body(Box<Body<'g>>),
 }
 
+impl<'g> Matter<'g> {
+    /// About O, body axes.
+    pub fn moments(&self, graph: &'g Graph) -> Moments<'g> {
+        match self {
+            Self::Nothing => Moments::zero(graph),
+            Self::Particle(mass) => Moments::particle(*mass),
+            Self::Body(body) => Moments::of_body(body),
+        }
+    }
+}
+
 /// A link as it is given: relative to its parent's O and axes, or to Ω and k.
 pub struct Placement<'g> {
     pub matter: Matter<'g>,
@@ -77,6 +88,8 @@ pub struct Link<'g> {
     pub angular_rows: Vec<Triple<'g>>,
     /// Pole O; body axes until [`settle`](Self::settle) takes them to the working axes.
     pub moments: Moments<'g>,
+    /// The same in body axes, once parents have what moves with them as well.
+    pub moments_in_body: Moments<'g>,
 }
 
 /// By what pole and in what axes a link is described, beside those that it is given by.
@@ -199,11 +212,7 @@ impl<'g> Link<'g> {
         let named = |e: Expr<'g>| compact(e).group();
         let linear_rows = speeds.iter().map(|&z| own_velocity.partial(z).map(named)).collect();
         let angular_rows = speeds.iter().map(|&z| spin.map(|e| named(e.partial(z)))).collect();
-        let moments = match &matter {
-            Matter::Nothing => Moments::zero(frame.graph),
-            Matter::Particle(mass) => Moments::particle(*mass),
-            Matter::Body(body) => Moments::of_body(body),
-        };
+        let moments = matter.moments(frame.graph);
         Self {
             matter,
             parent: index,
@@ -223,6 +232,7 @@ impl<'g> Link<'g> {
             linear_rows,
             angular_rows,
             moments,
+            moments_in_body: moments,
         }
     }
 
@@ -256,9 +266,13 @@ impl<'g> Link<'g> {
 
     /// Takes the moments from body to working axes.
     pub fn settle(&mut self) {
-        if let Some(turn) = self.turned {
-            self.moments = self.moments.turned(&[turn]);
-        }
+        self.moments_in_body = self.moments;
+        self.moments = self.turned_moments(&self.moments);
+    }
+
+    /// Moments in working axes, of those in body axes.
+    pub fn turned_moments(&self, moments: &Moments<'g>) -> Moments<'g> {
+        self.turned.map_or(*moments, |turn| moments.turned(&[turn]))
     }
 
     pub fn body(&self) -> Option<&Body<'g>> {

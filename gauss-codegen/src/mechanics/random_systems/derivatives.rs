@@ -55,6 +55,7 @@ fn check(plan: &Plan, random: &mut Random, twice: bool, what: &str) -> bool {
     let rates = system.scene.speed_rates.iter();
     values.extend(rates.zip(&state.speeds).map(|(symbol, z)| (symbol.key(), Precise::number(0.3 - 0.7 * z))));
     let both = agree(&linearization.differentiated, &values, what) && agree(&inverse.differentiated, &values, what);
+    let both = agree_by_parameters(&linearization, &system, &symbols, &values, what) && both;
     if !twice {
         return both;
     }
@@ -84,6 +85,34 @@ fn agree<'g>(differentiated: &Differentiated<'g>, values: &Map<u32, Precise>, wh
         }
     }
     !differentiated.derived.is_empty()
+}
+
+/// Whether there are derivatives by parameters in forms of their own; panics where one is wrong.
+fn agree_by_parameters<'g>(
+    linearization: &Linearization<'g>,
+    system: &System<'g>,
+    symbols: &Symbols<'g>,
+    values: &Map<u32, Precise>,
+    what: &str,
+) -> bool {
+    let (mut evaluation, outputs) = (Evaluation::new(values), &linearization.differentiated.arrangements[0]);
+    let parameters = symbols.all_parameters();
+    let ways = linearization.derived_by_parameters(system, &parameters);
+    // Some of each link.
+    for (k, parameter) in parameters.iter().enumerate().skip(what.len() % 3).step_by(3) {
+        let rates = Map::from_iter([(parameter.key(), Precise::number(1.0))]);
+        let mut tangents = Tangents::new(&mut evaluation, &rates);
+        let expected: Vec<Precise> = outputs.iter().map(|e| tangents.along(*e)).collect();
+        for way in &ways {
+            let found = way[k * outputs.len()..][..outputs.len()].iter().map(|e| evaluation.value(*e));
+            for (row, (found, expected)) in found.zip(&expected).enumerate() {
+                let apart = (found - *expected).to_f64().abs();
+                let close = apart <= AGREEMENT * (1.0 + expected.to_f64().abs());
+                assert!(close, "{what}: row {row} by parameter {k}: {} is {apart:e} off", expected.to_f64());
+            }
+        }
+    }
+    !ways.is_empty()
 }
 
 /// Whether there are second derivatives in forms of their own; panics where one is wrong. Those of small systems are found in a third way, by

@@ -104,6 +104,16 @@ impl<'g> Symbols<'g> {
         }
     }
 
+    /// The symbols of all parameters.
+    pub fn all_parameters(&self) -> Vec<Expr<'g>> {
+        let of_matter = |matter: &MatterSymbols<'g>| match matter {
+            MatterSymbols::Nothing => Vec::new(),
+            MatterSymbols::Particle(mass) => vec![*mass],
+            MatterSymbols::Body(body) => body.parameters.iter().map(|parameter| parameter.symbol).collect(),
+        };
+        self.gravity.into_iter().flatten().chain(self.matter.iter().flat_map(of_matter)).collect()
+    }
+
     /// The coordinates as the scene has them.
     fn coordinates(&self, plan: &Plan) -> Vec<Coordinate<'g>> {
         let of = |(k, kind): (usize, &CoordinateKind)| {

@@ -135,7 +135,7 @@ impl Element {
             } else if known(&argument, form.word, table, &mut given, context) {
                 element.arguments.push(argument);
             } else {
-                element.misspelt.extend(words::nearest(&argument.word(), table).map(|(name, ())| name));
+                element.misspelt.extend(arguments::meant(&argument.word(), table));
             }
         }
         Some(element)
@@ -424,7 +424,7 @@ pub fn read_medium(clause: &Clause, context: &mut Context) -> Option<Expression>
         if known(argument, "medium", MEDIUM, &mut given, context) {
             velocity = velocity.or(value(argument, "[cx, cy, cz]", context));
         } else {
-            misspelt |= words::nearest(&argument.word(), MEDIUM).is_some();
+            misspelt |= arguments::meant(&argument.word(), MEDIUM).is_some();
         }
     }
     if complete && given.is_empty() && !misspelt {

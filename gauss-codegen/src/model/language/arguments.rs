@@ -3,7 +3,7 @@
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::words::{self, Table};
-use super::{arithmetic, units};
+use super::{arithmetic, synonyms, units};
 use crate::model::scene::expression::Expression;
 use proc_macro2::{Group, Ident, Span, TokenTree};
 use syn::LitStr;
@@ -88,16 +88,30 @@ pub fn known<T: Copy>(
     given: &mut Vec<String>,
     context: &mut Context,
 ) -> bool {
+    let word = argument.word();
     // The message reads "unknown argument of `body`: `positon`; …".
-    if words::resolve(&format!("argument of `{owner}`:"), &argument.name, table, context).is_err() {
+    let noun = format!("argument of `{owner}`:");
+    if let Some((name, note)) =
+        synonyms::argument(&word, table).filter(|(name, _)| !given.iter().any(|word| word == name))
+    {
+        context.error(argument.name.span(), format!("unknown {noun} `{word}`; write `{name}`{note}"));
         return false;
     }
-    let word = argument.word();
+    if words::resolve(&noun, &argument.name, table, context).is_err() {
+        return false;
+    }
     if given.contains(&word) {
         context.error(argument.name.span(), format!("`{word}` is given twice; keep one of the two"));
     }
     given.push(word);
     true
+}
+
+/// The argument that an unknown word stands for, so that it is not missing as well.
+pub fn meant<T: Copy>(word: &str, table: &Table<T>) -> Option<&'static str> {
+    synonyms::argument(word, table)
+        .or_else(|| words::nearest(word, table).map(|(name, _)| (name, "")))
+        .map(|(name, _)| name)
 }
 
 /// The unit in quotes that follows `=`, which is at `span` if nothing does: its text and where it is written; `owner` has it.

@@ -4,9 +4,10 @@ use super::arguments::{self, brackets, known, value};
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::role_clauses;
-use super::words::{self, Table, UNNAMED};
+use super::words::{Table, UNNAMED};
 use crate::model::scene::clauses::{BodyClause, ParticleClause, PointClause};
 use crate::model::scene::expression::{Expression, ExpressionKind, Property};
+use crate::model::scene::roles::Role;
 use proc_macro2::{Ident, TokenTree};
 
 const BODY: &Table<()> = &[
@@ -46,7 +47,7 @@ pub fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Opti
     let mut names: Vec<String> = Vec::new();
     let mut certain = true;
     for (index, argument) in arguments.iter().enumerate() {
-        let word = argument.word();
+        let mut word = argument.word();
         if index == 0 && may_be_name(argument, BODY) {
             body.name = match argument.value {
                 Content::Absent => arguments::name(&argument.name, noun, context),
@@ -55,13 +56,19 @@ pub fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Opti
             certain &= body.name.is_some();
             continue;
         }
-        let role = role_clauses::role(&word);
+        let mut role = role_clauses::role(&word);
         if massless && role.is_some() {
             context.error(argument.name.span(), "a frame has no mass; what has mass is a `body` or a `particle`");
             continue;
         }
         if !known(argument, noun, BODY, &mut names, context) {
-            continue;
+            // Mass data are read as what is meant, lest they be missing as well.
+            role = arguments::meant(&word, BODY).and_then(role_clauses::role).filter(|_| !massless);
+            match role.map(Role::word).filter(|word| !names.iter().any(|name| name == word)) {
+                Some(meant) => word = meant.to_owned(),
+                None => continue,
+            }
+            names.push(word.clone());
         }
         match word.as_str() {
             "position" => body.position = value(argument, "[x, y, 0]", context).or(body.position),
@@ -115,7 +122,7 @@ pub fn read_particle(clause: &Clause, context: &mut Context) -> Option<ParticleC
     for argument in &arguments {
         let word = argument.word();
         if !known(argument, "particle", PARTICLE, &mut given, context) {
-            misspelt.extend(words::nearest(&word, PARTICLE).map(|(name, ())| name));
+            misspelt.extend(arguments::meant(&word, PARTICLE));
             continue;
         }
         match word.as_str() {
@@ -150,7 +157,7 @@ pub fn read_point(clause: &Clause, in_chart: bool, context: &mut Context) -> Opt
             continue;
         }
         if !known(argument, "point", POINT, &mut given, context) {
-            misspelt.extend(words::nearest(&word, POINT).map(|(name, ())| name));
+            misspelt.extend(arguments::meant(&word, POINT));
             continue;
         }
         match word.as_str() {

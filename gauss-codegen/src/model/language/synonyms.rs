@@ -9,6 +9,14 @@ pub fn instead<T: Copy>(word: &str, table: &Table<T>) -> Option<T> {
     table.iter().find(|(name, _)| plain(name) == plain(word)).map(|&(_, entry)| entry)
 }
 
+/// The argument of a clause with these arguments that is written in the place of `word`, if that is a word of the field and
+/// none of them, and what to know of it.
+pub fn argument<T: Copy>(word: &str, table: &Table<T>) -> Option<(&'static str, &'static str)> {
+    let is_one = |word: &&str| table.iter().any(|(name, _)| name == word);
+    let name = *instead(word, FOR_ARGUMENTS).filter(|_| !is_one(&word))?.iter().find(|name| is_one(name))?;
+    Some((name, NOTES.iter().find(|(noted, _)| *noted == name).map_or("", |(_, note)| note)))
+}
+
 const STATES: &str = "what the configuration is made of is declared by `coordinates(x, pose: Pose)`";
 const RATES: &str = "speeds of one's own are `speeds(v), kinematics(x = v)`; without them the rates are taken";
 const LINK: &str = "a rigid body is `body(arm, parent = other, position = […], rotation = …)`";
@@ -189,4 +197,91 @@ pub const FOR_ROLES: &Table<(Option<Role>, &'static str)> = &[
     ("length", (None, "a field that clauses name needs no attribute")),
     ("position", (None, "where a body is at the start is an argument of the run, not of the struct")),
     ("velocity", (None, "how fast a body is at the start is an argument of the run, not of the struct")),
+];
+
+/// In the place of an argument of a clause: the first of these that the clause has.
+pub const FOR_ARGUMENTS: &Table<&[&str]> = &[
+    ("m", &["mass"]),
+    ("com", &["center_of_mass"]),
+    ("cog", &["center_of_mass"]),
+    ("cg", &["center_of_mass"]),
+    ("center_of_gravity", &["center_of_mass"]),
+    ("centre_of_gravity", &["center_of_mass"]),
+    ("centroid", &["center_of_mass"]),
+    ("i", &["inertia"]),
+    ("moment_of_inertia", &["inertia"]),
+    ("moments_of_inertia", &["inertia"]),
+    ("inertia_tensor", &["inertia"]),
+    ("principal_moments", &["inertia"]),
+    ("inertia_about_com", &["inertia_about_center_of_mass"]),
+    ("central_inertia", &["inertia_about_center_of_mass"]),
+    ("cob", &["center_of_buoyancy"]),
+    ("cb", &["center_of_buoyancy"]),
+    ("buoyancy", &["displaced_mass"]),
+    ("displacement", &["displaced_mass"]),
+    ("added_inertia", &["added_mass"]),
+    ("hydrodynamic_mass", &["added_mass"]),
+    ("offset", &["position", "at"]),
+    ("origin", &["position", "at"]),
+    ("translation", &["position"]),
+    ("location", &["position", "at"]),
+    ("place", &["position", "at"]),
+    ("xyz", &["position"]),
+    ("pos", &["position", "at"]),
+    ("position", &["at"]),
+    ("point", &["at"]),
+    ("application_point", &["at"]),
+    ("orientation", &["rotation"]),
+    ("attitude", &["rotation"]),
+    ("quaternion", &["rotation"]),
+    ("rpy", &["rotation"]),
+    ("angle", &["rotation", "along"]),
+    ("axis", &["along", "rotation"]),
+    ("joint", &["along"]),
+    ("coordinate", &["along"]),
+    ("attached_to", &["parent", "body"]),
+    ("relative_to", &["parent"]),
+    ("reference", &["parent"]),
+    ("link", &["body", "parent"]),
+    ("on", &["body"]),
+    ("acts_on", &["body"]),
+    ("child", &["body"]),
+    ("against", &["reaction"]),
+    ("vector", &["value"]),
+    ("magnitude", &["value"]),
+    ("moment", &["torque"]),
+    ("expressed_in", &["axes"]),
+    ("frame", &["axes", "parent"]),
+    ("k", &["stiffness"]),
+    ("spring_constant", &["stiffness"]),
+    ("rate", &["stiffness"]),
+    ("rest_length", &["length"]),
+    ("natural_length", &["length"]),
+    ("free_length", &["length"]),
+    ("unstretched", &["length"]),
+    ("damper", &["damping", "viscous"]),
+    ("c", &["damping", "viscous"]),
+    ("d", &["damping", "viscous"]),
+    ("viscosity", &["viscous"]),
+    ("coulomb", &["dry"]),
+    ("min", &["least"]),
+    ("lower", &["least"]),
+    ("max", &["most"]),
+    ("upper", &["most"]),
+    ("smoothing", &["width"]),
+    ("start", &["from"]),
+    ("begin", &["from"]),
+    ("end", &["to"]),
+    ("speed", &["velocity"]),
+    ("wind", &["velocity"]),
+    ("current", &["velocity"]),
+];
+
+/// What to know of an argument that had another name.
+const NOTES: &Table<&str> = &[
+    ("center_of_mass", ", from O in body axes"),
+    ("center_of_buoyancy", ", from O in body axes"),
+    ("inertia", ", about O in body axes, or `inertia_about_center_of_mass`"),
+    ("displaced_mass", ", in kg"),
+    ("added_mass", ", six numbers or a matrix"),
 ];

@@ -4,7 +4,7 @@ use super::{check, check_body, read, with};
 use crate::model::language::role_words::ROLES;
 use crate::model::language::statements::STATEMENTS;
 use crate::model::language::struct_clauses::CLAUSES;
-use crate::model::language::synonyms::{FOR_CLAUSES, FOR_ROLES};
+use crate::model::language::synonyms::{FOR_ARGUMENTS, FOR_CLAUSES, FOR_ROLES};
 
 #[test]
 fn clauses_beside_a_chart() {
@@ -53,6 +53,44 @@ fn roles() {
     );
 }
 
+#[test]
+fn arguments() {
+    let scene =
+        |clauses: &str| format!("#[gauss(coordinates(x), gravity = 9.81, {clauses})] struct Scene {{ k: f64 }}");
+    check(
+        &scene("body(cart, position = [x, 0, 0], mass = 1, com = [0, 0, 1], moment_of_inertia = 1)"),
+        &[
+            ("com", "unknown argument of `body`: `com`; write `center_of_mass`, from O in body axes"),
+            (
+                "moment_of_inertia",
+                "unknown argument of `body`: `moment_of_inertia`; write `inertia`, about O in body axes, or \
+                 `inertia_about_center_of_mass`",
+            ),
+        ],
+    );
+    // What is meant is not missing as well.
+    check(
+        &scene("particle(m = 1, location = [x, 0, 0])"),
+        &[
+            ("m", "unknown argument of `particle`: `m`; write `mass`"),
+            ("location", "unknown argument of `particle`: `location`; write `position`"),
+        ],
+    );
+    check(
+        &scene("particle(mass = 1, position = [x, 0, 0]), spring(along = x, spring_constant = k)"),
+        &[("spring_constant", "unknown argument of `spring`: `spring_constant`; write `stiffness`")],
+    );
+    check(
+        &scene(
+            "body(cart, position = [x, 0, 0], mass = 1, inertia = 1), force(body = cart, position = [0, 0, 0], vector = [k, 0, 0])",
+        ),
+        &[
+            ("position", "unknown argument of `force`: `position`; write `at`"),
+            ("vector", "unknown argument of `force`: `vector`; write `value`"),
+        ],
+    );
+}
+
 /// No word of the language has a synonym's message, and each message is about one word.
 #[test]
 fn words_are_new_and_stand_once() {
@@ -64,7 +102,8 @@ fn words_are_new_and_stand_once() {
         assert!(!ROLES.iter().any(|(name, _)| name == word), "{word}");
     }
     assert!(roles.iter().all(|word| !ROLES.iter().any(|(name, _)| name == word)));
-    for words in [clauses, roles] {
+    let arguments = FOR_ARGUMENTS.iter().map(|(word, _)| *word).collect();
+    for words in [clauses, roles, arguments] {
         let mut sorted = words.clone();
         sorted.sort_unstable();
         sorted.dedup();

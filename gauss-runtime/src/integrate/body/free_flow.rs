@@ -9,6 +9,8 @@
 //! in space. ψ̇ = |y| (y_e²/I_e + y_o²/I_o)/(y_e² + y_o²), an average of two rates: the integral of the third kind enters as a
 //! sum of positive terms with no pole in sight.
 //!
+//! A body of two equal moments needs none of that: R exp(t y/I₁) exp(t (1/I₃ − 1/I₁) y₃ e₃) is its attitude, and y turns about e₃.
+//!
 //! Sources: Celledoni, Fassò, Säfström & Zanna (SIAM J. Sci. Comput. 30, 2008); van Zon & Schofield (J. Comput. Phys. 225, 2007);
 //! Carlson (Numer. Algorithms 10, 1995); the arrangement is ours.
 
@@ -18,6 +20,7 @@ use super::elliptic::{Jacobi, Modulus, complete};
 use super::inertia::{FreeMotion, Turn};
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
 use crate::lie::carried::two_sum;
+use crate::lie::coefficients::sinc_cos;
 use crate::lie::so3;
 use crate::real::Real;
 use crate::triple::{Triple, add, dot, quaternion, sub, triple, unit_quaternion};
@@ -53,6 +56,8 @@ pub struct FreeFlow {
     order: [usize; 3],
     /// I₁(I₃ − I₂) and I₃(I₂ − I₁), sorted: y stays on the side of axis 3 when the first times y₃² exceeds the second times y₁².
     sides: [f64; 2],
+    /// The axis of a body of revolution, with (1/I₃ − 1/I₁)/2.
+    revolution: Option<(usize, f64)>,
 }
 
 /// A right-handed frame along principal axes.
@@ -93,7 +98,40 @@ impl FreeFlow {
         }
         let [smallest, middle, largest] = order.map(|axis| moments[axis]);
         let sides = [smallest * (largest - middle), largest * (middle - smallest)];
-        Self { moments, inverse: moments.map(|i| 1.0 / i), unit, order, sides }
+        let axis = (0..3).find(|&axis| moments[(axis + 1) % 3] == moments[(axis + 2) % 3]);
+        let revolution = axis.map(|axis| {
+            let (along, across) = (moments[axis], moments[(axis + 1) % 3]);
+            (axis, 0.5 * (across - along) / (across * along))
+        });
+        Self { moments, inverse: moments.map(|i| 1.0 / i), unit, order, sides, revolution }
+    }
+
+    /// [`flow`](Self::flow) for a body of revolution about an axis.
+    #[inline(always)]
+    fn flow_of_revolution(&self, (axis, rate): (usize, f64), y: Triple<f64>, t: f64) -> ([f64; 4], Triple<f64>) {
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let half = 0.5 * t * self.inverse[a];
+        let (sinc, cosine) = sinc_and_cosine(half * half * dot(y, y));
+        let sinc = half * sinc;
+        let (spin, spun) = Real::sin_cos(y[axis] * (rate * t));
+        // exp(t y/I₁), then the spin about the axis.
+        let [x, z, along] = [sinc * y[a], sinc * y[b], sinc * y[axis]];
+        let mut rotation = [0.0, 0.0, 0.0, cosine * spun - along * spin];
+        rotation[a] = spun * x + spin * z;
+        rotation[b] = spun * z - spin * x;
+        rotation[axis] = spun * along + cosine * spin;
+        // y turns back: cos − 1 and sin of the spin, whose rounding would leave the same bits in every call of a steady spin.
+        let (less, sine) = (-2.0 * spin * spin, 2.0 * spin * spun);
+        let ((square, rest), (other, other_rest)) = (two_product(sine, sine), two_product(less, less));
+        let (sum, low) = two_sum(2.0 * less, square);
+        // With |less| up to 2 the sum has a rounding, too.
+        let (sum, lower) = two_sum(sum, other);
+        let stretch = -0.5 * (sum + (low + lower + rest + other_rest));
+        let mut change = [0.0; 3];
+        let (ya, yb) = (less * y[a] + sine * y[b], less * y[b] - sine * y[a]);
+        change[a] = stretch.fma(y[a] + ya, ya);
+        change[b] = stretch.fma(y[b] + yb, yb);
+        (if rotation[3] < 0.0 { rotation.map(|c| -c) } else { rotation }, change)
     }
 
     /// The turn and the change of the momentum, in units in which the largest component of y and the largest moment are between 1 and 2.
@@ -191,18 +229,68 @@ impl FreeMotion<f64> for FreeFlow {
         true
     }
 
+    #[inline]
     fn turn(&self, y: &Vector3<f64>, h: f64) -> Result<Turn<f64>, IntegrationErrorKind> {
         let y = triple(y);
+        if let Some(revolution) = self.revolution {
+            let (square, t) = (dot(y, y), h / self.unit);
+            // Squares of the components that matter are within the range of numbers.
+            if (1e-280..1e280).contains(&square) {
+                let (rotation, change) = self.flow_of_revolution(revolution, y, t);
+                // A product of two rotations is of norm 1 up to rounding.
+                return finite(rotation, change)
+                    .map(|()| Turn { rotation: unit_quaternion(rotation), change: SVector::from(change) });
+            }
+        }
         // A NaN passes here and is caught below.
         let scale = power_of_two(y.iter().fold(0.0_f64, |m, &c| m.max(c.abs())));
         let scaled = y.map(|c| c / scale);
         let (rotation, change) = self.flow(scaled, h * (scale / self.unit));
         let change = change.map(|c| c * scale);
-        if !rotation.iter().chain(&change).all(|c| Real::is_finite(*c)) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
-        }
+        finite(rotation, change)?;
         Ok(Turn { rotation: so3::renormalise(&unit_quaternion(rotation)), change: SVector::from(change) })
     }
+}
+
+#[inline(always)]
+fn finite(rotation: [f64; 4], change: Triple<f64>) -> Result<(), IntegrationErrorKind> {
+    let all = rotation.iter().chain(&change).fold(true, |all, c| all & Real::is_finite(*c));
+    if all { Ok(()) } else { Err(IntegrationErrorKind::NonFinite { part: Part::Step }) }
+}
+
+/// (sin θ/θ, cos θ) from s = θ². In long thin tops, which turn slowly about their momentum, a drift waits for these: up to θ = 1 their
+/// series are summed in pairs, without a root, to a rounding or two (what is left out is below 1/20!).
+#[inline(always)]
+fn sinc_and_cosine(s: f64) -> (f64, f64) {
+    if s < 1.0 { (summed(SINC, s), summed(COSINE, s)) } else { sinc_cos(s) }
+}
+
+/// (−1)ⁿ/(2n + 1)! and (−1)ⁿ/(2n)!.
+const SINC: [f64; 10] = alternating(1);
+const COSINE: [f64; 10] = alternating(0);
+
+const fn alternating(first: u64) -> [f64; 10] {
+    let (mut terms, mut n, mut factorial, mut sign) = ([0.0; 10], 0, 1, 1.0);
+    while n < 10 {
+        terms[n] = sign / factorial as f64;
+        let k = 2 * n as u64 + first;
+        // 21! is beyond the integers, and not needed.
+        factorial *= if n < 9 { (k + 1) * (k + 2) } else { 1 };
+        sign = -sign;
+        n += 1;
+    }
+    terms
+}
+
+/// Σ c sⁿ, in a tree: nothing waits for more than five sums.
+#[inline(always)]
+fn summed(c: [f64; 10], s: f64) -> f64 {
+    let square = s * s;
+    let fourth = square * square;
+    let pair = |n: usize| c[n + 1].fma(s, c[n]);
+    let low = square.fma(pair(2), pair(0));
+    let high = square.fma(pair(6), pair(4));
+    fourth.fma(fourth.fma(pair(8), high), low)
 }
 
 impl Frame {

@@ -21,6 +21,9 @@ impl Scheme {
     /// for bodies.
     pub const BLANES_MOAN_4: Self = Self::new(&BLANES_MOAN_KICKS, &BLANES_MOAN_DRIFTS, 4);
 
+    /// Order 6 with eleven forces a step and a small error constant, for the same reason (Blanes & Moan 2002, SRKN₁₁ᵇ).
+    pub const BLANES_MOAN_6: Self = Self::new(&BLANES_MOAN_6_KICKS, &BLANES_MOAN_6_DRIFTS, 6);
+
     /// Order 6, nine forces a step (Kahan & Li, Math. Comp. 66, 1997, s9odr6a).
     pub const KAHAN_LI_6: Self = Self::new(&halves::<9, 10>(&KAHAN_LI_6), &KAHAN_LI_6, 6);
 
@@ -79,6 +82,20 @@ const BLANES_MOAN_KICKS: [f64; 7] = {
     [b1, b2, b3, 1.0 - 2.0 * (b1 + b2 + b3), b3, b2, b1]
 };
 
+const BLANES_MOAN_6_DRIFTS: [f64; 11] = {
+    let (a1, a2, a3) = (0.123_229_775_946_271, 0.290_553_797_799_558, -0.127_049_212_625_417);
+    let (a4, a5) = (-0.246_331_761_062_075, 0.357_208_872_795_928);
+    let a6 = 1.0 - 2.0 * (a1 + a2 + a3 + a4 + a5);
+    [a1, a2, a3, a4, a5, a6, a5, a4, a3, a2, a1]
+};
+
+const BLANES_MOAN_6_KICKS: [f64; 12] = {
+    let (b1, b2, b3) = (0.041_464_998_518_262_4, 0.198_128_671_918_067, -0.040_006_192_104_153_3);
+    let (b4, b5) = (0.075_253_984_301_580_7, -0.011_511_387_420_687_9);
+    let b6 = 0.5 - (b1 + b2 + b3 + b4 + b5);
+    [b1, b2, b3, b4, b5, b6, b6, b5, b4, b3, b2, b1]
+};
+
 const KAHAN_LI_6: [f64; 9] = Composition::KAHAN_LI_6.doubles();
 const KAHAN_LI_8: [f64; 17] = Composition::KAHAN_LI_8.doubles();
 
@@ -99,7 +116,8 @@ const fn halves<const N: usize, const K: usize>(drifts: &[f64; N]) -> [f64; K] {
 mod tests {
     use super::*;
 
-    const ALL: [Scheme; 4] = [Scheme::STRANG, Scheme::BLANES_MOAN_4, Scheme::KAHAN_LI_6, Scheme::KAHAN_LI_8];
+    const ALL: [Scheme; 5] =
+        [Scheme::STRANG, Scheme::BLANES_MOAN_4, Scheme::BLANES_MOAN_6, Scheme::KAHAN_LI_6, Scheme::KAHAN_LI_8];
 
     #[test]
     fn kicks_and_drifts_add_up_to_a_step() {

@@ -36,18 +36,18 @@ where
     C: Coefficients<S>;
 
 /// The components of a system's configuration.
-type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Components;
+pub(in crate::integrate) type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Components;
 
 /// A point of the linear space in which a step is made, or a derivative there.
 #[derive(Clone, Copy)]
-struct Point<C, Y> {
-    components: C,
-    variables: Y,
+pub(in crate::integrate) struct Point<C, Y> {
+    pub(in crate::integrate) components: C,
+    pub(in crate::integrate) variables: Y,
 }
 
 impl<C, Y> Point<C, Y> {
     #[inline(always)]
-    fn zero<T: Real>() -> Self
+    pub(in crate::integrate) fn zero<T: Real>() -> Self
     where
         C: VectorSpace<T>,
         Y: VectorSpace<T>,
@@ -57,7 +57,7 @@ impl<C, Y> Point<C, Y> {
 
     /// `self + a·x`.
     #[inline(always)]
-    fn add_scaled<T: Real>(&self, a: T, x: &Self) -> Self
+    pub(in crate::integrate) fn add_scaled<T: Real>(&self, a: T, x: &Self) -> Self
     where
         C: VectorSpace<T>,
         Y: VectorSpace<T>,

@@ -333,8 +333,7 @@ fn media() {
         &[
             ("medium", "`medium` is given twice; keep one of the two"),
             ("medium", "`medium` is given twice; keep one of the two"),
-            ("speed", "unknown argument of `medium`: `speed`; expected `velocity`"),
-            ("medium", "a medium needs its velocity; add `velocity = [cx, cy, cz]`"),
+            ("speed", "unknown argument of `medium`: `speed`; write `velocity`"),
             ("medium", "`medium` is given twice; keep one of the two"),
             ("(", "`medium()` says nothing; write `medium(velocity = [cx, cy, cz])` or remove it"),
             ("medium", "`medium` is given twice; keep one of the two"),

@@ -1,0 +1,195 @@
+//! Derivatives by parameters, through the constants that are made of them or in forms of their own.
+
+use crate::accuracy::{Trial, taken};
+use crate::algebra::{Expr, Graph, Map};
+
+use super::constants::{Constants, Hoisted, Source};
+use super::derivatives::{Expected, Lowered};
+use super::hoist::Hoister;
+use super::tangent::{Direction, Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
+use super::write::{Operand, Operation, Program};
+
+/// Two functions of a kernel, one after the other, whose derivatives by parameters are wanted. All functions by their
+/// numbers.
+#[derive(Clone, Copy)]
+pub struct ByParameters<'a, 'g> {
+    pub parameters: &'a [Expr<'g>],
+    pub velocity: usize,
+    /// The outputs of the velocity in another order.
+    pub order: &'a [usize],
+    pub acceleration: usize,
+    /// What the acceleration solves, where nothing else restricts it.
+    pub equation: Option<Equation<'a, 'g>>,
+    /// Derivatives of both in forms of their own, parameter by parameter.
+    pub derived: &'a [Vec<Expr<'g>>],
+}
+
+/// `residual = 0`, solved for the accelerations.
+#[derive(Clone, Copy)]
+pub struct Equation<'a, 'g> {
+    pub residual: usize,
+    /// The accelerations in it.
+    pub unknowns: &'a [Expr<'g>],
+    /// Affine in `loads`, with the inverse of the matrix of the residual.
+    pub solution: usize,
+    pub loads: &'a [Expr<'g>],
+}
+
+/// A program that computes derivatives, and the constants of the kernel with it.
+struct Way<'g> {
+    program: Program<'g>,
+    hoisted: Hoisted<'g>,
+}
+
+impl Way<'_> {
+    fn cost(&self) -> u32 {
+        self.program.cost().total() + self.hoisted.constants.program.cost().total()
+    }
+}
+
+impl<'g> ByParameters<'_, 'g> {
+    /// The cheapest way that keeps the digits, with the constants that it needs computed once.
+    pub(super) fn lower<'b>(
+        &self,
+        graph: &'g Graph,
+        (programs, outputs): (&[Program<'g>], &[&[Expr<'g>]]),
+        source: &Source<'_, 'g>,
+        hoister: &mut Hoister<'_, 'g>,
+        trial: &mut Trial,
+    ) -> (Lowered<'b, 'g>, Hoisted<'g>) {
+        let along: Vec<Direction<'g>> =
+            self.parameters.iter().map(|&parameter| vec![(parameter, graph.one())]).collect();
+        let way = self.differentiated(graph, programs, &along, source.hoisted(hoister, &[]));
+        let Way { program, hoisted } = self.cheaper(way, source, hoister, trial);
+        let of_velocity = self.order.iter().map(|&k| outputs[self.velocity][k]);
+        let outputs: Vec<Expr<'g>> = of_velocity.chain(outputs[self.acceleration].iter().copied()).collect();
+        ((program, Expected::of_derivatives(outputs, along)), hoisted)
+    }
+
+    /// Programs read constants, not parameters: the program of the constants is differentiated first, and what their
+    /// derivatives are, unless numbers, becomes constants too, computed once. Accelerations are differentiated as they
+    /// are computed, or as the solution of their equation, whose constants are simpler; the cheaper program is taken.
+    fn differentiated(
+        &self,
+        graph: &'g Graph,
+        programs: &[Program<'g>],
+        along: &[Direction<'g>],
+        hoisted: Hoisted<'g>,
+    ) -> Way<'g> {
+        let rates = ConstantRates::new(graph, &hoisted.constants, along);
+        let velocity = &programs[self.velocity];
+        let ordered = self.order.iter().map(|&k| velocity.outputs[k]).collect();
+        let velocity = Program { instructions: velocity.instructions.clone(), outputs: ordered };
+        let acceleration = &programs[self.acceleration];
+        let mut candidates =
+            vec![tangents_alone(&joined(&velocity, acceleration), (&[], &Program::nothing()), &rates.directions)];
+        candidates.extend(self.equation.map(|equation| {
+            let implicit = Implicit {
+                root: acceleration,
+                residual: &programs[equation.residual],
+                unknowns: equation.unknowns,
+                solution: &programs[equation.solution],
+                loads: equation.loads,
+            };
+            implicit_tangents(&velocity, &implicit, &rates.directions)
+        }));
+        let cost = |program: &Program<'g>| program.cost().total() + rates.constants_for(program).program.cost().total();
+        let program = candidates.into_iter().min_by_key(cost).expect("one way at least");
+        let constants = rates.constants_for(&program);
+        Way { program, hoisted: Hoisted { constants, ..hoisted } }
+    }
+
+    /// A way that differentiates programs, or what has a form of its own and costs less. Of roots, whose slope may be
+    /// infinite, only programs know what their derivatives are where nothing changes.
+    fn cheaper(
+        &self,
+        way: Way<'g>,
+        source: &Source<'_, 'g>,
+        hoister: &mut Hoister<'_, 'g>,
+        trial: &mut Trial,
+    ) -> Way<'g> {
+        let most = way.cost();
+        if self.derived.is_empty() || way.program.counts().roots > 0 {
+            return way;
+        }
+        let programs: Vec<Program<'g>> =
+            self.derived.iter().map(|e| Program::lower(&hoister.hoist(e)).with_signs_led_back()).collect();
+        let derived = programs.into_iter().map(|program| {
+            let hoisted = source.hoisted(hoister, &program.symbols());
+            Way { program, hoisted }
+        });
+        let mut ways: Vec<Way<'g>> = derived.filter(|way| way.cost() < most).collect();
+        if ways.is_empty() {
+            return way;
+        }
+        trial.define(hoister.constants());
+        trial.compute(&way.hoisted.constants.symbols, &way.hoisted.constants.program);
+        ways.push(way);
+        let losses = trial.losses(&ways.iter().map(|way| &way.program).collect::<Vec<_>>());
+        let costs: Vec<u32> = ways.iter().map(Way::cost).collect();
+        ways.swap_remove(taken(&losses, &costs))
+    }
+}
+
+/// The derivatives of constants by parameters.
+struct ConstantRates<'g> {
+    /// Values of the constants, then the derivatives of all by the first parameter, and so on.
+    extended: Program<'g>,
+    symbols: Vec<Expr<'g>>,
+    /// Derivatives that are neither numbers nor constants already.
+    added: Vec<(Operand<'g>, Expr<'g>)>,
+    /// For each parameter the constants that depend on it, and how.
+    directions: Vec<Direction<'g>>,
+}
+
+impl<'g> ConstantRates<'g> {
+    #[expect(
+        clippy::mutable_key_type,
+        reason = "expressions are compared by their place in the graph, which never changes"
+    )]
+    fn new(graph: &'g Graph, constants: &Constants<'g>, along: &[Direction<'g>]) -> Self {
+        let nothing = Program::nothing();
+        let extended = with_tangents(&constants.program, (&[], &nothing), along);
+        let symbols = constants.symbols.clone();
+        let count = symbols.len();
+        let (values, derivatives) = extended.outputs.split_at(count);
+        let mut known: Map<Operand<'g>, Expr<'g>> = values.iter().copied().zip(symbols.iter().copied()).collect();
+        let mut added: Vec<(Operand<'g>, Expr<'g>)> = Vec::new();
+        let mut rate = |derivative: Operand<'g>| {
+            let (negative, operand) = match derivative {
+                Operand::Value(k) => match extended.instructions[k] {
+                    Operation::Negate(a) => (true, a),
+                    _ => (false, derivative),
+                },
+                _ => (false, derivative),
+            };
+            let value = match operand {
+                Operand::Number(value) => graph.number(value),
+                _ => *known.entry(operand).or_insert_with(|| {
+                    let name = format!("k{}", count + added.len());
+                    let symbol = graph.symbol(name.clone(), name, false);
+                    added.push((operand, symbol));
+                    symbol
+                }),
+            };
+            if negative { -value } else { value }
+        };
+        let directions = (0..along.len())
+            .map(|k| {
+                let rates = derivatives[count * k..count * (k + 1)].iter().map(|&derivative| rate(derivative));
+                symbols.iter().copied().zip(rates).filter(|(_, rate)| !rate.is_zero()).collect()
+            })
+            .collect();
+        Self { extended, symbols, added, directions }
+    }
+
+    /// The constants as they were, and the derivatives that the program reads.
+    fn constants_for(&self, program: &Program<'g>) -> Constants<'g> {
+        let read = program.symbols();
+        let added = || self.added.iter().filter(|(_, symbol)| read.contains(symbol));
+        let values = self.extended.outputs[..self.symbols.len()].iter().copied();
+        let outputs = values.chain(added().map(|(operand, _)| *operand)).collect();
+        let symbols = self.symbols.iter().copied().chain(added().map(|(_, symbol)| *symbol)).collect();
+        Constants { program: with_outputs(&self.extended, outputs), symbols }
+    }
+}

@@ -1,0 +1,196 @@
+//! Adams' methods: each step makes use of the derivatives at the ends of those before, and needs two evaluations, whatever the order.
+//!
+//! The explicit formula of K steps predicts the end of a step, the implicit one of order K + 1 corrects it once, and the derivatives
+//! there are evaluated again (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, III.1, "PECE"). Steps are made on
+//! the components of the configuration, as those of [`RungeKutta`] are, and brought back onto the group at their ends: what is remembered
+//! are derivatives of components, which live in one linear space wherever the group was, so that no logarithm is needed between steps.
+//!
+//! Smooth scenes need half of the evaluations that Runge–Kutta methods of order 8 and 9 need between errors of 1e-4 and 1e-12. Steps must
+//! resolve the fastest motion: a longer one is not inaccurate but unstable. The first K − 1 steps of a run, and after a jump, are made by a
+//! Runge–Kutta method, so that short runs are better left to those.
+
+mod formula;
+
+use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::control::{Control, Emit, one_step};
+use crate::integrate::drive::fixed::{Advanced, steps_of_one_length};
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
+use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::runge_kutta::components::{ComponentsOf, Point, RungeKutta};
+use crate::integrate::runge_kutta::tableau::{DormandPrince5, DormandPrince8};
+use crate::integrate::step::checks::{check_chart, check_turn};
+use crate::integrate::step::one_step::OneStep;
+use crate::real::Real;
+use crate::system::GaussSystem;
+use formula::Formula;
+
+/// Adams' method of K steps, 2 to 12, with steps of one length: of order K + 1, or 9 for K from 9 on, because of how it begins.
+///
+/// The more steps, the fewer evaluations at small errors, and the shorter a step must be to be stable: hλ up to 0.9, 0.5 and 0.3 for
+/// oscillations of frequency λ and 6, 8 and 10 steps. Beyond that results are useless at once.
+///
+/// ```
+/// use gauss_runtime::integrate::Adams;
+///
+/// let control = Adams::<_, 10>::new(0.02);
+/// # let _: Adams<f64, 10> = control;
+/// ```
+///
+/// It goes into [`Simulation::control`](crate::integrate::Simulation::control).
+#[derive(Clone, Copy, Debug)]
+pub struct Adams<T, const K: usize> {
+    step: T,
+}
+
+impl<T: Real, const K: usize> Adams<T, K> {
+    /// Steps of length |step|; the direction is that of the interval.
+    #[must_use]
+    pub fn new(step: T) -> Self {
+        Self { step }
+    }
+}
+
+/// So many derivatives are there room for.
+const ROOM: usize = 64;
+
+/// The derivatives at the ends of the last steps, the newest first, in a window that moves through an array.
+struct History<C, Y, const K: usize> {
+    derivatives: [Point<C, Y>; ROOM],
+    newest: usize,
+    count: usize,
+}
+
+impl<C: Copy, Y: Copy, const K: usize> History<C, Y, K> {
+    #[inline(always)]
+    fn push(&mut self, derivative: Point<C, Y>) {
+        if self.newest == 0 {
+            self.newest = ROOM - K;
+            self.derivatives.copy_within(0..K, self.newest);
+        }
+        self.newest -= 1;
+        self.derivatives[self.newest] = derivative;
+        self.count += 1;
+    }
+
+    /// The change in a step of length 1 by the explicit formula, and what the derivatives known have to do with the difference of
+    /// order K that ends with the next one.
+    #[inline(always)]
+    fn sums<T: Real>(&self, newest: &Point<C, Y>) -> [Point<C, Y>; 2]
+    where
+        C: VectorSpace<T>,
+        Y: VectorSpace<T>,
+    {
+        let window = &self.derivatives[self.newest..self.newest + (K - 1)];
+        // The newest last: all others are known while it is evaluated. It is not yet in the window, from which it would have to be read
+        // as soon as it is written. Components and variables one after the other, so that sums stay in registers.
+        let (mut change, mut difference) = (Point::<C, Y>::zero(), Point::<C, Y>::zero());
+        let weights = |j: usize| (T::from_f64(Formula::<K>::EXPLICIT[j]), T::from_f64(Formula::<K>::DIFFERENCE[j]));
+        for j in (1..K).rev() {
+            let ((a, b), known) = (weights(j), &window[j - 1].components);
+            change.components = change.components.add_scaled(a, known);
+            difference.components = difference.components.add_scaled(b, known);
+        }
+        for j in (1..K).rev() {
+            let ((a, b), known) = (weights(j), &window[j - 1].variables);
+            change.variables = change.variables.add_scaled(a, known);
+            difference.variables = difference.variables.add_scaled(b, known);
+        }
+        let (a, b) = weights(0);
+        [change.add_scaled(a, newest), difference.add_scaled(b, newest)]
+    }
+}
+
+/// The derivatives at a state in the space of steps.
+#[inline(always)]
+fn point<S: GaussSystem>(q: &S::Configuration, rates: &Rates<S>) -> Point<ComponentsOf<S>, S::Speeds> {
+    Point { components: q.component_rates(&rates.configuration), variables: rates.variables }
+}
+
+/// Prediction, evaluation, correction.
+#[inline(always)]
+fn multistep<S: GaussSystem, P: Problem<System = S>, const K: usize>(
+    problem: &P,
+    state: &State<S>,
+    rates: &Rates<S>,
+    h: S::Scalar,
+    [predicted, difference]: [Point<ComponentsOf<S>, S::Speeds>; 2],
+) -> Result<State<S>, IntegrationErrorKind> {
+    let State { t, q, y } = *state;
+    let start = Point { components: q.components(), variables: y };
+    let ahead = start.add_scaled(h, &predicted);
+    let ahead = State { t: t + h, q: S::Configuration::from_components(&ahead.components), y: ahead.variables };
+    let next = problem.rates(&ahead);
+    let difference = difference.add_scaled(S::Scalar::one(), &point::<S>(&ahead.q, &next));
+    let sum = predicted.add_scaled(S::Scalar::from_f64(Formula::<K>::CORRECTION), &difference);
+    let turn = rates.configuration.add_scaled(S::Scalar::one(), &next.configuration);
+    check_turn::<S>(&turn.scale(S::Scalar::ratio(1, 2) * h))?;
+    // What the rounding of the step before left of norms goes away with the rounding of this one.
+    let change = q.norm_correction().add_scaled(h, &sum.components);
+    let components = start.components.add_scaled(S::Scalar::one(), &change);
+    let q = S::Configuration::from_components(&components).renormalise();
+    let end = State { t: t + h, q, y: y.add_scaled(h, &sum.variables) };
+    check_chart(problem.system(), state, &end)?;
+    if end.q.is_finite() && end.y.is_finite() {
+        Ok(end)
+    } else {
+        Err(IntegrationErrorKind::NonFinite { part: Part::Step })
+    }
+}
+
+/// A step by the method that begins runs, of at least the order that K needs as far as there is one.
+fn begin<S: GaussSystem, P: Problem<System = S>, const K: usize>(
+    problem: &P,
+    state: &State<S>,
+    rates: &Rates<S>,
+    h: S::Scalar,
+) -> Result<Advanced<S>, IntegrationErrorKind> {
+    let step = if K > 5 {
+        RungeKutta(DormandPrince8).step(problem, state, rates, h)
+    } else {
+        RungeKutta(DormandPrince5).step(problem, state, rates, h)
+    };
+    step.map(|step| (step.state, step.rates))
+}
+
+impl<S: GaussSystem, const K: usize> Control<S> for Adams<S::Scalar, K> {
+    fn drive<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        start: State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut Emit<'_, S>,
+    ) -> Result<State<S>, IntegrationError> {
+        let mut history = History::<_, _, K> { derivatives: [Point::zero(); ROOM], newest: ROOM, count: 0 };
+        let length = self.step.lane(0).abs();
+        steps_of_one_length((self.step, false), problem, start, end, limit, emit, |state, rates, h| {
+            let newest = point::<S>(&state.q, rates);
+            // The last step may be shorter.
+            let one_length = (h.lane(0).abs() - length).abs() <= 1e-6 * length;
+            let end = if history.count + 1 >= K && one_length {
+                let end = multistep::<S, P, K>(problem, state, rates, h, history.sums(&newest))?;
+                (end, None)
+            } else {
+                begin::<S, P, K>(problem, state, rates, h)?
+            };
+            history.push(newest);
+            Ok(end)
+        })
+    }
+
+    /// By one step of the method that begins runs, whose steps may be longer.
+    fn within<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        state: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        one_step(&RungeKutta(DormandPrince8), problem, state, rates, h)
+    }
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;
