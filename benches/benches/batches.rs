@@ -1,12 +1,16 @@
 //! `cargo bench -p gauss-benches --bench batches`: accelerations of many states, one by one and in batches of every kind of pack.
 //!
-//! ns per state, medians of times taken in turn, and how many times more states a batch does in the same time.
+//! With `--features robots` of S7′ and S8 as well. ns per state, medians of times taken in turn, and how many times more states a batch does in the same time.
 
 use std::cell::RefCell;
 use std::hint::black_box;
 
 use gauss_benches::measure::{Way, times};
+#[cfg(feature = "robots")]
+use gauss_benches::packs::{anymal, fingers};
 use gauss_benches::packs::{cart_pole, double_pendulum, immersed, top};
+#[cfg(feature = "robots")]
+use gauss_benches::states::of_a_floating_base;
 use gauss_benches::states::{STATES, of_a_body, of_angles, of_the_top};
 use gauss_runtime::batch::{Batch, BatchSystem, Packs, SingleConfiguration, SingleSpeeds, States};
 use gauss_runtime::prelude::*;
@@ -66,4 +70,9 @@ fn main() {
     row!("S4", top, of_the_top());
     row!("S5", double_pendulum, of_angles::<2>());
     row!("S6", cart_pole, of_angles::<2>());
+    #[cfg(feature = "robots")]
+    {
+        row!("S7′", fingers, of_angles::<9>());
+        row!("S8", anymal, of_a_floating_base::<12, 18>());
+    }
 }

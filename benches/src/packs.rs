@@ -104,6 +104,24 @@ pub struct CartPole<T> {
     g: T,
 }
 
+/// S7′: the arm of S7 with its hand and two fingers, from its file.
+#[cfg(feature = "robots")]
+#[derive(Clone, Copy, GaussDynamics)]
+#[gauss(urdf = "../tests/robots/panda.urdf", inputs = none)]
+pub struct Fingers<T> {
+    #[gauss(gravity)]
+    g: T,
+}
+
+/// S8: a quadruped whose base floats.
+#[cfg(feature = "robots")]
+#[derive(Clone, Copy, GaussDynamics)]
+#[gauss(urdf = "../tests/robots/anymal.urdf", base = floating, inputs = none)]
+pub struct Anymal<T> {
+    #[gauss(gravity)]
+    g: T,
+}
+
 /// A.
 ///
 /// # Panics
@@ -168,6 +186,26 @@ pub fn double_pendulum<T: Real>() -> DoublePendulumKernel<T> {
 pub fn cart_pole<T: Real>() -> CartPoleKernel<T> {
     let (m, distance, moment) = in_scalar(numbers::POLE);
     CartPole { cart: T::from_f64(numbers::CART), m, moment, distance, g: T::from_f64(G) }.kernel().expect("a cart")
+}
+
+/// S7′.
+///
+/// # Panics
+/// Never: the numbers are those of the file.
+#[cfg(feature = "robots")]
+#[must_use]
+pub fn fingers<T: Real>() -> FingersKernel<T> {
+    Fingers { g: T::from_f64(G) }.kernel().expect("an arm")
+}
+
+/// S8.
+///
+/// # Panics
+/// Never: the numbers are those of the file.
+#[cfg(feature = "robots")]
+#[must_use]
+pub fn anymal<T: Real>() -> AnymalKernel<T> {
+    Anymal { g: T::from_f64(G) }.kernel().expect("a quadruped")
 }
 
 fn in_scalar<T: Real>((m, c, i): numbers::Link) -> (T, T, T) {

@@ -50,6 +50,19 @@ pub fn of_angles<const N: usize>() -> Vec<(SVector<f64, N>, SVector<f64, N>)> {
     (0..STATES).map(|_| (random.vector(core::f64::consts::PI), random.vector(2.0))).collect()
 }
 
+/// The pose of a base, and N angles of joints.
+pub type Floating<const N: usize> = (Isometry3<f64>, SVector<f64, N>);
+
+/// Poses of a base and angles of joints, and their rates: any attitude, up to π, 2 m/s and 2 rad/s.
+pub fn of_a_floating_base<const N: usize, const D: usize>() -> Vec<(Floating<N>, SVector<f64, D>)> {
+    let random = &mut Random::new();
+    let mut state = || {
+        let pose = Isometry3::new(random.vector(1.0), random.vector(3.0));
+        ((pose, random.vector(core::f64::consts::PI)), random.vector(2.0))
+    };
+    (0..STATES).map(|_| state()).collect()
+}
+
 /// Euler angles whose middle one keeps away from gimbal lock: between 0.4 and π − 0.4.
 pub fn of_the_top() -> Vec<(Vector3<f64>, Vector3<f64>)> {
     let mut states = of_angles::<3>();

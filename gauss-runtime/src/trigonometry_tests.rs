@@ -2,8 +2,11 @@
 
 use std::vec::Vec;
 
-use super::{LIMIT, of_small_angle, sines_and_cosines};
+use super::{MULTIPLES, of_small_angle, sines_and_cosines};
 use crate::real::Real;
+
+/// Angles up to here are not left to the library.
+const LIMIT: f64 = (MULTIPLES - 1) as f64 * core::f64::consts::FRAC_PI_2;
 
 fn sin_cos(x: f64) -> (f64, f64) {
     super::sin_cos(x, Real::fma)
@@ -76,12 +79,12 @@ fn check(x: f64) {
     for (fused, (sine, cosine, holds)) in [true, false].into_iter().zip(ways) {
         assert!(holds || !fused || x.abs() > LIMIT, "{x:e} goes to the library");
         let errors = [ulps(sine, exact[0]), ulps(cosine, exact[1])];
-        assert!(!holds || errors.iter().all(|&error| error < 0.9), "{x:e}, fused {fused}: {errors:?} ulp");
+        assert!(!holds || errors.iter().all(|&error| error < 0.96), "{x:e}, fused {fused}: {errors:?} ulp");
     }
 }
 
 #[test]
-fn errors_are_below_nine_tenths_of_an_ulp() {
+fn errors_are_below_what_the_module_states() {
     let mut random = random();
     for scale in [1e-8, 1e-3, 0.5, 0.8, 2.0, 10.0, 1e3, LIMIT] {
         (0..20_000).for_each(|_| check(random() * scale));
@@ -168,6 +171,30 @@ fn among_others_an_angle_gets_the_bits_that_it_gets_alone() {
     check::<7>(&numbers);
     check::<8>(&numbers);
     check::<23>(&numbers);
+}
+
+/// Vectors that hold sines in one half and cosines in the other: the same operations, also where those that should be fused are not.
+#[cfg(feature = "wide")]
+#[test]
+fn both_in_one_vector_get_the_bits_of_one_by_one() {
+    use super::vectors::{halves_of_eight, halves_of_four, halves_of_two};
+
+    let mut random = random();
+    for scale in [1e-8, 1.0, 10.0, 1e5, 1e12] {
+        for _ in 0..1000 {
+            let angles: [f64; 4] = core::array::from_fn(|_| random() * scale);
+            let (one, two) = (halves_of_two([angles[0]]), halves_of_four([angles[1], angles[2]]));
+            let (sines, cosines, hold) = halves_of_eight(angles);
+            let singles = angles.map(|x| of_small_angle::<true, f64>(x, Real::fma));
+            assert_eq!(hold, singles.iter().all(|single| single.2));
+            if hold {
+                let found = [one.0[0], two.0[0], two.0[1], one.1[0], two.1[0], two.1[1]];
+                assert_eq!(found, [sines[0], sines[1], sines[2], cosines[0], cosines[1], cosines[2]]);
+                let expected = singles.map(|(sine, cosine, _)| [sine, cosine].map(f64::to_bits));
+                assert_eq!(core::array::from_fn(|i| [sines[i], cosines[i]].map(f64::to_bits)), expected);
+            }
+        }
+    }
 }
 
 /// In single precision they are rounded from double: every 2003rd number, within half an ulp and what the first rounding can add,

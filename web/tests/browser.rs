@@ -17,7 +17,7 @@ fn scenes_move_in_the_browser_as_they_do_here() -> Result<(), Box<dyn Error>> {
         println!("`rustup target add {}` brings what is missing: nothing was tried", build::TARGET);
         return Ok(());
     }
-    // Six scenes are expanded: a macro that is optimised costs more than it saves. Debug information would be the
+    // Seven scenes are expanded: a macro that is optimised costs more than it saves. Debug information would be the
     // page's.
     let quick = ["--config=profile.dev.package.gauss-codegen.opt-level=0", "--config=profile.dev.debug=false"];
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));

@@ -5,8 +5,9 @@ use super::instruction::{Instruction, Operand};
 
 impl<S: Copy> Code<S> {
     /// The same instructions with those of sines and cosines, and whatever these wait for, at the beginning: those of angles that wait
-    /// for no other sine or cosine in a row, then those that wait for them. Where only one angle could be in each row, the same code.
-    pub(crate) fn with_angles_together(self) -> Self {
+    /// for no other sine or cosine in a row, then those that wait for them. In a row inputs come first, by their places: neighbours in
+    /// memory are read as vectors. Where only one angle could be in each row, the same code.
+    pub(crate) fn with_angles_together<K: Ord>(self, place: impl Fn(S) -> K) -> Self {
         let stages = self.angle_stages();
         let rows = stages.iter().flatten().max().map_or(0, |last| last + 1);
         let row = |stage: usize| (0..stages.len()).filter(|&k| stages[k] == Some(stage)).collect::<Vec<_>>();
@@ -16,7 +17,11 @@ impl<S: Copy> Code<S> {
         }
         let mut order = Vec::with_capacity(stages.len());
         let mut placed = vec![false; stages.len()];
-        for row in rows {
+        for mut row in rows {
+            row.sort_by_cached_key(|&k| match self.instructions[k] {
+                Instruction::SineCosine(Operand::Input(input)) => (false, Some(place(input))),
+                _ => (true, None),
+            });
             let mut awaited = self.awaited(&row);
             row.iter().for_each(|&k| awaited[k] = false);
             order.extend((0..stages.len()).filter(|&k| awaited[k] && !std::mem::replace(&mut placed[k], true)));
@@ -75,6 +80,12 @@ mod tests {
         Operand::Input(Input::Component { argument: 0, component })
     }
 
+    fn place(input: Input) -> usize {
+        match input {
+            Input::Component { component, .. } | Input::Number(component) => component,
+        }
+    }
+
     /// sin(a) · cos(b + sin(c)) + sin(2 sin(a)).
     fn example() -> Code {
         use Instruction::{Add, Multiply, SineCosine};
@@ -94,7 +105,7 @@ mod tests {
 
     #[test]
     fn angles_are_in_rows_that_wait_for_one_another() {
-        let together = example().with_angles_together();
+        let together = example().with_angles_together(place);
         let pairs: Vec<usize> = (0..together.instructions.len())
             .filter(|&k| matches!(together.instructions[k], Instruction::SineCosine(_)))
             .collect();
@@ -108,7 +119,7 @@ mod tests {
             })
         };
         assert_eq!(value(&together), value(&example()));
-        assert_eq!(together.clone().with_angles_together(), together);
+        assert_eq!(together.clone().with_angles_together(place), together);
     }
 
     #[test]
@@ -120,6 +131,6 @@ mod tests {
             Instruction::SineCosine(Operand::Value(2)),
         ];
         let code = Code { instructions, outputs: vec![Operand::Cosine(3)] };
-        assert_eq!(code.clone().with_angles_together(), code);
+        assert_eq!(code.clone().with_angles_together(place), code);
     }
 }

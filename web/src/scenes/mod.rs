@@ -5,6 +5,7 @@ use gauss_runtime::prelude::Described;
 use crate::live::{Live, Motion};
 use crate::scene::{Scene, Show, Slider};
 
+pub mod five_bar;
 pub mod pendulum;
 pub mod plate;
 pub mod racket;
@@ -40,11 +41,12 @@ const fn entry<S: Scene>() -> Entry {
 }
 
 /// All scenes, in the order of their buttons.
-pub const ALL: [Entry; 6] = [
+pub const ALL: [Entry; 7] = [
     entry::<top::Scenery>(),
     entry::<racket::Scenery>(),
     entry::<torpedo::Scenery>(),
     entry::<plate::Scenery>(),
     entry::<rattleback::Scenery>(),
     entry::<pendulum::Scenery>(),
+    entry::<five_bar::Scenery>(),
 ];

@@ -121,6 +121,13 @@ pub fn read_particle(clause: &Clause, context: &mut Context) -> Option<ParticleC
     let mut misspelt = Vec::new();
     for argument in &arguments {
         let word = argument.word();
+        if matches!(argument.value, Content::Absent) && arguments::meant(&word, PARTICLE).is_none() {
+            context.error(
+                argument.name.span(),
+                "a particle has no name: remove it, and write its place where something acts on it",
+            );
+            continue;
+        }
         if !known(argument, "particle", PARTICLE, &mut given, context) {
             misspelt.extend(arguments::meant(&word, PARTICLE));
             continue;

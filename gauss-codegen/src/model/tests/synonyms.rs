@@ -70,8 +70,9 @@ fn arguments() {
     );
     // What is meant is not missing as well.
     check(
-        &scene("particle(m = 1, location = [x, 0, 0])"),
+        &scene("particle(bob, m = 1, location = [x, 0, 0])"),
         &[
+            ("bob", "a particle has no name: remove it, and write its place where something acts on it"),
             ("m", "unknown argument of `particle`: `m`; write `mass`"),
             ("location", "unknown argument of `particle`: `location`; write `position`"),
         ],

@@ -103,7 +103,12 @@ pub(crate) fn statements<S: Copy>(
 ) -> (TokenStream, Vec<TokenStream>) {
     // Names of everything are known to the caller by their places.
     if kept == Kept::AsRead && dialect.sines_and_cosines().is_some() {
-        return in_this_order(&code.clone().with_angles_together(), dialect, kept);
+        // By what they are called: q[1] before q[2] and q[10].
+        let place = |input| {
+            let name = dialect.input(input).to_string();
+            (name.len(), name)
+        };
+        return in_this_order(&code.clone().with_angles_together(place), dialect, kept);
     }
     in_this_order(code, dialect, kept)
 }
