@@ -2,6 +2,7 @@
 // at the joint; they are carried over here.
 #include <pinocchio/algorithm/aba-derivatives.hpp>
 #include <pinocchio/algorithm/aba.hpp>
+#include <pinocchio/algorithm/rnea-derivatives.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 #include <string>
 
@@ -70,13 +71,21 @@ template <int NQ, int NV> struct Robot {
     pinocchio::computeABADerivatives(model, data, Q{state}, V{state + NQ}, V{state + NQ + NV});
     Out{out} = data.ddq;
   }
-  // By q, by the speeds, and by the forces, of which the upper triangle is filled; row by row.
+  void inverse_linearize(const double *state, double *out) {
+    pinocchio::computeRNEADerivatives(model, data, Q{state}, V{state + NQ}, V{state + NQ + NV});
+    Out{out} = data.tau;
+  }
+  // By q and by the speeds, row by row.
+  using Block = Eigen::Map<Eigen::Matrix<double, NV, NV, Eigen::RowMajor>>;
   void derivatives(const double *state, double *out) {
     pinocchio::computeABADerivatives(model, data, Q{state}, V{state + NQ}, V{state + NQ + NV});
-    using Block = Eigen::Map<Eigen::Matrix<double, NV, NV, Eigen::RowMajor>>;
     Block{out} = data.ddq_dq;
     Block{out + NV * NV} = data.ddq_dv;
-    Block{out + 2 * NV * NV} = data.Minv;
+  }
+  void inverse_derivatives(const double *state, double *out) {
+    pinocchio::computeRNEADerivatives(model, data, Q{state}, V{state + NQ}, V{state + NQ + NV});
+    Block{out} = data.dtau_dq;
+    Block{out + NV * NV} = data.dtau_dv;
   }
 };
 
@@ -90,7 +99,9 @@ Robot<39, 38> robot_s9(scenes::build_s9);
   void name##_forward(const double *state, double *out) { robot_##name.forward(state, out); } \
   void name##_inverse(const double *state, double *out) { robot_##name.inverse(state, out); } \
   void name##_linearize(const double *state, double *out) { robot_##name.linearize(state, out); } \
-  void name##_derivatives(const double *state, double *out) { robot_##name.derivatives(state, out); }
+  void name##_derivatives(const double *state, double *out) { robot_##name.derivatives(state, out); } \
+  void name##_inverse_linearize(const double *state, double *out) { robot_##name.inverse_linearize(state, out); } \
+  void name##_inverse_derivatives(const double *state, double *out) { robot_##name.inverse_derivatives(state, out); }
 
 extern "C" {
 ROBOT(s7_fingers)

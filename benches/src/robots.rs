@@ -1,7 +1,7 @@
-//! Robots from their files: forward dynamics, inverse dynamics, and derivatives of the first.
+//! Robots from their files: forward dynamics, inverse dynamics, and derivatives of both.
 //!
 //! Their numbers are those of `tests/robots`, which say where they are from; efforts of the joints are inputs. Under the
-//! feature `robot-derivatives` they are linearised as well, which takes the compiler minutes.
+//! feature `robot-derivatives` they are linearised as well, which takes the compiler a minute more.
 
 use std::error::Error;
 
@@ -15,19 +15,19 @@ use crate::states::{Random, STATES};
 /// S7′. The arm of S7 with its hand and two fingers: nine joints.
 #[derive(Clone, Copy, GaussDynamics)]
 #[gauss(urdf = "../tests/robots/panda.urdf", gravity = 9.81)]
-#[cfg_attr(feature = "robot-derivatives", gauss(linearize))]
+#[cfg_attr(feature = "robot-derivatives", gauss(linearize(inverse)))]
 pub struct Fingers;
 
 /// S8. A quadruped whose base floats: eighteen degrees of freedom.
 #[derive(Clone, Copy, GaussDynamics)]
 #[gauss(urdf = "../tests/robots/anymal.urdf", base = floating, gravity = 9.81)]
-#[cfg_attr(feature = "robot-derivatives", gauss(linearize))]
+#[cfg_attr(feature = "robot-derivatives", gauss(linearize(inverse)))]
 pub struct Anymal;
 
 /// S9. A biped with arms whose base floats: 38 degrees of freedom.
 #[derive(Clone, Copy, GaussDynamics)]
 #[gauss(urdf = "../tests/robots/talos.urdf", base = floating, gravity = 9.81)]
-#[cfg_attr(feature = "robot-derivatives", gauss(linearize, limit = 400000))]
+#[cfg_attr(feature = "robot-derivatives", gauss(linearize(inverse), limit = 400000))]
 pub struct Talos;
 
 /// A state, efforts of joints, and accelerations for which forces are asked.
@@ -58,6 +58,16 @@ where
 #[inline(never)]
 pub fn linearize<S: LinearizedSystem<Scalar = f64>>(kernel: &S, at: &Moment<S>) -> S::Linearization {
     kernel.linearize(0.0, &at.q, &at.z, &at.input)
+}
+
+/// The forces that the given ż asks for, the efforts being zero, and all their derivatives.
+#[cfg(feature = "robot-derivatives")]
+#[inline(never)]
+pub fn linearize_inverse<S, const U: usize>(kernel: &S, at: &Moment<S>) -> S::InverseLinearization
+where
+    S: InverseLinearizedSystem<Scalar = f64, Input = SVector<f64, U>>,
+{
+    kernel.linearize_inverse(0.0, &at.q, &at.z, &at.acceleration, &SVector::zeros())
 }
 
 /// The numbers of a configuration, in the order in which peers read them.
@@ -157,18 +167,29 @@ macro_rules! robot {
         ));
         #[cfg(feature = "robot-derivatives")]
         {
-            let derivatives = at().iter().map(|at| by_state(&linearize(&kernel, at))).collect::<Vec<_>>();
-            for (way, difference) in
-                $peers.of_length::<$numbers, $entries>(concat!($scene, "_derivatives"), &states, &derivatives)
-            {
-                assert!(difference <= 1e-10, "{}: derivatives of {} differ by {difference:e}", $scene, way.name);
-            }
+            let derivatives: Vec<_> = at().iter().map(|at| by_state(&linearize(&kernel, at))).collect();
+            agree(
+                concat!($scene, "_derivatives"),
+                &$peers.of_length::<$numbers, $entries>(concat!($scene, "_derivatives"), &states, &derivatives),
+            );
             $cases.push(case(
                 concat!($name, " linearize"),
                 concat!($what, ", derivatives"),
                 Way::new("generated", kernel, at(), linearize),
                 count(&kernel, |operations| operations.linearize),
                 $peers.of_length::<$numbers, $speeds>(concat!($scene, "_linearize"), &states, &expected),
+            ));
+            let derivatives: Vec<_> = at().iter().map(|at| of_forces(&linearize_inverse(&kernel, at))).collect();
+            agree(
+                concat!($scene, "_inverse_derivatives"),
+                &$peers.of_length::<$numbers, $entries>(concat!($scene, "_inverse_derivatives"), &asked, &derivatives),
+            );
+            $cases.push(case(
+                concat!($name, " inverse linearize"),
+                concat!($what, ", derivatives of inverse dynamics"),
+                Way::new("generated", kernel, at(), linearize_inverse),
+                count(&kernel, |operations| operations.linearize_inverse),
+                $peers.of_length::<$numbers, $speeds>(concat!($scene, "_inverse_linearize"), &asked, &needed),
             ));
         }
     }};
@@ -184,6 +205,24 @@ fn by_state<const N: usize, const U: usize, const M: usize>(linear: &Linearizati
     let n = N / 2;
     let blocks = (0..2).flat_map(|block| (0..n).flat_map(move |i| (0..n).map(move |j| (n + i, block * n + j))));
     SVector::from_iterator(blocks.map(|at| linear.by_state[at]))
+}
+
+/// ∂f/∂σ, then ∂f/∂z.
+#[cfg(feature = "robot-derivatives")]
+fn of_forces<const N: usize, const U: usize, const M: usize>(
+    inverse: &InverseLinearization<f64, N, N, U>,
+) -> SVector<f64, M> {
+    let row_by_row = |block: SMatrix<f64, N, N>| block.transpose();
+    let blocks = [row_by_row(inverse.by_configuration), row_by_row(inverse.by_speeds)];
+    SVector::from_iterator(blocks.iter().flat_map(|block| block.iter().copied()))
+}
+
+/// What peers compute is what we compute.
+#[cfg(feature = "robot-derivatives")]
+fn agree(what: &str, ways: &[(Way, f64)]) {
+    for (way, difference) in ways {
+        assert!(*difference <= 1e-10, "{what}: {} differs by {difference:e}", way.name);
+    }
 }
 
 /// All robots with all functions.

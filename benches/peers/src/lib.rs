@@ -14,7 +14,7 @@ use libloading::Library;
 type Entry = unsafe extern "C" fn(*const f64, *mut f64);
 
 /// What the functions read and write, scene by scene: what `SIZES` of `scenes.py` says.
-const SIZES: [(&str, usize, usize); 20] = [
+const SIZES: [(&str, usize, usize); 26] = [
     ("s1", 13, 6),
     ("s2", 13, 6),
     ("s3", 13, 6),
@@ -26,15 +26,21 @@ const SIZES: [(&str, usize, usize); 20] = [
     ("s7_fingers_forward", 27, 9),
     ("s7_fingers_inverse", 27, 9),
     ("s7_fingers_linearize", 27, 9),
-    ("s7_fingers_derivatives", 27, 243),
+    ("s7_fingers_derivatives", 27, 162),
+    ("s7_fingers_inverse_linearize", 27, 9),
+    ("s7_fingers_inverse_derivatives", 27, 162),
     ("s8_forward", 55, 18),
     ("s8_inverse", 55, 18),
     ("s8_linearize", 55, 18),
-    ("s8_derivatives", 55, 972),
+    ("s8_derivatives", 55, 648),
+    ("s8_inverse_linearize", 55, 18),
+    ("s8_inverse_derivatives", 55, 648),
     ("s9_forward", 115, 38),
     ("s9_inverse", 115, 38),
     ("s9_linearize", 115, 38),
-    ("s9_derivatives", 115, 4332),
+    ("s9_derivatives", 115, 2888),
+    ("s9_inverse_linearize", 115, 38),
+    ("s9_inverse_derivatives", 115, 2888),
 ];
 
 /// One peer by one compiler.

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::arguments::OF_RESIDUAL;
 use super::derived::Derived;
-use super::linearized::rows;
+use super::linearized;
 
 /// The implementation, where it is asked for.
 pub fn inverse_linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
@@ -18,7 +18,7 @@ pub fn inverse_linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStrea
     let mut start = 0;
     let mut next = |columns: usize| {
         start += columns;
-        rows(derivatives, speeds, start - columns..start)
+        linearized::columns(derivatives, speeds, start - columns..start)
     };
     let (by_configuration, by_speeds, by_acceleration) = (next(increments), next(speeds), next(speeds));
     let (by_time, by_input) = (next(1), next(inputs));
@@ -26,11 +26,11 @@ pub fn inverse_linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStrea
         #instructions
         #private::InverseLinearization {
             force: #private::vector([#(#force),*]),
-            by_configuration: #private::matrix([#(#by_configuration),*]),
-            by_speeds: #private::matrix([#(#by_speeds),*]),
-            by_acceleration: #private::matrix([#(#by_acceleration),*]),
-            by_time: #private::matrix([#(#by_time),*]),
-            by_input: #private::matrix([#(#by_input),*]),
+            by_configuration: #private::columns([#(#by_configuration),*]),
+            by_speeds: #private::columns([#(#by_speeds),*]),
+            by_acceleration: #private::columns([#(#by_acceleration),*]),
+            by_time: #private::columns([#(#by_time),*]),
+            by_input: #private::columns([#(#by_input),*]),
         }
     };
     let function = derived.function_of("linearize_inverse", OF_RESIDUAL, quote!(Self::InverseLinearization), body);

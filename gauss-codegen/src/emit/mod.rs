@@ -19,6 +19,7 @@ use quote::quote;
 
 mod arguments;
 mod chart;
+mod columns;
 mod constrained;
 mod derived;
 mod description;

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::arguments::OF_EQUATIONS;
 use super::derived::Derived;
-use super::linearized::{pattern, rows};
+use super::linearized::{columns, pattern};
 
 /// The derivatives by parameters, where they are asked for.
 pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
@@ -14,8 +14,8 @@ pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (states, count) = (linearization.increments + linearization.speeds, derived.parameters.len());
     let names = derived.parameters.iter().map(|parameter| &parameter.name);
     let (instructions, outputs) = derived.computed(program);
-    let (matrix, pattern) = (rows(&outputs, states, 0..count), pattern(program, states, 0..count));
-    let body = quote!(#instructions #private::matrix([#(#matrix),*]));
+    let (matrix, pattern) = (columns(&outputs, states, 0..count), pattern(program, states, 0..count));
+    let body = quote!(#instructions #private::columns([#(#matrix),*]));
     let function = derived.function_of("by_parameters", OF_EQUATIONS, quote!(Self::ByParameters), body);
     let items = quote! {
         type ByParameters = #private::SMatrix<#ty, #states, #count>;

@@ -7,7 +7,7 @@ use crate::mechanics::Method;
 
 use super::arguments::{OF_REGRESSOR, arguments_of};
 use super::derived::Derived;
-use super::linearized::{pattern, rows};
+use super::linearized::{columns, pattern};
 
 /// The regressor, where it is asked for.
 pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
@@ -16,10 +16,10 @@ pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (rates, count) = (derived.degrees_of_freedom(), regressor.parameters.len());
     let names = regressor.parameters.iter().map(|parameter| &parameter.name);
     let (instructions, outputs) = derived.computed(program);
-    let (matrix, pattern) = (rows(&outputs, rates, 0..count), pattern(program, rates, 0..count));
+    let (matrix, pattern) = (columns(&outputs, rates, 0..count), pattern(program, rates, 0..count));
     let (parameters, forces) =
         (derived.method_body(Method::InertialParameters), derived.method_body(Method::OtherForces));
-    let body = quote!(#instructions #private::matrix([#(#matrix),*]));
+    let body = quote!(#instructions #private::columns([#(#matrix),*]));
     let regressor = derived.function_of("regressor", OF_REGRESSOR, quote!(Self::Regressor), body);
     let of_forces = arguments_of(Method::OtherForces);
     let other_forces = derived.function_of("other_forces", of_forces, quote!(Self::Speeds), forces);

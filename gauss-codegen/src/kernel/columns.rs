@@ -2,6 +2,8 @@
 //! the substitution a loop over columns, which compilers carry out several at a time. Written out, it would be most of the code of
 //! a tree with many joints.
 
+use std::ops::Range;
+
 use crate::algebra::{Expr, FactoredColumns, Map, Number, Rational};
 
 use super::hoist::Hoister;
@@ -15,8 +17,8 @@ const FEW: usize = 400;
 
 /// Outputs whose derivatives are in part solutions of a linear system.
 pub struct Columns<'g> {
-    /// What the program computes: values; of every direction what is known or added to the solution; L below its diagonal, D⁻¹; the
-    /// right-hand sides of the directions that have some.
+    /// What the program computes: values; of every direction what is known or added to the solution; L below its
+    /// diagonal; D⁻¹; the right-hand sides of the directions that have some.
     before: Vec<Expr<'g>>,
     shape: Shape,
 }
@@ -60,7 +62,8 @@ impl<'g> Columns<'g> {
         solved.sort_by_key(first);
         let height = values.len();
         let directions = rights.len();
-        let entries = below.iter().flatten().map(|(_, e)| *e);
+        let entries = below.iter().zip(&pivots).flat_map(|(column, pivot)| column.iter().map(|(_, e)| *e * *pivot));
+        let entries: Vec<Expr<'g>> = entries.collect();
         let rights = solved.iter().flat_map(|&d| order.iter().map(|&i| rights[d][i]).collect::<Vec<_>>());
         let before = values.into_iter().chain(added).chain(entries).chain(pivots).chain(rights).collect();
         let below = below.iter().map(|column| column.iter().map(|(row, _)| *row).collect()).collect();
@@ -73,7 +76,7 @@ impl<'g> Columns<'g> {
         if 2 * entries * self.shape.solved.len() < FEW {
             return None;
         }
-        let program = Program::lower(&hoister.hoist(&self.before)).with_signs_led_back();
+        let program = Program::lower(&hoister.hoist(&self.before)).with_signs_led_back().ordered();
         Some(LoweredColumns { program, shape: self.shape.clone() })
     }
 }
@@ -106,11 +109,24 @@ impl Shape {
     }
 }
 
+impl Shape {
+    /// Unknowns in a row that are eliminated together: what is below each of them are the rest of them and what is below
+    /// the last. Nothing else leads into the middle.
+    pub fn groups(&self) -> Vec<Range<usize>> {
+        let count = self.order.len();
+        let leading = |k: usize| self.below.iter().filter(|rows| rows.first() == Some(&k)).count();
+        let goes_on = |k: usize| self.below[k].first() == Some(&(k + 1)) && self.below[k][1..] == self.below[k + 1];
+        let ends = (0..count).filter(|&k| k + 1 == count || !goes_on(k) || leading(k + 1) > 1).map(|k| k + 1);
+        ends.scan(0, |start, end| Some(std::mem::replace(start, end)..end)).collect()
+    }
+}
+
 impl<'g> LoweredColumns<'g> {
-    /// For each bundle of columns and each step of the elimination, whether it would add nothing but zeros.
+    /// For each bundle of columns and each group of unknowns, whether its elimination would add nothing but zeros.
     pub fn idle(&self) -> Vec<Vec<bool>> {
         let zero = Operand::Number(Rational::zero());
         let rights = self.shape.parts(&self.program.outputs).rights;
+        let groups = self.shape.groups();
         let bundle = |columns: &[Vec<Operand<'g>>]| {
             let mut idle: Vec<bool> =
                 (0..self.shape.order.len()).map(|k| columns.iter().all(|column| column[k] == zero)).collect();
@@ -119,7 +135,7 @@ impl<'g> LoweredColumns<'g> {
                     self.shape.below[k].iter().for_each(|&row| idle[row] = false);
                 }
             }
-            idle
+            groups.iter().map(|group| idle[group.clone()].iter().all(|&idle| idle)).collect()
         };
         rights.chunks(TOGETHER).map(bundle).collect()
     }
@@ -127,21 +143,21 @@ impl<'g> LoweredColumns<'g> {
     /// As the written code computes it: values, then derivatives, direction by direction.
     pub fn run<N: Number>(&self, symbols: &Map<u32, N>) -> Vec<N> {
         let Shape { known, order, below, solved, .. } = &self.shape;
-        let Parts { mut values, mut added, below: entries, pivots, rights } =
+        let Parts { mut values, mut added, below: multiples, pivots, rights } =
             self.shape.parts(&self.program.run(symbols));
         let starts: Vec<usize> =
             below.iter().scan(0, |sum, rows| Some(std::mem::replace(sum, *sum + rows.len()))).collect();
         for (mut x, &direction) in rights.into_iter().zip(solved) {
             for k in 0..x.len() {
-                for (&row, entry) in below[k].iter().zip(&entries[starts[k]..]) {
-                    x[row] = x[row] - *entry * pivots[k] * x[k];
+                for (&row, multiple) in below[k].iter().zip(&multiples[starts[k]..]) {
+                    x[row] = x[row] - *multiple * x[k];
                 }
             }
             for k in (0..x.len()).rev() {
-                for (&row, entry) in below[k].iter().zip(&entries[starts[k]..]) {
-                    x[k] = x[k] - *entry * x[row];
-                }
                 x[k] = x[k] * pivots[k];
+                for (&row, multiple) in below[k].iter().zip(&multiples[starts[k]..]) {
+                    x[k] = x[k] - *multiple * x[row];
+                }
             }
             for (&unknown, x) in order.iter().zip(x) {
                 added[direction][known + unknown] = added[direction][known + unknown] + x;

@@ -15,9 +15,9 @@ use super::code::Code;
 /// thirty-two.
 const ROOM: usize = 24;
 
-/// Lengths of programs that are ordered. Processors see a shorter one nearly whole, and none was found to gain; a longer one is written
-/// for its length, not for its speed.
-const LENGTHS: RangeInclusive<usize> = 256..=16_384;
+/// Lengths of programs that are ordered. Processors see a shorter one nearly whole, and none was found to gain; a longer
+/// one is not one function (`targets::rust`).
+const LENGTHS: RangeInclusive<usize> = 256..=65_536;
 
 impl<S: Copy> Code<S> {
     /// The same instructions in an order in which chains overlap and results are short-lived.

@@ -2,49 +2,81 @@
 
 use nalgebra::SMatrix;
 
+use crate::linearize::Linearization;
 use crate::real::Real;
 
 /// Columns that go through the substitution together, as many as registers hold two or four of.
 const TOGETHER: usize = 8;
 
-/// Columns of right-hand sides or of solutions in bundles, each for every unknown.
-pub type Columns<T, const N: usize, const B: usize> = [[[T; TOGETHER]; N]; B];
+/// A row of a bundle, on a cache line where numbers are doubles: registers of 64 bytes are then loaded from one line.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+pub struct Lanes<T>(pub [T; TOGETHER]);
 
 /// `to − factor·of`.
 #[inline(always)]
-pub fn subtract_multiple<T: Real>(to: &mut [T; TOGETHER], factor: T, of: &[T; TOGETHER]) {
-    for (to, &of) in to.iter_mut().zip(of) {
+pub fn subtract_multiple<T: Real>(to: &mut Lanes<T>, factor: T, of: &Lanes<T>) {
+    for (to, &of) in to.0.iter_mut().zip(&of.0) {
         *to = (-factor).fma(of, *to);
     }
 }
 
 /// `factor·of`.
 #[inline(always)]
-pub fn multiple<T: Real>(factor: T, of: &[T; TOGETHER]) -> [T; TOGETHER] {
-    of.map(|of| factor * of)
+pub fn multiple<T: Real>(factor: T, of: &Lanes<T>) -> Lanes<T> {
+    Lanes(of.0.map(|of| factor * of))
 }
 
-/// Adds solutions to columns of a matrix, each in the row of its unknown after the first rows; `columns` are pairs of a column of x and
-/// one of the matrix.
-#[inline]
-pub fn add_columns<T: Real, const N: usize, const B: usize, const R: usize, const C: usize>(
-    to: &mut SMatrix<T, R, C>,
-    x: &Columns<T, N, B>,
+/// Writes solutions to columns, each in the row of its unknown after the first rows.
+#[inline(always)]
+pub fn put<T: Real, const N: usize, const R: usize>(
+    columns: &mut [&mut [T; R]; TOGETHER],
+    x: &[Lanes<T>; N],
     order: &[usize; N],
     first: usize,
-    columns: &[(usize, usize)],
 ) {
-    for &(slot, column) in columns {
-        let to = &mut to.data.0[column];
-        for (&unknown, x) in order.iter().zip(&x[slot / TOGETHER]) {
-            let row = first + unknown;
-            to[row] += x[slot % TOGETHER];
+    // Where columns are is loaded once. Column by column, compilers would gather what is far apart.
+    let mut columns = columns.each_mut().map(|column| &mut **column);
+    for (&unknown, x) in order.iter().zip(x) {
+        for (column, &x) in columns.iter_mut().zip(&x.0) {
+            column[first + unknown] = x;
         }
     }
+}
+
+/// The columns of a matrix.
+#[inline(always)]
+pub fn each_column<T: Real, const R: usize, const C: usize>(matrix: &mut SMatrix<T, R, C>) -> [&mut [T; R]; C] {
+    matrix.data.0.each_mut()
+}
+
+/// The column of a matrix with one.
+#[inline(always)]
+pub fn only_column<T: Real, const R: usize>(matrix: &mut SMatrix<T, R, 1>) -> &mut [T; R] {
+    &mut matrix.data.0[0]
 }
 
 /// A matrix without entries.
 #[inline(always)]
 pub fn zeros<T: Real, const R: usize, const C: usize>() -> SMatrix<T, R, C> {
     SMatrix::from([[T::zero(); R]; C])
+}
+
+/// A linearization whose derivatives are filled in where it is handed over: in a function as long as a program compilers
+/// would fill a copy.
+#[inline(always)]
+pub fn filled<T: Real, const D: usize, const U: usize>(
+    rate: [T; D],
+    fill: impl FnOnce(&mut Linearization<T, D, U>),
+) -> Linearization<T, D, U> {
+    let rate = SMatrix::from([rate]);
+    let mut linear = Linearization { rate, by_state: zeros(), by_time: zeros(), by_input: zeros() };
+    fill(&mut linear);
+    linear
+}
+
+/// A matrix from its columns.
+#[inline(always)]
+pub fn columns<T: Real, const R: usize, const C: usize>(columns: [[T; R]; C]) -> SMatrix<T, R, C> {
+    SMatrix::from(columns)
 }
