@@ -225,6 +225,23 @@ fn report(truth: &Unknown, first: &Unknown, fit: &Fit) {
     println!("(Gauss–Newton: {} iterations)\n", fit.iterations);
 }
 
+/// The motion as a page that plays.
+fn write(truth: &Unknown, body: &SatelliteKernel, path: Vec<Sample<SatelliteKernel>>) -> Result<(), Box<dyn Error>> {
+    let page = Playback::of_samples("A satellite on an air bearing, shaken to tell its inertia", path)
+        .body(
+            "satellite",
+            |s| Isometry3::from_parts(Translation3::identity(), s.q),
+            [Shape::of_inertia(MASS, [truth[0], truth[1], truth[2]], &satellite(truth).inertia)],
+        )
+        .trace("satellite", [0.0, 0.0, 0.5])
+        .arrow("torque", 2.0, |s| (Vector3::zeros(), s.q * torque(s.t)))
+        .arrow("angular velocity", 0.8, |s| (Vector3::zeros(), s.q * s.z))
+        .curve("angular velocity / (rad/s)", "ω₁", |s| s.z[0])
+        .curve("angular velocity / (rad/s)", "ω₂", |s| s.z[1])
+        .curve("angular velocity / (rad/s)", "ω₃", |s| s.z[2]);
+    write_page("identify_inertia", &page.energy(body))
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let truth = Unknown::from(TRUTH);
     let body = satellite(&truth).kernel()?;
@@ -241,20 +258,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         NOISE[1]
     );
 
-    let path = motion(&body, start, 4)?;
-    let page = Playback::of_samples("A satellite on an air bearing, shaken to tell its inertia", path)
-        .body(
-            "satellite",
-            |s| Isometry3::from_parts(Translation3::identity(), s.q),
-            [Shape::of_inertia(MASS, [truth[0], truth[1], truth[2]], &satellite(&truth).inertia)],
-        )
-        .trace("satellite", [0.0, 0.0, 0.5])
-        .arrow("torque", 2.0, |s| (Vector3::zeros(), s.q * torque(s.t)))
-        .arrow("angular velocity", 0.8, |s| (Vector3::zeros(), s.q * s.z))
-        .curve("angular velocity / (rad/s)", "ω₁", |s| s.z[0])
-        .curve("angular velocity / (rad/s)", "ω₂", |s| s.z[1])
-        .curve("angular velocity / (rad/s)", "ω₃", |s| s.z[2]);
-    write_page("identify_inertia", &page.energy(&body))?;
+    write(&truth, &body, motion(&body, start, 4)?)?;
 
     let runs = gauss_examples::runs(50);
     let (mut distance, mut misfit) = (0.0, 0.0);
