@@ -182,8 +182,8 @@
 /// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms that are no meshes, scaled to
 /// `settotalmass`; classes of defaults;
 /// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
-/// as coupled joints, others as constraints; points in common and welds as constraints; springs and dampers of fixed tendons; actuators
-/// along joints and fixed tendons that are linear in their control, and at sites, without `refsite`: those are wrenches, each with its
+/// as coupled joints, others and those of fixed tendons as constraints; points in common and welds as constraints; springs and
+/// dampers of fixed tendons; actuators along joints and fixed tendons that are linear in their control, and at sites, without `refsite`: those are wrenches, each with its
 /// control for an input whatever `inputs` asks for. A ball is a `Rotation`, a free joint a `Pose`; armature and damping act in both.
 /// Keyframes are functions `ArmState::home()`, by their names, and `ArmInput::home()` where inputs are controls;
 /// `ArmState::start()` is where the file has everything at first, if that is not zero. `<include>` puts what is in the root of another

@@ -208,12 +208,12 @@ pub struct Tendon {
     pub rest: f64,
 }
 
-/// The coordinate of a joint is a polynomial of that of another, both from their references.
+/// A sum of coordinates, with their factors, is a polynomial of another, all from their references.
 #[derive(Clone, Debug)]
 pub struct Polynomial {
     pub at: At,
-    pub joint: String,
-    pub of: Option<String>,
+    pub along: Vec<(String, f64)>,
+    pub of: Option<Vec<(String, f64)>>,
     pub coefficients: [f64; 5],
 }
 

@@ -67,16 +67,21 @@ impl Robot<'_> {
         (0..3).map(product).collect()
     }
 
-    /// q₁ − r₁ − Σ cₖ (q₂ − r₂)ᵏ.
+    /// l₁ − Σ cₖ l₂ᵏ, with l = Σ c (q − r), of one joint q − r.
     fn polynomial(&self, polynomial: &Polynomial) -> Option<Expression> {
         let writer = self.writer;
-        let from_reference = |name: &String| {
+        let from_reference = |(name, factor): &(String, f64)| {
             let joint = self.description.joints.iter().position(|joint| joint.name == *name)?;
             let reference = self.description.joints[joint].reference;
-            self.values(joint, reference).into_iter().next()
+            let value = self.values(joint, reference).into_iter().next()?;
+            Some(if *factor == 1.0 { value } else { writer.times(writer.number(*factor), value) })
         };
-        let value = from_reference(&polynomial.joint)?;
-        let of = polynomial.of.as_ref().and_then(from_reference);
+        let length = |along: &Vec<(String, f64)>| {
+            let terms: Option<Vec<Expression>> = along.iter().map(from_reference).collect();
+            terms?.into_iter().reduce(|a, b| writer.plus(a, b))
+        };
+        let value = length(&polynomial.along)?;
+        let of = polynomial.of.as_ref().and_then(length);
         let [lowest, rest @ ..] = polynomial.coefficients;
         let mut sum = writer.number(lowest);
         let mut power = of.clone();

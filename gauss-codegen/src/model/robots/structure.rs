@@ -160,8 +160,8 @@ fn refuse_strange_joints(description: &Description, faults: &mut Vec<Fault>) {
         .iter()
         .flat_map(|tendon| tendon.along.iter().map(|(joint, _)| (tendon.at, "a tendon is along".to_owned(), joint)));
     let polynomials = description.polynomials.iter().flat_map(|polynomial| {
-        let joints = std::iter::once(&polynomial.joint).chain(&polynomial.of);
-        joints.map(|joint| (polynomial.at, "an equality is of".to_owned(), joint))
+        let joints = polynomial.along.iter().chain(polynomial.of.iter().flatten());
+        joints.map(|(joint, _)| (polynomial.at, "an equality is of".to_owned(), joint))
     });
     for (at, what, joint) in drives.chain(tendons).chain(polynomials) {
         if !description.joints.iter().any(|other| other.name == *joint) {

@@ -158,8 +158,8 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
         file.world(world);
     }
     file.scale_masses();
-    file.reading.children(root, "equality").into_iter().for_each(|section| file.equalities(section));
     file.reading.children(root, "tendon").into_iter().for_each(|section| file.tendons(section));
+    file.reading.children(root, "equality").into_iter().for_each(|section| file.equalities(section));
     file.reading.children(root, "actuator").into_iter().for_each(|section| file.actuators(section));
     file.reading.children(root, "keyframe").into_iter().for_each(|section| file.keys(section));
     for contact in file.reading.children(root, "contact") {

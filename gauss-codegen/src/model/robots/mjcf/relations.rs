@@ -21,6 +21,7 @@ impl<'a> File<'a> {
                 "connect" if self.reading.text(node, "body1").is_some() => self.connected(node),
                 "weld" if self.reading.text(node, "body1").is_some() => self.welded(node),
                 "joint" => self.coupled(node),
+                "tendon" => self.tied(node),
                 _ => self.ignored(node, "it joins no two bodies or joints"),
             }
         }
@@ -87,7 +88,31 @@ impl<'a> File<'a> {
             Some(joint2) if rest == [0.0; 3] && joint.mimic.is_none() => {
                 joint.mimic = Some(Mimic { at, joint: joint2, multiplier, offset });
             }
-            of => self.description.polynomials.push(Polynomial { at, joint: first, of, coefficients }),
+            of => {
+                let one = |joint: String| vec![(joint, 1.0)];
+                let (along, of) = (one(first), of.map(one));
+                self.description.polynomials.push(Polynomial { at, along, of, coefficients });
+            }
+        }
+    }
+
+    /// The same of the lengths of tendons that are linear in joints, from where they are at first.
+    fn tied(&mut self, node: Node<'a, 'a>) {
+        let coefficients: [f64; 5] =
+            self.numbers(node, EQUALITY, "polycoef", None).unwrap_or([0.0, 1.0, 0.0, 0.0, 0.0]);
+        let Some(first) = self.reading.required(node, "tendon1") else { return };
+        let second = self.reading.text(node, "tendon2").map(str::to_owned);
+        let tendons = &self.description.tendons;
+        let along = |name: &String| {
+            let tendon = tendons.iter().find(|tendon| tendon.name.as_ref() == Some(name))?;
+            Some(tendon.along.clone()).filter(|along| !along.is_empty())
+        };
+        match (along(&first), second.as_ref().map(along)) {
+            (Some(along), of @ (None | Some(Some(_)))) => {
+                let polynomial = Polynomial { at: self.reading.at(node), along, of: of.flatten(), coefficients };
+                self.description.polynomials.push(polynomial);
+            }
+            _ => self.ignored(node, "it ties tendons that are not linear in joints"),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Scratch, read};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
+use crate::model::tests::systems::show;
 use crate::model::{ConstraintKind, ForceKind, Model, Role, ValueOfState};
 
 const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
@@ -136,6 +137,17 @@ fn equalities() {
     assert_eq!((curved.coordinates.len(), curved.constraints.len()), (2, 1));
     let held = model(&format!("{TWO}<equality><joint joint1=\"a\"/></equality>"), "");
     assert_eq!(held.constraints.len(), 1);
+    let tendon =
+        "<tendon><fixed name=\"t\"><joint joint=\"a\" coef=\"2\"/><joint joint=\"b\" coef=\"-1\"/></fixed></tendon>";
+    let tied = model(&format!("{TWO}{tendon}<equality><tendon tendon1=\"t\"/></equality>"), "");
+    assert_eq!((tied.coordinates.len(), tied.constraints.len()), (2, 1));
+    assert_eq!(show(&tied.constraints[0].expression), "(Subtract (Add (Multiply 2 a) (Multiply (-1) b)) 0)");
+    let strange = format!("{TWO}{tendon}<equality><tendon name=\"e\" tendon1=\"u\"/></equality>");
+    let found = reported(&strange, "");
+    assert!(
+        found[0].ends_with("<tendon name=\"e\"> does not act: it ties tendons that are not linear in joints"),
+        "{found:?}"
+    );
     let welded = model(&format!("{TWO}<equality><weld body1=\"arm\"/></equality>"), "");
     assert_eq!(welded.constraints.len(), 4);
     assert!(welded.constraints.iter().all(|constraint| constraint.kind == ConstraintKind::Position));
