@@ -45,8 +45,8 @@ impl Scene for Scenery {
         let link = |length: f64| vec![Shape::rod([0.0; 3], [0.0, 0.0, length], 0.008)];
         Show {
             title: "A robot",
-            words: "A leg of the robot Minitaur from its file, turned upwards, its tips joined by constraints; springs in \
-                    the motors hold the load up. The arrow is the force of the constraint on the left tip.",
+            words: "A leg of the robot Minitaur from its file, turned upwards, its tips joined by constraints; springs \
+                    in the motors hold the load up. The arrow is the force of the constraint on the left tip.",
             view: View {
                 up: [0.0, 0.0, 1.0],
                 target: [0.0, 0.0, 0.13],
@@ -73,8 +73,8 @@ impl Scene for Scenery {
     }
 
     fn start(values: &[f64]) -> Start<FiveBarKernel> {
-        // One side is the other one's mirror image, so that the tips meet in the middle; both motors are on one axis,
-        // about which all of it turns at first.
+        // One side is the other one's mirror image, so that the tips meet in the middle; both motors are on one
+        // axis, about which all of it turns at first.
         let (crank, push) = (values[0].to_radians(), values[1]);
         let knee = -(CRANK * crank.sin() / ROD).asin() - crank;
         (SVector::from([crank, knee, -crank, -knee]), SVector::from([push, 0.0, push, 0.0]))
