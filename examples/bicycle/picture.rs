@@ -7,7 +7,7 @@ use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
-use crate::model::{Bicycle, BicycleKernel, linear, published};
+use crate::model::{Bicycle, BicycleFrame, BicycleKernel, linear, published};
 
 type Rides<'k> = [(f64, Trajectory<'k, BicycleKernel>)];
 
@@ -17,20 +17,12 @@ type Rides<'k> = [(f64, Trajectory<'k, BicycleKernel>)];
 /// When a panel cannot be laid out.
 pub fn draw(bicycle: &Bicycle, kernel: &BicycleKernel, rides: &Rides<'_>) -> Result<String, Box<dyn Error>> {
     let until = rides.iter().map(|(_, path)| path.last().t).fold(0.0, f64::max);
-    let over_time = |title, y, ends, coordinate: usize| Plot {
-        title,
-        x: ("time, s", 0.0..until),
-        y: (y, ends),
-        equal: false,
-        lines: rides
-            .iter()
-            .zip(COLOURS)
-            .map(|((speed, path), colour)| {
-                let points = path.iter().map(|s| (s.t, s.q[coordinate].to_degrees()));
-                Line::new(format!("{speed} m/s"), colour, points)
-            })
-            .collect(),
-        marks: Vec::new(),
+    let over_time = |title, y, ends, coordinate: usize| {
+        let line = |((speed, path), colour): (&(f64, Trajectory<BicycleKernel>), _)| {
+            let points = path.iter().map(|s| (s.t, s.q[coordinate].to_degrees()));
+            Line::new(format!("{speed} m/s"), colour, points)
+        };
+        Plot::new(title, ("time, s", 0.0..until), (y, ends), rides.iter().zip(COLOURS).map(line).collect())
     };
     sheet(
         "A bicycle that nobody holds, pushed from the side",
@@ -71,28 +63,17 @@ fn eigenvalues(bicycle: &Bicycle, kernel: &BicycleKernel) -> Plot<'static> {
         let values = published(f64::from(speed), bicycle.g).complex_eigenvalues();
         values.iter().map(|v| (f64::from(speed), v.re, String::new())).collect::<Vec<_>>()
     });
-    Plot {
-        title: "Eigenvalues (dots: the benchmark)",
-        x: ("speed, m/s", 0.0..10.0),
-        y: ("1/s", -10.0..10.0),
-        equal: false,
-        lines,
-        marks: marks.filter(|(_, y, _)| y.abs() < 10.0).collect(),
-    }
+    Plot::new("Eigenvalues (dots: the benchmark)", ("speed, m/s", 0.0..10.0), ("1/s", -10.0..10.0), lines)
+        .marked(marks.filter(|(_, y, _)| y.abs() < 10.0).collect())
 }
 
 fn paths(rides: &Rides<'_>) -> Plot<'static> {
     let line = |((speed, path), colour): (&(f64, Trajectory<BicycleKernel>), _)| {
         Line::new(format!("{speed} m/s"), colour, path.iter().map(|s| (s.q[0], -s.q[1])))
     };
-    Plot {
-        title: "Where the rear wheel rolls, from above",
-        x: ("ahead, m", 0.0..130.0),
-        y: ("to the left, m", -65.0..15.0),
-        equal: true,
-        lines: rides.iter().zip(COLOURS).map(line).collect(),
-        marks: Vec::new(),
-    }
+    let (x, y) = (("ahead, m", 0.0..130.0), ("to the left, m", -65.0..15.0));
+    let lines = rides.iter().zip(COLOURS).map(line).collect();
+    Plot::new("Where the rear wheel rolls, from above", x, y, lines).to_scale()
 }
 
 /// A ride as a page, with the forces of the floor.
@@ -116,7 +97,23 @@ pub fn page(
     let saddle = [0.25, 0.0, -0.55];
     let [head, bars] = [along(0.75), along(1.0)];
     let in_frame = |[x, y, z]: [f64; 3]| [x + wheelbase + trail, y, z + rear_radius];
+    // The rear wheel does not slip along its heading nor across it; its normal force is none of the multipliers, since the
+    // coordinates let it touch. The front wheel is held upwards and in both directions of the floor.
+    let grip = |s: &Sample<BicycleKernel>| {
+        let along = kernel.multipliers(s.t, &s.q, &s.z, &());
+        let heading = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), s.q[2]);
+        (Vector3::new(s.q[0], s.q[1], 0.0), heading * Vector3::new(along[0], along[1], 0.0))
+    };
+    let front = |s: &Sample<BicycleKernel>| {
+        let pose = kernel.pose_of(BicycleFrame::front_wheel, s.t, &s.q);
+        let axle = pose.rotation * Vector3::y();
+        let down = (Vector3::z() - axle * axle.z).normalize();
+        let forces = kernel.multipliers(s.t, &s.q, &s.z, &());
+        (pose.translation.vector + down * front_radius, Vector3::new(forces[3], forces[4], forces[2]))
+    };
     let mut page = Playback::new("A bicycle that nobody holds, pushed from the side", path)?
+        .arrow("grip of the rear wheel", 5e-3, grip)
+        .arrow("force of the floor on the front wheel", 1.5e-3, front)
         .up([0.0, 0.0, -1.0])
         .frames(kernel)
         .follow("frame")

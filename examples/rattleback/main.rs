@@ -38,9 +38,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         friction(&along)
     );
     println!("{}", monitor(&rattleback, &against));
+    // The constraints are the velocity of the point that touches: their multipliers are the friction there.
+    let touching = |s: &Sample<RattlebackKernel>| {
+        let pose = pose(&s.q);
+        let up = pose.rotation.inverse() * Vector3::z();
+        let squares = Vector3::from(AXES).component_mul(&Vector3::from(AXES));
+        pose.translation.vector - pose.rotation * squares.component_mul(&up) / pose.translation.z
+    };
+    let grip = |s: &Sample<RattlebackKernel>| {
+        let force = rattleback.multipliers(s.t, &s.q, &s.z, &());
+        (touching(s), Vector3::new(force[0], force[1], 0.0))
+    };
     let page = Playback::new("A rattleback, spun against its way", &against)?
         .body("stone", |s| pose(&s.q), [Shape::ellipsoid(AXES)])
         .trace("stone", [AXES[0], 0.0, 0.0])
+        .arrow("friction", 0.05, grip)
         .curve("spin about the vertical / (rad/s)", "ω̂₃", vertical)
         .energy(&rattleback);
     write_page("rattleback", &page)

@@ -139,17 +139,12 @@ fn fly(slung: &Slung, kernel: &SlungKernel, pushed: f64) -> Result<Vec<Sample<Sl
 
 fn draw(calm: &[Sample<SlungKernel>], swaying: &[Sample<SlungKernel>]) -> Result<String, Box<dyn Error>> {
     let until = swaying[swaying.len() - 1].t;
-    let over_time = |title, y, ends, value: &dyn Fn(&Sample<SlungKernel>) -> f64| Plot {
-        title,
-        x: ("time, s", 0.0..until),
-        y: (y, ends),
-        equal: false,
-        lines: [("pushes of one period", calm), ("of one and a half", swaying)]
-            .into_iter()
-            .zip(COLOURS)
-            .map(|((name, path), colour)| Line::new(name, colour, path.iter().map(|s| (s.t, value(s)))))
-            .collect(),
-        marks: Vec::new(),
+    let over_time = |title, y, ends, value: &dyn Fn(&Sample<SlungKernel>) -> f64| {
+        let paths = [("pushes of one period", calm), ("of one and a half", swaying)];
+        let line = |((name, path), colour): ((&str, &[Sample<SlungKernel>]), _)| {
+            Line::new(name, colour, path.iter().map(|s| (s.t, value(s))))
+        };
+        Plot::new(title, ("time, s", 0.0..until), (y, ends), paths.into_iter().zip(COLOURS).map(line).collect())
     };
     sheet(
         "A load below a craft: pushed as long as one swing takes, it arrives at rest",

@@ -182,6 +182,10 @@ fn page(path: Vec<Sample<VehicleKernel>>, kernel: &VehicleKernel) -> Playback<Ve
         .body("forearm", fore, link())
         .follow("hull")
         .trace("forearm", [LINK, 0.0, 0.0])
+        .arrow("velocity of the hull", 1.0, |s| {
+            (s.q.0.translation.vector, s.q.0.rotation * Vector3::from(s.z.fixed_rows::<3>(0)))
+        })
+        .arrow("current", 1.0, |s| (s.q.0.translation.vector, Vector3::y() * CURRENT))
         .curve("joints / rad", "shoulder", |s| s.q.1[0])
         .curve("joints / rad", "elbow", |s| s.q.1[1])
         .energy(kernel)
