@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let page = Playback::new("A rattleback, spun against its way", &against)?
         .body("stone", |s| pose(&s.q), [Shape::ellipsoid(AXES)])
         .trace("stone", [AXES[0], 0.0, 0.0])
-        .arrow("friction", 0.05, grip)
+        .arrow("friction", 0.015, grip)
         .curve("spin about the vertical / (rad/s)", "ω̂₃", vertical)
         .energy(&rattleback);
     write_page("rattleback", &page)
