@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 use gauss_tests::pages::{keep, repository};
 
 /// Folders whose Markdown pages are read.
-const FOLDERS: [&str; 7] = ["", "docs", "guide/src", "tests", "tests/references", "gauss-codegen", "examples"];
+const FOLDERS: [&str; 8] =
+    ["", "docs", "guide/src", "tests", "tests/references", "gauss-codegen", "gauss-runtime/src", "examples"];
 
 /// Columns of a line outside tables.
 const WIDTH: usize = 120;
