@@ -74,6 +74,8 @@ fn panel(study: &Study) -> Chart {
     let gains: Vec<String> = [(1e-4, "10⁻⁴"), (1e-8, "10⁻⁸"), (1e-11, "10⁻¹¹")]
         .into_iter()
         .filter_map(|(error, name)| match study.pair(error).verdict() {
+            // Two digits: three such gains fit above a panel.
+            Verdict::Gain(gain) if gain >= 9.95 => Some(format!("{gain:.0}× at {name}")),
             Verdict::Gain(gain) => Some(format!("{gain:.1}× at {name}")),
             _ => None,
         })
