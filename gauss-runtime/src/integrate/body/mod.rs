@@ -4,7 +4,7 @@
 //! | file | holds |
 //! |---|---|
 //! | [`inertia`] | principal axes, and the increment that a free motion makes |
-//! | [`free_flow`] | [`FreeFlow`]: the exact motion over any span of time |
+//! | [`free_flow`] | [`FreeFlow`]: the exact motion over any span of time; `in_lanes`: of several bodies |
 //! | [`top_flow`] | [`TopFlow`]: the same for a heavy body of revolution about a point of its axis |
 //! | [`moser_veselov`] | [`MoserVeselov`]: the discrete Moser–Veselov method with its corrections to order 10 |
 //! | [`scheme`] | [`Scheme`]: lengths of kicks and drifts, orders 2 to 8 |
@@ -15,6 +15,7 @@ pub mod configuration;
 mod corrections;
 mod elliptic;
 pub mod free_flow;
+mod in_lanes;
 pub mod inertia;
 pub mod moser_veselov;
 pub mod scheme;
