@@ -3,6 +3,7 @@
 use std::hash::{Hash, Hasher};
 
 use crate::algebra::{BinaryFunction, Expr, Function, Map, NodeView, Rational};
+use crate::program::Pass;
 
 /// Parts of one sum or product that are paired with one another: the number of pairs goes with its square.
 const PAIRED: usize = 200;
@@ -96,7 +97,7 @@ impl<'g> Network<'g> {
             network.outputs.push(output);
         }
         for kind in [Kind::Products, Kind::Sums] {
-            if network.share(kind) {
+            if kind.pass().is_made() && network.share(kind) {
                 network.merge_duplicates();
             }
         }
@@ -345,6 +346,13 @@ enum Kind {
 type Parts = Vec<(Rational, Place)>;
 
 impl Kind {
+    fn pass(self) -> Pass {
+        match self {
+            Kind::Sums => Pass::Sums,
+            Kind::Products => Pass::Products,
+        }
+    }
+
     fn parts(self, node: &Node<'_>) -> Parts {
         match (self, node) {
             (Kind::Sums, Node::Sum(terms)) => terms.clone(),

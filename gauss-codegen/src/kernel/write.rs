@@ -1,7 +1,7 @@
 //! From a network to straight-line code.
 
 use crate::algebra::{Expr, Function, Map, Number, Rational, Set};
-use crate::program::{Code, Instruction};
+use crate::program::{Code, Instruction, Pass};
 
 use super::factor::Factoring;
 use super::network::{Network, Node, Place};
@@ -190,7 +190,7 @@ impl<'g> Writer<'g> {
 
     /// The two sides of a product that nobody else needs, so that it can be fused with an addition.
     fn fusible(&mut self, place: Place) -> Option<(Operand<'g>, Operand<'g>)> {
-        if self.uses[place] != 1 || self.written.contains_key(&place) {
+        if self.uses[place] != 1 || self.written.contains_key(&place) || !Pass::Fusing.is_made() {
             return None;
         }
         let Node::Product(factors) = self.network.nodes[place].clone() else { return None };
