@@ -6,6 +6,7 @@
 //! back into control flow, apart from [`Real::lane`], which step control and parameter checks use, and
 //! [`Real::select_lt`], which is how lanes take different branches.
 
+use crate::simd::together::{self, Operation, Question};
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -207,6 +208,20 @@ pub trait Real:
     fn all_lt(a: Self, b: Self) -> bool {
         (0..Self::LANES).all(|i| a.lane(i) < b.lane(i))
     }
+
+    /// One operation on the numbers of arrays, with the bits of one by one: plain floats are done in vectors.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn together<O: Operation, const N: usize>(numbers: [&[Self; N]; 4]) -> [Self; N] {
+        together::one_by_one::<Self, O, N>(numbers)
+    }
+
+    /// Whether the answer is yes for all numbers of arrays.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn all_together<Q: Question, const N: usize>(numbers: [&[Self; N]; 2]) -> bool {
+        together::each::<Self, Q, N>(numbers)
+    }
 }
 
 #[cfg(feature = "std")]
@@ -220,7 +235,7 @@ macro_rules! elementary {
 }
 
 macro_rules! implement_real {
-    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr, $together:expr) => {
+    ($float:ident, $digits:expr, $operation:ident $question:ident; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr, $together:expr) => {
         impl Real for $float {
             const LANES: usize = 1;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -311,15 +326,25 @@ macro_rules! implement_real {
             fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
                 if a < b { x } else { y }
             }
+
+            #[inline(always)]
+            fn together<O: Operation, const N: usize>(numbers: [&[Self; N]; 4]) -> [Self; N] {
+                together::$operation::<O, N>(numbers)
+            }
+
+            #[inline(always)]
+            fn all_together<Q: Question, const N: usize>(numbers: [&[Self; N]; 2]) -> bool {
+                together::$question::<Q, N>(numbers)
+            }
         }
     };
 }
 
-implement_real!(f64, 53;
+implement_real!(f64, 53, of_doubles all_doubles;
     sqrt sqrt, sin sin, cos cos, tan tan, asin asin, acos acos, atan atan,
     sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow
     |x: f64| sin_cos(x, f64::fma), |angles: [f64; N]| sines_and_cosines(angles, f64::fma));
-implement_real!(f32, 24;
+implement_real!(f32, 24, of_singles all_singles;
 sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
 sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf
 |x: f32| {
