@@ -3,12 +3,11 @@
 //!
 //! | scalar | with |
 //! |---|---|
-//! | [`Lanes<T, N>`](Lanes) | any scalar and any number of lanes: an array, of whose loops the compiler makes vector instructions |
+//! | [`Lanes<T, N>`](Lanes) | any scalar and any number of lanes: an array; of `f32` and `f64` in the vectors below, where there are |
 //! | `wide::f64x4`, `wide::f64x8`, `wide::f32x8`, `wide::f32x16` | the feature `wide`: instructions of that width where the target has them |
 //!
-//! Compilers prefer vectors of 256 bits on most targets that have 512. There `Lanes<f64, 4>` is the array to take, and `wide::f64x8`
-//! the faster scalar (`BENCHMARKS.md`). The scalar is chosen by the
-//! parameter of the struct that a kernel is derived from, `Body<T>`.
+//! Eight numbers of 64 bits are best in `wide::f64x8`, which always lies in one line of the cache; four are as good in
+//! `Lanes<f64, 4>` (`BENCHMARKS.md`). The scalar is chosen by the parameter of the struct that a kernel is derived from, `Body<T>`.
 //!
 //! **Bits.** No operation looks at another lane, and none is reordered: a kernel gives each lane the bits that it would get
 //! alone. So do explicit methods on components; exponentials of increments choose their series by the largest lane from half a radian

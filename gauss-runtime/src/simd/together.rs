@@ -131,5 +131,23 @@ macro_rules! in_vectors {
 in_vectors!(f64, of_doubles, all_doubles: f64x8 of 8, f64x4 of 4);
 #[cfg(feature = "wide")]
 in_vectors!(f32, of_singles, all_singles: f32x16 of 16, f32x8 of 8);
+
 #[cfg(not(feature = "wide"))]
-pub(crate) use {each as all_doubles, each as all_singles, one_by_one as of_doubles, one_by_one as of_singles};
+macro_rules! in_loops {
+    ($float:ident, $operation:ident, $question:ident) => {
+        #[inline]
+        pub(crate) fn $operation<O: Operation, const N: usize>(numbers: [&[$float; N]; 4]) -> [$float; N] {
+            one_by_one::<$float, O, N>(numbers)
+        }
+
+        #[inline]
+        pub(crate) fn $question<Q: Question, const N: usize>(numbers: [&[$float; N]; 2]) -> bool {
+            each::<$float, Q, N>(numbers)
+        }
+    };
+}
+
+#[cfg(not(feature = "wide"))]
+in_loops!(f64, of_doubles, all_doubles);
+#[cfg(not(feature = "wide"))]
+in_loops!(f32, of_singles, all_singles);
