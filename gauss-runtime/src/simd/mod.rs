@@ -14,8 +14,7 @@
 //! on, and iterations of implicit methods go on until all lanes are solved.
 
 mod packed;
-#[doc(hidden)]
-pub mod together;
+mod together;
 #[cfg(feature = "wide")]
 mod wide;
 
@@ -25,10 +24,9 @@ pub(crate) use packed::packs_of_one;
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::real::Real;
+use crate::real::{Operation, Real};
 use together::{
-    Choice, Difference, Finite, Less, Magnitude, Operation, Opposite, Product, ProductAndSum, Quotient, Reciprocal,
-    Root, Sum,
+    Choice, Difference, Finite, Less, Magnitude, Opposite, Product, ProductAndSum, Quotient, Reciprocal, Root, Sum,
 };
 
 /// N numbers in lockstep: of `f64`, four fill a vector of 256 bits, eight one of 512.
