@@ -207,7 +207,129 @@ pub trait Real:
     fn all_lt(a: Self, b: Self) -> bool {
         (0..Self::LANES).all(|i| a.lane(i) < b.lane(i))
     }
+
+    /// One operation on the numbers of arrays, with the bits of one by one: plain floats are done in vectors.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn together<O: Operation, const N: usize>(numbers: [&[Self; N]; 4]) -> [Self; N] {
+        one_by_one::<Self, O, N>(numbers)
+    }
+
+    /// Whether the answer is yes for all numbers of arrays.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn all_together<Q: Question, const N: usize>(numbers: [&[Self; N]; 2]) -> bool {
+        each::<Self, Q, N>(numbers)
+    }
 }
+
+/// An operation on numbers, lane by lane: of as many of the four as it needs.
+#[doc(hidden)]
+pub trait Operation {
+    /// What it gives.
+    fn of<V: Real>(numbers: [V; 4]) -> V;
+}
+
+/// A question whose answer for several numbers is yes where it is for each.
+#[doc(hidden)]
+pub trait Question {
+    /// The answer.
+    fn of<V: Real>(numbers: [V; 2]) -> bool;
+}
+
+/// One by one.
+#[inline]
+fn one_by_one<T: Real, O: Operation, const N: usize>(numbers: [&[T; N]; 4]) -> [T; N] {
+    let mut results = *numbers[0];
+    for i in 0..N {
+        results[i] = O::of([numbers[0][i], numbers[1][i], numbers[2][i], numbers[3][i]]);
+    }
+    results
+}
+
+/// One by one, without a branch at each.
+#[inline]
+fn each<T: Real, Q: Question, const N: usize>(numbers: [&[T; N]; 2]) -> bool {
+    (0..N).fold(true, |all, i| all & Q::of([numbers[0][i], numbers[1][i]]))
+}
+
+/// In the vectors of the crate `wide`: as many of the longest as there are, then of shorter ones.
+#[cfg(feature = "wide")]
+macro_rules! in_vectors {
+    ($float:ident, $operation:ident, $question:ident: $($vector:ident of $width:literal),+) => {
+        #[inline]
+        fn $operation<O: Operation, const N: usize>(numbers: [&[$float; N]; 4]) -> [$float; N] {
+            use ::wide::{$($vector),+};
+
+            let (mut results, mut done) = ([0.0; N], 0);
+            $(
+                while done + $width <= N {
+                    let part = |k: usize| {
+                        let mut part = [0.0; $width];
+                        part.copy_from_slice(&numbers[k][done..done + $width]);
+                        $vector::new(part)
+                    };
+                    let result = O::of([part(0), part(1), part(2), part(3)]);
+                    results[done..done + $width].copy_from_slice(&result.to_array());
+                    done += $width;
+                }
+            )+
+            while done < N {
+                results[done] = O::of(numbers.map(|numbers| numbers[done]));
+                done += 1;
+            }
+            results
+        }
+
+        #[inline]
+        fn $question<Q: Question, const N: usize>(numbers: [&[$float; N]; 2]) -> bool {
+            use ::wide::{$($vector),+};
+
+            let (mut all, mut done) = (true, 0);
+            $(
+                while done + $width <= N {
+                    let part = |k: usize| {
+                        let mut part = [0.0; $width];
+                        part.copy_from_slice(&numbers[k][done..done + $width]);
+                        $vector::new(part)
+                    };
+                    all &= Q::of([part(0), part(1)]);
+                    done += $width;
+                }
+            )+
+            while done < N {
+                all &= Q::of(numbers.map(|numbers| numbers[done]));
+                done += 1;
+            }
+            all
+        }
+    };
+}
+
+#[cfg(feature = "wide")]
+in_vectors!(f64, of_doubles, all_doubles: f64x8 of 8, f64x4 of 4);
+#[cfg(feature = "wide")]
+in_vectors!(f32, of_singles, all_singles: f32x16 of 16, f32x8 of 8);
+
+#[cfg(not(feature = "wide"))]
+macro_rules! in_loops {
+    ($float:ident, $operation:ident, $question:ident) => {
+        #[inline]
+        fn $operation<O: Operation, const N: usize>(numbers: [&[$float; N]; 4]) -> [$float; N] {
+            one_by_one::<$float, O, N>(numbers)
+        }
+
+        #[inline]
+        fn $question<Q: Question, const N: usize>(numbers: [&[$float; N]; 2]) -> bool {
+            each::<$float, Q, N>(numbers)
+        }
+    };
+}
+
+#[cfg(not(feature = "wide"))]
+in_loops!(f64, of_doubles, all_doubles);
+#[cfg(not(feature = "wide"))]
+in_loops!(f32, of_singles, all_singles);
 
 #[cfg(feature = "std")]
 macro_rules! elementary {
@@ -220,7 +342,7 @@ macro_rules! elementary {
 }
 
 macro_rules! implement_real {
-    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr, $together:expr) => {
+    ($float:ident, $digits:expr, $operation:ident $question:ident; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr, $together:expr) => {
         impl Real for $float {
             const LANES: usize = 1;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -311,15 +433,25 @@ macro_rules! implement_real {
             fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
                 if a < b { x } else { y }
             }
+
+            #[inline(always)]
+            fn together<O: Operation, const N: usize>(numbers: [&[Self; N]; 4]) -> [Self; N] {
+                $operation::<O, N>(numbers)
+            }
+
+            #[inline(always)]
+            fn all_together<Q: Question, const N: usize>(numbers: [&[Self; N]; 2]) -> bool {
+                $question::<Q, N>(numbers)
+            }
         }
     };
 }
 
-implement_real!(f64, 53;
+implement_real!(f64, 53, of_doubles all_doubles;
     sqrt sqrt, sin sin, cos cos, tan tan, asin asin, acos acos, atan atan,
     sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow
     |x: f64| sin_cos(x, f64::fma), |angles: [f64; N]| sines_and_cosines(angles, f64::fma));
-implement_real!(f32, 24;
+implement_real!(f32, 24, of_singles all_singles;
 sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
 sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf
 |x: f32| {

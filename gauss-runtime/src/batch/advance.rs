@@ -37,6 +37,15 @@ struct Held<S: BatchSystem> {
     y: SingleSpeeds<S>,
 }
 
+/// Who tries a step.
+#[derive(Clone, Copy)]
+enum Trial {
+    /// All that have not stopped, with the first error of a step that has failed before.
+    OfTheAble(Option<IntegrationErrorKind>),
+    /// One state, because a step of all has failed with this error.
+    Alone(usize, IntegrationErrorKind),
+}
+
 /// A block on its way. The first `states` lanes are states of the batch; those after them repeat the last one.
 struct Block<'a, S: BatchSystem, P, M> {
     problem: &'a P,
@@ -68,14 +77,22 @@ pub(super) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
     }
     let steps = steps as u64;
     let h = S::Scalar::from_f64(if span < 0.0 { -interval.step.abs() } else { interval.step.abs() });
-    for n in 1..=steps {
+    let (mut n, mut trial) = (1, Trial::OfTheAble(None));
+    while n <= steps {
         // As `Fixed` has it: times are multiples of h, not sums of it, and the last step ends where it should.
         let last = n == steps;
         let time = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start) };
         let this = if last { end - reached.0.t } else { h };
-        match block.step_of_the_able(&reached, this, time) {
-            Some(next) => reached = next,
-            None => break,
+        // The one place where steps are made, so that the method is put into this loop.
+        match (block.step(&reached, block.lengths(this, trial), time), trial) {
+            (Ok(next), Trial::OfTheAble(_)) => {
+                (reached, trial) = (next, Trial::OfTheAble(None));
+                n += 1;
+            }
+            (outcome, _) => match block.after(trial, outcome.err(), &reached.0) {
+                Some(next) => trial = next,
+                None => break,
+            },
         }
     }
 
@@ -152,43 +169,38 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
         }
     }
 
-    /// A step to `time`, in which lanes that stopped stand still. When it fails, the lanes that are to blame stop, and the others make
-    /// it. `None` when there are no others.
-    #[inline(always)]
-    fn step_of_the_able(&mut self, from: &Reached<S>, h: S::Scalar, time: S::Scalar) -> Option<Reached<S>> {
-        match self.step(from, self.without_the_held(h), time) {
-            Ok(next) => Some(next),
-            Err(kind) => self.step_after_failure(from, h, time, kind),
+    /// What is to be tried next, and whether there is anything. The error of a step does not tell which lanes fail. They are independent,
+    /// and a step of length zero succeeds from every good state: so each is tried while the others stand still; those that are to
+    /// blame stop, and the others make the step.
+    #[cold]
+    #[inline(never)]
+    fn after(&mut self, trial: Trial, failed: Option<IntegrationErrorKind>, from: &State<S>) -> Option<Trial> {
+        let first = match (trial, failed) {
+            (Trial::OfTheAble(Some(kind)), Some(_)) => {
+                let going = (0..self.states).find(|&state| self.is_able(state)).unwrap_or(0);
+                self.fail_the_rest(from.t.extract(going).lane(0), kind);
+                return None;
+            }
+            (Trial::OfTheAble(None), Some(kind)) => Trial::Alone(0, kind),
+            (Trial::OfTheAble(_), None) => return Some(trial),
+            (Trial::Alone(state, first), failed) => {
+                if let Some(kind) = failed {
+                    self.failures.push(StateError { state, time: from.t.extract(state).lane(0), kind });
+                    self.held.extend(self.lanes_of(state).map(|lane| Held::at(from, lane)));
+                }
+                Trial::Alone(state + 1, first)
+            }
+        };
+        let Trial::Alone(from, kind) = first else { return Some(first) };
+        match (from..self.states).find(|&state| self.is_able(state)) {
+            Some(state) => Some(Trial::Alone(state, kind)),
+            None => (self.failures.len() < self.states).then_some(Trial::OfTheAble(Some(kind))),
         }
     }
 
-    /// The error does not tell which lanes fail. They are independent, and a step of length zero succeeds from every good state: so
-    /// each is tried while the others stand still.
-    #[cold]
-    #[inline(never)]
-    fn step_after_failure(
-        &mut self,
-        from: &Reached<S>,
-        h: S::Scalar,
-        time: S::Scalar,
-        kind: IntegrationErrorKind,
-    ) -> Option<Reached<S>> {
-        let able = |block: &Self, state: usize| block.failures.iter().all(|failure| failure.state != state);
-        for state in (0..self.states).filter(|&state| able(self, state)).collect::<Vec<_>>() {
-            let mut alone = S::Scalar::zero();
-            self.lanes_of(state).for_each(|lane| alone.replace(lane, &h.extract(lane)));
-            if let Err(kind) = self.step_apart(from, alone, time) {
-                self.failures.push(StateError { state, time: from.0.t.extract(state).lane(0), kind });
-                self.held.extend(self.lanes_of(state).map(|lane| Held::at(&from.0, lane)));
-            }
-        }
-        let next =
-            self.step_apart(from, self.without_the_held(h), time).ok().filter(|_| self.failures.len() < self.states);
-        if next.is_none() {
-            let going = (0..self.states).find(|&state| able(self, state)).unwrap_or(0);
-            self.fail_the_rest(from.0.t.extract(going).lane(0), kind);
-        }
-        next
+    /// Whether a state has not stopped.
+    fn is_able(&self, state: usize) -> bool {
+        self.failures.iter().all(|failure| failure.state != state)
     }
 
     /// What is left stops as well.
@@ -200,20 +212,18 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
         }
     }
 
-    /// The lengths of a step, zero for lanes that stopped.
+    /// The lengths of a step, zero for lanes that stand still.
     #[inline(always)]
-    fn without_the_held(&self, mut h: S::Scalar) -> S::Scalar {
+    fn lengths(&self, mut h: S::Scalar, trial: Trial) -> S::Scalar {
+        if let Trial::Alone(state, _) = trial {
+            let given = h;
+            h = S::Scalar::zero();
+            self.lanes_of(state).for_each(|lane| h.replace(lane, &given.extract(lane)));
+        }
         for held in &self.held {
             h.replace(held.lane, &Real::zero());
         }
         h
-    }
-
-    /// Code of its own, so that the loop of steps holds one copy of the method and no more.
-    #[cold]
-    #[inline(never)]
-    fn step_apart(&self, from: &Reached<S>, h: S::Scalar, time: S::Scalar) -> Result<Reached<S>, IntegrationErrorKind> {
-        self.step(from, h, time)
     }
 
     #[inline(always)]

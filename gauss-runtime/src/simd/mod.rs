@@ -3,18 +3,18 @@
 //!
 //! | scalar | with |
 //! |---|---|
-//! | [`Lanes<T, N>`](Lanes) | any scalar and any number of lanes: an array, of whose loops the compiler makes vector instructions |
+//! | [`Lanes<T, N>`](Lanes) | any scalar and any number of lanes: an array; of `f32` and `f64` in the vectors below, where there are |
 //! | `wide::f64x4`, `wide::f64x8`, `wide::f32x8`, `wide::f32x16` | the feature `wide`: instructions of that width where the target has them |
 //!
-//! Compilers prefer vectors of 256 bits on most targets that have 512. There `Lanes<f64, 4>` is the array to take, and `wide::f64x8`
-//! the faster scalar (`BENCHMARKS.md`). The scalar is chosen by the
-//! parameter of the struct that a kernel is derived from, `Body<T>`.
+//! Eight numbers of 64 bits are best in `wide::f64x8`, which always lies in one line of the cache; four are as good in
+//! `Lanes<f64, 4>` (`BENCHMARKS.md`). The scalar is chosen by the parameter of the struct that a kernel is derived from, `Body<T>`.
 //!
 //! **Bits.** No operation looks at another lane, and none is reordered: a kernel gives each lane the bits that it would get
 //! alone. So do explicit methods on components; exponentials of increments choose their series by the largest lane from half a radian
 //! on, and iterations of implicit methods go on until all lanes are solved.
 
 mod packed;
+mod together;
 #[cfg(feature = "wide")]
 mod wide;
 
@@ -24,7 +24,10 @@ pub(crate) use packed::packs_of_one;
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::real::Real;
+use crate::real::{Operation, Real};
+use together::{
+    Choice, Difference, Finite, Less, Magnitude, Opposite, Product, ProductAndSum, Quotient, Reciprocal, Root, Sum,
+};
 
 /// N numbers in lockstep: of `f64`, four fill a vector of 256 bits, eight one of 512.
 ///
@@ -65,6 +68,13 @@ impl<T: Copy, const N: usize> Lanes<T, N> {
     }
 }
 
+impl<T: Real, const N: usize> Lanes<T, N> {
+    #[inline(always)]
+    fn together<O: Operation>(&self, other: &Self) -> Self {
+        Self(T::together::<O, N>([&self.0, &other.0, &other.0, &other.0]))
+    }
+}
+
 impl<T, const N: usize> core::ops::Index<usize> for Lanes<T, N> {
     type Output = T;
 
@@ -82,13 +92,13 @@ impl<T, const N: usize> core::ops::IndexMut<usize> for Lanes<T, N> {
 }
 
 macro_rules! lane_by_lane {
-    ($($trait:ident $method:ident $assign_trait:ident $assign:ident;)+) => {$(
+    ($($trait:ident $method:ident $assign_trait:ident $assign:ident $operation:ident;)+) => {$(
         impl<T: Real, const N: usize> $trait for Lanes<T, N> {
             type Output = Self;
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                self.zip(other, T::$method)
+                self.together::<$operation>(&other)
             }
         }
 
@@ -102,10 +112,10 @@ macro_rules! lane_by_lane {
 }
 
 lane_by_lane! {
-    Add add AddAssign add_assign;
-    Sub sub SubAssign sub_assign;
-    Mul mul MulAssign mul_assign;
-    Div div DivAssign div_assign;
+    Add add AddAssign add_assign Sum;
+    Sub sub SubAssign sub_assign Difference;
+    Mul mul MulAssign mul_assign Product;
+    Div div DivAssign div_assign Quotient;
 }
 
 impl<T: Real, const N: usize> Neg for Lanes<T, N> {
@@ -113,7 +123,7 @@ impl<T: Real, const N: usize> Neg for Lanes<T, N> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        self.map(T::neg)
+        self.together::<Opposite>(&self)
     }
 }
 
@@ -157,10 +167,25 @@ impl<T: Real, const N: usize> Real for Lanes<T, N> {
 
     #[inline(always)]
     fn fma(self, b: Self, c: Self) -> Self {
-        Self::from_fn(|i| self.0[i].fma(b.0[i], c.0[i]))
+        Self(T::together::<ProductAndSum, N>([&self.0, &b.0, &c.0, &c.0]))
     }
 
-    functions!(sqrt sin cos tan asin acos atan sinh cosh tanh exp ln abs signum recip);
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.together::<Root>(&self)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.together::<Magnitude>(&self)
+    }
+
+    #[inline(always)]
+    fn recip(self) -> Self {
+        self.together::<Reciprocal>(&self)
+    }
+
+    functions!(sin cos tan asin acos atan sinh cosh tanh exp ln signum);
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -190,18 +215,16 @@ impl<T: Real, const N: usize> Real for Lanes<T, N> {
 
     #[inline(always)]
     fn is_finite(self) -> bool {
-        // Without a branch at every lane.
-        self.0.iter().fold(true, |all, x| all & x.is_finite())
+        T::all_together::<Finite, N>([&self.0, &self.0])
     }
 
     #[inline(always)]
     fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
-        Self::from_fn(|i| T::select_lt(a.0[i], b.0[i], x.0[i], y.0[i]))
+        Self(T::together::<Choice, N>([&a.0, &b.0, &x.0, &y.0]))
     }
 
     #[inline(always)]
     fn all_lt(a: Self, b: Self) -> bool {
-        // Without a branch at every lane.
-        a.0.iter().zip(b.0).fold(true, |all, (&a, b)| all & T::all_lt(a, b))
+        T::all_together::<Less, N>([&a.0, &b.0])
     }
 }
