@@ -186,8 +186,9 @@ fn what_is_told() {
                 true
             ),
             told(
-                "3:1: the limits of joints do not act; `limits = stop(stiffness = …, width = …)` makes stops of them",
-                false
+                "3:1: the limits of joints do not act; write `limits = stop(stiffness = …, width = …)` for stops there, or \
+                 `limits = none`",
+                true
             ),
         ]
     );
