@@ -38,6 +38,9 @@ pub fn create(wanted: &New) -> Result<(), String> {
     write("Cargo.toml", &manifest)?;
     write("src/main.rs", MAIN)?;
     write(".gitignore", "/target\n/top.csv\n")?;
+    if wanted.gauss.is_none() {
+        println!("its crates are the published ones; `--gauss FOLDER` takes those of a clone");
+    }
     println!("made {}; now `cd {} && cargo run --release`", folder.display(), folder.display());
     Ok(())
 }

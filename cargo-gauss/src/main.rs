@@ -3,6 +3,7 @@
 mod charts;
 mod create;
 mod page;
+mod robots;
 mod show;
 mod structs;
 

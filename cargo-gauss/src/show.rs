@@ -8,7 +8,7 @@ use gauss_codegen::{Derivation, Notation, targets};
 use syn::DeriveInput;
 
 use crate::charts::in_chart;
-use crate::{Form, Show, page, structs};
+use crate::{Form, Show, page, robots, structs};
 
 /// A struct in a chart, and what is derived from it.
 pub struct Shown {
@@ -25,7 +25,10 @@ pub fn show(wanted: &Show) -> Result<(), String> {
     let file = wanted.file.display().to_string();
     let source = fs::read_to_string(&wanted.file).map_err(|error| format!("{file}: {error}"))?;
     let parsed = syn::parse_file(&source).map_err(|mistakes| located(&wanted.file, &mistakes))?;
-    let items = structs::find(&parsed, &wanted.names).map_err(|text| format!("{file}: {text}"))?;
+    let mut items = structs::find(&parsed, &wanted.names).map_err(|text| format!("{file}: {text}"))?;
+    if let Some(package) = robots::package_of(&wanted.file) {
+        items.iter_mut().for_each(|item| robots::by_whole_paths(item, &package));
+    }
     let all = derive(wanted, &items)?;
     let text = match wanted.form {
         Form::Html => page::html(&file, &all),

@@ -93,6 +93,28 @@ fn mistakes_have_their_place() {
     assert!(refused(&["show", "no_file.rs"]).starts_with("no_file.rs: "));
 }
 
+/// A robot's file is found from the package of the source, wherever the command runs.
+#[test]
+fn robots_are_those_of_the_package() {
+    const ARM: &str = r#"<robot name="arm"><link name="base"/><link name="upper"><inertial><mass value="1"/>
+        <inertia ixx="1" iyy="1" izz="1"/></inertial></link><joint name="elbow" type="continuous"><parent link="base"/>
+        <child link="upper"/><axis xyz="0 0 1"/></joint></robot>"#;
+    let package = Path::new(env!("CARGO_TARGET_TMPDIR")).join("with_robot");
+    fs::create_dir_all(package.join("src")).expect("a folder that can be written");
+    let write = |name: &str, text: &str| fs::write(package.join(name), text).expect("a file that can be written");
+    write("Cargo.toml", "[package]\nname = \"with_robot\"\n");
+    write("arm.urdf", ARM);
+    write("src/main.rs", "#[derive(GaussDynamics)]\n#[gauss(urdf = \"arm.urdf\")]\nstruct Arm;\n");
+    let source = package.join("src/main.rs");
+    assert!(printed(&["show", source.to_str().expect("UTF-8")]).contains("elbow"));
+    write(
+        "arm.urdf",
+        &ARM.replace("\"base\"/><child", "\"bas\"/><child").replace("child link=\"upper\"", "child link=\"uper\""),
+    );
+    let text = refused(&["show", source.to_str().expect("UTF-8")]);
+    assert!(text.contains("main.rs:2:16: ") && text.contains("did you mean `upper`?"), "{text}");
+}
+
 #[test]
 fn a_package_is_made_once() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("my_top");

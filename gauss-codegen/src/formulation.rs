@@ -163,7 +163,7 @@ impl<'g> Reduced<'g> {
 fn leave_out_needless<'g>(model: &Model, literals: &[(Rational, Expr<'g>)], system: &mut System<'g>) {
     let together = |clause: usize| model.constraints[clause].vector || model.constraints[clause].place.is_some();
     if system.scene.constraints.iter().any(|constraint| together(constraint.clause)) {
-        let mut needless = needless_constraints(system, literals);
+        let mut needless = system.scene.graph.aside(|| needless_constraints(system, literals));
         needless.retain(|&k| together(system.scene.constraints[k].clause));
         if !needless.is_empty() {
             system.leave_out(&needless);

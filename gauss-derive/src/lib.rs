@@ -130,7 +130,7 @@
 /// | `frame(name, parent = other, position = […], rotation = …)` | a body without mass |
 /// | `particle(mass = m, position = […], parent = other)` | a point with mass; the position in observer's axes from Ω, or in the axes of the parent from its O |
 /// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |
-/// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once |
+/// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once, less those that are the same combination of the others everywhere, as across the plane of a loop |
 /// | `armature(elbow = a, wrist = 2 * a)` | inertia of the rates of coordinates, ½ a q̇² in T: rotors behind gears, of which a coordinate feels the inertia times the square of the ratio; of a `Rotation` ½ a ω², of a `Pose` ½ a (v² + ω²). It has no weight, and counts in no centre of mass and no momentum of the whole |
 /// | `independent(v, w.x)` | the speeds that stay, or components of them, when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
 /// | `waive(triangle_inequality)` | see above |
@@ -157,7 +157,7 @@
 /// | `inputs = all`, `none`, `transmissions` | an effort of every joint that turns or slides, the default of a URDF, of none, or of those that a transmission or an actuator drives, the default of MJCF |
 /// | `inputs = actuators` | the controls of transmissions and actuators, by their names and with their gears, gains and biases: of a motor its torque, of a servo where it is to go |
 /// | `joint_friction = smooth(w)`, `none` | dry friction f as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
-/// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; without it they do not act |
+/// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; or none, as without the clause, but without the warning |
 /// | `parameters = inertial` | the mass data of every link that moves are fields `#[gauss(body)] upper_arm: RigidBody<f64>`; such fields can also be there for some links alone. `Arm::from_file(…)` has the values of the file; the other fields of the struct are its arguments, in their order |
 /// | `ignore(gazebo, contact)` | elements and attributes of the file that are known not to act: no warnings of these |
 ///

@@ -31,7 +31,8 @@
 //! ```
 //!
 //! A system has more bodies: [`Playback::frames`] takes all frames of a kernel with `frames(…)`, and
-//! [`Playback::rod`] joins two of them, so that a robot is drawn as its skeleton without any mesh.
+//! [`Playback::rod`] joins two of them, so that a robot is drawn as its skeleton without any mesh. With the feature `urdf`
+//! `Playback::shapes_of_urdf` gives them the boxes, cylinders and balls of their file.
 //!
 //! All lengths are in the units of the scene; the axes are the observer's, and k₃ points up on the screen.
 
@@ -41,6 +42,8 @@ mod error;
 mod page;
 mod playback;
 mod shape;
+#[cfg(feature = "urdf")]
+mod urdf;
 
 pub use error::PlaybackError;
 pub use playback::Playback;

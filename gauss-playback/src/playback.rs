@@ -107,6 +107,32 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         self
     }
 
+    /// Gives the bodies that are there, such as those of [`frames`](Self::frames), the boxes, cylinders and balls that the links
+    /// of their names have in a URDF file: those that are shown, and where these are meshes those that touch.
+    #[cfg(feature = "urdf")]
+    #[must_use]
+    pub fn shapes_of_urdf(mut self, file: impl AsRef<Path>) -> Self {
+        let file = file.as_ref();
+        let text = fs::read_to_string(file).map_err(|error| error.to_string());
+        match text.and_then(|text| crate::urdf::shapes(&text)) {
+            Ok(shapes) => {
+                let mut any = false;
+                for body in &mut self.page.bodies {
+                    let own = shapes.iter().filter(|(link, _)| crate::urdf::is_called(&body.name, link));
+                    let before = body.shapes.len();
+                    body.shapes.extend(own.map(|(_, shape)| shape.clone()));
+                    any |= body.shapes.len() > before;
+                }
+                if !any {
+                    let text = "no body has the name of a link with a box, a cylinder or a ball";
+                    self.mistakes.push(format!("{}: {text}", file.display()));
+                }
+            }
+            Err(text) => self.mistakes.push(format!("{}: {text}", file.display())),
+        }
+        self
+    }
+
     /// A rod from the origin of one body to that of another, as a skeleton has them.
     #[must_use]
     pub fn rod(mut self, from: &str, to: &str, radius: f64) -> Self {

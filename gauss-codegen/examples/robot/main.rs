@@ -40,6 +40,9 @@ fn run(arguments: &[String]) -> Result<String, String> {
         [clauses @ .., flag] if flag == "--values" => (clauses, None, true),
         clauses => (clauses, None, false),
     };
+    if clauses.iter().any(|clause| clause.starts_with('-')) {
+        return Err(USAGE.to_owned());
+    }
     let word = if file.ends_with(".xml") || file.ends_with(".mjcf") { "mjcf" } else { "urdf" };
     let path = std::path::absolute(file).map_err(|error| format!("{file}: {error}"))?;
     let name = name(&path);

@@ -459,7 +459,7 @@ fn a_file_is_as_good_as_clauses() {
 }
 
 #[derive(GaussDynamics)]
-#[gauss(mjcf = "robots/linkage.xml", inputs = actuators)]
+#[gauss(mjcf = "robots/linkage.xml", inputs = actuators, limits = none)]
 struct Linkage;
 
 /// The same in clauses: one rotor for the armature, the joints that share a body as one rotation.

@@ -172,8 +172,10 @@ impl<'a> Robot<'a> {
         }
         let root = &self.description.links[self.structure.root];
         let remedy = if file.format == Format::Urdf { "write `base = floating`, or " } else { "" };
+        let unread = self.notes.iter().find(|note| note.ignored.is_some());
+        let unread = unread.map(|note| format!(" ({})", note.text)).unwrap_or_default();
         let message =
-            format!("nothing moves: no joint does, and the root `{}` is held; {remedy}add a joint", root.name);
+            format!("nothing moves: no joint does, and the root `{}` is held{unread}; {remedy}add a joint", root.name);
         vec![Fault { at: root.at, message }]
     }
 

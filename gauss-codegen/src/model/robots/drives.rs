@@ -1,6 +1,7 @@
 //! The inputs of a robot: efforts by the names of joints, or controls by those of actuators.
 
 use proc_macro2::Ident;
+use syn::ext::IdentExt;
 
 use super::description::{Description, Drive, JointKind, Note};
 use super::names::Names;
@@ -39,9 +40,10 @@ pub fn inputs(
             let driven = own.filter(|((_, joint), _)| asked == Inputs::All || is_driven(&joint.name));
             let efforts: Vec<Input> = driven
                 .map(|((index, joint), own)| {
-                    let word = own[0].ident.to_string();
-                    let ident = names.chosen(&format!("{}_effort", word.trim_start_matches("r#")));
-                    input(ident, &joint.name, Some(unit(joint.kind)), Driven::Joint(index))
+                    // As the coordinate, whatever the file calls it.
+                    let word = own[0].ident.unraw().to_string();
+                    let ident = names.chosen(&format!("{word}_effort"));
+                    input(ident, &word, Some(unit(joint.kind)), Driven::Joint(index))
                 })
                 .collect();
             // What acts at a frame has no joint whose effort it could be.

@@ -189,8 +189,9 @@ impl Robot<'_> {
         let limited: Vec<_> = self.scalar_joints().filter(|(_, joint, ..)| joint.limits != [None; 2]).collect();
         let Some((_, first, ..)) = limited.first() else { return (Vec::new(), None) };
         let Some(Limits::Stop { stiffness, width, damping }) = &self.clauses.limits else {
-            let text = "the limits of joints do not act; `limits = stop(stiffness = …, width = …)` makes stops of them";
-            let note = Note::told(first.at, text);
+            let text = "the limits of joints do not act; write `limits = stop(stiffness = …, width = …)` for stops there, or \
+                        `limits = none`";
+            let note = Note::ignored(first.at, "limit", text);
             return (Vec::new(), self.clauses.limits.is_none().then_some(note));
         };
         let stop = |(index, joint, ..): &(usize, &Joint, &Ident, f64)| {

@@ -84,5 +84,52 @@ pub fn place(file: usize, text: &str, offset: usize) -> At {
 /// Why there is no such text.
 pub fn read(path: &Path) -> Result<String, String> {
     let bytes = std::fs::read(path).map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
-    String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))
+    let text = String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))?;
+    Ok(without_late_declaration(text))
+}
+
+/// Blanks in the place of a declaration that does not stand at the very beginning, as XML has it and other readers do not:
+/// it says nothing that matters, and what follows keeps its lines and columns.
+fn without_late_declaration(mut text: String) -> String {
+    const ORDER: char = '\u{feff}';
+    let start = text.len() - text.trim_start_matches(|c: char| c.is_whitespace() || c == ORDER).len();
+    let late = start > 0 && text[start..].starts_with("<?xml ");
+    let end = text[start..].find("?>").filter(|_| late).map(|end| start + end + 2);
+    if let Some(end) = end {
+        let blanks: String =
+            text[..end].chars().map(|c| if matches!(c, '\r' | '\n' | ORDER) { c } else { ' ' }).collect();
+        text.replace_range(..end, &blanks);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_late_declaration;
+
+    #[test]
+    fn declarations_after_blanks() {
+        let kept = ["<?xml version=\"1.0\"?>\n<robot/>", "\n<robot/>", "\n<?xml version", "", "\u{feff}<robot/>"];
+        for text in kept {
+            assert_eq!(without_late_declaration(text.to_owned()), text);
+        }
+        for (text, expected) in [
+            ("\n <?xml a=\"é\"\n?><robot/>", "\n            \n  <robot/>"),
+            ("\u{feff}\r\n<?xml a?><robot/>", "\u{feff}\r\n         <robot/>"),
+        ] {
+            let found = without_late_declaration(text.to_owned());
+            assert_eq!(found, expected);
+            assert_eq!(roxmltree_reads(&found), cfg!(any(feature = "urdf", feature = "mjcf")));
+        }
+    }
+
+    #[cfg(any(feature = "urdf", feature = "mjcf"))]
+    fn roxmltree_reads(text: &str) -> bool {
+        roxmltree::Document::parse(text).is_ok()
+    }
+
+    #[cfg(not(any(feature = "urdf", feature = "mjcf")))]
+    fn roxmltree_reads(_: &str) -> bool {
+        false
+    }
 }

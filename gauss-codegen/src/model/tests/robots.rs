@@ -186,8 +186,9 @@ fn what_is_told() {
                 true
             ),
             told(
-                "3:1: the limits of joints do not act; `limits = stop(stiffness = …, width = …)` makes stops of them",
-                false
+                "3:1: the limits of joints do not act; write `limits = stop(stiffness = …, width = …)` for stops there, or \
+                 `limits = none`",
+                true
             ),
         ]
     );
@@ -201,6 +202,10 @@ fn what_is_told() {
             false
         )]
     );
+    let blank = model(&robot(&(joint("left knee", "revolute", "base", "arm", "") + &link("arm"))), "", "");
+    let (q, input) = (&blank.coordinates[0].ident, &blank.inputs[0]);
+    assert_eq!((q.to_string().as_str(), input.field.as_deref()), ("left_knee", Some("left_knee")));
+    assert_eq!(input.ident, "left_knee_effort");
     let named = robot(&(joint("arm", "revolute", "base", "arm", "") + &link("arm") + "<antenna/>"));
     assert_eq!(
         remarks(&named, ""),

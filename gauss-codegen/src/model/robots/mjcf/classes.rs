@@ -2,7 +2,11 @@
 
 use roxmltree::Node;
 
+use crate::model::robots::names::unknown;
 use crate::model::robots::xml::Reading;
+
+/// The class of what names none.
+const MAIN: &str = "main";
 
 /// One `<default>`.
 struct Class<'a> {
@@ -28,10 +32,25 @@ impl<'a> Classes<'a> {
 
     fn add(&mut self, node: Node<'a, 'a>, parent: Option<usize>, reading: &Reading<'a>) {
         let index = self.all.len();
-        let name = reading.text(node, "class").unwrap_or("main");
+        let name = reading.text(node, "class").unwrap_or(MAIN);
         self.all.push(Class { name, parent, node });
         for child in reading.children(node, "default") {
             self.add(child, Some(index), reading);
+        }
+    }
+
+    /// A class that an element names is one of the file; `main` is there always.
+    pub fn refuse_strange(&self, root: Node<'a, 'a>, reading: &mut Reading<'a>) {
+        let is_default = |node: &Node<'a, 'a>| node.tag_name().name() == "default";
+        let outside = |node: &Node<'a, 'a>| node.is_element() && !is_default(node);
+        for node in root.descendants().filter(outside) {
+            for name in ["class", "childclass"] {
+                let Some(class) = node.attribute(name).map(str::trim) else { continue };
+                if class != MAIN && !self.all.iter().any(|known| known.name == class) {
+                    let which = unknown("class", class, self.all.iter().map(|known| known.name));
+                    reading.fault(node, format!("its `{name}` is {which}"));
+                }
+            }
         }
     }
 

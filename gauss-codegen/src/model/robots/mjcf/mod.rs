@@ -151,6 +151,7 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
             .collect(),
         reading,
     };
+    file.classes.refuse_strange(root, &mut file.reading);
     file.description.gravity = Some(file.gravity(root));
     file.compiler(root);
     // What follows names joints, which are all in the world.

@@ -24,6 +24,23 @@ fn what_is_told_and_refused() {
     let hinge = "<joint name=\"hinge\"/></body></worldbody>";
     let cases = [
         (hinge.to_owned(), "", None),
+        (
+            "<joint class=\"knes\"/></body></worldbody><default><default class=\"knee\"/></default>".to_owned(),
+            "",
+            Some("3:1: <joint>: its `class` is `knes`, which is no class; did you mean `knee`?"),
+        ),
+        (
+            "</body><body childclass=\"leg\"/></worldbody>".to_owned(),
+            "",
+            Some("3:8: <body>: its `childclass` is `leg`, which is no class of this file"),
+        ),
+        (
+            "<replicate count=\"2\"><body><joint/></body></replicate></body></worldbody>".to_owned(),
+            "",
+            Some(
+                "2:1: nothing moves: no joint does, and the root `world` is held (<replicate> is not read); add a joint",
+            ),
+        ),
         (format!("{hinge}<deformable/>"), "", Some("3:41: <deformable> is not read")),
         (format!("{hinge}<contact><pair geom1=\"a\"/></contact>"), "", Some("3:50: <pair> is not read")),
         (
