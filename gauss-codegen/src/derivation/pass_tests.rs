@@ -80,7 +80,7 @@ fn products_go_into_sums() {
     let constants = constants.expect("as many as it reads");
     let results = [&all, &apart].map(|derivation| {
         let program = derivation.program("acceleration").expect("of every kernel");
-        program.run(&[&constants, &[0.0], state[0], state[1]]).expect("as many as it reads")
+        program.run(&[&constants, &[0.0], state[0], state[1], &[]]).expect("as many as it reads")
     });
     // The interpreter rounds a product and a sum each: the same bits.
     assert_eq!(results[0], results[1]);
