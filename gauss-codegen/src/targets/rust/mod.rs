@@ -5,8 +5,8 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use quote::{ToTokens, format_ident, quote};
 
 use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational};
 use crate::program::{Code, Instruction, Operand};
@@ -73,8 +73,10 @@ pub(crate) fn operand<S: Copy>(operand: &Operand<S>, dialect: &impl Dialect<S>) 
     }
 }
 
-/// Instructions in a row. Every `let` is a scope within that of the one before it, and compilers recurse into them: thousands overflow
-/// their stacks. Longer programs are written in blocks that hand on what later ones need.
+/// Instructions in a row. Every `let` is a scope within that of the one before it, and compilers recurse into them:
+/// thousands overflow their stacks. Longer programs are written in blocks. What later ones read is declared before its
+/// block and assigned in it: a tuple that a block hands on is taken apart by rustc, one component after the other, in a
+/// function of a hundred thousand statements, which took four of twenty seconds for a humanoid's derivatives.
 const BLOCK: usize = 256;
 
 /// Angles whose sines and cosines are computed together: as many as fill the longest vectors that there are.
@@ -122,6 +124,48 @@ fn in_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>) -> Code<S> {
     code.clone().with_angles_together(place)
 }
 
+/// Names that are bound, and to what.
+pub(crate) struct Statement {
+    pattern: TokenStream,
+    value: TokenStream,
+}
+
+impl Statement {
+    pub(crate) fn new(pattern: impl ToTokens, value: TokenStream) -> Statement {
+        Statement { pattern: pattern.into_token_stream(), value }
+    }
+
+    fn bound(&self) -> TokenStream {
+        let Statement { pattern, value } = self;
+        quote!(let #pattern = #value;)
+    }
+
+    /// Where the names have been declared.
+    fn assigned(&self) -> TokenStream {
+        let Statement { pattern, value } = self;
+        quote!(#pattern = #value;)
+    }
+
+    fn names(&self) -> Vec<Ident> {
+        let mut names = Vec::new();
+        collect_names(self.pattern.clone(), &mut names);
+        names
+    }
+}
+
+fn collect_names(pattern: TokenStream, names: &mut Vec<Ident>) {
+    for token in pattern {
+        match token {
+            TokenTree::Ident(name) if name != "_" => names.push(name),
+            TokenTree::Group(group) => collect_names(group.stream(), names),
+            _ => {}
+        }
+    }
+}
+
+/// A line of a program: names that are read behind its block, and a statement unless another line's binds its names.
+pub(crate) type Line = (Vec<Ident>, Option<Statement>);
+
 fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept) -> (TokenStream, Vec<TokenStream>) {
     let read = pairs_read(code, kept);
     let mut written = Vec::with_capacity(code.instructions.len());
@@ -130,10 +174,10 @@ fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept)
         match (row_of_angles(code, k), dialect.sines_and_cosines()) {
             (row, Some(function)) if row.len() > 1 => {
                 let count = row.len();
-                written.push(angles_together(k, &row, &read[k..], &function, dialect));
-                written.resize(k + count, TokenStream::new());
+                written.push(Some(angles_together(k, &row, &read[k..], &function, dialect)));
+                written.resize_with(k + count, || None);
             }
-            _ => written.push(statement(k, &code.instructions[k], read[k], dialect)),
+            _ => written.push(Some(statement(k, &code.instructions[k], read[k], dialect))),
         }
     }
     (in_functions(code, kept, written, dialect), code.outputs.iter().map(|output| operand(output, dialect)).collect())
@@ -157,7 +201,7 @@ fn angles_together<S: Copy>(
     read: &[[bool; 2]],
     function: &TokenStream,
     dialect: &impl Dialect<S>,
-) -> TokenStream {
+) -> Statement {
     let named = |(k, read): (usize, bool), name: fn(usize) -> Ident| {
         let name = name(first + k);
         if read { quote!(#name) } else { quote!(_) }
@@ -165,7 +209,7 @@ fn angles_together<S: Copy>(
     let part = |part: usize| read[..angles.len()].iter().map(move |read| read[part]).enumerate();
     let (sines, cosines) = (part(0).map(|k| named(k, sine)), part(1).map(|k| named(k, cosine)));
     let angles = angles.iter().map(|angle| operand(angle, dialect));
-    quote!(let ([#(#sines),*], [#(#cosines),*]) = #function([#(#angles),*]);)
+    Statement::new(quote!(([#(#sines),*], [#(#cosines),*])), quote!(#function([#(#angles),*])))
 }
 
 /// One instruction; of a sine and a cosine what is read.
@@ -174,34 +218,37 @@ fn statement<S: Copy>(
     instruction: &Instruction<S>,
     [sine_read, cosine_read]: [bool; 2],
     dialect: &impl Dialect<S>,
-) -> TokenStream {
+) -> Statement {
     let (real, fma) = (dialect.functions(), dialect.fma());
     let write = |o: &Operand<S>| operand(o, dialect);
-    let name = value(k);
-    match instruction {
-        Instruction::Add(a, b) => binary(&name, &write(a), &quote!(+), &write(b)),
-        Instruction::Subtract(a, b) => binary(&name, &write(a), &quote!(-), &write(b)),
-        Instruction::Multiply(a, b) => binary(&name, &write(a), &quote!(*), &write(b)),
-        Instruction::Divide(a, b) => binary(&name, &write(a), &quote!(/), &write(b)),
+    let binary = |a: &Operand<S>, operator: TokenStream, b: &Operand<S>| {
+        let (a, b) = (write(a), write(b));
+        quote!(#a #operator #b)
+    };
+    let result = match instruction {
+        Instruction::Add(a, b) => binary(a, quote!(+), b),
+        Instruction::Subtract(a, b) => binary(a, quote!(-), b),
+        Instruction::Multiply(a, b) => binary(a, quote!(*), b),
+        Instruction::Divide(a, b) => binary(a, quote!(/), b),
         Instruction::MultiplyAdd(a, b, c) => {
             let (a, b, c) = (write(a), write(b), write(c));
-            quote!(let #name = #fma(#a, #b, #c);)
+            quote!(#fma(#a, #b, #c))
         }
         Instruction::MultiplySubtract(a, b, c) => {
             let (a, b, c) = (write(a), write(b), write(c));
-            quote!(let #name = #fma(-#a, #b, #c);)
+            quote!(#fma(-#a, #b, #c))
         }
         Instruction::Negate(a) => {
             let a = write(a);
-            quote!(let #name = -#a;)
+            quote!(-#a)
         }
         Instruction::Call(Function::Own(own), a) => {
             let (a, function) = (write(a), dialect.own_function(*own));
-            quote!(let #name = #function(#a);)
+            quote!(#function(#a))
         }
         Instruction::Call(function, a) => {
             let (a, function) = (write(a), function_name(*function));
-            quote!(let #name = #real::#function(#a);)
+            quote!(#real::#function(#a))
         }
         Instruction::Binary(function, a, b) => {
             let (a, b) = (write(a), write(b));
@@ -211,15 +258,16 @@ fn statement<S: Copy>(
                 BinaryFunction::Max => quote!(max),
                 BinaryFunction::Powf => quote!(powf),
             };
-            quote!(let #name = #real::#function(#a, #b);)
+            quote!(#real::#function(#a, #b))
         }
         Instruction::SineCosine(a) => {
             let (a, s, c) = (write(a), sine(k), cosine(k));
             let s = if sine_read { quote!(#s) } else { quote!(_) };
             let c = if cosine_read { quote!(#c) } else { quote!(_) };
-            quote!(let (#s, #c) = #real::sin_cos(#a);)
+            return Statement::new(quote!((#s, #c)), quote!(#real::sin_cos(#a)));
         }
-    }
+    };
+    Statement::new(value(k), result)
 }
 
 /// Whether the sine and the cosine of each instruction are read.
@@ -236,7 +284,7 @@ fn pairs_read<S: Copy>(code: &Code<S>, kept: Kept) -> Vec<[bool; 2]> {
 }
 
 /// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.
-fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<TokenStream>> {
+fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>> {
     // Values, sines and cosines by the index of their instruction.
     let mut read = vec![BTreeSet::new(); code.instructions.len()];
     let mut note = |operand: Operand<S>, reader: usize| {
@@ -262,13 +310,7 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<TokenS
     }
     code.outputs.iter().for_each(|operand| note(*operand, usize::MAX));
     let names = [value, sine, cosine];
-    let named = |(k, kinds): (usize, BTreeSet<usize>)| {
-        let name = |kind: usize| {
-            let name = names[kind](k);
-            quote!(#name)
-        };
-        kinds.into_iter().map(name).collect()
-    };
+    let named = |(k, kinds): (usize, BTreeSet<usize>)| kinds.into_iter().map(|kind| names[kind](k)).collect();
     read.into_iter().enumerate().map(named).collect()
 }
 
@@ -276,7 +318,7 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<TokenS
 fn in_functions<S: Copy>(
     code: &Code<S>,
     kept: Kept,
-    written: Vec<TokenStream>,
+    written: Vec<Option<Statement>>,
     dialect: &impl Dialect<S>,
 ) -> TokenStream {
     let mut statements: Vec<_> = handed_on(code, kept, BLOCK).into_iter().zip(written).collect();
@@ -293,17 +335,30 @@ fn in_functions<S: Copy>(
     parts.collect()
 }
 
-/// Statements, each with the names that are read behind its block: one after the other, or block by block where there are many.
-pub(crate) fn in_blocks(statements: Vec<(Vec<TokenStream>, TokenStream)>) -> TokenStream {
-    if statements.len() <= BLOCK {
-        return statements.into_iter().map(|(_, statement)| statement).collect();
+/// Statements one after the other, or block by block where there are many.
+pub(crate) fn in_blocks(lines: Vec<Line>) -> TokenStream {
+    if lines.len() <= BLOCK {
+        return lines.iter().flat_map(|(_, statement)| statement).map(Statement::bound).collect();
     }
-    let blocks = statements.chunks(BLOCK).map(|block| {
-        let names: Vec<_> = block.iter().flat_map(|(names, _)| names).collect();
-        let statements = block.iter().map(|(_, statement)| statement);
-        quote!(let (#(#names,)*) = { #(#statements)* (#(#names,)*) };)
-    });
-    blocks.collect()
+    let block = |lines: &[Line]| {
+        let (mut declared, mut statements) = (Vec::new(), TokenStream::new());
+        // The first line of a chunk has a statement: rows of angles are within one.
+        for lines in lines.chunk_by(|_, (_, statement)| statement.is_none()) {
+            let is_read = lines.iter().any(|(names, _)| !names.is_empty());
+            match &lines[0].1 {
+                Some(statement) if is_read => {
+                    declared.extend(statement.names());
+                    statements.extend(statement.assigned());
+                }
+                statement => statements.extend(statement.as_ref().map(Statement::bound)),
+            }
+        }
+        quote! {
+            let (#(#declared,)*);
+            { #statements }
+        }
+    };
+    lines.chunks(BLOCK).map(block).collect()
 }
 
 fn function_name(function: Function) -> Ident {
@@ -319,8 +374,4 @@ fn function_name(function: Function) -> Ident {
         Function::Own(_) => unreachable!("functions of the user's own have paths"),
     };
     Ident::new(name, Span::call_site())
-}
-
-fn binary(name: &Ident, a: &TokenStream, operator: &TokenStream, b: &TokenStream) -> TokenStream {
-    quote!(let #name = #a #operator #b;)
 }
