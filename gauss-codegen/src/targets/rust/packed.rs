@@ -54,13 +54,12 @@ pub(crate) fn statements<S: Copy + PartialEq>(
 ) -> (TokenStream, Vec<TokenStream>) {
     let (read, apart) = (pairs_read(code, Kept::AsRead), taken_apart(code, packed));
     let step = |step: &Step| match *step {
-        Step::Instruction(k) => statement(k, &code.instructions[k], read[k], dialect),
+        Step::Instruction(k) => statement(k, &code.instructions[k], read[k], dialect).bound(),
         Step::Angles(first, count) => {
             let (angles, read) = (row_of_angles(code, first), &read[first..]);
             debug_assert_eq!(angles.len(), count, "a row of angles");
-            dialect
-                .sines_and_cosines()
-                .map_or_else(TokenStream::new, |function| angles_together(first, &angles, read, &function, dialect))
+            let function = dialect.sines_and_cosines().unwrap_or_default();
+            angles_together(first, &angles, read, &function, dialect).bound()
         }
         Step::Pack(p) => {
             let Pack { operation, lanes, operands } = &packed.packs[p];
