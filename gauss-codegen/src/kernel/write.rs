@@ -21,6 +21,11 @@ impl<'g> Program<'g> {
         Writer::new(Network::new(&outputs)).write().verified()
     }
 
+    /// The same computation as it is carried out: products within the sums that read them, chains that overlap.
+    pub(super) fn carried_out(self) -> Self {
+        self.with_products_in_sums().ordered()
+    }
+
     /// The symbols that the program reads.
     pub fn symbols(&self) -> Vec<Expr<'g>> {
         let mut seen = Set::default();

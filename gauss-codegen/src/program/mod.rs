@@ -37,6 +37,7 @@ mod angles;
 mod code;
 mod cost;
 mod function;
+mod fused;
 mod input;
 mod instruction;
 mod interpret;
