@@ -14,6 +14,7 @@ use syn::ext::IdentExt;
 use syn::{Generics, Path, Visibility};
 
 use super::arguments::{Argument, arguments_of, declare, declared, variable};
+use super::packs::{Packs, Sources, are_wanted};
 use super::program::{ScalarTokens, statements};
 use super::subject::Subject;
 
@@ -48,6 +49,8 @@ pub struct Derived<'a, 'g> {
     pub printed: &'a [Printed; 2],
     /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
     pub regressor: Option<&'a Regressor<'g>>,
+    /// Methods that are written with vectors.
+    pub packs: Packs<'g>,
 }
 
 /// What the struct says of itself, whatever it describes.
@@ -104,7 +107,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             links: translator.links_of_clauses(),
             quaternions: &formulation.quaternions,
         };
-        Ok(Self {
+        let mut derived = Self {
             subject,
             drags: translator.drags(),
             laws: translator.laws(),
@@ -116,7 +119,10 @@ impl<'a, 'g> Derived<'a, 'g> {
             parameters: &formulation.parameters,
             printed: &formulation.printed,
             regressor: formulation.regressor.as_ref(),
-        })
+            packs: Packs::default(),
+        };
+        derived.packs = derived.packed();
+        Ok(derived)
     }
 
     pub fn item(&self) -> Item<'a> {
@@ -238,11 +244,9 @@ impl<'a, 'g> Derived<'a, 'g> {
         Argument { array: quote!(#private::components(#name)), symbols: symbols.to_vec() }
     }
 
-    /// Arguments taken apart and the instructions of a program; its outputs.
-    pub fn computed(&'a self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
+    /// What methods read beside constants and time.
+    pub fn arguments(&self) -> Vec<Argument<'g>> {
         let Formal { speeds, speed_rates, momenta, twist, residuals, inputs, weights } = self.formal();
-        let mut names = self.constant_names(program);
-        names.insert(self.subject.system.scene.time.key(), quote!(__t));
         let mut arguments = self.subject.configuration_arguments(&self.private());
         for (kind, symbols) in [
             (ArgumentKind::Speeds, speeds),
@@ -258,16 +262,62 @@ impl<'a, 'g> Derived<'a, 'g> {
                 arguments.push(self.vector_argument(variable(kind).into_token_stream(), symbols));
             }
         }
-        let mut written = declare(program, &arguments, &mut names);
+        arguments
+    }
+
+    /// Packs of the methods in which they win.
+    fn packed(&self) -> Packs<'g> {
+        let (mut packs, arguments, scalar) = (Packs::default(), self.arguments(), self.scalar());
+        let methods = self.formulas.iter().map(|formula| formula.method).zip(&self.kernel.functions);
+        for (method, program) in methods.filter(|(method, _)| are_wanted(*method, scalar.scalar)) {
+            let (_, names) = self.named(program, &arguments);
+            let sources = Sources { kernel: self.kernel, arguments: &arguments, names: &names };
+            packs.add(method, program, &sources, &scalar);
+        }
+        packs
+    }
+
+    /// The rows of constants that packs load, where the constants are `values`.
+    pub fn rows(&self, values: &[TokenStream]) -> Option<TokenStream> {
+        let scalar = self.scalar();
+        let constants = self.kernel.constant_symbols.iter().map(|symbol| symbol.key());
+        let mut names: Map<u32, TokenStream> = constants.zip(values.iter().cloned()).collect();
+        names.extend(self.kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), scalar.literal(*value))));
+        self.packs.rows(&self.private(), &scalar, &names)
+    }
+
+    /// Arguments taken apart and the instructions of a method; its outputs. With packs in both forms.
+    fn computed_by(&self, method: Method) -> (TokenStream, Vec<TokenStream>) {
+        let (program, arguments, scalar) = (self.program(method), self.arguments(), self.scalar());
+        let (mut written, names) = self.named(program, &arguments);
+        let single = statements(program, &names, &scalar);
+        let sources = Sources { kernel: self.kernel, arguments: &arguments, names: &names };
+        let in_both_forms = self.packs.in_both_forms(method, &single, &sources, (&self.private(), &scalar));
+        let (instructions, outputs) = in_both_forms.unwrap_or(single);
+        written.extend(instructions);
+        (written, outputs)
+    }
+
+    /// Arguments taken apart and the instructions of a program; its outputs.
+    pub fn computed(&self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
+        let (mut written, names) = self.named(program, &self.arguments());
         let (instructions, outputs) = statements(program, &names, &self.scalar());
         written.extend(instructions);
         (written, outputs)
     }
 
+    /// Arguments taken apart as far as a program reads them, and how its symbols are then written.
+    pub fn named(&self, program: &Program<'g>, arguments: &[Argument<'g>]) -> (TokenStream, Map<u32, TokenStream>) {
+        let mut names = self.constant_names(program);
+        names.insert(self.subject.system.scene.time.key(), quote!(__t));
+        let written = declare(program, arguments, &mut names);
+        (written, names)
+    }
+
     /// The body of a method: arguments taken apart, instructions, result.
     pub fn method_body(&self, method: Method) -> TokenStream {
         let (private, speeds) = (self.private(), self.speeds());
-        let (instructions, outputs) = self.computed(self.program(method));
+        let (instructions, outputs) = self.computed_by(method);
         let result = match method {
             Method::KineticEnergy
             | Method::PotentialEnergy

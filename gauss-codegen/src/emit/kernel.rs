@@ -15,6 +15,7 @@ use crate::model::{FunctionClause, FunctionKind};
 pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let (visibility, name, fields) = (derived.item().visibility, derived.kernel_name(), derived.constant_fields());
     let (ty, KernelGenerics { declared, .. }) = (derived.scalar().ty(), derived.kernel_generics());
+    let rows = derived.packs.field(&derived.private()).into_iter();
     let Documentation { before, text, formulas, after } = rustdoc(derived, equations);
     let equations = match formulas {
         // Editors show what is compiled, and HTML as it is written.
@@ -27,7 +28,7 @@ pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenS
         #[doc = #after]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
         #[allow(non_camel_case_types)]
-        #visibility struct #name #declared { #(#fields: #ty),* }
+        #visibility struct #name #declared { #(#fields: #ty,)* #(#rows)* }
     }
 }
 

@@ -38,6 +38,7 @@ mod laws;
 mod linearized;
 mod locals;
 mod of_file;
+mod packs;
 mod parameters;
 mod parametric;
 mod pose;

@@ -86,9 +86,10 @@ pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, lab
     let (compute, outputs) = statements(&derived.kernel.constants, symbols, &derived.scalar());
     let sum = sum(derived);
     let (name, fields) = (derived.kernel_name(), derived.constant_fields());
+    let rows = derived.rows(&outputs).into_iter();
     quote! {
         #compute
-        let __kernel = #name { #(#fields: #outputs),* };
+        let __kernel = #name { #(#fields: #outputs,)* #(#rows)* };
         #sum
         __check.constants(#label, &[#(__kernel.#fields),*]);
         __check.finish()?;

@@ -1,6 +1,7 @@
 //! The generated code: what a few kernels look like, and what none of them contains.
 
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+use quote::quote;
 
 use crate::expand::expand;
 use crate::model::Scalar;
@@ -15,8 +16,28 @@ pub fn generate(source: &str) -> TokenStream {
 
 pub fn pretty(source: &str) -> String {
     // Without the version, which is no part of what is looked at.
-    let code = generate(source).to_string().replace(PRIVATE, "__private");
+    let code = with_both_forms_as_code(generate(source)).to_string().replace(PRIVATE, "__private");
     prettyplease::unparse(&syn::parse_str(&code).expect("generated code is Rust"))
+}
+
+/// `with_vectors! { {…} {…} }` as a call of two blocks, which is printed line by line.
+fn with_both_forms_as_code(code: TokenStream) -> TokenStream {
+    let mut written: Vec<TokenTree> = Vec::new();
+    for token in code {
+        let is_of_the_macro = written.len() > 1
+            && matches!(&written[written.len() - 2], TokenTree::Ident(name) if name == "with_vectors");
+        let next = match token {
+            TokenTree::Group(group) if is_of_the_macro => {
+                written.pop();
+                let blocks = group.stream().into_iter();
+                Group::new(Delimiter::Parenthesis, quote!(#(#blocks),*)).into()
+            }
+            TokenTree::Group(group) => Group::new(group.delimiter(), with_both_forms_as_code(group.stream())).into(),
+            other => other,
+        };
+        written.push(next);
+    }
+    written.into_iter().collect()
 }
 
 /// The body of one generated function.

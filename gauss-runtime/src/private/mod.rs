@@ -8,10 +8,17 @@ mod columns;
 mod containers;
 mod eigenvalues;
 mod one_body;
+// Vectors pay where they have fused products; elsewhere programs are done number by number.
+#[cfg(all(feature = "wide", target_feature = "avx", target_feature = "fma"))]
+pub mod packs;
+#[cfg(not(all(feature = "wide", target_feature = "avx", target_feature = "fma")))]
+#[path = "without_packs.rs"]
+pub mod packs;
 mod poses;
 mod samples;
 mod warnings;
 
+pub use crate::__with_vectors as with_vectors;
 pub use crate::accuracy::{Accuracy, Loss};
 pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
@@ -35,6 +42,7 @@ pub use containers::{components, entries, isometry2, isometry3, matrix, product,
 pub(crate) use eigenvalues::eigenvalues;
 pub use nalgebra::{Isometry2, Isometry3, IsometryMatrix3, SMatrix, SVector, UnitQuaternion};
 pub use one_body::{configuration_of_pose, determinacy_of_speeds, pose_from_rows, speeds_of_twist};
+pub use packs::Rows;
 pub use poses::{
     center_jacobian, chart_of_pose, frame_pose, free_pose, plane_chart_of_pose, plane_of_pose, pose_from_quaternion,
     pose_of_chart, pose_of_plane, pose_of_plane_chart, pose_of_rotation, pose_of_rotation_chart,

@@ -11,6 +11,7 @@ use quote::{ToTokens, format_ident, quote};
 use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational};
 use crate::program::{Code, Instruction, Operand};
 
+pub(crate) mod packed;
 mod plain;
 
 pub use plain::source;
@@ -104,15 +105,23 @@ pub(crate) fn statements<S: Copy>(
     kept: Kept,
 ) -> (TokenStream, Vec<TokenStream>) {
     // Names of everything are known to the caller by their places.
-    if kept == Kept::AsRead && dialect.sines_and_cosines().is_some() {
-        // By what they are called: q[1] before q[2] and q[10].
-        let place = |input| {
-            let name = dialect.input(input).to_string();
-            (name.len(), name)
-        };
-        return in_this_order(&code.clone().with_angles_together(place), dialect, kept);
+    match kept {
+        Kept::AsRead => in_this_order(&in_order(code, dialect), dialect, kept),
+        Kept::Everything => in_this_order(code, dialect, kept),
     }
-    in_this_order(code, dialect, kept)
+}
+
+/// The code with sines and cosines that are computed together in a row.
+fn in_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>) -> Code<S> {
+    if dialect.sines_and_cosines().is_none() {
+        return code.clone();
+    }
+    // By what they are called: q[1] before q[2] and q[10].
+    let place = |input| {
+        let name = dialect.input(input).to_string();
+        (name.len(), name)
+    };
+    code.clone().with_angles_together(place)
 }
 
 /// Names that are bound, and to what.

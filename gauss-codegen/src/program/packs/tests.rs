@@ -1,0 +1,80 @@
+use super::super::input::Input;
+use super::super::instruction::Instruction;
+use super::*;
+
+fn input(argument: usize, component: usize) -> Operand {
+    Operand::Input(Input::Component { argument, component })
+}
+
+/// Constants are argument 0.
+fn place(input: Input) -> Place {
+    match input {
+        Input::Component { argument: 0, .. } | Input::Number(_) => Place::Constant,
+        Input::Component { argument, component } => Place::Argument { array: argument, index: component },
+    }
+}
+
+/// A matrix times a vector, rows by rows.
+fn product(rows: usize, columns: usize) -> Code {
+    let mut code = Code::nothing();
+    for row in 0..rows {
+        let entry = |column| input(0, row * columns + column);
+        code.instructions.push(Instruction::Multiply(entry(0), input(1, 0)));
+        for column in 1..columns {
+            let sum = Operand::Value(code.instructions.len() - 1);
+            // Factors stand as they come.
+            let factors =
+                if row % 2 == 0 { (entry(column), input(1, column)) } else { (input(1, column), entry(column)) };
+            code.instructions.push(Instruction::MultiplyAdd(factors.0, factors.1, sum));
+        }
+        code.outputs.push(Operand::Value(code.instructions.len() - 1));
+    }
+    code
+}
+
+#[test]
+fn a_matrix_times_a_vector_is_done_column_by_column() {
+    let packed = product(6, 6).packed(place, &[]).expect("packs");
+    assert!(packed.steps.iter().all(|step| matches!(step, Step::Pack(_))), "{:?}", packed.steps);
+    assert_eq!(packed.packs.len(), 12);
+    for pack in &packed.packs {
+        let is_constant = |operand: &Operand| matches!(operand, Operand::Input(Input::Component { argument: 0, .. }));
+        assert!(pack.operands[0].iter().all(is_constant), "{:?}", pack.operands[0]);
+        assert!(pack.operands[1].iter().all(|operand| *operand == pack.operands[1][0]), "{:?}", pack.operands[1]);
+    }
+}
+
+#[test]
+fn what_waits_for_one_another_is_not_packed() {
+    // A chain of sums with nothing beside it.
+    let mut code = Code::nothing();
+    code.instructions.push(Instruction::Multiply(input(0, 0), input(1, 0)));
+    for k in 1..60 {
+        code.instructions.push(Instruction::MultiplyAdd(input(0, k), Operand::Value(k - 1), Operand::Value(k - 1)));
+    }
+    code.outputs = (50..60).map(Operand::Value).collect();
+    assert_eq!(code.packed(place, &[]), None);
+}
+
+#[test]
+fn angles_stay_together() {
+    let mut code = product(6, 6);
+    let moved = |operand: Operand| operand.moved(|k| k + 2);
+    let instructions = code.instructions.iter().map(|instruction| {
+        instruction.map(|operand| match operand {
+            Operand::Input(Input::Component { argument: 1, component }) if component < 2 => {
+                if component == 0 {
+                    Operand::Sine(0)
+                } else {
+                    Operand::Cosine(1)
+                }
+            }
+            other => moved(other),
+        })
+    });
+    let angles = [Instruction::SineCosine(input(1, 0)), Instruction::SineCosine(input(1, 1))];
+    code.instructions = angles.into_iter().chain(instructions).collect();
+    code.outputs = code.outputs.into_iter().map(moved).collect();
+    let packed = code.packed(place, &[(0, 2)]).expect("packs");
+    assert_eq!(packed.steps[0], Step::Angles(0, 2));
+}
