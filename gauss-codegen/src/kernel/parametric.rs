@@ -165,7 +165,7 @@ impl<'g> ConstantRates<'g> {
             };
             let value = match operand {
                 Operand::Number(value) => graph.number(value),
-                _ => *known.entry(operand).or_insert_with(|| {
+                _ => *known.or_insert_with(operand, || {
                     let name = format!("k{}", count + added.len());
                     let symbol = graph.symbol(name.clone(), name, false);
                     added.push((operand, symbol));

@@ -3,10 +3,8 @@
 //! What inputs, numbers and functions are called is its `Dialect`: kernels read symbols and are generic over the scalar
 //! (`emit`), functions that stand alone read arrays of `f64` (`plain`).
 
-use std::collections::BTreeSet;
-
-use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
+use quote::{ToTokens, quote};
 
 use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational};
 use crate::program::{Code, Instruction, Operand};
@@ -41,15 +39,15 @@ pub(crate) trait Dialect<S> {
 /// Name of the result of an instruction. Underscores keep it apart from constants of the user's, which a `let` must not
 /// shadow.
 fn value(k: usize) -> Ident {
-    format_ident!("__v{}", k, span = Span::mixed_site())
+    Ident::new(&format!("__v{k}"), Span::mixed_site())
 }
 
 fn sine(k: usize) -> Ident {
-    format_ident!("__s{}", k, span = Span::mixed_site())
+    Ident::new(&format!("__s{k}"), Span::mixed_site())
 }
 
 fn cosine(k: usize) -> Ident {
-    format_ident!("__c{}", k, span = Span::mixed_site())
+    Ident::new(&format!("__c{k}"), Span::mixed_site())
 }
 
 /// How an operand is written.
@@ -57,18 +55,9 @@ pub(crate) fn operand<S: Copy>(operand: &Operand<S>, dialect: &impl Dialect<S>) 
     match *operand {
         Operand::Input(input) => dialect.input(input),
         Operand::Number(n) => dialect.number(&n),
-        Operand::Value(k) => {
-            let name = value(k);
-            quote!(#name)
-        }
-        Operand::Sine(k) => {
-            let name = sine(k);
-            quote!(#name)
-        }
-        Operand::Cosine(k) => {
-            let name = cosine(k);
-            quote!(#name)
-        }
+        Operand::Value(k) => value(k).into_token_stream(),
+        Operand::Sine(k) => sine(k).into_token_stream(),
+        Operand::Cosine(k) => cosine(k).into_token_stream(),
     }
 }
 
@@ -115,17 +104,19 @@ pub(crate) fn statements<S: Copy>(
 
 fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept) -> (TokenStream, Vec<TokenStream>) {
     let read = pairs_read(code, kept);
+    let together = dialect.sines_and_cosines();
     let mut written = Vec::with_capacity(code.instructions.len());
     while written.len() < code.instructions.len() {
         let k = written.len();
-        match (row_of_angles(code, k), dialect.sines_and_cosines()) {
-            (row, Some(function)) if row.len() > 1 => {
-                let count = row.len();
-                written.push(angles_together(k, &row, &read[k..], &function, dialect));
-                written.resize(k + count, TokenStream::new());
+        if let (Instruction::SineCosine(_), Some(function)) = (&code.instructions[k], &together) {
+            let row = row_of_angles(code, k);
+            if row.len() > 1 {
+                written.push(angles_together(k, &row, &read[k..], function, dialect));
+                written.resize(k + row.len(), TokenStream::new());
+                continue;
             }
-            _ => written.push(statement(k, &code.instructions[k], read[k], dialect)),
         }
+        written.push(statement(k, &code.instructions[k], read[k], dialect));
     }
     (in_functions(code, kept, written, dialect), code.outputs.iter().map(|output| operand(output, dialect)).collect())
 }
@@ -166,7 +157,6 @@ fn statement<S: Copy>(
     [sine_read, cosine_read]: [bool; 2],
     dialect: &impl Dialect<S>,
 ) -> TokenStream {
-    let (real, fma) = (dialect.functions(), dialect.fma());
     let write = |o: &Operand<S>| operand(o, dialect);
     let name = value(k);
     match instruction {
@@ -175,11 +165,11 @@ fn statement<S: Copy>(
         Instruction::Multiply(a, b) => binary(&name, &write(a), &quote!(*), &write(b)),
         Instruction::Divide(a, b) => binary(&name, &write(a), &quote!(/), &write(b)),
         Instruction::MultiplyAdd(a, b, c) => {
-            let (a, b, c) = (write(a), write(b), write(c));
+            let (fma, a, b, c) = (dialect.fma(), write(a), write(b), write(c));
             quote!(let #name = #fma(#a, #b, #c);)
         }
         Instruction::MultiplySubtract(a, b, c) => {
-            let (a, b, c) = (write(a), write(b), write(c));
+            let (fma, a, b, c) = (dialect.fma(), write(a), write(b), write(c));
             quote!(let #name = #fma(-#a, #b, #c);)
         }
         Instruction::Negate(a) => {
@@ -191,11 +181,11 @@ fn statement<S: Copy>(
             quote!(let #name = #function(#a);)
         }
         Instruction::Call(function, a) => {
-            let (a, function) = (write(a), function_name(*function));
+            let (real, a, function) = (dialect.functions(), write(a), function_name(*function));
             quote!(let #name = #real::#function(#a);)
         }
         Instruction::Binary(function, a, b) => {
-            let (a, b) = (write(a), write(b));
+            let (real, a, b) = (dialect.functions(), write(a), write(b));
             let function = match function {
                 BinaryFunction::Atan2 => quote!(atan2),
                 BinaryFunction::Min => quote!(min),
@@ -205,7 +195,7 @@ fn statement<S: Copy>(
             quote!(let #name = #real::#function(#a, #b);)
         }
         Instruction::SineCosine(a) => {
-            let (a, s, c) = (write(a), sine(k), cosine(k));
+            let (real, a, s, c) = (dialect.functions(), write(a), sine(k), cosine(k));
             let s = if sine_read { quote!(#s) } else { quote!(_) };
             let c = if cosine_read { quote!(#c) } else { quote!(_) };
             quote!(let (#s, #c) = #real::sin_cos(#a);)
@@ -228,22 +218,23 @@ fn pairs_read<S: Copy>(code: &Code<S>, kept: Kept) -> Vec<[bool; 2]> {
 
 /// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.
 fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<TokenStream>> {
-    // Values, sines and cosines by the index of their instruction.
-    let mut read = vec![BTreeSet::new(); code.instructions.len()];
+    // Of each instruction: value, sine and cosine.
+    let mut read = vec![[false; 3]; code.instructions.len()];
     let mut note = |operand: Operand<S>, reader: usize| {
-        if let Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) = operand
-            && k / size < reader
-        {
-            let kind = match operand {
-                Operand::Sine(_) => 1,
-                Operand::Cosine(_) => 2,
-                _ => 0,
-            };
-            read[k].insert(kind);
+        let (k, kind) = match operand {
+            Operand::Value(k) => (k, 0),
+            Operand::Sine(k) => (k, 1),
+            Operand::Cosine(k) => (k, 2),
+            Operand::Input(_) | Operand::Number(_) => return,
+        };
+        if k / size < reader {
+            read[k][kind] = true;
         }
     };
     for (k, instruction) in code.instructions.iter().enumerate() {
-        instruction.operands().for_each(|operand| note(operand, k / size));
+        for operand in instruction.operands() {
+            note(operand, k / size);
+        }
         if kept == Kept::Everything {
             match instruction {
                 Instruction::SineCosine(_) => [Operand::Sine(k), Operand::Cosine(k)].map(|o| note(o, usize::MAX)),
@@ -253,14 +244,17 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<TokenS
     }
     code.outputs.iter().for_each(|operand| note(*operand, usize::MAX));
     let names = [value, sine, cosine];
-    let named = |(k, kinds): (usize, BTreeSet<usize>)| {
-        let name = |kind: usize| {
-            let name = names[kind](k);
-            quote!(#name)
-        };
-        kinds.into_iter().map(name).collect()
-    };
-    read.into_iter().enumerate().map(named).collect()
+    let mut handed_on = Vec::with_capacity(read.len());
+    for (k, kinds) in read.into_iter().enumerate() {
+        let mut named = Vec::new();
+        for (kind, read) in kinds.into_iter().enumerate() {
+            if read {
+                named.push(names[kind](k).into_token_stream());
+            }
+        }
+        handed_on.push(named);
+    }
+    handed_on
 }
 
 /// Statements in blocks; of long programs in functions, each with some blocks, which the compiler does not put together again.
@@ -289,12 +283,20 @@ pub(crate) fn in_blocks(statements: Vec<(Vec<TokenStream>, TokenStream)>) -> Tok
     if statements.len() <= BLOCK {
         return statements.into_iter().map(|(_, statement)| statement).collect();
     }
-    let blocks = statements.chunks(BLOCK).map(|block| {
-        let names: Vec<_> = block.iter().flat_map(|(names, _)| names).collect();
-        let statements = block.iter().map(|(_, statement)| statement);
-        quote!(let (#(#names,)*) = { #(#statements)* (#(#names,)*) };)
-    });
-    blocks.collect()
+    let (mut blocks, mut left, mut statements) = (TokenStream::new(), statements.len(), statements.into_iter());
+    while left > 0 {
+        // Moved, not copied: these are most of the tokens that there are.
+        let (mut names, mut block) = (Vec::new(), TokenStream::new());
+        for (handed_on, statement) in statements.by_ref().take(BLOCK) {
+            names.extend(handed_on);
+            block.extend(statement);
+        }
+        block.extend(quote!((#(#names,)*)));
+        let block = Group::new(Delimiter::Brace, block);
+        blocks.extend(quote!(let (#(#names,)*) = #block;));
+        left = left.saturating_sub(BLOCK);
+    }
+    blocks
 }
 
 fn function_name(function: Function) -> Ident {
