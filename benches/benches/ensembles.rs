@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use gauss_benches::packs::{free_top, immersed, symmetric_top};
 use gauss_runtime::batch::{Batch, BatchSystem, States};
-use gauss_runtime::integrate::{Adaptive, LaneControl, Taylor, Verner9};
+use gauss_runtime::integrate::{Adams, Adaptive, FreeFlow, LaneControl, Scheme, Splitting, Taylor, Verner9};
 use gauss_runtime::prelude::*;
 use wide::f64x8;
 
@@ -60,13 +60,18 @@ fn fastest(rounds: usize, mut work: impl FnMut()) -> f64 {
 }
 
 /// One line: one by one, and as an ensemble.
-fn line<S, P, C>(case: &Case<S::Configuration, S::Speeds>, how: &str, (one, pack): (&S, &P), control: C)
-where
+fn line<S, P, C, D>(
+    case: &Case<S::Configuration, S::Speeds>,
+    how: &str,
+    (one, pack): (&S, &P),
+    (control, in_lanes): (C, D),
+) where
     S: GaussSystem<Scalar = f64, Input = (), Configuration: Attitude>,
     P: BatchSystem<Input = ()>,
     P::Configuration: gauss_runtime::simd::Packed<Single = S::Configuration>,
     P::Speeds: gauss_runtime::simd::Packed<Single = S::Speeds>,
-    C: Copy + gauss_runtime::integrate::Control<S> + LaneControl<P>,
+    C: Copy + gauss_runtime::integrate::Control<S>,
+    D: LaneControl<P>,
 {
     let (q, z) = case.start;
     let run = || Simulation::new(one).control(control).run_to_end(q, z, 0.0..case.duration).expect("a smooth run");
@@ -76,7 +81,7 @@ where
     });
     let starts = States::<P>::from_fn(RUNS, |_| case.start);
     let mut states = starts.clone();
-    let ensemble = Batch::new(pack).control(control);
+    let ensemble = Batch::new(pack).control(in_lanes);
     let together = fastest(60, || {
         states.clone_from(&starts);
         let ends = ensemble.run(0.0..case.duration, &mut states);
@@ -95,10 +100,25 @@ where
 /// Several ways to one trajectory.
 macro_rules! case {
     ($case:expr, $kernel:ident, [$(($how:literal, $control:expr)),+ $(,)?]) => {{
-        let case = $case;
+        let case: &Case<_, _> = $case;
         let kernels = ($kernel::<f64>(), $kernel::<f64x8>());
-        $(line(&case, $how, (&kernels.0, &kernels.1), $control);)+
+        $(line(case, $how, (&kernels.0, &kernels.1), ($control, $control));)+
+        kernels
     }};
+}
+
+/// Adams' method of K steps, so many in all.
+fn adams<S, P, const K: usize>(case: &Case<S::Configuration, S::Speeds>, (one, pack): (&S, &P), steps: u32)
+where
+    S: GaussSystem<Scalar = f64, Input = (), Configuration: Attitude>,
+    P: BatchSystem<Input = ()>,
+    P::Scalar: gauss_runtime::simd::Packed<Single = f64>,
+    P::Configuration: gauss_runtime::simd::Packed<Single = S::Configuration>,
+    P::Speeds: gauss_runtime::simd::Packed<Single = S::Speeds>,
+{
+    let step = case.duration / f64::from(steps);
+    let controls = (Adams::<_, K>::new(step), Adams::<_, K>::new(P::Scalar::from_f64(step)));
+    line(case, &format!("Adams, {K} steps"), (one, pack), controls);
 }
 
 fn main() {
@@ -123,8 +143,8 @@ fn a() {
         start: (UnitQuaternion::identity(), Vector3::new(0.01, 1.0, 0.01)),
         end: quaternion([0.9654395742742695, -7.971609403978595e-05, -0.260156908801055, -0.015646241514854095]),
     };
-    case!(
-        case,
+    let kernels = case!(
+        &case,
         free_top,
         [
             ("order 8, 1e-12", Adaptive::new(1e-12, 1e-12)),
@@ -132,6 +152,13 @@ fn a() {
             ("series, 1e-13", Taylor::new(1e-13, 1e-13)),
         ]
     );
+    let kernels = (&kernels.0, &kernels.1);
+    adams::<_, _, 10>(&case, kernels, 1600);
+    adams::<_, _, 12>(&case, kernels, 1300);
+    let alone = Splitting::exact(kernels.0, Scheme::STRANG).expect("a free body");
+    let in_lanes = Splitting::with(kernels.1, Scheme::STRANG, FreeFlow::in_lanes::<_, 8>).expect("a free body");
+    let controls = (Fixed::by(alone, 100.0), Fixed::by(in_lanes, f64x8::splat(100.0)));
+    line(&case, "closed form", kernels, controls);
 }
 
 fn b() {
@@ -141,8 +168,8 @@ fn b() {
         start: (quaternion([0.24740395925452294, 0.0, 0.0, 0.9689124217106447]), Vector3::new(0.0, 0.0, 15.0)),
         end: quaternion([-0.24875095621040977, -0.003645005941271747, -0.5907343441740279, -0.7675562587389774]),
     };
-    case!(
-        case,
+    let kernels = case!(
+        &case,
         symmetric_top,
         [
             ("order 8, 1e-12", Adaptive::new(1e-12, 1e-12)),
@@ -150,6 +177,9 @@ fn b() {
             ("series, 1e-13", Taylor::new(1e-13, 1e-13)),
         ]
     );
+    let kernels = (&kernels.0, &kernels.1);
+    adams::<_, _, 10>(&case, kernels, 4400);
+    adams::<_, _, 11>(&case, kernels, 3400);
 }
 
 fn c() {
@@ -159,8 +189,8 @@ fn c() {
         start: (Isometry3::identity(), Vector6::new(1.0, 0.2, -0.1, 0.5, -0.3, 0.4)),
         end: quaternion([-0.14624540214346288, -0.09108370747518893, 0.7755064251707701, -0.607376180882428]),
     };
-    case!(
-        case,
+    let kernels = case!(
+        &case,
         immersed,
         [
             ("order 8, 1e-13", Adaptive::new(1e-13, 1e-13)),
@@ -168,4 +198,9 @@ fn c() {
             ("series, 1e-13", Taylor::new(1e-13, 1e-13)),
         ]
     );
+    let kernels = (&kernels.0, &kernels.1);
+    adams::<_, _, 8>(&case, kernels, 700);
+    adams::<_, _, 10>(&case, kernels, 540);
+    adams::<_, _, 11>(&case, kernels, 440);
+    adams::<_, _, 12>(&case, kernels, 400);
 }

@@ -58,10 +58,6 @@ pub struct Dry<'k, K, const N: usize> {
     pub limits: [f64; N],
 }
 
-/// Events are so far beyond what they are for, in units of rates and of f: what begins to slide begins at rest, and is
-/// not at its end there.
-const HAIR: f64 = 1e-12;
-
 /// So many events in a run are more than any here has.
 const MOST: usize = 10_000;
 
@@ -113,8 +109,8 @@ impl<K: Jointed<N>, const N: usize> Dry<'_, K, N> {
     fn margins(&self, modes: &[Mode; N], t: f64, q: &SVector<f64, N>, z: &SVector<f64, N>) -> [f64; N] {
         let forces = self.forces(modes, t, q, z).unwrap_or_else(|| SVector::from([f64::NAN; N]));
         std::array::from_fn(|k| match modes[k] {
-            Mode::Sticks => self.limits[k] * (1.0 + HAIR) - forces[k].abs(),
-            Mode::Slides(sign) => sign * z[k] + HAIR,
+            Mode::Sticks => self.limits[k] - forces[k].abs(),
+            Mode::Slides(sign) => sign * z[k],
         })
     }
 

@@ -86,7 +86,7 @@ fn sizes() {
         println!("{name:<52}{median:>10.1}{:>18}   {aim}", format!("{fastest:.1}–{slowest:.1}"));
     };
     for (clauses, with) in [("", ""), (", linearize", " with linearize"), (", taylor", " with taylor")] {
-        let (small, large) = if clauses.is_empty() { ("30", "1000") } else { ("", "") };
+        let (small, large) = if clauses.is_empty() { ("12", "250") } else { ("", "") };
         report(&format!("free body{with}"), &structures::free_body(clauses), small);
         report(&format!("torpedo{with}"), &structures::torpedo(clauses), "");
         report(&format!("heavy top, Euler angles{with}"), &structures::top(clauses), "");

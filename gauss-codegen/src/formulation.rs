@@ -1,9 +1,9 @@
 //! From a model to formulas: the system, checked against the definition, and all that is asked of it.
 
-use crate::algebra::{Expr, Graph, Map, Notation};
+use crate::algebra::{Expr, Graph, Map, Notation, Rational};
 use crate::mechanics::{
     Constraints, Coordinate, Elimination, Formula, Hessian, InertialParameters, InverseLinearization, Linearization,
-    Method, Regressor, System, check_system_against_definition, rotation_of_quaternion,
+    Method, Regressor, System, check_system_against_definition, needless_constraints, rotation_of_quaternion,
 };
 use crate::mistakes::{eliminate, refuse_curved_kinematics, refuse_idle_speeds, system_faults};
 use crate::model::{Model, WantedMethod};
@@ -144,7 +144,8 @@ impl<'g> Reduced<'g> {
         let scene = translator.scene(&values, &kept)?;
         translator.refuse_mistakes()?;
         refuse_curved_kinematics(model, &scene)?;
-        let whole = System::new(scene);
+        let mut whole = System::new(scene);
+        leave_out_needless(model, &translator.literals(), &mut whole);
         refuse_idle_speeds(model, translator, &whole)?;
         let Some(independent) = &model.independent else {
             return Ok(Self { system: whole, elimination: None, values, kept });
@@ -155,6 +156,18 @@ impl<'g> Reduced<'g> {
         scene.constraints.clear();
         let (system, values) = (System::new(scene), elimination.values.clone());
         Ok(Self { system, elimination: Some(elimination), values, kept })
+    }
+}
+
+/// Components of vectors that follow from others, and what a file says twice: nobody has written those one by one.
+fn leave_out_needless<'g>(model: &Model, literals: &[(Rational, Expr<'g>)], system: &mut System<'g>) {
+    let together = |clause: usize| model.constraints[clause].vector || model.constraints[clause].place.is_some();
+    if system.scene.constraints.iter().any(|constraint| together(constraint.clause)) {
+        let mut needless = needless_constraints(system, literals);
+        needless.retain(|&k| together(system.scene.constraints[k].clause));
+        if !needless.is_empty() {
+            system.leave_out(&needless);
+        }
     }
 }
 

@@ -208,7 +208,10 @@ pub fn system_faults(
     system: &System<'_>,
     faults: &[SystemFault],
 ) -> syn::Error {
-    let clause = |k: usize| model.constraints[system.scene.constraints[k].clause].span;
+    let clause = |k: usize, text: &str| {
+        let clause = &model.constraints[system.scene.constraints[k].clause];
+        (clause.span, format!("{}{text}", clause.place.as_deref().unwrap_or_default()))
+    };
     let mut mistakes = Mistakes::default();
     for fault in faults {
         match fault {
@@ -221,18 +224,22 @@ pub fn system_faults(
                 );
                 mistakes.push(span, message);
             }
-            SystemFault::DependentConstraint(k) => mistakes.push(
-                clause(*k),
-                "this constraint follows from the coordinates, the speeds and the constraints before it, so its \
-                 multiplier is undetermined; remove it"
-                    .to_owned(),
-            ),
-            SystemFault::InconsistentConstraint(k) => mistakes.push(
-                clause(*k),
-                "no motion satisfies this constraint together with the coordinates, the speeds and the constraints \
-                 before it; correct it or remove it"
-                    .to_owned(),
-            ),
+            SystemFault::DependentConstraint(k) => {
+                let (span, message) = clause(
+                    *k,
+                    "this constraint follows from the coordinates, the speeds and the constraints before it, so its \
+                     multiplier is undetermined; remove it",
+                );
+                mistakes.push(span, message);
+            }
+            SystemFault::InconsistentConstraint(k) => {
+                let (span, message) = clause(
+                    *k,
+                    "no motion satisfies this constraint together with the coordinates, the speeds and the constraints \
+                     before it; correct it or remove it",
+                );
+                mistakes.push(span, message);
+            }
         }
     }
     mistakes.finish().err().unwrap_or_else(|| bug(&model.ident, &"a fault without a name"))

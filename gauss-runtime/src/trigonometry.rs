@@ -119,6 +119,12 @@ impl Pack for f64 {
     }
 }
 
+/// The same numbers in every place. Not by `map`, which compilers leave as a call, and then keep every vector in memory.
+#[inline(always)]
+fn constants<P: Pack>([a, b, c, d, e, f]: [f64; 6]) -> [P; 6] {
+    [P::splat(a), P::splat(b), P::splat(c), P::splat(d), P::splat(e), P::splat(f)]
+}
+
 /// What the nearest multiple of π/2 leaves of an angle.
 struct Reduced<P> {
     /// Its last digits give the quadrant.
@@ -134,14 +140,14 @@ fn reduced<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> Reduced<P
     let shifted = fma(x, number(core::f64::consts::FRAC_2_PI), number(SHIFTER));
     let n = shifted - number(SHIFTER);
     let (y, excess) = if FUSED {
-        let [first, second, third] = PARTS.map(number);
+        let [first, second, third] = [number(PARTS[0]), number(PARTS[1]), number(PARTS[2])];
         // Exact: a multiple of 2⁻⁵³ below 1; so is the product, of 34 and 17 digits. So is y − left: either the two are within a factor
         // of two of each other, or both are so small that y has no more than 53 digits down to the last one of the product.
         let (left, part) = (fma(-n, first, x), n * second);
         let y = left - part;
         (y, fma(n, third, (y - left) + part))
     } else {
-        let [first, second, third] = SHORT_PARTS.map(number);
+        let [first, second, third] = [number(SHORT_PARTS[0]), number(SHORT_PARTS[1]), number(SHORT_PARTS[2])];
         // Both sides of the first difference are within a factor of two of each other.
         let (left, part) = (x - n * first, n * second);
         let y = left - part;
@@ -185,7 +191,7 @@ fn of_small_angle<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> (P
     let (number, one) = (P::splat, P::splat(1.0));
     let Reduced { shifted, y, excess } = reduced::<FUSED, P>(x, fma);
     let holds = shifted.within_limit() & (FUSED || y.is_far_from(shifted - number(SHIFTER)));
-    let (sine_terms, cosine_terms) = (SINE.map(number), COSINE.map(number));
+    let (sine_terms, cosine_terms) = (constants(SINE), constants(COSINE));
     let (sine, cosine) = if FUSED {
         // y comes last: −0 keeps its sign.
         let sine = Wanted { terms: sine_terms, part: number(0.0), factor: number(-1.0), start: y };
@@ -355,7 +361,15 @@ mod vectors {
             ($count:literal |$angles:ident| $both:expr) => {
                 let $angles: [f64; $count] = core::array::from_fn(|i| x[(done + i).min(N - 1)]);
                 let (s, c, hold) = $both;
-                let (s, c) = if hold { (s, c) } else { one_by_one($angles, fma) };
+                let (s, c) = if hold {
+                    (s, c)
+                } else if $count == 2 {
+                    // A copy of the two: what a call is given lies in memory, and they would be read from there in one piece right
+                    // after they were written in two.
+                    one_by_one(core::array::from_fn(|i| x[(done + i).min(N - 1)]), fma)
+                } else {
+                    one_by_one($angles, fma)
+                };
                 for i in 0..usize::min($count, N - done) {
                     (sines[done + i], cosines[done + i]) = (s[i], c[i]);
                 }

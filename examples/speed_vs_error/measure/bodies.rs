@@ -3,13 +3,14 @@
 use std::error::Error;
 use std::rc::Rc;
 
+use gauss_runtime::integrate::TopError;
 use gauss_runtime::prelude::*;
 
 use super::baselines::baselines;
 use super::by_hand::{self, body_state, coordinates};
 use super::entry::{Entry, Kernel, Setup};
 use super::free_motion::{FreeBody, free_motions};
-use super::methods::{explicit, further, left_invariant, series, splitting};
+use super::methods::{exact_top, explicit, further, left_invariant, series, splitting};
 use super::scene::{Scene, Target, rows};
 
 /// A body in every chart, and `add`, which adds all methods on all charts.
@@ -140,7 +141,12 @@ pub fn heavy_top(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -
     let (center, gravity) = (center(scene)?, scene.number("parameters/gravity")?);
     add_charts!(heavy_top, { mass, center, inertia, gravity }, scene, target, entries);
     let kernel = heavy_top::Left { mass, center, inertia, gravity }.kernel()?;
-    splitting(entries, &setup("body velocities", kernel, scene, target)?)?;
+    let left = setup("body velocities", kernel, scene, target)?;
+    splitting(entries, &left)?;
+    match exact_top(entries, &left) {
+        Ok(()) | Err(TopError::NotOfRevolution) => {}
+        Err(error) => return Err(error.into()),
+    }
     let equations = by_hand::Top::new(inertia, center * (mass * gravity));
     baselines(entries, "ω and quaternion", equations, top_state(scene)?, target);
     Ok(())
@@ -158,7 +164,9 @@ pub fn symmetric_top(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target
     let (across, along, height, gravity) = (inertia.x, inertia.z, center.z, scene.number("parameters/gravity")?);
     add_charts!(symmetric_top, { mass, across, along, height, gravity }, scene, target, entries);
     let kernel = symmetric_top::Left { mass, across, along, height, gravity }.kernel()?;
-    splitting(entries, &setup("body velocities", kernel, scene, target)?)?;
+    let left = setup("body velocities", kernel, scene, target)?;
+    splitting(entries, &left)?;
+    exact_top(entries, &left)?;
     let equations = by_hand::SymmetricTop(by_hand::Top::new(inertia, center * (mass * gravity)));
     baselines(entries, "ω and quaternion", equations, top_state(scene)?, target);
     Ok(())

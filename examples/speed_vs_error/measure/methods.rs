@@ -1,7 +1,8 @@
 //! The methods of Gauss, one line each. What no forces act on has more of them in `free_motion`.
 
 use gauss_runtime::integrate::body::BodyConfiguration;
-use gauss_runtime::integrate::{Adams, Composed, Composition, Form, Scheme, Splitting, SplittingError, Variational};
+use gauss_runtime::integrate::{Adams, Composed, Composition, Form, Scheme, Splitting, SplittingError};
+use gauss_runtime::integrate::{TopError, TopFlow, Variational};
 use gauss_runtime::prelude::*;
 
 use super::counted::Counted;
@@ -110,5 +111,19 @@ where
         discrete("splitting 6, Moser–Veselov", 6, Scheme::KAHAN_LI_6)?,
         discrete("splitting 8, Moser–Veselov", 8, Scheme::KAHAN_LI_8)?,
     ]);
+    Ok(())
+}
+
+/// The exact motion of a heavy body of revolution about a point of its axis, left-invariant chart.
+///
+/// # Errors
+/// When the kernel is not such a body.
+pub fn exact_top<S>(entries: &mut Vec<Entry>, s: &Setup<S>) -> Result<(), TopError>
+where
+    S: Kernel + GaussSystem<Configuration = UnitQuaternion<f64>>,
+    S: GaussSystem<Speeds = Vector3<f64>, MassMatrix = Matrix3<f64>>,
+{
+    let flow = TopFlow::new(&s.kernel)?;
+    entries.push(s.entry(("exact flow", Setting::Once), ("velocity", VelocityForm), move |h| Fixed::by(flow, h)));
     Ok(())
 }

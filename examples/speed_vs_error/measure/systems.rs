@@ -9,7 +9,7 @@ use super::baselines::baselines;
 use super::by_hand::coordinates;
 use super::by_hand_systems as by_hand;
 use super::entry::{Entry, Setup};
-use super::methods::{explicit, further, series};
+use super::methods::{exact_top, explicit, further, series};
 use super::scene::{Scene, Target, rows};
 
 #[derive(GaussDynamics)]
@@ -19,6 +19,17 @@ use super::scene::{Scene, Target, rows};
     particle(mass = 1, position = [l * sin(theta) * cos(phi), l * sin(theta) * sin(phi), -l * cos(theta)]),
 )]
 struct SphericalPendulum {
+    l: f64,
+    #[gauss(gravity)]
+    g: f64,
+}
+
+/// A rod without mass to a particle, which does not spin: as a body about a fixed point. What it has about its own axis
+/// does not enter the motion.
+#[derive(GaussDynamics)]
+#[gauss(motion = fixed_point, mass = m, center_of_mass = [0, 0, -l], inertia = [m * l * l, m * l * l, m * l * l])]
+struct Rod {
+    m: f64,
     l: f64,
     #[gauss(gravity)]
     g: f64,
@@ -171,6 +182,21 @@ pub fn spherical_pendulum(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<T
         target: Rc::clone(target),
     };
     explicit(entries, &setup);
+
+    // The shortest turn from the rod that hangs.
+    let bob = x / l;
+    let attitude = UnitQuaternion::rotation_between(&-Vector3::z(), &bob).ok_or("the pendulum stands upright")?;
+    let setup = Setup {
+        chart: "rotation of a rod",
+        kernel: Rod { m: 1.0, l, g }.kernel()?,
+        start: (attitude, attitude.inverse() * bob.cross(&(v / l))),
+        observe: Rc::new(move |q: &UnitQuaternion<f64>| {
+            vec![(q * Vector3::new(0.0, 0.0, -l)).iter().copied().collect()]
+        }),
+        target: Rc::clone(target),
+    };
+    explicit(entries, &setup);
+    exact_top(entries, &setup)?;
 
     let equations = by_hand::SphericalPendulum { length: l, gravity: g };
     baselines(entries, "x, y, z", equations, [v.x, v.y, v.z, x.x, x.y, x.z], target);

@@ -19,10 +19,10 @@ pub fn solved_together<'g>(derived: &Derived<'_, 'g>, columns: &LoweredColumns<'
     let bundle = |columns: &[Vec<TokenStream>]| {
         let row = |k: usize| {
             let lanes = (0..TOGETHER).map(|lane| columns.get(lane).map_or(&zero, |column| &column[k]));
-            quote!(#private::Lanes([#(#lanes),*]))
+            quote!([#(#lanes),*])
         };
         let rows = (0..shape.order.len()).map(row);
-        quote!([#(#rows),*])
+        quote!(#private::Bundle([#(#rows),*]))
     };
     let rights = rights.chunks(TOGETHER).map(bundle);
     let (targets, spare) = targets(columns, &private, states);
@@ -98,9 +98,9 @@ fn substitution(columns: &LoweredColumns<'_>, private: &TokenStream) -> TokenStr
             let before: Vec<usize> = group.clone().filter(|&k| k < row).collect();
             let entries = before.iter().map(|&k| entry(row, k));
             quote! {
-                let mut __own = __y[#row];
-                #(#private::subtract_multiple(&mut __own, __entries[#entries], &__y[#before]);)*
-                __y[#row] = __own;
+                let mut __own = __y.0[#row];
+                #(#private::subtract_multiple(&mut __own, __entries[#entries], &__y.0[#before]);)*
+                __y.0[#row] = __own;
             }
         });
         down.push(quote!(if !__idle[#number] { #(#steps)* }));
@@ -110,9 +110,9 @@ fn substitution(columns: &LoweredColumns<'_>, private: &TokenStream) -> TokenStr
         let rows: Vec<usize> = shape.below[k].iter().rev().copied().collect();
         let entries = rows.iter().map(|&row| entry(row, k));
         up.push(quote! {
-            let mut __own = #private::multiple(__reciprocals[#k], &__y[#k]);
-            #(#private::subtract_multiple(&mut __own, __entries[#entries], &__y[#rows]);)*
-            __y[#k] = __own;
+            let mut __own = #private::multiple(__reciprocals[#k], &__y.0[#k]);
+            #(#private::subtract_multiple(&mut __own, __entries[#entries], &__y.0[#rows]);)*
+            __y.0[#k] = __own;
         });
     }
     let idle = columns.idle();

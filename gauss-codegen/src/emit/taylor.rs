@@ -25,7 +25,7 @@ use crate::kernel::{Operand, Operation, Program};
 use crate::mechanics::{Coordinate, Method};
 
 use super::derived::Derived;
-use crate::targets::rust::{Kept, in_blocks, operand, statements};
+use crate::targets::rust::{Kept, Statement, in_blocks, operand, statements};
 
 use super::program::{KernelDialect, ScalarTokens};
 
@@ -75,14 +75,11 @@ impl<'a, 'g> Order<'a, 'g> {
         let mut lines = Vec::new();
         for (k, instruction) in self.program.instructions.iter().enumerate() {
             if self.moving[k] && !self.inlined[k] {
-                let names = match instruction {
-                    Operation::SineCosine(_) => vec![named("ws", k), named("wc", k)],
-                    Operation::Binary(BinaryFunction::Atan2, ..) | Operation::Call(Function::Tanh, _) => {
-                        vec![named("wr", k), named("w", k)]
-                    }
-                    _ => vec![named("w", k)],
-                };
-                lines.push((names, self.statement(k, instruction)));
+                let statements = self.statements(k, instruction);
+                lines.extend(statements.into_iter().map(|(name, value)| {
+                    let statement = Statement::new(&name, value);
+                    (vec![name], Some(statement))
+                }));
             }
         }
         in_blocks(lines)
@@ -175,8 +172,8 @@ impl<'a, 'g> Order<'a, 'g> {
         sum.products.extend(bk.map(|bk| (signed(negative, bk), a0)));
     }
 
-    /// The statements of one instruction.
-    fn statement(&mut self, k: usize, instruction: &Operation<'g>) -> TokenStream {
+    /// What one instruction comes to, with names.
+    fn statements(&mut self, k: usize, instruction: &Operation<'g>) -> Vec<(Ident, TokenStream)> {
         let fma = self.scalar.fma.clone();
         let (zero, w, v0) = (self.zero(), named("w", k), self.first(&Operand::Value(k)));
         let value = match instruction {
@@ -222,7 +219,7 @@ impl<'a, 'g> Order<'a, 'g> {
                 quote!(::core::compile_error!(#message))
             }
         };
-        quote!(let #w = #value;)
+        vec![(indexed("w", k), value)]
     }
 
     fn quotient(&mut self, k: usize, a: &Operand<'g>, b: &Operand<'g>) -> TokenStream {
@@ -239,32 +236,30 @@ impl<'a, 'g> Order<'a, 'g> {
         }
     }
 
-    fn sine_cosine(&mut self, k: usize, a: &Operand<'g>) -> TokenStream {
+    fn sine_cosine(&mut self, k: usize, a: &Operand<'g>) -> Vec<(Ident, TokenStream)> {
         let (fma, ak) = (self.scalar.fma.clone(), self.coefficient(a).unwrap_or(self.zero()));
         let (s0, c0) = (self.first(&Operand::Sine(k)), self.first(&Operand::Cosine(k)));
         let (s, c) = (named("ws", k), named("wc", k));
         let with_cosine = self.lane(quote!(#ak * __order), c.clone());
         let with_sine = self.lane(quote!(#ak * __order), s.clone());
-        quote! {
-            let #s = #fma(__over, #with_cosine, #ak * #c0);
-            let #c = -#fma(__over, #with_sine, #ak * #s0);
-        }
+        let sine = quote!(#fma(__over, #with_cosine, #ak * #c0));
+        let cosine = quote!(-#fma(__over, #with_sine, #ak * #s0));
+        vec![(indexed("ws", k), sine), (indexed("wc", k), cosine)]
     }
 
     /// w = tanh a, r = 1 − w².
-    fn tangent(&mut self, k: usize, a: &Operand<'g>) -> TokenStream {
+    fn tangent(&mut self, k: usize, a: &Operand<'g>) -> Vec<(Ident, TokenStream)> {
         let (fma, w, rk) = (self.scalar.fma.clone(), named("w", k), named("wr", k));
         let (w0, ak) = (self.first(&Operand::Value(k)), self.coefficient(a).unwrap_or(self.zero()));
         let with_rest = self.lane(quote!(#ak * __order), rk.clone());
         let squares = self.lane(w.clone(), w.clone());
-        quote! {
-            let #w = #fma(__over, #with_rest, #ak * #fma(-#w0, #w0, __one));
-            let #rk = -#fma(#w0 + #w0, #w, #squares);
-        }
+        let tangent = quote!(#fma(__over, #with_rest, #ak * #fma(-#w0, #w0, __one)));
+        let rest = quote!(-#fma(#w0 + #w0, #w, #squares));
+        vec![(indexed("w", k), tangent), (indexed("wr", k), rest)]
     }
 
     /// atan2(y, x).
-    fn angle(&mut self, k: usize, y: &Operand<'g>, x: &Operand<'g>) -> TokenStream {
+    fn angle(&mut self, k: usize, y: &Operand<'g>, x: &Operand<'g>) -> Vec<(Ident, TokenStream)> {
         let (fma, w, rk) = (self.scalar.fma.clone(), named("w", k), named("wr", k));
         let (x0, y0) = (self.first(x), self.first(y));
         let [xk, yk] = [x, y].map(|o| self.coefficient(o).unwrap_or(self.zero()));
@@ -274,10 +269,9 @@ impl<'a, 'g> Order<'a, 'g> {
         let forward = self.lane(quote!(#yk * __order), xk.clone());
         let back = self.lane(quote!(#xk * __order), yk.clone());
         let known = self.lane(quote!(#w * __order), rk.clone());
-        quote! {
-            let #rk = #x_squares + #y_squares + ((#x0 + #x0) * #xk + (#y0 + #y0) * #yk);
-            let #w = #fma(__over, #forward - #back - #known, #yk * #x0 - #xk * #y0) * #reciprocal;
-        }
+        let squares = quote!(#x_squares + #y_squares + ((#x0 + #x0) * #xk + (#y0 + #y0) * #yk));
+        let angle = quote!(#fma(__over, #forward - #back - #known, #yk * #x0 - #xk * #y0) * #reciprocal);
+        vec![(indexed("wr", k), squares), (indexed("w", k), angle)]
     }
 
     fn zero(&self) -> TokenStream {

@@ -143,10 +143,6 @@ struct ConstantRates<'g> {
 }
 
 impl<'g> ConstantRates<'g> {
-    #[expect(
-        clippy::mutable_key_type,
-        reason = "expressions are compared by their place in the graph, which never changes"
-    )]
     fn new(graph: &'g Graph, constants: &Constants<'g>, along: &[Direction<'g>]) -> Self {
         let nothing = Program::nothing();
         let extended = with_tangents(&constants.program, (&[], &nothing), along);

@@ -46,7 +46,7 @@ mod whole;
 pub use arrangements::balance::KineticMatrix;
 #[cfg(test)]
 pub use check::witness::acceleration_by_definition;
-pub use check::witness::{SystemFault, check_system_against_definition};
+pub use check::witness::{SystemFault, check_system_against_definition, needless_constraints};
 pub use constraints::constraint::{Constraint, ConstraintKind};
 pub use constraints::elimination::{Elimination, Obstacle};
 pub use constraints::multipliers::Constraints;

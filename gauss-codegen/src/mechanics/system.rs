@@ -137,6 +137,13 @@ impl<'g> System<'g> {
         system
     }
 
+    /// Leaves out constraints, by their numbers, that follow from the others.
+    pub fn leave_out(&mut self, needless: &[usize]) {
+        let mut number = 0..;
+        self.scene.constraints.retain(|_| number.next().is_some_and(|k| !needless.contains(&k)));
+        self.constraints = Constraints::new(&self.scene, &self.scene.rates);
+    }
+
     fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
         if let Some(body) = self.only_body().filter(|_| self.constraints.is_empty()) {
             let entries = body.mass_matrix(&body.momentum());

@@ -486,6 +486,8 @@ impl<'a, 'g> Translator<'a, 'g> {
                 model::ConstraintKind::Velocity => ConstraintKind::Velocity,
             };
             match self.value(&written.expression, tree)? {
+                // So do some of those that a file makes of one relation.
+                Value::Scalar(value) if written.place.is_some() && value.collected(LIMIT).is_zero() => {}
                 Value::Scalar(value) => constraints.push(Constraint { kind, value, clause }),
                 Value::Vector(values) => {
                     // What is identically zero, as across a plane, says nothing.

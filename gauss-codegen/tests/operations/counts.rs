@@ -148,28 +148,14 @@ impl Chain {
         for statement in &block.stmts {
             match statement {
                 Stmt::Local(Local { pat, init: Some(init), .. }) => {
-                    // Blocks hand on many values at once, each as late as itself.
-                    if let (Pat::Tuple(names), Some(values)) = (pat, self.handed_on(&init.expr)) {
-                        for (name, ready) in names.elems.iter().zip(values) {
-                            self.bind(name, ready);
-                        }
-                    } else {
-                        let ready = self.of(&init.expr);
-                        self.bind(pat, ready);
-                    }
+                    let ready = self.of(&init.expr);
+                    self.bind(pat, ready);
                 }
                 Stmt::Expr(expression, _) => last = self.of(expression),
                 _ => {}
             }
         }
         last
-    }
-
-    fn handed_on(&mut self, expression: &Expr) -> Option<Vec<u32>> {
-        let Expr::Block(block) = expression else { return None };
-        let Some(Stmt::Expr(Expr::Tuple(values), None)) = block.block.stmts.last() else { return None };
-        self.block(&block.block);
-        Some(values.elems.iter().map(|value| self.of(value)).collect())
     }
 
     fn bind(&mut self, pattern: &Pat, ready: u32) {
@@ -184,8 +170,23 @@ impl Chain {
         }
     }
 
+    /// What has been declared before.
+    fn assign(&mut self, names: &Expr, ready: u32) {
+        match names {
+            Expr::Path(_) => self.ready.extend(path(names).map(|name| (name, ready))),
+            Expr::Tuple(parts) => parts.elems.iter().for_each(|part| self.assign(part, ready)),
+            Expr::Array(parts) => parts.elems.iter().for_each(|part| self.assign(part, ready)),
+            _ => {}
+        }
+    }
+
     fn of(&mut self, expression: &Expr) -> u32 {
         match expression {
+            Expr::Assign(assignment) => {
+                let ready = self.of(&assignment.right);
+                self.assign(&assignment.left, ready);
+                ready
+            }
             Expr::Path(_) => path(expression).and_then(|name| self.ready.get(&name).copied()).unwrap_or(0),
             Expr::Binary(binary) => {
                 let own = if matches!(binary.op, syn::BinOp::Div(_)) { 15 } else { 4 };

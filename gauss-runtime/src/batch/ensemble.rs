@@ -15,7 +15,7 @@ use crate::integrate::{
 use crate::simd::Packed;
 use crate::system::GaussSystem;
 
-/// Many runs over one interval, in lanes and on threads, each with steps of its own.
+/// Many runs over one interval, in lanes and on threads, each with steps and an end of its own.
 ///
 /// Every run takes the steps that it would take alone and is told of by itself: one that ends early or fails does not hold up the
 /// others, its lane is handed to the next. Where all states share a kernel ([`Batch::new`]) that is the next state whichever
@@ -85,7 +85,9 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
         self.control(Taylor::new(relative, absolute))
     }
 
-    /// Any method that chooses its steps in every lane: a [`LaneControl`].
+    /// Any method that chooses or counts its steps in every lane, a [`LaneControl`]: also steps of one length, where
+    /// runs end at events or fail, by methods that remember earlier ones (`Adams::<_, 10>::new(Pack::splat(0.02))`)
+    /// or by a closed form (`Fixed::by(…, Pack::splat(100.0))`).
     pub fn control<C>(self, control: C) -> Ensemble<'k, K, F, I, C> {
         Ensemble { batch: self, control, events: NoEvents, limit: DEFAULT_LIMIT, progress: None }
     }

@@ -30,7 +30,7 @@ pub mod taylor;
 pub mod tune;
 
 pub use adams::Adams;
-pub use body::{FreeFlow, MoserVeselov, Scheme, Splitting, SplittingError};
+pub use body::{FreeFlow, MoserVeselov, Scheme, Splitting, SplittingError, TopError, TopFlow};
 pub use drive::adaptive::Adaptive;
 pub use drive::compensated::Compensated;
 #[cfg(feature = "alloc")]

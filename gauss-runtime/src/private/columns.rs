@@ -8,37 +8,50 @@ use crate::real::Real;
 /// Columns that go through the substitution together, as many as registers hold two or four of.
 const TOGETHER: usize = 8;
 
-/// A row of a bundle, on a cache line where numbers are doubles: registers of 64 bytes are then loaded from one line.
+/// A number of each of the columns that go together.
+type Lanes<T> = [T; TOGETHER];
+
+/// The rows of a bundle, each on a cache line where numbers are doubles: registers of 64 bytes are then loaded from one
+/// line. The only structure here, and loops count by hand: rustc takes structures in code that it puts into a caller
+/// apart one by one, which in a function of a hundred thousand statements takes seconds.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
-pub struct Lanes<T>(pub [T; TOGETHER]);
+pub struct Bundle<T, const N: usize>(pub [Lanes<T>; N]);
 
 /// `to − factor·of`.
 #[inline(always)]
 pub fn subtract_multiple<T: Real>(to: &mut Lanes<T>, factor: T, of: &Lanes<T>) {
-    for (to, &of) in to.0.iter_mut().zip(&of.0) {
-        *to = (-factor).fma(of, *to);
+    let mut lane = 0;
+    while lane < TOGETHER {
+        to[lane] = (-factor).fma(of[lane], to[lane]);
+        lane += 1;
     }
 }
 
 /// `factor·of`.
 #[inline(always)]
 pub fn multiple<T: Real>(factor: T, of: &Lanes<T>) -> Lanes<T> {
-    Lanes(of.0.map(|of| factor * of))
+    let mut product = *of;
+    let mut lane = 0;
+    while lane < TOGETHER {
+        product[lane] = factor * of[lane];
+        lane += 1;
+    }
+    product
 }
 
 /// Writes solutions to columns, each in the row of its unknown after the first rows.
 #[inline(always)]
 pub fn put<T: Real, const N: usize, const R: usize>(
     columns: &mut [&mut [T; R]; TOGETHER],
-    x: &[Lanes<T>; N],
+    x: &Bundle<T, N>,
     order: &[usize; N],
     first: usize,
 ) {
     // Where columns are is loaded once. Column by column, compilers would gather what is far apart.
     let mut columns = columns.each_mut().map(|column| &mut **column);
-    for (&unknown, x) in order.iter().zip(x) {
-        for (column, &x) in columns.iter_mut().zip(&x.0) {
+    for (&unknown, x) in order.iter().zip(&x.0) {
+        for (column, &x) in columns.iter_mut().zip(x) {
             column[first + unknown] = x;
         }
     }

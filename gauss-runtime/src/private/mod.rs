@@ -30,7 +30,7 @@ pub use crate::series::{Series, TaylorSystem};
 pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};
 pub use crate::table::{Cubic, Linear};
 pub use check::ParameterCheck;
-pub use columns::{Lanes, columns, each_column, filled, multiple, only_column, put, subtract_multiple, zeros};
+pub use columns::{Bundle, columns, each_column, filled, multiple, only_column, put, subtract_multiple, zeros};
 pub use containers::{components, entries, isometry2, isometry3, matrix, product, quaternion, vector};
 pub(crate) use eigenvalues::eigenvalues;
 pub use nalgebra::{Isometry2, Isometry3, IsometryMatrix3, SMatrix, SVector, UnitQuaternion};

@@ -8,7 +8,7 @@ use gauss_runtime::integrate::LaneControl;
 use super::*;
 
 /// A run of its own for each state of an ensemble.
-fn agree<P, S, C, D>(
+pub(super) fn agree<P, S, C, D>(
     (packed, single): (&P, &S),
     (control, alone): (C, D),
     start: impl Fn(usize) -> (S::Configuration, S::Speeds),
@@ -115,6 +115,35 @@ fn a_sweep_has_parameters_of_its_own_in_every_lane() {
 #[test]
 fn runs_that_fail_do_so_as_they_would_alone() {
     type Pack = Lanes<f64, 4>;
+    let adaptive = Adaptive::new(1e-8, 1e-8);
+    let kinds = fail_as_alone((adaptive, adaptive), 120);
+    for kind in ["ends", "undefined", "singular", "too many"] {
+        assert!(kinds.contains(&kind), "{kind} is not among {kinds:?}");
+    }
+    let kernel = weightless(Pack::splat(1.0));
+    let mut states = States::<TopKernel<Pack>>::from_fn(3, angles);
+    let ends = Batch::new(&kernel).adaptive(-1.0, 0.0).run(0.0..1.0, &mut states);
+    let refused = |end: &HowItEnded<TopKernel<Pack>>| {
+        end.as_ref().is_err_and(|error| matches!(error.kind, IntegrationErrorKind::InvalidTolerance { .. }))
+    };
+    assert!(ends.len() == 3 && ends.iter().all(refused));
+    assert!(Batch::new(&kernel).adaptive(1e-6, 0.0).run(0.0..1.0, &mut States::from_fn(0, angles)).is_empty());
+    assert!(Batch::new(&kernel).adaptive(1e-6, 0.0).run(0.5..0.5, &mut states).iter().all(Result::is_ok));
+}
+
+/// A top without weight.
+fn weightless<T: Real>(level: T) -> TopKernel<T> {
+    let body = Top { mass: level, center: vector([0.0; 3]), inertia: vector([0.75, 0.75, 0.3]), g: T::zero() };
+    body.kernel().expect("a body")
+}
+
+/// How runs from states of all kinds end, the same in lanes and alone.
+pub(super) fn fail_as_alone<C, D>((in_lanes, alone): (C, D), limit: u64) -> Vec<&'static str>
+where
+    C: LaneControl<TopKernel<Lanes<f64, 4>>>,
+    D: gauss_runtime::integrate::Control<TopKernel<f64>> + Copy,
+{
+    type Pack = Lanes<f64, 4>;
     let start = |i: usize| {
         let (mut q, mut z) = angles(i);
         match i % 5 {
@@ -126,19 +155,14 @@ fn runs_that_fail_do_so_as_they_would_alone() {
         }
         (q, z)
     };
-    let weightless = |level: Pack| {
-        let body =
-            Top { mass: level, center: vector([0.0; 3]), inertia: vector([0.75, 0.75, 0.3]), g: Pack::splat(0.0) };
-        body.kernel().expect("a body")
-    };
-    let alone = Top { mass: 1.0, center: vector([0.0; 3]), inertia: vector([0.75, 0.75, 0.3]), g: 0.0 };
-    let (kernel, alone) = (weightless(Pack::splat(1.0)), alone.kernel().expect("a body"));
+    let (control, kernel, single) = (alone, weightless(Pack::splat(1.0)), weightless(1.0));
     let mut states = States::<TopKernel<Pack>>::from_fn(23, start);
-    let ends = Batch::new(&kernel).adaptive(1e-8, 1e-8).max_steps(120).run(0.0..1.2, &mut states);
+    let ends = Batch::new(&kernel).control(in_lanes).max_steps(limit).run(0.0..1.2, &mut states);
     let mut kinds = Vec::new();
     for (i, end) in ends.iter().enumerate() {
         let (q0, z0) = start(i);
-        let (path, error) = Simulation::new(&alone).adaptive(1e-8, 1e-8).max_steps(120).attempt(q0, z0, 0.0..1.2);
+        let run = Simulation::new(&single).control(control).max_steps(limit);
+        let (path, error) = run.attempt(q0, z0, 0.0..1.2);
         let (q, z) = states.get(i);
         let last = path.last();
         let same = |a: &SVector<f64, 3>, b: &SVector<f64, 3>| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
@@ -159,22 +183,21 @@ fn runs_that_fail_do_so_as_they_would_alone() {
             other => panic!("state {i}: {other:?}"),
         }
     }
-    for kind in ["ends", "undefined", "singular", "too many"] {
-        assert!(kinds.contains(&kind), "{kind} is not among {kinds:?}");
-    }
-    let mut states = States::<TopKernel<Pack>>::from_fn(3, angles);
-    let ends = Batch::new(&kernel).adaptive(-1.0, 0.0).run(0.0..1.0, &mut states);
-    let refused = |end: &HowItEnded<TopKernel<Pack>>| {
-        end.as_ref().is_err_and(|error| matches!(error.kind, IntegrationErrorKind::InvalidTolerance { .. }))
-    };
-    assert!(ends.len() == 3 && ends.iter().all(refused));
-    assert!(Batch::new(&kernel).adaptive(1e-6, 0.0).run(0.0..1.0, &mut States::from_fn(0, angles)).is_empty());
-    assert!(Batch::new(&kernel).adaptive(1e-6, 0.0).run(0.5..0.5, &mut states).iter().all(Result::is_ok));
+    kinds
+}
+
+#[test]
+fn events_are_those_of_each_run() {
+    let control = Adaptive::new(1e-9, 1e-9);
+    bounce_as_alone((control, control));
 }
 
 /// Bodies that bounce off a floor, are counted at a height and stop where they go too far: as each would alone.
-#[test]
-fn events_are_those_of_each_run() {
+pub(super) fn bounce_as_alone<C, D>((in_lanes, control): (C, D))
+where
+    C: LaneControl<ThrownKernel<wide::f64x8>>,
+    D: gauss_runtime::integrate::Control<ThrownKernel<f64>> + Copy,
+{
     type Pack = wide::f64x8;
     fn bounce<T: Real>(z: &mut SVector<T, 6>) {
         // Upwards, as fast as it fell, with another turn.
@@ -189,7 +212,7 @@ fn events_are_those_of_each_run() {
     let (kernel, alone) = (thrown(Pack::splat(2.0)), thrown(2.0));
     let mut states = States::<ThrownKernel<Pack>>::from_fn(21, start);
     let ends = Batch::new(&kernel)
-        .adaptive(1e-9, 1e-9)
+        .control(in_lanes)
         .event(Crossing::Any, |_t, q: &Isometry3<Pack>, _z| q.translation.z - Pack::splat(0.3))
         .event(Crossing::Falling, |_t, q: &Isometry3<Pack>, _z| q.translation.z)
         .then(|state: &mut Sample<ThrownKernel<Pack>>| bounce(&mut state.z))
@@ -203,7 +226,7 @@ fn events_are_those_of_each_run() {
             .event(Crossing::Falling, |_t, q, _z| q.translation.z)
             .then(|state| bounce(&mut state.z))
             .until(Crossing::Any, |_t, q, _z| q.translation.x - 0.2)
-            .adaptive(1e-9, 1e-9)
+            .control(control)
             .run(q0, z0, 0.0..0.9)
             .expect("runs");
         let Ended { time, stopped_by, summary, events, .. } = end.expect("runs");

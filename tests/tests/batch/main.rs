@@ -1,6 +1,7 @@
 //! Many states at once: the bits of single runs, remainders, parameters of their own, states that stop, threads.
 
 mod ensembles;
+mod one_length;
 
 use std::ops::Range;
 

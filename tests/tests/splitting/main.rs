@@ -4,7 +4,7 @@
 mod bodies;
 
 use bodies::{Afloat, Dragged, Observed, OffCentre, Skewed, attitude_error, flying, top};
-use gauss_runtime::integrate::{OneStep, Scheme, Splitting, SplittingError};
+use gauss_runtime::integrate::{OneStep, Scheme, Splitting, SplittingError, TopError, TopFlow};
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::Scene;
 use gauss_tests::top::TopKernel;
@@ -39,6 +39,54 @@ fn free_bodies_in_one_step() {
         let end = run(&scene, &kernel, &exact, 1);
         let error = attitude_error(&end.q, &scene).max((end.z - scene.last.omega).amax());
         assert!(error <= rounding(&scene, 1.0), "{name}: {error:e}, allowed {:e}", rounding(&scene, 1.0));
+    }
+}
+
+/// Those of heavy bodies of revolution, whose axes are e₂ and e₃, and what the energy does on the way.
+#[test]
+fn heavy_tops_of_revolution_in_one_step() {
+    for name in ["bruls_heavy_top", "simo_wong_top", "lagrange_top"] {
+        let scene = Scene::load(name);
+        let kernel = top(&scene);
+        let exact = TopFlow::new(&kernel).expect("a heavy body of revolution");
+        let end = run(&scene, &kernel, &exact, 1);
+        let error = attitude_error(&end.q, &scene).max((end.z - scene.last.omega).amax() / scene.last.omega.amax());
+        assert!(error <= rounding(&scene, 1.0), "{name}: {error:e}, allowed {:e}", rounding(&scene, 1.0));
+        let before = kernel.energy(0.0, &scene.initial.pose().rotation, &scene.initial.omega);
+        let off = (kernel.energy(0.0, &end.q, &end.z) / before - 1.0).abs();
+        assert!(off <= 32.0 * EPSILON, "{name}: energy {off:e}");
+    }
+}
+
+/// A top whose axis lies askew in the axes of the body.
+#[test]
+fn an_axis_may_lie_anywhere_in_the_body() {
+    let scene = Scene::load("lagrange_top");
+    let p = &scene.parameters;
+    let axes = UnitQuaternion::from_euler_angles(0.4, -0.7, 1.1);
+    let matrix = axes.to_rotation_matrix().into_inner();
+    let inertia = matrix * Matrix3::from_diagonal(&p.principal) * matrix.transpose();
+    let inertia = (inertia + inertia.transpose()) * 0.5;
+    let skewed = Skewed { mass: p.mass, center: axes * p.center, inertia, gravity: p.gravity };
+    let skewed = skewed.kernel().expect("the same top");
+    let exact = TopFlow::new(&skewed).expect("a heavy body of revolution");
+    let (q, z) = (scene.initial.pose().rotation, scene.initial.omega);
+    let end = Simulation::new(&skewed)
+        .control(Fixed::by(exact, scene.duration))
+        .run_to_end(q * axes.inverse(), axes * z, 0.0..scene.duration)
+        .expect("the motion is regular");
+    let error = attitude_error(&(end.q * axes), &scene);
+    assert!(error <= rounding(&scene, 1.0), "{error:e}, allowed {:e}", rounding(&scene, 1.0));
+}
+
+#[test]
+fn what_is_not_a_heavy_body_of_revolution_is_refused() {
+    for (name, expected) in [
+        ("hlw_heavy_top", TopError::NotOfRevolution),
+        ("kovalevskaya", TopError::NotOfRevolution),
+        ("free_asym_top", TopError::Free),
+    ] {
+        assert_eq!(TopFlow::new(&top(&Scene::load(name))), Err(expected), "{name}");
     }
 }
 

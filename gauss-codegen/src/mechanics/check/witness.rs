@@ -432,11 +432,57 @@ fn agree<N: Number>(method: Method, found: &[N], expected: &[N]) -> Result<(), D
     Ok(())
 }
 
+/// Positions that are sums of multiples of those before them, with the same factors wherever the system is: they say
+/// nothing, as the components of a loop's position across the plane in which it moves. Symbols that stand for `literals` have
+/// those values.
+pub fn needless_constraints<'g>(system: &System<'g>, literals: &[(Rational, Expr<'g>)]) -> Vec<usize> {
+    // Roundings of numbers, not of what is computed with them: planes of which each link has its own.
+    const NEGLIGIBLE: f64 = 1e-12;
+    // Roundings can look like a dependence, as for all that is checked.
+    let alike = needless::<f64>(system, literals, 100.0 * f64::NEGLIGIBLE);
+    if alike.is_empty() { alike } else { needless::<Precise>(system, literals, NEGLIGIBLE) }
+}
+
+fn needless<'g, N: Number>(system: &System<'g>, literals: &[(Rational, Expr<'g>)], negligible: f64) -> Vec<usize> {
+    // The system elsewhere, its parameters as they were.
+    let mut at: Map<u32, N> = sample_state(system, 0);
+    at.extend(literals.iter().map(|(value, symbol)| (symbol.key(), N::fraction(*value))));
+    let states = (0..16).map(|shift| {
+        let mut state = at.clone();
+        let other: Map<u32, N> = sample_state(system, shift);
+        state.extend(system.scene.rates.keys().filter_map(|key| Some((*key, *other.get(key)?))));
+        Witness::new(system, state)
+    });
+    let all = dependencies(system, states, negligible);
+    all.into_iter().filter(|found| found.constant && !found.contradicts).map(|found| found.number).collect()
+}
+
+/// A constraint whose velocity is a combination of those before it.
+struct Dependency {
+    number: usize,
+    /// Of positions, with the same coefficients everywhere.
+    constant: bool,
+    /// It does not hold together with them.
+    contradicts: bool,
+}
+
 /// Constraints that say nothing new, or nothing that can hold with those before them.
 fn dependent_constraints<'a, 'g, N: Number + 'a>(
     system: &'a System<'g>,
     states: impl Iterator<Item = Witness<'a, 'g, N>>,
 ) -> Vec<SystemFault> {
+    let fault = |found: Dependency| match found.contradicts {
+        true => SystemFault::InconsistentConstraint(found.number),
+        false => SystemFault::DependentConstraint(found.number),
+    };
+    dependencies(system, states, 100.0 * N::NEGLIGIBLE).into_iter().map(fault).collect()
+}
+
+fn dependencies<'a, 'g, N: Number + 'a>(
+    system: &'a System<'g>,
+    states: impl Iterator<Item = Witness<'a, 'g, N>>,
+    negligible: f64,
+) -> Vec<Dependency> {
     let constraints = &system.constraints;
     let positions = constraints.on_positions();
     let usable = |witness: &Witness<'_, 'g, N>| {
@@ -451,10 +497,10 @@ fn dependent_constraints<'a, 'g, N: Number + 'a>(
     let zero = N::number(0.0);
     at_rest.state.extend(system.scene.speeds.iter().map(|z| (z.key(), zero)));
     let moving = at_rest.values(&constraints.on_velocities);
-    let elsewhere = other.map(|other| (dependent_rows(&other), other.values(&positions)));
+    let elsewhere = other.map(|other| (dependent_rows(&other, negligible), other.values(&positions)));
     let combined =
         |coefficients: &[N], values: &[N]| sum(coefficients.iter().zip(values).map(|(c, value)| *c * *value));
-    dependent_rows(&witness)
+    dependent_rows(&witness, negligible)
         .into_iter()
         .map(|(k, coefficients)| {
             // Positions can be compared where a combination with the same coefficients everywhere is constant.
@@ -466,17 +512,16 @@ fn dependent_constraints<'a, 'g, N: Number + 'a>(
                 let same = coefficients.iter().zip(other).all(|(a, b)| close(*a, *b));
                 (of_positions && same).then(|| combined(other, values))
             });
-            let contradicts = [Some(combined(&coefficients, &moving)), constant].into_iter().flatten();
-            match contradicts.into_iter().any(|value| value.to_f64().abs() > 1e-8) {
-                true => SystemFault::InconsistentConstraint(k),
-                false => SystemFault::DependentConstraint(k),
-            }
+            let values = [Some(combined(&coefficients, &moving)), constant].into_iter().flatten();
+            let contradicts = values.into_iter().any(|value| value.to_f64().abs() > 1e-8);
+            Dependency { number: k, constant: constant.is_some(), contradicts }
         })
         .collect()
 }
 
 /// Rows of J that are combinations of those before them, with the coefficients of the combination that vanishes.
-fn dependent_rows<N: Number>(witness: &Witness<'_, '_, N>) -> Vec<(usize, Vec<N>)> {
+/// What is smaller than the `negligible` part of a row is what elimination leaves of it.
+fn dependent_rows<N: Number>(witness: &Witness<'_, '_, N>, negligible: f64) -> Vec<(usize, Vec<N>)> {
     let constraints = &witness.system.constraints;
     let columns = witness.partials(&constraints.on_velocities);
     let count = constraints.count();
@@ -491,8 +536,7 @@ fn dependent_rows<N: Number>(witness: &Witness<'_, '_, N>) -> Vec<(usize, Vec<N>
             .enumerate()
             .map(|(column, x)| (column, x.to_f64().abs()))
             .fold((0, 0.0_f64), |best, other| if other.1 > best.1 { other } else { best });
-        // Elimination leaves roundings of what the row was.
-        if size <= 100.0 * N::NEGLIGIBLE * sizes[k].max(1e-3) {
+        if size <= negligible * sizes[k].max(1e-3) {
             dependent.push((k, combinations[k].clone()));
             continue;
         }
@@ -554,14 +598,15 @@ fn sample_state<N: Number>(system: &System<'_>, shift: u32) -> Map<u32, N> {
     let mut evaluation = Evaluation::new(&none);
     for coordinate in &scene.coordinates {
         if let Coordinate::Plane { turn: [cosine, sine], .. } = coordinate {
-            let fifths = |n| N::fraction(Rational::new(n, 5));
-            state.extend([(cosine.key(), fifths(3)), (sine.key(), fifths(4))]);
+            let [c, s, of] = if shift.is_multiple_of(2) { [3, 4, 5] } else { [5, 12, 13] };
+            let part = |n| N::fraction(Rational::new(n, of));
+            state.extend([(cosine.key(), part(c)), (sine.key(), part(s))]);
         }
     }
     for (k, rotation) in scene.coordinates.iter().filter_map(Coordinate::rotation).enumerate() {
         // (1, 5, −3, 1)/6 is a unit quaternion, and so are its permutations.
         let mut integers = [1, 5, -3, 1];
-        integers.rotate_left(k % 4);
+        integers.rotate_left((k + shift as usize) % 4);
         let quaternion = integers.map(|n| scene.graph.integer(n).scale(Rational::new(1, 6)));
         let entries = rotation_of_quaternion(scene.graph, quaternion);
         let pairs = rotation.iter().flatten().zip(entries.iter().flatten());

@@ -429,7 +429,8 @@ fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintC
             ConstraintKind::Velocity => "v - r * w",
         };
         let Some(expression) = value(argument, example, context) else { continue };
-        read = read.or(Some(ConstraintClause { kind, expression, vector: false, span: clause.name.span() }));
+        read =
+            read.or(Some(ConstraintClause { kind, expression, vector: false, place: None, span: clause.name.span() }));
     }
     read
 }

@@ -199,7 +199,7 @@ impl<'a> Robot<'a> {
         let bodies: Vec<BodyClause> = (0..self.links.len()).map(|link| self.body(link)).collect();
         statements.bodies.splice(0..0, bodies);
         self.add_armatures(statements);
-        statements.constraints.splice(0..0, self.constraints());
+        statements.constraints.splice(0..0, self.constraints(&text.names()));
         let has_gravity = statements.role_clauses.iter().any(|clause| clause.role == Role::Gravity);
         statements.role_clauses.extend(self.gravity().filter(|_| !has_gravity && !self.gravity_in_field));
         let forces = self.forces();
@@ -295,9 +295,10 @@ impl<'a> Robot<'a> {
         }
     }
 
-    fn body(&self, link: usize) -> BodyClause {
+    /// Position and rotation of a link relative to the one that it hangs on; of the root, as the observer sees it.
+    pub fn placement(&self, link: usize) -> [Option<Expression>; 2] {
         let writer = self.writer;
-        let [position, rotation] = match (self.structure.joint_of[link], &self.base) {
+        match (self.structure.joint_of[link], &self.base) {
             (Some(joint), _) => {
                 let written = &self.description.joints[joint];
                 match (written.kind, self.coordinates[joint].as_slice()) {
@@ -310,7 +311,12 @@ impl<'a> Robot<'a> {
                 [Property::Position, Property::Rotation].map(|part| Some(writer.property(base, part)))
             }
             (None, None) => [None, None],
-        };
+        }
+    }
+
+    fn body(&self, link: usize) -> BodyClause {
+        let writer = self.writer;
+        let [position, rotation] = self.placement(link);
         let own = &self.description.links[link].inertial;
         let own = match (self.moves(link), self.is_apart(link)) {
             (false, _) => None,

@@ -1,25 +1,29 @@
 //! What joins links beside the tree: points and rotations in common, coordinates that are polynomials of others.
 
 use super::clauses::Robot;
-use super::description::{Closure, Polynomial, Turn};
+use super::description::{At, Closure, Polynomial, Turn};
 use super::rotation::{Rotation, Triple};
+use super::source::located;
 use crate::model::scene::clauses::{ConstraintClause, ConstraintKind};
 use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
 
 impl Robot<'_> {
     /// Links that have a point in common, or a place; coordinates that others determine.
-    pub fn constraints(&self) -> Vec<ConstraintClause> {
-        let closures = self.description.closures.iter().flat_map(|closure| self.closure(closure).unwrap_or_default());
-        let polynomials = self.description.polynomials.iter().filter_map(|polynomial| self.polynomial(polynomial));
-        closures
-            .chain(polynomials)
-            .map(|expression| ConstraintClause {
-                kind: ConstraintKind::Position,
-                expression,
-                vector: false,
-                span: self.writer.span,
-            })
-            .collect()
+    pub fn constraints(&self, names: &[String]) -> Vec<ConstraintClause> {
+        let clause = |at: At, expression: Expression| ConstraintClause {
+            kind: ConstraintKind::Position,
+            expression,
+            vector: false,
+            place: Some(located(names, at, "")),
+            span: self.writer.span,
+        };
+        let closures = self.description.closures.iter().flat_map(|closure| {
+            self.closure(closure).unwrap_or_default().into_iter().map(|expression| clause(closure.at, expression))
+        });
+        let polynomials = self.description.polynomials.iter();
+        let polynomials =
+            polynomials.filter_map(|polynomial| Some(clause(polynomial.at, self.polynomial(polynomial)?)));
+        closures.chain(polynomials).collect()
     }
 
     fn closure(&self, closure: &Closure) -> Option<Vec<Expression>> {
@@ -33,14 +37,14 @@ impl Robot<'_> {
                 (other, turn.map(|_| self.structure.turn_at_rest(self.description, [first, second])))
             }
         };
+        let axes = self.axes([first, second]);
         let [a, b] = [(first, &closure.anchor), (second, &other)].map(|(link, point)| {
-            let origin = writer.property(&self.links[link], Property::Position);
-            match writer.triple(point) {
-                Some(point) => {
-                    let rotation = writer.property(&self.links[link], Property::Rotation);
-                    writer.plus(origin, writer.times(rotation, point))
+            let turned = writer.triple(point).map(|point| self.turned(link, axes, point));
+            match (self.origin(link, axes), turned) {
+                (Some(origin), Some(turned)) => writer.plus(origin, turned),
+                (origin, turned) => {
+                    origin.or(turned).unwrap_or_else(|| writer.vector([0.0; 3].map(|c| writer.number(c))))
                 }
-                None => origin,
             }
         });
         let mut all = vec![writer.binary(BinaryOperator::Subtract, a, b)];
@@ -50,13 +54,53 @@ impl Robot<'_> {
         Some(all)
     }
 
+    /// What a loop of these links hangs on, if it moves: in the axes of this link a loop that stays in a plane stays in the same.
+    fn axes(&self, links: [usize; 2]) -> Option<usize> {
+        let parent_of = &self.structure.parent_of;
+        let chain = |link: usize| std::iter::successors(Some(link), |&link| parent_of[link]);
+        let common = chain(links[0]).find(|&link| chain(links[1]).any(|other| other == link));
+        common.filter(|&link| self.moves(link))
+    }
+
+    /// A vector of a link in the axes of one that it hangs on, or of the observer.
+    fn turned(&self, link: usize, axes: Option<usize>, vector: Expression) -> Expression {
+        let Some(axes) = axes else {
+            return self.writer.times(self.writer.property(&self.links[link], Property::Rotation), vector);
+        };
+        let turn = |vector, link| match self.placement(link) {
+            [_, Some(rotation)] => self.writer.times(rotation, vector),
+            [_, None] => vector,
+        };
+        self.chain(link, axes).fold(vector, turn)
+    }
+
+    /// Where a link is from one that it hangs on, in its axes, or from Ω; none where it is there always.
+    fn origin(&self, link: usize, axes: Option<usize>) -> Option<Expression> {
+        let Some(axes) = axes else { return Some(self.writer.property(&self.links[link], Property::Position)) };
+        self.chain(link, axes).fold(None, |point: Option<Expression>, link| {
+            let [position, rotation] = self.placement(link);
+            let turned = point.map(|point| match rotation {
+                Some(rotation) => self.writer.times(rotation, point),
+                None => point,
+            });
+            match (position, turned) {
+                (Some(position), Some(turned)) => Some(self.writer.plus(position, turned)),
+                (position, turned) => position.or(turned),
+            }
+        })
+    }
+
+    /// A link and what it hangs on, below another.
+    fn chain(&self, link: usize, end: usize) -> impl Iterator<Item = usize> {
+        let parent_of = &self.structure.parent_of;
+        std::iter::successors(Some(link), |&link| parent_of[link]).take_while(move |&link| link != end)
+    }
+
     /// Axes of two links are the same, those of the second turned back: three products that are zero where they are.
     fn axes_in_common(&self, links: [usize; 2], turn: &[Triple; 3]) -> Vec<Expression> {
         let writer = self.writer;
-        let along = |link: usize, axis: Triple| {
-            let rotation = writer.property(&self.links[link], Property::Rotation);
-            writer.times(rotation, writer.vector(axis.map(|c| writer.number(c))))
-        };
+        let axes = self.axes(links);
+        let along = |link: usize, axis: Triple| self.turned(link, axes, writer.vector(axis.map(|c| writer.number(c))));
         let product = |i: usize| {
             let j = (i + 1) % 3;
             // Axis i of the first, and what is its axis j while the turn holds, in the axes of the second.

@@ -124,6 +124,8 @@ pub struct ConstraintClause {
     pub expression: Expression,
     /// The expression is a vector: three constraints.
     pub vector: bool,
+    /// Where it is written, in the file of a robot.
+    pub place: Option<String>,
     /// The word `constraint`.
     pub span: Span,
 }

@@ -3,7 +3,7 @@
 //! What inputs, numbers and functions are called is its `Dialect`: kernels read symbols and are generic over the scalar
 //! (`emit`), functions that stand alone read arrays of `f64` (`plain`).
 
-use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 
 use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational};
@@ -61,8 +61,10 @@ pub(crate) fn operand<S: Copy>(operand: &Operand<S>, dialect: &impl Dialect<S>) 
     }
 }
 
-/// Instructions in a row. Every `let` is a scope within that of the one before it, and compilers recurse into them: thousands overflow
-/// their stacks. Longer programs are written in blocks that hand on what later ones need.
+/// Instructions in a row. Every `let` is a scope within that of the one before it, and compilers recurse into them:
+/// thousands overflow their stacks. Longer programs are written in blocks. What later ones read is declared before its
+/// block and assigned in it: a tuple that a block hands on is taken apart by rustc, one component after the other, in a
+/// function of a hundred thousand statements, which took four of twenty seconds for a humanoid's derivatives.
 const BLOCK: usize = 256;
 
 /// Angles whose sines and cosines are computed together: as many as fill the longest vectors that there are.
@@ -102,6 +104,53 @@ pub(crate) fn statements<S: Copy>(
     in_this_order(code, dialect, kept)
 }
 
+/// Names that are bound, and to what.
+pub(crate) struct Statement {
+    pattern: TokenStream,
+    value: TokenStream,
+}
+
+impl Statement {
+    pub(crate) fn new(pattern: impl ToTokens, value: TokenStream) -> Statement {
+        Statement { pattern: pattern.into_token_stream(), value }
+    }
+
+    fn bound(self) -> TokenStream {
+        let mut tokens = quote!(let);
+        tokens.extend(self.assigned());
+        tokens
+    }
+
+    /// Where the names have been declared.
+    fn assigned(self) -> TokenStream {
+        // Moved, not copied: these are most of the tokens that there are.
+        let mut tokens = self.pattern;
+        tokens.extend(quote!(=));
+        tokens.extend(self.value);
+        tokens.extend(quote!(;));
+        tokens
+    }
+
+    fn names(&self) -> Vec<Ident> {
+        let mut names = Vec::new();
+        collect_names(self.pattern.clone(), &mut names);
+        names
+    }
+}
+
+fn collect_names(pattern: TokenStream, names: &mut Vec<Ident>) {
+    for token in pattern {
+        match token {
+            TokenTree::Ident(name) if name != "_" => names.push(name),
+            TokenTree::Group(group) => collect_names(group.stream(), names),
+            _ => {}
+        }
+    }
+}
+
+/// A line of a program: names that are read behind its block, and a statement unless another line's binds its names.
+pub(crate) type Line = (Vec<Ident>, Option<Statement>);
+
 fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept) -> (TokenStream, Vec<TokenStream>) {
     let read = pairs_read(code, kept);
     let together = dialect.sines_and_cosines();
@@ -111,12 +160,12 @@ fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept)
         if let (Instruction::SineCosine(_), Some(function)) = (&code.instructions[k], &together) {
             let row = row_of_angles(code, k);
             if row.len() > 1 {
-                written.push(angles_together(k, &row, &read[k..], function, dialect));
-                written.resize(k + row.len(), TokenStream::new());
+                written.push(Some(angles_together(k, &row, &read[k..], function, dialect)));
+                written.resize_with(k + row.len(), || None);
                 continue;
             }
         }
-        written.push(statement(k, &code.instructions[k], read[k], dialect));
+        written.push(Some(statement(k, &code.instructions[k], read[k], dialect)));
     }
     (in_functions(code, kept, written, dialect), code.outputs.iter().map(|output| operand(output, dialect)).collect())
 }
@@ -139,7 +188,7 @@ fn angles_together<S: Copy>(
     read: &[[bool; 2]],
     function: &TokenStream,
     dialect: &impl Dialect<S>,
-) -> TokenStream {
+) -> Statement {
     let named = |(k, read): (usize, bool), name: fn(usize) -> Ident| {
         let name = name(first + k);
         if read { quote!(#name) } else { quote!(_) }
@@ -147,7 +196,7 @@ fn angles_together<S: Copy>(
     let part = |part: usize| read[..angles.len()].iter().map(move |read| read[part]).enumerate();
     let (sines, cosines) = (part(0).map(|k| named(k, sine)), part(1).map(|k| named(k, cosine)));
     let angles = angles.iter().map(|angle| operand(angle, dialect));
-    quote!(let ([#(#sines),*], [#(#cosines),*]) = #function([#(#angles),*]);)
+    Statement::new(quote!(([#(#sines),*], [#(#cosines),*])), quote!(#function([#(#angles),*])))
 }
 
 /// One instruction; of a sine and a cosine what is read.
@@ -156,33 +205,36 @@ fn statement<S: Copy>(
     instruction: &Instruction<S>,
     [sine_read, cosine_read]: [bool; 2],
     dialect: &impl Dialect<S>,
-) -> TokenStream {
+) -> Statement {
     let write = |o: &Operand<S>| operand(o, dialect);
-    let name = value(k);
-    match instruction {
-        Instruction::Add(a, b) => binary(&name, &write(a), &quote!(+), &write(b)),
-        Instruction::Subtract(a, b) => binary(&name, &write(a), &quote!(-), &write(b)),
-        Instruction::Multiply(a, b) => binary(&name, &write(a), &quote!(*), &write(b)),
-        Instruction::Divide(a, b) => binary(&name, &write(a), &quote!(/), &write(b)),
+    let binary = |a: &Operand<S>, operator: TokenStream, b: &Operand<S>| {
+        let (a, b) = (write(a), write(b));
+        quote!(#a #operator #b)
+    };
+    let result = match instruction {
+        Instruction::Add(a, b) => binary(a, quote!(+), b),
+        Instruction::Subtract(a, b) => binary(a, quote!(-), b),
+        Instruction::Multiply(a, b) => binary(a, quote!(*), b),
+        Instruction::Divide(a, b) => binary(a, quote!(/), b),
         Instruction::MultiplyAdd(a, b, c) => {
             let (fma, a, b, c) = (dialect.fma(), write(a), write(b), write(c));
-            quote!(let #name = #fma(#a, #b, #c);)
+            quote!(#fma(#a, #b, #c))
         }
         Instruction::MultiplySubtract(a, b, c) => {
             let (fma, a, b, c) = (dialect.fma(), write(a), write(b), write(c));
-            quote!(let #name = #fma(-#a, #b, #c);)
+            quote!(#fma(-#a, #b, #c))
         }
         Instruction::Negate(a) => {
             let a = write(a);
-            quote!(let #name = -#a;)
+            quote!(-#a)
         }
         Instruction::Call(Function::Own(own), a) => {
             let (a, function) = (write(a), dialect.own_function(*own));
-            quote!(let #name = #function(#a);)
+            quote!(#function(#a))
         }
         Instruction::Call(function, a) => {
             let (real, a, function) = (dialect.functions(), write(a), function_name(*function));
-            quote!(let #name = #real::#function(#a);)
+            quote!(#real::#function(#a))
         }
         Instruction::Binary(function, a, b) => {
             let (real, a, b) = (dialect.functions(), write(a), write(b));
@@ -192,15 +244,16 @@ fn statement<S: Copy>(
                 BinaryFunction::Max => quote!(max),
                 BinaryFunction::Powf => quote!(powf),
             };
-            quote!(let #name = #real::#function(#a, #b);)
+            quote!(#real::#function(#a, #b))
         }
         Instruction::SineCosine(a) => {
             let (real, a, s, c) = (dialect.functions(), write(a), sine(k), cosine(k));
             let s = if sine_read { quote!(#s) } else { quote!(_) };
             let c = if cosine_read { quote!(#c) } else { quote!(_) };
-            quote!(let (#s, #c) = #real::sin_cos(#a);)
+            return Statement::new(quote!((#s, #c)), quote!(#real::sin_cos(#a)));
         }
-    }
+    };
+    Statement::new(value(k), result)
 }
 
 /// Whether the sine and the cosine of each instruction are read.
@@ -217,7 +270,7 @@ fn pairs_read<S: Copy>(code: &Code<S>, kept: Kept) -> Vec<[bool; 2]> {
 }
 
 /// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.
-fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<TokenStream>> {
+fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>> {
     // Of each instruction: value, sine and cosine.
     let mut read = vec![[false; 3]; code.instructions.len()];
     let mut note = |operand: Operand<S>, reader: usize| {
@@ -249,7 +302,7 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<TokenS
         let mut named = Vec::new();
         for (kind, read) in kinds.into_iter().enumerate() {
             if read {
-                named.push(names[kind](k).into_token_stream());
+                named.push(names[kind](k));
             }
         }
         handed_on.push(named);
@@ -261,7 +314,7 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<TokenS
 fn in_functions<S: Copy>(
     code: &Code<S>,
     kept: Kept,
-    written: Vec<TokenStream>,
+    written: Vec<Option<Statement>>,
     dialect: &impl Dialect<S>,
 ) -> TokenStream {
     let mut statements: Vec<_> = handed_on(code, kept, BLOCK).into_iter().zip(written).collect();
@@ -278,25 +331,45 @@ fn in_functions<S: Copy>(
     parts.collect()
 }
 
-/// Statements, each with the names that are read behind its block: one after the other, or block by block where there are many.
-pub(crate) fn in_blocks(statements: Vec<(Vec<TokenStream>, TokenStream)>) -> TokenStream {
-    if statements.len() <= BLOCK {
-        return statements.into_iter().map(|(_, statement)| statement).collect();
+/// Statements one after the other, or block by block where there are many.
+pub(crate) fn in_blocks(lines: Vec<Line>) -> TokenStream {
+    if lines.len() <= BLOCK {
+        return lines.into_iter().filter_map(|(_, statement)| statement).map(Statement::bound).collect();
     }
-    let (mut blocks, mut left, mut statements) = (TokenStream::new(), statements.len(), statements.into_iter());
+    let (mut blocks, mut left, mut lines) = (TokenStream::new(), lines.len(), lines.into_iter());
     while left > 0 {
-        // Moved, not copied: these are most of the tokens that there are.
-        let (mut names, mut block) = (Vec::new(), TokenStream::new());
-        for (handed_on, statement) in statements.by_ref().take(BLOCK) {
-            names.extend(handed_on);
-            block.extend(statement);
-        }
-        block.extend(quote!((#(#names,)*)));
-        let block = Group::new(Delimiter::Brace, block);
-        blocks.extend(quote!(let (#(#names,)*) = #block;));
+        blocks.extend(block(lines.by_ref().take(BLOCK)));
         left = left.saturating_sub(BLOCK);
     }
     blocks
+}
+
+/// Lines of which the first has a statement: rows of angles are within one block.
+fn block(lines: impl Iterator<Item = Line>) -> TokenStream {
+    let (mut declared, mut statements) = (Vec::new(), TokenStream::new());
+    let mut take = |(statement, is_read): (Statement, bool)| {
+        if is_read {
+            declared.extend(statement.names());
+            statements.extend(statement.assigned());
+        } else {
+            statements.extend(statement.bound());
+        }
+    };
+    // What binds names of several lines is read where one of these is.
+    let mut open: Option<(Statement, bool)> = None;
+    for (names, statement) in lines {
+        match (statement, &mut open) {
+            (Some(statement), _) => open.replace((statement, !names.is_empty())).into_iter().for_each(&mut take),
+            (None, Some((_, is_read))) => *is_read |= !names.is_empty(),
+            (None, None) => {}
+        }
+    }
+    open.into_iter().for_each(take);
+    let statements = Group::new(Delimiter::Brace, statements);
+    quote! {
+        let (#(#declared,)*);
+        #statements
+    }
 }
 
 fn function_name(function: Function) -> Ident {
@@ -312,8 +385,4 @@ fn function_name(function: Function) -> Ident {
         Function::Own(_) => unreachable!("functions of the user's own have paths"),
     };
     Ident::new(name, Span::call_site())
-}
-
-fn binary(name: &Ident, a: &TokenStream, operator: &TokenStream, b: &TokenStream) -> TokenStream {
-    quote!(let #name = #a #operator #b;)
 }

@@ -10,6 +10,8 @@
 //! Runge–Kutta method, so that short runs are better left to those.
 
 mod formula;
+#[cfg(feature = "alloc")]
+mod lanes;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::{Control, Emit, one_step};
@@ -51,53 +53,77 @@ impl<T: Real, const K: usize> Adams<T, K> {
     }
 }
 
-/// So many derivatives are there room for.
-const ROOM: usize = 64;
-
-/// The derivatives at the ends of the last steps, the newest first, in a window that moves through an array.
-struct History<C, Y, const K: usize> {
+/// The derivatives at the ends of the last steps, the newest first, in a window that moves through an array with room for so many.
+struct History<C, Y, const K: usize, const ROOM: usize> {
     derivatives: [Point<C, Y>; ROOM],
     newest: usize,
-    count: usize,
+    /// Of the explicit and of the implicit formula. A field, so that compilers need not know their number: where a history is behind a
+    /// pointer, as that of lanes, loops over it stay loops, whose sums are in registers.
+    weights: &'static [[f64; 2]],
 }
 
-impl<C: Copy, Y: Copy, const K: usize> History<C, Y, K> {
+impl<C: Copy, Y: Copy, const K: usize, const ROOM: usize> History<C, Y, K, ROOM> {
+    fn new<T: Real>() -> Self
+    where
+        C: VectorSpace<T>,
+        Y: VectorSpace<T>,
+    {
+        const { assert!(ROOM > K) };
+        Self { derivatives: [Point::zero(); ROOM], newest: ROOM, weights: &Formula::<K>::BOTH }
+    }
+
+    /// Puts a derivative before the newest one: after [`step`](Self::step) it is the newest itself.
     #[inline(always)]
-    fn push(&mut self, derivative: Point<C, Y>) {
+    fn put<T: Real>(&mut self, derivative: &Point<C, Y>)
+    where
+        C: VectorSpace<T>,
+        Y: VectorSpace<T>,
+    {
         if self.newest == 0 {
             self.newest = ROOM - K;
             self.derivatives.copy_within(0..K, self.newest);
         }
-        self.newest -= 1;
-        self.derivatives[self.newest] = derivative;
-        self.count += 1;
+        // One by one, from registers: a copy as a whole would be a call.
+        let place = &mut self.derivatives[self.newest - 1];
+        (0..C::DIM).for_each(|i| place.components.set_component(i, derivative.components.component(i)));
+        (0..Y::DIM).for_each(|i| place.variables.set_component(i, derivative.variables.component(i)));
     }
 
-    /// The change in a step of length 1 by the explicit formula, and what the derivatives known have to do with the difference of
-    /// order K that ends with the next one.
+    /// Lets each derivative of the window that is to come be what is chosen of it and of the one in its place now.
+    #[cfg(feature = "alloc")]
+    fn put_back(&mut self, choose: impl Fn(&Point<C, Y>, &Point<C, Y>) -> Point<C, Y>) {
+        for i in self.newest - 1..(self.newest + K).min(ROOM) - 1 {
+            self.derivatives[i] = choose(&self.derivatives[i], &self.derivatives[i + 1]);
+        }
+    }
+
+    /// The window moves on.
+    #[inline(always)]
+    fn step(&mut self) {
+        self.newest -= 1;
+    }
+
+    /// The change in a step of length 1 by the explicit formula, and what the derivatives known are in the implicit one.
     #[inline(always)]
     fn sums<T: Real>(&self, newest: &Point<C, Y>) -> [Point<C, Y>; 2]
     where
         C: VectorSpace<T>,
         Y: VectorSpace<T>,
     {
-        let window = &self.derivatives[self.newest..self.newest + (K - 1)];
+        let Some(([a, b], weights)) = self.weights.split_first() else { return [Point::zero(); 2] };
+        let window = &self.derivatives[self.newest..self.newest + weights.len()];
         // The newest last: all others are known while it is evaluated. It is not yet in the window, from which it would have to be read
         // as soon as it is written. Components and variables one after the other, so that sums stay in registers.
-        let (mut change, mut difference) = (Point::<C, Y>::zero(), Point::<C, Y>::zero());
-        let weights = |j: usize| (T::from_f64(Formula::<K>::EXPLICIT[j]), T::from_f64(Formula::<K>::DIFFERENCE[j]));
-        for j in (1..K).rev() {
-            let ((a, b), known) = (weights(j), &window[j - 1].components);
-            change.components = change.components.add_scaled(a, known);
-            difference.components = difference.components.add_scaled(b, known);
+        let [mut explicit, mut implicit] = [Point::<C, Y>::zero(); 2];
+        for ([a, b], known) in weights.iter().zip(window).rev() {
+            explicit.components = explicit.components.add_scaled(T::from_f64(*a), &known.components);
+            implicit.components = implicit.components.add_scaled(T::from_f64(*b), &known.components);
         }
-        for j in (1..K).rev() {
-            let ((a, b), known) = (weights(j), &window[j - 1].variables);
-            change.variables = change.variables.add_scaled(a, known);
-            difference.variables = difference.variables.add_scaled(b, known);
+        for ([a, b], known) in weights.iter().zip(window).rev() {
+            explicit.variables = explicit.variables.add_scaled(T::from_f64(*a), &known.variables);
+            implicit.variables = implicit.variables.add_scaled(T::from_f64(*b), &known.variables);
         }
-        let (a, b) = weights(0);
-        [change.add_scaled(a, newest), difference.add_scaled(b, newest)]
+        [explicit.add_scaled(T::from_f64(*a), newest), implicit.add_scaled(T::from_f64(*b), newest)]
     }
 }
 
@@ -114,15 +140,14 @@ fn multistep<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     state: &State<S>,
     rates: &Rates<S>,
     h: S::Scalar,
-    [predicted, difference]: [Point<ComponentsOf<S>, S::Speeds>; 2],
+    [predicted, known]: [Point<ComponentsOf<S>, S::Speeds>; 2],
 ) -> Result<State<S>, IntegrationErrorKind> {
     let State { t, q, y } = *state;
     let start = Point { components: q.components(), variables: y };
     let ahead = start.add_scaled(h, &predicted);
     let ahead = State { t: t + h, q: S::Configuration::from_components(&ahead.components), y: ahead.variables };
     let next = problem.rates(&ahead);
-    let difference = difference.add_scaled(S::Scalar::one(), &point::<S>(&ahead.q, &next));
-    let sum = predicted.add_scaled(S::Scalar::from_f64(Formula::<K>::CORRECTION), &difference);
+    let sum = known.add_scaled(S::Scalar::from_f64(Formula::<K>::AHEAD), &point::<S>(&ahead.q, &next));
     let turn = rates.configuration.add_scaled(S::Scalar::one(), &next.configuration);
     check_turn::<S>(&turn.scale(S::Scalar::ratio(1, 2) * h))?;
     // What the rounding of the step before left of norms goes away with the rounding of this one.
@@ -162,19 +187,24 @@ impl<S: GaussSystem, const K: usize> Control<S> for Adams<S::Scalar, K> {
         limit: u64,
         emit: &mut Emit<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
-        let mut history = History::<_, _, K> { derivatives: [Point::zero(); ROOM], newest: ROOM, count: 0 };
+        /// So many derivatives are there room for.
+        const ROOM: usize = 64;
+        let mut history = History::<_, _, K, ROOM>::new();
+        let mut made = 0;
         let length = self.step.lane(0).abs();
         steps_of_one_length((self.step, false), problem, start, end, limit, emit, |state, rates, h| {
             let newest = point::<S>(&state.q, rates);
             // The last step may be shorter.
             let one_length = (h.lane(0).abs() - length).abs() <= 1e-6 * length;
-            let end = if history.count + 1 >= K && one_length {
+            let end = if made + 1 >= K && one_length {
                 let end = multistep::<S, P, K>(problem, state, rates, h, history.sums(&newest))?;
                 (end, None)
             } else {
                 begin::<S, P, K>(problem, state, rates, h)?
             };
-            history.push(newest);
+            history.put(&newest);
+            history.step();
+            made += 1;
             Ok(end)
         })
     }

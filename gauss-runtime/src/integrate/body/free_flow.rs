@@ -425,12 +425,12 @@ fn so3_exp(sigma: Triple<f64>) -> [f64; 4] {
 
 /// The largest power of two that does not exceed a number; units of this size round nothing, and leave no component at 1, where
 /// floating-point numbers lie twice as densely below as above and roundings are not of random sign.
-fn power_of_two(x: f64) -> f64 {
+pub(super) fn power_of_two(x: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
     f64::from_bits(x.to_bits() & EXPONENT).max(f64::MIN_POSITIVE)
 }
 
 /// To the nearest integer; beyond 2⁵¹ what is given is one, or has no digits left that would tell.
-fn round(x: f64) -> f64 {
+pub(super) fn round(x: f64) -> f64 {
     if x.abs() < 2.0e15 { (x + if x < 0.0 { -0.5 } else { 0.5 }) as i64 as f64 } else { x }
 }

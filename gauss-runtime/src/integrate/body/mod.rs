@@ -4,7 +4,8 @@
 //! | file | holds |
 //! |---|---|
 //! | [`inertia`] | principal axes, and the increment that a free motion makes |
-//! | [`free_flow`] | [`FreeFlow`]: the exact motion over any span of time |
+//! | [`free_flow`] | [`FreeFlow`]: the exact motion over any span of time; `in_lanes`: of several bodies |
+//! | [`top_flow`] | [`TopFlow`]: the same for a heavy body of revolution about a point of its axis |
 //! | [`moser_veselov`] | [`MoserVeselov`]: the discrete Moser–Veselov method with its corrections to order 10 |
 //! | [`scheme`] | [`Scheme`]: lengths of kicks and drifts, orders 2 to 8 |
 //! | [`splitting`] | [`Splitting`]: a step for a kernel |
@@ -14,10 +15,13 @@ pub mod configuration;
 mod corrections;
 mod elliptic;
 pub mod free_flow;
+mod in_lanes;
 pub mod inertia;
 pub mod moser_veselov;
 pub mod scheme;
 pub mod splitting;
+pub mod top_flow;
+mod top_orbit;
 
 pub use configuration::{BodyConfiguration, SplittingError};
 pub use free_flow::FreeFlow;
@@ -25,6 +29,7 @@ pub use inertia::{FreeMotion, PrincipalAxes, Turn};
 pub use moser_veselov::MoserVeselov;
 pub use scheme::Scheme;
 pub use splitting::Splitting;
+pub use top_flow::{TopError, TopFlow};
 
 #[cfg(test)]
 mod elliptic_values;
@@ -32,3 +37,5 @@ mod elliptic_values;
 mod free_tests;
 #[cfg(test)]
 mod splitting_tests;
+#[cfg(test)]
+mod top_tests;

@@ -4,6 +4,8 @@
 //! force at a fixed place. Both are done exactly (or to order 10), in turn, and how fast the body spins costs nothing
 //! (McLachlan 1993; Celledoni, Fassò, Säfström & Zanna 2008).
 
+use nalgebra::Matrix3;
+
 use super::configuration::{BodyConfiguration, DriftingBody, SplittingError};
 use super::free_flow::FreeFlow;
 use super::inertia::{FreeMotion, PrincipalAxes};
@@ -71,27 +73,40 @@ impl<T: Real, M: FreeMotion<T>> Splitting<T, M> {
         S::Configuration: BodyConfiguration<Tangent = S::Speeds, MassMatrix = S::MassMatrix>,
     {
         let samples = S::Configuration::samples();
-        let inertia = |t: T, q: &S::Configuration| S::Configuration::mass_and_inertia(&system.mass_matrix(t, q));
-        let (mass, tensor) = inertia(T::zero(), &samples[0])?;
+        let (mass, tensor) = constant_body(system, &samples)?;
         let axes = PrincipalAxes::of(&tensor).ok_or(SplittingError::NotPositive)?;
-        let unit = tensor.data.0.as_flattened().iter().fold(0.0_f64, |m, c| m.max(c.lane(0).abs()));
-        for (n, q) in samples.iter().enumerate() {
-            let (other_mass, other) = inertia(T::from_f64(n as f64), q)?;
-            let off = (0..9).fold(Real::abs((other_mass - mass).lane(0) / mass.lane(0)), |m, i| {
-                m.max(Real::abs((other.data.0[i / 3][i % 3] - tensor.data.0[i / 3][i % 3]).lane(0)) / unit)
-            });
-            if off > 16.0 * T::EPSILON {
-                return Err(SplittingError::MassMatrixNotConstant);
-            }
-        }
         try_system(system, &samples)?;
         Ok(Self { body: DriftingBody { axes, motion: motion(axes.moments()), mass }, scheme })
     }
 }
 
+/// Mass and inertia about O, which are to be the same at every configuration and time.
+pub(super) fn constant_body<S>(
+    system: &S,
+    samples: &[S::Configuration; 3],
+) -> Result<(S::Scalar, Matrix3<S::Scalar>), SplittingError>
+where
+    S: GaussSystem,
+    S::Configuration: BodyConfiguration<Tangent = S::Speeds, MassMatrix = S::MassMatrix>,
+{
+    let inertia = |t: S::Scalar, q: &S::Configuration| S::Configuration::mass_and_inertia(&system.mass_matrix(t, q));
+    let (mass, tensor) = inertia(S::Scalar::zero(), &samples[0])?;
+    let unit = tensor.data.0.as_flattened().iter().fold(0.0_f64, |m, c| m.max(c.lane(0).abs()));
+    for (n, q) in samples.iter().enumerate() {
+        let (other_mass, other) = inertia(S::Scalar::from_f64(n as f64), q)?;
+        let off = (0..9).fold(Real::abs((other_mass - mass).lane(0) / mass.lane(0)), |m, i| {
+            m.max(Real::abs((other.data.0[i / 3][i % 3] - tensor.data.0[i / 3][i % 3]).lane(0)) / unit)
+        });
+        if off > 16.0 * S::Scalar::EPSILON {
+            return Err(SplittingError::MassMatrixNotConstant);
+        }
+    }
+    Ok((mass, tensor))
+}
+
 /// Tries kinematics and forces at a few states. Those where the forces are not finite (the centre of attraction, say) do not
 /// count.
-fn try_system<S>(system: &S, samples: &[S::Configuration; 3]) -> Result<(), SplittingError>
+pub(super) fn try_system<S>(system: &S, samples: &[S::Configuration; 3]) -> Result<(), SplittingError>
 where
     S: GaussSystem<Input: Default>,
     S::Configuration: BodyConfiguration<Tangent = S::Speeds>,

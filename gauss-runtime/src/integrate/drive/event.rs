@@ -3,8 +3,8 @@
 //! **What is an event.** A function passes from one side of zero to zero or to the other side, in a direction that is asked for, in
 //! the order of integration.
 //!
-//! - *A zero at the start* is none: what starts on zero has left it, or is there by an event that was seen. So a run goes on from
-//!   where another one ended.
+//! - *A zero at the start* is none: what starts on zero is on the side to which it leaves zero at first, and passes when it comes
+//!   back. So a run goes on from where another one ended.
 //! - *A touch* without passing is none; where rounding decides, it is two passages or none. A function grazes zero where its
 //!   derivative passes through it: watch that.
 //! - *A jump* of the function over zero is one. *A pole*, where it passes from one side to the other by way of infinity, is none.
@@ -240,7 +240,10 @@ where
         let looking = Looking::of(self.control, self.problem, made);
         let mut outcome = Ok(());
         self.events.each(&mut |function, mark| {
-            let found = looking.first(function, mark.crossing, (0.0, mark.value));
+            let found = looking.leaving(function, (0.0, mark.value)).and_then(|from| {
+                mark.value = from.1;
+                looking.first(function, mark.crossing, from)
+            });
             match found {
                 Ok(next) => mark.next = next,
                 Err(kind) => outcome = Err(kind),
@@ -375,8 +378,11 @@ where
             if n == number
                 && let Some(from) = mark.next
             {
-                (mark.before, mark.value) = (mark.value, from.1);
-                match looking.first(function, mark.crossing, from) {
+                let found = looking.leaving(function, from).and_then(|from| {
+                    (mark.before, mark.value) = (mark.value, from.1);
+                    looking.first(function, mark.crossing, from)
+                });
+                match found {
                     Ok(next) => mark.next = next,
                     Err(kind) => outcome = Err(kind),
                 }

@@ -169,6 +169,29 @@ fn jumps_and_what_goes_there_and_back_are_found_and_touches_are_not() {
     assert_eq!(run.fixed_step(0.1).run(q0, z0, 0.0..3.0).expect("runs").events()[0].sample.t, 3.0);
 }
 
+/// What starts on zero, leaves it and is back within the first step passes there; what only leaves it does not.
+#[test]
+fn what_starts_on_zero_and_comes_back_within_a_step_is_seen() {
+    let (q0, z0) = origin();
+    let run = Simulation::new(&SPRING)
+        .input(undriven)
+        .event(Crossing::Any, |t, _, _| t * (t - 0.07))
+        .event(Crossing::Rising, |t, _, _| t * (t - 0.03) * (t - 0.06))
+        .event(Crossing::Any, |t, _, _| t * t * (0.02 - t))
+        .event(Crossing::Any, |t, _, _| t * (1e-4 - t))
+        .event(Crossing::Any, |t, _, _| -t)
+        .event(Crossing::Any, |_, q: &One, _| 0.0 * q[0]);
+    for end in [1.0, -1.0] {
+        let mirrored = run.event(Crossing::Falling, |t: f64, _, _| t.abs() * (0.05 - t.abs()));
+        let trajectory = mirrored.fixed_step(0.1).run(q0, z0, 0.0..end).expect("runs");
+        let found: Vec<_> = trajectory.events().iter().map(|event| (event.number, event.sample.t)).collect();
+        let expected: &[_] =
+            if end > 0.0 { &[(3, 1e-4), (2, 0.02), (6, 0.05), (1, 0.06), (0, 0.07)] } else { &[(6, -0.05)] };
+        let exact = |(a, b): (&(usize, f64), &(usize, f64))| a.0 == b.0 && (a.1 - b.1).abs() < 1e-15;
+        assert!(found.len() == expected.len() && found.iter().zip(expected).all(exact), "{found:?}");
+    }
+}
+
 #[test]
 fn an_event_function_that_is_undefined_stops_the_run() {
     let (q0, z0) = origin();

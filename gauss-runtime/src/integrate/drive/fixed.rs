@@ -16,8 +16,8 @@ use crate::system::GaussSystem;
 /// Steps of one length, by any method of one step. The last one ends where it should.
 #[derive(Clone, Copy, Debug)]
 pub struct Fixed<T, M = RungeKutta<DormandPrince8, 12>> {
-    method: M,
-    step: T,
+    pub(in crate::integrate) method: M,
+    pub(in crate::integrate) step: T,
 }
 
 impl<T: Real> Fixed<T> {

@@ -22,7 +22,7 @@ pub enum Crossing {
 }
 
 impl Crossing {
-    /// A value of zero before is none: what starts on zero has left it, or is there by an event that was seen.
+    /// A value of zero before is none: what starts on zero is on the side to which it leaves, or stays there.
     pub(in crate::integrate) fn between(self, before: f64, after: f64) -> bool {
         let rising = before < 0.0 && after >= 0.0;
         let falling = before > 0.0 && after <= 0.0;
@@ -69,6 +69,11 @@ pub(in crate::integrate) fn of_lane<T: Real>(values: T, lane: usize) -> Result<f
 /// Whether two values are both below zero, or both above.
 pub(in crate::integrate) fn same_side(a: f64, b: f64) -> bool {
     a < 0.0 && b < 0.0 || a > 0.0 && b > 0.0
+}
+
+/// The side of a value and nothing of its size; of zero none.
+fn side(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() * f64::MIN_POSITIVE }
 }
 
 /// A step with the derivatives at its ends, of which one lane is looked at.
@@ -119,6 +124,20 @@ where
         }
         let (state, rates) = self.made.before;
         self.control.within(self.problem, state, rates, self.length() * S::Scalar::from_f64(part))
+    }
+
+    /// A point of the step with the value there, of which a zero is the side to which the curve of the step leaves it.
+    pub(in crate::integrate) fn leaving(
+        &self,
+        function: Function<'_, S>,
+        (part, at): (f64, f64),
+    ) -> Result<(f64, f64), IntegrationErrorKind> {
+        if at != 0.0 {
+            return Ok((part, at));
+        }
+        let soon = part + SHORT * (1.0 - part) / self.parts as f64;
+        let value = value(self.problem, function, self.made.lane, &self.glances()(soon)?)?;
+        Ok((part, side(value)))
     }
 
     /// The first event behind a point of the step with the value there: its part, and the value at it.
@@ -178,7 +197,7 @@ where
             return Ok(None);
         }
         // Where it is zero at last, whatever sign the rounding there has.
-        let zero = |part: f64| (part, if b.1 == 0.0 { 0.0 } else { b.1.signum() * f64::MIN_POSITIVE });
+        let zero = |part: f64| (part, side(b.1));
         Ok(locate(along, a, b, self.resolution)?.map(zero))
     }
 
@@ -226,8 +245,10 @@ where
             let mut before = start;
             for points in &seen {
                 let [on_curve, off, near, b] = points.map(|values| of_lane(values, lane));
-                let b = b?;
-                let slopes = || Ok([(off? - on_curve?) / SHORT, (b - near?) / SHORT]);
+                let (off, b) = (off?, b?);
+                // As `leaving`.
+                before = if before == 0.0 { side(off) } else { before };
+                let slopes = || Ok([(off - on_curve?) / SHORT, (b - near?) / SHORT]);
                 if shows_zero([before, b], slopes)? {
                     return Ok(true);
                 }
@@ -257,7 +278,7 @@ fn shows_zero(
     [a, b]: [f64; 2],
     slopes: impl FnOnce() -> Result<[f64; 2], IntegrationErrorKind>,
 ) -> Result<bool, IntegrationErrorKind> {
-    // What was zero before has left it.
+    // What was zero all along has not left it.
     if a != 0.0 && !same_side(a, b) || !b.is_finite() {
         return Ok(true);
     }

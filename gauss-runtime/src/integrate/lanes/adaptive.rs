@@ -201,7 +201,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         &self,
         problem: &P,
         group: &Group<S>,
-        lane: usize,
+        (lane, _): (usize, u64),
         memory: &mut Memory<S>,
     ) -> Result<(), IntegrationErrorKind> {
         let lanes = (ones_in(|other| other == lane), numbers_of::<S::Scalar>(lane));

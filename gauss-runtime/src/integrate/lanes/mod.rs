@@ -1,12 +1,14 @@
 //! Lanes with steps of their own: many runs in lockstep, each as if it were alone.
 //!
-//! A step is made in all lanes at once, but its length, its error, and whether it stands are those of each lane. So every run takes
+//! A step is made in all lanes at once, but its length, its error, and whether it stands are those of each lane; of steps of one
+//! length, only how many are left. So every run takes
 //! the steps that it would take alone, and a lane is handed to the next run as soon as one ends
 //! ([`Ensemble`](crate::batch::Ensemble)). A common step, that of the most demanding lane, would need none of this and takes more
 //! steps the more the runs differ.
 
 mod adaptive;
-mod called;
+pub(in crate::integrate) mod called;
+pub(in crate::integrate) mod fixed;
 pub(crate) mod run;
 mod taylor;
 
@@ -23,23 +25,28 @@ use crate::real::Real;
 use crate::simd::Packed;
 
 /// A choice of steps that can be made for every lane by itself: [`Adaptive`](crate::integrate::Adaptive) by any method that estimates
-/// its error, and [`Taylor`](crate::integrate::Taylor). Its functions are for the runs of this crate.
+/// its error, [`Taylor`](crate::integrate::Taylor), [`Fixed`](crate::integrate::Fixed) by any method, and
+/// [`Adams`](crate::integrate::Adams). Its functions are for the runs of this crate.
 pub trait LaneControl<S: BatchSystem>: Control<S> {
     /// What is remembered from step to step.
     #[doc(hidden)]
     type Memory;
 
+    /// Whether it may turn out on the way that a run has no prospect of its end.
+    #[doc(hidden)]
+    const PACED: bool = true;
+
     /// Before any lane is on its way.
     #[doc(hidden)]
     fn memory(&self, span: f64, limit: u64) -> Result<Self::Memory, IntegrationErrorKind>;
 
-    /// A lane of the group has got a state to start from.
+    /// A lane of the group has got a state to start from; it may make so many steps.
     #[doc(hidden)]
     fn begin<P: Problem<System = S>>(
         &self,
         problem: &P,
         group: &Group<S>,
-        lane: usize,
+        lane: (usize, u64),
         memory: &mut Self::Memory,
     ) -> Result<(), IntegrationErrorKind>;
 
@@ -91,6 +98,12 @@ pub struct Group<S: BatchSystem> {
     pub(crate) end: S::Scalar,
     /// From their start to there.
     pub(crate) span: f64,
+    /// Whether nobody looks at the states between the steps of one attempt.
+    pub(crate) unseen: bool,
+    /// Whether lanes that have runs are left out of an attempt.
+    pub(crate) alone: bool,
+    /// So many steps were made by one attempt in every lane that took them.
+    pub(crate) steps: u64,
 }
 
 impl<S: BatchSystem> Group<S> {
@@ -140,7 +153,7 @@ pub(crate) fn ones_in<T: Real + Packed<Single: Real>>(lanes: impl Fn(usize) -> b
 
 /// The new vector in lanes where `ones` is 1, the old one elsewhere.
 #[inline(always)]
-fn chosen<T: Real, V: VectorSpace<T>>(ones: T, new: &V, old: &V) -> V {
+pub(crate) fn chosen<T: Real, V: VectorSpace<T>>(ones: T, new: &V, old: &V) -> V {
     let mut chosen = *new;
     for i in 0..V::DIM {
         chosen.set_component(i, T::select_lt(T::zero(), ones, new.component(i), old.component(i)));

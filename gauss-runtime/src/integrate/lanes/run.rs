@@ -145,7 +145,8 @@ where
         let (memory, (span, state, rates)) = outcome?;
         let width = S::Scalar::WIDTH;
         let (verdicts, end) = (vec![Verdict::Rejected; width], S::Scalar::from_f64(self.times.1));
-        let group = Group { state, rates, verdicts, end, span };
+        let unseen = E::COUNT == 0;
+        let group = Group { state, rates, verdicts, end, span, unseen, alone: false, steps: 1 };
         let mut lanes =
             Lanes { all: self, group, memory, running: (0..width).map(|_| None).collect(), who: vec![false; width] };
         for (lane, (number, ..)) in firsts.iter().enumerate() {
@@ -217,14 +218,22 @@ where
         self.running[lane] = Some(running);
         if self.group.span == 0.0 {
             self.leave(lane, Ok(None), runs);
-        } else if let Err(kind) = self.begin(lane) {
+        } else if let Err(kind) = self.begin(lane, all.limit) {
             self.leave(lane, Err(kind), runs);
         }
     }
 
-    /// The first step of a run, or after a jump, is to come.
-    fn begin(&mut self, lane: usize) -> Result<(), IntegrationErrorKind> {
-        self.all.control.begin(self.all.problem, &self.group, lane, &mut self.memory)?;
+    /// The first step of a run, or after a jump, is to come; so many are allowed.
+    fn begin(&mut self, lane: usize, limit: u64) -> Result<(), IntegrationErrorKind> {
+        self.all.control.begin(self.all.problem, &self.group, (lane, limit), &mut self.memory).map_err(
+            |mut kind| {
+                // What was left of the limit says nothing to whoever set it.
+                if let IntegrationErrorKind::TooManySteps { limit } = &mut kind {
+                    *limit = self.all.limit;
+                }
+                kind
+            },
+        )?;
         let Some(running) = &mut self.running[lane] else { return Ok(()) };
         if E::COUNT > 0 { running.watch.begin(&self.group.state) } else { Ok(()) }
     }
@@ -258,7 +267,7 @@ where
 
     /// A step in all lanes that have runs.
     fn step(&mut self, runs: &mut dyn Runs<S>) {
-        for lane in 0..self.running.len() {
+        for lane in (0..self.running.len()).filter(|_| C::PACED) {
             let left = self.group.left(lane);
             let t = number(self.group.state.t, lane);
             let spent = self.running[lane].as_mut().and_then(|running| running.pace.spent(t, left));
@@ -282,6 +291,7 @@ where
                         && E::COUNT == 0
                     {
                         running.summary.count(taken);
+                        running.summary.steps += self.group.steps - 1;
                     }
                     if last {
                         self.leave(lane, Ok(None), runs);
@@ -305,7 +315,9 @@ where
                 }
                 _ => (0..who.len()).filter(tried).for_each(|lane| {
                     let alone: Vec<bool> = (0..who.len()).map(|other| other == lane).collect();
+                    self.group.alone = true;
                     self.attempt(&alone);
+                    self.group.alone = false;
                 }),
             }
         }
@@ -415,7 +427,11 @@ where
         let tries = running.summary.steps + running.summary.rejected;
         let lost = running.way.jumped(t, left, tries);
         running.pace = Pace::new(t, limit.saturating_sub(tries));
-        let outcome = if lost { Err(IntegrationErrorKind::TooManySteps { limit }) } else { self.begin(lane) };
+        let outcome = if lost {
+            Err(IntegrationErrorKind::TooManySteps { limit })
+        } else {
+            self.begin(lane, limit.saturating_sub(tries))
+        };
         match outcome {
             Err(kind) => self.leave(lane, Err(kind), runs),
             Ok(()) if left == 0.0 => self.leave(lane, Ok(None), runs),

@@ -109,7 +109,7 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
         &self,
         _: &P,
         _: &Group<S>,
-        lane: usize,
+        (lane, _): (usize, u64),
         memory: &mut Memory<S>,
     ) -> Result<(), IntegrationErrorKind> {
         memory.lanes[lane].guess = 0.0;
