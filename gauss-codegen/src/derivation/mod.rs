@@ -2,6 +2,8 @@
 
 mod methods;
 #[cfg(test)]
+mod pass_tests;
+#[cfg(test)]
 mod rounding;
 #[cfg(test)]
 mod rounding_tests;

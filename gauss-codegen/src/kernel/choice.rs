@@ -49,7 +49,7 @@ impl<'g> Candidates<'g> {
         let first = Some(lowered[0].outputs).filter(|_| usable(&losses)[0]);
         let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         // A power series takes a negation of an addend for an instruction like any other.
-        let program = if self.aim == Aim::Values { program.with_signs_led_back().ordered() } else { program };
+        let program = if self.aim == Aim::Values { program.with_signs_led_back() } else { program };
         (Lowered { outputs, program, loss: losses.into_iter().nth(best).unwrap_or_default() }, first)
     }
 
@@ -64,6 +64,12 @@ impl<'g> Candidates<'g> {
             }
         }
         lowered
+    }
+
+    /// The program that is taken, once nothing is differentiated any more.
+    pub(super) fn carried_out(&self, program: Program<'g>) -> Program<'g> {
+        // A power series has a recurrence for every product.
+        if self.aim == Aim::Values { program.carried_out() } else { program }
     }
 
     fn costs(&self, candidates: &[Lowered<'_, 'g>], hoister: &Hoister<'_, 'g>) -> Vec<u32> {

@@ -76,7 +76,7 @@ impl<'g> Columns<'g> {
         if 2 * entries * self.shape.solved.len() < FEW {
             return None;
         }
-        let program = Program::lower(&hoister.hoist(&self.before)).with_signs_led_back().ordered();
+        let program = Program::lower(&hoister.hoist(&self.before)).with_signs_led_back().carried_out();
         Some(LoweredColumns { program, shape: self.shape.clone() })
     }
 }

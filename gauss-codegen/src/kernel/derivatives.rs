@@ -73,7 +73,7 @@ impl<'g> Differentiated<'g> {
         let costs: Vec<u32> = of_usable.iter().map(|(program, ..)| program.cost().total()).collect();
         let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
         let (program, columns) = self.cheaper(program, hoister, trial);
-        let program = program.ordered();
+        let program = program.carried_out();
         let expected = Expected {
             outputs: Cow::Borrowed(outputs),
             directions: Cow::Borrowed(&self.directions),

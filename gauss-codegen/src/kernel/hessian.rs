@@ -48,7 +48,7 @@ impl<'g> Curved<'g> {
         trial.define(hoister.constants());
         let losses = trial.losses(&ways.iter().collect::<Vec<_>>());
         let costs: Vec<u32> = ways.iter().map(|program| program.cost().total()).collect();
-        ways.swap_remove(taken(&losses, &costs)).ordered()
+        ways.swap_remove(taken(&losses, &costs)).carried_out()
     }
 
     /// The gradient by backward differentiation, and its tangents.

@@ -108,6 +108,7 @@ impl<'g> Kernel<'g> {
         let hoisted = hoisted.unwrap_or_else(|| source.hoisted(&hoister, &[]));
         let Hoisted { constants: Constants { program, symbols: constant_symbols }, known: known_constants, folded } =
             hoisted;
+        let functions = functions.into_iter().zip(candidates).map(|(program, of)| of.carried_out(program)).collect();
         let kernel = Self {
             constants: program,
             functions,
@@ -183,5 +184,5 @@ fn lower_together<'g>(
             parts[place] = won;
         }
     }
-    (best.0.with_signs_led_back().ordered(), best.1)
+    (best.0.with_signs_led_back().carried_out(), best.1)
 }

@@ -1,6 +1,7 @@
 //! Sums and products of many terms as a network of nodes, with the parts that several of them contain split off.
 
 use crate::algebra::{BinaryFunction, Expr, Function, Key, Map, NodeView, Rational, joined};
+use crate::program::Pass;
 
 /// Parts of one sum or product that are paired with one another: the number of pairs goes with its square.
 const PAIRED: usize = 200;
@@ -88,12 +89,12 @@ impl<'g> Network<'g> {
             let output = network.visit(e);
             network.outputs.push(output);
         }
-        if network.share(Kind::Products) {
+        if Kind::Products.pass().is_made() && network.share(Kind::Products) {
             network.merge_duplicates();
             network.index_anew();
         }
         // Nothing is looked up afterwards.
-        if network.share(Kind::Sums) {
+        if Kind::Sums.pass().is_made() && network.share(Kind::Sums) {
             network.merge_duplicates();
         }
         network
@@ -356,6 +357,13 @@ enum Kind {
 type Parts = Vec<(Rational, Place)>;
 
 impl Kind {
+    fn pass(self) -> Pass {
+        match self {
+            Kind::Sums => Pass::Sums,
+            Kind::Products => Pass::Products,
+        }
+    }
+
     fn parts(self, node: &Node<'_>) -> Parts {
         match (self, node) {
             (Kind::Sums, Node::Sum(terms)) => terms.clone(),

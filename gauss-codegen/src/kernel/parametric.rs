@@ -63,7 +63,7 @@ impl<'g> ByParameters<'_, 'g> {
         let Way { program, hoisted } = self.cheaper(way, source, hoister, trial);
         let of_velocity = self.order.iter().map(|&k| outputs[self.velocity][k]);
         let outputs: Vec<Expr<'g>> = of_velocity.chain(outputs[self.acceleration].iter().copied()).collect();
-        ((program.ordered(), Expected::of_derivatives(outputs, along)), hoisted)
+        ((program.carried_out(), Expected::of_derivatives(outputs, along)), hoisted)
     }
 
     /// Programs read constants, not parameters: the program of the constants is differentiated first, and what their

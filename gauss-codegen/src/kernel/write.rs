@@ -1,7 +1,7 @@
 //! From a network to straight-line code.
 
 use crate::algebra::{Expr, Function, Map, Number, Rational, Set};
-use crate::program::{Code, Instruction};
+use crate::program::{Code, Instruction, Pass};
 
 use super::factor::Factoring;
 use super::network::{Network, Node, Place};
@@ -19,6 +19,11 @@ impl<'g> Program<'g> {
         let mut factoring = Factoring::default();
         let outputs: Vec<_> = outputs.iter().map(|&e| factoring.rewrite(e)).collect();
         Writer::new(Network::new(&outputs)).write().verified()
+    }
+
+    /// The same computation as it is carried out: products within the sums that read them, chains that overlap.
+    pub(super) fn carried_out(self) -> Self {
+        self.with_products_in_sums().ordered()
     }
 
     /// The symbols that the program reads.
@@ -185,7 +190,7 @@ impl<'g> Writer<'g> {
 
     /// The two sides of a product that nobody else needs, so that it can be fused with an addition.
     fn fusible(&mut self, place: Place) -> Option<(Operand<'g>, Operand<'g>)> {
-        if self.uses[place] != 1 || self.written.contains_key(&place) {
+        if self.uses[place] != 1 || self.written.contains_key(&place) || !Pass::Fusing.is_made() {
             return None;
         }
         let Node::Product(factors) = self.network.nodes[place].clone() else { return None };

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::algebra::{BinaryFunction, Function, OwnFunction};
+use crate::algebra::{BinaryFunction, Function, Key, OwnFunction, Set};
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
@@ -13,7 +13,7 @@ use super::instruction::{Instruction, Operand};
 pub struct Counts {
     /// Additions, subtractions, comparisons; one in each multiply-add.
     pub additions: u32,
-    /// Multiplications; one in each multiply-add.
+    /// Multiplications; one in each multiply-add, unless another has the same.
     pub multiplications: u32,
     /// Divisions.
     pub divisions: u32,
@@ -104,17 +104,19 @@ impl<S: Copy> Instruction<S> {
     }
 }
 
-impl<S: Copy> Code<S> {
+impl<S: Copy + Key> Code<S> {
     /// Its operations by kind.
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();
+        // Targets that do not fuse form a product once; those that do form none.
+        let mut fused = Set::default();
         for instruction in &self.instructions {
             match instruction {
                 Instruction::Add(..) | Instruction::Subtract(..) => counts.additions += 1,
                 Instruction::Multiply(..) => counts.multiplications += 1,
-                Instruction::MultiplyAdd(..) | Instruction::MultiplySubtract(..) => {
+                Instruction::MultiplyAdd(a, b, _) | Instruction::MultiplySubtract(a, b, _) => {
                     counts.additions += 1;
-                    counts.multiplications += 1;
+                    counts.multiplications += u32::from(fused.insert((*a, *b)));
                 }
                 Instruction::Divide(..) => counts.divisions += 1,
                 Instruction::Negate(_) => {}

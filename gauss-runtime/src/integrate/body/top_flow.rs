@@ -19,16 +19,18 @@ use crate::triple::{axpy, unit_quaternion};
 
 /// The exact motion of a body about a fixed point of its axis, with equal moments across it, under a weight: Lagrange's top, and with
 /// no spin the spherical pendulum. One call for any span of time, of some thousand operations; for
-/// [`Fixed::by`](crate::integrate::Fixed::by), in velocity form or momentum form, with steps as long as states are wanted.
+/// [`Fixed::by`](crate::integrate::Fixed::by), in velocity form or momentum form, with steps as long as states are wanted;
+/// where events are looked for, steps that resolve the motion.
 ///
 /// Errors: some roundings of the angles through which the body spins, precesses and nutates, times how much the motion depends on
 /// them. What a step is made of is read from the kernel: inertia, the moment of the weight and its direction.
 ///
+/// Where the kinetic energy is more than 10⁶⁰ times that of the weight, powers overflow, and the step is refused: `FreeFlow` is that motion.
+///
 /// For `f64`: the number of operations depends on the state. It belongs to the kernel that it was made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TopFlow {
-    /// About an axis across, and its ratio to that along.
-    moment: f64,
+    /// Of the moments, across to along.
     ratio: f64,
     /// √(2 P A) and √(2 P/A), P the weight times its lever.
     momentum: f64,
@@ -143,7 +145,6 @@ impl TopFlow {
         });
         let positive = across > 0.0 && along > 0.0 && Real::is_finite(across + along);
         (even && positive).then(|| Self {
-            moment: across,
             ratio: across / along,
             momentum: Real::sqrt(double * across),
             rate: Real::sqrt(double / across),

@@ -148,3 +148,21 @@ fn energy_and_momentum_are_kept() {
         }
     }
 }
+
+/// Tops beside whose spin their weight is nothing, and the other way round; what is no number, or too large for its powers, ends as none.
+#[test]
+fn sizes_do_not_matter_and_undefined_states_stay_undefined() {
+    for size in [1e-60, 1e-20, 1e20, 1e30] {
+        let start = top([0.2, 0.4, 0.8, 0.4], [0.3 * size, -0.2 * size, size]);
+        // Fast ones turn about their momentum, slow ones begin to fall.
+        let t = if size > 1.0 { 0.7 / size } else { 0.7 };
+        let (twice, once) = (start.after(0.4 * t, RATIO).after(0.6 * t, RATIO), start.after(t, RATIO));
+        let relative = |top: &Top| Top { across: top.across.map(|c| c / size.max(1.0)), ..*top };
+        let error = distance(&relative(&twice), &relative(&once));
+        assert!(error <= 64.0 * EPSILON, "{size:e}: {error:e}");
+    }
+    for bad in [f64::NAN, f64::INFINITY, 1e200] {
+        let reached = top([0.2, 0.4, 0.8, 0.4], [bad, 0.0, 1.0]).after(1.0, RATIO);
+        assert!(!reached.alpha[0].is_finite() || !reached.across[0].is_finite(), "{bad}: {reached:?}");
+    }
+}

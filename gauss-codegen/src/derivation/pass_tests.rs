@@ -1,0 +1,88 @@
+//! What each pass over programs gains: instructions of some scenes with all of them, and with one left out.
+
+#[path = "../../examples/structures/mod.rs"]
+mod structures;
+
+use std::fmt::Write;
+
+use crate::derivation::Derivation;
+use crate::program::{Instruction, Pass};
+
+/// A scene, and the methods that are counted.
+struct Counted {
+    label: &'static str,
+    name: &'static str,
+    source: String,
+    methods: &'static [&'static str],
+}
+
+fn scenes() -> Vec<Counted> {
+    let scene = |label, name, source, methods| Counted { label, name, source, methods };
+    vec![
+        scene("free body", "FreeBody", structures::free_body(", linearize"), &["acceleration", "linearize"]),
+        scene("torpedo", "Torpedo", structures::torpedo(", linearize"), &["acceleration", "linearize"]),
+        scene("heavy top, Euler angles", "Top", structures::top(", linearize"), &["acceleration", "linearize"]),
+        scene("four links in space", "Chain", structures::spatial(4), &["acceleration", "momentum_rate"]),
+        scene("arm", "Arm", structures::arm(", linearize"), &["acceleration", "momentum_rate", "linearize"]),
+    ]
+}
+
+const PASSES: [Pass; 6] = [Pass::Factors, Pass::Products, Pass::Sums, Pass::Fusing, Pass::Signs, Pass::ProductsInSums];
+
+/// Instructions of the methods: a multiply-add is one, sine and cosine of an angle are one.
+fn instructions(scene: &Counted, left_out: Option<Pass>) -> Vec<usize> {
+    let derivation = Pass::left_out(left_out, || Derivation::of_source(&scene.source, scene.name));
+    let derivation = derivation.unwrap_or_else(|error| panic!("{error}"));
+    let count = |method: &&str| {
+        let program = derivation.program(method).unwrap_or_else(|| panic!("{}: no {method}", scene.name));
+        program.code.instructions.len()
+    };
+    scene.methods.iter().map(count).collect()
+}
+
+/// Every pass saves more than it costs, over these scenes; the table is printed for BENCHMARKS.
+#[test]
+fn every_pass_gains() {
+    let names: Vec<String> = PASSES.iter().map(|pass| format!("{pass:?}")).collect();
+    let mut table = format!("| scene | method | all | {} |\n|---|---|---|{}", names.join(" | "), "---|".repeat(6));
+    let (mut sum, mut without) = (0, [0; PASSES.len()]);
+    for scene in scenes() {
+        let all = instructions(&scene, None);
+        let each = PASSES.map(|pass| instructions(&scene, Some(pass)));
+        for (k, method) in scene.methods.iter().enumerate() {
+            let gain = |count: usize| format!("{:+.1} %", 100.0 * (count as f64 / all[k] as f64 - 1.0));
+            let gains: Vec<String> = each.iter().map(|counts| gain(counts[k])).collect();
+            write!(table, "\n| {} | `{method}` | {} | {} |", scene.label, all[k], gains.join(" | ")).unwrap();
+            sum += all[k];
+            without.iter_mut().zip(&each).for_each(|(sum, counts)| *sum += counts[k]);
+        }
+    }
+    println!("{table}");
+    for (pass, without) in PASSES.iter().zip(without) {
+        assert!(without > sum, "without {pass:?}: {without} instructions, with it {sum}");
+    }
+}
+
+/// What several sums read is formed in each of them, and what else is read too is not.
+#[test]
+fn products_go_into_sums() {
+    let of = |source| Derivation::of_source(source, "P").unwrap_or_else(|error| panic!("{error}"));
+    let source = structures::top("").replace("Top", "P");
+    let all = of(&source);
+    let apart = Pass::left_out(Some(Pass::ProductsInSums), || of(&source));
+    let products = |derivation: &Derivation| {
+        let program = derivation.program("acceleration").expect("of every kernel");
+        program.code.instructions.iter().filter(|i| matches!(i, Instruction::Multiply(..))).count()
+    };
+    assert!(products(&all) < products(&apart));
+    let state: [&[f64]; 2] = [&[0.3, 0.7, -0.2], &[1.1, -0.4, 2.3]];
+    let constants =
+        all.constants().run(&[&[1.2, 0.01, -0.02, 0.4, 0.8, 0.1, 0.02, 0.1, 0.9, 0.03, 0.02, 0.03, 0.4, 9.81]]);
+    let constants = constants.expect("as many as it reads");
+    let results = [&all, &apart].map(|derivation| {
+        let program = derivation.program("acceleration").expect("of every kernel");
+        program.run(&[&constants, &[0.0], state[0], state[1]]).expect("as many as it reads")
+    });
+    // The interpreter rounds a product and a sum each: the same bits.
+    assert_eq!(results[0], results[1]);
+}
