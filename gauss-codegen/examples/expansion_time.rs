@@ -2,6 +2,10 @@
 //!
 //! First every size of structure beside what is aimed at, then one body in every chart. Cargo compiles macros without
 //! optimisation unless told otherwise, so the figures are taken on an unoptimised build of `gauss-codegen`.
+//!
+//! With a name (`body`, `torpedo`, `top`, `arm`, `quadruped`, `spatial`, `planar`, or a file that describes a robot that
+//! floats, for which the feature `urdf` is needed) one expansion, for a profiler: where a machine is shared, instructions
+//! are counted (`valgrind --tool=callgrind`).
 
 mod structures;
 
@@ -42,7 +46,29 @@ fn expansion(source: &str) -> [f64; 3] {
     [times[times.len() / 2], times[0], times[times.len() - 1]]
 }
 
+/// One structure, by its name or file.
+fn named(name: &str) -> String {
+    match name {
+        "body" => structures::free_body(""),
+        "torpedo" => structures::torpedo(""),
+        "top" => structures::top(""),
+        "arm" => structures::arm(""),
+        "quadruped" => structures::quadruped(true, ""),
+        "spatial" => structures::spatial(8),
+        "planar" => structures::planar(16, true),
+        file => {
+            let path = std::path::absolute(file).expect("a path");
+            format!("#[gauss(urdf = {path:?}, base = floating, gravity = 9.81)] struct Robot;")
+        }
+    }
+}
+
 fn main() {
+    if let Some(name) = std::env::args().nth(1).filter(|word| word.parse::<usize>().is_err()) {
+        let input = syn::parse_str(&named(&name)).expect("the sources are structs");
+        std::hint::black_box(gauss_codegen::expand(&input).expect("the sources are systems"));
+        return;
+    }
     let build = if cfg!(debug_assertions) { "unoptimised" } else { "optimised" };
     println!(
         "expansion of one derive, {build} build, median of {} runs or fewer (fastest–slowest) in milliseconds\n",
@@ -60,7 +86,7 @@ fn sizes() {
         println!("{name:<52}{median:>10.1}{:>18}   {aim}", format!("{fastest:.1}–{slowest:.1}"));
     };
     for (clauses, with) in [("", ""), (", linearize", " with linearize"), (", taylor", " with taylor")] {
-        let (small, large) = if clauses.is_empty() { ("30", "1000") } else { ("", "") };
+        let (small, large) = if clauses.is_empty() { ("12", "250") } else { ("", "") };
         report(&format!("free body{with}"), &structures::free_body(clauses), small);
         report(&format!("torpedo{with}"), &structures::torpedo(clauses), "");
         report(&format!("heavy top, Euler angles{with}"), &structures::top(clauses), "");

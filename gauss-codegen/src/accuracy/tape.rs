@@ -22,11 +22,11 @@ impl Tape {
         let mut known: Map<u32, usize> = Map::default();
         let mut numbers: Map<Rational, usize> = Map::default();
         let mut place_of = |operand: Operand<Expr<'_>>| match operand {
-            Operand::Input(symbol) => Operand::Input(*known.entry(symbol.key()).or_insert_with(|| {
+            Operand::Input(symbol) => Operand::Input(*known.or_insert_with(symbol.key(), || {
                 places.push(Place::Symbol(symbol.key()));
                 places.len() - 1
             })),
-            Operand::Number(value) => Operand::Input(*numbers.entry(value).or_insert_with(|| {
+            Operand::Number(value) => Operand::Input(*numbers.or_insert_with(value, || {
                 places.push(Place::Number(value));
                 places.len() - 1
             })),

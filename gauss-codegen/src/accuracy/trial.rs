@@ -27,7 +27,9 @@ impl Point {
             for unit in units {
                 let norm = norm(unit, &point);
                 for symbol in unit {
-                    point.entry(symbol.key()).and_modify(|value| *value = *value / norm);
+                    if let Some(value) = point.get_mut(&symbol.key()) {
+                        *value = *value / norm;
+                    }
                 }
             }
             let mut evaluation = Evaluation::new(&point);

@@ -15,7 +15,7 @@ impl<'g> Polynomial<'g> {
         let mut denominators = Map::default();
         for monomial in terms.terms.keys() {
             for &(atom, _) in monomial.factors.iter().filter(|&&(_, exponent)| exponent < 0) {
-                denominators.entry(atom).or_insert_with(|| restored(self.graph, atom));
+                denominators.or_insert_with(atom, || restored(self.graph, atom));
             }
         }
         let one = Rational::one();

@@ -5,7 +5,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::function::{BinaryFunction, Function};
 use super::graph::{Expr, NodeView};
 use super::map::Map;
-use super::node::Node;
+use super::node::{Id, Node};
 use super::rational::Rational;
 
 /// What expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual numbers, intervals or numbers of more digits.
@@ -177,40 +177,42 @@ impl<'a, N: Number> Evaluation<'a, N> {
 
     /// The value of an expression; NaN where a symbol has none.
     pub fn value(&mut self, e: Expr<'_>) -> N {
-        for part in e.stages(|key| self.values.contains_key(&key)) {
-            self.visit(part);
-        }
-        self.visit(e)
-    }
-
-    fn visit(&mut self, e: Expr<'_>) -> N {
         if let Some(&known) = self.values.get(&e.key()) {
             return known;
         }
-        let graph = e.graph();
-        let value = match graph.node(e.key()) {
-            Node::Number(value) => N::fraction(value),
-            Node::Symbol(_) => self.symbols.get(&e.key()).copied().unwrap_or(N::number(f64::NAN)),
+        for part in e.stages(|key| self.values.contains_key(&key)) {
+            self.visit(&e.graph().nodes(), part.key());
+        }
+        self.visit(&e.graph().nodes(), e.key())
+    }
+
+    fn visit(&mut self, nodes: &[Node], id: Id) -> N {
+        if let Some(&known) = self.values.get(&id) {
+            return known;
+        }
+        let value = match &nodes[id as usize] {
+            Node::Number(value) => N::fraction(*value),
+            Node::Symbol(_) => self.symbols.get(&id).copied().unwrap_or(N::number(f64::NAN)),
             Node::Sum(terms) => {
                 let mut sum = N::number(0.0);
                 for &(c, id) in terms.iter() {
-                    sum = sum + N::fraction(c) * self.visit(graph.expr(id));
+                    sum = sum + N::fraction(c) * self.visit(nodes, id);
                 }
                 sum
             }
             Node::Product(factors) => {
                 let mut product = N::number(1.0);
                 for &(id, n) in factors.iter() {
-                    product = product * self.visit(graph.expr(id)).powi(n);
+                    product = product * self.visit(nodes, id).powi(n);
                 }
                 product
             }
-            Node::Call(function, id) if self.stand_ins => self.visit(graph.expr(id)).call_any(function),
-            Node::Call(function, id) => self.visit(graph.expr(id)).call(function),
-            Node::Binary(function, a, b) => self.visit(graph.expr(a)).call_with(function, self.visit(graph.expr(b))),
-            Node::Group(id) | Node::Opaque(id) => self.visit(graph.expr(id)),
+            Node::Call(function, id) if self.stand_ins => self.visit(nodes, *id).call_any(*function),
+            Node::Call(function, id) => self.visit(nodes, *id).call(*function),
+            Node::Binary(function, a, b) => self.visit(nodes, *a).call_with(*function, self.visit(nodes, *b)),
+            Node::Group(id) | Node::Opaque(id) => self.visit(nodes, *id),
         };
-        self.values.insert(e.key(), value);
+        self.values.insert(id, value);
         value
     }
 }

@@ -1,13 +1,11 @@
 //! The expression graph: every distinct expression exists once, so equality is equality of indices and sharing is free.
 
-use std::cell::{Cell, RefCell};
-use std::collections::hash_map::Entry;
-use std::hash::{Hash, Hasher};
+use std::cell::{Cell, Ref, RefCell};
 use std::rc::Rc;
 
 use super::budget::Budget;
 use super::function::{BinaryFunction, Function, OwnFunction};
-use super::map::Map;
+use super::map::{Key, Places};
 use super::node::{Id, Node};
 use super::rational::Rational;
 
@@ -53,7 +51,7 @@ pub struct Graph {
     traits: RefCell<Vec<Traits>>,
     /// How much more may be made of it.
     pub(super) budget: Budget,
-    index: RefCell<Map<Node, Id>>,
+    index: RefCell<Places>,
     symbols: RefCell<Vec<Symbol>>,
     /// Names of functions of the user's own.
     functions: RefCell<Vec<String>>,
@@ -146,17 +144,22 @@ impl Graph {
     }
 
     pub(super) fn intern(&self, node: Node) -> Expr<'_> {
-        let id = match self.index.borrow_mut().entry(node) {
-            Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(place) if self.budget.is_exhausted() && !matches!(place.key(), Node::Symbol(_)) => 0,
-            Entry::Vacant(place) => {
-                let mut nodes = self.nodes.borrow_mut();
-                let id = nodes.len() as Id;
-                self.budget.count(1 + place.key().edges());
-                let traits = self.traits_of(place.key());
+        let word = node.word();
+        let known = {
+            let nodes: &[Node] = &self.nodes.borrow();
+            self.index.borrow().find(word, |place| nodes[place] == node)
+        };
+        let id = match known {
+            Some(place) => place as Id,
+            None if self.budget.is_exhausted() && !matches!(node, Node::Symbol(_)) => 0,
+            None => {
+                self.budget.count(1 + node.edges());
+                self.index.borrow_mut().push(word);
+                let traits = self.traits_of(&node);
                 self.traits.borrow_mut().push(traits);
-                nodes.push(place.key().clone());
-                *place.insert(id)
+                let mut nodes = self.nodes.borrow_mut();
+                nodes.push(node);
+                (nodes.len() - 1) as Id
             }
         };
         Expr { graph: self, id }
@@ -169,10 +172,8 @@ impl Graph {
             (self.nodes.borrow().len(), self.symbols.borrow().len(), self.functions.borrow().len());
         let (budget, undefined) = (self.budget.clone(), self.undefined.get());
         let result = work();
-        let mut index = self.index.borrow_mut();
-        for node in self.nodes.borrow_mut().drain(nodes..) {
-            index.remove(&node);
-        }
+        let gone = self.nodes.borrow_mut().split_off(nodes);
+        self.index.borrow_mut().truncate(gone.iter().rev().map(Node::word));
         self.traits.borrow_mut().truncate(nodes);
         self.symbols.borrow_mut().truncate(symbols);
         self.functions.borrow_mut().truncate(functions);
@@ -219,6 +220,11 @@ impl Graph {
         self.nodes.borrow()[id as usize].clone()
     }
 
+    /// All nodes there are; none can be made meanwhile.
+    pub(super) fn nodes(&self) -> Ref<'_, Vec<Node>> {
+        self.nodes.borrow()
+    }
+
     pub(super) fn expr(&self, id: Id) -> Expr<'_> {
         Expr { graph: self, id }
     }
@@ -249,22 +255,24 @@ impl Graph {
     }
 
     pub(super) fn collected_sum(&self, mut terms: Vec<(Rational, Id)>) -> Expr<'_> {
-        sort_by_id(&mut terms, |&(_, id)| id);
-        let mut count = 0;
-        for k in 0..terms.len() {
-            let (c, id) = terms[k];
-            if count > 0 && terms[count - 1].1 == id {
-                terms[count - 1].0 = terms[count - 1].0.plus(c);
+        let list: &mut [(Rational, Id)] = &mut terms;
+        sort_by_id(list, |&(_, id)| id);
+        let (mut count, mut k) = (0, 0);
+        while k < list.len() {
+            let (c, id) = list[k];
+            k += 1;
+            if count > 0 && list[count - 1].1 == id {
+                list[count - 1].0 = list[count - 1].0.plus(c);
                 continue;
             }
             // What has cancelled gives up its place.
-            if count > 0 && terms[count - 1].0.is_zero() {
+            if count > 0 && list[count - 1].0.is_zero() {
                 count -= 1;
             }
-            terms[count] = (c, id);
+            list[count] = (c, id);
             count += 1;
         }
-        if count > 0 && terms[count - 1].0.is_zero() {
+        if count > 0 && list[count - 1].0.is_zero() {
             count -= 1;
         }
         terms.truncate(count);
@@ -305,21 +313,23 @@ impl Graph {
     }
 
     pub(super) fn collected_product(&self, coefficient: Rational, mut factors: Vec<(Id, i32)>) -> Expr<'_> {
-        sort_by_id(&mut factors, |&(id, _)| id);
-        let mut count = 0;
-        for k in 0..factors.len() {
-            let (id, n) = factors[k];
-            if count > 0 && factors[count - 1].0 == id {
-                factors[count - 1].1 = factors[count - 1].1.saturating_add(n);
+        let list: &mut [(Id, i32)] = &mut factors;
+        sort_by_id(list, |&(id, _)| id);
+        let (mut count, mut k) = (0, 0);
+        while k < list.len() {
+            let (id, n) = list[k];
+            k += 1;
+            if count > 0 && list[count - 1].0 == id {
+                list[count - 1].1 = list[count - 1].1.saturating_add(n);
                 continue;
             }
-            if count > 0 && factors[count - 1].1 == 0 {
+            if count > 0 && list[count - 1].1 == 0 {
                 count -= 1;
             }
-            factors[count] = (id, n);
+            list[count] = (id, n);
             count += 1;
         }
-        if count > 0 && factors[count - 1].1 == 0 {
+        if count > 0 && list[count - 1].1 == 0 {
             count -= 1;
         }
         factors.truncate(count);
@@ -447,9 +457,9 @@ impl PartialEq for Expr<'_> {
 
 impl Eq for Expr<'_> {}
 
-impl Hash for Expr<'_> {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.id.hash(state);
+impl Key for Expr<'_> {
+    fn word(&self) -> u64 {
+        u64::from(self.id)
     }
 }
 
@@ -461,12 +471,15 @@ fn sort_by_id<T: Copy>(list: &mut [T], id: impl Fn(&T) -> Id) {
         list.sort_by_key(id);
         return;
     }
-    for k in 1..list.len() {
+    let mut k = 1;
+    while k < list.len() {
         let (moved, mut place) = (list[k], k);
-        while place > 0 && id(&list[place - 1]) > id(&moved) {
+        let own = id(&moved);
+        while place > 0 && id(&list[place - 1]) > own {
             list[place] = list[place - 1];
             place -= 1;
         }
         list[place] = moved;
+        k += 1;
     }
 }

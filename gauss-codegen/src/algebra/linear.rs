@@ -374,9 +374,9 @@ fn connected_blocks(matrix: &[Vec<Expr<'_>>]) -> Vec<Vec<usize>> {
     }
     let mut blocks: Map<usize, Vec<usize>> = Map::default();
     for (i, l) in label.into_iter().enumerate() {
-        blocks.entry(l).or_default().push(i);
+        blocks.or_insert_with(l, Vec::new).push(i);
     }
-    let mut blocks: Vec<_> = blocks.into_values().collect();
+    let mut blocks: Vec<_> = blocks.into_iter().map(|(_, rows)| rows).collect();
     blocks.sort();
     blocks
 }

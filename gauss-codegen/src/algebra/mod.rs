@@ -21,6 +21,7 @@ mod graph;
 #[cfg(test)]
 pub mod ideal;
 mod large;
+mod limbs;
 mod linear;
 mod map;
 mod node;
@@ -42,7 +43,7 @@ pub use evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use function::{BinaryFunction, Function, OwnFunction};
 pub use graph::{Expr, Graph, NodeView};
 pub use linear::{Factored, FactoredColumns, Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
-pub use map::{Map, Set};
+pub use map::{Key, Map, Set, joined};
 pub use orthogonal::LeastSquares;
 pub use parts::Parts;
 pub use polynomial::{Expander, Polynomial};

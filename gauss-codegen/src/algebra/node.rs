@@ -1,9 +1,9 @@
 //! What expressions are made of: nodes with their children by index.
 
-use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 
 use super::function::{BinaryFunction, Function};
+use super::map::{Key, joined};
 use super::rational::Rational;
 
 /// Index of a node in its graph. Children always have smaller indices than their parents.
@@ -36,32 +36,30 @@ impl Node {
     }
 }
 
-/// In one word: hashing piece by piece is most of a look-up in unoptimised code.
-impl Hash for Node {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        /// Any odd number whose digits look random.
-        const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
-        let mut word = match self {
-            Node::Number(value) => value.hash_word(),
+impl Key for Node {
+    fn word(&self) -> u64 {
+        match self {
+            Node::Number(value) => value.word(),
             Node::Symbol(symbol) => 1 << 32 | u64::from(*symbol),
-            Node::Sum(_) => 2,
-            Node::Product(_) => 3,
+            Node::Sum(terms) => {
+                let mut word = 2;
+                for (c, id) in terms.iter() {
+                    word = joined(word, c.word() ^ (*id as u64) << 32);
+                }
+                word
+            }
+            Node::Product(factors) => {
+                let mut word = 3;
+                for (id, n) in factors.iter() {
+                    word = joined(word, *n as u64 ^ (*id as u64) << 32);
+                }
+                word
+            }
             Node::Call(function, id) => (4 + function.word()) << 32 | u64::from(*id),
             Node::Binary(function, a, b) => (64 + *function as u64) << 48 | u64::from(*a) << 24 ^ u64::from(*b),
             Node::Group(id) => 128 << 32 | u64::from(*id),
             Node::Opaque(id) => 129 << 32 | u64::from(*id),
-        };
-        if let Node::Sum(terms) = self {
-            for (c, id) in terms.iter() {
-                word = (word.rotate_left(5) ^ c.hash_word() ^ (*id as u64) << 32).wrapping_mul(SPREAD);
-            }
         }
-        if let Node::Product(factors) = self {
-            for (id, n) in factors.iter() {
-                word = (word.rotate_left(5) ^ *n as u64 ^ (*id as u64) << 32).wrapping_mul(SPREAD);
-            }
-        }
-        state.write_u64(word);
     }
 }
 

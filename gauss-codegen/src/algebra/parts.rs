@@ -37,11 +37,11 @@ impl<'g> Parts<'g> {
         let long: Vec<Id> = roots.iter().copied().filter(|id| leaves[id] > LONG).collect();
         let mut occurrences: Map<Id, usize> = Map::default();
         let uses = graph.reached(&long, parts_of).into_iter().flat_map(|id| parts_of(graph, id));
-        uses.chain(long.iter().copied()).for_each(|id| *occurrences.entry(id).or_default() += 1);
+        uses.chain(long.iter().copied()).for_each(|id| *occurrences.or_insert_with(id, || 0) += 1);
         let mut names: Map<Id, [String; 2]> = Map::default();
         for ((name, _), id) in printed.iter().zip(&roots) {
             if let Some(name) = name.as_ref().filter(|_| leaves[id] >= WORTH) {
-                names.entry(*id).or_insert_with(|| name.clone());
+                names.or_insert_with(*id, || name.clone());
             }
         }
         let shared = |id: &Id| {

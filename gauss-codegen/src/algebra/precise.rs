@@ -4,11 +4,13 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use num_bigint::{BigInt, BigUint, Sign};
+use num_bigint::{BigInt, BigUint};
+use num_traits::Signed;
 
 use super::elementary::{self, ManyDigits};
 use super::evaluate::{Number, Scalar};
 use super::function::{BinaryFunction, Function};
+use super::limbs;
 use super::rational::Rational;
 
 /// Binary digits of a number.
@@ -31,36 +33,37 @@ impl Precise {
     const UNDEFINED: Self = Self { defined: false, negative: false, mantissa: [0; 4], exponent: 0 };
     const ZERO: Self = Self { defined: true, negative: false, mantissa: [0; 4], exponent: 0 };
 
-    /// m·2ⁿ, rounded.
-    fn rounded(value: BigInt, exponent: i64) -> Self {
-        let (sign, mut mantissa) = value.into_parts();
-        if sign == Sign::NoSign {
+    /// ±m·2ⁿ, rounded; m by its digits, the least significant first.
+    fn rounded(negative: bool, digits: &[u64], exponent: i64) -> Self {
+        let mut length = digits.len();
+        while length > 0 && digits[length - 1] == 0 {
+            length -= 1;
+        }
+        if length == 0 {
             return Self::ZERO;
         }
-        let mut shift = mantissa.bits() as i64 - DIGITS;
-        if shift > 0 {
-            mantissa = (mantissa + (BigUint::from(1_u8) << (shift - 1))) >> shift;
+        let mut shift = 64 * length as i64 - i64::from(digits[length - 1].leading_zeros()) - DIGITS;
+        let mut mantissa = limbs::window(digits, shift);
+        if shift > 0 && limbs::bit(digits, shift - 1) && limbs::increment(&mut mantissa) {
             // All ones, rounded up.
-            if mantissa.bits() as i64 > DIGITS {
-                mantissa >>= 1;
-                shift += 1;
-            }
-        } else {
-            mantissa <<= -shift;
+            mantissa = [0, 0, 0, 1 << 63];
+            shift += 1;
         }
         let exponent = exponent + shift;
         if exponent.abs() > RANGE {
             return if exponent < 0 { Self::ZERO } else { Self::UNDEFINED };
         }
-        let mut digits = [0; 4];
-        digits.iter_mut().zip(mantissa.iter_u64_digits()).for_each(|(to, from)| *to = from);
-        Self { defined: true, negative: sign == Sign::Minus, mantissa: digits, exponent }
+        Self { defined: true, negative, mantissa, exponent }
     }
 
-    /// The mantissa with its sign.
-    fn signed(self) -> BigInt {
-        let bytes: Vec<u8> = self.mantissa.iter().flat_map(|digit| digit.to_le_bytes()).collect();
-        BigInt::from_bytes_le(if self.negative { Sign::Minus } else { Sign::Plus }, &bytes)
+    /// An integer, rounded.
+    fn integer(value: &BigInt) -> Self {
+        Self::rounded(value.is_negative(), &value.magnitude().to_u64_digits(), 0)
+    }
+
+    /// The mantissa as an integer of any length.
+    fn integer_mantissa(self) -> BigUint {
+        BigUint::new(self.mantissa.iter().flat_map(|&digit| [digit as u32, (digit >> 32) as u32]).collect())
     }
 
     fn is_zero(self) -> bool {
@@ -76,13 +79,15 @@ impl Scalar for Precise {
         let bits = value.to_bits();
         let (biased, fraction) = ((bits >> 52 & 0x7ff) as i64, (bits & ((1 << 52) - 1)) as i64);
         let (mantissa, exponent) = if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
-        Self::rounded(if value < 0.0 { -mantissa } else { mantissa }.into(), exponent)
+        Self::rounded(value < 0.0, &[mantissa as u64], exponent)
     }
 
     fn fraction(value: Rational) -> Self {
-        value.exact().map_or(Self::UNDEFINED, |value| {
-            Self::rounded(value.numer().clone(), 0) / Self::rounded(value.denom().clone(), 0)
-        })
+        if let Some((numerator, denominator)) = value.parts() {
+            let above = Self::rounded(numerator < 0, &[numerator.unsigned_abs()], 0);
+            return if denominator == 1 { above } else { above / Self::rounded(false, &[denominator as u64], 0) };
+        }
+        value.exact().map_or(Self::UNDEFINED, |value| Self::integer(value.numer()) / Self::integer(value.denom()))
     }
 
     fn sine_cosine(self) -> (Self, Self) {
@@ -145,7 +150,13 @@ impl Add for Precise {
         if small.is_zero() || apart > 2 * DIGITS {
             return large;
         }
-        Self::rounded((large.signed() << apart) + small.signed(), small.exponent)
+        let mut digits = limbs::raised(large.mantissa, apart as usize);
+        if large.negative == small.negative {
+            limbs::add(&mut digits, small.mantissa);
+            return Self::rounded(large.negative, &digits, small.exponent);
+        }
+        let larger = !limbs::subtract(&mut digits, small.mantissa);
+        Self::rounded(large.negative == larger, &digits, small.exponent)
     }
 }
 
@@ -169,7 +180,8 @@ impl Mul for Precise {
         if !self.defined || !other.defined {
             return Self::UNDEFINED;
         }
-        Self::rounded(self.signed() * other.signed(), self.exponent + other.exponent)
+        let digits = limbs::product(self.mantissa, other.mantissa);
+        Self::rounded(self.negative != other.negative, &digits, self.exponent + other.exponent)
     }
 }
 
@@ -179,8 +191,14 @@ impl Div for Precise {
         if !self.defined || !other.defined || other.is_zero() {
             return Self::UNDEFINED;
         }
-        let quotient = (self.signed() << (DIGITS + 2)) / other.signed();
-        Self::rounded(quotient, self.exponent - other.exponent - DIGITS - 2)
+        let (negative, exponent) = (self.negative != other.negative, self.exponent - other.exponent - DIGITS - 2);
+        // Nearly always by an integer or a double.
+        if let [0, 0, 0, divisor] = other.mantissa {
+            let quotient = limbs::quotient(limbs::raised(self.mantissa, DIGITS as usize + 2 - 192), divisor);
+            return Self::rounded(negative, &quotient, exponent);
+        }
+        let quotient = (self.integer_mantissa() << (DIGITS + 2)) / other.integer_mantissa();
+        Self::rounded(negative, &quotient.to_u64_digits(), exponent)
     }
 }
 
@@ -204,9 +222,11 @@ impl PartialOrd for Precise {
 
 #[cfg(test)]
 mod tests {
+    use num_bigint::{BigInt, BigUint, Sign};
+
     use super::super::evaluate::{Number, Scalar};
     use super::super::{BinaryFunction, Function, Rational};
-    use super::Precise;
+    use super::{DIGITS, Precise};
 
     const POINTS: [f64; 9] = [1e-30, 3.7e-9, 0.02, 0.7, 1.0, 2.5, 31.4, 690.0, 1.234e8];
 
@@ -258,5 +278,51 @@ mod tests {
         assert!(!Precise::ZERO.call(Function::Ln).is_finite());
         let of_pi = Precise::ZERO.call_with(BinaryFunction::Atan2, Precise::number(-1.0));
         assert_eq!(of_pi.to_f64(), std::f64::consts::PI);
+    }
+    fn signed(p: Precise) -> BigInt {
+        BigInt::from_biguint(if p.negative { Sign::Minus } else { Sign::Plus }, p.integer_mantissa())
+    }
+
+    /// An integer of any length to 256 digits, halves away from zero.
+    fn nearest(value: &BigInt, exponent: i64) -> (BigInt, i64) {
+        let shift = value.bits() as i64 - DIGITS;
+        let half = BigUint::from(u8::from(shift > 0)) << (shift - 1).max(0);
+        let rounded = (value.magnitude() + half) >> shift.max(0) << (-shift).max(0);
+        // All ones, rounded up.
+        let over = i64::from(rounded.bits() as i64 > DIGITS);
+        (BigInt::from_biguint(value.sign(), rounded >> over), exponent + shift + over)
+    }
+
+    /// Sums, products and quotients of numbers that are near, far apart, of few digits, or all ones.
+    #[test]
+    fn the_same_as_with_integers_of_any_length() {
+        let mut word = 1_u64;
+        let mut random = || {
+            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            word ^ word >> 29
+        };
+        let mut numbers = Vec::new();
+        for k in 0..60_u64 {
+            let mut digits = [random(), random(), random(), random()];
+            digits[..(k % 5).min(3) as usize].fill(if k % 3 == 0 { 0 } else { u64::MAX });
+            if k % 7 == 0 {
+                digits[3] = u64::MAX;
+            }
+            numbers.push(Precise::rounded(k % 2 == 0, &digits, (random() % 700) as i64 * i64::from(k % 4 > 0)));
+        }
+        let holds = |found: Precise, (mantissa, exponent): (BigInt, i64)| {
+            assert!(
+                found.is_zero() && mantissa == BigInt::ZERO || (signed(found), found.exponent) == (mantissa, exponent)
+            );
+        };
+        for (a, b) in numbers.iter().flat_map(|a| numbers.iter().map(move |b| (*a, *b))) {
+            holds(a * b, nearest(&(signed(a) * signed(b)), a.exponent + b.exponent));
+            holds(a / b, nearest(&((signed(a) << (DIGITS + 2)) / signed(b)), a.exponent - b.exponent - DIGITS - 2));
+            let least = a.exponent.min(b.exponent);
+            if (a.exponent - b.exponent).abs() <= 2 * DIGITS {
+                let sum = (signed(a) << (a.exponent - least)) + (signed(b) << (b.exponent - least));
+                holds(a + b, nearest(&sum, least));
+            }
+        }
     }
 }

@@ -10,6 +10,7 @@ use num_rational::{BigRational, Ratio};
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed, ToPrimitive, Zero};
 
 use super::large;
+use super::map::Key;
 
 /// A fraction. Arithmetic never panics and never overflows; it rounds nothing up to a thousand bits, and by 2⁻²⁵⁶ beyond (see
 /// `large.rs`). What has no value, as a quotient by zero, becomes `0/0`, which stays `0/0` and is noticed by the graph (see
@@ -130,9 +131,10 @@ impl Rational {
     pub fn plus(self, other: Self) -> Self {
         if self.denominator == 1
             && other.denominator == 1
-            && let Some(sum) = Self::small_integer(self.numerator.checked_add(other.numerator))
+            && let Some(sum) = self.numerator.checked_add(other.numerator)
+            && sum != i64::MIN
         {
-            return sum;
+            return Self::from_integer(sum);
         }
         self.general(other, |a, b| a.checked_add(b), |a, b| a + b)
     }
@@ -167,12 +169,7 @@ impl Rational {
         self.common_divisor(other)
     }
 
-    /// The most negative integer counts as large, so that negation never overflows.
-    fn small_integer(value: Option<i64>) -> Option<Self> {
-        value.filter(|&n| n != i64::MIN).map(Self::from_integer)
-    }
-
-    /// Within 64 bits where that is possible.
+    /// Within 64 bits where that is possible; the most negative integer counts as large, so that negation never overflows.
     fn general(
         self,
         other: Self,
@@ -189,14 +186,6 @@ impl Rational {
         match (self.exact(), other.exact()) {
             (Some(a), Some(b)) => large(&a, &b).into(),
             _ => Self::UNDEFINED,
-        }
-    }
-
-    /// Equal ones have the same.
-    pub(crate) fn hash_word(self) -> u64 {
-        match self.denominator {
-            LARGE => self.to_f64().to_bits(),
-            denominator => (self.numerator as u64) ^ (denominator as u64).rotate_left(32),
         }
     }
 
@@ -275,11 +264,18 @@ impl From<i64> for Rational {
 impl Mul for Rational {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
+        if self.is_one() {
+            return other;
+        }
+        if other.is_one() {
+            return self;
+        }
         if self.denominator == 1
             && other.denominator == 1
-            && let Some(product) = Self::small_integer(self.numerator.checked_mul(other.numerator))
+            && let Some(product) = self.numerator.checked_mul(other.numerator)
+            && product != i64::MIN
         {
-            return product;
+            return Self::from_integer(product);
         }
         self.general(other, |a, b| a.checked_mul(b), |a, b| a * b)
     }
@@ -321,10 +317,19 @@ impl Sub for Rational {
     }
 }
 
-/// By value, whatever the index of a large one; so is the order of what is kept in maps.
+/// By value, whatever the index of a large one.
+impl Key for Rational {
+    fn word(&self) -> u64 {
+        match self.denominator {
+            LARGE => self.to_f64().to_bits(),
+            denominator => (self.numerator as u64) ^ (denominator as u64).rotate_left(32),
+        }
+    }
+}
+
 impl Hash for Rational {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        state.write_u64(self.hash_word());
+        state.write_u64(self.word());
     }
 }
 

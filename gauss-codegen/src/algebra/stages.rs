@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::graph::{Expr, Graph};
-use super::map::Map;
+use super::map::Set;
 use super::node::Id;
 
 /// Levels that recursions go down at once.
@@ -29,13 +29,13 @@ impl Graph {
 
     /// All that expressions are made of, they too; parts come before what is made of them.
     pub(super) fn reached(&self, roots: &[Id], parts: impl Fn(&Self, Id) -> Vec<Id>) -> Vec<Id> {
-        let (mut found, mut open) = (Map::default(), roots.to_vec());
+        let (mut seen, mut found, mut open) = (Set::default(), Vec::new(), roots.to_vec());
         while let Some(id) = open.pop() {
-            if found.insert(id, ()).is_none() {
+            if seen.insert(id) {
+                found.push(id);
                 open.extend(parts(self, id));
             }
         }
-        let mut found: Vec<Id> = found.into_keys().collect();
         found.sort_unstable();
         found
     }
@@ -54,17 +54,18 @@ impl Graph {
         if band(root) == 0 || known(root) {
             return Vec::new();
         }
-        let stages = RefCell::new(Map::default());
+        let stages = RefCell::new(Vec::new());
         self.reached(&[root], |graph, id| {
             if known(id) {
                 return Vec::new();
             }
             let parts = graph.node(id).children();
-            stages.borrow_mut().extend(parts.iter().filter(|&&part| band(part) < band(id)).map(|&part| (part, ())));
+            stages.borrow_mut().extend(parts.iter().filter(|&&part| band(part) < band(id) && !known(part)));
             parts
         });
-        let mut stages: Vec<Id> = stages.into_inner().into_keys().filter(|&id| !known(id)).collect();
+        let mut stages = stages.into_inner();
         stages.sort_unstable();
+        stages.dedup();
         stages
     }
 }

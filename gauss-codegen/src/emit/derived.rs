@@ -1,6 +1,6 @@
 //! Everything known about one derive when code is written, and what all implementations of traits are made with.
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational, Set};
@@ -317,7 +317,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     /// The body of a method: arguments taken apart, instructions, result.
     pub fn method_body(&self, method: Method) -> TokenStream {
         let (private, speeds) = (self.private(), self.speeds());
-        let (instructions, outputs) = self.computed_by(method);
+        let (mut body, outputs) = self.computed_by(method);
         let result = match method {
             Method::KineticEnergy
             | Method::PotentialEnergy
@@ -340,7 +340,8 @@ impl<'a, 'g> Derived<'a, 'g> {
             Method::Kinematics | Method::PositionCorrection => self.subject.tangent(&self.private(), &outputs),
             _ => quote!(#private::vector([#(#outputs),*])),
         };
-        quote!(#instructions #result)
+        body.extend(result);
+        body
     }
 
     pub fn degrees_of_freedom(&self) -> usize {
@@ -362,7 +363,9 @@ impl<'a, 'g> Derived<'a, 'g> {
         body: TokenStream,
     ) -> TokenStream {
         let (name, arguments) = (Ident::new(name, Span::call_site()), declared(&self.private(), arguments));
-        quote!(fn #name(&self, __t: Self::Scalar, __q: &Self::Configuration, #(#arguments),*) -> #result { #body })
+        // A group is handed on as a whole, what is not in one token by token.
+        let body = Group::new(Delimiter::Brace, body);
+        quote!(fn #name(&self, __t: Self::Scalar, __q: &Self::Configuration, #(#arguments),*) -> #result #body)
     }
 
     /// Is the scalar a type parameter?
@@ -383,10 +386,11 @@ impl<'a, 'g> Derived<'a, 'g> {
     pub fn implementation(&self, of: TokenStream, items: TokenStream) -> TokenStream {
         let (private, name, KernelGenerics { bounded, used, .. }) =
             (self.private(), self.kernel_name(), self.kernel_generics());
+        let items = Group::new(Delimiter::Brace, items);
         quote! {
             #[automatically_derived]
             #[allow(unused_variables, clippy::all, clippy::pedantic)]
-            impl #bounded #private::#of for #name #used { #items }
+            impl #bounded #private::#of for #name #used #items
         }
     }
 

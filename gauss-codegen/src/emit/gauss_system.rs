@@ -80,15 +80,14 @@ fn methods(derived: &Derived<'_, '_>) -> TokenStream {
 /// `evaluate`: q̇, ż and the energies at once.
 fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
     let private = derived.private();
-    let (instructions, outputs) = derived.computed(&derived.kernel.joined);
+    let (mut body, outputs) = derived.computed(&derived.kernel.joined);
     let (configuration, rest) = outputs.split_at(derived.program(Method::Kinematics).outputs.len());
     let (speeds, energies) = rest.split_at(derived.degrees_of_freedom());
     let velocity = derived.subject.tangent(&derived.private(), configuration);
-    let body = quote! {
-        #instructions
+    body.extend(quote! {
         let [__kinetic, __potential] = [#(#energies),*];
         #private::Evaluated::new(#velocity, #private::vector([#(#speeds),*]), __kinetic, __potential)
-    };
+    });
     let function = derived.function_of("evaluate", OF_EQUATIONS, quote!(#private::Evaluated<Self>), body);
     quote!(#[inline] #function)
 }

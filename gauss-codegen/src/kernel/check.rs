@@ -120,7 +120,9 @@ impl<'g> Sample<'_, 'g> {
             let square = |symbol: &Expr<'g>| point[&symbol.key()].powi(2);
             let norm = unit.iter().fold(N::number(0.0), |sum, symbol| sum + square(symbol)).call(Function::Sqrt);
             for symbol in unit {
-                point.entry(symbol.key()).and_modify(|value| *value = *value / norm);
+                if let Some(value) = point.get_mut(&symbol.key()) {
+                    *value = *value / norm;
+                }
             }
         }
         let mut evaluation = Evaluation::new(&point);

@@ -18,15 +18,22 @@ struct Term<'g> {
 
 impl<'g> Term<'g> {
     fn exponent(&self, factor: Expr<'g>) -> i32 {
-        self.factors.iter().find(|(f, _)| *f == factor).map_or(0, |(_, n)| *n)
+        for (f, n) in &self.factors {
+            if *f == factor {
+                return *n;
+            }
+        }
+        0
     }
 
     fn without(&self, factor: Expr<'g>, sign: i32) -> Self {
-        let mut factors = self.factors.clone();
-        if let Some(f) = factors.iter_mut().find(|(f, _)| *f == factor) {
-            f.1 -= sign;
+        let mut factors = Vec::with_capacity(self.factors.len());
+        for &(f, n) in &self.factors {
+            let n = if f == factor { n - sign } else { n };
+            if n != 0 {
+                factors.push((f, n));
+            }
         }
-        factors.retain(|(_, n)| *n != 0);
         Self { coefficient: self.coefficient, factors }
     }
 
@@ -60,23 +67,24 @@ impl<'g> Factoring<'g> {
             NodeView::Binary(function, a, b) => self.visit(a).binary(function, self.visit(b)),
             NodeView::Group(inner) | NodeView::Opaque(inner) => self.visit(inner).group_as_is(),
             NodeView::Product(factors) => {
-                let factors: Vec<_> = factors.into_iter().map(|(f, n)| (self.visit(f), n)).collect();
-                graph.product(Rational::one(), factors)
+                let mut visited = Vec::with_capacity(factors.len());
+                for (f, n) in factors {
+                    visited.push((self.visit(f), n));
+                }
+                graph.product(Rational::one(), visited)
             }
             NodeView::Sum(terms) => {
-                let terms = terms
-                    .into_iter()
-                    .map(|(c, term)| {
-                        let (content, rest) = self.visit(term).split_coefficient();
-                        let factors = match rest.view() {
-                            NodeView::Product(factors) => factors,
-                            NodeView::Number(_) => Vec::new(),
-                            _ => vec![(rest, 1)],
-                        };
-                        Term { coefficient: c * content, factors }
-                    })
-                    .collect();
-                factor(e, terms)
+                let mut visited = Vec::with_capacity(terms.len());
+                for (c, term) in terms {
+                    let (content, rest) = self.visit(term).split_coefficient();
+                    let factors = match rest.view() {
+                        NodeView::Product(factors) => factors,
+                        NodeView::Number(_) => Vec::new(),
+                        _ => vec![(rest, 1)],
+                    };
+                    visited.push(Term { coefficient: c * content, factors });
+                }
+                factor(e, visited)
             }
         };
         self.memo.insert(e.key(), result);
@@ -91,8 +99,14 @@ fn factor<'g>(like: Expr<'g>, mut terms: Vec<Term<'g>>) -> Expr<'g> {
     let mut products = Vec::new();
     let rest = loop {
         let Some((shared, sign)) = most_frequent(&terms) else { break Some(shared_number(like, &terms)) };
-        let (inside, outside): (Vec<_>, Vec<_>) = terms.into_iter().partition(|t| t.exponent(shared).signum() == sign);
-        let inside: Vec<_> = inside.iter().map(|t| t.without(shared, sign)).collect();
+        let (mut inside, mut outside) = (Vec::new(), Vec::new());
+        for term in terms {
+            if term.exponent(shared).signum() == sign {
+                inside.push(term.without(shared, sign));
+            } else {
+                outside.push(term);
+            }
+        }
         let inner = factor(like, inside).group_as_is();
         products.push(graph.product(Rational::one(), [(shared, sign), (inner, 1)]));
         if outside.is_empty() {
@@ -109,7 +123,7 @@ fn most_frequent<'g>(terms: &[Term<'g>]) -> Option<(Expr<'g>, i32)> {
     let mut count: Map<(u32, i32), (usize, Expr<'g>)> = Map::default();
     for term in terms {
         for &(f, n) in &term.factors {
-            count.entry((f.key(), n.signum())).or_insert((0, f)).0 += 1;
+            count.or_insert_with((f.key(), n.signum()), || (0, f)).0 += 1;
         }
     }
     let best = count.iter().filter(|(_, (n, _))| *n >= 2).max_by_key(|((key, sign), (n, _))| (*n, *sign, *key));
@@ -121,8 +135,16 @@ fn shared_number<'g>(like: Expr<'g>, terms: &[Term<'g>]) -> Expr<'g> {
     let graph = like.graph();
     let one = Rational::one();
     let value = |t: &Term<'g>| if t.factors.is_empty() { one } else { t.coefficient.abs() };
-    let number = terms.iter().map(value).find(|c| !c.is_one() && terms.iter().filter(|t| value(t) == *c).count() >= 2);
-    let Some(number) = number else {
+    let mut numbers = Vec::with_capacity(terms.len());
+    for term in terms {
+        let number = value(term);
+        if !number.is_one() {
+            numbers.push(number);
+        }
+    }
+    // The first that comes twice.
+    let twice = |k: &usize| numbers[*k + 1..].contains(&numbers[*k]);
+    let Some(number) = (0..numbers.len()).find(twice).map(|k| numbers[k]) else {
         return graph.sum(terms.iter().map(|t| (one, t.expr(like))));
     };
     let (inside, outside): (Vec<_>, Vec<_>) = terms.iter().partition(|t| value(t) == number);

@@ -90,8 +90,14 @@ impl<'a, 'g> Hoister<'a, 'g> {
             NodeView::Group(inner) => self.visit(inner).group_as_is(),
             NodeView::Product(_) => self.term(Rational::one(), e),
             NodeView::Sum(terms) => {
-                let (constant, variable): (Vec<_>, Vec<_>) = terms.into_iter().partition(|(_, e)| e.is_constant());
-                let mut parts: Vec<Expr<'g>> = variable.into_iter().map(|(c, e)| self.term(c, e)).collect();
+                let (mut constant, mut parts) = (Vec::new(), Vec::with_capacity(terms.len()));
+                for (c, e) in terms {
+                    if e.is_constant() {
+                        constant.push((c, e));
+                    } else {
+                        parts.push(self.term(c, e));
+                    }
+                }
                 if !constant.is_empty() {
                     let constant = self.graph.sum(constant);
                     parts.push(self.constant(constant));
@@ -106,9 +112,15 @@ impl<'a, 'g> Hoister<'a, 'g> {
         let NodeView::Product(factors) = e.view() else {
             return self.visit(e).scale(c);
         };
-        let (constant, variable): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(e, _)| e.is_constant());
         // A rational content that a visited factor gives up belongs to the constant too, so visit first.
-        let variable: Vec<_> = variable.into_iter().map(|(e, n)| (self.visit(e), n)).collect();
+        let (mut constant, mut variable) = (Vec::new(), Vec::with_capacity(factors.len()));
+        for (e, n) in factors {
+            if e.is_constant() {
+                constant.push((e, n));
+            } else {
+                variable.push((self.visit(e), n));
+            }
+        }
         let variable = self.graph.product(c, variable);
         if constant.is_empty() {
             return variable;

@@ -1,8 +1,6 @@
 //! Sums and products of many terms as a network of nodes, with the parts that several of them contain split off.
 
-use std::hash::{Hash, Hasher};
-
-use crate::algebra::{BinaryFunction, Expr, Function, Map, NodeView, Rational};
+use crate::algebra::{BinaryFunction, Expr, Function, Key, Map, NodeView, Rational, joined};
 use crate::program::Pass;
 
 /// Parts of one sum or product that are paired with one another: the number of pairs goes with its square.
@@ -33,34 +31,29 @@ pub enum Node<'g> {
     Binary(BinaryFunction, Place, Place),
 }
 
-/// In one word, as in `algebra/node.rs`: hashing piece by piece is most of a look-up in unoptimised code.
-impl Hash for Node<'_> {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        let mut word = Spread(0);
+impl Key for Node<'_> {
+    fn word(&self) -> u64 {
         match self {
-            Node::Number(value) => word.add(1, value.hash_word()),
-            Node::Leaf(e) => word.add(2, u64::from(e.key())),
-            Node::Sum(terms) => terms.iter().for_each(|(c, place)| word.add(c.hash_word(), *place as u64)),
-            Node::Product(factors) => factors.iter().for_each(|place| word.add(3, *place as u64)),
-            Node::Reciprocal(a) => word.add(4, *a as u64),
-            Node::Call(function, a) => word.add(5 + function.word(), *a as u64),
-            Node::Binary(function, a, b) => {
-                word.add(6, *a as u64);
-                word.add(*function as u64, *b as u64);
+            Node::Number(value) => joined(1, value.word()),
+            Node::Leaf(e) => joined(2, u64::from(e.key())),
+            Node::Sum(terms) => {
+                let mut word = 3;
+                for (c, place) in terms {
+                    word = joined(word, c.word() ^ (*place as u64) << 32);
+                }
+                word
             }
+            Node::Product(factors) => {
+                let mut word = 4;
+                for place in factors {
+                    word = joined(word, *place as u64);
+                }
+                word
+            }
+            Node::Reciprocal(a) => joined(5, *a as u64),
+            Node::Call(function, a) => joined(7 + function.word(), *a as u64),
+            Node::Binary(function, a, b) => joined(joined(6, *a as u64), (*function as u64) << 32 ^ *b as u64),
         }
-        state.write_u64(word.0);
-    }
-}
-
-/// Numbers that are hashed together.
-struct Spread(u64);
-
-impl Spread {
-    fn add(&mut self, a: u64, b: u64) {
-        /// Any odd number whose digits look random.
-        const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
-        self.0 = (self.0.rotate_left(5) ^ a ^ b << 32).wrapping_mul(SPREAD);
     }
 }
 
@@ -96,10 +89,13 @@ impl<'g> Network<'g> {
             let output = network.visit(e);
             network.outputs.push(output);
         }
-        for kind in [Kind::Products, Kind::Sums] {
-            if kind.pass().is_made() && network.share(kind) {
-                network.merge_duplicates();
-            }
+        if Kind::Products.pass().is_made() && network.share(Kind::Products) {
+            network.merge_duplicates();
+            network.index_anew();
+        }
+        // Nothing is looked up afterwards.
+        if Kind::Sums.pass().is_made() && network.share(Kind::Sums) {
+            network.merge_duplicates();
         }
         network
     }
@@ -130,12 +126,12 @@ impl<'g> Network<'g> {
     }
 
     fn place(&mut self, node: Node<'g>) -> Place {
-        if let Some(&place) = self.index.get(&node) {
-            return place;
-        }
-        self.nodes.push(node.clone());
-        self.index.insert(node, self.nodes.len() - 1);
-        self.nodes.len() - 1
+        let nodes = &mut self.nodes;
+        let new = |node: &Node<'g>| {
+            nodes.push(node.clone());
+            nodes.len() - 1
+        };
+        *self.index.or_insert_of(node, new)
     }
 
     /// The node of an expression up to a number, which sums and products around it take over.
@@ -162,12 +158,12 @@ impl<'g> Network<'g> {
                 (one, self.place(Node::Binary(function, a, b)))
             }
             NodeView::Sum(terms) => {
-                let terms = terms.into_iter().map(|(c, e)| {
+                let mut parts = Vec::with_capacity(terms.len());
+                for (c, e) in terms {
                     let (d, place) = self.visit(e);
-                    (c * d, place)
-                });
-                let terms: Vec<_> = terms.collect();
-                self.sum(terms)
+                    parts.push((c * d, place));
+                }
+                self.sum(parts)
             }
             NodeView::Product(factors) => {
                 let (mut coefficient, mut places) = (one, Vec::new());
@@ -175,7 +171,9 @@ impl<'g> Network<'g> {
                     let (c, place) = self.visit(e);
                     coefficient *= c.pow(n);
                     let place = if n > 0 { place } else { self.place(Node::Reciprocal(place)) };
-                    places.extend(std::iter::repeat_n(place, n.unsigned_abs() as usize));
+                    for _ in 0..n.unsigned_abs() {
+                        places.push(place);
+                    }
                 }
                 (coefficient, self.product(places))
             }
@@ -222,8 +220,7 @@ impl<'g> Network<'g> {
             let repeated = self.repeated(kind);
             let mut holders: Map<(Place, Place, Rational), Vec<Place>> = Map::default();
             for (place, node) in self.nodes.iter().enumerate() {
-                let mut parts = kind.parts(node);
-                parts.retain(|part| repeated[part.1]);
+                let parts = kind.parts_of(node, &repeated);
                 for parts in parts.chunks(PAIRED) {
                     let pairs = parts.len() * parts.len() / 2;
                     if pairs > left {
@@ -232,7 +229,7 @@ impl<'g> Network<'g> {
                     left -= pairs;
                     for (i, &(c, a)) in parts.iter().enumerate() {
                         for &(d, b) in &parts[i + 1..] {
-                            let places = holders.entry((a, b, d / c)).or_default();
+                            let places = holders.or_insert_with((a, b, d / c), Vec::new);
                             if places.last() != Some(&place) {
                                 places.push(place);
                             }
@@ -279,11 +276,24 @@ impl<'g> Network<'g> {
         let mut last = vec![usize::MAX; self.nodes.len()];
         let mut repeated = vec![false; self.nodes.len()];
         for (place, node) in self.nodes.iter().enumerate() {
-            for (_, part) in kind.parts(node) {
+            let mut note = |part: Place| {
                 if last[part] != usize::MAX && last[part] != place {
                     repeated[part] = true;
                 }
                 last[part] = place;
+            };
+            match (kind, node) {
+                (Kind::Sums, Node::Sum(terms)) => {
+                    for &(_, part) in terms {
+                        note(part);
+                    }
+                }
+                (Kind::Products, Node::Product(factors)) => {
+                    for &part in factors {
+                        note(part);
+                    }
+                }
+                _ => {}
             }
         }
         repeated
@@ -291,13 +301,11 @@ impl<'g> Network<'g> {
 
     /// Splitting parts off can make two nodes alike: everything that refers to the later one is led to the first, and
     /// the later one, which nobody needs any more, is blanked.
-    #[expect(clippy::mutable_key_type, reason = "an expression is hashed by its index, which never changes")]
     fn merge_duplicates(&mut self) {
         loop {
             let mut first: Map<&Node<'g>, Place> = Map::default();
-            first.reserve(self.nodes.len());
             let lead: Vec<Place> =
-                self.nodes.iter().enumerate().map(|(k, node)| *first.entry(node).or_insert(k)).collect();
+                self.nodes.iter().enumerate().map(|(k, node)| *first.or_insert_with(node, || k)).collect();
             let mut changed = false;
             let mut follow = |place: &mut Place| {
                 changed |= lead[*place] != *place;
@@ -328,9 +336,12 @@ impl<'g> Network<'g> {
                 break;
             }
         }
-        self.index.clear();
+    }
+
+    fn index_anew(&mut self) {
+        self.index = Map::default();
         for (k, node) in self.nodes.iter().enumerate() {
-            self.index.entry(node.clone()).or_insert(k);
+            self.index.or_insert_with(node.clone(), || k);
         }
     }
 }
@@ -359,6 +370,29 @@ impl Kind {
             (Kind::Products, Node::Product(factors)) => factors.iter().map(|&f| (Rational::one(), f)).collect(),
             _ => Vec::new(),
         }
+    }
+
+    /// Those that are `wanted`, in their order.
+    fn parts_of(self, node: &Node<'_>, wanted: &[bool]) -> Parts {
+        let mut parts = Vec::new();
+        match (self, node) {
+            (Kind::Sums, Node::Sum(terms)) => {
+                for &(c, place) in terms {
+                    if wanted[place] {
+                        parts.push((c, place));
+                    }
+                }
+            }
+            (Kind::Products, Node::Product(factors)) => {
+                for &place in factors {
+                    if wanted[place] {
+                        parts.push((Rational::one(), place));
+                    }
+                }
+            }
+            _ => {}
+        }
+        parts
     }
 
     fn node<'g>(self, parts: Parts) -> Node<'g> {

@@ -143,10 +143,6 @@ struct ConstantRates<'g> {
 }
 
 impl<'g> ConstantRates<'g> {
-    #[expect(
-        clippy::mutable_key_type,
-        reason = "expressions are compared by their place in the graph, which never changes"
-    )]
     fn new(graph: &'g Graph, constants: &Constants<'g>, along: &[Direction<'g>]) -> Self {
         let nothing = Program::nothing();
         let extended = with_tangents(&constants.program, (&[], &nothing), along);
@@ -165,7 +161,7 @@ impl<'g> ConstantRates<'g> {
             };
             let value = match operand {
                 Operand::Number(value) => graph.number(value),
-                _ => *known.entry(operand).or_insert_with(|| {
+                _ => *known.or_insert_with(operand, || {
                     let name = format!("k{}", count + added.len());
                     let symbol = graph.symbol(name.clone(), name, false);
                     added.push((operand, symbol));

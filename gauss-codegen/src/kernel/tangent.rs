@@ -133,7 +133,7 @@ pub(super) struct Writer<'g> {
 impl<'g> Writer<'g> {
     pub(super) fn place(&mut self, operation: Operation<'g>) -> usize {
         let next = self.instructions.len();
-        let place = *self.known.entry(operation).or_insert(next);
+        let place = *self.known.or_insert_with(operation, || next);
         if place == next {
             self.instructions.push(operation);
         }

@@ -43,7 +43,11 @@ impl<S: Copy> Code<S> {
     /// How often instructions and outputs read each instruction.
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.instructions.len()];
-        self.operands().filter_map(Operand::instruction).for_each(|k| uses[k] += 1);
+        for operand in self.operands() {
+            if let Some(k) = operand.instruction() {
+                uses[k] += 1;
+            }
+        }
         uses
     }
 
@@ -53,7 +57,11 @@ impl<S: Copy> Code<S> {
         self.outputs.iter().filter_map(|operand| operand.instruction()).for_each(|k| needed[k] = true);
         for (k, instruction) in self.instructions.iter().enumerate().rev() {
             if needed[k] {
-                instruction.operands().filter_map(Operand::instruction).for_each(|k| needed[k] = true);
+                for operand in instruction.operands() {
+                    if let Some(k) = operand.instruction() {
+                        needed[k] = true;
+                    }
+                }
             }
         }
         needed

@@ -1,9 +1,8 @@
 //! How much a program computes, how long its chains are, how smooth its outputs.
 
 use std::fmt;
-use std::hash::Hash;
 
-use crate::algebra::{BinaryFunction, Function, OwnFunction, Set};
+use crate::algebra::{BinaryFunction, Function, Key, OwnFunction, Set};
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
@@ -105,7 +104,7 @@ impl<S: Copy> Instruction<S> {
     }
 }
 
-impl<S: Copy + Eq + Hash> Code<S> {
+impl<S: Copy + Key> Code<S> {
     /// Its operations by kind.
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();

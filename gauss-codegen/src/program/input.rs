@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::algebra::{Key, joined};
+
 /// An argument: numbers that are handed over together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -76,6 +78,15 @@ pub enum Input {
     },
     /// A number of the program, by its index.
     Number(usize),
+}
+
+impl Key for Input {
+    fn word(&self) -> u64 {
+        match self {
+            Input::Component { argument, component } => joined(1 + *argument as u64, *component as u64),
+            Input::Number(k) => joined(0, *k as u64),
+        }
+    }
 }
 
 /// Outputs that belong together: a number (one row, one column), a vector (one column), or a matrix, row after row.

@@ -1,6 +1,6 @@
 //! One step of a program, and what it works on.
 
-use crate::algebra::{BinaryFunction, Function, Rational};
+use crate::algebra::{BinaryFunction, Function, Key, Rational, joined};
 
 use super::input::Input;
 
@@ -45,6 +45,36 @@ pub enum Instruction<S = Input> {
     Call(Function, Operand<S>),
     /// A function of two arguments.
     Binary(BinaryFunction, Operand<S>, Operand<S>),
+}
+
+impl<S: Key> Key for Operand<S> {
+    fn word(&self) -> u64 {
+        match self {
+            Operand::Input(symbol) => joined(1, symbol.word()),
+            Operand::Number(value) => joined(2, value.word()),
+            Operand::Value(k) => joined(3, *k as u64),
+            Operand::Sine(k) => joined(4, *k as u64),
+            Operand::Cosine(k) => joined(5, *k as u64),
+        }
+    }
+}
+
+impl<S: Key> Key for Instruction<S> {
+    fn word(&self) -> u64 {
+        let two = |kind: u64, a: &Operand<S>, b: &Operand<S>| joined(joined(kind, a.word()), b.word());
+        match self {
+            Instruction::Add(a, b) => two(1, a, b),
+            Instruction::Subtract(a, b) => two(2, a, b),
+            Instruction::Multiply(a, b) => two(3, a, b),
+            Instruction::MultiplyAdd(a, b, c) => joined(two(4, a, b), c.word()),
+            Instruction::MultiplySubtract(a, b, c) => joined(two(5, a, b), c.word()),
+            Instruction::Divide(a, b) => two(6, a, b),
+            Instruction::Negate(a) => joined(7, a.word()),
+            Instruction::SineCosine(a) => joined(8, a.word()),
+            Instruction::Call(function, a) => joined(joined(9, function.word()), a.word()),
+            Instruction::Binary(function, a, b) => joined(two(10, a, b), *function as u64),
+        }
+    }
 }
 
 impl<S: Copy> Operand<S> {
@@ -94,16 +124,54 @@ impl<S: Copy> Instruction<S> {
     }
 
     /// What it works on, in the order in which it is written.
-    pub fn operands(&self) -> impl Iterator<Item = Operand<S>> + use<S> {
-        let (a, b, c) = match *self {
-            Instruction::Add(a, b)
-            | Instruction::Subtract(a, b)
-            | Instruction::Multiply(a, b)
-            | Instruction::Divide(a, b)
-            | Instruction::Binary(_, a, b) => (a, Some(b), None),
-            Instruction::MultiplyAdd(a, b, c) | Instruction::MultiplySubtract(a, b, c) => (a, Some(b), Some(c)),
-            Instruction::Negate(a) | Instruction::SineCosine(a) | Instruction::Call(_, a) => (a, None, None),
-        };
-        [Some(a), b, c].into_iter().flatten()
+    pub fn operands(&self) -> impl Iterator<Item = Operand<S>> + use<'_, S> {
+        Operands { instruction: self, next: 0 }
+    }
+
+    /// One of what it works on, by its place.
+    const fn operand(&self, place: u8) -> Option<Operand<S>> {
+        match (self, place) {
+            (
+                Instruction::Add(a, _)
+                | Instruction::Subtract(a, _)
+                | Instruction::Multiply(a, _)
+                | Instruction::MultiplyAdd(a, ..)
+                | Instruction::MultiplySubtract(a, ..)
+                | Instruction::Divide(a, _)
+                | Instruction::Negate(a)
+                | Instruction::SineCosine(a)
+                | Instruction::Call(_, a)
+                | Instruction::Binary(_, a, _),
+                0,
+            ) => Some(*a),
+            (
+                Instruction::Add(_, b)
+                | Instruction::Subtract(_, b)
+                | Instruction::Multiply(_, b)
+                | Instruction::MultiplyAdd(_, b, _)
+                | Instruction::MultiplySubtract(_, b, _)
+                | Instruction::Divide(_, b)
+                | Instruction::Binary(.., b),
+                1,
+            ) => Some(*b),
+            (Instruction::MultiplyAdd(.., c) | Instruction::MultiplySubtract(.., c), 2) => Some(*c),
+            _ => None,
+        }
+    }
+}
+
+/// What an instruction works on: adapters of arrays take ten times as long where nothing is optimised.
+struct Operands<'a, S> {
+    instruction: &'a Instruction<S>,
+    next: u8,
+}
+
+impl<S: Copy> Iterator for Operands<'_, S> {
+    type Item = Operand<S>;
+
+    fn next(&mut self) -> Option<Operand<S>> {
+        let operand = self.instruction.operand(self.next);
+        self.next += 1;
+        operand
     }
 }

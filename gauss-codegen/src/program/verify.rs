@@ -74,7 +74,9 @@ impl<S: Copy> Code<S> {
             if let Instruction::Call(Function::Sin | Function::Cos, _) = instruction {
                 return Err(Malformed::LoneSine(k));
             }
-            instruction.operands().try_for_each(|operand| self.verify_operand(operand, Some(k)))?;
+            for operand in instruction.operands() {
+                self.verify_operand(operand, Some(k))?;
+            }
         }
         self.outputs.iter().try_for_each(|&operand| self.verify_operand(operand, None))?;
         self.needed().iter().position(|needed| !needed).map_or(Ok(()), |k| Err(Malformed::Idle(k)))

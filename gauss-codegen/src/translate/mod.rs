@@ -449,7 +449,8 @@ impl<'a, 'g> Translator<'a, 'g> {
     /// Rates of t and of the symbols of q: Ṙ = R [ω]× (Poisson), ḃ = R u.
     fn rates(&self) -> Map<u32, Expr<'g>> {
         let mut rates: Map<u32, Expr<'g>> = Map::from_iter([(self.declared.time.key(), self.graph.one())]);
-        rates.extend(self.chart.iter().flat_map(|chart| &chart.kinematics.rates).map(|(&key, &rate)| (key, rate)));
+        rates
+            .extend(self.chart.iter().flat_map(|chart| chart.kinematics.rates.iter()).map(|(&key, &rate)| (key, rate)));
         let own = || self.declared.coordinates.iter().enumerate().skip(self.declared.before);
         for (k, coordinate) in own() {
             let rate = self.declared.rate_of(k, &self.kinematics);

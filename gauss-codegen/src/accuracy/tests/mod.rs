@@ -6,6 +6,8 @@
 mod formulas;
 mod scenes;
 
+use std::collections::BTreeMap;
+
 use crate::algebra::{Evaluation, Expr, Function, Map, Number, Precise, Scalar};
 use crate::emit::Derived;
 use crate::expand::derive;
@@ -101,7 +103,9 @@ fn accelerations<N: Number>(
         let square = |symbol: &Expr<'_>| state[&symbol.key()] * state[&symbol.key()];
         let norm = quaternion.iter().map(square).fold(N::number(0.0), |a, b| a + b).call(Function::Sqrt);
         for symbol in quaternion {
-            state.entry(symbol.key()).and_modify(|value| *value = *value / norm);
+            if let Some(value) = state.get_mut(&symbol.key()) {
+                *value = *value / norm;
+            }
         }
     }
     put_rotations(derived, &mut state);
@@ -164,10 +168,8 @@ fn kernels_of_random_scenes_lose_what_their_conditioning_excuses() {
     let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(SCENES);
     let losses = losses_of(count);
     let kind_of = |text: &str| text.split(" (").next().unwrap_or_default().to_owned();
-    let mut kinds: Map<String, Vec<f64>> = Map::default();
+    let mut kinds: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     losses.iter().for_each(|(loss, text)| kinds.entry(kind_of(text)).or_default().push(*loss));
-    let mut kinds: Vec<(String, Vec<f64>)> = kinds.into_iter().collect();
-    kinds.sort_unstable_by(|a, b| a.0.cmp(&b.0));
     for (kind, own) in &kinds {
         println!(
             "{kind:<18} {:>5} scenes, median {:>8.2}, 90 % {:>10.3e}, worst {:>10.3e}; above 30: {}, above 1e3: {}",

@@ -590,7 +590,7 @@ fn sample_state<N: Number>(system: &System<'_>, shift: u32) -> Map<u32, N> {
         state.insert(key, N::number(0.5 + fraction));
     }
     for parameter in scene.tree.links.iter().filter_map(Link::body).flat_map(|body| &body.parameters) {
-        let value = &mut *state.entry(parameter.symbol.key()).or_insert(N::number(1.0));
+        let value = &mut *state.or_insert_with(parameter.symbol.key(), || N::number(1.0));
         let diagonal = parameter.row == parameter.column;
         *value = if diagonal { N::number(4.0) + *value } else { N::number(0.3) * *value };
     }

@@ -3,10 +3,8 @@
 //! What inputs, numbers and functions are called is its `Dialect`: kernels read symbols and are generic over the scalar
 //! (`emit`), functions that stand alone read arrays of `f64` (`plain`).
 
-use std::collections::BTreeSet;
-
-use proc_macro2::{Ident, Span, TokenStream, TokenTree};
-use quote::{ToTokens, format_ident, quote};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
+use quote::{ToTokens, quote};
 
 use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational};
 use crate::program::{Code, Instruction, Operand};
@@ -42,15 +40,15 @@ pub(crate) trait Dialect<S> {
 /// Name of the result of an instruction. Underscores keep it apart from constants of the user's, which a `let` must not
 /// shadow.
 fn value(k: usize) -> Ident {
-    format_ident!("__v{}", k, span = Span::mixed_site())
+    Ident::new(&format!("__v{k}"), Span::mixed_site())
 }
 
 fn sine(k: usize) -> Ident {
-    format_ident!("__s{}", k, span = Span::mixed_site())
+    Ident::new(&format!("__s{k}"), Span::mixed_site())
 }
 
 fn cosine(k: usize) -> Ident {
-    format_ident!("__c{}", k, span = Span::mixed_site())
+    Ident::new(&format!("__c{k}"), Span::mixed_site())
 }
 
 /// How an operand is written.
@@ -58,18 +56,9 @@ pub(crate) fn operand<S: Copy>(operand: &Operand<S>, dialect: &impl Dialect<S>) 
     match *operand {
         Operand::Input(input) => dialect.input(input),
         Operand::Number(n) => dialect.number(&n),
-        Operand::Value(k) => {
-            let name = value(k);
-            quote!(#name)
-        }
-        Operand::Sine(k) => {
-            let name = sine(k);
-            quote!(#name)
-        }
-        Operand::Cosine(k) => {
-            let name = cosine(k);
-            quote!(#name)
-        }
+        Operand::Value(k) => value(k).into_token_stream(),
+        Operand::Sine(k) => sine(k).into_token_stream(),
+        Operand::Cosine(k) => cosine(k).into_token_stream(),
     }
 }
 
@@ -135,15 +124,20 @@ impl Statement {
         Statement { pattern: pattern.into_token_stream(), value }
     }
 
-    fn bound(&self) -> TokenStream {
-        let Statement { pattern, value } = self;
-        quote!(let #pattern = #value;)
+    fn bound(self) -> TokenStream {
+        let mut tokens = quote!(let);
+        tokens.extend(self.assigned());
+        tokens
     }
 
     /// Where the names have been declared.
-    fn assigned(&self) -> TokenStream {
-        let Statement { pattern, value } = self;
-        quote!(#pattern = #value;)
+    fn assigned(self) -> TokenStream {
+        // Moved, not copied: these are most of the tokens that there are.
+        let mut tokens = self.pattern;
+        tokens.extend(quote!(=));
+        tokens.extend(self.value);
+        tokens.extend(quote!(;));
+        tokens
     }
 
     fn names(&self) -> Vec<Ident> {
@@ -168,17 +162,19 @@ pub(crate) type Line = (Vec<Ident>, Option<Statement>);
 
 fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept) -> (TokenStream, Vec<TokenStream>) {
     let read = pairs_read(code, kept);
+    let together = dialect.sines_and_cosines();
     let mut written = Vec::with_capacity(code.instructions.len());
     while written.len() < code.instructions.len() {
         let k = written.len();
-        match (row_of_angles(code, k), dialect.sines_and_cosines()) {
-            (row, Some(function)) if row.len() > 1 => {
-                let count = row.len();
-                written.push(Some(angles_together(k, &row, &read[k..], &function, dialect)));
-                written.resize_with(k + count, || None);
+        if let (Instruction::SineCosine(_), Some(function)) = (&code.instructions[k], &together) {
+            let row = row_of_angles(code, k);
+            if row.len() > 1 {
+                written.push(Some(angles_together(k, &row, &read[k..], function, dialect)));
+                written.resize_with(k + row.len(), || None);
+                continue;
             }
-            _ => written.push(Some(statement(k, &code.instructions[k], read[k], dialect))),
         }
+        written.push(Some(statement(k, &code.instructions[k], read[k], dialect)));
     }
     (in_functions(code, kept, written, dialect), code.outputs.iter().map(|output| operand(output, dialect)).collect())
 }
@@ -219,7 +215,6 @@ fn statement<S: Copy>(
     [sine_read, cosine_read]: [bool; 2],
     dialect: &impl Dialect<S>,
 ) -> Statement {
-    let (real, fma) = (dialect.functions(), dialect.fma());
     let write = |o: &Operand<S>| operand(o, dialect);
     let binary = |a: &Operand<S>, operator: TokenStream, b: &Operand<S>| {
         let (a, b) = (write(a), write(b));
@@ -231,11 +226,11 @@ fn statement<S: Copy>(
         Instruction::Multiply(a, b) => binary(a, quote!(*), b),
         Instruction::Divide(a, b) => binary(a, quote!(/), b),
         Instruction::MultiplyAdd(a, b, c) => {
-            let (a, b, c) = (write(a), write(b), write(c));
+            let (fma, a, b, c) = (dialect.fma(), write(a), write(b), write(c));
             quote!(#fma(#a, #b, #c))
         }
         Instruction::MultiplySubtract(a, b, c) => {
-            let (a, b, c) = (write(a), write(b), write(c));
+            let (fma, a, b, c) = (dialect.fma(), write(a), write(b), write(c));
             quote!(#fma(-#a, #b, #c))
         }
         Instruction::Negate(a) => {
@@ -247,11 +242,11 @@ fn statement<S: Copy>(
             quote!(#function(#a))
         }
         Instruction::Call(function, a) => {
-            let (a, function) = (write(a), function_name(*function));
+            let (real, a, function) = (dialect.functions(), write(a), function_name(*function));
             quote!(#real::#function(#a))
         }
         Instruction::Binary(function, a, b) => {
-            let (a, b) = (write(a), write(b));
+            let (real, a, b) = (dialect.functions(), write(a), write(b));
             let function = match function {
                 BinaryFunction::Atan2 => quote!(atan2),
                 BinaryFunction::Min => quote!(min),
@@ -261,7 +256,7 @@ fn statement<S: Copy>(
             quote!(#real::#function(#a, #b))
         }
         Instruction::SineCosine(a) => {
-            let (a, s, c) = (write(a), sine(k), cosine(k));
+            let (real, a, s, c) = (dialect.functions(), write(a), sine(k), cosine(k));
             let s = if sine_read { quote!(#s) } else { quote!(_) };
             let c = if cosine_read { quote!(#c) } else { quote!(_) };
             return Statement::new(quote!((#s, #c)), quote!(#real::sin_cos(#a)));
@@ -285,22 +280,23 @@ fn pairs_read<S: Copy>(code: &Code<S>, kept: Kept) -> Vec<[bool; 2]> {
 
 /// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.
 fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>> {
-    // Values, sines and cosines by the index of their instruction.
-    let mut read = vec![BTreeSet::new(); code.instructions.len()];
+    // Of each instruction: value, sine and cosine.
+    let mut read = vec![[false; 3]; code.instructions.len()];
     let mut note = |operand: Operand<S>, reader: usize| {
-        if let Operand::Value(k) | Operand::Sine(k) | Operand::Cosine(k) = operand
-            && k / size < reader
-        {
-            let kind = match operand {
-                Operand::Sine(_) => 1,
-                Operand::Cosine(_) => 2,
-                _ => 0,
-            };
-            read[k].insert(kind);
+        let (k, kind) = match operand {
+            Operand::Value(k) => (k, 0),
+            Operand::Sine(k) => (k, 1),
+            Operand::Cosine(k) => (k, 2),
+            Operand::Input(_) | Operand::Number(_) => return,
+        };
+        if k / size < reader {
+            read[k][kind] = true;
         }
     };
     for (k, instruction) in code.instructions.iter().enumerate() {
-        instruction.operands().for_each(|operand| note(operand, k / size));
+        for operand in instruction.operands() {
+            note(operand, k / size);
+        }
         if kept == Kept::Everything {
             match instruction {
                 Instruction::SineCosine(_) => [Operand::Sine(k), Operand::Cosine(k)].map(|o| note(o, usize::MAX)),
@@ -310,8 +306,17 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>
     }
     code.outputs.iter().for_each(|operand| note(*operand, usize::MAX));
     let names = [value, sine, cosine];
-    let named = |(k, kinds): (usize, BTreeSet<usize>)| kinds.into_iter().map(|kind| names[kind](k)).collect();
-    read.into_iter().enumerate().map(named).collect()
+    let mut handed_on = Vec::with_capacity(read.len());
+    for (k, kinds) in read.into_iter().enumerate() {
+        let mut named = Vec::new();
+        for (kind, read) in kinds.into_iter().enumerate() {
+            if read {
+                named.push(names[kind](k));
+            }
+        }
+        handed_on.push(named);
+    }
+    handed_on
 }
 
 /// Statements in blocks; of long programs in functions, each with some blocks, which the compiler does not put together again.
@@ -338,27 +343,42 @@ fn in_functions<S: Copy>(
 /// Statements one after the other, or block by block where there are many.
 pub(crate) fn in_blocks(lines: Vec<Line>) -> TokenStream {
     if lines.len() <= BLOCK {
-        return lines.iter().flat_map(|(_, statement)| statement).map(Statement::bound).collect();
+        return lines.into_iter().filter_map(|(_, statement)| statement).map(Statement::bound).collect();
     }
-    let block = |lines: &[Line]| {
-        let (mut declared, mut statements) = (Vec::new(), TokenStream::new());
-        // The first line of a chunk has a statement: rows of angles are within one.
-        for lines in lines.chunk_by(|_, (_, statement)| statement.is_none()) {
-            let is_read = lines.iter().any(|(names, _)| !names.is_empty());
-            match &lines[0].1 {
-                Some(statement) if is_read => {
-                    declared.extend(statement.names());
-                    statements.extend(statement.assigned());
-                }
-                statement => statements.extend(statement.as_ref().map(Statement::bound)),
-            }
-        }
-        quote! {
-            let (#(#declared,)*);
-            { #statements }
+    let (mut blocks, mut left, mut lines) = (TokenStream::new(), lines.len(), lines.into_iter());
+    while left > 0 {
+        blocks.extend(block(lines.by_ref().take(BLOCK)));
+        left = left.saturating_sub(BLOCK);
+    }
+    blocks
+}
+
+/// Lines of which the first has a statement: rows of angles are within one block.
+fn block(lines: impl Iterator<Item = Line>) -> TokenStream {
+    let (mut declared, mut statements) = (Vec::new(), TokenStream::new());
+    let mut take = |(statement, is_read): (Statement, bool)| {
+        if is_read {
+            declared.extend(statement.names());
+            statements.extend(statement.assigned());
+        } else {
+            statements.extend(statement.bound());
         }
     };
-    lines.chunks(BLOCK).map(block).collect()
+    // What binds names of several lines is read where one of these is.
+    let mut open: Option<(Statement, bool)> = None;
+    for (names, statement) in lines {
+        match (statement, &mut open) {
+            (Some(statement), _) => open.replace((statement, !names.is_empty())).into_iter().for_each(&mut take),
+            (None, Some((_, is_read))) => *is_read |= !names.is_empty(),
+            (None, None) => {}
+        }
+    }
+    open.into_iter().for_each(take);
+    let statements = Group::new(Delimiter::Brace, statements);
+    quote! {
+        let (#(#declared,)*);
+        #statements
+    }
 }
 
 fn function_name(function: Function) -> Ident {
