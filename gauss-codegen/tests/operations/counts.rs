@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use proc_macro2::{TokenStream, TokenTree};
-use syn::{Block, Expr, ImplItem, Item, Local, Pat, Stmt};
+use syn::{Block, Expr, ImplItem, Item, Local, Macro, Pat, Stmt};
 
 /// What one evaluation of a method costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -170,6 +170,15 @@ impl Chain {
         }
     }
 
+    /// `with_vectors! { {…} {…} }`, of which the second does number by number what the first does in packs.
+    fn without_vectors(&mut self, called: &Macro) -> u32 {
+        let blocks = called.tokens.clone().into_iter().map(|group| syn::parse2::<Block>(group.into()));
+        match blocks.collect::<Result<Vec<Block>, _>>().as_deref() {
+            Ok([_, single]) => self.block(single),
+            _ => panic!("a macro that is not known: {}", called.tokens),
+        }
+    }
+
     /// What has been declared before.
     fn assign(&mut self, names: &Expr, ready: u32) {
         match names {
@@ -208,6 +217,7 @@ impl Chain {
                 arguments.max(self.of(&call.receiver))
             }
             Expr::Block(block) => self.block(&block.block),
+            Expr::Macro(called) => self.without_vectors(&called.mac),
             Expr::Array(array) => array.elems.iter().map(|e| self.of(e)).max().unwrap_or(0),
             Expr::Tuple(tuple) => tuple.elems.iter().map(|e| self.of(e)).max().unwrap_or(0),
             Expr::Struct(value) => value.fields.iter().map(|field| self.of(&field.expr)).max().unwrap_or(0),
