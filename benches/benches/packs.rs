@@ -54,12 +54,44 @@ macro_rules! immersed {
     };
 }
 
+/// A vehicle in water, with drag and a fin.
+macro_rules! vehicle {
+    ($name:ident [$($generics:tt)*] $t:ident) => {
+        #[derive(Clone, Copy, GaussDynamics)]
+        #[gauss(
+            chart = left_invariant,
+            define(v = body.relative_velocity),
+            drag(linear = drag),
+            force(fin, at = tail, value = [0, lift * v.x * v.y, lift * v.x * v.z])
+        )]
+        struct $name $($generics)* {
+            #[gauss(mass)]
+            mass: $t,
+            #[gauss(center_of_mass)]
+            center: Vector3<$t>,
+            #[gauss(inertia)]
+            inertia: Vector3<$t>,
+            #[gauss(added_mass)]
+            added: Matrix6<$t>,
+            #[gauss(gravity)]
+            g: $t,
+            #[gauss(displaced_mass)]
+            displaced: $t,
+            drag: Matrix6<$t>,
+            tail: Vector3<$t>,
+            lift: $t,
+        }
+    };
+}
+
 heavy!(Heavy [] f64);
 heavy!(HeavyOfAny [<T>] T);
 immersed!(Immersed [] f64 left_invariant);
 immersed!(ImmersedOfAny [<T>] T left_invariant);
 immersed!(Hybrid [] f64 hybrid);
 immersed!(HybridOfAny [<T>] T hybrid);
+vehicle!(Vehicle [] f64);
+vehicle!(VehicleOfAny [<T>] T);
 
 type State = (Isometry3<f64>, Vector6<f64>);
 type Method<S> = fn(&S, &State) -> Vector6<f64>;
@@ -128,6 +160,16 @@ macro_rules! immersed_body {
     }};
 }
 
+macro_rules! underwater_vehicle {
+    ($name:ident) => {{
+        let ((weight, center), (buoyancy, _)) = (numbers::WEIGHT, numbers::BUOYANCY);
+        let (mass, center, inertia) = (weight / G, Vector3::from(center), Vector3::new(1.0, 3.0, 3.0));
+        let added = numbers::added_mass(mass, center, inertia);
+        let (drag, tail) = (Matrix6::identity() * 2.0, Vector3::new(-0.6, 0.0, 0.02));
+        $name { mass, center, inertia, added, g: G, displaced: buoyancy / G, drag, tail, lift: -9.0 }.kernel()
+    }};
+}
+
 fn main() -> Result<(), ParameterError> {
     println!("| ns | packed | single | packed / single | chained: packed | single | packed / single |");
     println!("|---|---|---|---|---|---|---|");
@@ -136,5 +178,6 @@ fn main() -> Result<(), ParameterError> {
     rows("S2", Heavy { mass, center, inertia, g: G }.kernel()?, HeavyOfAny { mass, center, inertia, g: G }.kernel()?);
     rows("S3", immersed_body!(Immersed)?, immersed_body!(ImmersedOfAny)?);
     rows("S3 in observer's axes", immersed_body!(Hybrid)?, immersed_body!(HybridOfAny)?);
+    rows("vehicle", underwater_vehicle!(Vehicle)?, underwater_vehicle!(VehicleOfAny)?);
     Ok(())
 }

@@ -2,7 +2,7 @@
 //!
 //! Fog, Instruction tables; checked by `cargo bench -p gauss-benches --bench packs`.
 
-use super::graph::Id;
+use super::graph::{Id, NOTHING};
 use super::kinds::{LANES, Operation, Place, Step};
 use super::partition::Partition;
 
@@ -30,7 +30,7 @@ struct Source {
     cycles: u32,
 }
 
-const NOTHING: Source = Source { cost: 0, cycles: 0 };
+const FREE: Source = Source { cost: 0, cycles: 0 };
 
 impl Partition<'_> {
     /// What it costs; nothing where packs wait for one another in a circle.
@@ -55,20 +55,29 @@ impl Partition<'_> {
     }
 
     fn ready(&self, id: Id, ready: &[u32]) -> u32 {
-        self.graph.instruction(id).map_or(0, |k| ready[k])
+        match self.graph.waits[id] {
+            NOTHING => 0,
+            k => ready[k],
+        }
     }
 
     fn single(&self, k: usize, ready: &mut [u32], taken_out: &mut [bool]) -> u32 {
-        let mut start = 0;
-        for &operand in self.graph.nodes[k].operands() {
-            let is_inside = self.pack_of(operand).is_some_and(|(_, lane)| lane > 0);
-            if is_inside {
-                taken_out[operand] = true;
+        let node = &self.graph.nodes[k];
+        let (mut start, mut operand) = (0, 0);
+        while operand < node.arity {
+            let id = node.operands[operand];
+            let mut there = self.ready(id, ready);
+            if id < self.of.len() && matches!(self.of[id], Some((_, 1..))) {
+                taken_out[id] = true;
+                there += SHUFFLE_CYCLES;
             }
-            start = start.max(self.ready(operand, ready) + if is_inside { SHUFFLE_CYCLES } else { 0 });
+            if there > start {
+                start = there;
+            }
+            operand += 1;
         }
-        ready[k] = start + self.graph.nodes[k].cycles;
-        self.graph.nodes[k].cost
+        ready[k] = start + node.cycles;
+        node.cost
     }
 
     /// `made` has the vectors that are there already.
@@ -117,7 +126,7 @@ impl Partition<'_> {
             return if is_loaded { Source { cost: SPREAD, cycles: 0 } } else { shuffle };
         }
         if vector.iter().all(|&id| self.graph.place(id) == Some(Place::Constant)) {
-            return NOTHING;
+            return FREE;
         }
         self.neighbours(vector).unwrap_or_else(|| self.gathered(vector))
     }

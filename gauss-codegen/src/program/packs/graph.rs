@@ -7,6 +7,9 @@ use super::kinds::{Operation, Place};
 /// What an instruction works on: an earlier instruction by its index, or a leaf, counted on from the last instruction.
 pub(super) type Id = usize;
 
+/// No instruction.
+pub(super) const NOTHING: usize = usize::MAX;
+
 /// An instruction.
 pub(super) struct Node {
     /// What it does to vectors, if it can be packed.
@@ -21,23 +24,12 @@ pub(super) struct Node {
     pub row: Option<(usize, usize)>,
 }
 
-impl Node {
-    pub fn operands(&self) -> &[Id] {
-        &self.operands[..self.arity]
-    }
-}
-
-/// What is no instruction.
-pub(super) struct Leaf {
-    pub place: Place,
-    /// The sine and cosine that it is a part of.
-    pub waits: Option<usize>,
-}
-
 /// Instructions, what they read, and outputs.
 pub(super) struct Graph {
     pub nodes: Vec<Node>,
-    pub leaves: Vec<Leaf>,
+    pub leaves: Vec<Place>,
+    /// The instruction that each is a result of, or `NOTHING`.
+    pub waits: Vec<usize>,
     pub outputs: Vec<Id>,
 }
 
@@ -73,22 +65,19 @@ impl Graph {
             nodes.push(Node { operation, operands, arity, cycles, cost, row });
         }
         let outputs = code.outputs.iter().map(|&output| id(output)).collect();
-        let leaf = |operand: &Operand<S>| match *operand {
-            Operand::Input(input) => Leaf { place: place(input), waits: None },
-            Operand::Number(_) => Leaf { place: Place::Constant, waits: None },
-            part => Leaf { place: Place::Variable, waits: part.instruction() },
+        let place = |operand: &Operand<S>| match *operand {
+            Operand::Input(input) => place(input),
+            Operand::Number(_) => Place::Constant,
+            _ => Place::Variable,
         };
-        (Self { nodes, leaves: leaves.iter().map(leaf).collect(), outputs }, leaves)
+        // Leaves may be parts of a sine and cosine.
+        let waits = (0..count).chain(leaves.iter().map(|leaf| leaf.instruction().unwrap_or(NOTHING))).collect();
+        (Self { nodes, leaves: leaves.iter().map(place).collect(), waits, outputs }, leaves)
     }
 
     /// Where a leaf is found.
     pub fn place(&self, id: Id) -> Option<Place> {
-        Some(self.leaves.get(id.checked_sub(self.nodes.len())?)?.place)
-    }
-
-    /// The instruction that it is a result of.
-    pub fn instruction(&self, id: Id) -> Option<usize> {
-        id.checked_sub(self.nodes.len()).map_or(Some(id), |leaf| self.leaves[leaf].waits)
+        self.leaves.get(id.checked_sub(self.nodes.len())?).copied()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Code of which some is packed: how a pack is added, in which order all is then done.
 
-use super::graph::{Graph, Id};
+use super::graph::{Graph, Id, NOTHING};
 use super::kinds::{LANES, Operation, Place, Step};
 
 /// A pack, in numbers.
@@ -143,7 +143,7 @@ impl<'c> Partition<'c> {
         Some(visit.steps)
     }
 
-    /// What it waits for, then itself.
+    /// What it waits for, then itself. Most of a search is spent here, unoptimised in macros: no calls for what is done.
     fn visit(&self, k: usize, visit: &mut Visit) -> Option<()> {
         match visit.state[k] {
             State::Done => return Some(()),
@@ -151,35 +151,48 @@ impl<'c> Partition<'c> {
             State::New => {}
         }
         let (mut own, mut count) = ([k; 8], 1);
-        let step = match (self.of[k], self.pack_of(k), self.graph.nodes[k].row) {
-            (Some((index, _)), Some((pack, _)), _) => {
+        let step = match (self.of[k], self.graph.nodes[k].row) {
+            (Some((index, _)), _) => {
+                let pack = self.packs[index].as_ref()?;
                 count = pack.count;
                 own[..count].copy_from_slice(pack.lanes());
                 Step::Pack(index)
             }
-            (_, _, Some((first, length))) => {
+            (_, Some((first, length))) => {
                 count = length.min(own.len());
                 (0..count).for_each(|k| own[k] = first + k);
                 Step::Angles(first, count)
             }
             _ => Step::Instruction(k),
         };
-        let own = &own[..count];
-        own.iter().for_each(|&k| visit.state[k] = State::Begun);
-        for &k in own {
-            for &operand in self.graph.nodes[k].operands() {
-                if let Some(operand) = self.graph.instruction(operand) {
-                    self.visit(operand, visit)?;
-                }
-            }
+        for &k in &own[..count] {
+            visit.state[k] = State::Begun;
         }
-        own.iter().for_each(|&k| visit.state[k] = State::Done);
+        for &k in &own[..count] {
+            self.visit_operands(k, visit)?;
+        }
+        for &k in &own[..count] {
+            visit.state[k] = State::Done;
+        }
         visit.steps.push(step);
+        Some(())
+    }
+
+    fn visit_operands(&self, k: usize, visit: &mut Visit) -> Option<()> {
+        let node = &self.graph.nodes[k];
+        let mut operand = 0;
+        while operand < node.arity {
+            let before = self.graph.waits[node.operands[operand]];
+            if before != NOTHING && visit.state[before] != State::Done {
+                self.visit(before, visit)?;
+            }
+            operand += 1;
+        }
         Some(())
     }
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum State {
     New,
     Begun,
