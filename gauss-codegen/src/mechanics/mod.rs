@@ -44,9 +44,10 @@ mod tidy;
 mod whole;
 
 pub use arrangements::balance::KineticMatrix;
+pub use check::dependent::needless_constraints;
+pub use check::faults::{SystemFault, check_system_against_definition};
 #[cfg(test)]
 pub use check::witness::acceleration_by_definition;
-pub use check::witness::{SystemFault, check_system_against_definition, needless_constraints};
 pub use constraints::constraint::{Constraint, ConstraintKind};
 pub use constraints::elimination::{Elimination, Obstacle};
 pub use constraints::multipliers::Constraints;

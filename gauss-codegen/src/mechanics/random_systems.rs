@@ -22,7 +22,7 @@ use crate::accuracy::Trial;
 use crate::algebra::{Graph, Map};
 use crate::kernel::{Candidates, Derivatives, Kernel, Program};
 
-use crate::mechanics::check::witness::check_system_against_definition;
+use crate::mechanics::check::faults::check_system_against_definition;
 use crate::mechanics::constraints::elimination::Elimination;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::system::System;

@@ -2,4 +2,6 @@
 
 #[cfg(test)]
 pub mod definition;
+pub mod dependent;
+pub mod faults;
 pub mod witness;

@@ -1,13 +1,10 @@
-//! Every system against the definition, before code is written: C of (3.1) over all bodies and particles must be
-//! stationary, with positions as they were given and all further differentiation by dual numbers, at a pseudo-random state.
+//! The definition at one state: what stationarity of C, (3.1) over all bodies and particles, asks of accelerations, with
+//! positions as they were given and all further differentiation by dual numbers.
 
 use std::cell::OnceCell;
-use std::fmt;
 
-use crate::algebra::{Evaluation, Expr, Map, Number, Precise, Rational, Tangents};
+use crate::algebra::{Evaluation, Expr, Map, Number, Rational, Tangents};
 
-use crate::mechanics::constraints::constraint::ConstraintKind;
-use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
 use crate::mechanics::kinematics::vector::Axes;
 use crate::mechanics::links::link::{Link, Matter};
@@ -15,41 +12,13 @@ use crate::mechanics::loads::forces::Force;
 use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
 
-/// A formula does not satisfy the Gauss condition: an error of this crate, never of its user.
-#[derive(Debug)]
-pub struct Disagreement {
-    method: Method,
-    row: usize,
-    residual: f64,
-}
-
-impl fmt::Display for Disagreement {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { method, row, residual } = self;
-        write!(f, "row {row} of {method:?} misses the Gauss condition by {residual:e}")
-    }
-}
-
-/// What is found wrong with a system at a pseudo-random state.
-#[derive(Debug)]
-pub enum SystemFault {
-    /// An error of this crate.
-    Disagreement(Disagreement),
-    /// A is singular: this speed moves nothing that the earlier ones do not move.
-    DependentSpeed(usize),
-    /// The constraint, by its index, says nothing that the earlier ones do not say.
-    DependentConstraint(usize),
-    /// No velocity satisfies the constraint together with the earlier ones.
-    InconsistentConstraint(usize),
-}
-
 /// A velocity field of a link: of O, and of the axes e as columns.
 type Field<N> = [[N; 3]; 4];
 
 /// One state, and what (3.1) says at it.
-struct Witness<'a, 'g, N> {
-    system: &'a System<'g>,
-    state: Map<u32, N>,
+pub struct Witness<'a, 'g, N> {
+    pub system: &'a System<'g>,
+    pub state: Map<u32, N>,
     /// v_P of every link: symbols of t, q and z.
     velocities: Vec<[[Expr<'g>; 3]; 4]>,
     still: OnceCell<Still<N>>,
@@ -66,7 +35,7 @@ struct Still<N> {
 }
 
 impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
-    fn new(system: &'a System<'g>, state: Map<u32, N>) -> Self {
+    pub fn new(system: &'a System<'g>, state: Map<u32, N>) -> Self {
         let rates = &system.scene.rates;
         let velocity = |link: &Link<'g>| {
             let axis = |j: usize| std::array::from_fn(|i| link.rotation[i][j].derivative(rates));
@@ -76,7 +45,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
         Self { system, state, velocities, still: OnceCell::new() }
     }
 
-    fn values<'e>(&self, outputs: impl IntoIterator<Item = &'e Expr<'g>>) -> Vec<N>
+    pub fn values<'e>(&self, outputs: impl IntoIterator<Item = &'e Expr<'g>>) -> Vec<N>
     where
         'g: 'e,
     {
@@ -85,20 +54,20 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
     }
 
     /// Derivatives of the expressions along a direction.
-    fn along(&self, direction: &Map<u32, N>, outputs: &[Expr<'g>]) -> Vec<N> {
+    pub fn along(&self, direction: &Map<u32, N>, outputs: &[Expr<'g>]) -> Vec<N> {
         let mut evaluation = Evaluation::new(&self.state);
         let mut tangents = Tangents::new(&mut evaluation, direction);
         outputs.iter().map(|e| tangents.along(*e)).collect()
     }
 
     /// Derivatives of the expressions with respect to every speed: one row a speed.
-    fn partials(&self, outputs: &[Expr<'g>]) -> Vec<Vec<N>> {
+    pub fn partials(&self, outputs: &[Expr<'g>]) -> Vec<Vec<N>> {
         let one = N::number(1.0);
         self.system.scene.speeds.iter().map(|z| self.along(&Map::from_iter([(z.key(), one)]), outputs)).collect()
     }
 
     /// The direction in which t, q and z move.
-    fn flow(&self, rates: &[N]) -> Map<u32, N> {
+    pub fn flow(&self, rates: &[N]) -> Map<u32, N> {
         let scene = &self.system.scene;
         let mut evaluation = Evaluation::new(&self.state);
         let mut direction: Map<u32, N> = scene.rates.iter().map(|(&key, e)| (key, evaluation.value(*e))).collect();
@@ -107,7 +76,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
     }
 
     /// `Σ ∫(a_P − g)·w_α dm + ∂(dU/dt)/∂z^α` at the given ż, with what the impulse of the fluid adds: one row a speed.
-    fn stationarity(&self, rates: &[N]) -> Vec<N> {
+    pub fn stationarity(&self, rates: &[N]) -> Vec<N> {
         let flow = self.flow(rates);
         let accelerations = self.along(&flow, &self.fields());
         let Still { partials, gravity, links, acting } = self.still.get_or_init(|| self.still());
@@ -236,7 +205,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
     }
 }
 
-fn sum<N: Number>(terms: impl Iterator<Item = N>) -> N {
+pub fn sum<N: Number>(terms: impl Iterator<Item = N>) -> N {
     terms.fold(N::number(0.0), |sum, term| sum + term)
 }
 
@@ -333,255 +302,14 @@ fn eliminated<N: Number>(mut rows: Vec<Vec<N>>) -> Vec<N> {
     (0..n).map(|k| rows[k][n] / rows[k][k]).collect()
 }
 
-/// Evaluates the condition at one state, with the residual at any ż and with every arrangement's acceleration.
-///
-/// Where large terms cancel, right formulas disagree by the roundings of these, and a pivot that is small beside what it was formed of looks
-/// like zero. Such a finding of double precision counts only if numbers of many digits confirm it: roundings are smaller there by sixty
-/// decimal places, a wrong term and a dependent row are what they were.
-pub fn check_system_against_definition<'g>(
-    system: &System<'g>,
-    formulas: &[Formula<'g>],
-) -> Result<(), Vec<SystemFault>> {
-    check_in::<f64>(system, formulas).or_else(|_| check_in::<Precise>(system, formulas))
-}
-
-fn check_in<'g, N: Number>(system: &System<'g>, formulas: &[Formula<'g>]) -> Result<(), Vec<SystemFault>> {
-    let n = system.scene.speeds.len();
-    let matrix: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
-    let arrangements =
-        |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
-    let arbitrary: Vec<N> = (0..n).map(|k| N::number(0.7 - 0.3 * (k % 4) as f64)).collect();
-    // Roots and logarithms have domains: the first of a few states where everything has a value. Where there is none, the
-    // programs are still checked against their expressions.
-    let inside = |witness: &Witness<'_, 'g, N>| {
-        let values = witness.values(matrix.iter().chain(arrangements(Method::Acceleration).flatten()));
-        values.iter().chain(&witness.stationarity(&arbitrary)).all(|x| x.is_finite())
-    };
-    let states = || (0..16).map(|shift| Witness::new(system, sample_state(system, shift)));
-    // A singular A, or dependent constraints, have no finite accelerations, so they are looked for first.
-    let regular = |witness: &Witness<'_, 'g, N>| witness.values(&matrix).iter().all(|x| x.is_finite());
-    let singular = states().find(regular).map(|witness| vanishing_pivots(witness.values(&matrix), n));
-    let mut faults: Vec<SystemFault> =
-        singular.unwrap_or_default().into_iter().map(SystemFault::DependentSpeed).collect();
-    faults.extend(dependent_constraints(system, states()));
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    // A wrong term is wrong nearly everywhere, roundings grow large near singular states alone: only what disagrees at three
-    // states is refused.
-    let mut verdict = Ok(());
-    for witness in states().filter(inside).take(3) {
-        verdict = compare(witness, formulas, &arbitrary);
-        if verdict.is_ok() {
-            break;
-        }
-    }
-    verdict.map_err(|error| vec![SystemFault::Disagreement(error)])
-}
-
-/// Residuals at the given ż and accelerations, against the definition.
-fn compare<'g, N: Number>(
-    mut witness: Witness<'_, 'g, N>,
-    formulas: &[Formula<'g>],
-    arbitrary: &[N],
-) -> Result<(), Disagreement> {
-    let system = witness.system;
-    let arrangements =
-        |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
-    let unconstrained = witness.stationarity(arbitrary);
-    let jacobian = witness.partials(&system.constraints.on_velocities);
-    let with_forces = |witness: &Witness<'_, 'g, N>, rows: Vec<N>| -> Vec<N> {
-        // Jᵀλ with the multipliers of the motion.
-        let Some(multipliers) = arrangements(Method::Multipliers).next() else { return rows };
-        let multipliers = witness.values(multipliers);
-        let force = |row: &Vec<N>| sum(row.iter().zip(&multipliers).map(|(j, l)| *j * *l));
-        rows.iter().zip(&jacobian).map(|(r, j)| *r - force(j)).collect()
-    };
-    witness.state.extend(system.scene.speed_rates.iter().zip(arbitrary).map(|(s, x)| (s.key(), *x)));
-    let expected = with_forces(&witness, unconstrained);
-    let mut evaluation = Evaluation::new(&witness.state);
-    let mut values = |outputs: &[Expr<'g>]| -> Vec<N> { outputs.iter().map(|e| evaluation.value(*e)).collect() };
-    for arrangement in arrangements(Method::GaussResidual) {
-        agree(Method::GaussResidual, &values(arrangement), &expected)?;
-    }
-    let scale = largest(expected.iter().copied()).max(1.0);
-    for arrangement in arrangements(Method::Acceleration) {
-        let rates = values(arrangement);
-        let found = with_forces(&witness, witness.stationarity(&rates));
-        let relative: Vec<N> = found.iter().map(|x| *x / N::number(scale)).collect();
-        agree(Method::Acceleration, &relative, &vec![N::number(0.0); relative.len()])?;
-        // J ż = γ: what the constraints say of velocities goes on to hold.
-        let flow = witness.flow(&rates);
-        let drift = witness.along(&flow, &system.constraints.on_velocities);
-        agree(Method::Acceleration, &drift, &vec![N::number(0.0); drift.len()])?;
-    }
-    Ok(())
-}
-
-/// Two evaluations of the same rows.
-fn agree<N: Number>(method: Method, found: &[N], expected: &[N]) -> Result<(), Disagreement> {
-    let scale = found.iter().chain(expected).fold(1.0_f64, |m, x| m.max(x.to_f64().abs()));
-    for (row, (x, y)) in found.iter().zip(expected).enumerate() {
-        // Numbers of order one and some hundreds of roundings; NaN is no agreement either.
-        let residual = (*x - *y).to_f64();
-        let close = residual.abs() <= 1e-8 * scale;
-        if !close {
-            return Err(Disagreement { method, row, residual });
-        }
-    }
-    Ok(())
-}
-
-/// Positions that are sums of multiples of those before them, with the same factors wherever the system is: they say
-/// nothing, as the components of a loop's position across the plane in which it moves. Symbols that stand for `literals` have
-/// those values.
-pub fn needless_constraints<'g>(system: &System<'g>, literals: &[(Rational, Expr<'g>)]) -> Vec<usize> {
-    // Roundings of numbers, not of what is computed with them: planes of which each link has its own.
-    const NEGLIGIBLE: f64 = 1e-12;
-    // Roundings can look like a dependence, as for all that is checked.
-    let alike = needless::<f64>(system, literals, 100.0 * f64::NEGLIGIBLE);
-    if alike.is_empty() { alike } else { needless::<Precise>(system, literals, NEGLIGIBLE) }
-}
-
-fn needless<'g, N: Number>(system: &System<'g>, literals: &[(Rational, Expr<'g>)], negligible: f64) -> Vec<usize> {
-    // The system elsewhere, its parameters as they were.
-    let mut at: Map<u32, N> = sample_state(system, 0);
-    at.extend(literals.iter().map(|(value, symbol)| (symbol.key(), N::fraction(*value))));
-    let states = (0..16).map(|shift| {
-        let mut state = at.clone();
-        let other: Map<u32, N> = sample_state(system, shift);
-        state.extend(system.scene.rates.keys().filter_map(|key| Some((*key, *other.get(key)?))));
-        Witness::new(system, state)
-    });
-    let all = dependencies(system, states, negligible);
-    all.into_iter().filter(|found| found.constant && !found.contradicts).map(|found| found.number).collect()
-}
-
-/// A constraint whose velocity is a combination of those before it.
-struct Dependency {
-    number: usize,
-    /// Of positions, with the same coefficients everywhere.
-    constant: bool,
-    /// It does not hold together with them.
-    contradicts: bool,
-}
-
-/// Constraints that say nothing new, or nothing that can hold with those before them.
-fn dependent_constraints<'a, 'g, N: Number + 'a>(
-    system: &'a System<'g>,
-    states: impl Iterator<Item = Witness<'a, 'g, N>>,
-) -> Vec<SystemFault> {
-    let fault = |found: Dependency| match found.contradicts {
-        true => SystemFault::InconsistentConstraint(found.number),
-        false => SystemFault::DependentConstraint(found.number),
-    };
-    dependencies(system, states, 100.0 * N::NEGLIGIBLE).into_iter().map(fault).collect()
-}
-
-fn dependencies<'a, 'g, N: Number + 'a>(
-    system: &'a System<'g>,
-    states: impl Iterator<Item = Witness<'a, 'g, N>>,
-    negligible: f64,
-) -> Vec<Dependency> {
-    let constraints = &system.constraints;
-    let positions = constraints.on_positions();
-    let usable = |witness: &Witness<'_, 'g, N>| {
-        let finite = |values: Vec<N>| values.iter().all(|x| x.is_finite());
-        finite(witness.values(constraints.on_velocities.iter().chain(&positions)))
-            && witness.partials(&constraints.on_velocities).into_iter().all(finite)
-    };
-    let mut usable = states.filter(usable);
-    let (Some(witness), other) = (usable.next(), usable.next()) else { return Vec::new() };
-    // What constraints say of velocities, of a system at rest.
-    let mut at_rest = Witness::new(system, witness.state.clone());
-    let zero = N::number(0.0);
-    at_rest.state.extend(system.scene.speeds.iter().map(|z| (z.key(), zero)));
-    let moving = at_rest.values(&constraints.on_velocities);
-    let elsewhere = other.map(|other| (dependent_rows(&other, negligible), other.values(&positions)));
-    let combined =
-        |coefficients: &[N], values: &[N]| sum(coefficients.iter().zip(values).map(|(c, value)| *c * *value));
-    dependent_rows(&witness, negligible)
-        .into_iter()
-        .map(|(k, coefficients)| {
-            // Positions can be compared where a combination with the same coefficients everywhere is constant.
-            let of_positions = (0..=k)
-                .all(|j| coefficients[j] == zero || system.scene.constraints[j].kind == ConstraintKind::Position);
-            let constant = elsewhere.as_ref().and_then(|(rows, values)| {
-                let (_, other) = rows.iter().find(|(row, _)| *row == k)?;
-                let close = |a: N, b: N| (a - b).to_f64().abs() <= 1e-8 * (1.0 + a.to_f64().abs());
-                let same = coefficients.iter().zip(other).all(|(a, b)| close(*a, *b));
-                (of_positions && same).then(|| combined(other, values))
-            });
-            let values = [Some(combined(&coefficients, &moving)), constant].into_iter().flatten();
-            let contradicts = values.into_iter().any(|value| value.to_f64().abs() > 1e-8);
-            Dependency { number: k, constant: constant.is_some(), contradicts }
-        })
-        .collect()
-}
-
-/// Rows of J that are combinations of those before them, with the coefficients of the combination that vanishes.
-/// What is smaller than the `negligible` part of a row is what elimination leaves of it.
-fn dependent_rows<N: Number>(witness: &Witness<'_, '_, N>, negligible: f64) -> Vec<(usize, Vec<N>)> {
-    let constraints = &witness.system.constraints;
-    let columns = witness.partials(&constraints.on_velocities);
-    let count = constraints.count();
-    let mut rows: Vec<Vec<N>> = (0..count).map(|k| columns.iter().map(|c| c[k]).collect()).collect();
-    let unit = |k: usize| (0..count).map(|j| N::number(f64::from(u8::from(j == k)))).collect::<Vec<N>>();
-    let mut combinations: Vec<Vec<N>> = (0..count).map(unit).collect();
-    let sizes: Vec<f64> = rows.iter().map(|row| largest(row.iter().copied())).collect();
-    let mut dependent = Vec::new();
-    for k in 0..count {
-        let (pivot, size) = rows[k]
-            .iter()
-            .enumerate()
-            .map(|(column, x)| (column, x.to_f64().abs()))
-            .fold((0, 0.0_f64), |best, other| if other.1 > best.1 { other } else { best });
-        if size <= negligible * sizes[k].max(1e-3) {
-            dependent.push((k, combinations[k].clone()));
-            continue;
-        }
-        for later in k + 1..count {
-            let factor = rows[later][pivot] / rows[k][pivot];
-            for column in 0..rows[k].len() {
-                rows[later][column] = rows[later][column] - factor * rows[k][column];
-            }
-            for column in 0..count {
-                combinations[later][column] = combinations[later][column] - factor * combinations[k][column];
-            }
-        }
-    }
-    dependent
-}
-
 /// The size of the largest.
-fn largest<N: Number>(values: impl Iterator<Item = N>) -> f64 {
+pub fn largest<N: Number>(values: impl Iterator<Item = N>) -> f64 {
     values.fold(0.0, |most: f64, x| most.max(x.to_f64().abs()))
-}
-
-/// The unknowns whose pivots vanish while A is eliminated, beside what they were.
-fn vanishing_pivots<N: Number>(mut a: Vec<N>, n: usize) -> Vec<usize> {
-    let diagonal: Vec<f64> = (0..n).map(|k| a[k * n + k].to_f64().abs()).collect();
-    let mut vanishing = Vec::new();
-    for k in 0..n {
-        let pivot = a[k * n + k];
-        // Cancellation leaves roundings of the diagonal; a regular A of numbers of order one stays far above.
-        if pivot.to_f64().abs() <= N::NEGLIGIBLE * diagonal[k] {
-            vanishing.push(k);
-            continue;
-        }
-        for i in k + 1..n {
-            let factor = a[i * n + k] / pivot;
-            for j in k..n {
-                a[i * n + j] = a[i * n + j] - factor * a[k * n + j];
-            }
-        }
-    }
-    vanishing
 }
 
 /// Values of order one for all symbols; masses and moments of inertia dominate products of inertia, rotations are
 /// rotations.
-fn sample_state<N: Number>(system: &System<'_>, shift: u32) -> Map<u32, N> {
+pub fn sample_state<N: Number>(system: &System<'_>, shift: u32) -> Map<u32, N> {
     let scene = &system.scene;
     let mut state: Map<u32, N> = Map::default();
     for (k, key) in scene.graph.symbol_keys().into_iter().enumerate() {

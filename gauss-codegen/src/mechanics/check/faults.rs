@@ -1,0 +1,169 @@
+//! Every system against the definition, before code is written: C of (3.1) must be stationary at a pseudo-random state; no
+//! speed and no constraint may depend on others.
+
+use std::fmt;
+
+use crate::algebra::{Evaluation, Expr, Number, Precise};
+
+use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::system::System;
+
+use super::dependent::{Dependency, dependencies};
+use super::witness::{Witness, largest, sample_state, sum};
+
+/// A formula does not satisfy the Gauss condition: an error of this crate, never of its user.
+#[derive(Debug)]
+pub struct Disagreement {
+    method: Method,
+    row: usize,
+    residual: f64,
+}
+
+impl fmt::Display for Disagreement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { method, row, residual } = self;
+        write!(f, "row {row} of {method:?} misses the Gauss condition by {residual:e}")
+    }
+}
+
+/// What is found wrong with a system at a pseudo-random state.
+#[derive(Debug)]
+pub enum SystemFault {
+    /// An error of this crate.
+    Disagreement(Disagreement),
+    /// A is singular: this speed moves nothing that the earlier ones do not move.
+    DependentSpeed(usize),
+    /// The constraint, by its index, says nothing that the earlier ones do not say.
+    DependentConstraint(usize),
+    /// No velocity satisfies the constraint together with the earlier ones.
+    InconsistentConstraint(usize),
+}
+
+impl SystemFault {
+    fn of(found: Dependency) -> Self {
+        match found.contradicts {
+            true => Self::InconsistentConstraint(found.number),
+            false => Self::DependentConstraint(found.number),
+        }
+    }
+}
+
+/// Evaluates the condition at one state, with the residual at any ż and with every arrangement's acceleration.
+///
+/// Where large terms cancel, right formulas disagree by the roundings of these, and a pivot that is small beside what it was formed of looks
+/// like zero. Such a finding of double precision counts only if numbers of many digits confirm it: roundings are smaller there by sixty
+/// decimal places, a wrong term and a dependent row are what they were.
+pub fn check_system_against_definition<'g>(
+    system: &System<'g>,
+    formulas: &[Formula<'g>],
+) -> Result<(), Vec<SystemFault>> {
+    check_in::<f64>(system, formulas).or_else(|_| check_in::<Precise>(system, formulas))
+}
+
+fn check_in<'g, N: Number>(system: &System<'g>, formulas: &[Formula<'g>]) -> Result<(), Vec<SystemFault>> {
+    let n = system.scene.speeds.len();
+    let matrix: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
+    let arrangements =
+        |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
+    let arbitrary: Vec<N> = (0..n).map(|k| N::number(0.7 - 0.3 * (k % 4) as f64)).collect();
+    // Roots and logarithms have domains: the first of a few states where everything has a value. Where there is none, the
+    // programs are still checked against their expressions.
+    let inside = |witness: &Witness<'_, 'g, N>| {
+        let values = witness.values(matrix.iter().chain(arrangements(Method::Acceleration).flatten()));
+        values.iter().chain(&witness.stationarity(&arbitrary)).all(|x| x.is_finite())
+    };
+    let states = || (0..16).map(|shift| Witness::new(system, sample_state(system, shift)));
+    // A singular A, or dependent constraints, have no finite accelerations, so they are looked for first.
+    let regular = |witness: &Witness<'_, 'g, N>| witness.values(&matrix).iter().all(|x| x.is_finite());
+    let singular = states().find(regular).map(|witness| vanishing_pivots(witness.values(&matrix), n));
+    let mut faults: Vec<SystemFault> =
+        singular.unwrap_or_default().into_iter().map(SystemFault::DependentSpeed).collect();
+    faults.extend(dependencies(system, states(), 100.0 * N::NEGLIGIBLE).into_iter().map(SystemFault::of));
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    // A wrong term is wrong nearly everywhere, roundings grow large near singular states alone: only what disagrees at three
+    // states is refused.
+    let mut verdict = Ok(());
+    for witness in states().filter(inside).take(3) {
+        verdict = compare(witness, formulas, &arbitrary);
+        if verdict.is_ok() {
+            break;
+        }
+    }
+    verdict.map_err(|error| vec![SystemFault::Disagreement(error)])
+}
+
+/// Residuals at the given ż and accelerations, against the definition.
+fn compare<'g, N: Number>(
+    mut witness: Witness<'_, 'g, N>,
+    formulas: &[Formula<'g>],
+    arbitrary: &[N],
+) -> Result<(), Disagreement> {
+    let system = witness.system;
+    let arrangements =
+        |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
+    let unconstrained = witness.stationarity(arbitrary);
+    let jacobian = witness.partials(&system.constraints.on_velocities);
+    let with_forces = |witness: &Witness<'_, 'g, N>, rows: Vec<N>| -> Vec<N> {
+        // Jᵀλ with the multipliers of the motion.
+        let Some(multipliers) = arrangements(Method::Multipliers).next() else { return rows };
+        let multipliers = witness.values(multipliers);
+        let force = |row: &Vec<N>| sum(row.iter().zip(&multipliers).map(|(j, l)| *j * *l));
+        rows.iter().zip(&jacobian).map(|(r, j)| *r - force(j)).collect()
+    };
+    witness.state.extend(system.scene.speed_rates.iter().zip(arbitrary).map(|(s, x)| (s.key(), *x)));
+    let expected = with_forces(&witness, unconstrained);
+    let mut evaluation = Evaluation::new(&witness.state);
+    let mut values = |outputs: &[Expr<'g>]| -> Vec<N> { outputs.iter().map(|e| evaluation.value(*e)).collect() };
+    for arrangement in arrangements(Method::GaussResidual) {
+        agree(Method::GaussResidual, &values(arrangement), &expected)?;
+    }
+    let scale = largest(expected.iter().copied()).max(1.0);
+    for arrangement in arrangements(Method::Acceleration) {
+        let rates = values(arrangement);
+        let found = with_forces(&witness, witness.stationarity(&rates));
+        let relative: Vec<N> = found.iter().map(|x| *x / N::number(scale)).collect();
+        agree(Method::Acceleration, &relative, &vec![N::number(0.0); relative.len()])?;
+        // J ż = γ: what the constraints say of velocities goes on to hold.
+        let flow = witness.flow(&rates);
+        let drift = witness.along(&flow, &system.constraints.on_velocities);
+        agree(Method::Acceleration, &drift, &vec![N::number(0.0); drift.len()])?;
+    }
+    Ok(())
+}
+
+/// Two evaluations of the same rows.
+fn agree<N: Number>(method: Method, found: &[N], expected: &[N]) -> Result<(), Disagreement> {
+    let scale = found.iter().chain(expected).fold(1.0_f64, |m, x| m.max(x.to_f64().abs()));
+    for (row, (x, y)) in found.iter().zip(expected).enumerate() {
+        // Numbers of order one and some hundreds of roundings; NaN is no agreement either.
+        let residual = (*x - *y).to_f64();
+        let close = residual.abs() <= 1e-8 * scale;
+        if !close {
+            return Err(Disagreement { method, row, residual });
+        }
+    }
+    Ok(())
+}
+
+/// The unknowns whose pivots vanish while A is eliminated, beside what they were.
+fn vanishing_pivots<N: Number>(mut a: Vec<N>, n: usize) -> Vec<usize> {
+    let diagonal: Vec<f64> = (0..n).map(|k| a[k * n + k].to_f64().abs()).collect();
+    let mut vanishing = Vec::new();
+    for k in 0..n {
+        let pivot = a[k * n + k];
+        // Cancellation leaves roundings of the diagonal; a regular A of numbers of order one stays far above.
+        if pivot.to_f64().abs() <= N::NEGLIGIBLE * diagonal[k] {
+            vanishing.push(k);
+            continue;
+        }
+        for i in k + 1..n {
+            let factor = a[i * n + k] / pivot;
+            for j in k..n {
+                a[i * n + j] = a[i * n + j] - factor * a[k * n + j];
+            }
+        }
+    }
+    vanishing
+}
