@@ -2,6 +2,8 @@
 //! each other, angles near quarter turns and far outside, bodies far from Ω, fast spins. All are physical, and the same
 //! in every run.
 
+use std::cell::RefCell;
+
 use crate::algebra::{Evaluation, Expr, Function, Map, NodeView, Notation, Rational, print};
 use crate::mechanics::{Action, Body, Coordinate, Force, Matter, System};
 use crate::model::Role;
@@ -53,33 +55,38 @@ const PROFILES: [Profile; 6] = [
 
 /// As many states as are worth their time.
 pub fn sample_states(states: &States<'_, '_>, count: usize) -> Vec<Point> {
-    let seen = Seen::of(states.system);
-    (0..count).map(|k| states.state(&seen, &PROFILES[k % PROFILES.len()], k as u64)).collect()
+    let (seen, names) = (Seen::of(states.system), Names::default());
+    (0..count).map(|k| states.state(&seen, &names, &PROFILES[k % PROFILES.len()], k as u64)).collect()
 }
 
 /// Symbols and their values, in the order in which they are chosen, with what their names amount to.
-#[derive(Default)]
-struct Values {
+struct Values<'n> {
     list: Vec<(u32, u64)>,
     map: Map<u32, f64>,
+    names: &'n Names,
 }
 
-impl Values {
+impl Values<'_> {
     fn put(&mut self, symbol: Expr<'_>, value: f64) {
         if self.map.insert(symbol.key(), value).is_none() {
-            self.list.push((symbol.key(), hash_of_name(symbol)));
+            self.list.push((symbol.key(), self.names.hash(symbol)));
         }
     }
 
     fn of(&self, e: Expr<'_>) -> f64 {
         Evaluation::new(&self.map).value(e)
     }
+
+    /// Choices for a symbol that depend on its name alone, so that what else a scene has does not change them.
+    fn random_of(&self, symbol: Expr<'_>, seed: u64) -> Random {
+        Random::new(self.names.hash(symbol).wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+    }
 }
 
 impl<'g> States<'_, 'g> {
-    fn state(&self, seen: &Seen<'g>, profile: &Profile, seed: u64) -> Point {
+    fn state(&self, seen: &Seen<'g>, names: &Names, profile: &Profile, seed: u64) -> Point {
         let scene = &self.system.scene;
-        let mut values = Values::default();
+        let mut values = Values { list: Vec::new(), map: Map::default(), names };
         self.give_parameters(&mut values, profile, seed);
         self.give_motion(&mut values, seen, profile, seed);
         self.define(&mut values);
@@ -99,9 +106,9 @@ impl<'g> States<'_, 'g> {
         Point::new(&list, self.units, self.definitions)
     }
 
-    fn give_parameters(&self, values: &mut Values, profile: &Profile, seed: u64) {
+    fn give_parameters(&self, values: &mut Values<'_>, profile: &Profile, seed: u64) {
         for &(symbol, component) in &self.parameters {
-            let mut random = random_of(symbol, seed);
+            let mut random = values.random_of(symbol, seed);
             let size = random.size(profile.decades);
             values.put(symbol, if component { random.sign() * size } else { size });
         }
@@ -111,22 +118,22 @@ impl<'g> States<'_, 'g> {
     }
 
     /// Time, configuration, speeds and what else is handed over.
-    fn give_motion(&self, values: &mut Values, seen: &Seen<'g>, profile: &Profile, seed: u64) {
+    fn give_motion(&self, values: &mut Values<'_>, seen: &Seen<'g>, profile: &Profile, seed: u64) {
         let scene = &self.system.scene;
-        values.put(scene.time, random_of(scene.time, seed).size(profile.decades));
+        values.put(scene.time, values.random_of(scene.time, seed).size(profile.decades));
         for (k, symbol) in self.units.iter().flatten().enumerate() {
             // The components of all quaternions have the same names.
-            let mut random = random_of(*symbol, seed ^ ((k as u64 + 1) << 40));
+            let mut random = values.random_of(*symbol, seed ^ ((k as u64 + 1) << 40));
             values.put(*symbol, random.sign() * (0.1 + random.fraction()));
         }
         for coordinate in &scene.coordinates {
             let position: &[Expr<'g>] = match coordinate {
                 Coordinate::Scalar(q) if seen.angles.contains(&q.key()) => {
-                    values.put(*q, angle(&mut random_of(*q, seed), profile));
+                    values.put(*q, angle(&mut values.random_of(*q, seed), profile));
                     &[]
                 }
                 Coordinate::Scalar(q) => {
-                    values.put(*q, random_of(*q, seed).signed(profile.decades));
+                    values.put(*q, values.random_of(*q, seed).signed(profile.decades));
                     &[]
                 }
                 Coordinate::Rotation(_) => &[],
@@ -134,25 +141,25 @@ impl<'g> States<'_, 'g> {
                 Coordinate::Plane { position, .. } => position,
             };
             for b in position {
-                let mut random = random_of(*b, seed);
+                let mut random = values.random_of(*b, seed);
                 values.put(*b, random.signed(profile.decades) * 10.0_f64.powf(profile.far));
             }
         }
         let twist = self.system.rigid_body().map_or(&[][..], |body| &body.twist);
         let residuals = &self.system.constraints.residuals;
         for symbol in [&scene.speed_rates[..], &scene.inputs, residuals, self.weights].into_iter().flatten() {
-            values.put(*symbol, random_of(*symbol, seed).signed(profile.decades));
+            values.put(*symbol, values.random_of(*symbol, seed).signed(profile.decades));
         }
         for symbol in scene.speeds.iter().chain(twist) {
-            let mut random = random_of(*symbol, seed);
+            let mut random = values.random_of(*symbol, seed);
             values.put(*symbol, random.signed(profile.decades) * 10.0_f64.powf(-profile.slow));
         }
     }
 
-    fn give_masses(&self, values: &mut Values, profile: &Profile, seed: u64) {
+    fn give_masses(&self, values: &mut Values<'_>, profile: &Profile, seed: u64) {
         for body in self.system.scene.tree.links.iter().filter_map(|link| link.body()) {
             let Some(parameter) = body.parameters.first() else { continue };
-            self.give_mass(body, values, &mut random_of(parameter.symbol, seed ^ 1 << 50), profile);
+            self.give_mass(body, values, &mut values.random_of(parameter.symbol, seed ^ 1 << 50), profile);
         }
     }
 
@@ -170,7 +177,7 @@ impl<'g> States<'_, 'g> {
     }
 
     /// Moments of inertia that a body can have, about O; added mass that is positive definite.
-    fn give_mass(&self, body: &Body<'g>, values: &mut Values, random: &mut Random, profile: &Profile) {
+    fn give_mass(&self, body: &Body<'g>, values: &mut Values<'_>, random: &mut Random, profile: &Profile) {
         let of = |role: Role| -> Vec<Expr<'g>> {
             body.parameters.iter().filter(|p| p.quantity == role).map(|p| p.symbol).collect()
         };
@@ -205,11 +212,11 @@ impl<'g> States<'_, 'g> {
     fn bring_together(
         &self,
         difference: &[(Rational, Expr<'g>)],
-        values: &mut Values,
+        values: &mut Values<'_>,
         random: &mut Random,
         profile: &Profile,
     ) {
-        let free = |values: &Values, e: Expr<'g>| {
+        let free = |values: &Values<'_>, e: Expr<'g>| {
             let literal = self.literals.iter().any(|(_, symbol)| *symbol == e);
             let unit = self.units.iter().flatten().any(|symbol| *symbol == e);
             let given = values.map.contains_key(&e.key()) && !self.definitions.contains_key(&e.key());
@@ -245,7 +252,7 @@ impl<'g> States<'_, 'g> {
 }
 
 /// The inertia of a body about O, from its principal moments about G.
-fn put_inertia(values: &mut Values, symbols: &[Expr<'_>], principal: [f64; 3], mass: f64, c: [f64; 3]) {
+fn put_inertia(values: &mut Values<'_>, symbols: &[Expr<'_>], principal: [f64; 3], mass: f64, c: [f64; 3]) {
     let square: f64 = c.iter().map(|c| c * c).sum();
     match symbols {
         [] => {}
@@ -358,15 +365,17 @@ impl<'g> Seen<'g> {
     }
 }
 
-/// Choices for a symbol that depend on its name alone, so that what else a scene has does not change them.
-fn random_of(symbol: Expr<'_>, seed: u64) -> Random {
-    Random::new(hash_of_name(symbol).wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
-}
+/// What the names of symbols amount to, which are long to print.
+#[derive(Default)]
+struct Names(RefCell<Map<u32, u64>>);
 
-/// After Fowler, Noll & Vo.
-fn hash_of_name(symbol: Expr<'_>) -> u64 {
-    let name = print(symbol, Notation::Text);
-    name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+impl Names {
+    /// After Fowler, Noll & Vo.
+    fn hash(&self, symbol: Expr<'_>) -> u64 {
+        let hash = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        let of_name = || print(symbol, Notation::Text).as_bytes().iter().fold(0xcbf2_9ce4_8422_2325, hash);
+        *self.0.borrow_mut().or_insert_with(symbol.key(), of_name)
+    }
 }
 
 /// An angle: ordinary, near a multiple of a quarter turn, or far outside.

@@ -1,5 +1,7 @@
 //! Everything known about one derive when code is written, and what all implementations of traits are made with.
 
+use std::cell::OnceCell;
+
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
@@ -51,6 +53,9 @@ pub struct Derived<'a, 'g> {
     pub regressor: Option<&'a Regressor<'g>>,
     /// Methods that are written with vectors.
     pub packs: Packs<'g>,
+    /// Asked for by every method: see `private`, `arguments`.
+    private: TokenStream,
+    arguments: OnceCell<Vec<Argument<'g>>>,
 }
 
 /// What the struct says of itself, whatever it describes.
@@ -120,6 +125,11 @@ impl<'a, 'g> Derived<'a, 'g> {
             printed: &formulation.printed,
             regressor: formulation.regressor.as_ref(),
             packs: Packs::default(),
+            private: {
+                let (runtime, module) = (&model.runtime, Ident::new(PRIVATE, Span::call_site()));
+                quote!(#runtime::#module)
+            },
+            arguments: OnceCell::new(),
         };
         derived.packs = derived.packed();
         Ok(derived)
@@ -209,8 +219,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// The module of the runtime that generated code names, with the version that both were made for.
     pub fn private(&self) -> TokenStream {
-        let (runtime, module) = (self.item().runtime, Ident::new(PRIVATE, Span::call_site()));
-        quote!(#runtime::#module)
+        self.private.clone()
     }
 
     /// How the constants that a program reads are written in methods.
@@ -245,7 +254,11 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     /// What methods read beside constants and time.
-    pub fn arguments(&self) -> Vec<Argument<'g>> {
+    pub fn arguments(&self) -> &[Argument<'g>] {
+        self.arguments.get_or_init(|| self.all_arguments())
+    }
+
+    fn all_arguments(&self) -> Vec<Argument<'g>> {
         let Formal { speeds, speed_rates, momenta, twist, residuals, inputs, weights } = self.formal();
         let mut arguments = self.subject.configuration_arguments(&self.private());
         for (kind, symbols) in [
@@ -270,8 +283,8 @@ impl<'a, 'g> Derived<'a, 'g> {
         let (mut packs, arguments, scalar) = (Packs::default(), self.arguments(), self.scalar());
         let methods = self.formulas.iter().map(|formula| formula.method).zip(&self.kernel.functions);
         for (method, program) in methods.filter(|(method, _)| are_wanted(*method, scalar.scalar)) {
-            let (_, names) = self.named(program, &arguments);
-            let sources = Sources { kernel: self.kernel, arguments: &arguments, names: &names };
+            let (_, names) = self.named(program, arguments);
+            let sources = Sources { kernel: self.kernel, arguments, names: &names };
             packs.add(method, program, &sources, &scalar);
         }
         packs
@@ -289,9 +302,9 @@ impl<'a, 'g> Derived<'a, 'g> {
     /// Arguments taken apart and the instructions of a method; its outputs. With packs in both forms.
     fn computed_by(&self, method: Method) -> (TokenStream, Vec<TokenStream>) {
         let (program, arguments, scalar) = (self.program(method), self.arguments(), self.scalar());
-        let (mut written, names) = self.named(program, &arguments);
+        let (mut written, names) = self.named(program, arguments);
         let single = statements(program, &names, &scalar);
-        let sources = Sources { kernel: self.kernel, arguments: &arguments, names: &names };
+        let sources = Sources { kernel: self.kernel, arguments, names: &names };
         let in_both_forms = self.packs.in_both_forms(method, &single, &sources, (&self.private(), &scalar));
         let (instructions, outputs) = in_both_forms.unwrap_or(single);
         written.extend(instructions);
@@ -300,7 +313,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// Arguments taken apart and the instructions of a program; its outputs.
     pub fn computed(&self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
-        let (mut written, names) = self.named(program, &self.arguments());
+        let (mut written, names) = self.named(program, self.arguments());
         let (instructions, outputs) = statements(program, &names, &self.scalar());
         written.extend(instructions);
         (written, outputs)
