@@ -1,18 +1,22 @@
 //! Adams' methods in lanes: a history of each lane, in the places of one window.
 
 use alloc::boxed::Box;
+use alloc::vec;
+use alloc::vec::Vec;
 
+use super::beginning::Ahead;
 use super::{Adams, History, begin, multistep, point};
 use crate::batch::BatchSystem;
 use crate::integrate::drive::cause::Gave;
 use crate::integrate::drive::fixed::Advanced;
-use crate::integrate::lanes::called::Called;
 use crate::integrate::lanes::fixed::{Advance, Lane, March, Trial};
 use crate::integrate::lanes::{Group, LaneControl, Verdict, chosen, chosen_rates, chosen_state, number, ones_in};
+use crate::integrate::problem::called::Called;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::runge_kutta::components::{ComponentsOf, Point};
+use crate::simd::Packed;
 
 /// Room for so many derivatives: with those of a vector the nearest cache is not full.
 const ROOM: usize = 32;
@@ -37,8 +41,22 @@ pub struct Memory<S: BatchSystem, const K: usize> {
 struct Steps<S: BatchSystem, const K: usize> {
     length: f64,
     history: History<ComponentsOf<S>, S::Speeds, K, ROOM>,
-    /// The derivatives that came with a step in lanes that begin beside others that do not.
-    known: Option<(S::Scalar, Rates<S>)>,
+    /// The derivatives that came with a step in some lanes beside others that go another way.
+    known: Vec<(S::Scalar, Rates<S>)>,
+    /// The first states of lanes that have `looked` ahead, and the derivatives there: after one step, after two, ….
+    ahead: Vec<(State<S>, Rates<S>)>,
+    looked: Vec<bool>,
+}
+
+/// How a lane makes a step.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    /// By the Adams method.
+    On,
+    /// By the method that begins runs.
+    Begins,
+    /// It is known, after so many others.
+    Known(usize),
 }
 
 impl<S: BatchSystem, const K: usize> Steps<S, K> {
@@ -58,24 +76,73 @@ impl<S: BatchSystem, const K: usize> Steps<S, K> {
         lanes: &[Lane],
         newest: &PointOf<S>,
     ) -> Result<Advanced<S>, IntegrationErrorKind> {
-        let goes_on = |n: usize| {
-            let one_length = (number(h, n).abs() - self.length).abs() <= 1e-6 * self.length;
-            lanes[n].steps && lanes[n].made + 1 >= K as u64 && one_length
-        };
-        let begins = |n: usize| lanes[n].steps && !goes_on(n);
-        let (some_go_on, some_begin) = ((0..lanes.len()).any(goes_on), (0..lanes.len()).any(begins));
-        let (going, beginning) = (ones_in::<S::Scalar>(goes_on), ones_in::<S::Scalar>(begins));
         let problem = &Called(problem);
-        if !some_go_on {
-            return begin::<S, _, K>(problem, state, rates, h);
+        self.look_ahead(problem, (state, rates), h, lanes)?;
+        let way = |n: usize| {
+            let one_length = (number(h, n).abs() - self.length).abs() <= 1e-6 * self.length;
+            match lanes[n].made + 1 >= K as u64 {
+                true if one_length => Way::On,
+                false if self.looked[n] => Way::Known(lanes[n].made as usize),
+                _ => Way::Begins,
+            }
+        };
+        let goes = |n: usize, which: Way| lanes[n].steps && way(n) == which;
+        let some = |which: Way| (0..lanes.len()).any(|n| goes(n, which));
+        let all = |which: Way| (0..lanes.len()).all(|n| goes(n, which));
+        let ones = |which: Way| ones_in::<S::Scalar>(|n| goes(n, which));
+        // Each way by itself, of which each lane takes its own; those that stand still stay where they are.
+        let mut end = *state;
+        if some(Way::On) {
+            let ones = ones(Way::On);
+            let on = multistep::<S, _, K>(problem, state, rates, ones * h, self.sums_in(ones, newest))?;
+            end = chosen_state(ones, &on, &end);
         }
-        let on = multistep::<S, _, K>(problem, state, rates, going * h, self.sums_in(going, newest))?;
-        if !some_begin {
-            return Ok((on, None));
+        if some(Way::Begins) {
+            let ones = ones(Way::Begins);
+            let (begun, known) = begin::<S, _, K>(problem, state, rates, ones * h)?;
+            if all(Way::Begins) {
+                return Ok((begun, known));
+            }
+            self.known.extend(known.filter(|_| !S::CONSTRAINED).map(|known| (ones, known)));
+            end = chosen_state(ones, &begun, &end);
         }
-        let (begun, known) = begin::<S, _, K>(problem, state, rates, beginning * h)?;
-        self.known = known.filter(|_| !S::CONSTRAINED).map(|known| (beginning, known));
-        Ok((chosen_state(going, &on, &begun), None))
+        for (made, (there, known)) in self.ahead.iter().enumerate().filter(|(made, _)| some(Way::Known(*made))) {
+            let ones = ones(Way::Known(made));
+            self.known.push((ones, *known));
+            end = chosen_state(ones, there, &end);
+        }
+        Ok((end, None))
+    }
+
+    /// The first steps of lanes that have made none.
+    fn look_ahead<P: Problem<System = S>>(
+        &mut self,
+        problem: &P,
+        (state, rates): (&State<S>, &Rates<S>),
+        h: S::Scalar,
+        lanes: &[Lane],
+    ) -> Result<(), IntegrationErrorKind> {
+        let starts = |n: usize| lanes[n].steps && lanes[n].made == 0;
+        let may = |n: usize| starts(n) && Ahead::<S, K>::serves(lanes[n].all);
+        (0..lanes.len()).filter(|&n| starts(n)).for_each(|n| self.looked[n] = false);
+        if !(0..lanes.len()).any(may) {
+            return Ok(());
+        }
+        let ones = ones_in::<S::Scalar>(may);
+        match Ahead::<S, K>::of(problem, state, rates, ones * h) {
+            Ok(ahead) => {
+                self.ahead.resize(K - 1, (*state, *rates));
+                for (made, (state, rates)) in self.ahead.iter_mut().enumerate() {
+                    let (there, known) = ahead.after(made);
+                    (*state, *rates) = (chosen_state(ones, &there, state), chosen_rates(ones, &known, rates));
+                }
+                (0..lanes.len()).filter(|&n| may(n)).for_each(|n| self.looked[n] = true);
+                Ok(())
+            }
+            // As a run by itself does.
+            Err(_) if lanes.iter().filter(|lane| lane.steps).count() == 1 => Ok(()),
+            Err(kind) => Err(kind),
+        }
     }
 }
 
@@ -110,10 +177,7 @@ impl<S: BatchSystem, const K: usize> Advance<S> for Steps<S, K> {
             self.history.put_back(|new, old| chosen_point::<S>(ones, new, old));
         }
         self.history.step();
-        match self.known.take() {
-            None => rates,
-            Some((ones, known)) => chosen_rates(ones, &known, &rates),
-        }
+        self.known.drain(..).fold(rates, |rates, (ones, known)| chosen_rates(ones, &known, &rates))
     }
 }
 
@@ -123,7 +187,13 @@ impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
 
     fn memory(&self, span: f64, _: u64) -> Result<Memory<S, K>, IntegrationErrorKind> {
         let march = March::new(self.step, span)?;
-        let steps = Box::new(Steps { length: march.length(), history: History::new(), known: None });
+        let steps = Box::new(Steps {
+            length: march.length(),
+            history: History::new(),
+            known: Vec::new(),
+            ahead: Vec::new(),
+            looked: vec![false; S::Scalar::WIDTH],
+        });
         Ok(Memory { march, steps })
     }
 
@@ -145,7 +215,7 @@ impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
         who: &[bool],
         memory: &mut Memory<S, K>,
     ) -> Result<(), IntegrationErrorKind> {
-        memory.steps.known = None;
+        memory.steps.known.clear();
         memory.march.attempt(&mut *memory.steps, problem, group, who)
     }
 

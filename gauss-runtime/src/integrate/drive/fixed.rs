@@ -1,5 +1,7 @@
 //! Steps of one length.
 
+use core::ops::ControlFlow;
+
 use crate::integrate::drive::cause::{Gave, Place, cause};
 use crate::integrate::drive::control::{Control, Emit, Taken, one_step, prepare};
 use crate::integrate::drive::projection::accept;
@@ -56,55 +58,119 @@ pub(crate) fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
     if whole { round(count).max(1.0) } else { floor(count) + 1.0 }
 }
 
-/// Steps of length |length|, the last one ending where it should, each made by `advance`; `stiff` says whether the method is
-/// stable where steps are long beside what decays.
+/// A run by steps of one length, the last one ending where it should.
+pub(in crate::integrate) struct OneLength<S: GaussSystem> {
+    /// Where the run is, and the derivatives there.
+    pub state: State<S>,
+    pub rates: Rates<S>,
+    start: S::Scalar,
+    end: S::Scalar,
+    /// With the sign of the direction.
+    h: S::Scalar,
+    /// How many steps there are, and how many are made.
+    pub steps: u64,
+    pub made: u64,
+    /// Whether the method is stable where steps are long beside what decays.
+    stiff: bool,
+}
+
+impl<S: GaussSystem> OneLength<S> {
+    /// Steps of length |length|, of which none is made. Nothing where the run has ended with that.
+    #[inline]
+    pub fn new<P: Problem<System = S>>(
+        (length, stiff): (S::Scalar, bool),
+        problem: &P,
+        start: &State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut Emit<'_, S>,
+    ) -> Result<Result<Self, State<S>>, IntegrationError> {
+        let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
+        let positive = length.lane(0).abs();
+        if !(positive.is_finite() && positive > 0.0) {
+            return Err(stopped(start, IntegrationErrorKind::InvalidStep { step: length.lane(0) }));
+        }
+        let (span, state, rates) = prepare(problem, start, end).map_err(|kind| stopped(start, kind))?;
+        if emit(&state, &rates, Taken::default()).is_break() || span == 0.0 {
+            return Ok(Err(state));
+        }
+        let steps = number_of_steps::<S::Scalar>(span, positive);
+        if steps > limit as f64 {
+            return Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }));
+        }
+        let h = if (span < 0.0) == (length.lane(0) < 0.0) { length } else { -length };
+        Ok(Ok(Self { state, rates, start: state.t, end, h, steps: steps as u64, made: 0, stiff }))
+    }
+
+    /// Whether the last step has the length of the others, but for a millionth.
+    pub fn ends_with_a_whole_step(&self) -> bool {
+        let (last, length) = ((self.end - self.time(self.steps - 1)).lane(0), self.h.lane(0));
+        (last.abs() - length.abs()).abs() <= 1e-6 * length.abs()
+    }
+
+    /// The time after so many steps.
+    pub fn time(&self, made: u64) -> S::Scalar {
+        time(self.start, self.h, made)
+    }
+
+    /// With the sign of the direction.
+    pub fn length(&self) -> S::Scalar {
+        self.h
+    }
+
+    /// Goes on until so many steps are made, each by `advance`; whether anybody wants more.
+    #[inline(always)]
+    pub fn until<P: Problem<System = S>>(
+        &mut self,
+        made: u64,
+        problem: &P,
+        emit: &mut Emit<'_, S>,
+        mut advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
+    ) -> Result<ControlFlow<()>, IntegrationError> {
+        // Copies, so that what steps work on stays in registers.
+        let Self { mut state, mut rates, start, end, h, steps, made: mut n, stiff } = *self;
+        let mut flow = ControlFlow::Continue(());
+        while n < made && flow.is_continue() {
+            let last = n + 1 == steps;
+            let this = if last { end - state.t } else { h };
+            let failed = |kind| {
+                let (length, left) = (h.lane(0).abs(), (end - state.t).lane(0).abs());
+                let place = Place { state: &state, rates: &rates, length, left, stiff, lanes: 0..S::Scalar::LANES };
+                IntegrationError::at(problem, &state, cause(problem, &place, Gave::Step(kind)))
+            };
+            let (mut next, known) = advance(&state, &rates, this).map_err(failed)?;
+            n += 1;
+            next.t = if last { end } else { time(start, h, n) };
+            let there = accept(problem, &mut next, known).map_err(failed)?;
+            (state, rates) = (next, there);
+            flow = emit(&state, &rates, Taken::default());
+        }
+        (self.state, self.rates, self.made) = (state, rates, n);
+        Ok(flow)
+    }
+}
+
+/// Times are multiples of h, not sums of it.
+#[inline(always)]
+fn time<T: Real>(start: T, h: T, made: u64) -> T {
+    T::from_f64(made as f64).fma(h, start)
+}
+
+/// All steps of such a run.
 #[inline]
 pub(in crate::integrate) fn steps_of_one_length<S: GaussSystem, P: Problem<System = S>>(
-    (length, stiff): (S::Scalar, bool),
+    how: (S::Scalar, bool),
     problem: &P,
     start: State<S>,
     end: S::Scalar,
     limit: u64,
     emit: &mut Emit<'_, S>,
-    mut advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
+    advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
 ) -> Result<State<S>, IntegrationError> {
-    let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
-    let positive = length.lane(0).abs();
-    if !(positive.is_finite() && positive > 0.0) {
-        return Err(stopped(&start, IntegrationErrorKind::InvalidStep { step: length.lane(0) }));
+    match OneLength::new(how, problem, &start, end, limit, emit)? {
+        Ok(mut run) => run.until(run.steps, problem, emit, advance).map(|_| run.state),
+        Err(ended) => Ok(ended),
     }
-    let (span, start, mut rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
-    if emit(&start, &rates, Taken::default()).is_break() || span == 0.0 {
-        return Ok(start);
-    }
-
-    let steps = number_of_steps::<S::Scalar>(span, positive);
-    if steps > limit as f64 {
-        return Err(stopped(&start, IntegrationErrorKind::TooManySteps { limit }));
-    }
-    let h = if (span < 0.0) == (length.lane(0) < 0.0) { length } else { -length };
-
-    let mut state = start;
-    let steps = steps as u64;
-    for n in 1..=steps {
-        let last = n == steps;
-        let this = if last { end - state.t } else { h };
-        let failed = |kind| {
-            let left = (end - state.t).lane(0).abs();
-            let place =
-                Place { state: &state, rates: &rates, length: positive, left, stiff, lanes: 0..S::Scalar::LANES };
-            stopped(&state, cause(problem, &place, Gave::Step(kind)))
-        };
-        let (mut next, known) = advance(&state, &rates, this).map_err(failed)?;
-        // Times are multiples of h, not sums of it.
-        next.t = if last { end } else { S::Scalar::from_f64(n as f64).fma(h, start.t) };
-        let there = accept(problem, &mut next, known).map_err(failed)?;
-        (state, rates) = (next, there);
-        if emit(&state, &rates, Taken::default()).is_break() {
-            break;
-        }
-    }
-    Ok(state)
 }
 
 impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {

@@ -3,7 +3,6 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::called::Called;
 use super::{Group, LaneControl, Verdict, chosen_state, largest, number, numbers_of, ones_in};
 use crate::batch::BatchSystem;
 use crate::integrate::drive::adaptive::{Adaptive, ROUNDED};
@@ -13,6 +12,7 @@ use crate::integrate::drive::logarithms::{exponential, logarithm};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::drive::step_length::StepLength;
 use crate::integrate::drive::tolerance::{Floor, Trial};
+use crate::integrate::problem::called::Called;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::step::one_step::EstimatingStep;

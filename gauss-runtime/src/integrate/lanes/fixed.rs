@@ -3,13 +3,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::called::Called;
 use super::{Group, LaneControl, Verdict, chosen_state, ones_in};
 use crate::batch::BatchSystem;
 use crate::integrate::drive::cause::Gave;
 use crate::integrate::drive::control::Taken;
 use crate::integrate::drive::fixed::{Advanced, Fixed, number_of_steps};
 use crate::integrate::drive::projection::accept;
+use crate::integrate::problem::called::Called;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State};
@@ -22,7 +22,7 @@ use crate::simd::Packed;
 pub(in crate::integrate) struct Lane {
     /// Steps that it has made since it began, and how many there are.
     pub(in crate::integrate) made: u64,
-    all: u64,
+    pub(in crate::integrate) all: u64,
     /// Whether it makes the present one.
     pub(in crate::integrate) steps: bool,
 }

@@ -7,7 +7,6 @@
 //! steps the more the runs differ.
 
 mod adaptive;
-pub(in crate::integrate) mod called;
 pub(in crate::integrate) mod fixed;
 pub(crate) mod run;
 mod taylor;

@@ -1,5 +1,6 @@
 //! What is integrated: a system in one of two forms, under an input; states, their derivatives, and what can go wrong.
 
+pub(in crate::integrate) mod called;
 pub mod equations;
 pub mod error;
 pub mod form;

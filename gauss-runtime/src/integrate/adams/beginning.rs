@@ -1,0 +1,172 @@
+//! How a run begins: with fewer and longer steps of a Runge–Kutta method than are wanted, and states between their ends by
+//! Hermite's polynomial through all of these.
+//!
+//! A step of an Adams method is a third of what a Runge–Kutta method of order 8 needs for the same error, so two or three are
+//! one of the latter: 12 evaluations, and one for each state between. The polynomial through m + 1 ends and the
+//! derivatives there is wrong by `h^(2m+2) y^(2m+2)/(2m+2)! Π(t − tᵢ)²`: the steps at either end are short, because there
+//! the product is largest.
+
+use super::formula::MOST;
+use super::{begin, point};
+use crate::configuration::Configuration;
+use crate::integrate::drive::projection::accept;
+use crate::integrate::problem::equations::Problem;
+use crate::integrate::problem::error::IntegrationErrorKind;
+use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::runge_kutta::components::Point;
+use crate::integrate::step::checks::check_chart;
+use crate::real::Real;
+use crate::system::GaussSystem;
+
+/// Ends of the long steps, with that of none.
+const ENDS: usize = 7;
+
+/// A state between: what it is made of the states at the ends and the derivatives there.
+#[derive(Clone, Copy)]
+struct Between {
+    /// How many short steps from the start.
+    at: usize,
+    /// The end next to it.
+    near: usize,
+    /// Of the differences of all ends from that.
+    values: [f64; ENDS],
+    /// Of derivatives, for steps of length 1.
+    slopes: [f64; ENDS],
+}
+
+/// How an Adams method of K steps begins.
+pub(super) struct Beginning<const K: usize>;
+
+impl<const K: usize> Beginning<K> {
+    /// Lengths of the steps, K − 1 altogether. Methods of few steps begin with as many of a method of order 5.
+    const LENGTHS: &'static [usize] = match K {
+        6 => &[1, 2, 2],
+        7 => &[2, 2, 2],
+        8 => &[2, 3, 2],
+        9 => &[2, 2, 2, 2],
+        10 => &[2, 3, 2, 2],
+        11 => &[2, 2, 2, 2, 2],
+        12 => &[2, 2, 2, 2, 2, 1],
+        _ => &[],
+    };
+
+    /// Short steps until the ends.
+    const NODES: [usize; ENDS] = {
+        let (mut nodes, mut i) = ([0; ENDS], 0);
+        while i < Self::LENGTHS.len() {
+            nodes[i + 1] = nodes[i] + Self::LENGTHS[i];
+            i += 1;
+        }
+        nodes
+    };
+
+    /// The states between, and how many there are.
+    const BETWEEN: ([Between; MOST], usize) = {
+        let ends = Self::LENGTHS.len() + 1;
+        let none = Between { at: 0, near: 0, values: [0.0; ENDS], slopes: [0.0; ENDS] };
+        let (mut all, mut count, mut at, mut end) = ([none; MOST], 0, 1, 1);
+        while end < ends {
+            if at == Self::NODES[end] {
+                end += 1;
+            } else {
+                let mut between = Between { at, near: end - 1, ..none };
+                let mut i = 0;
+                while i < ends {
+                    (between.values[i], between.slopes[i]) = Self::weights(at, i);
+                    i += 1;
+                }
+                between.values[between.near] = 0.0;
+                (all[count], count) = (between, count + 1);
+            }
+            at += 1;
+        }
+        (all, count)
+    };
+
+    /// Of the value and of the slope at an end, in Hermite's polynomial: `(1 − 2(t − tᵢ)ℓᵢ′(tᵢ)) ℓᵢ²` and `(t − tᵢ) ℓᵢ²`.
+    const fn weights(at: usize, i: usize) -> (f64, f64) {
+        let (t, own) = (at as f64, Self::NODES[i] as f64);
+        let (mut lagrange, mut slope, mut j) = (1.0, 0.0, 0);
+        while j <= Self::LENGTHS.len() {
+            let other = Self::NODES[j] as f64;
+            if j != i {
+                lagrange *= (t - other) / (own - other);
+                slope += 1.0 / (own - other);
+            }
+            j += 1;
+        }
+        ((1.0 - 2.0 * (t - own) * slope) * lagrange * lagrange, (t - own) * lagrange * lagrange)
+    }
+}
+
+/// A state, and the derivatives there.
+type Known<S> = (State<S>, Rates<S>);
+
+/// The first K − 1 states of a run, and the derivatives there.
+pub(super) struct Ahead<S: GaussSystem, const K: usize>([Known<S>; MOST]);
+
+impl<S: GaussSystem, const K: usize> Ahead<S, K> {
+    /// Whether a run of so many steps begins so.
+    pub(super) fn serves(steps: u64) -> bool {
+        !S::CONSTRAINED && !Beginning::<K>::LENGTHS.is_empty() && steps >= K as u64
+    }
+
+    /// After steps of length h.
+    ///
+    /// # Errors
+    /// Where long steps lead nowhere. Short ones may, or tell how far one gets.
+    pub(super) fn of<P: Problem<System = S>>(
+        problem: &P,
+        start: &State<S>,
+        rates: &Rates<S>,
+        h: S::Scalar,
+    ) -> Result<Self, IntegrationErrorKind> {
+        ahead::<S, P, K>(problem, start, rates, h).map(Self)
+    }
+
+    /// The end of one more step after so many.
+    pub(super) fn after(&self, made: usize) -> Known<S> {
+        self.0[made]
+    }
+}
+
+fn ahead<S: GaussSystem, P: Problem<System = S>, const K: usize>(
+    problem: &P,
+    start: &State<S>,
+    rates: &Rates<S>,
+    h: S::Scalar,
+) -> Result<[Known<S>; MOST], IntegrationErrorKind> {
+    let number = |n: usize| S::Scalar::from_f64(n as f64);
+    let time = |n: usize| number(n).fma(h, start.t);
+    let mut ahead = [(*start, *rates); MOST];
+    let at_start = Point { components: start.q.components(), variables: start.y };
+    let mut ends = [at_start; ENDS];
+    let mut derivatives = [point::<S>(&start.q, rates); ENDS];
+    let (mut state, mut rates) = (*start, *rates);
+    for (i, &length) in Beginning::<K>::LENGTHS.iter().enumerate() {
+        let node = Beginning::<K>::NODES[i + 1];
+        let (mut next, known) = begin::<S, P, K>(problem, &state, &rates, number(length) * h)?;
+        next.t = time(node);
+        rates = accept(problem, &mut next, known)?;
+        state = next;
+        ahead[node - 1] = (state, rates);
+        ends[i + 1] = Point { components: state.q.components(), variables: state.y };
+        derivatives[i + 1] = point::<S>(&state.q, &rates);
+    }
+    let (between, count) = &Beginning::<K>::BETWEEN;
+    for Between { at, near, values, slopes } in &between[..*count] {
+        let mut change = Point::zero();
+        for end in 0..=Beginning::<K>::LENGTHS.len() {
+            let difference = ends[end].add_scaled(-S::Scalar::one(), &ends[*near]);
+            change = change.add_scaled(S::Scalar::from_f64(values[end]), &difference);
+            change = change.add_scaled(S::Scalar::from_f64(slopes[end]) * h, &derivatives[end]);
+        }
+        let Point { components, variables } = ends[*near].add_scaled(S::Scalar::one(), &change);
+        let q = S::Configuration::from_components(&components).renormalise();
+        let mut state = State { t: time(*at), q, y: variables };
+        check_chart(problem.system(), start, &state)?;
+        let rates = accept(problem, &mut state, None)?;
+        ahead[*at - 1] = (state, rates);
+    }
+    Ok(ahead)
+}
