@@ -106,6 +106,11 @@ impl Loss {
         sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
     }
 
+    /// Whether a program of that loss may be replaced by one of this, whose sums are in another order.
+    pub fn keeps(&self, before: &Self) -> bool {
+        self.0.iter().zip(&before.0).all(|(loss, before)| *loss <= REORDERED * before.max(1.0))
+    }
+
     fn is_tolerable(&self) -> bool {
         self.worst() <= TOLERABLE && self.median() <= ORDINARY
     }
@@ -156,30 +161,53 @@ impl Trial {
         }
     }
 
-    /// The losses of programs that should compute the same, beside the best of them in 106 binary digits: what it loses
-    /// of 53 it has to spare there, unless that is nearly all.
+    /// The losses of programs that should compute the same.
     pub fn losses(&self, programs: &[&Code<Expr<'_>>]) -> Vec<Loss> {
+        self.tried(programs).losses
+    }
+
+    /// Programs that should compute the same, beside the best of them in 106 binary digits: what it loses of 53 it has to
+    /// spare there, unless that is nearly all.
+    pub fn tried(&self, programs: &[&Code<Expr<'_>>]) -> Tried<'_> {
         let tapes: Vec<Tape> = programs.iter().map(|program| Tape::new(program)).collect();
         let mut best = 0;
-        let mut losses = self.losses_beside(&tapes, best);
+        let mut tried = self.tried_beside(&tapes, best);
         // Of a form that loses nearly everything the longer numbers are not sure either.
         for _ in 1..tapes.len() {
+            let losses = &tried.losses;
             let least = (0..tapes.len()).min_by(|&a, &b| losses[a].worst().total_cmp(&losses[b].worst()));
             let Some(least) = least.filter(|&least| least != best && losses[best].worst() > UNSURE) else { break };
             best = least;
-            losses = self.losses_beside(&tapes, best);
+            tried = self.tried_beside(&tapes, best);
         }
-        losses
+        tried
     }
 
-    fn losses_beside(&self, tapes: &[Tape], reference: usize) -> Vec<Loss> {
-        let mut losses = vec![Loss::default(); tapes.len()];
+    fn tried_beside(&self, tapes: &[Tape], reference: usize) -> Tried<'_> {
+        let mut tried = Tried { losses: vec![Loss::default(); tapes.len()], there: Vec::new() };
         for point in &self.points {
             let found: Vec<Vec<f64>> = tapes.iter().map(|tape| tape.run(&point.given, |_| None)).collect();
             let Some(expected) = point.reference(&tapes[reference], &found) else { continue };
-            losses.iter_mut().zip(&found).for_each(|(loss, found)| loss.0.push(expected.loss_of(found)));
+            tried.losses.iter_mut().zip(&found).for_each(|(loss, found)| loss.0.push(expected.loss_of(found)));
+            tried.there.push((point, expected));
         }
-        losses
+        tried
+    }
+}
+
+/// Programs that were tried.
+pub struct Tried<'a> {
+    pub losses: Vec<Loss>,
+    /// States where there is a value, with what it should be.
+    there: Vec<(&'a Point, Reference)>,
+}
+
+impl Tried<'_> {
+    /// The loss of another program that should compute the same.
+    pub fn loss_of(&self, program: &Code<Expr<'_>>) -> Loss {
+        let tape = Tape::new(program);
+        let loss = |(point, expected): &(&Point, Reference)| expected.loss_of(&tape.run(&point.given, |_| None));
+        Loss(self.there.iter().map(loss).collect())
     }
 }
 
@@ -187,6 +215,9 @@ impl Trial {
 /// roundings that do not amplify each other add up to some √n, and now and then to the one or to n: of programs of up
 /// to a thousand operations two that are equally good differ by that much, and at the next state the other way round.
 const FACTOR: f64 = 32.0;
+/// The same of a program whose sums are in another order: each partial sum is bounded by three that were rounded before, and is
+/// rounded itself.
+const REORDERED: f64 = 4.0;
 /// Results below this share of the error of double precision vanish identically: of terms whose roundings are 2⁻⁵³,
 /// those of 106 digits are 2⁻⁷⁴ of a change, and some of either are small by chance.
 const VANISHING: f64 = 1.0 / 1024.0;

@@ -22,12 +22,27 @@ fn scenes() -> Vec<Counted> {
         scene("free body", "FreeBody", structures::free_body(", linearize"), &["acceleration", "linearize"]),
         scene("torpedo", "Torpedo", structures::torpedo(", linearize"), &["acceleration", "linearize"]),
         scene("heavy top, Euler angles", "Top", structures::top(", linearize"), &["acceleration", "linearize"]),
+        scene("four links in the plane", "Chain", structures::planar(4, false), &["acceleration", "momentum_rate"]),
         scene("four links in space", "Chain", structures::spatial(4), &["acceleration", "momentum_rate"]),
         scene("arm", "Arm", structures::arm(", linearize"), &["acceleration", "momentum_rate", "linearize"]),
     ]
 }
 
-const PASSES: [Pass; 6] = [Pass::Factors, Pass::Products, Pass::Sums, Pass::Fusing, Pass::Signs, Pass::ProductsInSums];
+/// Robots from their files, which take seconds: where they are asked for by `ROBOTS=1`, with the feature `urdf`.
+fn robots() -> Vec<Counted> {
+    if !cfg!(feature = "urdf") || std::env::var("ROBOTS").is_err() {
+        return Vec::new();
+    }
+    let robot = |label, file| {
+        let path = format!("{}/../tests/robots/{file}", env!("CARGO_MANIFEST_DIR"));
+        let source = format!("#[gauss(urdf = {path:?}, base = floating, gravity = 9.81)] struct Robot;");
+        Counted { label, name: "Robot", source, methods: &["acceleration", "momentum_rate"] }
+    };
+    vec![robot("ANYmal", "anymal.urdf"), robot("Talos", "talos.urdf")]
+}
+
+const PASSES: [Pass; 7] =
+    [Pass::Factors, Pass::Products, Pass::Sums, Pass::Fusing, Pass::Signs, Pass::ProductsInSums, Pass::Beginnings];
 
 /// Instructions of the methods: a multiply-add is one, sine and cosine of an angle are one.
 fn instructions(scene: &Counted, left_out: Option<Pass>) -> Vec<usize> {
@@ -44,9 +59,10 @@ fn instructions(scene: &Counted, left_out: Option<Pass>) -> Vec<usize> {
 #[test]
 fn every_pass_gains() {
     let names: Vec<String> = PASSES.iter().map(|pass| format!("{pass:?}")).collect();
-    let mut table = format!("| scene | method | all | {} |\n|---|---|---|{}", names.join(" | "), "---|".repeat(6));
+    let mut table =
+        format!("| scene | method | all | {} |\n|---|---|---|{}", names.join(" | "), "---|".repeat(PASSES.len()));
     let (mut sum, mut without) = (0, [0; PASSES.len()]);
-    for scene in scenes() {
+    for scene in scenes().into_iter().chain(robots()) {
         let all = instructions(&scene, None);
         let each = PASSES.map(|pass| instructions(&scene, Some(pass)));
         for (k, method) in scene.methods.iter().enumerate() {

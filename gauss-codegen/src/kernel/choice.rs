@@ -22,9 +22,21 @@ pub enum Aim {
 }
 
 /// An arrangement with its program.
-pub(super) struct Lowered<'a, 'g> {
+struct Lowered<'a, 'g> {
+    outputs: &'a [Expr<'g>],
+    program: Program<'g>,
+}
+
+/// The arrangement that is taken.
+pub(super) struct Taken<'a, 'g> {
     pub outputs: &'a [Expr<'g>],
+    /// The outputs of the first one where that keeps the digits, too.
+    pub first: Option<&'a [Expr<'g>]>,
     pub program: Program<'g>,
+    /// The same as it is carried out, and whether sums that are begun by what is added to them keep its digits.
+    pub carried_out: Program<'g>,
+    pub begun: bool,
+    /// Of what is carried out.
     pub loss: Loss,
 }
 
@@ -35,22 +47,29 @@ impl<'g> Candidates<'g> {
         Self { arrangements, aim: Aim::Values }
     }
 
-    /// The arrangement that is taken, and the outputs of the first one where that keeps the digits, too.
-    pub(super) fn chosen(
-        &self,
-        hoister: &mut Hoister<'_, 'g>,
-        trial: &mut Trial,
-    ) -> (Lowered<'_, 'g>, Option<&[Expr<'g>]>) {
+    /// The arrangement that is taken.
+    pub(super) fn taken(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Taken<'_, 'g> {
         let mut lowered = self.lowered(hoister);
         trial.define(hoister.constants());
         let programs: Vec<&Program<'g>> = lowered.iter().map(|candidate| &candidate.program).collect();
-        let losses = trial.losses(&programs);
-        let best = taken(&losses, &self.costs(&lowered, hoister));
-        let first = Some(lowered[0].outputs).filter(|_| usable(&losses)[0]);
-        let Lowered { outputs, program, .. } = lowered.swap_remove(best);
-        // A power series takes a negation of an addend for an instruction like any other.
-        let program = if self.aim == Aim::Values { program.with_signs_led_back() } else { program };
-        (Lowered { outputs, program, loss: losses.into_iter().nth(best).unwrap_or_default() }, first)
+        let tried = trial.tried(&programs);
+        let best = taken(&tried.losses, &self.costs(&lowered, hoister));
+        let first = Some(lowered[0].outputs).filter(|_| usable(&tried.losses)[0]);
+        let Lowered { outputs, program } = lowered.swap_remove(best);
+        let loss = tried.losses[best].clone();
+        // A power series has a recurrence for every product, and takes a negation of an addend for an instruction like any other.
+        if self.aim == Aim::Series {
+            return Taken { outputs, first, carried_out: program.clone(), program, begun: true, loss };
+        }
+        let program = program.with_signs_led_back();
+        let fused = program.clone().with_products_in_sums();
+        let Some(sums_begun) = fused.sums_begun() else {
+            return Taken { outputs, first, program, carried_out: fused.ordered(), begun: true, loss };
+        };
+        let other_loss = tried.loss_of(&sums_begun);
+        let begun = other_loss.keeps(&loss);
+        let (carried_out, loss) = if begun { (sums_begun, other_loss) } else { (fused, loss) };
+        Taken { outputs, first, program, carried_out: carried_out.ordered(), begun, loss }
     }
 
     /// The arrangements as programs, in their order; those that are the same once constants are hoisted, once.
@@ -59,17 +78,11 @@ impl<'g> Candidates<'g> {
         for outputs in &self.arrangements {
             let hoisted = hoister.hoist(outputs);
             if !seen.contains(&hoisted) {
-                lowered.push(Lowered { outputs, program: Program::lower(&hoisted), loss: Loss::default() });
+                lowered.push(Lowered { outputs, program: Program::lower(&hoisted) });
                 seen.push(hoisted);
             }
         }
         lowered
-    }
-
-    /// The program that is taken, once nothing is differentiated any more.
-    pub(super) fn carried_out(&self, program: Program<'g>) -> Program<'g> {
-        // A power series has a recurrence for every product.
-        if self.aim == Aim::Values { program.carried_out() } else { program }
     }
 
     fn costs(&self, candidates: &[Lowered<'_, 'g>], hoister: &Hoister<'_, 'g>) -> Vec<u32> {

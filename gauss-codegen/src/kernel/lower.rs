@@ -4,7 +4,7 @@ use crate::accuracy::{Loss, Trial};
 use crate::algebra::{Expr, Graph, Map, Rational};
 
 use super::check::{Checked, Miscompiled, Sample};
-use super::choice::{Candidates, Lowered};
+use super::choice::{Candidates, Taken};
 use super::columns::LoweredColumns;
 use super::constants::{Constants, Hoisted, Source};
 use super::derivatives::{Differentiated, Expected, Kept};
@@ -75,17 +75,17 @@ impl<'g> Kernel<'g> {
         trial: &mut Trial,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
-        let candidates = functions;
-        let (mut functions, mut chosen, mut losses, mut choices) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        for candidates in candidates {
-            let (Lowered { program, outputs, loss }, first) = candidates.chosen(&mut hoister, trial);
-            functions.push(program);
-            chosen.push(outputs);
-            losses.push(loss);
-            choices.push([Some(outputs), first]);
-        }
-        let joined: Vec<_> = joined.iter().map(|&k| choices[k]).collect();
+        let functions: Vec<Taken<'_, 'g>> =
+            functions.iter().map(|candidates| candidates.taken(&mut hoister, trial)).collect();
+        let joined: Vec<&Taken<'_, 'g>> = joined.iter().map(|&k| &functions[k]).collect();
         let (joined, of_joined) = lower_together(&mut hoister, &joined);
+        let chosen: Vec<&[Expr<'g>]> = functions.iter().map(|function| function.outputs).collect();
+        let (mut programs, mut carried_out, mut losses) = (Vec::new(), Vec::new(), Vec::new());
+        for function in functions {
+            programs.push(function.program);
+            carried_out.push(function.carried_out);
+            losses.push(function.loss);
+        }
         let mut differentiated = |wanted: Option<&'a Differentiated<'g>>, kept: Kept| {
             let (lowered, columns) = wanted.map(|wanted| wanted.lower(&mut hoister, kept, trial)).unzip();
             let (program, expected) = lowered.unzip();
@@ -97,21 +97,20 @@ impl<'g> Kernel<'g> {
         let hessian = wanted.hessian.map(|wanted| wanted.lower(&mut hoister, trial));
         let in_columns = columns.as_ref().map(|columns| &columns.program);
         let derived = tangents.iter().chain(in_columns).chain(&inverse).chain(&regressor).chain(&hessian);
-        let read: Vec<Expr<'g>> = functions.iter().chain([&joined]).chain(derived).flat_map(Program::symbols).collect();
+        let read: Vec<Expr<'g>> = programs.iter().chain([&joined]).chain(derived).flat_map(Program::symbols).collect();
         let numbers: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
         let source = Source { read: &read, literals: literals.map(|_| &numbers) };
         let lowered =
-            wanted.by_parameters.map(|by| by.lower(graph, (&functions, &chosen), &source, &mut hoister, trial));
+            wanted.by_parameters.map(|by| by.lower(graph, (&programs, &chosen), &source, &mut hoister, trial));
         let (by_parameters, hoisted) = lowered.unzip();
         let (by_parameters, expected_by_parameters) = by_parameters.unzip();
         let hoisted = hoisted.unwrap_or_else(|| source.hoisted(&hoister, &[]));
         let Hoisted { constants: Constants { program, symbols: constant_symbols }, known: known_constants, folded } =
             hoisted;
-        let functions = functions.into_iter().zip(candidates).map(|(program, of)| of.carried_out(program)).collect();
         let kernel = Self {
             constants: program,
-            functions,
+            functions: carried_out,
             losses,
             joined,
             tangents,
@@ -164,18 +163,15 @@ impl<'g> Kernel<'g> {
 
 /// Several functions in one program, of each what was taken and what comes first where that keeps the digits. What wins alone may have less in
 /// common with the rest than what comes first: it is replaced where that costs less.
-fn lower_together<'g>(
-    hoister: &mut Hoister<'_, 'g>,
-    functions: &[[Option<&[Expr<'g>]>; 2]],
-) -> (Program<'g>, Vec<Expr<'g>>) {
+fn lower_together<'g>(hoister: &mut Hoister<'_, 'g>, functions: &[&Taken<'_, 'g>]) -> (Program<'g>, Vec<Expr<'g>>) {
     let mut lower = |parts: &[&[Expr<'g>]]| {
         let outputs = parts.concat();
         (Program::lower(&hoister.hoist(&outputs)), outputs)
     };
-    let mut parts: Vec<&[Expr<'g>]> = functions.iter().filter_map(|[taken, _]| *taken).collect();
+    let mut parts: Vec<&[Expr<'g>]> = functions.iter().map(|function| function.outputs).collect();
     let mut best = lower(&parts);
-    for (place, [_, first]) in functions.iter().enumerate() {
-        let Some(first) = first.filter(|first| *first != parts[place]) else { continue };
+    for (place, function) in functions.iter().enumerate() {
+        let Some(first) = function.first.filter(|first| *first != parts[place]) else { continue };
         let won = std::mem::replace(&mut parts[place], first);
         let other = lower(&parts);
         if other.0.cost().total() < best.0.cost().total() {
@@ -184,5 +180,7 @@ fn lower_together<'g>(
             parts[place] = won;
         }
     }
-    (best.0.with_signs_led_back().carried_out(), best.1)
+    let fused = best.0.with_signs_led_back().with_products_in_sums();
+    let keep_their_digits = functions.iter().all(|function| function.begun);
+    (if keep_their_digits { fused.with_sums_begun() } else { fused }.ordered(), best.1)
 }

@@ -24,9 +24,8 @@ impl<S: Copy> Code<S> {
         let fused = self.instructions.iter().zip(&taken).map(|(instruction, product)| {
             let Some(product) = *product else { return *instruction };
             let Instruction::Multiply(a, b) = self.instructions[product] else { return *instruction };
-            let is_product = |operand: &Operand<S>| matches!(operand, Operand::Value(k) if *k == product);
             match *instruction {
-                Instruction::Add(x, y) if is_product(&y) => Instruction::MultiplyAdd(a, b, x),
+                Instruction::Add(x, y) if y.is_result_of(product) => Instruction::MultiplyAdd(a, b, x),
                 Instruction::Add(_, y) => Instruction::MultiplyAdd(a, b, y),
                 Instruction::Subtract(x, _) => Instruction::MultiplySubtract(a, b, x),
                 other => other,
@@ -49,10 +48,9 @@ impl<S: Copy> Code<S> {
 
     /// Whether that sum can have the product as its product.
     fn takes(&self, sum: usize, product: usize) -> bool {
-        let is_product = |operand: &Operand<S>| matches!(operand, Operand::Value(k) if *k == product);
-        match &self.instructions[sum] {
-            Instruction::Add(a, b) => is_product(a) != is_product(b),
-            Instruction::Subtract(a, b) => !is_product(a) && is_product(b),
+        match self.instructions[sum] {
+            Instruction::Add(a, b) => a.is_result_of(product) != b.is_result_of(product),
+            Instruction::Subtract(a, b) => !a.is_result_of(product) && b.is_result_of(product),
             _ => false,
         }
     }

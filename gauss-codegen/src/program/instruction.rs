@@ -86,6 +86,11 @@ impl<S: Copy> Operand<S> {
         }
     }
 
+    /// Whether it is a result of that instruction.
+    pub(super) fn is_result_of(self, k: usize) -> bool {
+        self.instruction() == Some(k)
+    }
+
     /// The same with the instruction that it is a result of at another place.
     pub fn moved(self, place: impl FnOnce(usize) -> usize) -> Self {
         match self {

@@ -34,6 +34,7 @@
 //! operands is written, and how results are handed back; [`targets::c`](crate::targets::c) is the shortest example.
 
 mod angles;
+mod beginnings;
 mod code;
 mod cost;
 mod function;

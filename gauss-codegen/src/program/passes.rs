@@ -15,6 +15,8 @@ pub(crate) enum Pass {
     Signs,
     /// A product that several sums read, and nothing else, is fused with an addition of each.
     ProductsInSums,
+    /// A sum of products begins with what is added to it.
+    Beginnings,
 }
 
 impl Pass {
@@ -27,8 +29,8 @@ impl Pass {
     #[cfg(test)]
     pub(crate) fn is_made(self) -> bool {
         let left_out = LEFT_OUT.get();
-        // What the first leaves the second would fuse.
-        let fused = self == Pass::ProductsInSums && left_out == Some(Pass::Fusing);
+        // What the first leaves the others would fuse.
+        let fused = matches!(self, Pass::ProductsInSums | Pass::Beginnings) && left_out == Some(Pass::Fusing);
         left_out != Some(self) && !fused
     }
 
