@@ -1,7 +1,12 @@
 //! `RUSTFLAGS="-C target-cpu=native" cargo bench -p gauss-benches --bench ensembles [-- A B C]`: many runs with steps of their
 //! own on one thread, beside runs one after another. `benches/peers/ensembles.py` is the same with heyoka.
 //!
-//! µs a trajectory and simulated second, the fastest of many rounds, and the largest error of the attitude at the end.
+//! µs a trajectory and simulated second, the fastest of many rounds, and the largest error of the attitude at the end. With
+//! `--features threads` a second table: more trajectories, on 1, 2, 4 … threads, in turn.
+
+#[cfg(feature = "threads")]
+#[path = "ensembles/threads.rs"]
+mod threads;
 
 use std::time::Instant;
 
@@ -134,15 +139,21 @@ fn main() {
     if asked("C") {
         c();
     }
+    #[cfg(feature = "threads")]
+    threads::table(asked);
 }
 
-fn a() {
-    let case = Case {
+fn case_a() -> Case<UnitQuaternion<f64>, Vector3<f64>> {
+    Case {
         name: "A",
         duration: 100.0,
         start: (UnitQuaternion::identity(), Vector3::new(0.01, 1.0, 0.01)),
         end: quaternion([0.9654395742742695, -7.971609403978595e-05, -0.260156908801055, -0.015646241514854095]),
-    };
+    }
+}
+
+fn a() {
+    let case = case_a();
     let kernels = case!(
         &case,
         free_top,
@@ -161,13 +172,17 @@ fn a() {
     line(&case, "closed form", kernels, controls);
 }
 
-fn b() {
-    let case = Case {
+fn case_b() -> Case<UnitQuaternion<f64>, Vector3<f64>> {
+    Case {
         name: "B",
         duration: 20.0,
         start: (quaternion([0.24740395925452294, 0.0, 0.0, 0.9689124217106447]), Vector3::new(0.0, 0.0, 15.0)),
         end: quaternion([-0.24875095621040977, -0.003645005941271747, -0.5907343441740279, -0.7675562587389774]),
-    };
+    }
+}
+
+fn b() {
+    let case = case_b();
     let kernels = case!(
         &case,
         symmetric_top,
@@ -182,13 +197,17 @@ fn b() {
     adams::<_, _, 11>(&case, kernels, 3400);
 }
 
-fn c() {
-    let case = Case {
+fn case_c() -> Case<Isometry3<f64>, Vector6<f64>> {
+    Case {
         name: "C",
         duration: 10.0,
         start: (Isometry3::identity(), Vector6::new(1.0, 0.2, -0.1, 0.5, -0.3, 0.4)),
         end: quaternion([-0.14624540214346288, -0.09108370747518893, 0.7755064251707701, -0.607376180882428]),
-    };
+    }
+}
+
+fn c() {
+    let case = case_c();
     let kernels = case!(
         &case,
         immersed,
