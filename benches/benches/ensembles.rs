@@ -1,8 +1,8 @@
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p gauss-benches --bench ensembles [-- A B C]`: many runs with steps of their
-//! own on one thread, beside runs one after another. `benches/peers/ensembles.py` is the same with heyoka.
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p gauss-benches --bench ensembles [-- A B C]`: many runs with steps
+//! of their own on one thread, beside runs one after another. `benches/peers/ensembles.py` is the same with heyoka.
 //!
-//! µs a trajectory and simulated second, the fastest of many rounds, and the largest error of the attitude at the end. With
-//! `--features threads` a second table: more trajectories, on 1, 2, 4 … threads, in turn.
+//! µs a trajectory and simulated second, the fastest of many rounds, and the largest error of the attitude at the end.
+//! With `--features threads` a second table: more trajectories, on 1, 2, 4 … threads, in turn.
 
 #[cfg(feature = "threads")]
 #[path = "ensembles/threads.rs"]

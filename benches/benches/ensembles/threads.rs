@@ -11,7 +11,7 @@ use wide::f64x8;
 
 use super::{Attitude, Case, angle, case_a, case_b, case_c};
 
-/// How many trajectories there are: 64 for each of four threads, done before others are likely to want their processors.
+/// How many trajectories there are: 64 for each of four threads, done before other programs want their processors.
 const RUNS: usize = 256;
 
 /// How often each number of threads is measured.
