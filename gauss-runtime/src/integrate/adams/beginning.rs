@@ -7,14 +7,16 @@
 //! the product is largest.
 
 use super::formula::MOST;
-use super::{begin, point};
 use crate::configuration::Configuration;
+use crate::integrate::drive::fixed::Advanced;
 use crate::integrate::drive::projection::accept;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State};
-use crate::integrate::runge_kutta::components::Point;
+use crate::integrate::runge_kutta::components::{ComponentsOf, Point, RungeKutta};
+use crate::integrate::runge_kutta::tableau::{DormandPrince5, DormandPrince8};
 use crate::integrate::step::checks::check_chart;
+use crate::integrate::step::one_step::OneStep;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -169,4 +171,25 @@ fn ahead<S: GaussSystem, P: Problem<System = S>, const K: usize>(
         ahead[*at - 1] = (state, rates);
     }
     Ok(ahead)
+}
+
+/// A step by the method that begins runs, of at least the order that K needs as far as there is one.
+pub(super) fn begin<S: GaussSystem, P: Problem<System = S>, const K: usize>(
+    problem: &P,
+    state: &State<S>,
+    rates: &Rates<S>,
+    h: S::Scalar,
+) -> Result<Advanced<S>, IntegrationErrorKind> {
+    let step = if K > 5 {
+        RungeKutta(DormandPrince8).step(problem, state, rates, h)
+    } else {
+        RungeKutta(DormandPrince5).step(problem, state, rates, h)
+    };
+    step.map(|step| (step.state, step.rates))
+}
+
+/// The derivatives at a state in the space of steps.
+#[inline(always)]
+pub(super) fn point<S: GaussSystem>(q: &S::Configuration, rates: &Rates<S>) -> Point<ComponentsOf<S>, S::Speeds> {
+    Point { components: q.component_rates(&rates.configuration), variables: rates.variables }
 }

@@ -4,8 +4,8 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::beginning::Ahead;
-use super::{Adams, History, begin, multistep, point};
+use super::beginning::{Ahead, begin, point};
+use super::{Adams, History, multistep};
 use crate::batch::BatchSystem;
 use crate::integrate::drive::cause::Gave;
 use crate::integrate::drive::fixed::Advanced;

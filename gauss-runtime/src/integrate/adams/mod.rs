@@ -18,18 +18,17 @@ use core::ops::ControlFlow;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::{Control, Emit, one_step};
-use crate::integrate::drive::fixed::{Advanced, OneLength};
+use crate::integrate::drive::fixed::OneLength;
 use crate::integrate::problem::called::Called;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::runge_kutta::components::{ComponentsOf, Point, RungeKutta};
-use crate::integrate::runge_kutta::tableau::{DormandPrince5, DormandPrince8};
+use crate::integrate::runge_kutta::tableau::DormandPrince8;
 use crate::integrate::step::checks::{check_chart, check_turn};
-use crate::integrate::step::one_step::OneStep;
 use crate::real::Real;
 use crate::system::GaussSystem;
-use beginning::Ahead;
+use beginning::{Ahead, begin, point};
 use formula::Formula;
 
 /// Adams' method of K steps, 2 to 12, with steps of one length: of order K + 1, or 9 for K from 9 on, because of how it begins.
@@ -132,12 +131,6 @@ impl<C: Copy, Y: Copy, const K: usize, const ROOM: usize> History<C, Y, K, ROOM>
     }
 }
 
-/// The derivatives at a state in the space of steps.
-#[inline(always)]
-fn point<S: GaussSystem>(q: &S::Configuration, rates: &Rates<S>) -> Point<ComponentsOf<S>, S::Speeds> {
-    Point { components: q.component_rates(&rates.configuration), variables: rates.variables }
-}
-
 /// Prediction, evaluation, correction.
 #[inline(always)]
 fn multistep<S: GaussSystem, P: Problem<System = S>, const K: usize>(
@@ -166,21 +159,6 @@ fn multistep<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     } else {
         Err(IntegrationErrorKind::NonFinite { part: Part::Step })
     }
-}
-
-/// A step by the method that begins runs, of at least the order that K needs as far as there is one.
-fn begin<S: GaussSystem, P: Problem<System = S>, const K: usize>(
-    problem: &P,
-    state: &State<S>,
-    rates: &Rates<S>,
-    h: S::Scalar,
-) -> Result<Advanced<S>, IntegrationErrorKind> {
-    let step = if K > 5 {
-        RungeKutta(DormandPrince8).step(problem, state, rates, h)
-    } else {
-        RungeKutta(DormandPrince5).step(problem, state, rates, h)
-    };
-    step.map(|step| (step.state, step.rates))
 }
 
 /// The steps before there is a history.
