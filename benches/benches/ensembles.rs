@@ -220,6 +220,6 @@ fn c() {
     let kernels = (&kernels.0, &kernels.1);
     adams::<_, _, 8>(&case, kernels, 700);
     adams::<_, _, 10>(&case, kernels, 540);
-    adams::<_, _, 11>(&case, kernels, 440);
-    adams::<_, _, 12>(&case, kernels, 400);
+    adams::<_, _, 11>(&case, kernels, 420);
+    adams::<_, _, 12>(&case, kernels, 376);
 }
