@@ -30,11 +30,11 @@ macro_rules! heavy {
     };
 }
 
-/// S3, in one of the charts.
-macro_rules! immersed {
-    ($name:ident [$($generics:tt)*] $t:ident $chart:ident) => {
+/// A body in water, by its clauses and with what else it has.
+macro_rules! in_water {
+    ($name:ident [$($generics:tt)*] $t:ident ($($clauses:tt)*) { $($others:tt)* }) => {
         #[derive(Clone, Copy, GaussDynamics)]
-        #[gauss(chart = $chart)]
+        #[gauss($($clauses)*)]
         struct $name $($generics)* {
             #[gauss(mass)]
             mass: $t,
@@ -48,39 +48,34 @@ macro_rules! immersed {
             g: $t,
             #[gauss(displaced_mass)]
             displaced: $t,
-            #[gauss(center_of_buoyancy)]
-            buoyancy: Vector3<$t>,
+            $($others)*
         }
     };
 }
 
-/// A vehicle in water, with drag and a fin.
+/// S3, in one of the charts.
+macro_rules! immersed {
+    ($name:ident $generics:tt $t:ident $chart:ident) => {
+        in_water!($name $generics $t (chart = $chart) {
+            #[gauss(center_of_buoyancy)]
+            buoyancy: Vector3<$t>,
+        });
+    };
+}
+
+/// A vehicle, with drag and a fin.
 macro_rules! vehicle {
-    ($name:ident [$($generics:tt)*] $t:ident) => {
-        #[derive(Clone, Copy, GaussDynamics)]
-        #[gauss(
+    ($name:ident $generics:tt $t:ident) => {
+        in_water!($name $generics $t (
             chart = left_invariant,
             define(v = body.relative_velocity),
             drag(linear = drag),
             force(fin, at = tail, value = [0, lift * v.x * v.y, lift * v.x * v.z])
-        )]
-        struct $name $($generics)* {
-            #[gauss(mass)]
-            mass: $t,
-            #[gauss(center_of_mass)]
-            center: Vector3<$t>,
-            #[gauss(inertia)]
-            inertia: Vector3<$t>,
-            #[gauss(added_mass)]
-            added: Matrix6<$t>,
-            #[gauss(gravity)]
-            g: $t,
-            #[gauss(displaced_mass)]
-            displaced: $t,
+        ) {
             drag: Matrix6<$t>,
             tail: Vector3<$t>,
             lift: $t,
-        }
+        });
     };
 }
 

@@ -193,3 +193,47 @@ pub(super) fn begin<S: GaussSystem, P: Problem<System = S>, const K: usize>(
 pub(super) fn point<S: GaussSystem>(q: &S::Configuration, rates: &Rates<S>) -> Point<ComponentsOf<S>, S::Speeds> {
     Point { components: q.component_rates(&rates.configuration), variables: rates.variables }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of powers up to 2m + 1 Hermite's polynomial is all there is; of the next one `Π(t − tᵢ)²` is left. Each weight, of a size up to
+    /// `size`, and each sum is rounded, some hundred times in all.
+    #[test]
+    fn states_between_are_those_of_polynomials() {
+        fn check<const K: usize>() -> f64 {
+            let ends = &Beginning::<K>::NODES[..=Beginning::<K>::LENGTHS.len()];
+            assert_eq!(ends.last(), Some(&(K - 1)));
+            let (between, count) = &Beginning::<K>::BETWEEN;
+            assert_eq!(count + ends.len(), K);
+            let power = |t: usize, n: usize| (t as f64).powi(n as i32);
+            let mut largest = 0.0_f64;
+            for Between { at, near, values, slopes } in &between[..*count] {
+                for n in 0..=2 * ends.len() {
+                    let (mut value, mut size) = (power(ends[*near], n), power(K - 1, n));
+                    for (i, &end) in ends.iter().enumerate() {
+                        let slope = if n == 0 { 0.0 } else { n as f64 * power(end, n - 1) };
+                        let parts = [values[i] * (power(end, n) - power(ends[*near], n)), slopes[i] * slope];
+                        value += parts[0] + parts[1];
+                        size += parts[0].abs() + parts[1].abs();
+                    }
+                    let product: f64 = ends.iter().map(|&end| (*at as f64 - end as f64).powi(2)).product();
+                    let left = if n == 2 * ends.len() { product } else { 0.0 };
+                    let error = (power(*at, n) - value - left).abs();
+                    assert!(error <= 128.0 * f64::EPSILON * size, "{K} steps, state {at}, power {n}: {error:e}");
+                    let factorial: f64 = (1..=2 * ends.len()).map(|k| k as f64).product();
+                    largest = largest.max(product / factorial);
+                }
+            }
+            largest
+        }
+        check::<6>();
+        check::<7>();
+        check::<8>();
+        check::<9>();
+        assert!((0.010..0.0105).contains(&check::<10>()));
+        check::<11>();
+        check::<12>();
+    }
+}

@@ -75,7 +75,7 @@ pub(in crate::integrate) struct OneLength<S: GaussSystem> {
 }
 
 impl<S: GaussSystem> OneLength<S> {
-    /// Steps of length |length|, of which none is made. Nothing where the run has ended with that.
+    /// Steps of length |length|, of which none is made; the start instead where the run has ended with that.
     #[inline]
     pub fn new<P: Problem<System = S>>(
         (length, stiff): (S::Scalar, bool),
