@@ -25,7 +25,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{}", report::costs(&timings)?);
     println!("{}", report::results(&comparison)?);
 
-    fs::create_dir_all(&folder)?;
     let svg = figure::svg(&comparison, &timings)?;
     let page = figure::page(&fleet.kirchhoff, &comparison).html()?;
     let files = [
@@ -41,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("written:");
     for (name, contents, what) in files {
         let path = folder.join(name);
-        fs::write(&path, contents)?;
+        gauss_files::write(&path, contents)?;
         println!("  {}   {what}", path.display());
     }
     Ok(())

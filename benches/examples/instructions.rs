@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     if std::env::args().any(|argument| argument == "--write") {
         let lines = counts.iter().map(|(name, count)| format!("{name},{count}\n"));
-        fs::write(&table, format!("{compiler}\n{}", lines.collect::<String>()))?;
+        gauss_files::write(&table, format!("{compiler}\n{}", lines.collect::<String>()))?;
         return Ok(());
     }
     let known = fs::read_to_string(&table)?;

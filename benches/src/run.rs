@@ -52,7 +52,6 @@ pub fn run(cases: Vec<Case>, file: &str) -> Result<(), Box<dyn Error>> {
     let table = table(&rows);
     println!("{table}");
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/gauss");
-    fs::create_dir_all(&folder)?;
-    fs::write(folder.join(file), table)?;
+    gauss_files::write(folder.join(file), table)?;
     Ok(())
 }

@@ -39,7 +39,7 @@ pub fn show(wanted: &Show) -> Result<(), String> {
             .join("\n"),
     };
     match &wanted.output {
-        Some(path) => fs::write(path, text).map_err(|error| format!("{}: {error}", path.display())),
+        Some(path) => gauss_files::write(path, text).map_err(|error| format!("{}: {error}", path.display())),
         None => {
             print!("{text}");
             Ok(())

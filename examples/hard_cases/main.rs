@@ -39,7 +39,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{passed} of {} targets reached in {} cases", all.len(), results.len());
 
     let folder = Path::new("target/gauss");
-    fs::create_dir_all(folder)?;
     let svg = picture::draw(&results)?;
     for (name, contents) in [
         ("hard_cases.csv", report::csv(&results)?),
@@ -47,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("hard_cases.png", png(&svg)?),
         ("hard_cases.svg", svg.into_bytes()),
     ] {
-        fs::write(folder.join(name), contents)?;
+        gauss_files::write(folder.join(name), contents)?;
         println!("written: {}", folder.join(name).display());
     }
     Ok(())

@@ -48,7 +48,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     bar.finish_and_clear();
 
     println!("{}\n", tables::console(&studies));
-    fs::create_dir_all(&folder)?;
     let picture = overview::overview(&studies, &machine);
     for (name, contents) in [
         ("speed_vs_error.html", page::page(&studies, &machine, quick).into_bytes()),
@@ -58,7 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("speed_vs_error.png", figure::png(&picture)?),
     ] {
         let file = folder.join(name);
-        fs::write(&file, contents)?;
+        gauss_files::write(&file, contents)?;
         println!("written: {}", file.display());
     }
     Ok(())

@@ -268,10 +268,9 @@ pub fn write(name: &str, svg: &str) -> Result<(), Box<dyn Error>> {
 /// # Errors
 /// When a file cannot be written, or the text is no SVG.
 pub fn write_into(folder: &Path, name: &str, svg: &str) -> Result<(), Box<dyn Error>> {
-    fs::create_dir_all(folder)?;
     let put = |ending: &str, contents: &[u8]| {
         let file = folder.join(format!("{name}.{ending}"));
-        fs::write(&file, contents)?;
+        gauss_files::write(&file, contents)?;
         println!("written: {}", file.display());
         Ok::<(), std::io::Error>(())
     };

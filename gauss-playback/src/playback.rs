@@ -1,5 +1,6 @@
 //! What is shown, gathered call by call.
 
+#[cfg(feature = "urdf")]
 use std::fs;
 use std::path::Path;
 
@@ -13,6 +14,9 @@ use crate::shape::Shape;
 
 /// Pictures of a run: at 60 a second it takes ten seconds to play.
 const PICTURES: u32 = 600;
+
+/// Of a number that cannot be shown.
+const OUT_OF_RANGE: &str = "is not finite, or larger than a page can show (1.7e38)";
 
 /// A motion to be shown. What is added to it is computed at once, for all times; mistakes are gathered and told by
 /// [`html`](Self::html) and [`write`](Self::write).
@@ -50,6 +54,9 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         let mut playback = Self { samples, page: Page::new(title, times), mistakes: Vec::new() };
         if playback.samples.is_empty() {
             playback.mistakes.push("there are no samples to show".to_owned());
+        }
+        if let Some(sample) = playback.samples.iter().find(|sample| !sample.t.is_finite()) {
+            playback.mistakes.push(format!("a sample is at the time {}", sample.t));
         }
         playback
     }
@@ -89,17 +96,15 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         if self.page.bodies.iter().any(|body| body.name == name) {
             self.mistakes.push(format!("two bodies are called `{name}`"));
         }
-        if let Some(n) = poses.iter().position(|pose| !pose.iter().all(|number| number.is_finite())) {
-            self.mistakes.push(format!("the pose of `{name}` is not finite at t = {}", self.samples[n].t));
-        }
+        self.look_at(&format!("pose of `{name}`"), &poses);
         self.page.bodies.push(Body { name: name.to_owned(), poses, shapes: Vec::new() });
     }
 
     /// A shape more of a body.
     #[must_use]
     pub fn shape(mut self, body: &str, shape: Shape) -> Self {
-        if !shape.is_finite() {
-            self.mistakes.push(format!("a shape of `{body}` is not finite"));
+        if !shape.can_be_shown() {
+            self.mistakes.push(format!("a shape of `{body}` {OUT_OF_RANGE}"));
         }
         if let Some(body) = self.index_of(body) {
             self.page.bodies[body].shapes.push(shape);
@@ -136,6 +141,9 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     /// A rod from the origin of one body to that of another, as a skeleton has them.
     #[must_use]
     pub fn rod(mut self, from: &str, to: &str, radius: f64) -> Self {
+        if !(radius >= 0.0 && page::can_be_shown(&[radius])) {
+            self.mistakes.push(format!("the rod from `{from}` to `{to}` has the radius {radius}"));
+        }
         if let (Some(from), Some(to)) = (self.index_of(from), self.index_of(to)) {
             self.page.rods.push(Rod { from, to, radius });
         }
@@ -145,6 +153,9 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     /// The path of a point of a body, body axes from O.
     #[must_use]
     pub fn trace(mut self, body: &str, point: [f64; 3]) -> Self {
+        if !page::can_be_shown(&point) {
+            self.mistakes.push(format!("the point of a trace of `{body}` {OUT_OF_RANGE}"));
+        }
         if let Some(body) = self.index_of(body) {
             self.page.traces.push(Trace { body, point });
         }
@@ -155,7 +166,7 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     /// `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂, `[0.0, 1.0, 0.0]`.
     #[must_use]
     pub fn up(mut self, direction: [f64; 3]) -> Self {
-        if !direction.iter().all(|number| number.is_finite()) || direction == [0.0; 3] {
+        if !page::can_be_shown(&direction) || direction == [0.0; 3] {
             self.mistakes.push("what is up has no direction".to_owned());
         }
         self.page.up = direction;
@@ -200,9 +211,7 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
                 [at.x, at.y, at.z, vector.x * scale, vector.y * scale, vector.z * scale]
             })
             .collect();
-        if let Some(n) = both.iter().position(|all| !all.iter().all(|number| number.is_finite())) {
-            self.mistakes.push(format!("the arrow `{name}` is not finite at t = {}", self.samples[n].t));
-        }
+        self.look_at(&format!("arrow `{name}`"), &both);
         self.page.arrows.push(Arrow { name: name.to_owned(), values: both });
         self
     }
@@ -242,16 +251,20 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         }
     }
 
-    /// Writes the page to a file, and the folders above it where they are missing.
+    /// Writes the page to a file, and the folders above it where they are missing. A file that is there stays as it is
+    /// until the new one is whole.
     ///
     /// # Errors
     /// As [`html`](Self::html), and [`PlaybackError::Io`].
     pub fn write(&self, file: impl AsRef<Path>) -> Result<(), PlaybackError> {
-        let page = self.html()?;
-        if let Some(folder) = file.as_ref().parent() {
-            fs::create_dir_all(folder)?;
+        Ok(gauss_files::write(file, self.html()?)?)
+    }
+
+    /// Notes the first time at which what is shown has a number that the page cannot show.
+    fn look_at<const N: usize>(&mut self, what: &str, rows: &[[f64; N]]) {
+        if let Some(n) = rows.iter().position(|row| !page::can_be_shown(row)) {
+            self.mistakes.push(format!("the {what} {OUT_OF_RANGE} at t = {}", self.samples[n].t));
         }
-        Ok(fs::write(file, page)?)
     }
 
     fn index_of(&mut self, name: &str) -> Option<usize> {

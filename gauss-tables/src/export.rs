@@ -1,6 +1,5 @@
 //! The methods that tables get.
 
-use std::fs;
 use std::path::Path;
 
 use gauss_runtime::integrate::Table;
@@ -8,7 +7,8 @@ use gauss_runtime::system::GaussSystem;
 
 use crate::error::TableError;
 
-/// Files and plots of a [`Table`]. Folders above a file are made where they are missing.
+/// Files and plots of a [`Table`]. Folders above a file are made where they are missing; a file that cannot be written
+/// whole, as on a full disk, leaves the one before it unchanged.
 pub trait Export {
     /// Writes CSV: names and units in the first line, and every digit.
     ///
@@ -88,8 +88,6 @@ impl<S: GaussSystem> Export for Table<S> {
     }
 }
 
-/// A file, and the folders above it.
 fn write(file: &Path, bytes: &[u8]) -> Result<(), TableError> {
-    let folders = file.parent().map_or(Ok(()), fs::create_dir_all);
-    folders.and_then(|()| fs::write(file, bytes)).map_err(|source| TableError::Io { file: file.to_owned(), source })
+    gauss_files::write(file, bytes).map_err(|source| TableError::Io { file: file.to_owned(), source })
 }

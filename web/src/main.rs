@@ -1,8 +1,8 @@
 //! Writes the front page: `cargo run -p gauss-web [-- FILE]`.
 
+use std::env;
 use std::error::Error;
 use std::path::PathBuf;
-use std::{env, fs};
 
 use gauss_web::{build, page};
 
@@ -10,10 +10,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss/gauss.html"), PathBuf::from);
     let small = ["--release", "--config=profile.release.lto='fat'", "--config=profile.release.panic='abort'"];
     let page = page::html(&build::kernels(&small)?);
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder)?;
-    }
-    fs::write(&file, &page)?;
+    gauss_files::write(&file, &page)?;
     println!("written: {} ({} kB)", file.display(), page.len() / 1000);
     Ok(())
 }

@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let before = against.map(|file| Ok::<_, Box<dyn Error>>(read(&fs::read_to_string(file)?))).transpose()?;
     print!("{}", table(&rows, before.as_ref()));
     if let Some(file) = write {
-        fs::write(file, csv(&rows))?;
+        gauss_files::write(file, csv(&rows))?;
     }
     Ok(())
 }
