@@ -73,6 +73,12 @@ pub struct Curve {
     pub values: Vec<f64>,
 }
 
+/// Whether numbers can be shown: finite as `f32`, as which the page has poses and arrows. Half of the largest `f32` is
+/// the limit, so that rounding stays below it and differences of two are finite as well.
+pub fn can_be_shown(numbers: &[f64]) -> bool {
+    numbers.iter().all(|number| number.abs() <= f64::from(f32::MAX / 2.0))
+}
+
 /// Numbers as a screen shows them: `f32` has more digits than it has pixels, and half the length.
 fn short<const N: usize, S: Serializer>(rows: &[[f64; N]], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(rows.iter().map(|row| row.map(|number| number as f32).to_vec()))
@@ -96,17 +102,31 @@ impl Page {
 
     /// One file with everything in it.
     pub fn html(&self) -> String {
-        // Inside a script `</` could end it; in strings of JSON the slash may be escaped.
-        let data = serde_json::to_string(self).expect("numbers and strings").replace("</", "<\\/");
+        // No `<` in a script: `</script` would end it, and after `<!--<script` its end would not be found. JSON has `<`
+        // in strings alone, where it may be escaped.
+        let data = serde_json::to_string(self).expect("numbers and strings").replace('<', "\\u003c");
         let title = self.title.replace('&', "&amp;").replace('<', "&lt;");
         let scripts = [SOLIDS, STAGE, CURVES, CAMERA, PLAYER].concat();
-        // The data last: what they hold is not searched for marks.
-        TEMPLATE
-            .replace("{{title}}", &title)
-            .replace("{{style}}", STYLE)
-            .replace("{{scripts}}", &scripts)
-            .replace("{{data}}", &data)
+        filled(TEMPLATE, |place| match place {
+            "title" => &title,
+            "style" => STYLE,
+            "scripts" => &scripts,
+            "data" => &data,
+            _ => unreachable!("a place of the template without contents: {place}"),
+        })
     }
+}
+
+/// A template with contents in the place of each `{{name}}`. Contents are copied as they are: a title may be `{{data}}`.
+fn filled<'a>(template: &str, contents: impl Fn(&str) -> &'a str) -> String {
+    let mut parts = template.split("{{");
+    let mut page = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (place, rest) = part.split_once("}}").expect("every place of the template is closed");
+        page += contents(place);
+        page += rest;
+    }
+    page
 }
 
 /// Position and quaternion.

@@ -3,7 +3,7 @@
 use gauss_runtime::prelude::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use serde::Serialize;
 
-use crate::page::pose;
+use crate::page::{can_be_shown, pose};
 
 /// A solid fixed in a body. Two shades in eight parts of it show how it turns.
 #[derive(Clone, Debug, Serialize)]
@@ -73,9 +73,14 @@ impl Shape {
     /// The ellipsoid of uniform density with this mass, centre of mass c (body axes from O), and inertia about c (body axes): what can
     /// be drawn of a body of which only these are known. Its semi-axes obey `m (b² + c²)/5 = I₁` and so on.
     ///
-    /// A moment that exceeds the sum of the two others belongs to no body; the semi-axis is drawn as if it did not.
+    /// A moment that exceeds the sum of the two others belongs to no body; the semi-axis is drawn as if it did not. An
+    /// inertia that is not finite, or a mass that is not positive, has a shape that a page refuses.
     #[must_use]
     pub fn of_inertia(mass: f64, center: [f64; 3], inertia: &Matrix3<f64>) -> Self {
+        // With a number that is not finite, or whose square is not, the iteration would never end.
+        if !inertia.iter().all(|moment| (moment * moment).is_finite()) {
+            return Self::ball(f64::NAN);
+        }
         let principal = inertia.symmetric_eigen();
         let sum = principal.eigenvalues.sum();
         let semi_axes = principal.eigenvalues.map(|moment| (2.5 / mass * (sum - 2.0 * moment)).max(0.0).sqrt());
@@ -102,8 +107,8 @@ impl Shape {
         self
     }
 
-    /// All numbers, to be checked.
-    pub(crate) fn is_finite(&self) -> bool {
-        self.size.iter().chain(&self.pose).all(|number| number.is_finite())
+    /// Whether all numbers can be shown.
+    pub(crate) fn can_be_shown(&self) -> bool {
+        can_be_shown(&self.size) && can_be_shown(&self.pose)
     }
 }

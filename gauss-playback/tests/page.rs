@@ -66,6 +66,38 @@ fn poses_are_those_of_the_kernel_and_nothing_comes_from_elsewhere() -> Result<()
     Ok(())
 }
 
+/// Names of robots come from strangers: wherever they stand they are text, and nothing of the page is lost behind them.
+#[test]
+fn names_and_titles_are_text() -> Result<(), Box<dyn std::error::Error>> {
+    let kernel = Pendulum {}.kernel()?;
+    let path = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(SVector::zeros(), SVector::zeros(), 0.0..0.1)?;
+    let hostile = [
+        "{{data}}<img src=x onerror=alert(1)>",
+        "{{scripts}}{{style}}",
+        "<!--<script>",
+        "</script>",
+        "]]>",
+        "{{",
+        "}}",
+    ];
+    for text in hostile {
+        let page = Playback::with_pictures(text, &path, 3)?
+            .frames(&kernel)
+            .body(text, |_| Isometry3::identity(), [Shape::ball(1.0).colour(text)])
+            .curve(text, text, |s| s.t)
+            .html()?;
+        let data = data(&page);
+        assert_eq!(data["title"], text);
+        assert_eq!(data["bodies"][2]["name"], text);
+        assert_eq!(data["panels"][0]["curves"][0]["name"], text);
+        let title = text.replace('&', "&amp;").replace('<', "&lt;");
+        assert!(page.contains(&format!("<title>{title}</title>")), "{text}");
+        let open = |mark: &str| page.matches(mark).count();
+        assert_eq!((open("<script"), open("</script>"), open("<img"), open("<!--")), (2, 2, 0, 0), "{text}");
+    }
+    Ok(())
+}
+
 #[test]
 fn all_mistakes_are_told_at_once() -> Result<(), Box<dyn std::error::Error>> {
     let kernel = Pendulum {}.kernel()?;
@@ -75,13 +107,25 @@ fn all_mistakes_are_told_at_once() -> Result<(), Box<dyn std::error::Error>> {
         .frames(&kernel)
         .trace("hand", [0.0; 3])
         .shape("upper", Shape::ball(f64::NAN))
+        .shape("upper", Shape::of_inertia(1.0, [0.0; 3], &Matrix3::from_element(f64::NAN)))
+        .shape("upper", Shape::of_inertia(0.0, [0.0; 3], &Matrix3::identity()))
+        .rod("upper", "lower", f64::NAN)
+        .trace("upper", [f64::INFINITY; 3])
+        .body("far", |_| Isometry3::translation(1e39, 0.0, 0.0), [])
+        .arrow("pull", 1.0, |_| (Vector3::zeros(), Vector3::repeat(-1e300)))
         .curve("", "gap", |s| 1.0 / s.t);
     let Err(PlaybackError::Mistakes(all)) = page.html() else { panic!("mistakes") };
     let expected = [
         "two bodies are called `upper`",
         "two bodies are called `lower`",
         "no body is called `hand`; there are upper, lower, upper, lower",
-        "a shape of `upper` is not finite",
+        "a shape of `upper` is not finite, or larger than a page can show (1.7e38)",
+        "a shape of `upper` is not finite, or larger than a page can show (1.7e38)",
+        "a shape of `upper` is not finite, or larger than a page can show (1.7e38)",
+        "the rod from `upper` to `lower` has the radius NaN",
+        "the point of a trace of `upper` is not finite, or larger than a page can show (1.7e38)",
+        "the pose of `far` is not finite, or larger than a page can show (1.7e38) at t = 0",
+        "the arrow `pull` is not finite, or larger than a page can show (1.7e38) at t = 0",
         "the curve `gap` is not finite at t = 0",
     ];
     assert_eq!(all, expected);
@@ -102,4 +146,8 @@ fn an_ellipsoid_has_the_moments_it_is_drawn_for() {
     for (found, expected) in found.into_iter().zip([0.2, 0.3, 0.5]) {
         assert!((found - expected).abs() < 1e-14);
     }
+    // A planet: its moments are larger than an `f32`, its axes are not.
+    let planet = serde_json::to_value(Shape::of_inertia(1.9e27, [0.0; 3], &Matrix3::from_diagonal_element(3e42)));
+    let radius = planet.expect("numbers")["size"][0].as_f64().expect("a number");
+    assert!((radius / (2.5e42 * 3.0 / 1.9e27_f64).sqrt() - 1.0).abs() < 1e-14);
 }

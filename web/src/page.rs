@@ -66,8 +66,8 @@ fn written(scene: &Entry) -> Written {
 #[must_use]
 pub fn html(kernels: &[u8]) -> String {
     let data = Data { scenes: ALL.iter().map(written).collect(), kernels: BASE64_STANDARD.encode(kernels) };
-    // Inside a script `</` could end it; in strings of JSON the slash may be escaped.
-    let data = serde_json::to_string(&data).expect("numbers and strings").replace("</", "<\\/");
+    // No `<` in a script, which could end it; JSON has it in strings alone, where it may be escaped.
+    let data = serde_json::to_string(&data).expect("numbers and strings").replace('<', "\\u003c");
     // The data last: what they hold is not searched for marks.
     TEMPLATE.replace("{{style}}", &STYLES.concat()).replace("{{scripts}}", &SCRIPTS.concat()).replace("{{data}}", &data)
 }
