@@ -1,6 +1,7 @@
 //! Methods of fixed steps, some steps of each: what they round, and what their coefficients are off by. Methods that
 //! iterate are left out: what is left when they stop is not rounding.
 
+use gauss_runtime::bounded::exact;
 use gauss_runtime::integrate::{
     CommutatorFree4, Compensated, IncrementStep, MoserVeselov, Problem, Rkmk, Scheme, Splitting, State, SystemProblem,
 };
@@ -15,6 +16,12 @@ use crate::compare::{Excess, Random, run};
 #[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), potential = -m * x * t)]
 struct Pull<T> {
     m: T,
+}
+
+#[derive(GaussDynamics)]
+#[gauss(coordinates(x), particle(mass = 1, position = [x, 0, 0]), potential = k / 2 * powi(x, 2))]
+struct Oscillator<T> {
+    k: T,
 }
 
 #[derive(GaussDynamics)]
@@ -84,6 +91,30 @@ fn splitting() {
         let body = Splitting::with(of, Scheme::BLANES_MOAN_4, MoserVeselov::new).expect("a body in its own axes");
         Fixed::by(body, h)
     });
+}
+
+/// How far bounds of a run reach: forgotten correlations let them grow as e^{βLt}, where L is the norm of the Jacobian of
+/// the rates with its signs forgotten, of an oscillator L = ω = 1, and β the sum of the weights |bᵢ| of the method.
+#[test]
+fn bounds_of_a_run_grow_exponentially() {
+    let oscillator = Oscillator { k: Bounded::exact(1.0) }.kernel().expect("a system");
+    let digits = |end: f64| {
+        let (q, z) = (exact(&SVector::from([1.0])), exact(&SVector::from([0.5])));
+        let run = Simulation::new(&oscillator).control(Fixed::with(&Tableau::RK4, Bounded::exact(1.0 / 32.0)));
+        let last = run.run_to_end(q, z, Bounded::exact(0.0)..Bounded::exact(end)).expect("runs");
+        // Of the two numbers one may be near zero.
+        last.q[0].digits().max(last.z[0].digits())
+    };
+    for end in [1.0_f64, 5.0, 10.0, 20.0] {
+        // Each of 32 steps a unit of time rounds some thirty times by half a unit in the last place, of numbers near 1.
+        let rounding = (32.0 * end * 30.0 * 0.5 * f64::EPSILON).log10();
+        let expected = -rounding - end / std::f64::consts::LN_10;
+        assert!(digits(end) > expected, "{end}: {} digits, {expected}", digits(end));
+        // And no faster way is known: e^{Lt} times a single rounding has gone.
+        let most = -f64::EPSILON.log10() - end / std::f64::consts::LN_10 + 1.0;
+        assert!(digits(end) < most, "{end}: {} digits, {most}", digits(end));
+    }
+    assert_eq!(digits(50.0), 0.0, "as the page says");
 }
 
 /// A step alone, before it is added to the state: of stages 0, h/2, h/2, h nothing is rounded but the coefficients and
