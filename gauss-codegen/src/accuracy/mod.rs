@@ -14,4 +14,4 @@ mod tests;
 mod trial;
 
 pub use states::{States, sample_states};
-pub use trial::{Loss, Point, Trial, taken, usable};
+pub use trial::{Loss, Point, Trial, Tried, taken, usable};

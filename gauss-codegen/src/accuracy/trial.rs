@@ -168,7 +168,7 @@ impl Trial {
 
     /// Programs that should compute the same, beside the best of them in 106 binary digits: what it loses of 53 it has to
     /// spare there, unless that is nearly all.
-    pub fn tried(&self, programs: &[&Code<Expr<'_>>]) -> Tried<'_> {
+    pub fn tried(&self, programs: &[&Code<Expr<'_>>]) -> Tried {
         let tapes: Vec<Tape> = programs.iter().map(|program| Tape::new(program)).collect();
         let mut best = 0;
         let mut tried = self.tried_beside(&tapes, best);
@@ -183,32 +183,30 @@ impl Trial {
         tried
     }
 
-    fn tried_beside(&self, tapes: &[Tape], reference: usize) -> Tried<'_> {
+    fn tried_beside(&self, tapes: &[Tape], reference: usize) -> Tried {
         let mut tried = Tried { losses: vec![Loss::default(); tapes.len()], there: Vec::new() };
-        for point in &self.points {
+        for (k, point) in self.points.iter().enumerate() {
             let found: Vec<Vec<f64>> = tapes.iter().map(|tape| tape.run(&point.given, |_| None)).collect();
             let Some(expected) = point.reference(&tapes[reference], &found) else { continue };
             tried.losses.iter_mut().zip(&found).for_each(|(loss, found)| loss.0.push(expected.loss_of(found)));
-            tried.there.push((point, expected));
+            tried.there.push((k, expected));
         }
         tried
+    }
+
+    /// The loss of another program that should compute the same as those that were tried.
+    pub fn loss_of(&self, tried: &Tried, program: &Code<Expr<'_>>) -> Loss {
+        let tape = Tape::new(program);
+        let loss = |(k, expected): &(usize, Reference)| expected.loss_of(&tape.run(&self.points[*k].given, |_| None));
+        Loss(tried.there.iter().map(loss).collect())
     }
 }
 
 /// Programs that were tried.
-pub struct Tried<'a> {
+pub struct Tried {
     pub losses: Vec<Loss>,
-    /// States where there is a value, with what it should be.
-    there: Vec<(&'a Point, Reference)>,
-}
-
-impl Tried<'_> {
-    /// The loss of another program that should compute the same.
-    pub fn loss_of(&self, program: &Code<Expr<'_>>) -> Loss {
-        let tape = Tape::new(program);
-        let loss = |(point, expected): &(&Point, Reference)| expected.loss_of(&tape.run(&point.given, |_| None));
-        Loss(self.there.iter().map(loss).collect())
-    }
+    /// States where there is a value, by their numbers, with what it should be.
+    there: Vec<(usize, Reference)>,
 }
 
 /// How many times the loss of the best a program may have at a state, and what loss may be had anyhow. The errors of n

@@ -166,12 +166,27 @@ impl<'g> Expr<'g> {
     }
 }
 
-/// Σ cᵢ sᵢ of symbols of which one moves at least, with constants of any kind.
-fn is_written_sum(e: Expr<'_>) -> bool {
+/// Whether a power of a sum stays as it is written: of symbols of which one moves at least, with constants of any kind;
+/// of a constant with sines and cosines, such as `R + r cos b`; of a constant with other functions, such as `√u − l`,
+/// where it is squared.
+fn is_written_sum(e: Expr<'_>, exponent: i32) -> bool {
     let NodeView::Sum(terms) = e.view() else { return false };
-    let (fixed, moving): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, e)| e.is_constant());
-    let symbols = moving.iter().all(|(_, e)| matches!(e.view(), NodeView::Symbol(_)));
-    symbols && !moving.is_empty() && fixed.len() + moving.len() > 1
+    let (fixed, moving): (Vec<_>, Vec<_>) = terms.iter().map(|(_, e)| *e).partition(|e| e.is_constant());
+    let symbols = moving.iter().all(|e| matches!(e.view(), NodeView::Symbol(_)));
+    let several = !moving.is_empty() && fixed.len() + moving.len() > 1;
+    let kept = |e: &Expr<'_>| match e.view() {
+        NodeView::Symbol(_) | NodeView::Call(Function::Sin | Function::Cos, _) => true,
+        NodeView::Call(..) => exponent > 1,
+        _ => false,
+    };
+    let multiple = |e: Expr<'_>| match e.view() {
+        NodeView::Product(factors) => match *factors.iter().filter(|(e, _)| !e.is_constant()).collect::<Vec<_>>() {
+            [(moving, 1)] => kept(moving),
+            _ => false,
+        },
+        _ => kept(&e),
+    };
+    several && (symbols || !fixed.is_empty() && moving.into_iter().all(multiple))
 }
 
 impl<'g> Expander<'g> {
@@ -240,7 +255,7 @@ impl<'g> Expander<'g> {
         // Powers of atoms first: cheap, and denominators then cancel as early as possible.
         for &(factor, exponent) in factors {
             let factor = self.graph.expr(factor);
-            if self.whole && is_written_sum(factor) {
+            if self.whole && is_written_sum(factor, exponent) {
                 result = self.multiply(&result, &Polynomial::atom(factor, exponent))?;
                 continue;
             }

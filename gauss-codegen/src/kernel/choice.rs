@@ -1,7 +1,7 @@
 //! The arrangements of one function, and which of them is taken.
 
-use crate::accuracy::{Loss, Trial, taken, usable};
-use crate::algebra::Expr;
+use crate::accuracy::{Loss, Trial, Tried, taken, usable};
+use crate::algebra::{Expr, without_differences};
 
 use super::hoist::Hoister;
 use super::write::Program;
@@ -22,16 +22,29 @@ pub enum Aim {
 }
 
 /// An arrangement with its program.
-struct Lowered<'a, 'g> {
-    outputs: &'a [Expr<'g>],
-    program: Program<'g>,
+pub(super) struct Lowered<'g> {
+    pub outputs: Vec<Expr<'g>>,
+    hoisted: Vec<Expr<'g>>,
+    pub program: Program<'g>,
 }
 
+/// Arrangements as programs, with what they lose and which is the best of them.
+pub(super) struct Pool<'g> {
+    pub lowered: Vec<Lowered<'g>>,
+    pub tried: Tried,
+    pub best: usize,
+}
+
+/// The loss from which on differences of like functions are looked for, and the instructions up to which: in long
+/// programs they are hardly ever alone in a sum, and a second form of each arrangement takes its time.
+const SUSPECT: f64 = 30.0;
+const LONG: usize = 1000;
+
 /// The arrangement that is taken.
-pub(super) struct Taken<'a, 'g> {
-    pub outputs: &'a [Expr<'g>],
+pub(super) struct Taken<'g> {
+    pub outputs: Vec<Expr<'g>>,
     /// The outputs of the first one where that keeps the digits, too.
-    pub first: Option<&'a [Expr<'g>]>,
+    pub first: Option<Vec<Expr<'g>>>,
     pub program: Program<'g>,
     /// The same as it is carried out, and whether sums that are begun by what is added to them keep its digits.
     pub carried_out: Program<'g>,
@@ -48,14 +61,10 @@ impl<'g> Candidates<'g> {
     }
 
     /// The arrangement that is taken.
-    pub(super) fn taken(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Taken<'_, 'g> {
-        let mut lowered = self.lowered(hoister);
-        trial.define(hoister.constants());
-        let programs: Vec<&Program<'g>> = lowered.iter().map(|candidate| &candidate.program).collect();
-        let tried = trial.tried(&programs);
-        let best = taken(&tried.losses, &self.costs(&lowered, hoister));
-        let first = Some(lowered[0].outputs).filter(|_| usable(&tried.losses)[0]);
-        let Lowered { outputs, program } = lowered.swap_remove(best);
+    pub(super) fn taken(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Taken<'g> {
+        let Pool { mut lowered, tried, best } = Pool::of(&self.arrangements, self.aim, hoister, Hoister::hoist, trial);
+        let first = Some(lowered[0].outputs.clone()).filter(|_| usable(&tried.losses)[0]);
+        let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         let loss = tried.losses[best].clone();
         // A power series has a recurrence for every product, and takes a negation of an addend for an instruction like any other.
         if self.aim == Aim::Series {
@@ -66,30 +75,57 @@ impl<'g> Candidates<'g> {
         let Some(sums_begun) = fused.sums_begun() else {
             return Taken { outputs, first, program, carried_out: fused.ordered(), begun: true, loss };
         };
-        let other_loss = tried.loss_of(&sums_begun);
+        let other_loss = trial.loss_of(&tried, &sums_begun);
         let begun = other_loss.keeps(&loss);
         let (carried_out, loss) = if begun { (sums_begun, other_loss) } else { (fused, loss) };
         Taken { outputs, first, program, carried_out: carried_out.ordered(), begun, loss }
     }
+}
 
-    /// The arrangements as programs, in their order; those that are the same once constants are hoisted, once.
-    fn lowered(&self, hoister: &mut Hoister<'_, 'g>) -> Vec<Lowered<'_, 'g>> {
-        let (mut seen, mut lowered) = (Vec::new(), Vec::new());
-        for outputs in &self.arrangements {
-            let hoisted = hoister.hoist(outputs);
-            if !seen.contains(&hoisted) {
-                lowered.push(Lowered { outputs, program: Program::lower(&hoisted) });
-                seen.push(hoisted);
+impl<'g> Pool<'g> {
+    /// Of equal outputs, hoisted in one way or the other. Where the best loses much, each is tried without its differences
+    /// of like functions as well.
+    pub fn of<'a>(
+        arrangements: &[Vec<Expr<'g>>],
+        aim: Aim,
+        hoister: &mut Hoister<'a, 'g>,
+        hoist: fn(&mut Hoister<'a, 'g>, &[Expr<'g>]) -> Vec<Expr<'g>>,
+        trial: &mut Trial,
+    ) -> Self {
+        let mut lowered = Vec::new();
+        let mut add = |arrangements: &[Vec<Expr<'g>>], lowered: &mut Vec<Lowered<'g>>| {
+            for outputs in arrangements {
+                let hoisted = hoist(hoister, outputs);
+                // Those that are the same once constants are hoisted, once.
+                if lowered.iter().all(|other| other.hoisted != hoisted) {
+                    let program = Program::lower(&hoisted);
+                    lowered.push(Lowered { outputs: outputs.clone(), hoisted, program });
+                }
+            }
+            trial.define(hoister.constants());
+            let programs: Vec<&Program<'g>> = lowered.iter().map(|other| &other.program).collect();
+            let costs: Vec<u32> = programs.iter().map(|program| aim.cost(program, hoister)).collect();
+            let tried = trial.tried(&programs);
+            let best = taken(&tried.losses, &costs);
+            (tried, best)
+        };
+        let (mut tried, mut best) = add(arrangements, &mut lowered);
+        if tried.losses[best].worst() > SUSPECT && lowered[best].program.instructions.len() <= LONG {
+            let others: Vec<Vec<Expr<'g>>> =
+                lowered.iter().flat_map(|candidate| without_differences(&candidate.outputs)).collect();
+            if !others.is_empty() {
+                (tried, best) = add(&others, &mut lowered);
             }
         }
-        lowered
+        Self { lowered, tried, best }
     }
+}
 
-    fn costs(&self, candidates: &[Lowered<'_, 'g>], hoister: &Hoister<'_, 'g>) -> Vec<u32> {
-        let cost = |candidate: &Lowered<'_, 'g>| match self.aim {
-            Aim::Values => candidate.program.cost().total(),
-            Aim::Series => candidate.program.series_cost(|symbol| hoister.is_hoisted(symbol)),
-        };
-        candidates.iter().map(cost).collect()
+impl Aim {
+    fn cost<'g>(self, program: &Program<'g>, hoister: &Hoister<'_, 'g>) -> u32 {
+        match self {
+            Aim::Values => program.cost().total(),
+            Aim::Series => program.series_cost(|symbol| hoister.is_hoisted(symbol)),
+        }
     }
 }

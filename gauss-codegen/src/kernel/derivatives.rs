@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use crate::accuracy::{Loss, Trial, taken, usable};
 use crate::algebra::{Evaluation, Expr, Number, Tangents};
 
+use super::choice::{Aim, Lowered as Arranged, Pool};
 use super::columns::{Columns, LoweredColumns};
 use super::hessian::Curved;
 use super::hoist::Hoister;
@@ -58,15 +59,14 @@ impl<'g> Differentiated<'g> {
     pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, kept: Kept, trial: &mut Trial) -> LoweredByState<'_, 'g> {
         let definitions = Program::lower(&hoister.hoist(&self.defined));
         let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
-        let lower = |outputs: &'_ Vec<Expr<'g>>| Program::lower(&hoister.hoist_undefined(outputs));
-        let programs: Vec<Program<'g>> = self.arrangements.iter().map(lower).collect();
-        trial.define(hoister.constants());
+        let Pool { lowered, tried, .. } =
+            Pool::of(&self.arrangements, Aim::Values, hoister, Hoister::hoist_undefined, trial);
         // What loses digits loses them in its derivatives, too.
-        let losses = trial.losses(&programs.iter().collect::<Vec<_>>());
-        let usable = usable(&losses);
-        let of_usable = (0..programs.len()).filter(|&k| usable[k]).map(|k| {
-            let program = differentiate(&programs[k], (&self.defined, &definitions), &self.directions);
-            (program, losses[k].clone(), &self.arrangements[k])
+        let usable = usable(&tried.losses);
+        let of_usable = lowered.into_iter().zip(tried.losses).zip(usable).filter(|(_, usable)| *usable);
+        let of_usable = of_usable.map(|((Arranged { outputs, program, .. }, loss), _)| {
+            let program = differentiate(&program, (&self.defined, &definitions), &self.directions);
+            (program, loss, outputs)
         });
         let mut of_usable: Vec<_> = of_usable.collect();
         let losses: Vec<Loss> = of_usable.iter().map(|(_, loss, _)| loss.clone()).collect();
@@ -74,12 +74,8 @@ impl<'g> Differentiated<'g> {
         let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
         let (program, columns) = self.cheaper(program, hoister, trial);
         let program = program.carried_out();
-        let expected = Expected {
-            outputs: Cow::Borrowed(outputs),
-            directions: Cow::Borrowed(&self.directions),
-            kept,
-            second: None,
-        };
+        let expected =
+            Expected { outputs: Cow::Owned(outputs), directions: Cow::Borrowed(&self.directions), kept, second: None };
         ((program, expected), columns)
     }
 }

@@ -4,6 +4,7 @@ use crate::accuracy::{Trial, taken, usable};
 use crate::algebra::{Dual, Evaluation, Expr, Map, Number, Rational, Tangents};
 
 use super::adjoint::gradient;
+use super::choice::{Aim, Pool};
 use super::hoist::Hoister;
 use super::tangent::{Direction, with_outputs, with_tangents};
 use super::write::{Operand, Operation, Program};
@@ -36,11 +37,11 @@ impl<'g> Curved<'g> {
     /// The cheapest way that keeps the digits.
     pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Program<'g> {
         let definitions = Program::lower(&hoister.hoist(&self.defined));
-        let lower = |e: &Expr<'g>| Program::lower(&hoister.hoist_undefined(&[*e]));
-        let programs: Vec<Program<'g>> = self.arrangements.iter().map(lower).collect();
-        trial.define(hoister.constants());
-        let usable = usable(&trial.losses(&programs.iter().collect::<Vec<_>>()));
-        let programs = programs.into_iter().zip(usable).filter_map(|(program, usable)| usable.then_some(program));
+        let arrangements: Vec<Vec<Expr<'g>>> = self.arrangements.iter().map(|e| vec![*e]).collect();
+        let Pool { lowered, tried, .. } =
+            Pool::of(&arrangements, Aim::Values, hoister, Hoister::hoist_undefined, trial);
+        let of_usable = lowered.into_iter().zip(usable(&tried.losses)).filter(|(_, usable)| *usable);
+        let programs = of_usable.map(|(lowered, _)| lowered.program);
         let program = programs.min_by_key(|program| program.cost().total()).expect("one of them keeps the digits best");
         let mut ways: Vec<Program<'g>> =
             self.derived.iter().map(|e| Program::lower(&hoister.hoist(e)).with_signs_led_back()).collect();

@@ -75,17 +75,19 @@ impl<'g> Kernel<'g> {
         trial: &mut Trial,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
-        let functions: Vec<Taken<'_, 'g>> =
+        let functions: Vec<Taken<'g>> =
             functions.iter().map(|candidates| candidates.taken(&mut hoister, trial)).collect();
-        let joined: Vec<&Taken<'_, 'g>> = joined.iter().map(|&k| &functions[k]).collect();
+        let joined: Vec<&Taken<'g>> = joined.iter().map(|&k| &functions[k]).collect();
         let (joined, of_joined) = lower_together(&mut hoister, &joined);
-        let chosen: Vec<&[Expr<'g>]> = functions.iter().map(|function| function.outputs).collect();
         let (mut programs, mut carried_out, mut losses) = (Vec::new(), Vec::new(), Vec::new());
+        let mut outputs = Vec::new();
         for function in functions {
+            outputs.push(function.outputs);
             programs.push(function.program);
             carried_out.push(function.carried_out);
             losses.push(function.loss);
         }
+        let chosen: Vec<&[Expr<'g>]> = outputs.iter().map(Vec::as_slice).collect();
         let mut differentiated = |wanted: Option<&'a Differentiated<'g>>, kept: Kept| {
             let (lowered, columns) = wanted.map(|wanted| wanted.lower(&mut hoister, kept, trial)).unzip();
             let (program, expected) = lowered.unzip();
@@ -163,15 +165,15 @@ impl<'g> Kernel<'g> {
 
 /// Several functions in one program, of each what was taken and what comes first where that keeps the digits. What wins alone may have less in
 /// common with the rest than what comes first: it is replaced where that costs less.
-fn lower_together<'g>(hoister: &mut Hoister<'_, 'g>, functions: &[&Taken<'_, 'g>]) -> (Program<'g>, Vec<Expr<'g>>) {
+fn lower_together<'g>(hoister: &mut Hoister<'_, 'g>, functions: &[&Taken<'g>]) -> (Program<'g>, Vec<Expr<'g>>) {
     let mut lower = |parts: &[&[Expr<'g>]]| {
         let outputs = parts.concat();
         (Program::lower(&hoister.hoist(&outputs)), outputs)
     };
-    let mut parts: Vec<&[Expr<'g>]> = functions.iter().map(|function| function.outputs).collect();
+    let mut parts: Vec<&[Expr<'g>]> = functions.iter().map(|function| function.outputs.as_slice()).collect();
     let mut best = lower(&parts);
     for (place, function) in functions.iter().enumerate() {
-        let Some(first) = function.first.filter(|first| *first != parts[place]) else { continue };
+        let Some(first) = function.first.as_deref().filter(|first| *first != parts[place]) else { continue };
         let won = std::mem::replace(&mut parts[place], first);
         let other = lower(&parts);
         if other.0.cost().total() < best.0.cost().total() {

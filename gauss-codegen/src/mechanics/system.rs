@@ -17,7 +17,7 @@ use crate::mechanics::links::tree::{Tree, UnderWay};
 use crate::mechanics::links::working::Working;
 use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
-use crate::mechanics::scene::{Lettering, SystemScene};
+use crate::mechanics::scene::{Coordinate, Lettering, SystemScene};
 use crate::mechanics::tidy::{compact, sums, tidy};
 
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
@@ -355,17 +355,35 @@ impl<'g> System<'g> {
         arrangements.iter().flat_map(solve).chain(self.gathered_accelerations()).chain(orthogonal).collect()
     }
 
-    /// C as a sum of squares, where several speeds share it. Where a speed turns a root and moves its O as well, as those of
-    /// twists about Ω do, the squares are not of what is relative.
+    /// C as a sum of squares, where several speeds share it. Where a speed turns a root about a pole that may be far from
+    /// its O, as those of twists about Ω do, the squares are not of what is relative.
     fn elements(&self) -> Option<Elements<'_, 'g>> {
         let few = (2..=most_squares(&self.scene)).contains(&self.scene.speeds.len()) && self.only_body().is_none();
-        let still = |a: &Vector<'g>| is_zero(&a.body) && is_zero(&a.space);
+        let lengths = if few { self.lengths() } else { Vec::new() };
+        let far = |a: &Vector<'g>| {
+            let mut parts = a.body.iter().chain(&a.space);
+            parts.any(|e| lengths.iter().any(|&length| !e.partial(length).is_zero()))
+        };
         let about_far_pole = |link: &Link<'g>| {
             let rows = link.linear_rows.iter().zip(&link.angular_rows);
-            link.parent.is_none() && rows.into_iter().any(|(a, o)| !still(a) && !is_zero(o))
+            link.parent.is_none() && rows.into_iter().any(|(a, o)| !is_zero(o) && far(a))
         };
         let relative = !self.scene.tree.links.iter().any(about_far_pole);
         (few && relative && self.scene.tree.rotors.is_empty()).then(|| Elements::new(&self.scene.tree)).flatten()
+    }
+
+    /// Coordinates that turn nothing.
+    fn lengths(&self) -> Vec<Expr<'g>> {
+        let turns = |q: Expr<'g>| {
+            self.scene.tree.links.iter().any(|link| link.rotation.iter().flatten().any(|e| !e.partial(q).is_zero()))
+        };
+        let of = |coordinate: &Coordinate<'g>| match coordinate {
+            Coordinate::Scalar(q) => vec![*q],
+            Coordinate::Rotation(_) => Vec::new(),
+            Coordinate::Pose(_, position) => position.to_vec(),
+            Coordinate::Plane { position, .. } => position.to_vec(),
+        };
+        self.scene.coordinates.iter().flat_map(of).filter(|&q| !turns(q)).collect()
     }
 
     /// z from p = A z + p(z = 0).

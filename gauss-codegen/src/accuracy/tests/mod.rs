@@ -4,6 +4,7 @@
 //! `SCENES=2000 cargo test --release -p gauss-codegen accuracy` tries more of them than every run does.
 
 mod formulas;
+mod hostile;
 mod scenes;
 
 use std::collections::BTreeMap;
@@ -11,6 +12,7 @@ use std::collections::BTreeMap;
 use crate::algebra::{Evaluation, Expr, Function, Map, Number, Precise, Scalar};
 use crate::emit::Derived;
 use crate::expand::derive;
+use crate::kernel::Kernel;
 use crate::mechanics::{Coordinate, Method, acceleration_by_definition};
 
 use super::random::Random;
@@ -35,40 +37,54 @@ const TINY: f64 = 1e-30;
 /// value.
 fn loss(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Option<(f64, usize)> {
     let system = derived.subject.system;
-    let values = state(derived, scene, seed);
-    let exact: Vec<Precise> = accelerations(derived, &values, None);
-    let mut squares = vec![0.0; exact.len()];
+    let mut random = Random::new(seed ^ 0xabcdef);
+    let values = values_of(derived, &scene.values, std::iter::repeat_with(|| scene.speed * random.signed(0.5)));
+    let found = computed(derived, derived.kernel, Method::Acceleration, &values);
+    assert_eq!(found.len(), system.scene.speeds.len());
+    loss_beside(derived, &values, |state| acceleration_by_definition(system, state), &found, seed)
+}
+
+/// The largest error of what was found at a state, beside what is exact there, in units of what a change of every number
+/// does to that, and where it is.
+fn loss_beside(
+    derived: &Derived<'_, '_>,
+    values: &[(u32, f64)],
+    exact: impl Fn(Map<u32, Precise>) -> Vec<Precise>,
+    found: &[f64],
+    seed: u64,
+) -> Option<(f64, usize)> {
+    let expected = exact(state(derived, values, None));
+    let mut squares = vec![0.0; expected.len()];
     for change in 0..CHANGES {
-        let mut random = Random::new(1000 * seed + change);
-        for (square, (moved, value)) in
-            squares.iter_mut().zip(accelerations::<Precise>(derived, &values, Some(&mut random)).iter().zip(&exact))
-        {
+        let moved = exact(state(derived, values, Some(&mut Random::new(1000 * seed + change))));
+        for (square, (moved, value)) in squares.iter_mut().zip(moved.iter().zip(&expected)) {
             *square += ((*moved - *value).to_f64() / CHANGE).powi(2) / CHANGES as f64;
         }
     }
-    let found = computed(derived, &values);
     let sizes: Vec<f64> =
-        exact.iter().zip(squares).map(|(value, square)| value.to_f64().abs() + square.sqrt()).collect();
+        expected.iter().zip(squares).map(|(value, square)| value.to_f64().abs() + square.sqrt()).collect();
     let largest = sizes.iter().copied().fold(TINY, f64::max);
-    let losses = found.iter().zip(&exact).zip(sizes).map(|((found, exact), size)| {
+    let losses = found.iter().zip(&expected).zip(sizes).map(|((found, exact), size)| {
         let error = (Precise::number(*found) - *exact).to_f64().abs();
         // What vanishes whatever the numbers are is measured by what does not.
         error / (f64::EPSILON * if size <= VANISHING * largest { largest } else { size })
     });
     let worst = losses.enumerate().map(|(k, loss)| (loss, k)).max_by(|a, b| a.0.total_cmp(&b.0))?;
-    assert_eq!(found.len(), system.scene.speeds.len());
     Some(worst).filter(|(loss, _)| !loss.is_nan())
 }
 
-/// Symbols of everything that a number is given for, in order; quaternions as they are.
-fn state(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Vec<(u32, f64)> {
+/// Symbols of everything that a number is given for, in order, by the numbers of each coordinate; quaternions are scaled.
+fn values_of(
+    derived: &Derived<'_, '_>,
+    configuration: &[Vec<f64>],
+    speeds: impl Iterator<Item = f64>,
+) -> Vec<(u32, f64)> {
     let subject = &derived.subject;
-    let mut random = Random::new(seed ^ 0xabcdef);
     let mut values: Vec<(u32, f64)> =
         subject.literals.iter().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
     values.push((derived.time().key(), 0.3));
     for ((coordinate, quaternion), value) in
-        subject.system.scene.coordinates.iter().zip(subject.quaternions).zip(&scene.values)
+        subject.system.scene.coordinates.iter().zip(subject.quaternions).zip(configuration)
     {
         let mut put = |symbol: &Expr<'_>, value: f64| values.push((symbol.key(), value));
         match coordinate {
@@ -81,16 +97,12 @@ fn state(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Vec<(u32, f64)>
             _ => unreachable!("scenes have scalars and poses"),
         }
     }
-    values.extend(subject.system.scene.speeds.iter().map(|z| (z.key(), scene.speed * random.signed(0.5))));
+    values.extend(subject.system.scene.speeds.iter().zip(speeds).map(|(z, speed)| (z.key(), speed)));
     values
 }
 
-/// By the definition, with all numbers changed where a sequence of signs is given.
-fn accelerations<N: Number>(
-    derived: &Derived<'_, '_>,
-    values: &[(u32, f64)],
-    mut changes: Option<&mut Random>,
-) -> Vec<N> {
+/// What all symbols are, with all numbers changed where a sequence of signs is given.
+fn state<N: Number>(derived: &Derived<'_, '_>, values: &[(u32, f64)], mut changes: Option<&mut Random>) -> Map<u32, N> {
     let subject = &derived.subject;
     let mut state: Map<u32, N> = Map::default();
     for &(key, value) in values {
@@ -109,7 +121,7 @@ fn accelerations<N: Number>(
         }
     }
     put_rotations(derived, &mut state);
-    acceleration_by_definition(subject.system, state)
+    state
 }
 
 fn put_rotations<N: Number>(derived: &Derived<'_, '_>, state: &mut Map<u32, N>) {
@@ -124,14 +136,14 @@ fn put_rotations<N: Number>(derived: &Derived<'_, '_>, state: &mut Map<u32, N>) 
     }
 }
 
-/// As the kernel computes them.
-fn computed(derived: &Derived<'_, '_>, values: &[(u32, f64)]) -> Vec<f64> {
-    let kernel = derived.kernel;
+/// As a kernel computes it.
+fn computed<'g>(derived: &Derived<'_, 'g>, kernel: &Kernel<'g>, method: Method, values: &[(u32, f64)]) -> Vec<f64> {
     let mut state: Map<u32, f64> = values.iter().copied().collect();
     let constants = kernel.constants.run(&state);
     state.extend(kernel.constant_symbols.iter().zip(constants).map(|(symbol, value)| (symbol.key(), value)));
     state.extend(kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), *value)));
-    derived.program(Method::Acceleration).run(&state)
+    let place = derived.formulas.iter().position(|formula| formula.method == method);
+    kernel.functions[place.expect("a method that is derived")].run(&state)
 }
 
 /// The losses of scenes, with what is said of each.
