@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use gauss_runtime::batch::{Batch, States};
 use gauss_runtime::prelude::*;
 use gauss_tests::watchdog::within;
 
@@ -31,6 +32,30 @@ struct Ring {
     #[gauss(gravity)]
     g: f64,
 }
+
+/// A body with its velocity in its own axes, or in those of the observer.
+macro_rules! body {
+    ($name:ident, $chart:ident) => {
+        #[derive(GaussDynamics)]
+        #[gauss(motion = free, chart = $chart, taylor)]
+        struct $name<T> {
+            #[gauss(mass)]
+            mass: T,
+            #[gauss(inertia)]
+            inertia: Vector3<T>,
+            #[gauss(gravity)]
+            g: T,
+        }
+
+        impl $name<f64> {
+            fn thrown() -> Self {
+                Self { mass: 2.0, inertia: Vector3::new(0.3, 0.4, 0.5), g: G }
+            }
+        }
+    };
+}
+body!(InItsAxes, left_invariant);
+body!(InSpace, hybrid);
 
 type One = SVector<f64, 1>;
 
@@ -140,8 +165,11 @@ fn a_jump_that_does_not_lead_away_is_told() {
             assert!(matches!(error.kind, IntegrationErrorKind::Zeno { event: 0, .. }), "{error}");
             assert!((error.time - (2.0 / G).sqrt()).abs() < 1e-8, "{error}");
         }
-        // What goes on through zero has passed it: a gate that brakes.
-        let gate = run.then(|state| state.z[0] *= 0.5).adaptive(1e-10, 1e-10).run(one(1.0), one(0.0), 0.0..1.0);
+        // What goes on through zero is told too, where it is not said to be a gate that brakes.
+        let brakes = |state: &mut Sample<BallKernel>| state.z[0] *= 0.5;
+        let error = run.then(brakes).adaptive(1e-10, 1e-10).run(one(1.0), one(0.0), 0.0..1.0).expect_err("goes on");
+        assert!(matches!(error.kind, IntegrationErrorKind::NotTurnedBack { event: 0, .. }), "{error}");
+        let gate = run.then_through(brakes).adaptive(1e-10, 1e-10).run(one(1.0), one(0.0), 0.0..1.0);
         let path = gate.expect("runs");
         let (fall, left) = ((2.0 / G).sqrt(), 1.0 - (2.0 / G).sqrt());
         let below = -0.5 * G * fall * left - 0.5 * G * left * left;
@@ -262,7 +290,8 @@ fn jumps_backwards_in_time_and_on_constraints() {
     // Off the ring velocities are brought back along what the ring pushes: the rest stays.
     let ring = Ring { g: 0.0 }.kernel().expect("a ring");
     let kick = |state: &mut Sample<RingKernel>| state.z = SVector::from([3.0, 3.0]);
-    let run = Simulation::new(&ring).event(Crossing::Rising, |_, q, _| q[1]).then(kick).adaptive(1e-10, 1e-10);
+    let run = Simulation::new(&ring).event(Crossing::Rising, |_, q, _| q[1]).then_through(kick);
+    let run = run.adaptive(1e-10, 1e-10);
     let start = (SVector::from([0.6, -0.8]), SVector::from([0.8, 0.6]));
     let path = run.run(start.0, start.1, 0.0..1.0).expect("runs");
     let at = path.events()[0].sample.t;
@@ -300,4 +329,134 @@ fn jumps_without_end_are_given_up_as_steps_are() {
         run.adaptive(1e-9, 1e-9).run_to_end(one(1.0), one(0.0), 0.0..1e12).expect_err("a million million bounces")
     });
     assert!(matches!(error.kind, IntegrationErrorKind::TooManySteps { .. }), "{error}");
+}
+
+/// How a run over a floor ended: above it all the way to 20 s, or where impacts pile up, or at an impact that does not turn it back.
+fn ended<K>(
+    path: &Trajectory<'_, K>,
+    error: Option<IntegrationError>,
+    floor: f64,
+    kept: f64,
+) -> Option<IntegrationErrorKind>
+where
+    K: GaussSystem<Scalar = f64, Configuration = Isometry3<f64>>,
+{
+    // Zeros are found to four roundings of the time, at 4.5 m/s; heights are rounded as the distance from the origin is. With all
+    // speed kept, depths are added up.
+    let rounding = 8.0 * f64::EPSILON * (4.5 * 20.0 + 2.0 * (floor.abs() + 1.0));
+    let allowed = if kept < 1.0 { rounding } else { rounding * path.events().len() as f64 };
+    let lowest = path.iter().map(|state| state.q.translation.z - floor).fold(f64::INFINITY, f64::min);
+    assert!(lowest >= -allowed, "{floor} {kept}: {lowest:e}, {error:?}");
+    assert!(path.events().len() < 500);
+    let error = error?;
+    let fall = (2.0 / G).sqrt();
+    if let IntegrationErrorKind::Zeno { event: 0, .. } = error.kind {
+        let rests = fall * (1.0 + kept) / (1.0 - kept);
+        // Tolerances of 1e-6 a step of some hundred.
+        assert!((error.time - rests).abs() < 1e-4, "{kept}: {} {rests}", error.time);
+    } else {
+        assert!(matches!(error.kind, IntegrationErrorKind::NotTurnedBack { event: 0, .. }), "{error}");
+        assert_eq!(error.time, path.events().last().expect("at an impact").sample.t);
+    }
+    Some(error.kind)
+}
+
+const SPINS: [[f64; 3]; 6] =
+    [[0.0; 3], [0.0, 0.0, 3.0], [1.0, 0.0, 0.0], [0.3, -2.0, 0.7], [0.0, 9.0, 0.1], [5.0, 5.0, 5.0]];
+
+fn above(floor: f64, [x, y, z]: [f64; 3]) -> (Isometry3<f64>, Vector6<f64>) {
+    (Isometry3::translation(0.0, 0.0, floor + 1.0), Vector6::new(0.0, 0.0, 0.0, x, y, z))
+}
+
+#[test]
+fn bodies_that_spin_do_not_fall_through_floors() {
+    let (own, space) = (InItsAxes::thrown().kernel().expect("a body"), InSpace::thrown().kernel().expect("a body"));
+    let (mut turned, mut piled_up, mut whole) = (0, 0, 0);
+    for (floor, tolerance) in [(0.0, 1e-6), (1.7, 1e-6), (-0.3, 1e-10)] {
+        let height = move |_: f64, q: &Isometry3<f64>, _: &Vector6<f64>| q.translation.z - floor;
+        for kept in [0.0, 0.5, 0.9, 1.0] {
+            for spin in SPINS {
+                let (q, z) = above(floor, spin);
+                // Along the body's own axis, whatever way it has turned to: mended only by turning the velocity in space.
+                let run = Simulation::new(&own).event(Crossing::Falling, height);
+                let wrong = run.then(|state| state.z[2] *= -kept).adaptive(tolerance, tolerance);
+                let (path, error) = wrong.attempt(q, z, 0.0..20.0);
+                let how = ended(&path, error, floor, kept);
+                let tilts = spin[0] != 0.0 || spin[1] != 0.0;
+                turned += usize::from(matches!(how, Some(IntegrationErrorKind::NotTurnedBack { .. })));
+                assert!(tilts || !matches!(how, Some(IntegrationErrorKind::NotTurnedBack { .. })));
+
+                let right = run.then(|state| {
+                    let up = state.q.rotation.inverse() * Vector3::z();
+                    let v = state.z.fixed_rows::<3>(0).into_owned();
+                    state.z.fixed_rows_mut::<3>(0).copy_from(&(v - up * ((1.0 + kept) * up.dot(&v))));
+                });
+                let run = Simulation::new(&space).event(Crossing::Falling, height);
+                // With a push to the spin, which changes nothing of the flight.
+                let in_space = run.then(|state| (state.z[2], state.z[3]) = (-kept * state.z[2], state.z[3] + 0.1));
+                let mut ends = vec![
+                    ended_by(right.adaptive(tolerance, tolerance).attempt(q, z, 0.0..20.0), floor, kept),
+                    ended_by(in_space.adaptive(tolerance, tolerance).attempt(q, z, 0.0..20.0), floor, kept),
+                    ended_by(in_space.fixed_step(0.02).attempt(q, z, 0.0..20.0), floor, kept),
+                ];
+                if spin == SPINS[3] && floor == 1.7 && kept == 0.5 {
+                    ends.push(ended_by(in_space.taylor(1e-12, 1e-12).attempt(q, z, 0.0..20.0), floor, kept));
+                }
+                for end in ends {
+                    assert_eq!(end.is_none(), kept == 1.0, "{floor} {kept} {spin:?}: {end:?}");
+                    assert!(end.is_none_or(|kind| matches!(kind, IntegrationErrorKind::Zeno { .. })), "{end:?}");
+                    piled_up += usize::from(end.is_some());
+                    whole += usize::from(end.is_none());
+                }
+            }
+        }
+    }
+    assert!(turned > 30 && piled_up == 3 * (3 * 6 * 3) + 1 && whole == 3 * 6 * 3, "{turned} {piled_up} {whole}");
+}
+
+fn ended_by<K>(
+    (path, error): (Trajectory<'_, K>, Option<IntegrationError>),
+    floor: f64,
+    kept: f64,
+) -> Option<IntegrationErrorKind>
+where
+    K: GaussSystem<Scalar = f64, Configuration = Isometry3<f64>>,
+{
+    ended(&path, error, floor, kept)
+}
+
+#[test]
+fn runs_in_lanes_pile_up_and_are_told_as_alone() {
+    type Pack = Lanes<f64, 4>;
+    let number = Pack::splat;
+    let alone = InItsAxes::thrown().kernel().expect("a body");
+    let packs = InItsAxes { mass: number(2.0), inertia: Vector3::new(0.3, 0.4, 0.5).map(number), g: number(G) };
+    let packs = packs.kernel().expect("bodies");
+    let starts: Vec<_> = (0..2 * SPINS.len()).map(|n| above(1.7 + 0.1 * n as f64, SPINS[n % SPINS.len()])).collect();
+    for kept in [0.0, 0.6, 1.0] {
+        let mut states = States::<InItsAxesKernel<Pack>>::from_fn(starts.len(), |n| starts[n]);
+        let ends = Batch::new(&packs)
+            .adaptive(1e-8, 1e-8)
+            .event(Crossing::Falling, |_t, q: &Isometry3<Pack>, _z| q.translation.z - number(1.7))
+            .then(|state: &mut Sample<InItsAxesKernel<Pack>>| state.z[2] *= number(-kept))
+            .run(0.0..3.0, &mut states);
+        for (n, (end, (q, z))) in ends.into_iter().zip(&starts).enumerate() {
+            let run = Simulation::new(&alone)
+                .event(Crossing::Falling, |_t, q, _z| q.translation.z - 1.7)
+                .then(|state| state.z[2] *= -kept)
+                .adaptive(1e-8, 1e-8);
+            let (path, error) = run.attempt(*q, *z, 0.0..3.0);
+            match (end, error) {
+                (Ok(end), None) => {
+                    assert_eq!((end.time, end.summary), (path.last().t, *path.summary()), "{n}");
+                    let times = |found: &mut dyn Iterator<Item = f64>| found.collect::<Vec<_>>();
+                    let theirs = times(&mut path.events().iter().map(|event| event.sample.t));
+                    assert_eq!(times(&mut end.events.iter().map(|event| event.t)), theirs, "{n}");
+                }
+                (Err(error), Some(single)) => assert_eq!((error.time, error.kind), (single.time, single.kind), "{n}"),
+                (end, error) => panic!("{n}: {end:?}, {error:?}"),
+            }
+            assert!(states.get(n) == (path.last().q, path.last().z), "{n}");
+        }
+    }
 }

@@ -157,7 +157,18 @@ impl<'k, K: ?Sized, F, I, C, E, G> Ensemble<'k, K, F, I, C, Watched<E, G>> {
         K: Kernels<S>,
         J: FnMut(&mut Sample<S>),
     {
-        self.watch(|events| events.then(jump))
+        self.watch(|events| events.then(jump, false))
+    }
+
+    /// Changes the state where the function may go on through zero, as
+    /// [`Simulation::then_through`](crate::integrate::Simulation::then_through) does.
+    pub fn then_through<S, J>(self, jump: J) -> Ensemble<'k, K, F, I, C, Watched<E, G, Then<J>>>
+    where
+        S: GaussSystem,
+        K: Kernels<S>,
+        J: FnMut(&mut Sample<S>),
+    {
+        self.watch(|events| events.then(jump, true))
     }
 }
 

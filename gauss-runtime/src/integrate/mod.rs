@@ -55,7 +55,7 @@ pub use lie_group::commutator_free::CommutatorFree4;
 pub use lie_group::discrete::DiscreteLinearization;
 pub use lie_group::rkmk::Rkmk;
 pub use problem::equations::{Problem, SystemProblem};
-pub use problem::error::{IntegrationError, IntegrationErrorKind, Part};
+pub use problem::error::{IntegrationError, IntegrationErrorKind, JumpMistake, Part};
 pub use problem::form::{Form, MomentumForm, VelocityForm};
 pub use problem::input::{Feedback, InputSource, NoInput};
 pub use problem::state::{Rates, Sample, State};

@@ -17,19 +17,36 @@
 //! zero: what is found is a state that the method itself reaches from the last one, as accurate as the run, and not a point
 //! of the curve.
 //!
-//! **Jumps.** [`Simulation::then`](crate::integrate::Simulation::then) changes the state at an event, and the run goes on from there. After
-//! the jump the function is on the side that it came from, also where rounding left it a little beyond zero: a ball that bounces
-//! has not fallen through the floor. Only where it passes on in the same direction, as at a gate that kicks, it is on the other. Where a jump itself leads over the zero of another event, that one happens at once, in the
-//! state after the jump. Where it does not leave zero again, or events come ever faster and pile up at one time
-//! (a ball that bounces infinitely often before it rests), the run ends with
-//! [`IntegrationErrorKind::Zeno`].
+//! **Jumps.** [`Simulation::then`](crate::integrate::Simulation::then) changes the state at an event, and the run goes on from there: a
+//! jump of velocities, as at an impact, or of the configuration. After it the function is on zero, to rounding, and its sign is
+//! rounding too; it is on the side to which the motion leads, however short the flight is beside the step. So a ball that bounces has not
+//! fallen through the floor.
+//!
+//! - *A jump has to lead back.* Where the function goes on through zero, at another rate than before, the run ends with
+//!   [`IntegrationErrorKind::NotTurnedBack`]: the velocity that was turned is not the one along which the function changes. `u` and
+//!   `ω` of a body are in its own axes, and `z[2] *= -0.8` turns the velocity along the body's third axis. Where it is meant to go on,
+//!   as at a gate that kicks, write [`then_through`](crate::integrate::Simulation::then_through). A jump that does not change the
+//!   velocity along the function, as at a given time, lets it pass.
+//! - *A jump to rest.* Where the function does not leave zero again but for what pulls it on (no restitution, and weight), or leaves
+//!   it by less than rounding, the run ends with [`IntegrationErrorKind::Zeno`].
+//! - *Infinitely many jumps* (a ball that bounces ever lower) pile up at one time. The run ends with `Zeno` as soon as the next
+//!   flight is not higher than some roundings of the numbers that the function depends on, or shorter than what times are
+//!   told apart by. For a ball at 1 m that is 10⁻¹⁴ m, some 10⁻⁷ s before the time of the last impact.
+//! - *Over other zeros.* Where a jump itself leads over the zero of another event, that one happens at once, in the state after
+//!   the jump. Events whose zeros are the same, to the resolution of the time, happen at one time, in their order.
+//!
+//! What a jump sets is `q`, and `z` or `p`. Time goes on: a jump that sets it ends the run with
+//! [`IntegrationErrorKind::InvalidJump`], and so does one that sets both `z` and `p` where they disagree.
+
+use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
-use crate::integrate::drive::search::{Crossing, Function, Looking, Made, same_side, value};
+use crate::integrate::drive::leaving::{Leaving, OnZero, Rate, rounding};
+use crate::integrate::drive::search::{Crossing, Function, Looking, Made, side, value};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::state::{Rates, Sample, State};
+use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, Part};
+use crate::integrate::problem::state::{Sample, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -38,15 +55,32 @@ use crate::system::GaussSystem;
 pub struct Mark {
     crossing: Crossing,
     terminal: bool,
+    /// Whether its jump may let the function go on through zero.
+    through: bool,
     value: f64,
     /// Where in the present step the next one is, if there is one, with the value there.
     next: Option<(f64, f64)>,
-    /// The value before the event that was found last.
-    before: f64,
-    /// Whether the state has jumped there, and stays on the side that it came from.
+    /// Where in the present step the last one was, and the value before it.
+    last: Option<(f64, f64)>,
+    /// Whether that is where the run is cut, and whether the state has jumped by it there.
+    here: bool,
     jumped: bool,
     /// Whether a jump has led over it.
     passed: bool,
+    /// What is known of the function before a jump.
+    cut: Option<BeforeJump>,
+    /// The function has not been seen to leave zero.
+    resting: Option<OnZero>,
+}
+
+/// What is known of a function where the state jumps at its zero.
+#[derive(Clone, Copy, Debug)]
+struct BeforeJump {
+    /// The side that it came from.
+    side: f64,
+    rate: Rate,
+    /// How far beyond zero it may be, since zeros are found to a part of the step.
+    beyond: f64,
 }
 
 /// The events of a run, in the order in which they were asked for.
@@ -86,13 +120,26 @@ pub struct Watched<E, G, J = Stay> {
 
 impl<E, G> Watched<E, G> {
     pub(crate) fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
-        let mark = Mark { crossing, terminal, value: 0.0, next: None, before: 0.0, jumped: false, passed: false };
+        let mark = Mark {
+            crossing,
+            terminal,
+            through: false,
+            value: 0.0,
+            next: None,
+            last: None,
+            here: false,
+            jumped: false,
+            passed: false,
+            cut: None,
+            resting: None,
+        };
         Self { others, function, jump: Stay, mark }
     }
 
-    pub(crate) fn then<J>(self, jump: J) -> Watched<E, G, Then<J>> {
+    /// With a jump, after which the function may go on through zero or has to be led back.
+    pub(crate) fn then<J>(self, jump: J, through: bool) -> Watched<E, G, Then<J>> {
         let Self { others, function, mark, .. } = self;
-        Watched { others, function, jump: Then(jump), mark }
+        Watched { others, function, jump: Then(jump), mark: Mark { through, ..mark } }
     }
 }
 
@@ -159,15 +206,72 @@ pub(in crate::integrate) enum Outcome<S: GaussSystem> {
     },
 }
 
-/// The part of a step over which it is seen where a function goes after a jump.
-const INSTANT: f64 = 1.0 / 1_048_576.0;
+impl Mark {
+    /// The first event of the step.
+    fn first<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
+        &mut self,
+        looking: &Looking<'_, S, P, C>,
+        function: Function<'_, S>,
+        number: usize,
+    ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
+        let Made { lane, before: (state, _), .. } = *looking.made;
+        if self.value == 0.0 && self.resting.is_none() {
+            self.resting = Some(OnZero::exactly(rounding(looking.problem, function, lane, state)));
+        }
+        let leaving = match &self.resting {
+            None => Leaving::known(self.value),
+            Some(on) => {
+                let Some(leaving) = looking.leaves(function, on)? else { return Ok(None) };
+                looking.led_back(function, number, (on, &leaving))?;
+                leaving
+            }
+        };
+        (self.resting, self.value) = (None, leaving.from.1);
+        looking.first(function, self.crossing, (leaving.from, leaving.until))
+    }
+
+    /// The next event behind the one at the part of the step where the last one was found.
+    fn following<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
+        &mut self,
+        looking: &Looking<'_, S, P, C>,
+        function: Function<'_, S>,
+    ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
+        let Some(from) = self.next else { return Ok(None) };
+        self.last = Some((from.0, self.value));
+        let Some(leaving) = looking.going_on(function, from)? else { return Ok(None) };
+        self.value = leaving.from.1;
+        looking.first(function, self.crossing, (leaving.from, leaving.until))
+    }
+
+    /// Takes the value at the start of a run, or where it goes on after a jump.
+    fn begin<S: GaussSystem, P: Problem<System = S>>(
+        &mut self,
+        (problem, lane): (&P, usize),
+        function: Function<'_, S>,
+        start: &State<S>,
+    ) -> Result<(), IntegrationErrorKind> {
+        let value = value(problem, function, lane, start)?;
+        let (passed, jumped) = (core::mem::take(&mut self.passed), core::mem::take(&mut self.jumped));
+        self.resting = self.cut.take().and_then(|cut| {
+            let rounding = rounding(problem, function, lane, start);
+            let back = (jumped && !self.through).then_some((cut.side, cut.rate));
+            // Else the jump has led away from zero.
+            (value.abs() <= rounding + cut.beyond).then(|| OnZero::after(value, rounding, back))
+        });
+        // Of another event, that is to come at this very time.
+        let to_come = value == 0.0 && self.value != 0.0 && !passed && !core::mem::take(&mut self.here);
+        self.value = if to_come { side(self.value) } else { value };
+        Ok(())
+    }
+}
 
 /// Looks for events at the start of a run and within its steps.
 pub(in crate::integrate) struct Watch<'a, P, C, E> {
     control: &'a C,
     problem: &'a P,
     events: E,
-    lane: usize,
+    /// The numbers of a pack that belong to the run; events are of the first.
+    lanes: Range<usize>,
 }
 
 impl<'a, S, P, C, E> Watch<'a, P, C, E>
@@ -177,30 +281,29 @@ where
     C: Control<S>,
     E: Events<S>,
 {
-    pub(in crate::integrate) fn new(control: &'a C, problem: &'a P, events: E, lane: usize) -> Self {
-        Self { control, problem, events, lane }
+    pub(in crate::integrate) fn new(control: &'a C, problem: &'a P, events: E, lanes: Range<usize>) -> Self {
+        Self { control, problem, events, lanes }
+    }
+
+    /// Does something with every event, by its number, until it fails.
+    fn each(
+        &mut self,
+        mut visit: impl FnMut(usize, Function<'_, S>, &mut Mark) -> Result<(), IntegrationErrorKind>,
+    ) -> Result<(), IntegrationErrorKind> {
+        let (mut number, mut outcome) = (0, Ok(()));
+        self.events.each(&mut |function, mark| {
+            if outcome.is_ok() {
+                outcome = visit(number, function, mark);
+            }
+            number += 1;
+        });
+        outcome
     }
 
     /// Takes the values at the start of a run, or where it goes on after a jump.
     pub(in crate::integrate) fn begin(&mut self, start: &State<S>) -> Result<(), IntegrationErrorKind> {
-        let (problem, lane) = (self.problem, self.lane);
-        let mut outcome = Ok(());
-        self.events.each(&mut |function, mark| match value(problem, function, lane, start) {
-            Ok(value) => {
-                let side = |of: f64| if of < 0.0 { -f64::MIN_POSITIVE } else { f64::MIN_POSITIVE };
-                let beyond = value.abs() <= mark.value.abs() && !same_side(value, mark.before);
-                let passed = core::mem::take(&mut mark.passed);
-                mark.value = match core::mem::take(&mut mark.jumped) {
-                    // On the side that it came from, unless the jump has led away from zero.
-                    true if beyond => side(mark.before),
-                    // Another event that is to come at this very time.
-                    false if value == 0.0 && mark.value != 0.0 && !passed => side(mark.value),
-                    _ => value,
-                };
-            }
-            Err(kind) => outcome = Err(kind),
-        });
-        outcome
+        let (problem, lane) = (self.problem, self.lanes.start);
+        self.each(|_, function, mark| mark.begin((problem, lane), function, start))
     }
 
     /// Whether the step may have the event of this number, as what is seen of its function from the last value says.
@@ -212,8 +315,9 @@ where
     ) -> bool {
         let (mut n, mut may) = (0, false);
         self.events.each(&mut |_, mark| {
-            // What has no value is for the search to tell.
-            may |= n == number && shows(mark.value).unwrap_or(true);
+            // What leaves zero, or has no value, is for the search to tell.
+            let open = mark.value == 0.0 || mark.resting.is_some();
+            may |= n == number && (open || shows(mark.value).unwrap_or(true));
             n += 1;
         });
         may
@@ -238,82 +342,101 @@ where
         report: &mut dyn FnMut(usize, &State<S>),
     ) -> Result<Outcome<S>, IntegrationErrorKind> {
         let looking = Looking::of(self.control, self.problem, made);
-        let mut outcome = Ok(());
-        self.events.each(&mut |function, mark| {
-            let found = looking.leaving(function, (0.0, mark.value)).and_then(|from| {
-                mark.value = from.1;
-                looking.first(function, mark.crossing, from)
-            });
-            match found {
-                Ok(next) => mark.next = next,
-                Err(kind) => outcome = Err(kind),
-            }
-        });
-        outcome?;
+        self.each(|number, function, mark| {
+            (mark.last, mark.here) = (None, false);
+            mark.next = mark.first(&looking, function, number)?;
+            Ok(())
+        })?;
 
-        let (mut last, mut here) = (f64::INFINITY, None);
+        // What is no further than zeros are found to is at the same time.
+        let together = 2.0 * looking.resolution;
+        let (mut cut, mut here) = (f64::INFINITY, None);
         while let Some((number, part, terminal)) = self.earliest() {
             // Others at the very end of the run are told of, later ones are not.
-            if part > last {
+            if part > cut + together {
                 break;
             }
-            let state = looking.reach(part)?;
-            report(number, &state);
-            self.go_on(&looking, number)?;
-            let (at, mut after, first, mut stopped_by) = here.take().unwrap_or((state, None, number, None));
-            let from = after.unwrap_or(at);
-            let mut sample = self.problem.sample(&from);
-            if self.events.jump(number, &mut sample) {
-                let (q, z) = consistent(self.problem, &sample)?;
-                after = Some(self.problem.state(from.t, q, &z));
-                self.leave(number, &state)?;
+            let (at, mut after, first, mut stopped_by) = match here.take() {
+                Some(here) => here,
+                None => (looking.reach(part)?, None, number, None),
+            };
+            report(number, &at);
+            self.each(|n, function, mark| {
+                if n == number {
+                    mark.next = mark.following(&looking, function)?;
+                }
+                Ok(())
+            })?;
+            if let Some(jumped) = self.jump(number, &after.unwrap_or(at))? {
+                after = Some(jumped);
+                self.each(|n, _, mark| {
+                    mark.jumped |= n == number;
+                    Ok(())
+                })?;
             }
             if terminal && stopped_by.is_none() {
                 stopped_by = Some(number);
             }
             if after.is_some() || stopped_by.is_some() {
-                last = part;
+                cut = cut.min(part);
                 here = Some((at, after, first, stopped_by));
             }
         }
         if let Some((state, mut after, number, mut stopped_by)) = here {
+            self.each(|_, _, mark| {
+                mark.here = mark.last.is_some_and(|(part, _)| (part - cut).abs() <= together);
+                Ok(())
+            })?;
             self.led_over(&state, (&mut after, &mut stopped_by), report)?;
-            if let Some(after) = &after {
-                self.passing(&state, after, looking.length() * S::Scalar::from_f64(INSTANT))?;
+            if after.is_some() {
+                self.cut(&looking, &state)?;
             }
             return Ok(Outcome::Here { state, after, number, stopped_by });
         }
-        let (problem, lane) = (self.problem, self.lane);
-        let mut outcome = Ok(());
-        self.events.each(&mut |function, mark| match value(problem, function, lane, made.after.0) {
-            Ok(value) => mark.value = value,
-            Err(kind) => outcome = Err(kind),
-        });
-        outcome.map(|()| Outcome::On)
+        let (problem, lane) = (self.problem, self.lanes.start);
+        self.each(|_, function, mark| {
+            mark.value = value(problem, function, lane, made.after.0)?;
+            Ok(())
+        })?;
+        Ok(Outcome::On)
     }
 
-    /// Where the function of an event passes on through zero after the jump as before it, slower or faster, it is on the other side.
-    fn passing(&mut self, before: &State<S>, after: &State<S>, h: S::Scalar) -> Result<(), IntegrationErrorKind> {
-        let (problem, lane) = (self.problem, self.lane);
-        let (slopes_before, slopes) = (problem.rates(before), problem.rates(after));
-        let mut outcome = Ok(());
-        self.events.each(&mut |function, mark| {
-            let change = |at: &State<S>, rates: &Rates<S>| {
-                let on = State {
-                    t: at.t + h,
-                    q: at.q.retract(&rates.configuration.scale(h)),
-                    y: at.y.add_scaled(h, &rates.variables),
-                };
-                Ok(value(problem, function, lane, &on)? - value(problem, function, lane, at)?)
-            };
-            if mark.jumped {
-                match change(before, &slopes_before).and_then(|was| Ok((was, change(after, &slopes)?))) {
-                    Ok((was, is)) => mark.jumped = !(same_side(was, is) && is.abs() > 1e-6 * was.abs()),
-                    Err(kind) => outcome = Err(kind),
-                }
+    /// Remembers of all functions that are on zero where the state jumps how they came there.
+    fn cut(&mut self, looking: &Looking<'_, S, P, C>, state: &State<S>) -> Result<(), IntegrationErrorKind> {
+        let rates = self.problem.rates(state);
+        self.each(|_, function, mark| {
+            mark.cut = mark.last.filter(|_| mark.here).map(|(_, before)| {
+                let rate = looking.rate(function, state, &rates);
+                let beyond = 2.0 * looking.resolution * looking.duration() * rate.whole.abs();
+                BeforeJump { side: side(before), rate, beyond }
+            });
+            Ok(())
+        })
+    }
+
+    /// The state after the jump of an event, if it has one.
+    fn jump(&mut self, number: usize, from: &State<S>) -> Result<Option<State<S>>, IntegrationErrorKind> {
+        let problem = self.problem;
+        let given = problem.sample(from);
+        let mut set = given;
+        if !self.events.jump(number, &mut set) {
+            return Ok(None);
+        }
+        let mistake = |mistake| Err(IntegrationErrorKind::InvalidJump { event: number, mistake });
+        if self.lanes.clone().any(|lane| set.t.lane(lane) != given.t.lane(lane)) {
+            return mistake(JumpMistake::Time);
+        }
+        if differs(&set.p, &given.p, &self.lanes, 0.0) {
+            let z = problem.speeds(from.t, &set.q, &problem.of_momentum(from.t, &set.q, &set.p));
+            // Half of the digits: what agrees in them was meant to.
+            let half = Real::sqrt(S::Scalar::EPSILON);
+            if differs(&set.z, &given.z, &self.lanes, 0.0) && differs(&set.z, &z, &self.lanes, half) {
+                return mistake(JumpMistake::SpeedsAndMomenta);
             }
-        });
-        outcome
+            set.z = z;
+        }
+        let (q, z) = consistent(problem, &set)?;
+        Ok(Some(problem.state(from.t, q, &z)))
     }
 
     /// Reports the events over whose zeros a jump has led, each once, with what follows from them.
@@ -323,30 +446,22 @@ where
         (after, stopped_by): (&mut Option<State<S>>, &mut Option<usize>),
         report: &mut dyn FnMut(usize, &State<S>),
     ) -> Result<(), IntegrationErrorKind> {
-        let (problem, lane) = (self.problem, self.lane);
+        let (problem, lane) = (self.problem, self.lanes.start);
         while let Some(state) = *after {
-            let (mut first, mut n, mut outcome) = (None, 0, Ok(()));
-            self.events.each(&mut |function, mark| {
-                if first.is_none() && !mark.jumped && !mark.passed {
-                    match value(problem, function, lane, before)
-                        .and_then(|from| Ok((from, value(problem, function, lane, &state)?)))
-                    {
-                        Ok((from, to)) if mark.crossing.between(from, to) => {
-                            (mark.passed, first) = (true, Some((n, mark.terminal)));
-                        }
-                        Ok(_) => {}
-                        Err(kind) => outcome = Err(kind),
+            let mut first = None;
+            self.each(|number, function, mark| {
+                if first.is_none() && !mark.here && !mark.passed {
+                    let (from, to) = (value(problem, function, lane, before)?, value(problem, function, lane, &state)?);
+                    if mark.crossing.between(from, to) {
+                        (mark.passed, first) = (true, Some((number, mark.terminal)));
                     }
                 }
-                n += 1;
-            });
-            outcome?;
+                Ok(())
+            })?;
             let Some((number, terminal)) = first else { break };
             report(number, &state);
-            let mut sample = problem.sample(&state);
-            if self.events.jump(number, &mut sample) {
-                let (q, z) = consistent(problem, &sample)?;
-                *after = Some(problem.state(state.t, q, &z));
+            if let Some(jumped) = self.jump(number, &state)? {
+                *after = Some(jumped);
             }
             if terminal && stopped_by.is_none() {
                 *stopped_by = Some(number);
@@ -369,45 +484,15 @@ where
         });
         first
     }
+}
 
-    /// Looks for the next one of an event behind the one that was reported.
-    fn go_on(&mut self, looking: &Looking<'_, S, P, C>, number: usize) -> Result<(), IntegrationErrorKind> {
-        let mut outcome = Ok(());
-        let mut n = 0;
-        self.events.each(&mut |function, mark| {
-            if n == number
-                && let Some(from) = mark.next
-            {
-                let found = looking.leaving(function, from).and_then(|from| {
-                    (mark.before, mark.value) = (mark.value, from.1);
-                    looking.first(function, mark.crossing, from)
-                });
-                match found {
-                    Ok(next) => mark.next = next,
-                    Err(kind) => outcome = Err(kind),
-                }
-            }
-            n += 1;
-        });
-        outcome
-    }
-
-    /// Remembers that the state jumped at an event, and how far beyond zero it was.
-    fn leave(&mut self, number: usize, state: &State<S>) -> Result<(), IntegrationErrorKind> {
-        let (problem, lane) = (self.problem, self.lane);
-        let mut outcome = Ok(());
-        let mut n = 0;
-        self.events.each(&mut |function, mark| {
-            if n == number {
-                match value(problem, function, lane, state) {
-                    Ok(value) => (mark.jumped, mark.value) = (true, value),
-                    Err(kind) => outcome = Err(kind),
-                }
-            }
-            n += 1;
-        });
-        outcome
-    }
+/// Whether vectors differ in some lanes by more than a part of their size.
+fn differs<T: Real, V: VectorSpace<T>>(a: &V, b: &V, lanes: &Range<usize>, part: f64) -> bool {
+    lanes.clone().any(|lane| {
+        let size = (0..V::DIM).map(|i| a.component(i).lane(lane).abs()).fold(0.0, f64::max);
+        // Written so that a NaN differs.
+        (0..V::DIM).any(|i| !((a.component(i).lane(lane) - b.component(i).lane(lane)).abs() <= part * size))
+    })
 }
 
 /// The state after a jump, on the constraints where there are any: what is nearest by the kinetic energy is what an impact makes
@@ -429,3 +514,7 @@ fn consistent<S: GaussSystem, P: Problem<System = S>>(
 #[cfg(all(test, feature = "alloc"))]
 #[path = "event_tests.rs"]
 mod tests;
+
+#[cfg(all(test, feature = "alloc"))]
+#[path = "bounce_tests.rs"]
+mod bounces;

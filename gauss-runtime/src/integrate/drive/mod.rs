@@ -6,6 +6,7 @@ pub mod compensated;
 pub mod control;
 pub mod event;
 pub mod fixed;
+pub(in crate::integrate) mod leaving;
 pub(in crate::integrate) mod logarithms;
 pub mod observer;
 pub(in crate::integrate) mod pace;

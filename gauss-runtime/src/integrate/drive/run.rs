@@ -133,7 +133,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         end: S::Scalar,
         pass: &mut dyn FnMut(Seen<'_, S>),
     ) -> (Reached, Result<State<S>, IntegrationError>) {
-        let mut watch = Watch::new(self.control, self.problem, events, 0);
+        let mut watch = Watch::new(self.control, self.problem, events, 0..S::Scalar::LANES);
         let mut jumps = Jumps::new::<S::Scalar>(start.t.lane(0), end.lane(0));
         let mut pace = Pace::new(start.t.lane(0), self.limit);
         let mut reached = Reached::default();

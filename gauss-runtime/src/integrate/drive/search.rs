@@ -72,7 +72,7 @@ pub(in crate::integrate) fn same_side(a: f64, b: f64) -> bool {
 }
 
 /// The side of a value and nothing of its size; of zero none.
-fn side(value: f64) -> f64 {
+pub(in crate::integrate) fn side(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value.signum() * f64::MIN_POSITIVE }
 }
 
@@ -87,14 +87,15 @@ pub(in crate::integrate) struct Made<'a, S: GaussSystem> {
 const PARTS: (usize, usize) = (2, 32);
 
 /// The part of a step over which slopes are measured.
-const SHORT: f64 = 1.0 / 1024.0;
+pub(in crate::integrate) const SHORT: f64 = 1.0 / 1024.0;
 
 /// A step that is searched.
 pub(in crate::integrate) struct Looking<'a, S: GaussSystem, P, C> {
     control: &'a C,
-    problem: &'a P,
-    made: &'a Made<'a, S>,
-    resolution: f64,
+    pub(in crate::integrate) problem: &'a P,
+    pub(in crate::integrate) made: &'a Made<'a, S>,
+    /// The part of the step to which a zero is found.
+    pub(in crate::integrate) resolution: f64,
     parts: usize,
 }
 
@@ -126,28 +127,28 @@ where
         self.control.within(self.problem, state, rates, self.length() * S::Scalar::from_f64(part))
     }
 
-    /// A point of the step with the value there, of which a zero is the side to which the curve of the step leaves it.
-    pub(in crate::integrate) fn leaving(
-        &self,
-        function: Function<'_, S>,
-        (part, at): (f64, f64),
-    ) -> Result<(f64, f64), IntegrationErrorKind> {
-        if at != 0.0 {
-            return Ok((part, at));
-        }
-        let soon = part + SHORT * (1.0 - part) / self.parts as f64;
-        let value = value(self.problem, function, self.made.lane, &self.glances()(soon)?)?;
-        Ok((part, side(value)))
+    /// How long the step takes.
+    pub(in crate::integrate) fn duration(&self) -> f64 {
+        self.length().lane(self.made.lane).abs()
     }
 
-    /// The first event behind a point of the step with the value there: its part, and the value at it.
+    /// The parts of the step at which it is looked at: where a function is about to be back, four times as far and so on, then all of
+    /// one length.
+    fn parts(&self, from: f64, back: f64) -> impl Iterator<Item = f64> + use<S, P, C> {
+        let parts = self.parts;
+        let near = core::iter::successors(Some(back), |part| Some(4.0 * part));
+        let near = near.take_while(move |part| part * (parts as f64) < 1.0);
+        near.chain((1..=parts).map(move |k| k as f64 / parts as f64)).filter(move |part| *part > from)
+    }
+
+    /// The first event behind a point of the step, from which a function goes on: its part, and the value at it.
     pub(in crate::integrate) fn first(
         &self,
         function: Function<'_, S>,
         crossing: Crossing,
-        from: (f64, f64),
+        (from, back): ((f64, f64), f64),
     ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
-        if !self.suspicious(function, from)? {
+        if back >= 1.0 && !self.suspicious(function, from)? {
             return Ok(None);
         }
         let lane = self.made.lane;
@@ -158,11 +159,7 @@ where
             Ok((at(to)? - at(from)?) / (to - from))
         };
         let mut a = from;
-        for k in 1..=self.parts {
-            let part = k as f64 / self.parts as f64;
-            if part <= a.0 {
-                continue;
-            }
+        for part in self.parts(from.0, back) {
             let b = (part, along(part)?);
             // There and back between these two.
             if same_side(a.1, b.1) {
@@ -206,11 +203,7 @@ where
         let (lane, mut glance) = (self.made.lane, self.glances());
         let mut at = |part: f64| value(self.problem, function, lane, &glance(part)?);
         let (mut a, mut on_curve) = (from, at(from.0)?);
-        for k in 1..=self.parts {
-            let part = k as f64 / self.parts as f64;
-            if part <= a.0 {
-                continue;
-            }
+        for part in self.parts(from.0, 1.0) {
             let b = (part, at(part)?);
             let short = SHORT * (b.0 - a.0);
             let mut slopes = || Ok([(at(a.0 + short)? - on_curve) / SHORT, (b.1 - at(b.0 - short)?) / SHORT]);
@@ -246,8 +239,6 @@ where
             for points in &seen {
                 let [on_curve, off, near, b] = points.map(|values| of_lane(values, lane));
                 let (off, b) = (off?, b?);
-                // As `leaving`.
-                before = if before == 0.0 { side(off) } else { before };
                 let slopes = || Ok([(off - on_curve?) / SHORT, (b - near?) / SHORT]);
                 if shows_zero([before, b], slopes)? {
                     return Ok(true);

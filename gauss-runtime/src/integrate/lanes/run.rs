@@ -212,7 +212,7 @@ where
             pace: way(),
             way: way(),
             jumps: Jumps::new::<S::Scalar>(all.times.0, all.times.1),
-            watch: Watch::new(all.control, all.problem, all.events.clone(), numbers_of::<S::Scalar>(lane).start),
+            watch: Watch::new(all.control, all.problem, all.events.clone(), numbers_of::<S::Scalar>(lane)),
             found: Vec::new(),
         };
         self.running[lane] = Some(running);

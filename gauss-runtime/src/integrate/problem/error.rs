@@ -93,13 +93,30 @@ pub enum IntegrationErrorKind {
         /// The length of steps.
         step: f64,
     },
-    /// Events at which the state jumps follow each other at once, again and again: the jump does not lead away from zero, or
-    /// infinitely many of them pile up at this time.
+    /// Events at which the state jumps follow each other at once: the jump does not lead away from zero, or infinitely many of them
+    /// pile up at this time, and the next flight is lower than rounding.
     Zeno {
         /// The number of the event.
         event: usize,
-        /// The time between the last two of them.
+        /// The time from the last of them to the next.
         interval: f64,
+    },
+    /// The jump at an event changes the velocity and does not lead back: the function goes on through zero, where it would never be
+    /// seen again. See [`event`](crate::integrate::drive::event).
+    NotTurnedBack {
+        /// The number of the event.
+        event: usize,
+        /// The rate of its function before the jump, per unit of time in the direction of integration.
+        before: f64,
+        /// The rate after it.
+        after: f64,
+    },
+    /// The jump at an event sets what a jump does not change.
+    InvalidJump {
+        /// The number of the event.
+        event: usize,
+        /// What it sets.
+        mistake: JumpMistake,
     },
     /// The rotation in one step exceeds half a turn, beyond which its logarithm is not the shortest and the method's
     /// differential soon is singular.
@@ -152,6 +169,16 @@ pub enum IntegrationErrorKind {
         /// The time.
         time: f64,
     },
+}
+
+/// What a jump sets and does not change: see [`Simulation::then`](crate::integrate::Simulation::then).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum JumpMistake {
+    /// The time.
+    Time,
+    /// Speeds and momenta that do not belong to each other.
+    SpeedsAndMomenta,
 }
 
 /// Where a number that is not finite was seen first.
@@ -212,9 +239,24 @@ impl fmt::Display for IntegrationErrorKind {
             ),
             Self::Zeno { event, interval } => write!(
                 f,
-                "event {event} comes again after {interval:e}, and again: its jump does not lead away from zero, or infinitely \
+                "event {event} comes again after {interval:.1e}, and again: its jump does not lead away from zero, or infinitely \
                  many pile up here; end the run with `until` before, and go on with what is then at rest"
             ),
+            Self::NotTurnedBack { event, before, after } => write!(
+                f,
+                "the jump of event {event} does not turn its function back, which goes on through zero at a rate of {after:.3e} after \
+                 {before:.3e}; turn the velocity along the function (speeds of a body may be in its own axes), or use `then_through` \
+                 where it is to pass"
+            ),
+            Self::InvalidJump { event, mistake: JumpMistake::Time } => {
+                write!(f, "the jump of event {event} sets the time; it may set q, and z or p")
+            }
+            Self::InvalidJump { event, mistake: JumpMistake::SpeedsAndMomenta } => {
+                write!(
+                    f,
+                    "the jump of event {event} sets speeds and momenta that disagree; set z or p, and the other follows"
+                )
+            }
             Self::IncrementTooLarge { angle } => write!(
                 f,
                 "the body turns by {angle:.3} rad in one step, and at most π can be told from less; use a smaller step"
