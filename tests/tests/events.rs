@@ -331,7 +331,8 @@ fn jumps_without_end_are_given_up_as_steps_are() {
     assert!(matches!(error.kind, IntegrationErrorKind::TooManySteps { .. }), "{error}");
 }
 
-/// How a run over a floor ended: above it all the way to 20 s, or where impacts pile up, or at an impact that does not turn it back.
+/// How a run over a floor ended: above it all the way to 10 s, or where impacts pile up, or at an impact that does not
+/// turn it back.
 fn ended<K>(
     path: &Trajectory<'_, K>,
     error: Option<IntegrationError>,
@@ -341,9 +342,9 @@ fn ended<K>(
 where
     K: GaussSystem<Scalar = f64, Configuration = Isometry3<f64>>,
 {
-    // Zeros are found to four roundings of the time, at 4.5 m/s; heights are rounded as the distance from the origin is. With all
-    // speed kept, depths are added up.
-    let rounding = 8.0 * f64::EPSILON * (4.5 * 20.0 + 2.0 * (floor.abs() + 1.0));
+    // Zeros are found to four roundings of the time, at 4.5 m/s; heights are rounded as the distance from the origin
+    // is. With all speed kept, depths are added up.
+    let rounding = 8.0 * f64::EPSILON * (4.5 * 10.0 + 2.0 * (floor.abs() + 1.0));
     let allowed = if kept < 1.0 { rounding } else { rounding * path.events().len() as f64 };
     let lowest = path.iter().map(|state| state.q.translation.z - floor).fold(f64::INFINITY, f64::min);
     assert!(lowest >= -allowed, "{floor} {kept}: {lowest:e}, {error:?}");
@@ -377,10 +378,11 @@ fn bodies_that_spin_do_not_fall_through_floors() {
         for kept in [0.0, 0.5, 0.9, 1.0] {
             for spin in SPINS {
                 let (q, z) = above(floor, spin);
-                // Along the body's own axis, whatever way it has turned to: mended only by turning the velocity in space.
+                // Along the body's own axis, whatever way it has turned to: mended only by turning the velocity in
+                // space.
                 let run = Simulation::new(&own).event(Crossing::Falling, height);
                 let wrong = run.then(|state| state.z[2] *= -kept).adaptive(tolerance, tolerance);
-                let (path, error) = wrong.attempt(q, z, 0.0..20.0);
+                let (path, error) = wrong.attempt(q, z, 0.0..10.0);
                 let how = ended(&path, error, floor, kept);
                 let tilts = spin[0] != 0.0 || spin[1] != 0.0;
                 turned += usize::from(matches!(how, Some(IntegrationErrorKind::NotTurnedBack { .. })));
@@ -395,12 +397,12 @@ fn bodies_that_spin_do_not_fall_through_floors() {
                 // With a push to the spin, which changes nothing of the flight.
                 let in_space = run.then(|state| (state.z[2], state.z[3]) = (-kept * state.z[2], state.z[3] + 0.1));
                 let mut ends = vec![
-                    ended_by(right.adaptive(tolerance, tolerance).attempt(q, z, 0.0..20.0), floor, kept),
-                    ended_by(in_space.adaptive(tolerance, tolerance).attempt(q, z, 0.0..20.0), floor, kept),
-                    ended_by(in_space.fixed_step(0.02).attempt(q, z, 0.0..20.0), floor, kept),
+                    ended_by(right.adaptive(tolerance, tolerance).attempt(q, z, 0.0..10.0), floor, kept),
+                    ended_by(in_space.adaptive(tolerance, tolerance).attempt(q, z, 0.0..10.0), floor, kept),
+                    ended_by(in_space.fixed_step(0.05).attempt(q, z, 0.0..10.0), floor, kept),
                 ];
                 if spin == SPINS[3] && floor == 1.7 && kept == 0.5 {
-                    ends.push(ended_by(in_space.taylor(1e-12, 1e-12).attempt(q, z, 0.0..20.0), floor, kept));
+                    ends.push(ended_by(in_space.taylor(1e-12, 1e-12).attempt(q, z, 0.0..10.0), floor, kept));
                 }
                 for end in ends {
                     assert_eq!(end.is_none(), kept == 1.0, "{floor} {kept} {spin:?}: {end:?}");

@@ -8,7 +8,7 @@ use super::packs::{SingleConfiguration, SingleSpeeds};
 use super::system::BatchSystem;
 use crate::configuration::Configuration;
 use crate::integrate::{
-    DEFAULT_LIMIT, IntegrationErrorKind, OneStep, Problem, Rates, State, accept, number_of_steps, prepare,
+    DEFAULT_LIMIT, IntegrationErrorKind, OneStep, Problem, Rates, State, accept, further, prepare, steps_within,
 };
 use crate::real::Real;
 use crate::simd::Packed;
@@ -70,12 +70,15 @@ pub(super) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
     let (given, refused) = ((*q, *z), block.failures.len());
 
     let (start, end) = (reached.0.t, S::Scalar::from_f64(interval.end));
-    let steps = if span == 0.0 { 0.0 } else { number_of_steps::<S::Scalar>(span, interval.step.abs()) };
-    if steps > DEFAULT_LIMIT as f64 {
-        block.fail_the_rest(interval.start, IntegrationErrorKind::TooManySteps { limit: DEFAULT_LIMIT });
-        return block.failures;
-    }
-    let steps = steps as u64;
+    let time = further(interval.start, interval.end);
+    let steps = match steps_within::<S::Scalar>(span, time, interval.step.abs(), DEFAULT_LIMIT) {
+        _ if span == 0.0 => 0,
+        Ok(steps) => steps,
+        Err(kind) => {
+            block.fail_the_rest(interval.start, kind);
+            return block.failures;
+        }
+    };
     let h = S::Scalar::from_f64(if span < 0.0 { -interval.step.abs() } else { interval.step.abs() });
     let (mut n, mut trial) = (1, Trial::OfTheAble(None));
     while n <= steps {

@@ -38,7 +38,7 @@ pub(crate) use drive::control::prepare;
 pub use drive::control::{Control, DEFAULT_LIMIT, Emit, Taken};
 pub use drive::fixed::Fixed;
 #[cfg(feature = "alloc")]
-pub(crate) use drive::fixed::number_of_steps;
+pub(crate) use drive::fixed::{further, steps_within};
 pub use drive::observer::Observer;
 #[cfg(feature = "alloc")]
 pub(crate) use drive::projection::accept;

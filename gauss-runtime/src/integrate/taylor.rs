@@ -9,7 +9,9 @@ use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{Gave, Place, cause};
-use crate::integrate::drive::control::{Control, Emit, Taken, check_tolerances, longest, prepare, smallest};
+use crate::integrate::drive::control::{
+    Control, Emit, Taken, check_tolerances, longest, prepare, smallest, unresolved,
+};
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::{accept, on_constraints};
 use crate::integrate::drive::simulation::Simulation;
@@ -277,7 +279,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             let last = length >= left * 0.999;
             let h = if last { end - state.t } else { S::Scalar::from_f64(direction * length) };
             if state.t + h == state.t || !last && length <= smallest::<S::Scalar>(state.t.lane(0), span) {
-                return Err(gave(Gave::AnyStep(IntegrationErrorKind::StepTooSmall { step: length })));
+                return Err(gave(Gave::AnyStep(unresolved::<S::Scalar>(length, state.t.lane(0), span))));
             }
             let mut reached = summed(problem, state.t, &series, order.value(), h);
             if last {

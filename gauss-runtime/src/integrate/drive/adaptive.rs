@@ -4,7 +4,9 @@ use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{Gave, Place, cause, change};
-use crate::integrate::drive::control::{Control, Emit, Taken, check_tolerances, longest, one_step, prepare, smallest};
+use crate::integrate::drive::control::{
+    Control, Emit, Taken, check_tolerances, longest, one_step, prepare, smallest, unresolved,
+};
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::accept;
 use crate::integrate::drive::step_length::{StepLength, power};
@@ -173,7 +175,7 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
             S::Scalar::from_f64(if self.span < 0.0 { -self.length } else { self.length })
         };
         if self.state.t + signed == self.state.t || !last && self.vanishes(self.length) {
-            return Err(IntegrationErrorKind::StepTooSmall { step: self.length });
+            return Err(unresolved::<S::Scalar>(self.length, self.state.t.lane(0), self.span));
         }
         let (step, coarse) =
             match self.control.method.step_and_estimates(self.problem, &self.state, &self.rates, signed) {

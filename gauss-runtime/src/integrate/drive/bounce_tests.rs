@@ -22,8 +22,8 @@ fn pair(x: f64, y: f64) -> Pair {
     Pair::from([x, y])
 }
 
-/// How far below the floor an impact may be: zeros are found to four roundings of the time, or of a step up to the end of the run, and
-/// a little more for roundings of the numbers.
+/// How far below the floor an impact may be: zeros are found to four roundings of the time, or of a step up to the end
+/// of the run, and a little more for roundings of the numbers.
 fn depth(speed: f64, end: f64, size: f64) -> f64 {
     8.0 * UNIT * speed * end + 16.0 * UNIT * size
 }
@@ -52,8 +52,8 @@ fn bounce<C: Control<Particle>>(control: C, floor: f64, kept: f64, drift: f64) {
     }
     let error = error.expect("piles up");
     assert!(matches!(error.kind, IntegrationErrorKind::Zeno { event: 0, .. }), "{name}: {error}");
-    // What is left to come when a flight is lower than 5.3 times 16 roundings: 2v/g and so on, from a height v²/2g; in each impact the
-    // time of a fall of some depth is gained or lost.
+    // What is left to come when a flight is lower than 5.3 times 16 roundings: 2v/g and so on, from a height v²/2g; in
+    // each impact the time of a fall of some depth is gained or lost.
     let height = 6.0 * 16.0 * UNIT * size + 2.0 * allowed;
     let left = 2.0 * (2.0 * height / G).sqrt() / (1.0 - kept);
     assert!((error.time - rests).abs() < left + 1e-9, "{name}: {:e}, {left:e}", error.time - rests);
@@ -166,7 +166,8 @@ fn short_flights_from_zero_end_where_they_should() {
             for step in [1e-3, 0.1, 1.0] {
                 let end = run.fixed_step(step).run_to_end(pair(0.0, floor), pair(0.0, speed), 0.0..5.0).expect("lands");
                 let flight = 2.0 * speed / G;
-                // The height is rounded as that of the floor is, at this speed; the time by four roundings, and those of a step's sum.
+                // The height is rounded as that of the floor is, at this speed; the time by four roundings, and those
+                // of a step's sum.
                 let allowed = (8.0 * UNIT * floor / speed) + 32.0 * UNIT * step.max(flight);
                 assert!((end.t - flight).abs() < allowed, "{floor} {speed} {step}: {:e}", end.t - flight);
             }

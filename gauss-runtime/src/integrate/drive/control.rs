@@ -127,6 +127,16 @@ pub(in crate::integrate) fn smallest<T: Real>(t: f64, span: f64) -> f64 {
     0.5 * unit * t.abs().max(unit * span.abs())
 }
 
+/// What is said of a step that does not change the time t: of a run that is short beside its distance from zero, where
+/// less than half of the digits of times are left to it, that times are too coarse.
+pub(in crate::integrate) fn unresolved<T: Real>(step: f64, time: f64, span: f64) -> IntegrationErrorKind {
+    if span.abs() < Real::sqrt(T::EPSILON) * time.abs() {
+        IntegrationErrorKind::TimeTooCoarse { step, time }
+    } else {
+        IntegrationErrorKind::StepTooSmall { step }
+    }
+}
+
 /// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the first
 /// step.
 pub(crate) fn prepare<S: GaussSystem, P: Problem<System = S>>(

@@ -17,23 +17,25 @@
 //! zero: what is found is a state that the method itself reaches from the last one, as accurate as the run, and not a point
 //! of the curve.
 //!
-//! **Jumps.** [`Simulation::then`](crate::integrate::Simulation::then) changes the state at an event, and the run goes on from there: a
-//! jump of velocities, as at an impact, or of the configuration. After it the function is on zero, to rounding, and its sign is
-//! rounding too; it is on the side to which the motion leads, however short the flight is beside the step. So a ball that bounces has not
-//! fallen through the floor.
+//! **Jumps.** [`Simulation::then`](crate::integrate::Simulation::then) changes the state at an event, and the run goes
+//! on from there: a jump of velocities, as at an impact, or of the configuration. After it the function is on zero, to
+//! rounding, and its sign is rounding too; it is on the side to which the motion leads, however short the flight is
+//! beside the step. So a ball that bounces has not fallen through the floor.
 //!
 //! - *A jump has to lead back.* Where the function goes on through zero, at another rate than before, the run ends with
-//!   [`IntegrationErrorKind::NotTurnedBack`]: the velocity that was turned is not the one along which the function changes. `u` and
-//!   `ω` of a body are in its own axes, and `z[2] *= -0.8` turns the velocity along the body's third axis. Where it is meant to go on,
-//!   as at a gate that kicks, write [`then_through`](crate::integrate::Simulation::then_through). A jump that does not change the
-//!   velocity along the function, as at a given time, lets it pass.
-//! - *A jump to rest.* Where the function does not leave zero again but for what pulls it on (no restitution, and weight), or leaves
-//!   it by less than rounding, the run ends with [`IntegrationErrorKind::Zeno`].
-//! - *Infinitely many jumps* (a ball that bounces ever lower) pile up at one time. The run ends with `Zeno` as soon as the next
-//!   flight is not higher than some roundings of the numbers that the function depends on, or shorter than what times are
-//!   told apart by. For a ball at 1 m that is 10⁻¹⁴ m, some 10⁻⁷ s before the time of the last impact.
-//! - *Over other zeros.* Where a jump itself leads over the zero of another event, that one happens at once, in the state after
-//!   the jump. Events whose zeros are the same, to the resolution of the time, happen at one time, in their order.
+//!   [`IntegrationErrorKind::NotTurnedBack`]: the velocity that was turned is not the one along which the function
+//!   changes. `u` and `ω` of a body are in its own axes, and `z[2] *= -0.8` turns the velocity along the body's third
+//!   axis. Where it is meant to go on, as at a gate that kicks, write
+//!   [`then_through`](crate::integrate::Simulation::then_through). A jump that does not change the velocity along the
+//!   function, as at a given time, lets it pass.
+//! - *A jump to rest.* Where the function does not leave zero again but for what pulls it on (no restitution, and
+//!   weight), or leaves it by less than rounding, the run ends with [`IntegrationErrorKind::Zeno`].
+//! - *Infinitely many jumps* (a ball that bounces ever lower) pile up at one time. The run ends with `Zeno` as soon as
+//!   the next flight is not higher than some roundings of the numbers that the function depends on, or shorter than
+//!   what times are told apart by. For a ball at 1 m that is 10⁻¹⁴ m, some 10⁻⁷ s before the time of the last impact.
+//! - *Over other zeros.* Where a jump itself leads over the zero of another event, that one happens at once, in the
+//!   state after the jump. Events whose zeros are the same, to the resolution of the time, happen at one time, in their
+//!   order.
 //!
 //! What a jump sets is `q`, and `z` or `p`. Time goes on: a jump that sets it ends the run with
 //! [`IntegrationErrorKind::InvalidJump`], and so does one that sets both `z` and `p` where they disagree.
@@ -206,6 +208,9 @@ pub(in crate::integrate) enum Outcome<S: GaussSystem> {
     },
 }
 
+/// Where a run may be cut: the state, what it jumped to, the first event there, and the one that ends the run.
+type Here<S> = (State<S>, Option<State<S>>, usize, Option<usize>);
+
 impl Mark {
     /// The first event of the step.
     fn first<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
@@ -230,14 +235,13 @@ impl Mark {
         looking.first(function, self.crossing, (leaving.from, leaving.until))
     }
 
-    /// The next event behind the one at the part of the step where the last one was found.
+    /// The next event of the step behind the one that was found.
     fn following<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
         &mut self,
         looking: &Looking<'_, S, P, C>,
         function: Function<'_, S>,
     ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
         let Some(from) = self.next else { return Ok(None) };
-        self.last = Some((from.0, self.value));
         let Some(leaving) = looking.going_on(function, from)? else { return Ok(None) };
         self.value = leaving.from.1;
         looking.first(function, self.crossing, (leaving.from, leaving.until))
@@ -356,30 +360,15 @@ where
             if part > cut + together {
                 break;
             }
-            let (at, mut after, first, mut stopped_by) = match here.take() {
-                Some(here) => here,
+            let now = match here.take() {
+                Some(now) => now,
                 None => (looking.reach(part)?, None, number, None),
             };
-            report(number, &at);
-            self.each(|n, function, mark| {
-                if n == number {
-                    mark.next = mark.following(&looking, function)?;
-                }
-                Ok(())
-            })?;
-            if let Some(jumped) = self.jump(number, &after.unwrap_or(at))? {
-                after = Some(jumped);
-                self.each(|n, _, mark| {
-                    mark.jumped |= n == number;
-                    Ok(())
-                })?;
-            }
-            if terminal && stopped_by.is_none() {
-                stopped_by = Some(number);
-            }
-            if after.is_some() || stopped_by.is_some() {
+            report(number, &now.0);
+            let now = self.happens(&looking, (number, terminal), now)?;
+            if now.1.is_some() || now.3.is_some() {
                 cut = cut.min(part);
-                here = Some((at, after, first, stopped_by));
+                here = Some(now);
             }
         }
         if let Some((state, mut after, number, mut stopped_by)) = here {
@@ -399,6 +388,26 @@ where
             Ok(())
         })?;
         Ok(Outcome::On)
+    }
+
+    /// An event happens, which may end the run or make the state jump, perhaps after others there.
+    fn happens(
+        &mut self,
+        looking: &Looking<'_, S, P, C>,
+        (number, terminal): (usize, bool),
+        (at, after, first, stopped_by): Here<S>,
+    ) -> Result<Here<S>, IntegrationErrorKind> {
+        let jumped = self.jump(number, &after.unwrap_or(at))?;
+        self.each(|n, function, mark| {
+            if n == number {
+                mark.last = mark.next.map(|(part, _)| (part, mark.value));
+                mark.jumped |= jumped.is_some();
+                let cuts = jumped.is_some() || terminal;
+                mark.next = if cuts { None } else { mark.following(looking, function)? };
+            }
+            Ok(())
+        })?;
+        Ok((at, jumped.or(after), first, stopped_by.or(terminal.then_some(number))))
     }
 
     /// Remembers of all functions that are on zero where the state jumps how they came there.
@@ -490,8 +499,10 @@ where
 fn differs<T: Real, V: VectorSpace<T>>(a: &V, b: &V, lanes: &Range<usize>, part: f64) -> bool {
     lanes.clone().any(|lane| {
         let size = (0..V::DIM).map(|i| a.component(i).lane(lane).abs()).fold(0.0, f64::max);
-        // Written so that a NaN differs.
-        (0..V::DIM).any(|i| !((a.component(i).lane(lane) - b.component(i).lane(lane)).abs() <= part * size))
+        (0..V::DIM).any(|i| {
+            let off = (a.component(i).lane(lane) - b.component(i).lane(lane)).abs();
+            off > part * size || off.is_nan()
+        })
     })
 }
 

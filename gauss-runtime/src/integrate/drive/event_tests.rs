@@ -203,3 +203,25 @@ fn an_event_function_that_is_undefined_stops_the_run() {
     let error = run.fixed_step(0.3).run_to_end(q0, z0, 2.0..3.0).expect_err("stops");
     assert_eq!((error.time, error.kind), (2.0, IntegrationErrorKind::NonFinite { part: Part::Event }));
 }
+
+/// Far from zero times are apart: steps that cannot be told apart are refused by every control, and others are as many
+/// as there are.
+#[test]
+fn steps_that_the_time_does_not_tell_apart_are_refused() {
+    let (q0, z0) = origin();
+    let run = Simulation::new(&SPRING).input(undriven);
+    for (start, step) in [(1e16, 0.01), (-1e16, 1.9), (1e18, 100.0)] {
+        for end in [start + 100.0, start - 100.0] {
+            let error = run.fixed_step(step).run_to_end(q0, z0, start..end).expect_err("refused");
+            assert!(matches!(error.kind, IntegrationErrorKind::TimeTooCoarse { .. }), "{error}");
+            assert_eq!(error.time, start);
+        }
+    }
+    // At the distance of the numbers there, or at once.
+    for (step, steps) in [(4.0, 25), (100.0, 1), (1e3, 1)] {
+        let end = run.fixed_step(step).run_to_end(q0, z0, 1e16..1e16 + 100.0).expect("runs");
+        assert_eq!((end.t, end.summary.steps), (1e16 + 100.0, steps));
+    }
+    let refused = run.adaptive(1e-9, 1e-9).run_to_end(q0, z0, 1e16..1e16 + 100.0).expect_err("refused").kind;
+    assert!(matches!(refused, IntegrationErrorKind::TimeTooCoarse { .. }), "{refused}");
+}

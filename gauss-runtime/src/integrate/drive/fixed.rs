@@ -51,11 +51,35 @@ pub(in crate::integrate) type Advanced<S> = (State<S>, Option<Rates<S>>);
 
 /// How many steps of a length fill a span of time. A remainder of a few roundings of the count is that of the length and of the
 /// ends, not a step.
-pub(crate) fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
+fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
     let count = span.abs() / length;
     let unit = T::EPSILON.max(f64::EPSILON);
     let whole = Real::abs(count - round(count)) <= 8.0 * unit * count.max(1.0);
     if whole { round(count).max(1.0) } else { floor(count) + 1.0 }
+}
+
+/// How many steps of a length fill a span of time that comes as far from zero as `time`, where these are no more than
+/// the limit and follow one another: neighbouring times are numbers that differ where a step is no less than their
+/// distance there.
+pub(crate) fn steps_within<T: Real>(
+    span: f64,
+    time: f64,
+    length: f64,
+    limit: u64,
+) -> Result<u64, IntegrationErrorKind> {
+    let steps = number_of_steps::<T>(span, length);
+    if steps > limit as f64 {
+        Err(IntegrationErrorKind::TooManySteps { limit })
+    } else if length < T::EPSILON * time.abs() {
+        Err(IntegrationErrorKind::TimeTooCoarse { step: length, time })
+    } else {
+        Ok(steps as u64)
+    }
+}
+
+/// The one of two times that is further from zero.
+pub(crate) fn further(a: f64, b: f64) -> f64 {
+    if a.abs() > b.abs() { a } else { b }
 }
 
 /// A run by steps of one length, the last one ending where it should.
@@ -94,12 +118,10 @@ impl<S: GaussSystem> OneLength<S> {
         if emit(&state, &rates, Taken::default()).is_break() || span == 0.0 {
             return Ok(Err(state));
         }
-        let steps = number_of_steps::<S::Scalar>(span, positive);
-        if steps > limit as f64 {
-            return Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }));
-        }
+        let time = further(state.t.lane(0), end.lane(0));
+        let steps = steps_within::<S::Scalar>(span, time, positive, limit).map_err(|kind| stopped(&state, kind))?;
         let h = if (span < 0.0) == (length.lane(0) < 0.0) { length } else { -length };
-        Ok(Ok(Self { state, rates, start: state.t, end, h, steps: steps as u64, made: 0, stiff }))
+        Ok(Ok(Self { state, rates, start: state.t, end, h, steps, made: 0, stiff }))
     }
 
     /// Whether the last step has the length of the others, but for a millionth.

@@ -1,11 +1,11 @@
 //! How the function of an event leaves zero: to which side, and whether it comes back at once.
 //!
-//! After a jump, and at a start on zero, the value of the function is rounding, and so is its sign. Where the motion leads decides. The
-//! function is followed on the parabola of the motion (state, velocity, acceleration) at parts of the step that grow by four, from
-//! far below what the time resolves. The first two in a row that differ from the value at the start by more than rounding show the
-//! side. However short a flight is beside the step, some parts lie within it: of a flight of height H one shows 0.64 H at least (one
-//! lies between a fifth and four fifths of it), and the one before 0.19 H. So a flight of 5.3 roundings is seen, and a lower one is
-//! rest.
+//! After a jump, and at a start on zero, the value of the function is rounding, and so is its sign. Where the motion
+//! leads decides. The function is followed on the parabola of the motion (state, velocity, acceleration) at parts of
+//! the step that grow by four, from far below what the time resolves. The first two in a row that differ from the value
+//! at the start by more than rounding show the side. However short a flight is beside the step, some parts lie within
+//! it: of a flight of height H one shows 0.64 H at least (one lies between a fifth and four fifths of it), and the one
+//! before 0.19 H. So a flight of 5.3 roundings is seen, and a lower one is rest.
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
@@ -19,8 +19,8 @@ use crate::system::GaussSystem;
 /// Parts of a step that are looked at: from 4⁻³⁰, which no time resolves, to the whole.
 const PARTS: usize = 31;
 
-/// The part of a step over which rates are measured. Their error is the square of what the motion turns in it, below 10⁻⁶ where a
-/// step turns by 5 radians; rounding is the smaller, the longer it is.
+/// The part of a step over which rates are measured. Their error is the square of what the motion turns in it, below
+/// 10⁻⁶ where a step turns by 5 radians; rounding is the smaller, the longer it is.
 const SPAN: f64 = 1.0 / 4096.0;
 
 /// Roundings of every number that a function depends on: states are sums of some rounded terms, and so is the function.
@@ -78,7 +78,8 @@ impl OnZero {
         Self { value, rounding, back }
     }
 
-    /// Which way the function goes that has these values at growing parts of a step; none where it does not leave in it.
+    /// Which way the function goes that has these values at growing parts of a step; none where it does not leave in
+    /// it.
     fn leaves(&self, points: &[(f64, f64)]) -> Option<Leaving> {
         let off = |n: usize| points[n].1 - self.value;
         let beyond = |n: usize| off(n).abs() > self.rounding;
@@ -148,7 +149,8 @@ struct Parabola<'a, S: GaussSystem> {
 }
 
 impl<'a, S: GaussSystem> Parabola<'a, S> {
-    /// Over a time h. The second derivatives are differences: what they are off by changes less than they do within a step.
+    /// Over a time h. The second derivatives are differences: what they are off by changes less than they do within a
+    /// step.
     fn of<P: Problem<System = S>>(problem: &P, state: &'a State<S>, rates: &'a Rates<S>, h: S::Scalar) -> Self {
         let short = h * S::Scalar::from_f64(SHORT);
         let next = problem.rates(&moved(state, rates, short));

@@ -132,8 +132,8 @@ where
         self.length().lane(self.made.lane).abs()
     }
 
-    /// The parts of the step at which it is looked at: where a function is about to be back, four times as far and so on, then all of
-    /// one length.
+    /// The parts of the step at which it is looked at: where a function is about to be back, four times as far and so
+    /// on, then all of one length.
     fn parts(&self, from: f64, back: f64) -> impl Iterator<Item = f64> + use<S, P, C> {
         let parts = self.parts;
         let near = core::iter::successors(Some(back), |part| Some(4.0 * part));
@@ -152,7 +152,14 @@ where
             return Ok(None);
         }
         let lane = self.made.lane;
-        let along = |part: f64| value(self.problem, function, lane, &self.reach(part)?);
+        let (before, rates) = self.made.before;
+        let mut states = self.control.along(self.problem, before, rates);
+        // As `reach`, with what belongs to the step worked out once.
+        let mut along = |part: f64| {
+            let within = part < 1.0;
+            let state = if within { states(self.length() * S::Scalar::from_f64(part))? } else { *self.made.after.0 };
+            value(self.problem, function, lane, &state)
+        };
         let mut glance = self.glances();
         let mut slope = |from: f64, to: f64| -> Result<f64, IntegrationErrorKind> {
             let mut at = |part: f64| value(self.problem, function, lane, &glance(part)?);
@@ -168,13 +175,13 @@ where
                 let falls = sign * slope(a.0, a.0 + short)? < 0.0 && sign * slope(b.0 - short, b.0)? > 0.0;
                 if falls && let Some((x, beyond)) = below_zero(|part| Ok(sign * along(part)?), a.0, b.0)? {
                     let x = (x, sign * beyond);
-                    if let Some(found) = self.between(&along, crossing, a, x)? {
+                    if let Some(found) = self.between(&mut along, crossing, a, x)? {
                         return Ok(Some(found));
                     }
                     a = x;
                 }
             }
-            if let Some(found) = self.between(&along, crossing, a, b)? {
+            if let Some(found) = self.between(&mut along, crossing, a, b)? {
                 return Ok(Some(found));
             }
             a = b;
@@ -185,7 +192,7 @@ where
     /// The event between two points, if it is one.
     fn between(
         &self,
-        along: &impl Fn(f64) -> Result<f64, IntegrationErrorKind>,
+        along: &mut impl FnMut(f64) -> Result<f64, IntegrationErrorKind>,
         crossing: Crossing,
         a: (f64, f64),
         b: (f64, f64),

@@ -199,12 +199,13 @@ assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
 
 impl<'k, S: GaussSystem, F, I, C, O, E, G> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G>> {
     /// Changes the state at the event that was asked for last, before the run goes on from there, or ends there
-    /// ([`until`](Self::until)). What may be set is `q`, and `z` or `p`; the other follows. Under constraints the state is
-    /// brought onto them, with velocities as an impact makes them.
+    /// ([`until`](Self::until)). What may be set is `q`, and `z` or `p`; the other follows. Under constraints the state
+    /// is brought onto them, with velocities as an impact makes them.
     ///
     /// A jump that changes the velocity along the function has to turn it back: else the run ends with
-    /// [`NotTurnedBack`](crate::integrate::IntegrationErrorKind::NotTurnedBack), and where it ends at rest, or bounces ever lower, with
-    /// [`Zeno`](crate::integrate::IntegrationErrorKind::Zeno). See [`event`](crate::integrate::drive::event).
+    /// [`NotTurnedBack`](crate::integrate::IntegrationErrorKind::NotTurnedBack), and where it ends at rest, or bounces
+    /// ever lower, with [`Zeno`](crate::integrate::IntegrationErrorKind::Zeno). See
+    /// [`event`](crate::integrate::drive::event).
     ///
     /// The trajectory has a sample before the jump and one after it, both at its time.
     ///
@@ -248,8 +249,8 @@ assert!(run.iter().all(|state| state.q[0] > -1e-14)); // some roundings of the t
         self.with_jump(jump, false)
     }
 
-    /// Changes the state as [`then`](Self::then) does, where the function may go on through zero: a gate that kicks or brakes what
-    /// passes.
+    /// Changes the state as [`then`](Self::then) does, where the function may go on through zero: a gate that kicks or
+    /// brakes what passes.
     #[expect(clippy::type_complexity, reason = "a builder, whose type nobody writes")]
     pub fn then_through<J: FnMut(&mut Sample<S>)>(
         self,

@@ -7,7 +7,7 @@ use super::{Group, LaneControl, Verdict, chosen_state, largest, number, numbers_
 use crate::batch::BatchSystem;
 use crate::integrate::drive::adaptive::{Adaptive, ROUNDED};
 use crate::integrate::drive::cause::{Gave, change};
-use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest};
+use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, unresolved};
 use crate::integrate::drive::logarithms::{exponential, logarithm};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::drive::step_length::StepLength;
@@ -67,7 +67,7 @@ impl<S: BatchSystem> Memory<S> {
                 if lane.last { rest.extract(n) } else { of(if group.span < 0.0 { -lane.length } else { lane.length }) };
             let t = group.state.t.extract(n);
             if t + signed == t || !lane.last && lane.length <= smallest::<S::Scalar>(t.lane(0), group.span) {
-                let vanishes = IntegrationErrorKind::StepTooSmall { step: lane.length };
+                let vanishes = unresolved::<S::Scalar>(lane.length, t.lane(0), group.span);
                 group.verdicts[n] = Verdict::Gave(Gave::AnyStep(vanishes));
                 continue;
             }

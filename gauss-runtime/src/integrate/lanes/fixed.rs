@@ -3,11 +3,11 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::{Group, LaneControl, Verdict, chosen_state, ones_in};
+use super::{Group, LaneControl, Verdict, chosen_state, number, ones_in};
 use crate::batch::BatchSystem;
 use crate::integrate::drive::cause::Gave;
 use crate::integrate::drive::control::Taken;
-use crate::integrate::drive::fixed::{Advanced, Fixed, number_of_steps};
+use crate::integrate::drive::fixed::{Advanced, Fixed, further, steps_within};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::problem::called::Called;
 use crate::integrate::problem::equations::Problem;
@@ -100,11 +100,9 @@ impl<S: BatchSystem> March<S> {
         lane: usize,
         limit: u64,
     ) -> Result<(), IntegrationErrorKind> {
-        let all = number_of_steps::<S::Scalar>(group.left(lane), self.length());
-        if all > limit as f64 {
-            return Err(IntegrationErrorKind::TooManySteps { limit });
-        }
-        self.lanes[lane] = Lane { made: 0, all: all as u64, steps: false };
+        let time = further(number(group.state.t, lane), number(group.end, lane));
+        let all = steps_within::<S::Scalar>(group.left(lane), time, self.length(), limit)?;
+        self.lanes[lane] = Lane { made: 0, all, steps: false };
         self.starts.replace(lane, &group.state.t.extract(lane));
         Ok(())
     }

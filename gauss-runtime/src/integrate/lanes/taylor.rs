@@ -8,7 +8,7 @@ use super::{Group, LaneControl, Verdict, chosen_state, number, numbers_of, ones_
 use crate::batch::BatchSystem;
 use crate::configuration::Configuration;
 use crate::integrate::drive::cause::Gave;
-use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest};
+use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, unresolved};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
@@ -69,7 +69,7 @@ where
             let signed = if lane.last { rest.extract(n) } else { of(direction * length) };
             let t = group.state.t.extract(n);
             if t + signed == t || !lane.last && length <= smallest::<S::Scalar>(t.lane(0), group.span) {
-                gave(IntegrationErrorKind::StepTooSmall { step: length });
+                gave(unresolved::<S::Scalar>(length, t.lane(0), group.span));
                 continue;
             }
             (lane.guess, lane.tries) = (length, true);

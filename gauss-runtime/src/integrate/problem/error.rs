@@ -72,6 +72,13 @@ pub enum IntegrationErrorKind {
         /// The step.
         step: f64,
     },
+    /// Times so far from zero are further apart than the steps of the run.
+    TimeTooCoarse {
+        /// The step.
+        step: f64,
+        /// The time.
+        time: f64,
+    },
     /// The limit of steps was reached before the end, or the end is farther away than the limit allows.
     TooManySteps {
         /// The limit.
@@ -93,16 +100,16 @@ pub enum IntegrationErrorKind {
         /// The length of steps.
         step: f64,
     },
-    /// Events at which the state jumps follow each other at once: the jump does not lead away from zero, or infinitely many of them
-    /// pile up at this time, and the next flight is lower than rounding.
+    /// Events at which the state jumps follow each other at once: the jump does not lead away from zero, or infinitely
+    /// many of them pile up at this time, and the next flight is lower than rounding.
     Zeno {
         /// The number of the event.
         event: usize,
         /// The time from the last of them to the next.
         interval: f64,
     },
-    /// The jump at an event changes the velocity and does not lead back: the function goes on through zero, where it would never be
-    /// seen again. See [`event`](crate::integrate::drive::event).
+    /// The jump at an event changes the velocity and does not lead back: the function goes on through zero, where it
+    /// would never be seen again. See [`event`](crate::integrate::drive::event).
     NotTurnedBack {
         /// The number of the event.
         event: usize,
@@ -213,6 +220,35 @@ impl Part {
     }
 }
 
+impl IntegrationErrorKind {
+    /// What is wrong with the jump of an event.
+    fn of_jump(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Zeno { event, interval } => write!(
+                f,
+                "event {event} comes again after {interval:.1e}, and again: its jump does not lead away from zero, or \
+                 infinitely many pile up here; end the run with `until` before, and go on with what is then at rest"
+            ),
+            Self::NotTurnedBack { event, before, after } => write!(
+                f,
+                "the jump of event {event} does not turn its function back, which goes on through zero at a rate of \
+                 {after:.3e} after {before:.3e}; turn the velocity along the function (speeds of a body may be in its own \
+                 axes), or use `then_through` where it is to pass"
+            ),
+            Self::InvalidJump { event, mistake: JumpMistake::Time } => {
+                write!(f, "the jump of event {event} sets the time; it may set q, and z or p")
+            }
+            Self::InvalidJump { event, mistake: JumpMistake::SpeedsAndMomenta } => {
+                write!(
+                    f,
+                    "the jump of event {event} sets speeds and momenta that disagree; set z or p, and the other follows"
+                )
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
 impl fmt::Display for IntegrationErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -221,6 +257,11 @@ impl fmt::Display for IntegrationErrorKind {
                 f,
                 "steps shrink to {step:.1e} and less: the motion is singular here, or a force jumps where nothing can move as it \
                  asks (dry friction at rest: use a smooth law)"
+            ),
+            Self::TimeTooCoarse { step, time } => write!(
+                f,
+                "steps of {step:.1e} do not tell times near {time:e} apart; count the time from another zero, or make longer \
+                 steps"
             ),
             Self::TooManySteps { limit } => write!(
                 f,
@@ -237,26 +278,7 @@ impl fmt::Display for IntegrationErrorKind {
                 "the motion has rates of {rate:.1e} per unit of time, for which steps of {step:.1e} are too long or too many; check \
                  units and parameters, shorten the run, or use a method that need not resolve them (`FreeFlow`, `Splitting`)"
             ),
-            Self::Zeno { event, interval } => write!(
-                f,
-                "event {event} comes again after {interval:.1e}, and again: its jump does not lead away from zero, or infinitely \
-                 many pile up here; end the run with `until` before, and go on with what is then at rest"
-            ),
-            Self::NotTurnedBack { event, before, after } => write!(
-                f,
-                "the jump of event {event} does not turn its function back, which goes on through zero at a rate of {after:.3e} after \
-                 {before:.3e}; turn the velocity along the function (speeds of a body may be in its own axes), or use `then_through` \
-                 where it is to pass"
-            ),
-            Self::InvalidJump { event, mistake: JumpMistake::Time } => {
-                write!(f, "the jump of event {event} sets the time; it may set q, and z or p")
-            }
-            Self::InvalidJump { event, mistake: JumpMistake::SpeedsAndMomenta } => {
-                write!(
-                    f,
-                    "the jump of event {event} sets speeds and momenta that disagree; set z or p, and the other follows"
-                )
-            }
+            Self::Zeno { .. } | Self::NotTurnedBack { .. } | Self::InvalidJump { .. } => self.of_jump(f),
             Self::IncrementTooLarge { angle } => write!(
                 f,
                 "the body turns by {angle:.3} rad in one step, and at most π can be told from less; use a smaller step"
