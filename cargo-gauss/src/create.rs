@@ -7,6 +7,36 @@ use crate::New;
 
 const MAIN: &str = include_str!("template.rs.txt");
 
+/// Crates that a program has without asking, and the one that the package depends on.
+const TAKEN: [&str; 6] = ["std", "core", "alloc", "proc_macro", "test", "gauss_runtime"];
+
+/// Folders that Cargo makes beside programs.
+const FOLDERS: [&str; 4] = ["build", "deps", "examples", "incremental"];
+
+/// Files that Windows has not.
+const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
+
+/// Why no package has such a name, by the rules of `cargo new`.
+fn impossible(name: &str) -> Option<&'static str> {
+    let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    let small = name.to_ascii_lowercase();
+    let numbered = |device: &str| small.strip_prefix(device).is_some_and(|n| n.len() == 1 && n >= "0" && n <= "9");
+    let krate = name.replace('-', "_");
+    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) || !name.chars().all(fits) {
+        Some("letters, digits, `-` and `_`, a letter first")
+    } else if syn::parse_str::<syn::Ident>(name).is_err() && !name.contains('-') {
+        Some("it is a word of Rust")
+    } else if TAKEN.contains(&krate.as_str()) {
+        Some("a crate of this name is there already, of Rust or of Gauss")
+    } else if FOLDERS.contains(&name) {
+        Some("Cargo has folders of this name beside what it builds")
+    } else if DEVICES.contains(&small.as_str()) || numbered("com") || numbered("lpt") {
+        Some("Windows has no such files")
+    } else {
+        None
+    }
+}
+
 /// Makes the folder with its manifest and its program.
 ///
 /// # Errors
@@ -14,9 +44,8 @@ const MAIN: &str = include_str!("template.rs.txt");
 pub fn create(wanted: &New) -> Result<(), String> {
     let folder = &wanted.folder;
     let name = folder.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) || !name.chars().all(fits) {
-        return Err(format!("`{name}` is no name of a package: letters, digits, `-` and `_`, a letter first"));
+    if let Some(why) = impossible(name) {
+        return Err(format!("`{name}` is no name of a package: {why}"));
     }
     if folder.exists() {
         return Err(format!("{} exists", folder.display()));

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use gauss_codegen::program::Program;
 use gauss_codegen::{Derivation, Notation, targets};
-use syn::DeriveInput;
+use proc_macro2::TokenStream;
+use syn::{DeriveInput, Error};
 
 use crate::charts::in_chart;
 use crate::{Form, Show, page, robots, structs};
@@ -24,8 +25,11 @@ pub struct Shown {
 pub fn show(wanted: &Show) -> Result<(), String> {
     let file = wanted.file.display().to_string();
     let source = fs::read_to_string(&wanted.file).map_err(|error| format!("{file}: {error}"))?;
-    let parsed = syn::parse_file(&source).map_err(|mistakes| located(&wanted.file, &mistakes))?;
-    let mut items = structs::find(&parsed, &wanted.names).map_err(|text| format!("{file}: {text}"))?;
+    // A first line may name a program that runs the file.
+    let source = if source.starts_with("#!/") { source.replacen("#!", "//", 1) } else { source };
+    let tokens = source.parse::<TokenStream>().map_err(|error| Error::new(error.span(), "this is no Rust"));
+    let items = tokens.and_then(|tokens| structs::find(tokens, &wanted.names));
+    let mut items = items.map_err(|mistakes| located(&wanted.file, &mistakes))?;
     if let Some(package) = robots::package_of(&wanted.file) {
         items.iter_mut().for_each(|item| robots::by_whole_paths(item, &package));
     }

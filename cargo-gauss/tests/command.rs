@@ -129,5 +129,33 @@ fn a_package_is_made_once() {
         include_str!("../src/template.rs.txt")
     );
     assert!(refused(&arguments).contains("exists"));
-    assert!(refused(&["new", "3d"]).contains("no name of a package"));
+    let words =
+        ["3d", "std", "core", "alloc", "proc-macro", "test", "fn", "Self", "async", "dyn", "abstract", "typeof"];
+    let taken = ["gauss-runtime", "gauss_runtime", "build", "deps", "con", "COM1", "a.b", "a b", "ä", "-", ".."];
+    for name in words.into_iter().chain(taken) {
+        let folder = format!("{}/{name}", env!("CARGO_TARGET_TMPDIR"));
+        assert!(refused(&["new", &folder]).contains("no name of a package"), "{name}");
+    }
+}
+
+/// Brackets in brackets, in a struct, beside it and around it.
+#[test]
+fn what_is_nested_deeply_is_no_overflow() {
+    let nested =
+        |open: &str, inside: &str, close: &str| format!("{}{inside}{}", open.repeat(20_000), close.repeat(20_000));
+    let deep = |text: &str| refused(&["show", file("deep.rs", text).to_str().expect("UTF-8")]);
+    let clause = BODIES.replace("0.5 * k", &nested("(", "k", ")"));
+    assert!(deep(&clause).contains("nested more than 128 levels deep"));
+    let types = BODIES.replace("i: Vector3<f64>", &format!("i: {}", nested("Option<", "f64", ">")));
+    assert!(deep(&types).contains("nested more than 128 levels deep"));
+    let none = "no struct of this file derives GaussDynamics";
+    assert!(deep(&format!("fn f() -> u8 {{ {} }}", nested("(", "1", ")"))).contains(none));
+    assert!(deep(&nested("{", "", "}")).contains(none));
+    assert!(deep(&"(".repeat(20_000)).contains("this is no Rust"));
+    let beside = format!("{BODIES} fn f() -> u8 {{ {} }}", nested("-", "1", ""));
+    let modules = nested("mod a {", BODIES, "}");
+    for text in [beside, modules] {
+        let path = file("deep_beside.rs", &text);
+        assert!(printed(&["show", path.to_str().expect("UTF-8"), "Swing"]).contains("Swing\n====="));
+    }
 }
