@@ -156,3 +156,102 @@ fn a_hundred_links() {
     let _ = std::fs::remove_file(&path);
     assert_eq!(found, None);
 }
+
+/// A file in a folder of its own, which is gone after the test.
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+struct Folder(std::path::PathBuf);
+
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("gauss-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a folder for files that do not stay");
+        Self(path)
+    }
+
+    fn write(&self, name: &str, text: &str) -> std::path::PathBuf {
+        let path = self.0.join(name);
+        std::fs::write(&path, text).expect("a folder that can be written");
+        path
+    }
+
+    /// The struct of a file of this folder.
+    fn of(&self, format: &str, text: &str) -> String {
+        format!("#[gauss({format} = {:?})] struct Robot;", self.write(&format!("main.{format}"), text))
+    }
+}
+
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What is left behind harms nobody.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Elements in elements, on the stack of a thread; the deepest that are read, and deeper ones.
+#[cfg(feature = "mjcf")]
+#[test]
+fn depth_of_files() {
+    let folder = Folder::new("depth");
+    let whole = |inside: String| folder.of("mjcf", &format!("<mujoco>{inside}</mujoco>"));
+    let nested = |count: usize, open: &str, close: &str| format!("{}{}", open.repeat(count), close.repeat(count));
+    let bodies = |count: usize, body: &str| format!("<worldbody>{}</worldbody>", nested(count, body, "</body>"));
+    let arm = "<body name=\"arm\"><joint/><geom size=\"1\"/></body>";
+    let with_arm = |inside: String| whole(format!("<worldbody>{arm}</worldbody>{inside}"));
+    // With the root, the section and what is innermost.
+    let most = 256 - 3;
+    works(whole(bodies(most, "<body>").replace("<body></body>", arm)));
+    let frames = nested(most - 1, "<frame>", "</frame>").replace("<frame></frame>", &format!("<frame>{arm}</frame>"));
+    works(whole(format!("<worldbody>{frames}</worldbody>")));
+    works(with_arm(nested(most + 2, "<default class=\"a\">", "</default>")));
+    works(with_arm(nested(most + 2, "<custom>", "</custom>")));
+    for count in [most + 3, 3_000, 200_000] {
+        refused(whole(bodies(count, "<body>")), "<body> is nested more than 256 levels deep");
+        refused(whole(nested(count, "<default>", "</default>")), "<default> is nested more than 256 levels deep");
+        refused(whole(nested(count, "<include>", "</include>")), "nested more than 256 levels deep");
+        refused(whole(nested(count, "<replicate count=\"1\">", "</replicate>")), "nested more than 256 levels deep");
+    }
+    refused(whole("<include><include/></include>".to_owned()), "there is nothing in an <include>");
+    refused(whole("<x/>".repeat(1_100_000)), "this is no XML: nodes limit reached");
+}
+
+#[cfg(feature = "urdf")]
+#[test]
+fn depth_of_urdf_files() {
+    let folder = Folder::new("depth-urdf");
+    let whole = |count: usize| {
+        folder.of(
+            "urdf",
+            &format!("<robot>{}{}</robot>", "<transmission>".repeat(count), "</transmission>".repeat(count)),
+        )
+    };
+    for count in [256, 3_000, 200_000] {
+        refused(whole(count), "<transmission> is nested more than 256 levels deep");
+    }
+}
+
+/// What may never end is no file; what is large is cut off.
+#[cfg(all(feature = "urdf", feature = "mjcf"))]
+#[test]
+fn files_that_never_end() {
+    let folder = Folder::new("endless");
+    let include = |name: &str| folder.of("mjcf", &format!("<mujoco><include file=\"{name}\"/></mujoco>"));
+    let endless = if cfg!(unix) { "/dev/zero" } else { "." };
+    refused(include(endless), "it is no regular file");
+    refused(include("."), "it is no regular file");
+    refused(format!("#[gauss(urdf = {endless:?})] struct Robot;"), "it is no regular file");
+    refused(format!("#[gauss(mjcf = {:?})] struct Robot;", folder.0), "it is no regular file");
+    let blanks = " ".repeat((16 << 20) + 1);
+    folder.write("large.xml", &blanks);
+    refused(include("large.xml"), "it is larger than 16 MiB");
+    let part = format!("<mujoco>{}</mujoco>", " ".repeat(9 << 20));
+    folder.write("a.xml", &part);
+    folder.write("b.xml", &part);
+    let both = "<mujoco><include file=\"a.xml\"/><include file=\"b.xml\"/></mujoco>";
+    refused(folder.of("mjcf", both), "with `b.xml` all files together are larger than 16 MiB");
+    for k in 0..40 {
+        folder.write(&format!("{k}.xml"), &format!("<mujoco><include file=\"{}.xml\"/></mujoco>", k + 1));
+    }
+    refused(include("0.xml"), "files include each other more than 32 deep");
+}

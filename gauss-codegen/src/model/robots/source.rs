@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::description::{At, Description, Fault};
 use super::mimic::hold_followers_of_fixed;
-use super::text::{self, Text, Written};
+use super::text::{Text, Written};
 use crate::model::language::robots::{File, Format};
 
 /// The path from the folder of the package that is compiled; of a tool without one from where it runs.
@@ -17,8 +17,7 @@ pub fn path(file: &File) -> PathBuf {
 /// # Errors
 /// Why it cannot be read: the file, or one that it includes.
 pub fn text(file: &File, path: &Path) -> Result<Text, Vec<String>> {
-    let main =
-        Written { shown: file.path.clone(), path: path.to_owned(), text: text::read(path).map_err(|e| vec![e])? };
+    let main = Written::read(file.path.clone(), path.to_owned()).map_err(|error| vec![error])?;
     match file.format {
         #[cfg(feature = "mjcf")]
         Format::Mjcf => super::mjcf::included(main).map_err(|(text, faults)| all_located(&text.names(), &faults)),

@@ -1,9 +1,22 @@
 //! The text of a file, with those that it includes in their places, and where each part of it is written.
 
+use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::description::At;
+
+/// Bytes of a file, and of all that it includes.
+pub const MOST_OF_TEXT: u64 = 16 << 20;
+
+/// Nothing is defined in a file that its text is made of, and there are not more elements, texts and comments than these.
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+pub fn options<'a>() -> roxmltree::ParsingOptions<'a> {
+    roxmltree::ParsingOptions { allow_dtd: false, nodes_limit: 1_000_000, entity_resolver: None }
+}
+
+/// The mark of the order of bytes.
+const ORDER: char = '\u{feff}';
 
 /// A file as it is read.
 pub struct Written {
@@ -11,18 +24,49 @@ pub struct Written {
     pub shown: String,
     pub path: PathBuf,
     pub text: String,
+    /// What stands in the text and not in the file.
+    added: Range<usize>,
+}
+
+impl Written {
+    /// # Errors
+    /// Why there is no such text.
+    pub fn read(shown: String, path: PathBuf) -> Result<Written, String> {
+        let bytes = bytes(&path, MOST_OF_TEXT)?;
+        let text = String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))?;
+        Ok(Written::new(shown, path, without_late_declaration(text)))
+    }
+
+    pub fn new(shown: String, path: PathBuf, mut text: String) -> Written {
+        let added = declare_prefixes(&mut text);
+        Written { shown, path, text, added }
+    }
+
+    /// Where the file is written at an offset in its text; `index` is that of the file.
+    pub fn place(&self, index: usize, offset: usize) -> At {
+        let mut at = place(index, &self.text, offset);
+        let after = self.text.get(self.added.end..offset);
+        if after.is_some_and(|after| !after.contains('\n')) {
+            at.column = at.column.saturating_sub(u32::try_from(self.added.len()).unwrap_or(u32::MAX));
+        }
+        at
+    }
 }
 
 /// A part of the whole that stands in one file.
+#[derive(Clone, Copy)]
 struct Piece {
     /// In the whole.
     start: usize,
     file: usize,
     /// In that file.
     offset: usize,
+    /// It is in the file as it stands; otherwise all of it has the place of that offset.
+    written: bool,
 }
 
 /// One text of several files; the first is that of the clause.
+#[derive(Default)]
 pub struct Text {
     pub whole: String,
     pub files: Vec<Written>,
@@ -45,18 +89,52 @@ impl Text {
 
     /// Puts a part of a file to the end of the whole.
     pub fn put(&mut self, file: usize, range: Range<usize>) {
-        self.pieces.push(Piece { start: self.whole.len(), file, offset: range.start });
+        self.pieces.push(Piece { start: self.whole.len(), file, offset: range.start, written: true });
         let Text { whole, files, .. } = self;
         whole.push_str(&files[file].text[range]);
     }
 
+    /// The same of files that another has.
+    #[cfg(feature = "mjcf")]
+    pub fn of_files(self, other: Text) -> Text {
+        Text { files: other.files, ..self }
+    }
+
+    /// Puts a part of another text of the same files to the end.
+    #[cfg(feature = "mjcf")]
+    pub fn copy(&mut self, other: &Text, range: Range<usize>) {
+        let first = other.pieces.partition_point(|piece| piece.start <= range.start).saturating_sub(1);
+        for (index, piece) in other.pieces.iter().enumerate().skip(first) {
+            let end = other.pieces.get(index + 1).map_or(other.whole.len(), |next| next.start).min(range.end);
+            let start = piece.start.max(range.start);
+            if start < end {
+                let offset = if piece.written { piece.offset + start - piece.start } else { piece.offset };
+                self.pieces.push(Piece { start: self.whole.len(), offset, ..*piece });
+                self.whole.push_str(&other.whole[start..end]);
+            }
+        }
+    }
+
+    /// Puts what no file has to the end; its place is that of something in another text of the same files.
+    #[cfg(feature = "mjcf")]
+    pub fn add(&mut self, text: &str, other: &Text, offset: usize) {
+        let (file, offset) = other.origin(offset).unwrap_or_default();
+        if !text.is_empty() {
+            self.pieces.push(Piece { start: self.whole.len(), file, offset, written: false });
+            self.whole.push_str(text);
+        }
+    }
+
+    /// The file, and the offset in it, of an offset in the whole.
+    fn origin(&self, offset: usize) -> Option<(usize, usize)> {
+        let after = self.pieces.partition_point(|piece| piece.start <= offset);
+        let piece = self.pieces.get(after.checked_sub(1)?)?;
+        Some((piece.file, if piece.written { piece.offset + offset - piece.start } else { piece.offset }))
+    }
+
     /// Where the whole is written at an offset.
     pub fn at(&self, offset: usize) -> At {
-        let after = self.pieces.partition_point(|piece| piece.start <= offset);
-        match after.checked_sub(1).and_then(|index| self.pieces.get(index)) {
-            Some(piece) => place(piece.file, &self.files[piece.file].text, piece.offset + offset - piece.start),
-            None => At::default(),
-        }
+        self.origin(offset).map_or_else(At::default, |(file, offset)| self.files[file].place(file, offset))
     }
 
     pub fn names(&self) -> Vec<String> {
@@ -69,7 +147,7 @@ impl Text {
 }
 
 /// Line and column of an offset, counted from one, in characters.
-pub fn place(file: usize, text: &str, offset: usize) -> At {
+fn place(file: usize, text: &str, offset: usize) -> At {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |end| end + 1);
     let count = |n: usize| u32::try_from(n + 1).unwrap_or(u32::MAX);
@@ -80,27 +158,81 @@ pub fn place(file: usize, text: &str, offset: usize) -> At {
     }
 }
 
+/// The bytes of a regular file, to which links may lead. A device or a pipe may never end.
+///
 /// # Errors
-/// Why there is no such text.
-pub fn read(path: &Path) -> Result<String, String> {
-    let bytes = std::fs::read(path).map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))?;
-    Ok(without_late_declaration(text))
+/// Why they cannot be read; that there are more than `most`.
+pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, String> {
+    let cannot = |why: String| format!("cannot read `{}`: {why}", path.display());
+    let about = std::fs::metadata(path).map_err(|error| cannot(error.to_string()))?;
+    if !about.is_file() {
+        return Err(cannot("it is no regular file".to_owned()));
+    }
+    let file = std::fs::File::open(path).map_err(|error| cannot(error.to_string()))?;
+    let mut bytes = Vec::new();
+    // Some files of the system have more in them than their length says.
+    file.take(most + 1).read_to_end(&mut bytes).map_err(|error| cannot(error.to_string()))?;
+    if bytes.len() as u64 > most {
+        return Err(cannot(format!("it is larger than {} MiB", most >> 20)));
+    }
+    Ok(bytes)
+}
+
+/// The comments and instructions before the root element, and where that starts, if there is one.
+fn prolog(text: &str) -> (Vec<Range<usize>>, Option<usize>) {
+    const PASSED: [(&str, &str); 2] = [("<!--", "-->"), ("<?", "?>")];
+    let (mut passed, mut start) = (Vec::new(), 0);
+    while let Some(blanks) = text[start..].find(|c: char| !c.is_whitespace() && c != ORDER) {
+        start += blanks;
+        let Some((_, close)) = PASSED.iter().find(|(open, _)| text[start..].starts_with(open)) else {
+            return (passed, Some(start));
+        };
+        let Some(length) = text[start..].find(close) else { break };
+        let end = start + length + close.len();
+        passed.push(start..end);
+        start = end;
+    }
+    (passed, None)
 }
 
 /// Blanks in the place of a declaration that does not stand at the very beginning, as XML has it and other readers do not:
 /// it says nothing that matters, and what follows keeps its lines and columns.
 fn without_late_declaration(mut text: String) -> String {
-    const ORDER: char = '\u{feff}';
-    let start = text.len() - text.trim_start_matches(|c: char| c.is_whitespace() || c == ORDER).len();
-    let late = start > 0 && text[start..].starts_with("<?xml ");
-    let end = text[start..].find("?>").filter(|_| late).map(|end| start + end + 2);
-    if let Some(end) = end {
-        let blanks: String =
-            text[..end].chars().map(|c| if matches!(c, '\r' | '\n' | ORDER) { c } else { ' ' }).collect();
-        text.replace_range(..end, &blanks);
+    let is_declaration = |range: &Range<usize>| text[range.clone()].starts_with("<?xml ");
+    let late = prolog(&text).0.into_iter().find(is_declaration).filter(|range| range.start > 0);
+    if let Some(range) = late {
+        let blank = |c: char| if matches!(c, '\r' | '\n') { c } else { ' ' };
+        let blanks: String = text[range.clone()].chars().map(blank).collect();
+        text.replace_range(range, &blanks);
     }
     text
+}
+
+/// Declares, in the root element, the prefixes that nothing declares, such as that of `<drake:joint>`: XML asks for it,
+/// readers of robots do not. What was added.
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+fn declare_prefixes(text: &mut String) -> Range<usize> {
+    /// More than any file has; each is found by parsing once more.
+    const MOST: usize = 16;
+    let name_end = |text: &str| {
+        let start = prolog(text).1?;
+        text[start..].find(|c: char| c.is_whitespace() || matches!(c, '/' | '>')).map(|length| start + length)
+    };
+    let Some(start) = name_end(text) else { return 0..0 };
+    let mut end = start;
+    for _ in 0..MOST {
+        let parsed = roxmltree::Document::parse_with_options(text, options());
+        let Err(roxmltree::Error::UnknownNamespace(prefix, _)) = parsed else { break };
+        let declaration = format!(" xmlns:{prefix}=\"{prefix}\"");
+        text.insert_str(start, &declaration);
+        end += declaration.len();
+    }
+    start..end
+}
+
+#[cfg(not(any(feature = "urdf", feature = "mjcf")))]
+fn declare_prefixes(_: &mut String) -> Range<usize> {
+    0..0
 }
 
 #[cfg(test)]
@@ -109,13 +241,23 @@ mod tests {
 
     #[test]
     fn declarations_after_blanks() {
-        let kept = ["<?xml version=\"1.0\"?>\n<robot/>", "\n<robot/>", "\n<?xml version", "", "\u{feff}<robot/>"];
+        let kept = [
+            "<?xml version=\"1.0\"?>\n<robot/>",
+            "\n<robot/>",
+            "\n<?xml version",
+            "",
+            "\u{feff}<robot/>",
+            "<?xml version=\"1.0\"?><!-- <?xml a?> --><robot/>",
+            "<!-- never",
+        ];
         for text in kept {
             assert_eq!(without_late_declaration(text.to_owned()), text);
         }
         for (text, expected) in [
             ("\n <?xml a=\"é\"\n?><robot/>", "\n            \n  <robot/>"),
             ("\u{feff}\r\n<?xml a?><robot/>", "\u{feff}\r\n         <robot/>"),
+            ("<!-- é --><?xml a?><robot/>", "<!-- é -->         <robot/>"),
+            ("<!-- <?xml a?> -->\n<!----> <?xml a?><robot/>", "<!-- <?xml a?> -->\n<!---->          <robot/>"),
         ] {
             let found = without_late_declaration(text.to_owned());
             assert_eq!(found, expected);

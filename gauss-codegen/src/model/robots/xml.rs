@@ -7,7 +7,7 @@ use std::ops::Range;
 use roxmltree::{Document, Node, NodeId};
 
 use super::description::{At, Fault, Note, lines};
-use super::text::Text;
+use super::text::{Text, options};
 
 /// A file while it is read.
 pub struct Reading<'a> {
@@ -29,17 +29,52 @@ pub struct Silent {
     pub attributes: &'static [&'static str],
 }
 
+/// Elements within elements that are read: what walks them calls itself once a level, on the stack of a macro. A chain of
+/// as many bodies is beyond the operations that a struct can have.
+pub const DEEPEST: usize = 256;
+
 /// # Errors
-/// What is no XML, and where.
+/// What is no XML, or is nested too deep, and where.
 pub fn parse(text: &str) -> Result<Document<'_>, Fault> {
-    let options = roxmltree::ParsingOptions { allow_dtd: false, ..Default::default() };
-    Document::parse_with_options(text, options).map_err(|error| {
+    let document = Document::parse_with_options(text, options()).map_err(|error| {
         let roxmltree::TextPos { row, col } = error.pos();
         // The place stands before the message.
         let text = error.to_string();
         let text = text.split(" at ").next().unwrap_or_default();
         Fault { at: At { line: row, column: col, ..At::default() }, message: format!("this is no XML: {text}") }
+    })?;
+    match beyond(&document) {
+        None => Ok(document),
+        Some(node) => {
+            let roxmltree::TextPos { row, col } = document.text_pos_at(node.range().start);
+            let message = format!("{} is nested more than {DEEPEST} levels deep", shown(node));
+            Err(Fault { at: At { line: row, column: col, ..At::default() }, message })
+        }
+    }
+}
+
+/// The first element that is nested too deep.
+fn beyond<'a>(document: &'a Document<'a>) -> Option<Node<'a, 'a>> {
+    // A parent comes before what is in it.
+    let mut depths: Vec<usize> = Vec::new();
+    document.descendants().find(|node| {
+        let around = node.parent().map_or(0, |parent| depths[parent.id().get_usize()]);
+        depths.push(around + 1);
+        node.is_element() && around > DEEPEST
     })
+}
+
+/// It is written with a prefix, or of another language by other means: what it is called says nothing.
+pub fn is_foreign(node: Node<'_, '_>) -> bool {
+    let own = node.document().root_element().tag_name().namespace();
+    node.is_element() && node.tag_name().namespace() != own
+}
+
+/// `drake:joint`, as it is written.
+fn qualified<'a>(node: Node<'a, 'a>) -> &'a str {
+    let written = node.document().input_text().get(node.range()).unwrap_or_default();
+    let name = written.trim_start_matches('<');
+    name.split(|c: char| c.is_whitespace() || matches!(c, '/' | '>')).next().unwrap_or_default()
 }
 
 impl<'a> Reading<'a> {
@@ -102,12 +137,13 @@ impl<'a> Reading<'a> {
     /// All elements in an element, which are looked at by that.
     #[cfg(feature = "mjcf")]
     pub fn elements(&self, node: Node<'a, 'a>) -> Vec<Node<'a, 'a>> {
-        node.children().filter(Node::is_element).inspect(|child| self.see(*child)).collect()
+        let own = |child: &Node<'a, 'a>| child.is_element() && !is_foreign(*child);
+        node.children().filter(own).inspect(|child| self.see(*child)).collect()
     }
 
     /// The elements of that name in an element.
     pub fn children(&self, node: Node<'a, 'a>, name: &'static str) -> Vec<Node<'a, 'a>> {
-        let named = |child: &Node<'a, 'a>| child.is_element() && child.tag_name().name() == name;
+        let named = |child: &Node<'a, 'a>| child.is_element() && child.tag_name().name() == name && !is_foreign(*child);
         node.children().filter(named).inspect(|child| self.see(*child)).collect()
     }
 
@@ -206,6 +242,11 @@ impl<'a> Reading<'a> {
         if self.passed.borrow().contains(&node.id()) {
             return;
         }
+        if is_foreign(node) && !self.seen.borrow().contains(&node.id()) {
+            // All of one language together.
+            let language = qualified(node).split(':').next().unwrap_or_default();
+            return acting.add(language, self.at(node), || shown(node));
+        }
         if silent.elements.contains(&tag) && !self.seen.borrow().contains(&node.id()) {
             return quiet.add(tag, self.at(node), String::new);
         }
@@ -214,7 +255,8 @@ impl<'a> Reading<'a> {
         }
         for attribute in node.attributes() {
             let name = attribute.name();
-            if self.asked.borrow().iter().any(|asked| *asked == (tag, name)) || name == "name" {
+            let is_own = attribute.namespace().is_none();
+            if is_own && (self.asked.borrow().iter().any(|asked| *asked == (tag, name)) || name == "name") {
                 continue;
             }
             let at = self.place(attribute.range());
@@ -250,8 +292,8 @@ impl<'a> Unread<'a> {
 }
 
 /// `<joint name="elbow">`.
-pub fn shown(node: Node<'_, '_>) -> String {
-    let tag = node.tag_name().name();
+pub fn shown<'a>(node: Node<'a, 'a>) -> String {
+    let tag = qualified(node);
     match node.attribute("name") {
         Some(name) => format!("<{tag} name=\"{name}\">"),
         None => format!("<{tag}>"),

@@ -345,7 +345,7 @@ fn mistakes_of_elements() {
         ("<robot/>", vec!["1:1: there are no links"]),
         (
             "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n<xacro:property name=\"a\"/></robot>",
-            vec!["2:1: <property name=\"a\">: macros are not read; let `xacro` write the file without them"],
+            vec!["2:1: <xacro:property name=\"a\">: macros are not read; let `xacro` write the file without them"],
         ),
         (
             "<robot>\n<link/>\n<link name=\"a\"><inertial><mass value=\"x\"/></inertial></link></robot>",
@@ -405,4 +405,23 @@ fn mistakes_of_clauses() {
     assert!(error.to_string().starts_with("`urdf` is the path of a file from the folder of the package"), "{error}");
     let error = read("#[gauss(base = fixed)] struct Robot { m: f64 }").map(|_| ()).expect_err("no file");
     assert!(error.to_string().starts_with("unknown clause `base`"), "{error}");
+}
+
+/// Prefixes that nothing declares, as Drake has them, and what stands before the root.
+#[test]
+fn prefixes() {
+    let drake = "<drake:joint name=\"b\" type=\"ball\"><parent link=\"base\"/></drake:joint><transmission name=\"t\">\
+                 <joint name=\"elbow\"/><actuator name=\"m\"><drake:rotor_inertia value=\"0.5\"/></actuator></transmission>";
+    let text = arm("<drake:screw_thread_pitch value=\"1\"/>").replace("</robot>", &format!("{drake}</robot>"));
+    let text = format!("<!-- a\n b --><?xml version=\"1.0\"?>{text}");
+    let read = model(&text, "", "");
+    assert_eq!((read.coordinates.len(), read.armatures.len()), (1, 1));
+    let told = remarks(&text, "");
+    assert!(told[0].0.starts_with("4:") && told[0].0.contains("<drake:screw_thread_pitch> is not read; likewise"));
+    assert!(told[0].1 && remarks(&text, ", ignore(drake)").iter().all(|(_, ignored)| !ignored));
+    // Columns are those of the file, also in the line of the root.
+    let line = "<robot name=\"r\"><link/><a:b/></robot>";
+    assert_eq!(mistakes(line, "", "")[0], "1:17: <link>: the attribute `name` is missing");
+    let macros = mistakes("<robot><xacro:arm/></robot>", "", "");
+    assert_eq!(macros[0], "1:8: <xacro:arm>: macros are not read; let `xacro` write the file without them");
 }

@@ -1,16 +1,23 @@
 //! `<include file="…"/>`: what is in the root of another file stands in its place.
 //!
-//! Paths are relative to the folder of the first file, and each file is included once, as MuJoCo has it.
+//! Paths are relative to the folder of the first file, or else to that of the file that includes, and each file is
+//! included once, as MuJoCo's reader has it (`IncludeXML` in `src/xml/xml.cc`).
+
+use std::path::{Path, PathBuf};
 
 use roxmltree::Node;
 
-use crate::model::robots::description::Fault;
-use crate::model::robots::text::{self, Text, Written};
-use crate::model::robots::xml::{parse, shown};
+use super::replicate::replicated;
+use crate::model::robots::description::{At, Fault};
+use crate::model::robots::text::{MOST_OF_TEXT, Text, Written};
+use crate::model::robots::xml::{is_foreign, parse, shown};
 
 const INCLUDE: &str = "include";
 
-/// The text with all that it includes.
+/// Files of which each is included by the one before.
+const MOST_OPEN: usize = 32;
+
+/// The text with all that it includes, and with the copies that it asks for.
 ///
 /// # Errors
 /// Files that are no XML or cannot be read, that include themselves, or are included twice.
@@ -18,7 +25,7 @@ pub fn included(main: Written) -> Result<Text, (Text, Vec<Fault>)> {
     let mut gathering = Gathering { text: Text::empty(main), open: vec![0], faults: Vec::new() };
     gathering.file(0);
     let Gathering { text, faults, .. } = gathering;
-    if faults.is_empty() { Ok(text) } else { Err((text, faults)) }
+    if faults.is_empty() { replicated(text) } else { Err((text, faults)) }
 }
 
 struct Gathering {
@@ -35,7 +42,7 @@ impl Gathering {
         let document = match parse(&own) {
             Ok(document) => document,
             Err(fault) => {
-                let at = crate::model::robots::description::At { file: index(file), ..fault.at };
+                let at = At { file: u32::try_from(file).unwrap_or(u32::MAX), ..fault.at };
                 return self.faults.push(Fault { at, ..fault });
             }
         };
@@ -46,50 +53,79 @@ impl Gathering {
             _ => return,
         };
         let mut start = range.start;
-        for node in root.descendants().filter(|node| node.tag_name().name() == INCLUDE) {
+        let inside = |node: &Node<'_, '_>| node.ancestors().skip(1).any(is_include);
+        for node in root.descendants().filter(|node| is_include(*node) && !inside(node)) {
             self.text.put(file, start..node.range().start);
-            self.include(file, &own, node);
+            self.include(file, node);
             start = node.range().end;
         }
         self.text.put(file, start..range.end);
     }
 
-    fn include(&mut self, by: usize, own: &str, node: Node<'_, '_>) {
-        let at = text::place(by, own, node.range().start);
-        let mut fault =
-            |message: String| self.faults.push(Fault { at, message: format!("{}: {message}", shown(node)) });
-        let Some(name) = node.attribute("file").map(str::trim).filter(|name| !name.is_empty()) else {
-            return fault("the attribute `file` is missing".to_owned());
-        };
-        let main = &self.text.files[0];
-        let path = main.path.parent().unwrap_or(&main.path).join(name);
-        if let Some(known) = self.text.files.iter().position(|file| file.path == path) {
-            let names = |files: &[usize]| {
-                let all = files.iter().map(|&file| format!("`{}`", self.text.files[file].shown));
-                all.collect::<Vec<_>>().join(" includes ")
-            };
-            return match self.open.iter().position(|&open| open == known) {
-                Some(first) => {
-                    let circle: Vec<usize> = self.open[first..].iter().copied().chain([known]).collect();
-                    fault(format!("files include each other in a circle: {}", names(&circle)))
-                }
-                None => fault(format!("`{name}` is included a second time; each file can be included once")),
-            };
+    fn include(&mut self, by: usize, node: Node<'_, '_>) {
+        if let Err(message) = self.included(by, node) {
+            let at = self.text.files[by].place(by, node.range().start);
+            self.faults.push(Fault { at, message: format!("{}: {message}", shown(node)) });
         }
-        match text::read(&path) {
-            Ok(text) => {
-                let shown = std::path::Path::new(&main.shown).with_file_name(name).to_string_lossy().into_owned();
-                let file = self.text.files.len();
-                self.text.files.push(Written { shown, path, text });
-                self.open.push(file);
-                self.file(file);
-                self.open.pop();
+    }
+
+    fn included(&mut self, by: usize, node: Node<'_, '_>) -> Result<(), String> {
+        if node.children().any(|child| child.is_element()) {
+            return Err("there is nothing in an <include>; what it stands for is in its file".to_owned());
+        }
+        let name = node.attribute("file").map(str::trim).filter(|name| !name.is_empty());
+        let name = name.ok_or("the attribute `file` is missing")?;
+        if self.open.len() > MOST_OPEN {
+            return Err(format!("files include each other more than {MOST_OPEN} deep"));
+        }
+        let path = self.path(by, name);
+        let same = |other: &Path| {
+            other == path || matches!((other.canonicalize(), path.canonicalize()), (Ok(a), Ok(b)) if a == b)
+        };
+        if let Some(known) = self.text.files.iter().position(|file| same(&file.path)) {
+            return Err(self.again(known, name));
+        }
+        let shown = Path::new(&self.text.files[0].shown).with_file_name(name).to_string_lossy().into_owned();
+        let written = Written::read(shown, path)?;
+        let bytes: usize = self.text.files.iter().map(|file| file.text.len()).sum();
+        if bytes + written.text.len() > MOST_OF_TEXT as usize {
+            return Err(format!("with `{name}` all files together are larger than {} MiB", MOST_OF_TEXT >> 20));
+        }
+        let file = self.text.files.len();
+        self.text.files.push(written);
+        self.open.push(file);
+        self.file(file);
+        self.open.pop();
+        Ok(())
+    }
+
+    /// In the folder of the first file; if it is not there, in that of the file that includes it.
+    fn path(&self, by: usize, name: &str) -> PathBuf {
+        let beside = |file: usize| {
+            let path = &self.text.files[file].path;
+            path.parent().unwrap_or(path).join(name)
+        };
+        let first = beside(0);
+        let other = Some(beside(by)).filter(|other| !first.exists() && other.exists());
+        other.unwrap_or(first)
+    }
+
+    /// A file that is there already.
+    fn again(&self, known: usize, name: &str) -> String {
+        let names = |files: &[usize]| {
+            let all = files.iter().map(|&file| format!("`{}`", self.text.files[file].shown));
+            all.collect::<Vec<_>>().join(" includes ")
+        };
+        match self.open.iter().position(|&open| open == known) {
+            Some(first) => {
+                let circle: Vec<usize> = self.open[first..].iter().copied().chain([known]).collect();
+                format!("files include each other in a circle: {}", names(&circle))
             }
-            Err(message) => fault(message),
+            None => format!("`{name}` is included a second time; each file can be included once"),
         }
     }
 }
 
-fn index(file: usize) -> u32 {
-    u32::try_from(file).unwrap_or(u32::MAX)
+fn is_include(node: Node<'_, '_>) -> bool {
+    node.tag_name().name() == INCLUDE && !is_foreign(node)
 }

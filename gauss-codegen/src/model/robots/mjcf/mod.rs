@@ -6,7 +6,7 @@
 //! | `joints` | the joints of a body |
 //! | `masses` | mass data: of `<inertial>`, and of geoms |
 //! | `relations` | equalities and tendons |
-//! | `include` | the text of several files |
+//! | `include`, `replicate`, `labels` | the text of several files, and with copies, which have names of their own |
 //! | `actuators`, `keys` | what drives joints; states with names |
 //!
 //! Of several joints in a body all but the last have a link of their own, without mass; so has one whose anchor is
@@ -17,8 +17,10 @@ mod classes;
 mod include;
 mod joints;
 mod keys;
+mod labels;
 mod masses;
 mod relations;
+mod replicate;
 mod rotations;
 
 pub use self::include::included;

@@ -62,7 +62,8 @@ impl Angles {
         }
     }
 
-    fn of_sequence(&self, angles: Triple) -> Matrix {
+    /// Turns by angles as they are written, about the axes of the sequence.
+    pub fn of_sequence(&self, angles: Triple) -> Matrix {
         let mut matrix = Rotation::none().matrix;
         for (axis, angle) in self.sequence.into_iter().zip(angles) {
             let turn = about(axis, crate::model::robots::rotation::settled(angle * self.unit));

@@ -34,13 +34,6 @@ fn what_is_told_and_refused() {
             "",
             Some("3:8: <body>: its `childclass` is `leg`, which is no class of this file"),
         ),
-        (
-            "<replicate count=\"2\"><body><joint/></body></replicate></body></worldbody>".to_owned(),
-            "",
-            Some(
-                "2:1: nothing moves: no joint does, and the root `world` is held (<replicate> is not read); add a joint",
-            ),
-        ),
         (format!("{hinge}<deformable/>"), "", Some("3:41: <deformable> is not read")),
         (format!("{hinge}<contact><pair geom1=\"a\"/></contact>"), "", Some("3:50: <pair> is not read")),
         (
@@ -293,4 +286,82 @@ fn files_that_include_others() {
     assert_eq!(whole(&include(&circle)).1, text);
     assert_eq!(whole("<include/>").1, "main:3:1: <include>: the attribute `file` is missing");
     assert!(whole("<include file=\"nowhere.xml\"/>").1.starts_with("main:3:1: <include>: cannot read `nowhere.xml`"));
+    let inner = "<include><include file=\"nowhere.xml\"/></include>";
+    let text = "main:3:1: <include>: there is nothing in an <include>; what it stands for is in its file";
+    assert_eq!(whole(inner).1, text);
+}
+
+/// A file is beside the first one, or else beside the one that includes it.
+#[test]
+fn included_files_in_folders() {
+    let folder = std::env::temp_dir().join(format!("gauss-folders-{}", std::process::id()));
+    let write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let arm = format!("<worldbody><body name=\"arm\">{INERTIAL}<include file=\"joint.xml\"/></body></worldbody>");
+    let main = write("main.xml", "<mujoco><include file=\"parts/arm.xml\"/></mujoco>");
+    write("parts/arm.xml", &format!("<!-- of\n a part -->\n<?xml version=\"1.0\"?><mujoco>{arm}</mujoco>"));
+    write("parts/joint.xml", "<mujoco><joint name=\"beside\"/></mujoco>");
+    let name = |main: &std::path::Path| {
+        let read = read(&format!("#[gauss(mjcf = {main:?})] struct Robot;")).unwrap();
+        (read.coordinates[0].ident.to_string(), read.described.unwrap().paths.len())
+    };
+    assert_eq!(name(&main), ("beside".to_owned(), 3));
+    write("joint.xml", "<mujoco><joint name=\"first\"/></mujoco>");
+    assert_eq!(name(&main), ("first".to_owned(), 3));
+    // The same file by another name.
+    write("joint.xml", "<mujoco><include file=\"parts/../main.xml\"/></mujoco>");
+    let error = read(&format!("#[gauss(mjcf = {main:?})] struct Robot;")).map(|_| ()).unwrap_err().to_string();
+    assert!(error.contains("files include each other in a circle"), "{error}");
+    let _ = std::fs::remove_dir_all(&folder);
+}
+
+/// Copies with numbers after their names, and of what refers to them, in the order of MuJoCo 4.0.0.
+#[test]
+fn copies() {
+    let text = format!(
+        "<mujoco><worldbody><body name=\"z\">{INERTIAL}<joint name=\"z\"/></body>\n\
+         <replicate count=\"4\"><body name=\"b\">{INERTIAL}\
+         <joint name=\"j\"/><site name=\"s\"/></body></replicate></worldbody><actuator><motor name=\"m\" joint=\"j\"/>\
+         <motor name=\"n\" tendon=\"t\"/><motor name=\"y\" joint=\"z\"/></actuator><tendon><fixed name=\"t\">\
+         <joint joint=\"j\" coef=\"1\"/><joint joint=\"z\" coef=\"1\"/></fixed></tendon><equality>\
+         <joint name=\"j\" joint1=\"j\" joint2=\"z\" polycoef=\"0 1 2 0 0\"/></equality></mujoco>"
+    );
+    let file = Scratch::called(&text, "xml");
+    let read = read(&file.of(", inputs = actuators", "")).unwrap_or_else(|error| panic!("{error}"));
+    let names = |all: &mut dyn Iterator<Item = String>| all.collect::<Vec<_>>().join(" ");
+    assert_eq!(names(&mut read.coordinates.iter().map(|q| q.ident.to_string())), "z j0 j1 j2 j3");
+    assert_eq!(names(&mut read.inputs.iter().map(|input| input.ident.to_string())), "y m0 n0 m1 n1 m2 n2 m3 n3");
+    assert_eq!(read.constraints.len(), 4);
+}
+
+/// As many digits as the count has; the inner numbers first.
+#[test]
+fn copies_of_copies() {
+    let inside = |copies: &str| format!("</body>{copies}</worldbody>");
+    let body = format!("<body name=\"b\">{INERTIAL}<joint name=\"j\"/></body>");
+    let twice = format!(
+        "<replicate count=\"2\"><frame><replicate count=\"10\" sep=\"_\">{body}</replicate></frame></replicate>"
+    );
+    let found = model(&inside(&twice), "");
+    let names: Vec<String> = found.coordinates.iter().map(|q| q.ident.to_string()).collect();
+    assert_eq!(
+        (names.len(), names[0].as_str(), names[1].as_str(), names[10].as_str()),
+        (20, "j_000", "j_010", "j_001")
+    );
+    for (count, message) in [
+        ("", "3:8: <replicate>: the attribute `count` is missing"),
+        ("count=\"0\"", "3:8: <replicate>: `count` is a whole number from 1 to 1000, found `0`"),
+        ("count=\"2.5\"", "3:8: <replicate>: `count` is a whole number from 1 to 1000, found `2.5`"),
+        ("count=\"1e9\"", "3:8: <replicate>: `count` is a whole number from 1 to 1000, found `1000000000`"),
+    ] {
+        assert_eq!(reported(&inside(&format!("<replicate {count}>{body}</replicate>")), ""), [message]);
+    }
+    let loose = inside("<replicate count=\"2\"><joint/></replicate>");
+    assert_eq!(reported(&loose, ""), ["3:8: <replicate>: a <joint> cannot stand in it; put it into a <body>"]);
+    let wrong = inside(&format!("<replicate count=\"2\">\n<body><joint axis=\"0 0 0\"/>{INERTIAL}</body></replicate>"));
+    assert_eq!(reported(&wrong, "")[0], "4:7: <joint>: its axis is zero and has no direction");
 }
