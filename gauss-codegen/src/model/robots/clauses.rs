@@ -233,8 +233,9 @@ impl<'a> Robot<'a> {
         let links = self.links.iter().zip(&self.description.links);
         let called =
             links.filter(|(ident, link)| *ident != &link.name).map(|(ident, link)| (ident.clone(), link.name.clone()));
+        let files = self.description.files.iter().map(|file| file.to_string_lossy().into_owned());
         Described {
-            paths: text.paths(),
+            paths: text.paths().into_iter().chain(files).collect(),
             file: file.path.clone(),
             span: file.span,
             remarks: self.notes.iter().map(remark).collect(),

@@ -1,5 +1,7 @@
 //! What a file says of a robot, whatever its format: plain data in SI units.
 
+use std::path::PathBuf;
+
 use super::rotation::{Matrix, Rotation, Triple};
 
 /// A place in the file, counted from one.
@@ -94,6 +96,8 @@ pub struct Description {
     /// The acceleration of free fall in observer's axes, where the file says so.
     pub gravity: Option<Triple>,
     pub notes: Vec<Note>,
+    /// Files beside those of the text, whose numbers are in it.
+    pub files: Vec<PathBuf>,
 }
 
 /// A body with axes of its own.
@@ -117,6 +121,13 @@ pub struct Inertial {
 impl Inertial {
     /// Moments of a body that is smaller than this are what rounding left of those of a point, in metres.
     const LEAST: f64 = 1e-8;
+
+    /// With another density.
+    #[cfg_attr(not(feature = "mjcf"), allow(dead_code, reason = "what readers alone use"))]
+    pub fn scaled(self, factor: f64) -> Inertial {
+        let inertia = self.inertia.map(|row| row.map(|entry| entry * factor));
+        Inertial { mass: self.mass * factor, inertia, ..self }
+    }
 
     /// Without what rounding left of zeros, of which one can be negative.
     pub fn settled(self) -> Inertial {

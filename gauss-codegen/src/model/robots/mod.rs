@@ -12,6 +12,7 @@
 //! | `drives`, `efforts`, `laws`, `relations` | inputs; what they do; what else acts in joints; what joins links beside the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
+//! | `mesh` | surfaces from STL and OBJ files, and their masses |
 //! | `source`, `text` | the file: where it is, what is read; its text, with what it includes |
 
 mod clauses;
@@ -22,6 +23,8 @@ mod efforts;
 mod inertias;
 mod joints;
 mod laws;
+#[cfg_attr(not(feature = "mjcf"), allow(dead_code, reason = "what readers alone use"))]
+mod mesh;
 mod mimic;
 #[cfg(feature = "mjcf")]
 mod mjcf;

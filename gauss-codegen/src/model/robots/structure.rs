@@ -117,8 +117,8 @@ fn hung(joint: &Joint, (position, matrix): (Triple, Matrix)) -> (Triple, Matrix)
     (std::array::from_fn(|i| joint.position[i] + moved[i]), multiply(&joint.rotation.matrix, &matrix))
 }
 
-/// Mass data in the axes of another link.
-fn placed(own: Inertial, (position, matrix): &(Triple, Matrix)) -> Inertial {
+/// Mass data in other axes, where its own are placed.
+pub fn placed(own: Inertial, (position, matrix): &(Triple, Matrix)) -> Inertial {
     if *matrix == Rotation::none().matrix && *position == [0.0; 3] {
         return own;
     }

@@ -3,6 +3,8 @@
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashSet};
 use std::ops::Range;
+#[cfg(feature = "mjcf")]
+use std::path::Path;
 
 use roxmltree::{Document, Node, NodeId};
 
@@ -132,6 +134,13 @@ impl<'a> Reading<'a> {
     /// Of this element, and what is in it, nothing more is to be noted.
     pub fn pass(&self, node: Node<'a, 'a>) {
         self.passed.borrow_mut().insert(node.id());
+    }
+
+    /// The folder of the first file.
+    #[cfg(feature = "mjcf")]
+    pub fn folder(&self) -> &'a Path {
+        let first = self.text.files.first().map(|file| file.path.as_path());
+        first.and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
     /// All elements in an element, which are looked at by that.

@@ -8,7 +8,7 @@ use super::rotations::to_direction;
 use super::{File, Geoms};
 use crate::model::robots::description::Inertial;
 use crate::model::robots::rotation::{Rotation, Triple, turned_tensor};
-use crate::model::robots::structure::sum;
+use crate::model::robots::structure::{placed, sum};
 use crate::model::robots::xml::shown;
 
 const GEOM: &[&str] = &["geom"];
@@ -34,9 +34,7 @@ impl<'a> File<'a> {
         let sum: f64 = own().map(|own| own.mass).sum();
         if sum > 0.0 {
             for own in self.description.links.iter_mut().filter_map(|link| link.inertial.as_mut()) {
-                let factor = wanted / sum;
-                own.mass *= factor;
-                own.inertia = own.inertia.map(|row| row.map(|entry| entry * factor));
+                *own = own.scaled(wanted / sum);
             }
         }
     }
@@ -83,6 +81,11 @@ impl<'a> File<'a> {
         }
         if self.text(node, GEOM, "shellinertia", class) == Some("true") {
             self.reading.ignored(node, format!("the inertia of {} is that of a volume, not of a shell", shown(node)));
+        }
+        if let Some(mesh) = self.text(node, GEOM, "mesh", class) {
+            let solid = self.of_mesh(node, kind, mesh)?;
+            let solid = solid.scaled(own.map_or(density, |[mass]| mass / solid.mass));
+            return Some(placed(solid, &(place, rotation.matrix)));
         }
         let (center, matrix, half) = match ends {
             Some([a, b, c, d, e, f]) => {

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `classes`, `rotations` | defaults of elements; the ways to write a rotation |
 //! | `joints` | the joints of a body |
-//! | `masses` | mass data: of `<inertial>`, and of geoms |
+//! | `masses`, `meshes` | mass data: of `<inertial>`, of geoms, of the files of meshes |
 //! | `relations` | equalities and tendons |
 //! | `include`, `replicate`, `labels` | the text of several files, and with copies, which have names of their own |
 //! | `actuators`, `keys` | what drives joints; states with names |
@@ -19,6 +19,7 @@ mod joints;
 mod keys;
 mod labels;
 mod masses;
+mod meshes;
 mod relations;
 mod replicate;
 mod rotations;
@@ -146,6 +147,7 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
         total_mass: None,
         sites: Vec::new(),
         controls: Vec::new(),
+        meshes: Vec::new(),
         bodies: root
             .descendants()
             .filter(|node| node.tag_name().name() == "body")
@@ -204,6 +206,8 @@ struct File<'a> {
     sites: Vec<(String, String)>,
     /// Of each actuator the index of its drive, if it is read.
     controls: Vec<Option<usize>>,
+    /// Meshes that were read, of density one; `None` of those with a mistake.
+    meshes: Vec<(String, Option<Inertial>)>,
 }
 
 impl<'a> File<'a> {
