@@ -19,6 +19,7 @@ pub fn options<'a>() -> roxmltree::ParsingOptions<'a> {
 const ORDER: char = '\u{feff}';
 
 /// A file as it is read.
+#[derive(Clone)]
 pub struct Written {
     /// As messages name it.
     pub shown: String,
@@ -66,17 +67,21 @@ struct Piece {
 }
 
 /// One text of several files; the first is that of the clause.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Text {
     pub whole: String,
     pub files: Vec<Written>,
     pieces: Vec<Piece>,
+    /// The index of the first file among those of all texts that are read together.
+    pub first: usize,
+    /// Models that can be attached, by their names, with files of their own.
+    pub models: Vec<(String, Text)>,
 }
 
 impl Text {
     /// Of one file, nothing of which is in the whole yet.
     pub fn empty(main: Written) -> Text {
-        Text { whole: String::new(), files: vec![main], pieces: Vec::new() }
+        Text { files: vec![main], ..Text::default() }
     }
 
     /// Of one file, all of it.
@@ -97,7 +102,7 @@ impl Text {
     /// The same of files that another has.
     #[cfg(feature = "mjcf")]
     pub fn of_files(self, other: Text) -> Text {
-        Text { files: other.files, ..self }
+        Text { whole: self.whole, pieces: self.pieces, ..other }
     }
 
     /// Puts a part of another text of the same files to the end.
@@ -134,15 +139,20 @@ impl Text {
 
     /// Where the whole is written at an offset.
     pub fn at(&self, offset: usize) -> At {
-        self.origin(offset).map_or_else(At::default, |(file, offset)| self.files[file].place(file, offset))
+        self.origin(offset).map_or_else(At::default, |(file, offset)| self.files[file].place(self.first + file, offset))
     }
 
+    /// Of all files, those of models after the others.
     pub fn names(&self) -> Vec<String> {
-        self.files.iter().map(|file| file.shown.clone()).collect()
+        self.all().map(|file| file.shown.clone()).collect()
     }
 
     pub fn paths(&self) -> Vec<String> {
-        self.files.iter().map(|file| file.path.to_string_lossy().into_owned()).collect()
+        self.all().map(|file| file.path.to_string_lossy().into_owned()).collect()
+    }
+
+    fn all(&self) -> Box<dyn Iterator<Item = &Written> + '_> {
+        Box::new(self.files.iter().chain(self.models.iter().flat_map(|(_, model)| model.all())))
     }
 }
 

@@ -9,6 +9,8 @@ use std::path::Path;
 use roxmltree::{Document, Node, NodeId};
 
 use super::description::{At, Fault, Note, lines};
+#[cfg(feature = "mjcf")]
+use super::names::unknown;
 use super::text::{Text, options};
 
 /// A file while it is read.
@@ -134,6 +136,14 @@ impl<'a> Reading<'a> {
     /// Of this element, and what is in it, nothing more is to be noted.
     pub fn pass(&self, node: Node<'a, 'a>) {
         self.passed.borrow_mut().insert(node.id());
+    }
+
+    /// A model that can be attached.
+    #[cfg(feature = "mjcf")]
+    pub fn model(&self, name: &str) -> Result<&'a Text, String> {
+        let models = &self.text.models;
+        let names = || models.iter().map(|(name, _)| name.as_str());
+        models.iter().find(|(own, _)| own == name).map(|(_, text)| text).ok_or_else(|| unknown("model", name, names()))
     }
 
     /// The folder of the first file.

@@ -17,15 +17,86 @@ const INCLUDE: &str = "include";
 /// Files of which each is included by the one before.
 const MOST_OPEN: usize = 32;
 
+/// Models that a file attaches, with those that these attach.
+const MOST_MODELS: usize = 32;
+
 /// The text with all that it includes, and with the copies that it asks for.
 ///
 /// # Errors
 /// Files that are no XML or cannot be read, that include themselves, or are included twice.
 pub fn included(main: Written) -> Result<Text, (Text, Vec<Fault>)> {
-    let mut gathering = Gathering { text: Text::empty(main), open: vec![0], faults: Vec::new() };
+    gathered(main, 0, &mut Models { around: Vec::new(), left: MOST_MODELS })
+}
+
+fn gathered(main: Written, first: usize, models: &mut Models) -> Result<Text, (Text, Vec<Fault>)> {
+    models.around.push(main.path.clone());
+    let mut text = Text::empty(main);
+    text.first = first;
+    let mut gathering = Gathering { text, open: vec![0], faults: Vec::new() };
     gathering.file(0);
     let Gathering { text, faults, .. } = gathering;
-    if faults.is_empty() { replicated(text) } else { Err((text, faults)) }
+    let read = if faults.is_empty() { replicated(text) } else { Err((text, faults)) };
+    let read = read.and_then(|text| models.of(text));
+    models.around.pop();
+    read
+}
+
+/// Models that others attach, `<asset><model name="…" file="…"/></asset>`, while they are read.
+struct Models {
+    /// Files each of which is attached by the one before.
+    around: Vec<PathBuf>,
+    /// How many more are read.
+    left: usize,
+}
+
+impl Models {
+    /// The text with those that it attaches.
+    fn of(&mut self, mut text: Text) -> Result<Text, (Text, Vec<Fault>)> {
+        let whole = text.whole.clone();
+        // What is no XML is told by whoever reads it next.
+        let Ok(document) = parse(&whole) else { return Ok(text) };
+        let sections = document.root_element().children().filter(|node| node.has_tag_name("asset"));
+        let mut faults = Vec::new();
+        for node in sections.flat_map(|asset| asset.children().filter(|node| node.has_tag_name("model"))) {
+            match self.model(&text, node) {
+                Ok((name, Ok(model))) => text.models.push((name, model)),
+                Ok((name, Err((model, own)))) => {
+                    text.models.push((name, model));
+                    faults.extend(own);
+                }
+                Err(message) => {
+                    let at = text.at(node.range().start);
+                    faults.push(Fault { at, message: format!("{}: {message}", shown(node)) });
+                }
+            }
+        }
+        if faults.is_empty() { Ok(text) } else { Err((text, faults)) }
+    }
+
+    fn model(&mut self, text: &Text, node: Node<'_, '_>) -> Result<(String, Result<Text, (Text, Vec<Fault>)>), String> {
+        let file = node.attribute("file").map(str::trim).filter(|name| !name.is_empty());
+        let file = file.ok_or("the attribute `file` is missing")?;
+        let main = &text.files[0];
+        let path = main.path.parent().unwrap_or(&main.path).join(file);
+        if self.around.iter().any(|other| is_same(other, &path)) {
+            return Err(format!("`{file}` attaches itself, or what attaches it"));
+        }
+        self.left = self.left.checked_sub(1).ok_or_else(|| format!("more than {MOST_MODELS} models are attached"))?;
+        let written = Written::read(beside(&main.shown, file), path)?;
+        let own = parse(&written.text).ok().and_then(|own| own.root_element().attribute("model").map(str::to_owned));
+        let name = node.attribute("name").map(|name| name.trim().to_owned()).or(own).unwrap_or_default();
+        Ok((name, gathered(written, text.first + text.names().len(), self)))
+    }
+}
+
+/// Two paths lead to one file.
+fn is_same(path: &Path, other: &Path) -> bool {
+    path == other || path.canonicalize().is_ok_and(|path| other.canonicalize().is_ok_and(|other| path == other))
+}
+
+/// How messages name a file in the folder of another.
+fn beside(shown: &str, name: &str) -> String {
+    Path::new(shown).with_file_name(name).to_string_lossy().into_owned()
 }
 
 struct Gathering {
@@ -42,7 +113,7 @@ impl Gathering {
         let document = match parse(&own) {
             Ok(document) => document,
             Err(fault) => {
-                let at = At { file: u32::try_from(file).unwrap_or(u32::MAX), ..fault.at };
+                let at = At { file: u32::try_from(self.text.first + file).unwrap_or(u32::MAX), ..fault.at };
                 return self.faults.push(Fault { at, ..fault });
             }
         };
@@ -64,7 +135,7 @@ impl Gathering {
 
     fn include(&mut self, by: usize, node: Node<'_, '_>) {
         if let Err(message) = self.included(by, node) {
-            let at = self.text.files[by].place(by, node.range().start);
+            let at = self.text.files[by].place(self.text.first + by, node.range().start);
             self.faults.push(Fault { at, message: format!("{}: {message}", shown(node)) });
         }
     }
@@ -79,13 +150,10 @@ impl Gathering {
             return Err(format!("files include each other more than {MOST_OPEN} deep"));
         }
         let path = self.path(by, name);
-        let same = |other: &Path| {
-            other == path || matches!((other.canonicalize(), path.canonicalize()), (Ok(a), Ok(b)) if a == b)
-        };
-        if let Some(known) = self.text.files.iter().position(|file| same(&file.path)) {
+        if let Some(known) = self.text.files.iter().position(|file| is_same(&file.path, &path)) {
             return Err(self.again(known, name));
         }
-        let shown = Path::new(&self.text.files[0].shown).with_file_name(name).to_string_lossy().into_owned();
+        let shown = beside(&self.text.files[0].shown, name);
         let written = Written::read(shown, path)?;
         let bytes: usize = self.text.files.iter().map(|file| file.text.len()).sum();
         if bytes + written.text.len() > MOST_OF_TEXT as usize {
@@ -101,12 +169,12 @@ impl Gathering {
 
     /// In the folder of the first file; if it is not there, in that of the file that includes it.
     fn path(&self, by: usize, name: &str) -> PathBuf {
-        let beside = |file: usize| {
+        let in_folder = |file: usize| {
             let path = &self.text.files[file].path;
             path.parent().unwrap_or(path).join(name)
         };
-        let first = beside(0);
-        let other = Some(beside(by)).filter(|other| !first.exists() && other.exists());
+        let first = in_folder(0);
+        let other = Some(in_folder(by)).filter(|other| !first.exists() && other.exists());
         other.unwrap_or(first)
     }
 

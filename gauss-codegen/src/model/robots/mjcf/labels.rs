@@ -30,7 +30,9 @@ impl Affix<'_> {
             // In the order of the text.
             for attribute in inner.attributes().filter(|attribute| attribute.namespace().is_none()) {
                 let is_named = |(name, own): &(&str, Named<'a>)| *name == attribute.name() && self.named.contains(own);
-                if all.iter().any(is_named) {
+                // What a model attaches in its turn has both prefixes.
+                let is_prefix = attribute.name() == "prefix" && inner.has_tag_name("attach");
+                if is_prefix || all.iter().any(is_named) {
                     let value = attribute.range_value();
                     let written = text.whole[value.clone()].trim();
                     let begin = value.end - text.whole[value].trim_start().len();

@@ -6,6 +6,7 @@
 //! | `joints` | the joints of a body |
 //! | `masses`, `meshes` | mass data: of `<inertial>`, of geoms, of the files of meshes |
 //! | `relations` | equalities and tendons |
+//! | `attach` | parts of other models |
 //! | `include`, `replicate`, `labels` | the text of several files, and with copies, which have names of their own |
 //! | `actuators`, `keys` | what drives joints; states with names |
 //!
@@ -13,6 +14,7 @@
 //! not the origin of its body, which is then fixed to it.
 
 mod actuators;
+mod attach;
 mod classes;
 mod include;
 mod joints;
@@ -29,7 +31,7 @@ use roxmltree::Node;
 
 use self::classes::Classes;
 use self::rotations::Angles;
-use super::description::{Description, Fault, Inertial, Joint, JointKind, Link};
+use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link};
 use super::rotation::{Matrix, Rotation, Triple, multiply, turned};
 use super::text::Text;
 use super::xml::{Reading, Silent, parse, shown};
@@ -126,12 +128,27 @@ const SILENT: Silent = Silent {
     ],
 };
 
+/// The link that holds all others.
+const WORLD: &str = "world";
+
 /// Where something is in the axes of what it is in.
 type Place = (Triple, Matrix);
 
 /// # Errors
 /// Everything that is wrong in the elements of the file, each by itself.
 pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
+    model(text, None).map(|model| model.description)
+}
+
+/// What a file says, with what those need that attach it.
+struct Model {
+    description: Description,
+    sites: Vec<(String, String)>,
+    controls: Vec<Option<usize>>,
+}
+
+/// A whole file, or a part that is attached with a prefix.
+fn model(text: &Text, prefix: Option<&str>) -> Result<Model, Vec<Fault>> {
     let document = parse(&text.whole).map_err(|fault| vec![fault])?;
     let mut reading = Reading::new(&document, text);
     let root = document.root_element();
@@ -148,6 +165,8 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
         sites: Vec::new(),
         controls: Vec::new(),
         meshes: Vec::new(),
+        prefix: prefix.unwrap_or_default().to_owned(),
+        attached: Vec::new(),
         bodies: root
             .descendants()
             .filter(|node| node.tag_name().name() == "body")
@@ -162,10 +181,14 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
     for world in file.reading.children(root, "worldbody") {
         file.world(world);
     }
-    file.scale_masses();
+    // What attaches the file weighs it.
+    if prefix.is_none() {
+        file.scale_masses();
+    }
     file.reading.children(root, "tendon").into_iter().for_each(|section| file.tendons(section));
     file.reading.children(root, "equality").into_iter().for_each(|section| file.equalities(section));
     file.reading.children(root, "actuator").into_iter().for_each(|section| file.actuators(section));
+    file.add_drives_of_attached();
     file.reading.children(root, "keyframe").into_iter().for_each(|section| file.keys(section));
     for contact in file.reading.children(root, "contact") {
         let shown = file.reading.children(contact, "exclude").len();
@@ -175,9 +198,9 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
         }
     }
     file.reading.note_unread(&SILENT);
-    let File { mut description, reading, .. } = file;
+    let File { mut description, reading, sites, controls, .. } = file;
     description.notes = reading.notes;
-    if reading.faults.is_empty() { Ok(description) } else { Err(reading.faults) }
+    if reading.faults.is_empty() { Ok(Model { description, sites, controls }) } else { Err(reading.faults) }
 }
 
 /// Which bodies have the masses of their geoms.
@@ -208,6 +231,10 @@ struct File<'a> {
     controls: Vec<Option<usize>>,
     /// Meshes that were read, of density one; `None` of those with a mistake.
     meshes: Vec<(String, Option<Inertial>)>,
+    /// Before the names of bodies that have none.
+    prefix: String,
+    /// Drives of models that are attached, and their controls: they come after those of the file.
+    attached: Vec<(Vec<Drive>, Vec<Option<usize>>)>,
 }
 
 impl<'a> File<'a> {
@@ -246,7 +273,7 @@ impl<'a> File<'a> {
     }
 
     fn world(&mut self, node: Node<'a, 'a>) {
-        let name = "world".to_owned();
+        let name = WORLD.to_owned();
         if !self.description.links.iter().any(|link| link.name == name) {
             self.description.links.push(Link { name: name.clone(), at: self.reading.at(node), inertial: None });
         }
@@ -259,6 +286,7 @@ impl<'a> File<'a> {
             match child.tag_name().name() {
                 "body" => self.body(child, parent, class, place),
                 "site" => self.site(child, parent, class, place),
+                "attach" => self.attach(child, parent, place),
                 "frame" => {
                     self.reading.see(child);
                     let class = self.reading.text(child, "childclass").or(class);
@@ -298,7 +326,7 @@ impl<'a> File<'a> {
         let class = self.reading.text(node, "childclass").or(class);
         let name = match self.reading.text(node, "name") {
             Some(name) => name.to_owned(),
-            None => format!("body_{}", self.description.links.len()),
+            None => format!("{}body_{}", self.prefix, self.description.links.len()),
         };
         let (position, matrix) = self.placed(node, "body", class, place);
         let inertial = self.inertial(node, class);
