@@ -179,16 +179,21 @@
 /// clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures, with the square of `mechanicalReduction`.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references, damping, dry
-/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms that are no meshes, scaled to
-/// `settotalmass`; classes of defaults;
+/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms, also of meshes in STL and OBJ
+/// files (by `inertia="exact"`, `legacy`, `shell`, and `convex` of what is convex), scaled to `settotalmass`; classes of defaults;
 /// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
 /// as coupled joints, others and those of fixed tendons as constraints; points in common and welds as constraints; springs and
 /// dampers of fixed tendons; actuators along joints and fixed tendons that are linear in their control, and at sites, without `refsite`: those are wrenches, each with its
 /// control for an input whatever `inputs` asks for. A ball is a `Rotation`, a free joint a `Pose`; armature and damping act in both.
 /// Keyframes are functions `ArmState::home()`, by their names, and `ArmInput::home()` where inputs are controls;
 /// `ArmState::start()` is where the file has everything at first, if that is not zero. `<include>` puts what is in the root of another
-/// file in its place: its path is relative to the folder of the first, an edit of it compiles the struct anew as well, mistakes are
-/// shown where they are written, and no file is included twice.
+/// file in its place: its path is relative to the folder of the first, or else to that of the file that includes it, and no file is
+/// included twice. `<replicate>` copies what is in it, and what refers to that; `<attach>` hangs a body of another model, with what
+/// refers to it. An edit of any of these files, and of meshes, compiles the struct anew; mistakes are shown where they are written.
+///
+/// Files may be anywhere, also behind links, as for `include_str!`. They are regular files, of 16 MiB at most with all that they
+/// include, a mesh of 64 MiB; elements are nested 256 deep at most, includes 32; a file attaches 32 models, and replicates 100 times, a
+/// thousand copies each. What is beyond is a mistake with its place.
 ///
 /// Nothing is left out in silence. What acts in the file and not in the equations (elements and attributes that are not known, laws of
 /// joints with several speeds, actuators with states) is a warning of the compiler with its line, one for all of a kind. The page of

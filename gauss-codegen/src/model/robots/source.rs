@@ -20,7 +20,10 @@ pub fn text(file: &File, path: &Path) -> Result<Text, Vec<String>> {
     let main = Written::read(file.path.clone(), path.to_owned()).map_err(|error| vec![error])?;
     match file.format {
         #[cfg(feature = "mjcf")]
-        Format::Mjcf => super::mjcf::included(main).map_err(|(text, faults)| all_located(&text.names(), &faults)),
+        Format::Mjcf => {
+            let (text, faults) = super::mjcf::included(main);
+            if faults.is_empty() { Ok(text) } else { Err(all_located(&text.names(), &faults)) }
+        }
         _ => Ok(Text::of(main)),
     }
 }

@@ -218,7 +218,8 @@ mod tests {
 
         fn text(&self, inside: &str) -> Result<Text, Vec<Fault>> {
             let text = format!("<mujoco>{inside}</mujoco>");
-            included(Written::new("main.xml".to_owned(), self.0.join("main.xml"), text)).map_err(|(_, faults)| faults)
+            let (text, faults) = included(Written::new("main.xml".to_owned(), self.0.join("main.xml"), text));
+            if faults.is_empty() { Ok(text) } else { Err(faults) }
         }
 
         fn read(&self, inside: &str) -> Result<Description, Vec<Fault>> {

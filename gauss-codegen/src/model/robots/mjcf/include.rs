@@ -20,23 +20,21 @@ const MOST_OPEN: usize = 32;
 /// Models that a file attaches, with those that these attach.
 const MOST_MODELS: usize = 32;
 
-/// The text with all that it includes, and with the copies that it asks for.
-///
-/// # Errors
-/// Files that are no XML or cannot be read, that include themselves, or are included twice.
-pub fn included(main: Written) -> Result<Text, (Text, Vec<Fault>)> {
+/// The text with all that it includes, with the copies that it asks for and the models that it attaches; and what is wrong: files
+/// that are no XML or cannot be read, that include themselves, or are included twice.
+pub fn included(main: Written) -> (Text, Vec<Fault>) {
     gathered(main, 0, &mut Models { around: Vec::new(), left: MOST_MODELS })
 }
 
-fn gathered(main: Written, first: usize, models: &mut Models) -> Result<Text, (Text, Vec<Fault>)> {
+fn gathered(main: Written, first: usize, models: &mut Models) -> (Text, Vec<Fault>) {
     models.around.push(main.path.clone());
     let mut text = Text::empty(main);
     text.first = first;
     let mut gathering = Gathering { text, open: vec![0], faults: Vec::new() };
     gathering.file(0);
     let Gathering { text, faults, .. } = gathering;
-    let read = if faults.is_empty() { replicated(text) } else { Err((text, faults)) };
-    let read = read.and_then(|text| models.of(text));
+    let (text, faults) = if faults.is_empty() { replicated(text) } else { (text, faults) };
+    let read = if faults.is_empty() { models.of(text) } else { (text, faults) };
     models.around.pop();
     read
 }
@@ -50,17 +48,16 @@ struct Models {
 }
 
 impl Models {
-    /// The text with those that it attaches.
-    fn of(&mut self, mut text: Text) -> Result<Text, (Text, Vec<Fault>)> {
+    /// The text with those that it attaches, and what is wrong in them.
+    fn of(&mut self, mut text: Text) -> (Text, Vec<Fault>) {
         let whole = text.whole.clone();
         // What is no XML is told by whoever reads it next.
-        let Ok(document) = parse(&whole) else { return Ok(text) };
+        let Ok(document) = parse(&whole) else { return (text, Vec::new()) };
         let sections = document.root_element().children().filter(|node| node.has_tag_name("asset"));
         let mut faults = Vec::new();
         for node in sections.flat_map(|asset| asset.children().filter(|node| node.has_tag_name("model"))) {
             match self.model(&text, node) {
-                Ok((name, Ok(model))) => text.models.push((name, model)),
-                Ok((name, Err((model, own)))) => {
+                Ok((name, model, own)) => {
                     text.models.push((name, model));
                     faults.extend(own);
                 }
@@ -70,10 +67,11 @@ impl Models {
                 }
             }
         }
-        if faults.is_empty() { Ok(text) } else { Err((text, faults)) }
+        (text, faults)
     }
 
-    fn model(&mut self, text: &Text, node: Node<'_, '_>) -> Result<(String, Result<Text, (Text, Vec<Fault>)>), String> {
+    /// One, by its name, and what is wrong in it.
+    fn model(&mut self, text: &Text, node: Node<'_, '_>) -> Result<(String, Text, Vec<Fault>), String> {
         let file = node.attribute("file").map(str::trim).filter(|name| !name.is_empty());
         let file = file.ok_or("the attribute `file` is missing")?;
         let main = &text.files[0];
@@ -85,7 +83,8 @@ impl Models {
         let written = Written::read(beside(&main.shown, file), path)?;
         let own = parse(&written.text).ok().and_then(|own| own.root_element().attribute("model").map(str::to_owned));
         let name = node.attribute("name").map(|name| name.trim().to_owned()).or(own).unwrap_or_default();
-        Ok((name, gathered(written, text.first + text.names().len(), self)))
+        let (model, faults) = gathered(written, text.first + text.names().len(), self);
+        Ok((name, model, faults))
     }
 }
 
