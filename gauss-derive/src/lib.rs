@@ -180,7 +180,7 @@
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references, damping, dry
 /// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms, also of meshes in STL and OBJ
-/// files (by `inertia="exact"`, `legacy`, `shell`, and `convex` of what is convex), scaled to `settotalmass`; classes of defaults;
+/// files (by `inertia="exact"`, `legacy`, `convex` or `shell`), scaled to `settotalmass`; classes of defaults;
 /// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
 /// as coupled joints, others and those of fixed tendons as constraints; points in common and welds as constraints; springs and
 /// dampers of fixed tendons; actuators along joints and fixed tendons that are linear in their control, and at sites, without `refsite`: those are wrenches, each with its

@@ -48,8 +48,8 @@ impl Mesh {
             .and_then(|bytes| parse(&bytes).map_err(|why| format!("cannot read `{}`: {why}", path.display())))?;
         let finite = mesh.vertices.iter().flatten().all(|c| c.is_finite());
         let inside = mesh.faces.iter().flatten().all(|&corner| corner < mesh.vertices.len());
-        if !finite || !inside || mesh.faces.is_empty() {
-            return Err(format!("`{}` has no faces, or corners that are no points", path.display()));
+        if !finite || !inside {
+            return Err(format!("`{}` has numbers that are not finite, or corners that are no points", path.display()));
         }
         Ok(mesh)
     }
@@ -102,7 +102,7 @@ impl Mesh {
             self.vertices.iter().all(|point| height(point) <= SLACK * size * norm(&normal))
         };
         let few = self.vertices.len().checked_mul(self.faces.len()).is_some_and(|tests| tests <= MOST_TESTS);
-        few && self.refuse_open().is_ok() && self.triangles([0.0; 3]).all(behind)
+        few && !self.faces.is_empty() && self.refuse_open().is_ok() && self.triangles([0.0; 3]).all(behind)
     }
 
     /// Corners from a point.

@@ -12,7 +12,7 @@
 //! | `drives`, `efforts`, `laws`, `relations` | inputs; what they do; what else acts in joints; what joins links beside the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
-//! | `mesh` | surfaces from STL and OBJ files, and their masses |
+//! | `mesh`, `hull` | surfaces from STL and OBJ files, and their masses; convex hulls |
 //! | `source`, `text` | the file: where it is, what is read; its text, with what it includes |
 
 mod clauses;
@@ -20,6 +20,8 @@ mod clauses;
 mod description;
 mod drives;
 mod efforts;
+#[cfg_attr(not(feature = "mjcf"), allow(dead_code, reason = "what readers alone use"))]
+mod hull;
 mod inertias;
 mod joints;
 mod laws;

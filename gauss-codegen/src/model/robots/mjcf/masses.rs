@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use roxmltree::Node;
 
 use super::rotations::to_direction;
-use super::{File, Geoms};
+use super::{File, Geoms, Place};
 use crate::model::robots::description::Inertial;
 use crate::model::robots::rotation::{Rotation, Triple, turned_tensor};
 use crate::model::robots::structure::{placed, sum};
@@ -60,11 +60,25 @@ impl<'a> File<'a> {
         Some(Inertial { mass: mass?, center, inertia }.settled())
     }
 
-    /// The sum of the geoms of a body.
+    /// The sum of the geoms of a body, with those in its frames.
     fn of_geoms(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) -> Option<Inertial> {
-        let all: Vec<Inertial> =
-            self.reading.children(node, "geom").into_iter().filter_map(|geom| self.of_geom(geom, class)).collect();
+        let mut all = Vec::new();
+        self.collect(node, class, &([0.0; 3], Rotation::none().matrix), &mut all);
         (!all.is_empty()).then(|| sum(&all))
+    }
+
+    fn collect(&mut self, node: Node<'a, 'a>, class: Option<&'a str>, place: &Place, all: &mut Vec<Inertial>) {
+        for child in node.children().filter(Node::is_element) {
+            match child.tag_name().name() {
+                "geom" => all.extend(self.of_geom(child, class).map(|own| placed(own, place))),
+                "frame" => {
+                    let class = self.reading.text(child, "childclass").or(class);
+                    let own = self.placed(child, "frame", class, place);
+                    self.collect(child, class, &own, all);
+                }
+                _ => {}
+            }
+        }
     }
 
     /// A volume of one density; `None` of what has none, and of meshes, which is noted.

@@ -7,6 +7,7 @@ use roxmltree::Node;
 use super::File;
 use super::rotations::of_quaternion;
 use crate::model::robots::description::Inertial;
+use crate::model::robots::hull::hull;
 use crate::model::robots::mesh::{Mesh, Rule};
 use crate::model::robots::names::unknown;
 use crate::model::robots::rotation::{Rotation, Triple};
@@ -52,12 +53,16 @@ impl<'a> File<'a> {
                 return None;
             }
         };
-        let mesh = self.surface(node)?;
-        if word == "convex" && !mesh.is_convex() {
-            let text =
-                "it is not convex, and its convex hull is not made; write `inertia=\"exact\"`, or `mass` of the body";
-            self.reading.fault(node, text);
-            return None;
+        let mut mesh = self.surface(node)?;
+        // Points without faces stand for their hull.
+        if word == "convex" || mesh.faces.is_empty() {
+            let most = self.reading.number(node, "maxhullvert").filter(|most| *most > 0.0);
+            mesh.faces = hull(&mesh.vertices).filter(|_| most.is_none()).unwrap_or_default();
+            if !mesh.is_convex() {
+                self.reading
+                    .fault(node, "its convex hull is not made: it is flat, has too many points, or `maxhullvert`");
+                return None;
+            }
         }
         match mesh.inertial(rule) {
             Ok(own) => {
@@ -117,10 +122,11 @@ impl<'a> File<'a> {
     /// What stands in the element.
     fn points(&mut self, node: Node<'a, 'a>) -> Option<Mesh> {
         let (points, corners) = (self.reading.list(node, "vertex"), self.reading.list(node, "face"));
-        let (Some(points), Some(corners)) = (points, corners) else {
-            self.reading.fault(node, "its mass needs `file`, or `vertex` with `face`");
+        let Some(points) = points else {
+            self.reading.fault(node, "its mass needs `file` or `vertex`");
             return None;
         };
+        let corners = corners.unwrap_or_default();
         let whole = |number: &f64| *number >= 0.0 && number.fract() == 0.0 && *number < (points.len() / 3) as f64;
         if points.len() % 3 != 0 || corners.len() % 3 != 0 || !corners.iter().all(whole) {
             self.reading
@@ -198,6 +204,10 @@ mod tests {
              [114.10730919980932, 128.63237998433803, 189.19956064466777, 50.55403404256289, 44.983602419373824, -33.331441770332034]),
             ("legacy", turned, 208.09831895598302, [1.2430285547040691, 1.8372856579186216, 2.2099271576198722],
              [56.048857881150845, 86.81038280714621, 83.00013564140173, -17.59752873449281, -13.232354022525477, -2.5730998736289687]),
+            ("convex", "", 250.0, [1.1643346124769354, 3.5280963385537163, 3.4788576031866576],
+             [139.26481243000106, 137.63757453561553, 219.06983525660826, 48.335578099697706, 46.77971224312548, -36.403162208276434]),
+            ("convex", turned, 250.0, [1.305302209474135, 1.8966047873651253, 2.148537211744818],
+             [69.57754792304046, 101.02511234277742, 98.28622862307212, -21.578515988232052, -9.178781075183254, 0.6959550979010136]),
             ("shell", "", 1300.0, [1.1151598582937243, 3.422339484629445, 3.4783840710091694],
              [917.820258562117, 1004.6794977619247, 1471.4105000862364, 362.99163139173953, 329.6327298554334, -245.57006784006995]),
             ("shell", turned, 1100.0, [1.2839827840396176, 1.8615836094101812, 2.207545624415171],
@@ -241,11 +251,12 @@ mod tests {
     fn what_is_refused() {
         let message = |mesh: &str, geom: &str| described("", mesh, geom).expect_err(mesh)[0].message.clone();
         for (mesh, expected) in [
-            ("file=\"prism.obj\" inertia=\"convex\"", "it is not convex, and its convex hull is not made"),
+            ("file=\"prism.obj\" inertia=\"convex\" scale=\"0 1 1\"", "its convex hull is not made: it is flat"),
+            ("file=\"prism.obj\" inertia=\"convex\" maxhullvert=\"8\"", "its convex hull is not made"),
             ("file=\"prism.obj\" inertia=\"solid\"", "`inertia` is convex, exact, legacy or shell, found `solid`"),
             ("name=\"prism\" file=\"nowhere.stl\"", "cannot read `"),
             ("name=\"prism\" file=\"prism.msh\"", "is neither an STL nor an OBJ file"),
-            ("name=\"prism\" builtin=\"sphere\"", "its mass needs `file`, or `vertex` with `face`"),
+            ("name=\"prism\" builtin=\"sphere\"", "its mass needs `file` or `vertex`"),
             ("name=\"prism\" vertex=\"0 0 0\" face=\"0 0 1\"", "`vertex` is three numbers a point"),
             ("file=\"prism.obj\" inertia=\"exact\" scale=\"0 1 1\"", "its faces enclose nothing"),
             ("name=\"prsm\" file=\"prism.obj\"", "which is no mesh; did you mean `prsm`?"),

@@ -92,7 +92,7 @@ impl<'a> Copies<'a> {
         }
         for inner in reading.elements(node) {
             let tag = inner.tag_name().name();
-            if matches!(tag, "joint" | "freejoint" | "inertial" | "attach") {
+            if matches!(tag, "joint" | "freejoint" | "inertial") {
                 reading.fault(node, format!("a <{tag}> cannot stand in it; put it into a <body>"));
             }
         }

@@ -192,6 +192,16 @@ fn masses_of_geoms() {
     let read = model(inside, "");
     let ball = read.bodies.iter().find(|body| body.name.as_ref().is_some_and(|name| name == "ball")).unwrap();
     assert!(!ball.massless && ball.position.is_some());
+    let mass = |inside: &str| {
+        let read = model(&format!("</body><body name=\"ball\"><joint/>{inside}</body></worldbody>"), "");
+        let ball = read.bodies.iter().find(|body| body.name.as_ref().is_some_and(|name| name == "ball")).unwrap();
+        let clause = ball.role_clauses.iter().find(|clause| clause.role == Role::Mass).unwrap();
+        let RoleValue::Expression(value) = &clause.value else { panic!("no number") };
+        value.literal().unwrap()
+    };
+    let geom = "<geom size=\"1\" mass=\"2\"/>";
+    assert_eq!(mass(&format!("{geom}<frame pos=\"1 0 0\">{geom}<frame>{geom}</frame></frame>")), 6.0);
+    assert_eq!(mass(&format!("{geom}<replicate count=\"3\">{geom}</replicate>")), 8.0);
 }
 
 /// `settotalmass` scales all masses, and inertias with them; zero and less do not.
