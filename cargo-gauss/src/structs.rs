@@ -1,7 +1,7 @@
 //! The structs of a file.
 //!
-//! Of the file only the tokens are read, and of those only the structs: the rest is the compiler's, and may be nested as
-//! deeply as that reads it.
+//! Of the file only the tokens are read, and of those only the structs: the rest is the compiler's, and may be nested
+//! as deeply as that reads it.
 
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use syn::{DeriveInput, Error};

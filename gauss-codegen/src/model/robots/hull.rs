@@ -8,8 +8,8 @@ const MOST_TESTS: usize = 100_000_000;
 /// What is in front of a face by less, as part of the size of all, is taken as in its plane.
 const FLAT: f64 = 1e-10;
 
-/// Faces around all points, counter-clockwise as seen from outside: points are added one by one, each in place of the faces
-/// that it is in front of. `None` of points in a plane, and of more than can be looked at.
+/// Faces around all points, counter-clockwise as seen from outside: points are added one by one, each in place of the
+/// faces that it is in front of. `None` of points in a plane, and of more than can be looked at.
 pub fn hull(points: &[Triple]) -> Option<Vec<[usize; 3]>> {
     let size = points.iter().flatten().fold(0.0, |size: f64, c| size.max(c.abs()));
     let mut faces = first(points, FLAT * size)?;

@@ -1,7 +1,7 @@
 //! Surfaces of triangles from their files, and the masses that they have.
 //!
-//! Integrals over a volume are sums over its faces (the divergence theorem): each face makes a pyramid with one point, and
-//! of a closed surface the pyramids outside of it cancel.
+//! Integrals over a volume are sums over its faces (the divergence theorem): each face makes a pyramid with one point,
+//! and of a closed surface the pyramids outside of it cancel.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -62,8 +62,8 @@ impl Mesh {
         if rule == Rule::Exact {
             self.refuse_open()?;
         }
-        // As MuJoCo's `ComputeFaceCentroid`, `ComputeVolume` and `ComputeInertia` (`src/user/user_mesh.cc`): pyramids from
-        // the centroid of the surface, then from the centre of mass. Of a closed surface the points do not matter.
+        // As MuJoCo's `ComputeFaceCentroid`, `ComputeVolume` and `ComputeInertia` (`src/user/user_mesh.cc`): pyramids
+        // from the centroid of the surface, then from the centre of mass. Of a closed surface the points do not matter.
         let (area, middle) = self.weighed([0.0; 3], |corners| (norm(&normal(corners)) / 2.0, 3.0))?;
         let measure = |corners: &[Triple; 3]| match rule {
             Rule::Exact => (signed(corners), 4.0),
@@ -71,7 +71,8 @@ impl Mesh {
             Rule::Shell => (norm(&normal(corners)) / 2.0, 3.0),
         };
         let (_, center) = if rule == Rule::Shell { (area, middle) } else { self.weighed(middle, measure)? };
-        // ∫ x xᵀ over a triangle, or a pyramid from the point, is its measure times (Σ c cᵀ + Σc Σcᵀ) / (n (n + 1)), n = 3, 4.
+        // ∫ x xᵀ over a triangle, or a pyramid from the point, is its measure times (Σ c cᵀ + Σc Σcᵀ) / (n (n + 1)), n
+        // = 3, 4.
         let mut mass = 0.0;
         let mut squares = [[0.0; 3]; 3];
         for corners in self.triangles(center) {
@@ -90,8 +91,8 @@ impl Mesh {
         Ok(Inertial { mass, center, inertia: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))) })
     }
 
-    /// No point is in front of a face, by more than what rounding to single precision moves it; so that the surface is its own
-    /// convex hull. Not looked at where that takes long.
+    /// No point is in front of a face, by more than what rounding to single precision moves it; so that the surface is
+    /// its own convex hull. Not looked at where that takes long.
     pub fn is_convex(&self) -> bool {
         const MOST_TESTS: usize = 20_000_000;
         const SLACK: f64 = 1e-6;
@@ -111,8 +112,8 @@ impl Mesh {
         self.faces.iter().map(move |face| face.map(corner))
     }
 
-    /// The sum of measures, and the mean of the centres of the pyramids from a point, or of the faces; with the corners of
-    /// each.
+    /// The sum of measures, and the mean of the centres of the pyramids from a point, or of the faces; with the corners
+    /// of each.
     fn weighed(&self, from: Triple, measure: impl Fn(&[Triple; 3]) -> (f64, f64)) -> Result<(f64, Triple), String> {
         let (mut all, mut sum) = (0.0, [0.0; 3]);
         for corners in self.triangles(from) {
@@ -211,7 +212,8 @@ fn of_corners(vertices: Vec<Triple>) -> Mesh {
     Mesh { vertices, faces }
 }
 
-/// Points and faces of <https://www.loc.gov/preservation/digital/formats/fdd/fdd000507.shtml>; faces with more corners are fans.
+/// Points and faces of <https://www.loc.gov/preservation/digital/formats/fdd/fdd000507.shtml>; faces with more corners
+/// are fans.
 fn obj(bytes: &[u8]) -> Result<Mesh, String> {
     let text = text_of(bytes).ok_or("it is no text in UTF-8")?;
     let mut mesh = Mesh::default();

@@ -9,7 +9,8 @@ use super::description::At;
 /// Bytes of a file, and of all that it includes.
 pub const MOST_OF_TEXT: u64 = 16 << 20;
 
-/// Nothing is defined in a file that its text is made of, and there are not more elements, texts and comments than these.
+/// Nothing is defined in a file that its text is made of, and there are not more elements, texts and comments than
+/// these.
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 pub fn options<'a>() -> roxmltree::ParsingOptions<'a> {
     roxmltree::ParsingOptions { allow_dtd: false, nodes_limit: 1_000_000, entity_resolver: None }

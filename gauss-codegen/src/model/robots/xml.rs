@@ -33,8 +33,8 @@ pub struct Silent {
     pub attributes: &'static [&'static str],
 }
 
-/// Elements within elements that are read: what walks them calls itself once a level, on the stack of a macro. A chain of
-/// as many bodies is beyond the operations that a struct can have.
+/// Elements within elements that are read: what walks them calls itself once a level, on the stack of a macro. A chain
+/// of as many bodies is beyond the operations that a struct can have.
 pub const DEEPEST: usize = 256;
 
 /// # Errors

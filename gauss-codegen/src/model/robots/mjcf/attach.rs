@@ -1,8 +1,8 @@
 //! `<attach model="…" body="…" prefix="…"/>`: a body of another model, or its world, hangs here.
 //!
 //! The other model is read by its own settings and classes; what comes of it has the prefix before its names
-//! (<https://mujoco.readthedocs.io/en/stable/XMLreference.html#body-attach>). Of its tendons, equalities and actuators those
-//! come along that refer to nothing but what does; its gravity and its keyframes do not.
+//! (<https://mujoco.readthedocs.io/en/stable/XMLreference.html#body-attach>). Of its tendons, equalities and actuators
+//! those come along that refer to nothing but what does; its gravity and its keyframes do not.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -93,8 +93,8 @@ enum Becomes<'a> {
     World(Node<'a, 'a>, Option<&'a str>),
 }
 
-/// The text with the body alone, or all of its world, and what refers to nothing else, with a prefix before names; the faults of
-/// what is no XML.
+/// The text with the body alone, or all of its world, and what refers to nothing else, with a prefix before names; the
+/// faults of what is no XML.
 ///
 /// # Errors
 /// Why there is no such body.

@@ -20,8 +20,8 @@ const MOST_OPEN: usize = 32;
 /// Models that a file attaches, with those that these attach.
 const MOST_MODELS: usize = 32;
 
-/// The text with all that it includes, with the copies that it asks for and the models that it attaches; and what is wrong: files
-/// that are no XML or cannot be read, that include themselves, or are included twice.
+/// The text with all that it includes, with the copies that it asks for and the models that it attaches; and what is
+/// wrong: files that are no XML or cannot be read, that include themselves, or are included twice.
 pub fn included(main: Written) -> (Text, Vec<Fault>) {
     gathered(main, 0, &mut Models { around: Vec::new(), left: MOST_MODELS })
 }

@@ -1,4 +1,5 @@
-//! Names of elements, and what refers to them, in the text of a file: copies and parts of models have names of their own.
+//! Names of elements, and what refers to them, in the text of a file: copies and parts of models have names of their
+//! own.
 
 use std::collections::BTreeSet;
 use std::ops::Range;

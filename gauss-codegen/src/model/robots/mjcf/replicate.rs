@@ -1,8 +1,8 @@
 //! `<replicate count="3" …>`: copies of what is in it, each in a frame, with numbers after the names.
 //!
-//! As `mjXReader::Body` of MuJoCo's `src/xml/xml_native_reader.cc` has it: copy i is turned by i times the angles, and moved
-//! from the one before by the offset in the axes of that. What refers to a copied element is copied with it, and stands
-//! after the others of its kind. Of replicates in each other the inner one is first.
+//! As `mjXReader::Body` of MuJoCo's `src/xml/xml_native_reader.cc` has it: copy i is turned by i times the angles, and
+//! moved from the one before by the offset in the axes of that. What refers to a copied element is copied with it, and
+//! stands after the others of its kind. Of replicates in each other the inner one is first.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
