@@ -341,8 +341,11 @@ macro_rules! elementary {
     ($float:ident, $std:ident, $libm:ident; $($argument:expr),+) => { libm::$libm($($argument),+) };
 }
 
+/// Not every library reduces angles well that are larger.
+const LARGE_ANGLE: f64 = 65_536.0;
+
 macro_rules! implement_real {
-    ($float:ident, $digits:expr, $operation:ident $question:ident; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $sincos:expr, $together:expr) => {
+    ($float:ident, $digits:expr, $operation:ident $question:ident; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $tan:ident $sincos:expr, $together:expr) => {
         impl Real for $float {
             const LANES: usize = 1;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -415,6 +418,15 @@ macro_rules! implement_real {
             }
 
             #[inline(always)]
+            fn tan(self) -> Self {
+                if $float::abs(self) < LARGE_ANGLE as $float {
+                    return elementary!($float, tan, $tan; self);
+                }
+                let (sine, cosine) = Real::sin_cos(self);
+                sine / cosine
+            }
+
+            #[inline(always)]
             fn sines_and_cosines<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
                 $together(angles)
             }
@@ -448,12 +460,12 @@ macro_rules! implement_real {
 }
 
 implement_real!(f64, 53, of_doubles all_doubles;
-    sqrt sqrt, sin sin, cos cos, tan tan, asin asin, acos acos, atan atan,
-    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow
+    sqrt sqrt, asin asin, acos acos, atan atan,
+    sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow tan
     |x: f64| sin_cos(x, f64::fma), |angles: [f64; N]| sines_and_cosines(angles, f64::fma));
 implement_real!(f32, 24, of_singles all_singles;
-sqrt sqrtf, sin sinf, cos cosf, tan tanf, asin asinf, acos acosf, atan atanf,
-sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf
+sqrt sqrtf, asin asinf, acos acosf, atan atanf,
+sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf tanf
 |x: f32| {
     // Rounded once more than it need be: within 0.5 ulp and a little.
     let (sine, cosine) = sin_cos(f64::from(x), f64::fma);

@@ -10,6 +10,8 @@ use crate::real::Real;
 const SINE: f64 = 1.0;
 const HYPERBOLIC: f64 = 4.0;
 const OTHER: f64 = 2.0;
+/// The quotient of a sine and a cosine: one for each, half of one for the quotient, and their products.
+const TANGENT: f64 = 3.0;
 
 impl<T: Float> Bounded<T> {
     /// A value of a library function. `inherited` is made of at most ten operations.
@@ -181,7 +183,7 @@ impl<T: Float> Real for Bounded<T> {
         let near = Self::exact(self.value).cos().least();
         let least = self.cos().least();
         let slope = if self.bound == T::zero() { T::zero() } else { (near * least).recip() };
-        Self::function(value, self.along(slope), OTHER)
+        Self::function(value, self.along(slope), TANGENT)
     }
 
     fn asin(self) -> Self {
