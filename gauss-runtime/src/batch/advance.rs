@@ -245,7 +245,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
             next.y.replace(held.lane, &held.y);
             known = None;
         }
-        let rates = accept(self.problem, &mut next, known)?;
+        let rates = accept(self.problem, (state, rates), &mut next, known)?;
         Ok((next, rates))
     }
 }

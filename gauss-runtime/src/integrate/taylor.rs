@@ -13,7 +13,7 @@ use crate::integrate::drive::control::{
     Control, Emit, Taken, check_tolerances, longest, prepare, smallest, unresolved,
 };
 use crate::integrate::drive::pace::Pace;
-use crate::integrate::drive::projection::{accept, on_constraints};
+use crate::integrate::drive::projection::{accept, onto_constraints};
 use crate::integrate::drive::simulation::Simulation;
 use crate::integrate::problem::equations::{Problem, SystemProblem};
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
@@ -289,7 +289,8 @@ impl<S: TaylorSystem> Control<S> for Taylor {
                 return Err(gave(Gave::AnyStep(IntegrationErrorKind::NonFinite { part: Part::Step })));
             }
             check_chart(problem.system(), &state, &reached).map_err(|kind| stopped(&state, kind))?;
-            let next: Rates<S> = accept(problem, &mut reached, None).map_err(|kind| gave(Gave::AnyStep(kind)))?;
+            let next: Rates<S> =
+                accept(problem, (&state, &rates), &mut reached, None).map_err(|kind| gave(Gave::AnyStep(kind)))?;
             (state, rates) = (reached, next);
             if emit(&state, &rates, Taken { rejected: 0, excess }).is_break() || last {
                 return Ok(state);
@@ -318,17 +319,17 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         &self,
         problem: &P,
         state: &State<S>,
-        _: &Rates<S>,
+        rates: &Rates<S>,
     ) -> impl FnMut(S::Scalar) -> Result<State<S>, IntegrationErrorKind> {
         let mut series = S::Series::zero();
-        let (t, order) = (state.t, self.order.unwrap_or(MAX_ORDER));
-        expanded(problem, state, order, &mut series);
+        let (state, rates, order) = (*state, *rates, self.order.unwrap_or(MAX_ORDER));
+        expanded(problem, &state, order, &mut series);
         move |h| {
-            let end = summed(problem, t, &series, order, h);
+            let end = summed(problem, state.t, &series, order, h);
             if !(end.q.is_finite() && end.y.is_finite()) {
                 return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
             }
-            if S::CONSTRAINED { on_constraints(problem, &end) } else { Ok(end) }
+            if S::CONSTRAINED { onto_constraints(problem, (&state, &rates), &end) } else { Ok(end) }
         }
     }
 

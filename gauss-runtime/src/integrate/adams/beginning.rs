@@ -144,12 +144,13 @@ fn ahead<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     let at_start = Point { components: start.q.components(), variables: start.y };
     let mut ends = [at_start; ENDS];
     let mut derivatives = [point::<S>(&start.q, rates); ENDS];
+    let begun = (start, rates);
     let (mut state, mut rates) = (*start, *rates);
     for (i, &length) in Beginning::<K>::LENGTHS.iter().enumerate() {
         let node = Beginning::<K>::NODES[i + 1];
         let (mut next, known) = begin::<S, P, K>(problem, &state, &rates, number(length) * h)?;
         next.t = time(node);
-        rates = accept(problem, &mut next, known)?;
+        rates = accept(problem, (&state, &rates), &mut next, known)?;
         state = next;
         ahead[node - 1] = (state, rates);
         ends[i + 1] = Point { components: state.q.components(), variables: state.y };
@@ -167,7 +168,7 @@ fn ahead<S: GaussSystem, P: Problem<System = S>, const K: usize>(
         let q = S::Configuration::from_components(&components).renormalise();
         let mut state = State { t: time(*at), q, y: variables };
         check_chart(problem.system(), start, &state)?;
-        let rates = accept(problem, &mut state, None)?;
+        let rates = accept(problem, begun, &mut state, None)?;
         ahead[*at - 1] = (state, rates);
     }
     Ok(ahead)

@@ -219,7 +219,13 @@ impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
         memory.march.attempt(&mut *memory.steps, problem, group, who)
     }
 
-    fn failed(&self, _: &Group<S>, _: usize, kind: IntegrationErrorKind, _: &mut Memory<S, K>) -> Verdict {
+    fn failed<P: Problem<System = S>>(
+        &self,
+        _: (&P, &Group<S>),
+        _: usize,
+        kind: IntegrationErrorKind,
+        _: &mut Memory<S, K>,
+    ) -> Verdict {
         Verdict::Gave(Gave::Step(kind))
     }
 

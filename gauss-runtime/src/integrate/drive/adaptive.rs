@@ -8,7 +8,7 @@ use crate::integrate::drive::control::{
     Control, Emit, Taken, check_tolerances, longest, one_step, prepare, smallest, unresolved,
 };
 use crate::integrate::drive::pace::Pace;
-use crate::integrate::drive::projection::accept;
+use crate::integrate::drive::projection::{accept, check_move, is_hopeless};
 use crate::integrate::drive::step_length::{StepLength, power};
 use crate::integrate::drive::tolerance::{Floor, Tolerance, Trial};
 use crate::integrate::lie_group::rkmk::Rkmk;
@@ -206,10 +206,16 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         if last {
             reached.t = self.end;
         }
-        let rates = match accept(self.problem, &mut reached, step.rates) {
+        let rates = match accept(self.problem, (&self.state, &self.rates), &mut reached, step.rates) {
             Ok(rates) => rates,
             Err(kind) => return self.halve(left, kind),
         };
+        if S::CONSTRAINED {
+            let trial = Trial { from, to: &reached, length, floor: None };
+            if let Err(kind) = check_move(tolerance, self.problem, &trial, &step.state) {
+                return self.halve(left, kind);
+            }
+        }
         let excess = match &self.floor {
             None => 0.0,
             Some(floor) => tolerance.excess(&Trial { from, to: &reached, length, floor: Some(floor) }),
@@ -241,13 +247,15 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
     /// A step that failed: a shorter one may do, as long as it changes the time, and the state if anything does.
     #[cold]
     fn halve(&mut self, left: f64, kind: IntegrationErrorKind) -> Result<Option<(Taken, bool)>, IntegrationErrorKind> {
-        self.length = 0.5 * self.length.min(left);
+        self.length = StepLength::part(&kind) * self.length.min(left);
         self.rejected += 1;
         self.lengths.fail();
         let h = S::Scalar::from_f64(if self.span < 0.0 { -self.length } else { self.length });
         let moves = change(&self.state, &self.rates, &(0..S::Scalar::LANES)) * self.length;
         let still = moves > 0.0 && moves < 0.5 * S::Scalar::EPSILON;
-        if still || self.vanishes(self.length) || self.state.t + h == self.state.t { Err(kind) } else { Ok(None) }
+        let hopeless = || is_hopeless(self.problem, &self.state, 0..S::Scalar::LANES, (&kind, self.rejected));
+        let ends = still || self.vanishes(self.length) || self.state.t + h == self.state.t || hopeless();
+        if ends { Err(kind) } else { Ok(None) }
     }
 
     fn vanishes(&self, length: f64) -> bool {

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use crate::configuration::Configuration;
-use crate::integrate::drive::projection::{consistent_start, on_constraints};
+use crate::integrate::drive::projection::{consistent_start, onto_constraints};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
 use crate::integrate::problem::state::{Rates, State};
@@ -94,7 +94,7 @@ pub(in crate::integrate) fn one_step<S: GaussSystem, M: OneStep<S>, P: Problem<S
     h: S::Scalar,
 ) -> Result<State<S>, IntegrationErrorKind> {
     let end = method.step(problem, state, rates, h)?.state;
-    if S::CONSTRAINED { on_constraints(problem, &end) } else { Ok(end) }
+    if S::CONSTRAINED { onto_constraints(problem, (state, rates), &end) } else { Ok(end) }
 }
 
 /// Refuses tolerances that are negative, not finite, or both zero.

@@ -163,7 +163,7 @@ impl<S: GaussSystem> OneLength<S> {
             let (mut next, known) = advance(&state, &rates, this).map_err(failed)?;
             n += 1;
             next.t = if last { end } else { time(start, h, n) };
-            let there = accept(problem, &mut next, known).map_err(failed)?;
+            let there = accept(problem, (&state, &rates), &mut next, known).map_err(failed)?;
             (state, rates) = (next, there);
             flow = emit(&state, &rates, Taken::default());
         }

@@ -1,24 +1,42 @@
 //! States of a run kept on the constraints. Without constraints nothing here does anything, at compile time.
 //!
-//! A step ends off the constraints by its local error; the nearest state on them is no farther from the solution than twice
-//! that. So projecting after every accepted step keeps the order of the method and nothing accumulates (Hairer, Lubich &
-//! Wanner, *Geometric Numerical Integration*, IV.4). Error estimates are those of the step before it is projected.
+//! A step ends off the constraints by its local error. While the constraints are independent, the nearest state on them is no farther
+//! from the solution than about twice that. So projecting after every accepted step keeps the order of the method and nothing
+//! accumulates (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4). Error estimates are those of the step before it is
+//! projected.
+//!
+//! Where constraints become dependent on one another (a singular position of a mechanism) that fails: with a least singular value σ of
+//! the Jacobian, an error e of the positions turns the admissible velocities by e/σ, and beside the singularity the nearest state may be
+//! on another branch of the motion. The projection in the metric of the kinetic energy then takes away whatever it finds across, up to all
+//! of it. So what the projection moves is an error of the step like others, and bounded: by half of the way that the step makes
+//! ([`onto_constraints`]), and for a tolerance by a multiple of it ([`check_move`]). A step that is moved farther is
+//! rejected: a shorter one has a smaller error, or ends elsewhere. Where none will do, the run ends.
+
+use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::constraint::ConstraintLevel;
+use crate::integrate::drive::tolerance::{PATTERNS, Tolerance, Trial, larger, rounded};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::checks::is_in_range;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// Brings the end of an accepted step onto the constraints, where there are any, and gives the derivatives there; refuses speeds
-/// whose squares overflow. Derivatives that
-/// came with the step belong to its end before it was projected, and serve without constraints only.
+/// The projection onto the constraints may move the end of a step by so many tolerances. The computed end is within one of them of the
+/// true one, and so is what is nearest to it on independent constraints. But "nearest" is measured by the kinetic energy: a light body
+/// on a short lever moves farther than the heavy one whose error it takes up. Ordinary scenes are moved by a hundredth of a tolerance
+/// and less, because estimates are those of a method of lower order.
+const PROJECTED: f64 = 10.0;
+
+/// Brings the end of an accepted step, of which the start is given with the derivatives there, onto the constraints, where there are
+/// any, and gives the derivatives at the end; refuses speeds whose squares overflow. Derivatives that came with the step belong to its end
+/// before it was projected, and serve without constraints only.
 #[inline(always)]
 pub(crate) fn accept<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
+    from: (&State<S>, &Rates<S>),
     state: &mut State<S>,
     known: Option<Rates<S>>,
 ) -> Result<Rates<S>, IntegrationErrorKind> {
@@ -26,12 +44,165 @@ pub(crate) fn accept<S: GaussSystem, P: Problem<System = S>>(
         return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
     }
     if S::CONSTRAINED {
-        *state = on_constraints(problem, state)?;
+        *state = onto_constraints(problem, from, state)?;
     } else if let Some(rates) = known {
         return Ok(rates);
     }
     let rates = problem.rates(state);
     if rates.is_finite() { Ok(rates) } else { Err(IntegrationErrorKind::NonFinite { part: Part::Step }) }
+}
+
+/// The end of a step of a constrained system brought onto its constraints, and not farther than half of the way of the step.
+///
+/// The true motion ends on the constraints. If it is farther from there to the computed end than half of what the step changes, then so
+/// is the error of the step: not one binary digit of the change is right. The way is what the step changes, or what the derivatives at
+/// its start do where that is more: a motion that turns back changes nothing. Half of the digits of the state itself are allowed as
+/// they are to an initial state ([`consistent_start`]): at rest nothing changes but by rounding.
+pub(in crate::integrate) fn onto_constraints<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    (from, rates): (&State<S>, &Rates<S>),
+    end: &State<S>,
+) -> Result<State<S>, IntegrationErrorKind> {
+    let projected = on_constraints(problem, end)?;
+    let (moved, changed) = (difference(end, &projected), difference(from, end));
+    for lane in 0..S::Scalar::LANES {
+        let h = (end.t - from.t).lane(lane).abs();
+        let way = |changed: f64, rate: f64| 0.5 * changed.max(h * rate);
+        let of_q = way(largest(&changed.configuration, lane), largest(&rates.configuration, lane));
+        let of_y = way(largest(&changed.variables, lane), largest(&rates.variables, lane));
+        let of_q = of_q + half_of_the_digits::<S>(size_of_configuration(end, lane));
+        let of_y = of_y + half_of_the_digits::<S>(largest(&end.y, lane));
+        for (level, distance, allowed) in [
+            (ConstraintLevel::Position, largest(&moved.configuration, lane), of_q),
+            (ConstraintLevel::Velocity, largest(&moved.variables, lane), of_y),
+        ] {
+            if distance > allowed {
+                return Err(IntegrationErrorKind::ProjectionTooFar { level, distance, allowed });
+            }
+        }
+    }
+    Ok(projected)
+}
+
+/// Refuses a step that the projection onto the constraints moves by more than [`PROJECTED`] tolerances. `trial` ends where it is moved
+/// to, from where it was computed. What the projection makes of a rounding at the start of the step cannot be told from its rounding at the
+/// end, up to half of the digits.
+#[inline(always)]
+pub(in crate::integrate) fn check_move<S: GaussSystem, P: Problem<System = S>>(
+    tolerance: &Tolerance,
+    problem: &P,
+    trial: &Trial<'_, S>,
+    computed: &State<S>,
+) -> Result<(), IntegrationErrorKind> {
+    let moved = difference(computed, trial.to);
+    if tolerance.error(trial, &moved, None) <= PROJECTED {
+        Ok(())
+    } else {
+        check_above_rounding(tolerance, problem, trial, &moved)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn check_above_rounding<S: GaussSystem, P: Problem<System = S>>(
+    tolerance: &Tolerance,
+    problem: &P,
+    trial: &Trial<'_, S>,
+    moved: &Rates<S>,
+) -> Result<(), IntegrationErrorKind> {
+    let rounding = rounding_of_projection(problem, trial.from);
+    let half = S::Scalar::from_f64(Real::sqrt(S::Scalar::EPSILON));
+    let allowed = |tolerance: S::Scalar, rounding: S::Scalar, size: S::Scalar| {
+        let rounding = S::Scalar::select_lt(rounding, half * size, rounding, half * size);
+        S::Scalar::from_f64(PROJECTED) * larger(tolerance, rounding)
+    };
+    let mut worst = (1.0, Ok(()));
+    let mut see = |level, moved: S::Scalar, allowed: S::Scalar| {
+        for lane in 0..S::Scalar::LANES {
+            let (distance, allowed) = (moved.lane(lane).abs(), allowed.lane(lane));
+            if distance > worst.0 * allowed {
+                let error = IntegrationErrorKind::ProjectionTooFar { level, distance, allowed };
+                worst = (distance / allowed, Err(error));
+            }
+        }
+    };
+    for i in 0..TangentOf::<S>::DIM {
+        let rounding = rounding.configuration.component(i);
+        let allowed = allowed(tolerance.of_configuration(trial, i), rounding, trial.to.q.magnitudes(i));
+        see(ConstraintLevel::Position, moved.configuration.component(i), allowed);
+    }
+    for i in 0..S::Speeds::DIM {
+        let rounding = rounding.variables.component(i);
+        let allowed = allowed(tolerance.of_variables(trial, i), rounding, trial.to.y.component(i).abs());
+        see(ConstraintLevel::Velocity, moved.variables.component(i), allowed);
+    }
+    worst.1
+}
+
+/// So many trials of a step are moved too far before it is asked whether the constraints have become dependent at its start.
+const TRIALS: u32 = 4;
+
+/// Whether a step that the projection moved too far, so many times shortened, starts next to a position where the constraints are dependent,
+/// so that steps would only shrink towards it.
+///
+/// With a least singular value σ the projection makes ε/σ of a rounding, and admissible velocities at positions that are known to that turn
+/// by ε/σ²: half of the digits are lost where the projection makes ε^¾ of ε.
+#[cold]
+pub(in crate::integrate) fn is_hopeless<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    state: &State<S>,
+    lanes: Range<usize>,
+    (kind, rejected): (&IntegrationErrorKind, u32),
+) -> bool {
+    if rejected < TRIALS || !matches!(kind, IntegrationErrorKind::ProjectionTooFar { .. }) {
+        return false;
+    }
+    let rounding = rounding_of_projection(problem, state);
+    let digits = Real::sqrt(Real::sqrt(S::Scalar::EPSILON));
+    let lost = digits * digits * digits;
+    lanes.into_iter().any(|lane| {
+        largest(&rounding.variables, lane) > lost * largest(&state.y, lane)
+            || largest(&rounding.configuration, lane) > lost * size_of_configuration(state, lane)
+    })
+}
+
+/// What the projection makes of a rounding of the state, component by component.
+fn rounding_of_projection<S: GaussSystem, P: Problem<System = S>>(problem: &P, state: &State<S>) -> Rates<S> {
+    let mut rounding: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+    for pattern in PATTERNS {
+        let Ok(near) = on_constraints(problem, &rounded(state, pattern)) else { continue };
+        let moved = difference(state, &near);
+        let more = |moved: S::Scalar, known: S::Scalar| larger(moved.abs(), known);
+        for i in 0..TangentOf::<S>::DIM {
+            let most = more(moved.configuration.component(i), rounding.configuration.component(i));
+            rounding.configuration.set_component(i, most);
+        }
+        for i in 0..S::Speeds::DIM {
+            let most = more(moved.variables.component(i), rounding.variables.component(i));
+            rounding.variables.set_component(i, most);
+        }
+    }
+    rounding
+}
+
+/// From one state to another of the same time.
+fn difference<S: GaussSystem>(from: &State<S>, to: &State<S>) -> Rates<S> {
+    Rates { configuration: from.q.difference(&to.q), variables: to.y.add_scaled(-S::Scalar::one(), &from.y) }
+}
+
+/// The largest magnitude among the components, in one lane.
+fn largest<T: Real, V: VectorSpace<T>>(vector: &V, lane: usize) -> f64 {
+    (0..V::DIM).map(|i| vector.component(i).lane(lane).abs()).fold(0.0, f64::max)
+}
+
+/// The largest component of the configuration, in one lane.
+fn size_of_configuration<S: GaussSystem>(state: &State<S>, lane: usize) -> f64 {
+    (0..TangentOf::<S>::DIM).map(|i| state.q.magnitudes(i).lane(lane)).fold(0.0, f64::max)
+}
+
+/// √ε of a size, and beside it 64 ε for numbers of order 1 that cancel where the state itself is zero.
+fn half_of_the_digits<S: GaussSystem>(size: f64) -> f64 {
+    Real::sqrt(S::Scalar::EPSILON) * size + 64.0 * S::Scalar::EPSILON
 }
 
 /// The state of a constrained system brought onto its constraints.
@@ -49,7 +220,7 @@ pub(in crate::integrate) fn on_constraints<S: GaussSystem, P: Problem<System = S
 ///
 /// The bound is √ε of the largest component of the configuration, of z respectively: a state that agrees with the
 /// constraints in half of the digits was meant to satisfy them, and with less than half it is another state, which nobody
-/// asked to run from. Beside it 64 ε are allowed for numbers of order 1 that cancel where the state itself is zero.
+/// asked to run from.
 #[inline(always)]
 pub(in crate::integrate) fn consistent_start<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
@@ -62,14 +233,12 @@ pub(in crate::integrate) fn consistent_start<S: GaussSystem, P: Problem<System =
     let speeds = |state: &State<S>| problem.speeds(state.t, &state.q, &state.y);
     let (given, nearest) = (speeds(start), speeds(&projected));
     let increment = start.q.difference(&projected.q);
-    let components = <<S::Configuration as Configuration>::Tangent as VectorSpace<S::Scalar>>::DIM;
-    let size = (0..components).map(|i| start.q.magnitude(i)).fold(0.0, f64::max);
+    let size = (0..TangentOf::<S>::DIM).map(|i| start.q.magnitude(i)).fold(0.0, f64::max);
     for (level, distance, size) in [
         (ConstraintLevel::Position, increment.max_norm(), size),
         (ConstraintLevel::Velocity, nearest.add_scaled(-S::Scalar::one(), &given).max_norm(), given.max_norm()),
     ] {
-        let allowed = Real::sqrt(S::Scalar::EPSILON) * size + 64.0 * S::Scalar::EPSILON;
-        if distance > allowed {
+        if distance > half_of_the_digits::<S>(size) {
             return Err(IntegrationErrorKind::InconsistentStart { level, distance });
         }
     }

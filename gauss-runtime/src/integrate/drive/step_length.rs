@@ -12,6 +12,7 @@
 //! - steps grow by less at a time, which keeps them from leaping over what the stages have not seen.
 
 use crate::integrate::drive::logarithms::{exponential, logarithm};
+use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::real::Real;
 use crate::system::Smoothness;
 
@@ -69,6 +70,12 @@ impl StepLength {
             self.previous = None;
             self.across = STEPS_ACROSS;
         }
+    }
+
+    /// The part of a step that could not be made for some reason which is tried next. Of one that ends next to a singularity not a half:
+    /// two halves end there again.
+    pub(in crate::integrate) fn part(reason: &IntegrationErrorKind) -> f64 {
+        if matches!(reason, IntegrationErrorKind::ProjectionTooFar { .. }) { 0.7 } else { 0.5 }
     }
 
     /// A step of this error (in tolerances, within the limit) is accepted: the factor from its length to that of the next.

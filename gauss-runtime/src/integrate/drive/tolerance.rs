@@ -63,20 +63,8 @@ impl<S: GaussSystem> Floor<S> {
     pub(in crate::integrate) fn at<P: Problem<System = S>>(problem: &P, state: &State<S>, rates: &Rates<S>) -> Self {
         let mut derivatives: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
         let unit = S::Scalar::from_f64(S::Scalar::EPSILON);
-        // One sign for all, alternating signs, pairs of signs.
-        for pattern in [|_: usize| false, |i: usize| i % 2 == 1, |i: usize| i % 4 > 1] {
-            let mut sigma = TangentOf::<S>::zero();
-            for i in 0..TangentOf::<S>::DIM {
-                let size = unit * state.q.magnitudes(i);
-                sigma.set_component(i, if pattern(i) { -size } else { size });
-            }
-            let mut y = state.y;
-            for i in 0..S::Speeds::DIM {
-                let by = y.component(i) * unit;
-                let moved = y.component(i) + if pattern(i + TangentOf::<S>::DIM) { -by } else { by };
-                y.set_component(i, moved);
-            }
-            let near = problem.rates(&State { t: state.t, q: state.q.retract(&sigma), y });
+        for pattern in PATTERNS {
+            let near = problem.rates(&rounded(state, pattern));
             // 0 in a lane that is finite there, else NaN.
             let mut null = S::Scalar::zero();
             (0..TangentOf::<S>::DIM)
@@ -99,6 +87,26 @@ impl<S: GaussSystem> Floor<S> {
         }
         Self { derivatives, unit }
     }
+}
+
+/// Which components are rounded down, the others up: none, every other one, two of four.
+pub(in crate::integrate) const PATTERNS: [fn(usize) -> bool; 3] = [|_| false, |i| i % 2 == 1, |i| i % 4 > 1];
+
+/// A state that differs from another by ε of each component.
+pub(in crate::integrate) fn rounded<S: GaussSystem>(state: &State<S>, pattern: fn(usize) -> bool) -> State<S> {
+    let unit = S::Scalar::from_f64(S::Scalar::EPSILON);
+    let mut sigma = TangentOf::<S>::zero();
+    for i in 0..TangentOf::<S>::DIM {
+        let size = unit * state.q.magnitudes(i);
+        sigma.set_component(i, if pattern(i) { -size } else { size });
+    }
+    let mut y = state.y;
+    for i in 0..S::Speeds::DIM {
+        let by = y.component(i) * unit;
+        let moved = y.component(i) + if pattern(i + TangentOf::<S>::DIM) { -by } else { by };
+        y.set_component(i, moved);
+    }
+    State { t: state.t, q: state.q.retract(&sigma), y }
 }
 
 /// A step, of which errors are to be judged.
@@ -201,14 +209,14 @@ impl Tolerance {
     }
 
     #[inline(always)]
-    fn of_configuration<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize) -> S::Scalar {
+    pub(in crate::integrate) fn of_configuration<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize) -> S::Scalar {
         let size = larger(trial.from.q.magnitudes(i), trial.to.q.magnitudes(i));
         let noise = |floor: &Floor<S>| (floor.derivatives.configuration.component(i), floor.unit);
         self.of(size, trial.length, trial.floor.map(noise))
     }
 
     #[inline(always)]
-    fn of_variables<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize) -> S::Scalar {
+    pub(in crate::integrate) fn of_variables<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize) -> S::Scalar {
         let size = larger(trial.from.y.component(i).abs(), trial.to.y.component(i).abs());
         let noise = |floor: &Floor<S>| (floor.derivatives.variables.component(i), floor.unit);
         self.of(size, trial.length, trial.floor.map(noise))
@@ -229,7 +237,7 @@ impl Tolerance {
 
 /// The larger one, lane by lane; the first where one of them is NaN.
 #[inline(always)]
-fn larger<T: Real>(a: T, b: T) -> T {
+pub(in crate::integrate) fn larger<T: Real>(a: T, b: T) -> T {
     T::select_lt(a, b, b, a)
 }
 

@@ -9,7 +9,7 @@ use crate::integrate::drive::adaptive::{Adaptive, ROUNDED};
 use crate::integrate::drive::cause::{Gave, change};
 use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, unresolved};
 use crate::integrate::drive::logarithms::{exponential, logarithm};
-use crate::integrate::drive::projection::accept;
+use crate::integrate::drive::projection::{accept, check_move, is_hopeless};
 use crate::integrate::drive::step_length::StepLength;
 use crate::integrate::drive::tolerance::{Floor, Trial};
 use crate::integrate::problem::called::Called;
@@ -271,7 +271,12 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         if !all {
             reached = chosen_state(ones, &reached, &group.state);
         }
-        let next = accept(problem, &mut reached, known)?;
+        let computed = reached;
+        let next = accept(problem, (&group.state, &group.rates), &mut reached, known)?;
+        if S::CONSTRAINED {
+            let trial = Trial { from: &group.state, to: &reached, length: lengths, floor: None };
+            check_move(tolerance, problem, &trial, &computed)?;
+        }
         let floors = memory.floor.as_ref().map(|floor| {
             tolerance.excesses(&Trial { from: &group.state, to: &reached, length: lengths, floor: Some(floor) })
         });
@@ -281,9 +286,15 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
     }
 
     #[cold]
-    fn failed(&self, group: &Group<S>, n: usize, kind: IntegrationErrorKind, memory: &mut Memory<S>) -> Verdict {
+    fn failed<P: Problem<System = S>>(
+        &self,
+        (problem, group): (&P, &Group<S>),
+        n: usize,
+        kind: IntegrationErrorKind,
+        memory: &mut Memory<S>,
+    ) -> Verdict {
         let lane = &mut memory.lanes[n];
-        lane.length = 0.5 * lane.length.min(group.left(n));
+        lane.length = StepLength::part(&kind) * lane.length.min(group.left(n));
         lane.rejected += 1;
         lane.lengths.fail();
         let moves = change(&group.state, &group.rates, &numbers_of::<S::Scalar>(n)) * lane.length;
@@ -291,7 +302,8 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         let t = group.state.t.extract(n);
         let h = <S::Scalar as Packed>::Single::from_f64(if group.span < 0.0 { -lane.length } else { lane.length });
         let vanishes = lane.length <= smallest::<S::Scalar>(t.lane(0), group.span) || t + h == t;
-        if still || vanishes { Verdict::Gave(Gave::AnyStep(kind)) } else { Verdict::Rejected }
+        let hopeless = || is_hopeless(problem, &group.state, numbers_of::<S::Scalar>(n), (&kind, lane.rejected));
+        if still || vanishes || hopeless() { Verdict::Gave(Gave::AnyStep(kind)) } else { Verdict::Rejected }
     }
 
     fn length(&self, lane: usize, memory: &Memory<S>) -> f64 {

@@ -195,7 +195,7 @@ impl<S: BatchSystem> March<S> {
         if let Some(ones) = trial.alone {
             next = chosen_state(ones, &next, from.0);
         }
-        let rates = accept(problem, &mut next, known)?;
+        let rates = accept(problem, from, &mut next, known)?;
         Ok((next, method.stands(rates, trial.alone)))
     }
 }
@@ -254,7 +254,13 @@ impl<S: BatchSystem, M: OneStep<S>> LaneControl<S> for Fixed<S::Scalar, M> {
         march.attempt(&mut One(&self.method), problem, group, who)
     }
 
-    fn failed(&self, _: &Group<S>, _: usize, kind: IntegrationErrorKind, _: &mut March<S>) -> Verdict {
+    fn failed<P: Problem<System = S>>(
+        &self,
+        _: (&P, &Group<S>),
+        _: usize,
+        kind: IntegrationErrorKind,
+        _: &mut March<S>,
+    ) -> Verdict {
         Verdict::Gave(Gave::Step(kind))
     }
 

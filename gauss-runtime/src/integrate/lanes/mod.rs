@@ -64,7 +64,13 @@ pub trait LaneControl<S: BatchSystem>: Control<S> {
 
     /// A step that failed in a lane that tried alone: what becomes of it.
     #[doc(hidden)]
-    fn failed(&self, group: &Group<S>, lane: usize, kind: IntegrationErrorKind, memory: &mut Self::Memory) -> Verdict;
+    fn failed<P: Problem<System = S>>(
+        &self,
+        at: (&P, &Group<S>),
+        lane: usize,
+        kind: IntegrationErrorKind,
+        memory: &mut Self::Memory,
+    ) -> Verdict;
 
     /// The length of step that a lane is at.
     #[doc(hidden)]

@@ -311,7 +311,7 @@ where
             match (0..who.len()).filter(tried).count() {
                 1 => {
                     let lane = (0..who.len()).find(tried).unwrap_or(0);
-                    self.group.verdicts[lane] = control.failed(&self.group, lane, kind, &mut self.memory);
+                    self.group.verdicts[lane] = control.failed((problem, &self.group), lane, kind, &mut self.memory);
                 }
                 _ => (0..who.len()).filter(tried).for_each(|lane| {
                     let alone: Vec<bool> = (0..who.len()).map(|other| other == lane).collect();

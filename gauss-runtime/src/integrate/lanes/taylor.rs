@@ -12,7 +12,7 @@ use crate::integrate::drive::control::{Taken, check_tolerances, longest, smalles
 use crate::integrate::drive::projection::accept;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::state::State;
+use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::check_chart;
 use crate::integrate::taylor::{Order, Taylor, expanded, summed};
 use crate::real::Real;
@@ -140,7 +140,7 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
         if !all {
             reached = chosen_state(ones, &reached, &group.state);
         }
-        let checked = Self::checked(problem, &group.state, &mut reached);
+        let checked = Self::checked(problem, (&group.state, &group.rates), &mut reached);
         let next = checked.inspect_err(|_| {
             // As if nothing had been tried.
             memory.lanes.iter_mut().zip(&guesses).for_each(|(lane, &guess)| lane.guess = guess);
@@ -155,7 +155,13 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
         Ok(())
     }
 
-    fn failed(&self, _: &Group<S>, _: usize, kind: IntegrationErrorKind, _: &mut Memory<S>) -> Verdict {
+    fn failed<P: Problem<System = S>>(
+        &self,
+        _: (&P, &Group<S>),
+        _: usize,
+        kind: IntegrationErrorKind,
+        _: &mut Memory<S>,
+    ) -> Verdict {
         Verdict::Gave(match kind {
             IntegrationErrorKind::SingularChart { .. } => Gave::Step(kind),
             kind => Gave::AnyStep(kind),
@@ -175,13 +181,13 @@ impl Taylor {
     /// What a step must keep to; the derivatives at its end.
     fn checked<S: TaylorSystem, P: Problem<System = S>>(
         problem: &P,
-        from: &State<S>,
+        from: (&State<S>, &Rates<S>),
         reached: &mut State<S>,
-    ) -> Result<crate::integrate::problem::state::Rates<S>, IntegrationErrorKind> {
+    ) -> Result<Rates<S>, IntegrationErrorKind> {
         if !(reached.q.is_finite() && crate::configuration::VectorSpace::is_finite(&reached.y)) {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
-        check_chart(problem.system(), from, reached)?;
-        accept(problem, reached, None)
+        check_chart(problem.system(), from.0, reached)?;
+        accept(problem, from, reached, None)
     }
 }

@@ -149,6 +149,16 @@ pub enum IntegrationErrorKind {
         /// What the projection says.
         error: ProjectionError,
     },
+    /// The projection onto the constraints would move the end of a step farther than its error can be: the constraints become dependent
+    /// on one another here (a singular position of a mechanism), or the step is too long.
+    ProjectionTooFar {
+        /// Whether it moves the configuration so far, or the speeds (momenta in the momentum form).
+        level: ConstraintLevel,
+        /// How far: a component of the increment.
+        distance: f64,
+        /// What is allowed of it.
+        allowed: f64,
+    },
     /// The initial state violates the constraints by more than the rounding of what was typed:
     /// [`GaussSystem::project`] makes it consistent.
     InconsistentStart {
@@ -294,6 +304,12 @@ impl fmt::Display for IntegrationErrorKind {
                  (relative); use a smaller step"
             ),
             Self::Projection { error } => error.fmt(f),
+            Self::ProjectionTooFar { level, distance, allowed } => write!(
+                f,
+                "the projection onto the constraints moves the {level} by {distance:.1e} after the next step, and no more than \
+                 {allowed:.1e} is an error of the step: the constraints become dependent on one another here (a singular position \
+                 of a mechanism); leave out constraints that others imply, start elsewhere, or use a smaller step or tolerance"
+            ),
             Self::InconsistentStart { level, distance } => write!(
                 f,
                 "the initial {level} violates the constraints, the nearest one that satisfies them is {distance:e} away; \
