@@ -3,7 +3,8 @@
 //!
 //! `cargo run --release --example long_runs` goes to 10⁵ steps, `… -- 8` to 10⁸ (hours). Errors are root mean squares over four
 //! starts, relative, in units of 10⁻¹⁶; `growth` is the exponent e of nᵉ from the second figure to the last: about ½ where
-//! roundings are independent of each other, 1 where each step errs the same way or the method itself does.
+//! roundings are independent of each other, 1 where each step errs the same way or the method itself does. The energy of a body in a
+//! fluid is quadratic without weight, and kept to rounding; with weight it is kept to the error of the method.
 
 use gauss_runtime::integrate::{
     Collocation, Compensated, Control, Fixed, MoserVeselov, Scheme, Splitting, Variational,
@@ -20,6 +21,18 @@ struct Top {
     center: Vector3<f64>,
     #[gauss(inertia)]
     inertia: Vector3<f64>,
+    #[gauss(gravity)]
+    g: f64,
+}
+
+/// A body in a fluid, whose weight acts below its buoyancy.
+#[derive(GaussDynamics)]
+#[gauss(chart = left_invariant, mass = 2, inertia = [0.5, 0.7, 0.8], displaced_mass = 2)]
+struct Submerged {
+    #[gauss(added_mass)]
+    added: Vector6<f64>,
+    #[gauss(center_of_buoyancy)]
+    buoyancy: Vector3<f64>,
     #[gauss(gravity)]
     g: f64,
 }
@@ -44,6 +57,37 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     runs.print("splitting 2 (symplectic)", Fixed::by(second, STEP))?;
     runs.print("variational 2", Fixed::by(Variational, STEP))?;
     println!("\nEnergies that swing do so with the square of the step, without drift.");
+    println!("\nrelative error of the energy of a body in a fluid, after 10^3 … 10^{most} steps");
+    for (name, g) in [("without weight", 0.0), ("with weight", 9.81)] {
+        for step in [0.02, 0.01] {
+            in_fluid(&format!("Gauss 4, compensated, {name}"), g, (step, most), |h| {
+                Compensated::by(Collocation::order_4(), h)
+            })?;
+            in_fluid(&format!("Gauss 6, compensated, {name}"), g, (step, most), |h| {
+                Compensated::by(Collocation::order_6(), h)
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// A line of errors of the energy of a body in a fluid.
+fn in_fluid<C: Control<SubmergedKernel>>(
+    name: &str,
+    g: f64,
+    (step, most): (f64, i32),
+    control: impl Fn(f64) -> C,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let (added, buoyancy) = (Vector6::new(0.3, 1.2, 1.1, 0.05, 0.2, 0.1), Vector3::new(0.0, 0.02, 0.1));
+    let body = Submerged { added, buoyancy, g }.kernel()?;
+    let q = Isometry3::from_parts(Translation3::identity(), UnitQuaternion::from_euler_angles(0.3, 0.2, 0.1));
+    let z = SVector::from([0.3, -0.5, 0.2, 1.1, -0.8, 0.6]);
+    print!("{:44} {step} s", name);
+    for n in (3..=most).map(|k| 10_f64.powi(k)) {
+        let end = Simulation::new(&body).momentum_form().control(control(step)).run_to_end(q, z, 0.0..n * step)?;
+        print!("{:9.0e}", body.energy(end.t, &end.q, &end.z) / body.energy(0.0, &q, &z) - 1.0);
+    }
+    println!();
     Ok(())
 }
 

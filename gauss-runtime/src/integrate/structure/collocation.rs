@@ -27,7 +27,8 @@ use crate::system::GaussSystem;
 ///
 /// Symmetric. In the momentum form it keeps every quadratic integral of equations for the momenta alone up to rounding: T
 /// and |π|² of the free body, T, p², p·π and the integrals of Clebsch and Steklov of a body in fluid. It is not symplectic on
-/// the cotangent bundle, so energies with a potential are not kept exactly; where the motion is reversible they do not drift.
+/// the cotangent bundle, so energies with a potential are kept to the error of the method alone; where the motion is reversible, as a
+/// top's, that does not drift, elsewhere (a body in a fluid with weight) it does.
 ///
 /// The stages are found by fixed-point iteration down to rounding. Where the equations change little in a step that takes 10 to
 /// 15 sweeps of S evaluations. It takes more the longer the step, and beyond a step times the steepest derivative of the
