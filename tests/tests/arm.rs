@@ -134,6 +134,74 @@ fn accelerations_and_forces_have_derivatives_that_agree() {
     }
 }
 
+macro_rules! chain {
+    ($name:ident [$($clause:tt)*]) => {
+        #[derive(GaussDynamics)]
+        #[gauss(
+            linearize,
+            coordinates(q1, q2, q3, q4, q5, q6, q7),
+            $($clause)*
+            body(b1, rotation = rotation_y(q1), mass = 1, center_of_mass = [0, 0, 0.5], inertia = [0.4, 0.4, 0.1]),
+            body(b2, parent = b1, position = [0, 0, 1], rotation = rotation_y(q2), mass = 1, inertia = 0.1),
+            body(b3, parent = b2, position = [0, 0, 1], rotation = rotation_y(q3), mass = 1, inertia = 0.1),
+            body(b4, parent = b3, position = [0, 0, 1], rotation = rotation_y(q4), mass = 1, inertia = 0.1),
+            body(b5, parent = b4, position = [0, 0, 1], rotation = rotation_y(q5), mass = 1, inertia = 0.1),
+            body(b6, parent = b5, position = [0, 0, 1], rotation = rotation_y(q6), mass = 1, inertia = 0.1),
+            body(b7, parent = b6, position = [0, 0, 1], rotation = rotation_y(q7), mass = 1, inertia = 0.1),
+        )]
+        struct $name {
+            #[gauss(gravity)]
+            g: f64,
+        }
+    };
+}
+
+// Fourteen columns of derivatives are solved for, and one more for each motor: bundles of eight with every number of
+// columns to spare.
+chain!(Chain0 []);
+chain!(Chain1 [input(u1), drive(q1 = u1),]);
+chain!(Chain2 [input(u1, u2), drive(q1 = u1), drive(q2 = u2),]);
+chain!(Chain3 [input(u1, u2, u3), drive(q1 = u1), drive(q2 = u2), drive(q3 = u3),]);
+chain!(Chain4 [input(u1, u2, u3, u4), drive(q1 = u1), drive(q2 = u2), drive(q3 = u3), drive(q4 = u4),]);
+chain!(Chain5 [
+    input(u1, u2, u3, u4, u5), drive(q1 = u1), drive(q2 = u2), drive(q3 = u3), drive(q4 = u4), drive(q5 = u5),
+]);
+chain!(Chain6 [
+    input(u1, u2, u3, u4, u5, u6),
+    drive(q1 = u1), drive(q2 = u2), drive(q3 = u3), drive(q4 = u4), drive(q5 = u5), drive(q6 = u6),
+]);
+chain!(Chain7 [
+    input(u1, u2, u3, u4, u5, u6, u7),
+    drive(q1 = u1), drive(q2 = u2), drive(q3 = u3), drive(q4 = u4), drive(q5 = u5), drive(q6 = u6), drive(q7 = u7),
+]);
+
+/// What motors add is solved for beside the rest, which stays what it is: A ∂ż is the same for each, and 1 along its own
+/// motor. The substitution is backward stable, with some hundred products for every entry.
+#[test]
+fn derivatives_in_bundles_of_columns() {
+    let mut random = Random(11);
+    let plain = Chain0 { g: 9.81 }.kernel().unwrap();
+    for _ in 0..5 {
+        let (q, z): (Joints, Joints) = (random.vector(3.0), random.vector(2.0));
+        let matrix = plain.mass_matrix(0.0, &q);
+        let alone = plain.linearize(0.0, &q, &z, &()).by_state;
+        macro_rules! with_motors {
+            ($($name:ident: $count:literal),*) => {$(
+                let kernel = $name { g: 9.81 }.kernel().unwrap();
+                let linear = kernel.linearize(0.0, &q, &z, &SVector::<f64, $count>::zeros());
+                let apart = (linear.by_state - alone).fixed_rows::<7>(7).into_owned();
+                let (error, size) = ((matrix * apart).norm(), matrix.norm() * alone.norm());
+                assert!(error <= 500.0 * f64::EPSILON * size, "{}: {error:e} of {size:e}", $count);
+                let rates = linear.by_input.fixed_rows::<7>(7).into_owned();
+                let error = (matrix * rates - SMatrix::<f64, 7, $count>::identity()).norm();
+                let size = matrix.norm() * rates.norm();
+                assert!(error <= 500.0 * f64::EPSILON * size, "{}: {error:e} of {size:e}", $count);
+            )*};
+        }
+        with_motors!(Chain1: 1, Chain2: 2, Chain3: 3, Chain4: 4, Chain5: 5, Chain6: 6, Chain7: 7);
+    }
+}
+
 /// The reference has the masses of the public description; moments go from G to O by Steiner's theorem.
 #[test]
 fn the_reference_is_about_the_described_arm() {

@@ -25,7 +25,7 @@ pub fn solved_together<'g>(derived: &Derived<'_, 'g>, columns: &LoweredColumns<'
         quote!(#private::Bundle([#(#rows),*]))
     };
     let rights = rights.chunks(TOGETHER).map(bundle);
-    let (targets, spare) = targets(columns, &private, states);
+    let targets = targets(columns, &private, states);
     let substitution = substitution(columns, &private);
     let (known, added) = known_derivatives(columns, &outputs, states);
     quote! {
@@ -34,7 +34,6 @@ pub fn solved_together<'g>(derived: &Derived<'_, 'g>, columns: &LoweredColumns<'
         let (__entries, __reciprocals) = ([#(#below),*], [#(#pivots),*]);
         let (__rate, __known) = ([#(#values),*], [#(#known),*]);
         #private::filled(__rate, |__linear: &mut Self::Linearization| {
-            let mut __nowhere = [#private::zeros::<_, #states, 1usize>(); #spare];
             #targets
             #substitution
             #added
@@ -51,8 +50,8 @@ fn place(states: usize, direction: usize) -> (TokenStream, usize) {
     }
 }
 
-/// Where the columns of every bundle go, `__targets`, and how many of the last bundle go nowhere.
-fn targets(columns: &LoweredColumns<'_>, private: &TokenStream, states: usize) -> (TokenStream, usize) {
+/// Where the columns of every bundle go: `__targets`. Those that fill up the last bundle go nowhere.
+fn targets(columns: &LoweredColumns<'_>, private: &TokenStream, states: usize) -> TokenStream {
     let shape = &columns.shape;
     let name = |direction: usize| format_ident!("__column{}", direction, span = Span::mixed_site());
     let nowhere = |k: usize| format_ident!("__nowhere{}", k, span = Span::mixed_site());
@@ -72,12 +71,18 @@ fn targets(columns: &LoweredColumns<'_>, private: &TokenStream, states: usize) -
     let spares: Vec<Ident> = (0..spare).map(nowhere).collect();
     let slots: Vec<Ident> = shape.solved.iter().map(|&direction| name(direction)).chain(spares.clone()).collect();
     let bundles = slots.chunks(TOGETHER).map(|bundle| quote!([#(#bundle),*]));
-    let targets = quote! {
+    // None of them has no type.
+    let nowhere = (spare > 0).then(|| {
+        quote! {
+            let mut __nowhere = [#private::zeros::<_, #states, 1usize>(); #spare];
+            let [#(#spares),*] = __nowhere.each_mut().map(#private::only_column);
+        }
+    });
+    quote! {
         #(#named)*
-        let [#(#spares),*] = __nowhere.each_mut().map(#private::only_column);
+        #nowhere
         let mut __targets = [#(#bundles),*];
-    };
-    (targets, spare)
+    }
 }
 
 /// L D Lᵀ x = right for the bundles of `__x`, with `__entries` of L and the reciprocals `__reciprocals` of D.
