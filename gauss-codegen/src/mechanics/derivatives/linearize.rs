@@ -146,8 +146,12 @@ impl<'g> Linearization<'g> {
         // Derivatives with a form of their own solve for all columns without wrenches: where accelerations keep digits
         // because these are gathered first, that would be asked of columns that cost half as much.
         let gathered = if derived.is_empty() { Vec::new() } else { system.gathered_accelerations() };
-        let arrangements = arrangements_of(Method::Acceleration).iter().filter(|outputs| !gathered.contains(outputs));
-        let arrangements = arrangements.map(|outputs| velocity.iter().chain(outputs).copied().collect()).collect();
+        let all = arrangements_of(Method::Acceleration);
+        let others: Vec<&Vec<Expr<'g>>> = all.iter().filter(|outputs| !gathered.contains(outputs)).collect();
+        // Where every arrangement is one of these, as of particles that hang on nothing, they stay.
+        let arrangements = if others.is_empty() { all.iter().collect() } else { others };
+        let arrangements =
+            arrangements.into_iter().map(|outputs| velocity.iter().chain(outputs).copied().collect()).collect();
         Self {
             differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived },
             increments,
