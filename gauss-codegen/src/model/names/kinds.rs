@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 
 /// Checks names and kinds of an expression that stands at `place`; its kind, unless something is wrong, which is noted.
 pub fn check(expression: &Expression, place: Place, scope: &Scope, context: &mut Context) -> Option<Kind> {
-    let mut checker = Checker { place, scope, context, differentiated: false, within: None };
+    let mut checker = Checker { place, scope, context, differentiated: false, within: None, faulty: false };
     let found = match &expression.kind {
         // Only a whole rate is a twist.
         ExpressionKind::Call(FunctionName::Twist, arguments) if matches!(place, Place::Kinematics(_)) => {
@@ -20,10 +20,11 @@ pub fn check(expression: &Expression, place: Place, scope: &Scope, context: &mut
         }
         _ => checker.kind(expression)?,
     };
-    if place.accepts(found) {
-        return Some(found);
+    if !place.accepts(found) {
+        return checker.note(expression.span, place.mismatch(found));
     }
-    checker.note(expression.span, place.mismatch(found))
+    // What a function or a vector gives is known whatever its parts are.
+    (!checker.faulty).then_some(found)
 }
 
 struct Checker<'a> {
@@ -34,11 +35,19 @@ struct Checker<'a> {
     differentiated: bool,
     /// Inside a definition, whose name stands in the expression.
     within: Option<usize>,
+    /// Something was wrong with a part.
+    faulty: bool,
 }
 
 impl Checker<'_> {
-    /// The kind of an expression; `None` where something is wrong, which is then noted.
+    /// The kind of an expression; `None` where it cannot be told because something is wrong, which is then noted.
     fn kind(&mut self, expression: &Expression) -> Option<Kind> {
+        let found = self.kind_of(expression);
+        self.faulty |= found.is_none();
+        found
+    }
+
+    fn kind_of(&mut self, expression: &Expression) -> Option<Kind> {
         match &expression.kind {
             ExpressionKind::Number { .. } => Some(Kind::Scalar),
             ExpressionKind::Name(name) => self.name(name),
@@ -350,6 +359,7 @@ impl Checker<'_> {
     }
 
     fn note(&mut self, span: Span, message: String) -> Option<Kind> {
+        self.faulty = true;
         let Some(definition) = self.within else {
             self.context.error(span, message);
             return None;

@@ -117,6 +117,32 @@ fn forbidden_where_it_is_used() {
     );
 }
 
+/// Whatever stands around the name: what a function gives is known even where its argument is nothing.
+#[test]
+fn definitions_of_themselves() {
+    let expressions = [
+        "inverse(u)",
+        "[u, 0, 0]",
+        "sin(u)",
+        "dot(u, [1, 0, 0])",
+        "powf(u, 2)",
+        "powf(2, u)",
+        "hypot(x, u)",
+        "rotation_x(u)",
+        "powi(u, 2)",
+        "-u",
+        "u + x",
+        "u.x",
+        "abs([0, u, 0].y)",
+    ];
+    for expression in expressions {
+        mistakes(
+            &format!("define(u = {expression}), potential = k * x"),
+            &[("u", "`u` is defined by itself; say what it is without `u`")],
+        );
+    }
+}
+
 #[test]
 fn kinds_and_names() {
     mistakes(
