@@ -8,6 +8,7 @@ use crate::model::language::words::{self, UNNAMED, same, word};
 use crate::model::scene::clauses::{BodyClause, ForceKind};
 use crate::model::scene::roles::Role;
 use proc_macro2::Ident;
+use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;
 
 /// Checks the clauses and the fields of bodies against one another; `scalar` is what proposed types are made of.
@@ -33,7 +34,8 @@ fn named<'a>(bodies: &[&'a BodyClause]) -> Vec<&'a Ident> {
 /// Only one body can do without a name, and no two have one.
 fn check_names(statements: &Statements, scalar: &str, context: &mut Context) {
     let bodies: Vec<&BodyClause> = statements.massive().collect();
-    for (index, body) in bodies.iter().enumerate() {
+    let mut taken = HashSet::new();
+    for body in &bodies {
         match &body.name {
             None if bodies.len() > 1 && !statements.in_chart => context.error(
                 body.span,
@@ -43,7 +45,7 @@ fn check_names(statements: &Statements, scalar: &str, context: &mut Context) {
                     bodies.len()
                 ),
             ),
-            Some(name) if named(&bodies[..index]).iter().any(|earlier| same(earlier, name)) => context.error(
+            Some(name) if !taken.insert(word(name)) => context.error(
                 name.span(),
                 format!("two bodies are called `{name}`; each has a field of its own: rename one of the two"),
             ),
@@ -72,8 +74,9 @@ fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, cont
     let table: Vec<(&str, ())> = unclaimed.iter().map(|(name, ())| (name.as_str(), ())).collect();
     // A field whose name is misspelt in its clause is not also a field without a clause.
     let mut meant: Vec<String> = Vec::new();
-    for (index, name) in bodies.iter().enumerate() {
-        if bodies[..index].iter().any(|earlier| same(earlier, name)) {
+    let mut seen = HashSet::new();
+    for name in bodies {
+        if !seen.insert(word(name)) {
             continue;
         }
         let field = reader.fields.iter().find(|field| same(field.ident, name));
@@ -133,9 +136,11 @@ fn refuse_no_field(name: &Ident, table: &[(&str, ())], scalar: &str, context: &m
     near
 }
 
-/// The body or frame called `name`.
-fn find(bodies: &[BodyClause], name: &Ident) -> Option<usize> {
-    bodies.iter().position(|body| body.word() == word(name))
+/// Where bodies and frames are in a list, by what they are called; of two with one name the first.
+fn places(bodies: &[BodyClause]) -> HashMap<String, usize> {
+    let mut places = HashMap::new();
+    bodies.iter().enumerate().for_each(|(k, body)| _ = places.entry(body.word()).or_insert(k));
+    places
 }
 
 /// Parents, the bodies that points are fixed in, those that forces act on, and `frames` whose motion is asked for, are
@@ -161,8 +166,9 @@ fn check_references(statements: &Statements, frames: &[Ident], context: &mut Con
             references.push((reaction, Some(body), Some("reaction")));
         }
     }
+    let known = places(&statements.bodies);
     for (written, other, optional) in references {
-        if find(&statements.bodies, written).is_some() {
+        if known.contains_key(&word(written)) {
             continue;
         }
         let names: Vec<String> = statements
@@ -192,9 +198,10 @@ fn check_references(statements: &Statements, frames: &[Ident], context: &mut Con
 
 /// No body is, by whatever way, its own parent.
 fn check_cycles(bodies: &[BodyClause], context: &mut Context) {
-    let parents: Vec<Option<usize>> =
-        bodies.iter().map(|body| body.parent.as_ref().and_then(|name| find(bodies, name))).collect();
-    let mut seen = vec![false; bodies.len()];
+    let known = places(bodies);
+    let parent = |body: &BodyClause| body.parent.as_ref().and_then(|name| known.get(&word(name)).copied());
+    let parents: Vec<Option<usize>> = bodies.iter().map(parent).collect();
+    let (mut seen, mut placed) = (vec![false; bodies.len()], vec![false; bodies.len()]);
     for start in 0..bodies.len() {
         let mut cycle = vec![start];
         let mut next = parents[start];
@@ -203,7 +210,11 @@ fn check_cycles(bodies: &[BodyClause], context: &mut Context) {
             && cycle.len() <= bodies.len()
         {
             cycle.push(index);
-            next = parents[index];
+            // What is placed already leads to the observer.
+            next = parents[index].filter(|_| !placed[index]);
+        }
+        if next.is_none() {
+            cycle.iter().for_each(|&index| placed[index] = true);
         }
         if next != Some(start) || cycle.iter().any(|&index| seen[index]) {
             continue;

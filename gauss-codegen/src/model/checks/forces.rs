@@ -7,14 +7,19 @@ use crate::model::names::moving::Moving;
 use crate::model::scene::clauses::{CoordinateKind, Extent, ForceKind};
 use crate::model::scene::expression::{Expression, ExpressionKind, Property};
 use proc_macro2::Ident;
+use std::collections::{HashMap, HashSet};
 
 /// What names and numbers alone show: which coordinates are driven, reactions, limits.
 pub fn check(statements: &Statements, context: &mut Context) {
-    check_drive(&statements.armatures, ["given an armature twice", ARMATURE], statements, context);
+    let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
+    let mut kinds = HashMap::new();
+    coordinates.for_each(|q| _ = kinds.entry(word(&q.ident)).or_insert(q.kind));
+    check_drive(&statements.armatures, ["given an armature twice", ARMATURE], (statements, &kinds), context);
     for clause in &statements.forces {
         match &clause.kind {
             ForceKind::Drive { rates } => {
-                check_drive(rates, ["driven twice in one clause", "a drive acts on rates"], statements, context)
+                let words = ["driven twice in one clause", "a drive acts on rates"];
+                check_drive(rates, words, (statements, &kinds), context)
             }
             ForceKind::Torque { body, reaction: Some(reaction), .. } if same(body, reaction) => context.error(
                 reaction.span(),
@@ -46,20 +51,17 @@ const ARMATURE: &str = "an armature turns with the rates";
 fn check_drive(
     rates: &[(Ident, Expression)],
     [done, doing]: [&str; 2],
-    statements: &Statements,
+    (statements, kinds): (&Statements, &HashMap<String, CoordinateKind>),
     context: &mut Context,
 ) {
-    let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
     let (any, noun) = (doing == ARMATURE, if doing == ARMATURE { "coordinates" } else { "scalar coordinates" });
-    let expected: Vec<String> =
-        coordinates().filter(|q| any || q.kind == CoordinateKind::Scalar).map(|q| word(&q.ident)).collect();
-    let table: Vec<(&str, ())> = expected.iter().map(|name| (name.as_str(), ())).collect();
-    for (index, (name, _)) in rates.iter().enumerate() {
-        if rates[..index].iter().any(|(earlier, _)| same(earlier, name)) {
+    let mut earlier = HashSet::new();
+    for (name, _) in rates {
+        if !earlier.insert(word(name)) {
             context.error(name.span(), format!("`{name}` is {done}; write the sum of the two"));
             continue;
         }
-        match coordinates().find(|q| same(&q.ident, name)).map(|q| q.kind) {
+        match kinds.get(&word(name)).copied() {
             Some(CoordinateKind::Scalar) => {}
             Some(_) if any => {}
             Some(CoordinateKind::Rotation) => context.error(
@@ -80,6 +82,10 @@ fn check_drive(
                 let is_speed =
                     statements.speeds.iter().flat_map(|names| &names.names).any(|speed| same(&speed.ident, name));
                 let problem = if is_speed { "is a speed, not a coordinate" } else { "is no coordinate" };
+                let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
+                let expected: Vec<String> =
+                    coordinates.filter(|q| any || q.kind == CoordinateKind::Scalar).map(|q| word(&q.ident)).collect();
+                let table: Vec<(&str, ())> = expected.iter().map(|name| (name.as_str(), ())).collect();
                 // Between single letters every name is near; a speed is no misspelt coordinate.
                 let single = word(name).chars().count() == 1;
                 let near = if is_speed || single { None } else { words::nearest(&word(name), &table) };
@@ -137,11 +143,13 @@ pub fn check_effect(statements: &Statements, context: &mut Context) {
         };
         context.error(clause.span, message);
     }
-    let expressions: Vec<&Expression> =
-        statements.forces.iter().flat_map(|clause| clause.expressions()).map(|(_, expression)| expression).collect();
+    let mut used = HashSet::new();
+    for (_, expression) in statements.forces.iter().flat_map(|clause| clause.expressions()) {
+        expression.put_names(&mut used);
+    }
     for input in statements.inputs.iter().flat_map(|names| &names.names) {
         let ident = &input.ident;
-        if !expressions.iter().any(|expression| expression.names(&word(ident))) {
+        if !used.contains(&word(ident)) {
             context.error(
                 ident.span(),
                 format!("the input `{ident}` is used nowhere; name it in the value of a force, or remove it"),

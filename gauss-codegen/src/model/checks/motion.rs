@@ -3,12 +3,12 @@
 use crate::model::language::context::Context;
 use crate::model::language::declarations::{Kinematics, Names};
 use crate::model::language::statements::Statements;
-use crate::model::language::words::{self, same};
+use crate::model::language::words::{self, same, word};
 use crate::model::names::naming::is_reserved;
 use crate::model::names::places::Place;
 use crate::model::scene::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind};
 use crate::model::scene::expression::Expression;
-use proc_macro2::Ident;
+use std::collections::HashSet;
 use syn::ext::IdentExt;
 
 /// With speeds of its own a system needs one equation for each coordinate; without, it needs none.
@@ -121,14 +121,15 @@ fn refuse_missing(kinematics: &Kinematics, coordinates: &Names<Coordinate>, mean
 /// What is named as a whole, or in any part, counts as named; `all` is every expression with its place.
 pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], context: &mut Context) {
     let Some(coordinates) = &statements.coordinates else { return };
-    let named = |name: &Ident, at: &dyn Fn(Place) -> bool| {
-        let word = name.unraw().to_string();
-        all.iter().any(|(place, expression)| at(*place) && expression.names(&word))
+    let named = |at: &dyn Fn(Place) -> bool| {
+        let mut names = HashSet::new();
+        all.iter().filter(|(place, _)| at(*place)).for_each(|(_, expression)| expression.put_names(&mut names));
+        names
     };
     match &statements.speeds {
         Some(speeds) => {
-            let in_kinematics = |place: Place| matches!(place, Place::Kinematics(_));
-            for Speed { ident, .. } in speeds.names.iter().filter(|speed| !named(&speed.ident, &in_kinematics)) {
+            let named = named(&|place: Place| matches!(place, Place::Kinematics(_)));
+            for Speed { ident, .. } in speeds.names.iter().filter(|speed| !named.contains(&word(&speed.ident))) {
                 context.error(
                     ident.span(),
                     format!(
@@ -159,10 +160,11 @@ pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], c
             }
         }
         None => {
-            let moving = |place: Place| {
+            let named = named(&|place: Place| {
                 matches!(place, Place::Position | Place::Rotation | Place::Particle { .. } | Place::Constraint(_))
-            };
-            for Coordinate { ident, .. } in coordinates.names.iter().filter(|name| !named(&name.ident, &moving)) {
+            });
+            for Coordinate { ident, .. } in coordinates.names.iter().filter(|name| !named.contains(&word(&name.ident)))
+            {
                 context.error(
                     ident.span(),
                     format!(

@@ -11,7 +11,7 @@ use crate::model::language::statements::Statements;
 use crate::model::language::words::word;
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use proc_macro2::{Ident, Span};
-use syn::ext::IdentExt;
+use std::collections::{HashMap, HashSet};
 
 /// Parts that all expressions together may have when definitions are written out: far more than anyone
 /// writes, and few enough that the trees are built in no time.
@@ -29,15 +29,14 @@ pub fn check(definitions: &[Definition], scope: &mut Scope, context: &mut Contex
 /// Refuses what would be too long or too deep with definitions written out; whether nothing is.
 pub fn check_sizes(statements: &Statements, context: &mut Context) -> bool {
     let definitions = &statements.definitions;
-    let mut written = WrittenOut { names: Vec::new(), sizes: Vec::new(), depths: Vec::new(), total: 0 };
+    let mut written = WrittenOut { known: HashMap::new(), total: 0 };
     for Definition { name, expression } in definitions {
         let (size, depth) = expression.as_ref().map_or((0, 0), |expression| written.measure(expression));
         if !written.accepts((size, depth), name.span(), &format!("`{name}`"), context) {
             return false;
         }
-        written.names.push(word(name));
-        written.sizes.push(size);
-        written.depths.push(depth);
+        // Of two with one name, which is noted elsewhere, the first.
+        written.known.entry(word(name)).or_insert((size, depth));
     }
     expressions::all(statements).into_iter().all(|(_, expression)| {
         let measured = written.measure(expression);
@@ -47,25 +46,23 @@ pub fn check_sizes(statements: &Statements, context: &mut Context) -> bool {
 
 /// Definitions written out, as far as they are measured.
 struct WrittenOut {
-    names: Vec<String>,
-    sizes: Vec<usize>,
-    depths: Vec<usize>,
+    /// Parts and levels of each, by its name.
+    known: HashMap<String, (usize, usize)>,
     total: usize,
 }
 
 impl WrittenOut {
-    /// The definition that a name stands for.
-    fn find(&self, expression: &Expression) -> Option<usize> {
+    /// Those of the definition that a name stands for.
+    fn find(&self, expression: &Expression) -> Option<(usize, usize)> {
         let ExpressionKind::Name(name) = &expression.kind else { return None };
-        let name = word(name);
-        self.names.iter().position(|known| *known == name)
+        self.known.get(&word(name)).copied()
     }
 
     /// Parts and levels.
     fn measure(&self, expression: &Expression) -> (usize, usize) {
         let mut size = 0_usize;
-        expression.walk(&mut |part| size = size.saturating_add(self.find(part).map_or(1, |index| self.sizes[index])));
-        let named = |part: &Expression| self.find(part).map_or(0, |index| self.depths[index]);
+        expression.walk(&mut |part| size = size.saturating_add(self.find(part).map_or(1, |(size, _)| size)));
+        let named = |part: &Expression| self.find(part).map_or(0, |(_, depth)| depth);
         (size, nesting::depth(expression, &named))
     }
 
@@ -84,30 +81,30 @@ impl WrittenOut {
 /// Definitions whose names stand nowhere.
 pub fn unused(statements: &Statements, all: &[&Expression]) -> Vec<Ident> {
     let definitions = &statements.definitions;
-    let named = |name: &Ident| {
-        let word = name.unraw().to_string();
-        let by_definition = definitions.iter().filter_map(|other| other.expression.as_ref());
-        all.iter().copied().chain(by_definition).any(|expression| expression.names(&word))
-    };
-    definitions.iter().map(|definition| &definition.name).filter(|name| !named(name)).cloned().collect()
+    let mut named = HashSet::new();
+    for expression in all.iter().copied().chain(definitions.iter().filter_map(|other| other.expression.as_ref())) {
+        expression.put_names(&mut named);
+    }
+    let names = definitions.iter().map(|definition| &definition.name);
+    names.filter(|name| !named.contains(&word(name))).cloned().collect()
 }
 
 /// Puts definitions in the place of their names, everywhere.
 pub fn inline(statements: &mut Statements) {
-    let mut written_out: Vec<(Ident, Expression)> = Vec::new();
+    let mut written_out: HashMap<String, Expression> = HashMap::new();
     for definition in std::mem::take(&mut statements.definitions) {
         let Some(mut expression) = definition.expression else { continue };
         replace(&mut expression, &written_out);
-        written_out.push((definition.name, expression));
+        written_out.entry(word(&definition.name)).or_insert(expression);
     }
     if !written_out.is_empty() {
         statements.each_expression(&mut |expression| replace(expression, &written_out));
     }
 }
 
-fn replace(expression: &mut Expression, definitions: &[(Ident, Expression)]) {
+fn replace(expression: &mut Expression, definitions: &HashMap<String, Expression>) {
     if let ExpressionKind::Name(name) = &expression.kind {
-        if let Some((_, meant)) = definitions.iter().find(|(defined, _)| word(defined) == word(name)) {
+        if let Some(meant) = definitions.get(&word(name)) {
             *expression = meant.clone();
         }
         return;

@@ -4,17 +4,18 @@ use crate::model::language::statements::Statements;
 use crate::model::language::words::{UNNAMED, word};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use proc_macro2::Ident;
+use std::collections::HashSet;
 
 /// What moves, by name.
 pub struct Moving {
     /// Coordinates; bodies, frames and points that are placed by them.
-    places: Vec<String>,
-    speeds: Vec<String>,
+    places: HashSet<String>,
+    speeds: HashSet<String>,
 }
 
 impl Moving {
     pub fn new(statements: &Statements) -> Moving {
-        let mut places: Vec<String> = Vec::new();
+        let mut places: HashSet<String> = HashSet::new();
         places.extend(statements.coordinates.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)));
         places.extend(statements.in_chart.then(|| UNNAMED.to_owned()));
         let speeds = statements.speeds.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)).collect();
@@ -25,8 +26,8 @@ impl Moving {
                 let name = body.word();
                 let moved = body.parent.as_ref().is_some_and(|parent| places.contains(&word(parent)))
                     || body.position.iter().chain(&body.rotation).any(|e| names_any(e, &places));
-                if moved && !places.contains(&name) {
-                    places.push(name);
+                if moved {
+                    places.insert(name);
                 }
             }
             if places.len() == known {
@@ -35,7 +36,7 @@ impl Moving {
         }
         for point in &statements.points {
             if places.contains(&word(&point.body)) {
-                places.push(word(&point.name));
+                places.insert(word(&point.name));
             }
         }
         Moving { places, speeds }
@@ -67,7 +68,7 @@ impl Moving {
     }
 }
 
-fn names_any(expression: &Expression, words: &[String]) -> bool {
+fn names_any(expression: &Expression, words: &HashSet<String>) -> bool {
     let mut found = false;
     expression.walk(&mut |part| {
         found |= matches!(&part.kind, ExpressionKind::Name(name) if words.contains(&word(name)));

@@ -4,9 +4,10 @@ use crate::model::language::context::Context;
 use crate::model::language::fields::ReadField;
 use crate::model::language::functions::FUNCTIONS;
 use crate::model::language::statements::Statements;
-use crate::model::language::words::{self, PI, TIME, UNNAMED, same};
+use crate::model::language::words::{self, PI, TIME, UNNAMED, same, word};
 use crate::model::scene::roles::Role;
 use proc_macro2::Ident;
+use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;
 
 /// A name, and what it names.
@@ -17,19 +18,23 @@ type Named<'a> = (&'a Ident, &'static str);
 pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Context) {
     // Expressions do not name what acts: a force may have the name of its input.
     let acting = acting(statements);
-    let is_element = |noun: &str| acting.iter().any(|(_, known)| *known == noun);
-    let mut taken: Vec<Named<'_>> = Vec::new();
+    let nouns: HashSet<&str> = acting.iter().map(|(_, noun)| *noun).collect();
+    let is_element = |noun: &str| nouns.contains(noun);
+    // By whether they are elements, and the word.
+    let mut taken: HashMap<(bool, String), &str> = HashMap::new();
+    let unnamed = statements.has_unnamed_body();
     for (name, noun) in declared(statements, fields).into_iter().chain(acting.iter().copied()) {
-        check_unnamed(statements, (name, noun), context);
-        if !check_reserved((name, noun), context) {
-            let earlier =
-                taken.iter().find(|(earlier, known)| same(earlier, name) && is_element(known) == is_element(noun));
-            if let Some(&(_, earlier)) = earlier {
-                let both = (earlier, noun);
-                refuse_second(name, both, is_element(noun), is_body(fields, name), context);
-            }
+        if unnamed {
+            check_unnamed(statements, (name, noun), context);
         }
-        taken.push((name, noun));
+        let key = (is_element(noun), word(name));
+        if !check_reserved((name, noun), context)
+            && let Some(&earlier) = taken.get(&key)
+        {
+            let both = (earlier, noun);
+            refuse_second(name, both, is_element(noun), is_body(fields, name), context);
+        }
+        taken.entry(key).or_insert(noun);
     }
 }
 
@@ -47,7 +52,8 @@ pub(super) fn declared<'a>(statements: &'a Statements, fields: &[ReadField<'a>])
     let inputs = statements.inputs.iter().flat_map(|names| &names.names);
     // A named body is its field.
     let bodies = statements.massive().filter_map(|body| body.name.as_ref());
-    let bodies = bodies.filter(|name| !fields.iter().any(|field| same(field.ident, name)));
+    let own: HashSet<String> = fields.iter().map(|field| word(field.ident)).collect();
+    let bodies = bodies.filter(|name| !own.contains(&word(name)));
     fields
         .iter()
         .map(|field| (field.ident, "field"))
@@ -70,7 +76,7 @@ fn is_body(fields: &[ReadField<'_>], name: &Ident) -> bool {
 /// Nothing else is called as the body without a name is.
 fn check_unnamed(statements: &Statements, (name, noun): Named<'_>, context: &mut Context) {
     // A field that nothing names confuses nothing.
-    let confused = statements.has_unnamed_body() && (noun != "field" || statements.name(UNNAMED));
+    let confused = noun != "field" || statements.name(UNNAMED);
     if name.unraw() == UNNAMED && confused {
         context.error(
             name.span(),
@@ -99,8 +105,8 @@ fn check_reserved((name, noun): Named<'_>, context: &mut Context) -> bool {
 fn refuse_second(name: &Ident, (earlier, noun): (&str, &str), is_element: bool, is_body: bool, context: &mut Context) {
     let word = name.unraw().to_string();
     let message = match (earlier, noun) {
-        // Two fields of one name are the compiler's to refuse; two bodies are refused with their fields.
-        ("field", "field") | ("body", "body") => return,
+        // Two bodies are refused with their fields.
+        ("body", "body") => return,
         ("field", "frame") if is_body => format!(
             "`{word}` is a body, because its field says so, and a frame has no field; write `body({word}, …)`, or remove \
              the field"

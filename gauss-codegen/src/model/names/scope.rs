@@ -7,6 +7,7 @@ use crate::model::scene::expression::{Expression, Property};
 use proc_macro2::Ident;
 use std::cell::RefCell;
 use std::cmp::Ordering;
+use std::collections::HashMap;
 use syn::ext::IdentExt;
 
 /// What a name stands for.
@@ -42,6 +43,8 @@ pub enum Meaning {
 /// The names that expressions may use.
 pub struct Scope {
     names: Vec<(String, Meaning)>,
+    /// Where they are among these, by the name.
+    places: HashMap<String, Vec<usize>>,
     /// Every name could be read; if not, an unknown name may well be one of those that could not.
     complete: bool,
     /// What the definitions stand for, as far as they are known to be well by themselves.
@@ -52,12 +55,16 @@ pub struct Scope {
 
 impl Scope {
     pub fn new(complete: bool) -> Scope {
-        Scope {
-            names: vec![(TIME.into(), Meaning::Time), (PI.into(), Meaning::Pi)],
+        let mut scope = Scope {
+            names: Vec::new(),
+            places: HashMap::new(),
             complete,
             definitions: Vec::new(),
             reported: RefCell::default(),
-        }
+        };
+        scope.add_word(TIME.into(), Meaning::Time);
+        scope.add_word(PI.into(), Meaning::Pi);
+        scope
     }
 
     /// Says what the next definition stands for; `None` if something is wrong with it.
@@ -91,10 +98,19 @@ impl Scope {
 
     /// Adds a name; one with two meanings keeps both.
     pub fn add(&mut self, name: &Ident, meaning: Meaning) {
-        let entry = (name.unraw().to_string(), meaning);
-        if !self.names.contains(&entry) {
-            self.names.push(entry);
+        self.add_word(name.unraw().to_string(), meaning);
+    }
+
+    fn add_word(&mut self, word: String, meaning: Meaning) {
+        if !self.meanings(&word).any(|known| *known == meaning) {
+            self.places.entry(word.clone()).or_default().push(self.names.len());
+            self.names.push((word, meaning));
         }
+    }
+
+    /// All meanings of a name.
+    fn meanings(&self, word: &str) -> impl Iterator<Item = &Meaning> {
+        self.places.get(word).into_iter().flatten().map(|&place| &self.names[place].1)
     }
 
     /// The meaning of `name` where names with an `expected` meaning may stand.
@@ -103,7 +119,7 @@ impl Scope {
     /// What to say of an unknown name; `None` where that is said elsewhere.
     pub fn find(&self, name: &Ident, expected: impl Fn(&Meaning) -> bool) -> Result<&Meaning, Option<String>> {
         let word = name.unraw().to_string();
-        let mut meanings = self.names.iter().filter(|(known, _)| *known == word).map(|(_, meaning)| meaning);
+        let mut meanings = self.meanings(&word);
         if let Some(meaning) = meanings.next() {
             // What a name with two meanings was meant to be cannot be told; that it has two is noted elsewhere.
             return if meanings.next().is_some() { Err(None) } else { Ok(meaning) };
@@ -130,23 +146,29 @@ impl Scope {
     /// What to say of one that is not declared; `None` where that is said elsewhere.
     pub fn find_function(&self, name: &Ident) -> Result<bool, Option<String>> {
         let word = name.unraw().to_string();
-        let own = self.names.iter().filter_map(|(known, meaning)| match meaning {
-            Meaning::Function { kink } => Some((known.as_str(), Some(*kink))),
+        let declared = self.meanings(&word).find_map(|meaning| match meaning {
+            Meaning::Function { kink } => Some(*kink),
             _ => None,
         });
-        let table: Vec<(&str, Option<bool>)> = own.chain(FUNCTIONS.iter().map(|(word, _)| (*word, None))).collect();
-        match table.iter().find(|(known, _)| *known == word) {
-            Some((_, Some(kink))) => Ok(*kink),
-            _ if !self.complete => Err(None),
-            _ => Err(Some(match words::nearest(&word, &table) {
-                Some((near, _)) => format!("unknown function `{word}`; did you mean `{near}`?"),
-                None => format!(
-                    "unknown function `{word}`; expected {}; a function of your own is declared by `function({word}, \
-                     derivative = …)`",
-                    words::list(&table)
-                ),
-            })),
+        if let Some(kink) = declared {
+            return Ok(kink);
         }
+        if !self.complete {
+            return Err(None);
+        }
+        let own = self.names.iter().filter_map(|(known, meaning)| match meaning {
+            Meaning::Function { .. } => Some((known.as_str(), ())),
+            _ => None,
+        });
+        let table: Vec<(&str, ())> = own.chain(FUNCTIONS.iter().map(|(word, _)| (*word, ()))).collect();
+        Err(Some(match words::nearest(&word, &table) {
+            Some((near, ())) => format!("unknown function `{word}`; did you mean `{near}`?"),
+            None => format!(
+                "unknown function `{word}`; expected {}; a function of your own is declared by `function({word}, \
+                 derivative = …)`",
+                words::list(&table)
+            ),
+        }))
     }
 
     /// The nearest usable name. A single letter is near to nothing but its other case: any two letters are one edit

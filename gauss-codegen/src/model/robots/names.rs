@@ -1,5 +1,7 @@
 //! Names of a file as identifiers, each with one meaning.
 
+use std::collections::HashSet;
+
 use proc_macro2::{Ident, Span};
 
 use super::description::{At, Note};
@@ -9,13 +11,13 @@ use crate::model::names::naming::is_reserved;
 /// Identifiers that are taken.
 pub struct Names {
     span: Span,
-    taken: Vec<String>,
+    taken: HashSet<String>,
     pub notes: Vec<Note>,
 }
 
 impl Names {
     pub fn new(span: Span) -> Self {
-        Self { span, taken: Vec::new(), notes: Vec::new() }
+        Self { span, taken: HashSet::new(), notes: Vec::new() }
     }
 
     /// The identifier of a name, which differs from it where it is none or is taken: then `noun` is added, or a number.
@@ -34,13 +36,12 @@ impl Names {
 
     fn free(&mut self, name: &str, noun: &str) -> Ident {
         let free = free(name, noun, |word| self.is_free(word));
-        self.taken.push(free.clone());
+        self.taken.insert(free.clone());
         Ident::new(&free, self.span)
     }
 
     fn is_free(&self, word: &str) -> bool {
-        let taken = self.taken.iter().any(|taken| taken == word);
-        !taken && word != UNNAMED && !is_reserved(word)
+        !self.taken.contains(word) && word != UNNAMED && !is_reserved(word)
     }
 }
 

@@ -13,6 +13,8 @@ pub struct Structure {
     pub parent_of: Vec<Option<usize>>,
     /// The link that each moves as one with: itself, if its joint moves.
     pub owner_of: Vec<usize>,
+    /// The links that move as one with each, in their order.
+    owned_by: Vec<Vec<usize>>,
     /// Where each is in the axes of its owner.
     place_in_owner: Vec<(Triple, Matrix)>,
     /// What the coordinate of each joint is: that of a joint, times a number, and another.
@@ -46,11 +48,13 @@ impl Structure {
             joint_of,
             parent_of,
             owner_of: (0..count).collect(),
+            owned_by: vec![Vec::new(); count],
             place_in_owner: vec![origin; count],
             coupling_of,
         };
         for link in 0..count {
             structure.settle(description, link);
+            structure.owned_by[structure.owner_of[link]].push(link);
         }
         Ok(structure)
     }
@@ -98,10 +102,9 @@ impl Structure {
 
     /// The mass data of what moves as one with a link, but for the links that are `apart`; `None` without any.
     pub fn merged(&self, description: &Description, owner: usize, apart: impl Fn(usize) -> bool) -> Option<Inertial> {
-        let own = |&link: &usize| self.owner_of[link] == owner && !apart(link);
-        let all: Vec<Inertial> = (0..description.links.len())
-            .filter(own)
-            .filter_map(|link| Some(placed(description.links[link].inertial?, &self.place_in_owner[link])))
+        let own = self.owned_by[owner].iter().filter(|link| !apart(**link));
+        let all: Vec<Inertial> = own
+            .filter_map(|&link| Some(placed(description.links[link].inertial?, &self.place_in_owner[link])))
             .collect();
         match all.as_slice() {
             [] => None,

@@ -28,6 +28,17 @@ pub struct Written {
     pub text: String,
     /// What stands in the text and not in the file.
     added: Range<usize>,
+    /// Places from which others are counted.
+    marks: Vec<Mark>,
+}
+
+/// A place whose line and column are known.
+#[derive(Clone, Copy)]
+struct Mark {
+    offset: usize,
+    /// Counted from zero.
+    line: usize,
+    column: usize,
 }
 
 impl Written {
@@ -41,18 +52,46 @@ impl Written {
 
     pub fn new(shown: String, path: PathBuf, mut text: String) -> Written {
         let added = declare_prefixes(&mut text);
-        Written { shown, path, text, added }
+        let marks = marks_of(&text);
+        Written { shown, path, text, added, marks }
     }
 
-    /// Where the file is written at an offset in its text; `index` is that of the file.
+    /// Where the file is written at an offset in its text; `index` is that of the file. Lines and columns are counted
+    /// from one, in characters.
     pub fn place(&self, index: usize, offset: usize) -> At {
-        let mut at = place(index, &self.text, offset);
-        let after = self.text.get(self.added.end..offset);
-        if after.is_some_and(|after| !after.contains('\n')) {
-            at.column = at.column.saturating_sub(u32::try_from(self.added.len()).unwrap_or(u32::MAX));
+        let (line, mut column) = self.counted(offset);
+        if offset >= self.added.end && line == self.counted(self.added.end).0 {
+            column = column.saturating_sub(self.added.len());
         }
-        at
+        let [file, line, column] = [index, line + 1, column + 1].map(|n| u32::try_from(n).unwrap_or(u32::MAX));
+        At { file, line, column }
     }
+
+    /// Line and column of an offset, counted from zero.
+    fn counted(&self, offset: usize) -> (usize, usize) {
+        let before = self.marks.partition_point(|mark| mark.offset <= offset);
+        let mark = self.marks[before.saturating_sub(1)];
+        let rest = self.text.get(mark.offset..offset).unwrap_or(&self.text[mark.offset..]);
+        (mark.line, mark.column + rest.chars().count())
+    }
+}
+
+/// The beginning, those of lines, and some in between.
+fn marks_of(text: &str) -> Vec<Mark> {
+    /// Characters between marks of a long line.
+    const APART: usize = 256;
+    let mut mark = Mark { offset: 0, line: 0, column: 0 };
+    let mut marks = vec![mark];
+    for (offset, character) in text.char_indices() {
+        mark.column += 1;
+        if character == '\n' {
+            (mark.line, mark.column) = (mark.line + 1, 0);
+        }
+        if mark.column % APART == 0 {
+            marks.push(Mark { offset: offset + character.len_utf8(), ..mark });
+        }
+    }
+    marks
 }
 
 /// A part of the whole that stands in one file.
@@ -154,18 +193,6 @@ impl Text {
 
     fn all(&self) -> Box<dyn Iterator<Item = &Written> + '_> {
         Box::new(self.files.iter().chain(self.models.iter().flat_map(|(_, model)| model.all())))
-    }
-}
-
-/// Line and column of an offset, counted from one, in characters.
-fn place(file: usize, text: &str, offset: usize) -> At {
-    let before = text.get(..offset).unwrap_or(text);
-    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-    let count = |n: usize| u32::try_from(n + 1).unwrap_or(u32::MAX);
-    At {
-        file: u32::try_from(file).unwrap_or(u32::MAX),
-        line: count(before.bytes().filter(|byte| *byte == b'\n').count()),
-        column: count(before[line_start..].chars().count()),
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! `arithmetic` reads them; `kinds` checks their names and kinds.
 
+use std::collections::HashSet;
+
 use proc_macro2::Span;
 use syn::Ident;
 use syn::ext::IdentExt;
@@ -185,6 +187,15 @@ impl Expression {
             ExpressionKind::Call(_, arguments) => arguments.iter_mut().for_each(change),
             ExpressionKind::Vector(components) => components.iter_mut().for_each(|component| change(component)),
         }
+    }
+
+    /// Adds the names in it.
+    pub fn put_names(&self, names: &mut HashSet<String>) {
+        self.walk(&mut |part| {
+            if let ExpressionKind::Name(name) = &part.kind {
+                names.insert(name.unraw().to_string());
+            }
+        });
     }
 
     /// Whether some part of it is the name `word`.
