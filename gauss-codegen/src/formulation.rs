@@ -1,11 +1,15 @@
 //! From a model to formulas: the system, checked against the definition, and all that is asked of it.
 
+use proc_macro2::Ident;
+
 use crate::algebra::{Expr, Graph, Map, Notation, Rational};
 use crate::mechanics::{
     Constraints, Coordinate, Elimination, Formula, Hessian, InertialParameters, InverseLinearization, Linearization,
     Method, Regressor, System, check_system_against_definition, needless_constraints, rotation_of_quaternion,
 };
-use crate::mistakes::{eliminate, refuse_curved_kinematics, refuse_idle_speeds, system_faults};
+use crate::mistakes::{
+    eliminate, not_linear, refuse_curved_kinematics, refuse_exhausted, refuse_idle_speeds, system_faults,
+};
 use crate::model::{Model, WantedMethod};
 use crate::translate::{Parameter, Translator, parameters};
 
@@ -41,8 +45,11 @@ impl<'g> Formulation<'g> {
     /// What only the derivation finds wrong with a system.
     pub fn of(model: &Model, translator: &mut Translator<'_, 'g>) -> syn::Result<Self> {
         let Reduced { mut system, elimination, values, kept } = Reduced::of(model, translator)?;
+        let graph = system.scene.graph;
         let printed = printed(&mut system);
+        refuse_exhausted(model, graph)?;
         let mut formulas = system.formulas();
+        refuse_exhausted(model, graph)?;
         check_system_against_definition(&system, &formulas)
             .map_err(|faults| system_faults(model, translator, &system, &faults))?;
         formulas.extend(system.formulas_of_one_body().into_iter().flatten());
@@ -60,17 +67,12 @@ impl<'g> Formulation<'g> {
         let by_parameters = linearization.iter().filter(|_| model.wanted.by_parameters);
         let derived_by_parameters =
             by_parameters.flat_map(|linearization| linearization.derived_by_parameters(&system, &symbols)).collect();
-        let regressor = match model.wanted.regressor {
-            Some(_) => {
-                let names = names_of(&parameters);
-                let inertial = InertialParameters::new(&system, &names);
-                // The system once more, of bodies by their first moments.
-                let other = translator.scene_of(|body| inertial.by_first_moment(body), &values, &kept)?;
-                let residuals = System::new(other).inertial_residuals();
-                Some(inertial.regressor(&residuals, &system.element_forces(), system.defined()))
-            }
-            None => None,
-        };
+        let regressor = model
+            .wanted
+            .regressor
+            .as_ref()
+            .map(|clause| regressor(clause, translator, &system, (&values, &kept), &parameters));
+        let regressor = regressor.transpose()?;
         if model.wanted.taylor.is_some() {
             formulas.push(system.component_rates(&quaternions, &formulas));
         }
@@ -113,6 +115,23 @@ impl<'g> Formulation<'g> {
     }
 }
 
+/// The forces of inertia as a linear function of inertial parameters.
+fn regressor<'g>(
+    clause: &Ident,
+    translator: &mut Translator<'_, 'g>,
+    system: &System<'g>,
+    (values, kept): (&[Expr<'g>], &[usize]),
+    parameters: &[Parameter<'g>],
+) -> syn::Result<Regressor<'g>> {
+    let names = names_of(parameters);
+    let inertial = InertialParameters::new(system, &names);
+    // The system once more, of bodies by their first moments.
+    let other = translator.scene_of(|body| inertial.by_first_moment(body), values, kept)?;
+    let residuals = System::new(other).inertial_residuals();
+    let regressor = inertial.regressor(&residuals, &system.element_forces(), system.defined());
+    regressor.map_err(|mass| not_linear(clause, &mass))
+}
+
 /// Headings, each with its lines.
 pub type Printed = Vec<(String, Vec<String>)>;
 
@@ -143,8 +162,10 @@ impl<'g> Reduced<'g> {
         let kept: Vec<usize> = (0..values.len()).collect();
         let scene = translator.scene(&values, &kept)?;
         translator.refuse_mistakes()?;
+        refuse_exhausted(model, scene.graph)?;
         refuse_curved_kinematics(model, &scene)?;
         let mut whole = System::new(scene);
+        refuse_exhausted(model, whole.scene.graph)?;
         leave_out_needless(model, &translator.literals(), &mut whole);
         refuse_idle_speeds(model, translator, &whole)?;
         let Some(independent) = &model.independent else {

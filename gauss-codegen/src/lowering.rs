@@ -1,11 +1,13 @@
 //! From formulas to programs, with what only the programs show to be a mistake.
 
+use std::fmt::Display;
+
 use crate::accuracy::{Point, States, Trial, sample_states};
 use crate::algebra::{Expr, Graph, Rational};
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
 use crate::mechanics::{Formula, Method};
-use crate::mistakes::{bug, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives};
+use crate::mistakes::{failed, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives};
 use crate::model::{Model, Scalar};
 use crate::translate::Translator;
 
@@ -22,7 +24,8 @@ pub fn lower<'g>(
     translator: &Translator<'_, 'g>,
     formulation: &Formulation<'g>,
 ) -> syn::Result<Kernel<'g>> {
-    let undefined = || bug(&model.ident, &"the equations divide by zero");
+    let failed = |what: &dyn Display| failed(model, translator, &formulation.system, &what);
+    let undefined = || failed(&"the equations divide by zero");
     if graph.is_undefined() {
         return Err(undefined());
     }
@@ -45,7 +48,7 @@ pub fn lower<'g>(
     let mut trial = Trial::new(states(translator, formulation));
     let joined = joined(formulas);
     let kernel = Kernel::lower(graph, &functions, &joined, &formulation.definitions, &wanted, known, &mut trial)
-        .map_err(|error| bug(&model.ident, &error))?;
+        .map_err(|error| failed(&error))?;
     if graph.is_undefined() {
         return Err(undefined());
     }

@@ -156,15 +156,21 @@ pub fn refuse_regressor(
     kernel: &Kernel<'_>,
 ) -> syn::Result<()> {
     let (Some(clause), Some(regressor)) = (clause, regressor) else { return Ok(()) };
-    let names = regressor.not_linear(kernel);
-    let [first, ..] = names.as_slice() else { return Ok(()) };
-    Err(syn::Error::new(
+    match regressor.not_linear(kernel).first() {
+        Some(first) => Err(not_linear(clause, first)),
+        None => Ok(()),
+    }
+}
+
+/// A mass that is something else besides.
+pub fn not_linear(clause: &Ident, mass: &str) -> syn::Error {
+    syn::Error::new(
         clause.span(),
         format!(
-            "the forces of inertia are not linear in `{first}`, because more than the mass of something depends on it; \
+            "the forces of inertia are not linear in `{mass}`, because more than the mass of something depends on it; \
              give a field of its own to each, or remove `regressor`"
         ),
-    ))
+    )
 }
 
 /// Solves the constraints for the speeds that are not named.
@@ -202,10 +208,10 @@ pub fn eliminate<'g>(
 }
 
 /// What the check of a system finds, each at the token that is wrong.
-pub fn system_faults(
+pub fn system_faults<'g>(
     model: &Model,
-    translator: &Translator<'_, '_>,
-    system: &System<'_>,
+    translator: &Translator<'_, 'g>,
+    system: &System<'g>,
     faults: &[SystemFault],
 ) -> syn::Error {
     let clause = |k: usize, text: &str| {
@@ -215,7 +221,7 @@ pub fn system_faults(
     let mut mistakes = Mistakes::default();
     for fault in faults {
         match fault {
-            SystemFault::Disagreement(error) => return bug(&model.ident, error),
+            SystemFault::Disagreement(error) => return failed(model, translator, system, error),
             SystemFault::DependentSpeed(k) => {
                 let (name, span) = speed(model, translator, *k);
                 let message = format!(
@@ -274,6 +280,16 @@ impl Mistakes {
     pub fn finish(&mut self) -> syn::Result<()> {
         self.0.take().map_or(Ok(()), Err)
     }
+}
+
+/// A check that failed: what in the scene is the cause, or a mistake of this crate.
+pub fn failed<'g>(
+    model: &Model,
+    translator: &Translator<'_, 'g>,
+    system: &System<'g>,
+    what: &impl Display,
+) -> syn::Error {
+    translator.cause_of_failure(&system.scene.tree).unwrap_or_else(|| bug(&model.ident, what))
 }
 
 /// A mistake of this crate, said as such at the name of the struct.

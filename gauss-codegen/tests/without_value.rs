@@ -68,6 +68,97 @@ fn beyond_double_precision() {
     check(&scene("potential = x * (1e200 * 1e200)"), &[("*", RANGE)]);
 }
 
+/// Numbers that nothing is left of are as far out of range as those that are too large.
+#[test]
+fn widths_that_vanish() {
+    check(&scene("stop(along = x, least = 0, stiffness = k, width = 1e-200 * 1e-200)"), &[("*", RANGE)]);
+    check(&scene("drive(x = smooth_step(x, 0, powi(1e-200, 2)))"), &[("powi", RANGE)]);
+}
+
+/// The chart says where the body is, not the symbols in which loads on it are derived.
+#[test]
+fn charts_that_stay_where_something_is_infinite() {
+    let body = |clauses: &str| {
+        format!("#[gauss(motion = fixed_point, mass = 1, inertia = [1, 2, 2.5], {clauses})] struct Top {{ k: f64 }}")
+    };
+    check(
+        &body("central_gravity(mu = k)"),
+        &[(
+            "k",
+            "something with mass stays at the center, where the attraction is infinite; say where the center is: \
+             `center = […]`",
+        )],
+    );
+    check(
+        &body("force(at = [1, 0, 0], value = [k / body.position.x, 0, 0])"),
+        &[("force", "`force` divides by zero wherever the system is: a distance or a number in it is always zero")],
+    );
+    check(
+        &body("torque(value = [k / dot(body.velocity, body.velocity), 0, 0])"),
+        &[("torque", "`torque` divides by zero wherever the system is: a distance or a number in it is always zero")],
+    );
+}
+
+#[test]
+fn parameters_that_kinematics_divide_by() {
+    let message = |mass: &str| {
+        format!(
+            "the forces of inertia are not linear in `{mass}`, because more than the mass of something depends on it; \
+             give a field of its own to each, or remove `regressor`"
+        )
+    };
+    let scene = |rate: &str| {
+        format!(
+            "#[gauss(coordinates(x), speeds(v), kinematics(x = {rate}), particle(mass = m, position = [x, 0, 0]), \
+               particle(mass = n, position = [0, x, 0]), regressor)] struct Scene {{ m: f64, n: f64 }}"
+        )
+    };
+    check(&scene("v / m"), &[("regressor", &message("m"))]);
+    check(&scene("v / n"), &[("regressor", &message("n"))]);
+    check(&scene("v / (m + n)"), &[("regressor", &message("m"))]);
+    check(&scene("m * v"), &[("regressor", &message("m"))]);
+}
+
+/// Of such numbers the sums of squares have no real roots, and eliminations no pivots.
+#[test]
+fn inertias_that_no_body_has() {
+    let about_o = "no body has this `inertia`: about its centre of mass a moment of inertia is negative; `inertia` is about \
+                   O, m (|c|² 1 − c cᵀ) more; what is about the centre of mass is written \
+                   `inertia_about_center_of_mass`";
+    let own = |inertia: &str| format!("mass = 1, center_of_mass = [1, 0, 0], inertia = {inertia}");
+    for inertia in ["[1, 1, 0.5]", "0"] {
+        let source = format!(
+            "#[gauss(coordinates(p: Pose, x), body(hull, position = p.position, rotation = p.rotation, {0}),
+                 body(wheel, parent = hull, rotation = rotation_z(x), {0}))] struct Scene {{}}",
+            own(inertia)
+        );
+        check(&source, &[("inertia", about_o)]);
+    }
+    let source = format!(
+        "#[gauss(coordinates(x, y), body(arm, rotation = rotation_z(x), mass = 1, inertia = 3), \
+           body(hand, parent = arm, position = [1, 0, 0], rotation = rotation_z(y), {}))] struct Scene {{}}",
+        own("0")
+    );
+    check(&source, &[("inertia", about_o)]);
+}
+
+/// At rest this constraint has no value, elsewhere it has.
+#[test]
+fn constraints_on_ratios_of_speeds() {
+    let source = scene("constraint(velocity = rate(x) / rate(y) - k)");
+    let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
+    assert!(gauss_codegen::expand(&input).is_ok(), "{source}");
+}
+
+#[test]
+fn fields_of_one_name() {
+    check(
+        "#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), drive(x = k))]
+         struct Scene { m: f64, k: f64, k: f64 }",
+        &[("k", "the field `k` is declared twice; remove one of the two")],
+    );
+}
+
 #[test]
 fn powers_of_many_factors() {
     let factors = "powers become products, of 100 factors at most; write `powf`";

@@ -80,6 +80,14 @@ impl Graph {
         self.undefined.get()
     }
 
+    /// What comes of some work, or `None` where that divides by zero; the rest keeps its meaning.
+    pub fn defined<R>(&self, work: impl FnOnce() -> R) -> Option<R> {
+        let earlier = self.undefined.replace(false);
+        let result = work();
+        let undefined = self.undefined.replace(earlier);
+        (!undefined).then_some(result)
+    }
+
     /// A new symbol; two calls give two different symbols even when the names agree.
     pub fn symbol(&self, text: impl Into<String>, latex: impl Into<String>, constant: bool) -> Expr<'_> {
         let mut symbols = self.symbols.borrow_mut();

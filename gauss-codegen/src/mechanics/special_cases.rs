@@ -76,7 +76,7 @@ fn elements<'g>(graph: &'g Graph, kinematics: &Kinematics<'g>) -> Vec<Element<'g
         by_name("space", Action::Forces(vec![on_link(Axes::Space)])),
         by_name("friction", Action::Forces(vec![Force::Dissipation(friction(&factors, velocities))])),
     ];
-    observed.in_motion(kinematics, &elements)
+    elements.iter().map(|element| observed.in_motion(kinematics, element)).collect()
 }
 
 /// The wrench of each element on the free link against what its definition says in the speeds of the chart.

@@ -78,7 +78,9 @@ impl<'g> System<'g> {
             velocities.extend(system.momentum());
             velocities.push(system.scene.tree.twice_kinetic_energy());
         }
-        system.driven = velocities.iter().any(|e| !tidy(e.substitute(&at_rest)).is_zero());
+        // What has no value at rest does not vanish there.
+        let moves = |e: &Expr<'g>| !tidy(e.substitute(&at_rest)).is_zero();
+        system.driven = velocities.iter().any(|e| system.scene.graph.defined(|| moves(e)).unwrap_or(true));
         system
     }
 

@@ -2,14 +2,35 @@
 
 use proc_macro2::Span;
 
-use crate::algebra::{Evaluation, Expr, Map, Number, Precise, Scalar};
+use crate::algebra::{Evaluation, Expr, Map, Notation, Number, Precise, Rational, Scalar, decimal};
+use crate::mechanics::{Body, Tree};
 use crate::mistakes::Mistakes;
-use crate::model::{Expression, FunctionName, LARGEST_EXPONENT, too_many_factors};
+use crate::model::{Expression, FunctionName, LARGEST_EXPONENT, Role, too_many_factors};
 
 use super::Translator;
 
 /// Terms up to which a divisor is multiplied out to see whether it vanishes.
 const LIMIT: usize = 100;
+
+/// Beyond, fourth powers are longer than 256 binary digits.
+const EXTREME: f64 = 1e19;
+
+/// Whether a symmetric matrix has a negative eigenvalue: one of its principal minors is negative.
+fn is_indefinite(a: &[[Precise; 3]; 3]) -> bool {
+    let pairs = [(0, 1), (0, 2), (1, 2)];
+    let minor = |(i, j): (usize, usize)| a[i][i] * a[j][j] - a[i][j] * a[j][i];
+    let cofactor = |k: usize| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        a[1][i] * a[2][j] - a[1][j] * a[2][i]
+    };
+    let determinant = (0..3).fold(Precise::number(0.0), |sum, k| sum + a[0][k] * cofactor(k));
+    let size = (0..3).map(|i| a[i][i].to_f64().abs()).fold(0.0, f64::max);
+    // Rods have a moment of zero: beside the roundings of 256 digits that is far below this.
+    let negative = |minor: Precise, power: i32| minor.to_f64() < -1e-50 * size.powi(power);
+    (0..3).any(|i| negative(a[i][i], 1))
+        || pairs.into_iter().any(|pair| negative(minor(pair), 2))
+        || negative(determinant, 3)
+}
 
 impl<'g> Translator<'_, 'g> {
     /// What is divided by; if that is always zero, the mistake is noted and one stands in its place.
@@ -78,14 +99,100 @@ impl<'g> Translator<'_, 'g> {
             return self.mistake(written.span, too_many_factors());
         }
         let of_literals = || written.is_made_of_literals();
+        // Too large, or so small that nothing is left of it.
+        let out_of_range = |rounded: f64, zero: bool| !rounded.is_finite() || (rounded == 0.0 && !zero);
         let lost = match value.as_number() {
-            Some(number) => !number.to_f64().is_finite(),
-            None => of_literals() && self.known(value).is_some_and(|value| !value.to_f64().is_finite()),
+            Some(number) => {
+                self.note_extreme(number, written.span);
+                out_of_range(number.to_f64(), number.is_zero())
+            }
+            None => {
+                let lost = |value: Precise| out_of_range(value.to_f64(), value == Precise::number(0.0));
+                of_literals() && self.known(value).is_some_and(lost)
+            }
         };
         if !lost {
             return value;
         }
         self.mistake(written.span, "this number is beyond the range of double precision".to_owned())
+    }
+
+    /// Notes a number whose powers may be out of the reach of checks.
+    pub(super) fn note_extreme(&self, value: Rational, span: Span) {
+        let size = value.to_f64().abs();
+        if value.is_zero() || (1.0 / EXTREME..=EXTREME).contains(&size) {
+            return;
+        }
+        let mut extreme = self.extreme.borrow_mut();
+        if !extreme.iter().any(|(_, known)| *known == value) {
+            extreme.push((span, value));
+        }
+    }
+
+    /// Why a check fails that no mistake of this crate makes fail: bodies that none can be, numbers out of its reach.
+    pub fn cause_of_failure(&self, tree: &Tree<'g>) -> Option<syn::Error> {
+        self.impossible_body(tree).or_else(|| {
+            let extreme = self.extreme.borrow();
+            let (span, _) = extreme.first()?;
+            let list: Vec<String> =
+                extreme.iter().map(|(_, value)| format!("`{}`", decimal(*value, Notation::Text))).collect();
+            let (are, they) = if list.len() == 1 { ("is", "it is") } else { ("are", "they are") };
+            Some(syn::Error::new(
+                *span,
+                format!(
+                    "{} {are} out of reach: not even numbers of 256 binary digits tell whether the equations are right; \
+                     choose units in which {they} nearer to 1",
+                    list.join(", ")
+                ),
+            ))
+        })
+    }
+
+    /// A body whose mass data are literals and that has a negative moment of inertia about its centre of mass.
+    fn impossible_body(&self, tree: &Tree<'g>) -> Option<syn::Error> {
+        let clauses = self.model.bodies.iter().zip(&self.links_of_clauses);
+        let (clause, _) = clauses.into_iter().find(|(_, link)| {
+            let body = tree.links.get(**link).and_then(|link| link.body());
+            body.and_then(|body| self.central_moments(body)).is_some_and(|moments| is_indefinite(&moments))
+        })?;
+        let own = if clause.name.is_some() { &clause.role_clauses } else { &self.model.role_clauses };
+        let inertia = own.iter().find(|own| matches!(own.role, Role::Inertia | Role::CentralInertia));
+        let (span, word) = inertia.map_or((clause.span, Role::Inertia.word()), |own| (own.span, own.role.word()));
+        let rule = match word == Role::CentralInertia.word() {
+            true => String::new(),
+            false => format!(
+                "; `{word}` is about O, m (|c|² 1 − c cᵀ) more; what is about the centre of mass is written \
+                 `{}`",
+                Role::CentralInertia.word()
+            ),
+        };
+        let message =
+            format!("no body has this `{word}`: about its centre of mass a moment of inertia is negative{rule}");
+        Some(syn::Error::new(span, message))
+    }
+
+    /// I_O − m(|c|² 1 − c cᵀ), where literals alone determine it.
+    fn central_moments(&self, body: &Body<'g>) -> Option<[[Precise; 3]; 3]> {
+        let mass = self.known(body.mass)?;
+        let mut center = [Precise::number(0.0); 3];
+        for (value, e) in center.iter_mut().zip(body.center_of_mass) {
+            *value = self.known(e)?;
+        }
+        let square = center.iter().fold(Precise::number(0.0), |sum, c| sum + *c * *c);
+        let mut moments = [[Precise::number(0.0); 3]; 3];
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            let own = if i == j { square } else { Precise::number(0.0) };
+            moments[i][j] = self.known(body.inertia[i][j])? - mass * (own - center[i] * center[j]);
+        }
+        Some(moments)
+    }
+
+    /// Notes that an element has no value whatever the state is.
+    pub(super) fn divides_by_zero(&self, span: Span, name: &str) {
+        self.mistake(
+            span,
+            format!("`{name}` divides by zero wherever the system is: a distance or a number in it is always zero"),
+        );
     }
 
     /// All mistakes so far.

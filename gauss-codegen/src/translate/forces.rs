@@ -36,8 +36,8 @@ impl Names {
 }
 
 impl<'g> Translator<'_, 'g> {
-    /// Everything that acts beside weight and buoyancy.
-    pub(super) fn elements(&self, tree: &Tree<'g>) -> syn::Result<Vec<Element<'g>>> {
+    /// Everything that acts beside weight and buoyancy, each with where it is written.
+    pub(super) fn elements(&self, tree: &Tree<'g>) -> syn::Result<Vec<(Span, Element<'g>)>> {
         let model = self.model;
         let given = model.forces.iter().filter_map(|clause| clause.name.as_ref());
         let given = given.chain(model.attractions.iter().filter_map(|clause| clause.name.as_ref()));
@@ -45,7 +45,7 @@ impl<'g> Translator<'_, 'g> {
         let mut elements = Vec::new();
         if let Some(potential) = &model.potential {
             let name = names.of(None, "potential");
-            elements.push(Element::new(name, Action::Potential(self.scalar(potential, tree)?)));
+            elements.push((potential.span, Element::new(name, Action::Potential(self.scalar(potential, tree)?))));
         }
         for clause in &model.attractions {
             let mu = self.scalar(&clause.mu, tree)?;
@@ -54,17 +54,21 @@ impl<'g> Translator<'_, 'g> {
             self.note(LawKind::Attraction, (&name, "mu"), &clause.mu, vec![mu]);
             let field = CentralField { mu, center: center.unwrap_or([self.graph.zero(); 3]) };
             if !self.is_infinite(&field, clause.mu.span, tree) {
-                elements.push(Element::new(name, field.action(tree)));
+                elements.push((clause.mu.span, Element::new(name, field.action(tree))));
             }
         }
         let entrained = self.medium(tree)?;
         if !entrained.is_empty() {
-            elements.push(Element::new(names.of(None, "medium"), Action::Forces(entrained)));
+            let span = model.medium.as_ref().map_or(model.ident.span(), |velocity| velocity.span);
+            elements.push((span, Element::new(names.of(None, "medium"), Action::Forces(entrained))));
         }
         for clause in &model.forces {
             let name = names.of(clause.name.as_ref(), noun(clause));
-            let actions = self.actions(clause, &name, tree)?;
-            elements.extend(actions.into_iter().map(|action| Element::new(name.clone(), action)));
+            let Some(actions) = self.graph.defined(|| self.actions(clause, &name, tree)) else {
+                self.divides_by_zero(clause.span, &name);
+                continue;
+            };
+            elements.extend(actions?.into_iter().map(|action| (clause.span, Element::new(name.clone(), action))));
         }
         Ok(elements)
     }
@@ -277,7 +281,10 @@ impl<'g> Translator<'_, 'g> {
     fn is_infinite(&self, field: &CentralField<'g>, span: Span, tree: &Tree<'g>) -> bool {
         let mut massive = tree.links.iter().filter(|link| !matches!(link.matter, Matter::Nothing));
         massive.any(|link| {
-            let arm = std::array::from_fn(|i| link.position[i] - field.center[i]);
+            // What a chart says of it, where the motion stands by symbols of its own.
+            let charted = self.chart.as_ref().filter(|_| self.observed.is_some());
+            let position = charted.map_or(link.position, |chart| chart.kinematics.position);
+            let arm = std::array::from_fn(|i| position[i] - field.center[i]);
             self.stays_at(&arm, span)
         })
     }

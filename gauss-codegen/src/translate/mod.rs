@@ -59,6 +59,8 @@ pub struct Translator<'a, 'g> {
     pi: Expr<'g>,
     /// Literal numbers that are constants of their own.
     literals: RefCell<Vec<(Rational, Expr<'g>)>>,
+    /// Numbers with which checks may not be sure, where they are written.
+    extreme: RefCell<Vec<(Span, Rational)>>,
     /// Expressions without a value.
     mistakes: RefCell<Vec<(Span, String)>>,
     /// Matrices of drag, for warnings.
@@ -98,6 +100,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             functions: model.functions.iter().map(function).collect(),
             pi,
             literals: RefCell::new(vec![(symbols::pi(), pi)]),
+            extreme: RefCell::default(),
             mistakes: RefCell::default(),
             drags: RefCell::default(),
             laws: RefCell::default(),
@@ -256,7 +259,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         tree.rotors = self.rotors(&tree)?;
         let elements = match (model.one_body(), self.chart.clone()) {
             (Some(_), Some(chart)) => self.elements_on(&chart)?,
-            _ => self.elements(&tree)?,
+            _ => self.elements(&tree)?.into_iter().map(|(_, element)| element).collect(),
         };
         let constraints = self.constraints(&tree)?;
         tree.settle();
@@ -319,7 +322,14 @@ impl<'a, 'g> Translator<'a, 'g> {
         let elements = self.name_points(&tree).and_then(|()| self.elements(&tree));
         self.rates = rates;
         let observed = self.observed.take().ok_or_else(|| bug(self.model.ident.span()))?;
-        Ok(observed.in_motion(&chart.kinematics, &elements?))
+        let mut in_motion = Vec::new();
+        for (span, element) in elements? {
+            match self.graph.defined(|| observed.in_motion(&chart.kinematics, &element)) {
+                Some(element) => in_motion.push(element),
+                None => self.divides_by_zero(span, &element.name),
+            }
+        }
+        Ok(in_motion)
     }
 
     fn name_everything(&mut self, values: &[Expr<'g>]) {

@@ -55,7 +55,10 @@ impl<'g> Translator<'_, 'g> {
     /// The value of an expression; links that it names are those of the tree.
     pub(super) fn value(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
         Ok(match &e.kind {
-            ExpressionKind::Number { value } => Value::Scalar(self.number(*value)),
+            ExpressionKind::Number { value } => {
+                self.note_extreme(*value, e.span);
+                Value::Scalar(self.number(*value))
+            }
             ExpressionKind::Name(name) => {
                 self.names.get(&name.unraw().to_string()).cloned().ok_or_else(|| bug(e.span))?
             }

@@ -118,26 +118,43 @@ impl<'a, 'g> InertialParameters<'a, 'g> {
 
     /// `residuals` are arrangements of the forces of inertia, weight and buoyancy of bodies by their first moments, `forces` those of
     /// all else; `defined` are symbols that stand for expressions of the arguments.
-    pub fn regressor(self, residuals: &[Vec<Expr<'g>>], forces: &[Expr<'g>], defined: Vec<Expr<'g>>) -> Regressor<'g> {
+    ///
+    /// # Errors
+    /// The name of a parameter that something is divided by: the forces are not linear in it.
+    pub fn regressor(
+        self,
+        residuals: &[Vec<Expr<'g>>],
+        forces: &[Expr<'g>],
+        defined: Vec<Expr<'g>>,
+    ) -> Result<Regressor<'g>, String> {
         let Self { graph, list, replacement, .. } = self;
         let replaced =
             |row: &Vec<Expr<'g>>| -> Vec<Expr<'g>> { row.iter().map(|e| e.substitute(&replacement)).collect() };
         let arrangements: Vec<Vec<Expr<'g>>> = residuals.iter().map(replaced).collect();
         let nothing: Map<u32, Expr<'g>> = list.iter().map(|p| (p.symbol.key(), graph.zero())).collect();
         let rest = |row: &Vec<Expr<'g>>| forces.iter().zip(row).map(|(f, r)| *f - r.substitute(&nothing)).collect();
+        let Some(others) = graph.defined(|| arrangements.iter().map(rest).collect()) else {
+            let divides = |parameter: &&InertialParameter<'g>| {
+                let vanishing = Map::from_iter([(parameter.symbol.key(), graph.zero())]);
+                let all = || arrangements.iter().flatten().for_each(|e| _ = e.substitute(&vanishing));
+                graph.defined(all).is_none()
+            };
+            let found = list.iter().find(divides).or(list.first());
+            return Err(found.map(|parameter| parameter.name.clone()).unwrap_or_default());
+        };
         let formulas = [
             Formula {
                 method: Method::InertialParameters,
                 arrangements: vec![list.iter().map(|parameter| parameter.value).collect()],
             },
-            Formula { method: Method::OtherForces, arrangements: arrangements.iter().map(rest).collect() },
+            Formula { method: Method::OtherForces, arrangements: others },
         ];
         let directions = list.iter().map(|parameter| vec![(parameter.symbol, graph.one())]).collect();
-        Regressor {
+        Ok(Regressor {
             differentiated: Differentiated { arrangements, defined, directions, derived: Vec::new() },
             formulas,
             parameters: list,
-        }
+        })
     }
 }
 

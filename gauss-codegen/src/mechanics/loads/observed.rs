@@ -52,28 +52,25 @@ impl<'g> Observed<'g> {
     }
 
     /// The elements, given in terms of these symbols, as they are in a motion: elements on the only link.
-    pub fn in_motion(&self, kinematics: &Kinematics<'g>, elements: &[Element<'g>]) -> Vec<Element<'g>> {
+    pub fn in_motion(&self, kinematics: &Kinematics<'g>, element: &Element<'g>) -> Element<'g> {
         let replacement = self.values(kinematics);
         let real = |e: Expr<'g>| e.substitute(&replacement);
-        let element = |element: &Element<'g>| {
-            let (action, wrench) = match &element.action {
-                Action::Potential(potential) => {
-                    let wrench = self.dual(potential.derivative(&self.rates)).map(|e| -e);
-                    (Action::Potential(real(*potential)), wrench)
-                }
-                Action::Field(field) => {
-                    let wrench = self.dual(field.potential.derivative(&self.rates)).map(|e| -e);
-                    (Action::Field(field.map(real)), wrench)
-                }
-                Action::Forces(forces) => {
-                    let wrenches = forces.iter().map(|force| self.wrench_of(force));
-                    let wrench = wrenches.fold(Wrench::zero(self.graph), |sum, w| sum.plus(&w));
-                    (Action::Forces(forces.iter().map(|force| force.map(real)).collect()), wrench)
-                }
-            };
-            Element { name: element.name.clone(), action, on_link: Some((0, wrench.map(real))) }
+        let (action, wrench) = match &element.action {
+            Action::Potential(potential) => {
+                let wrench = self.dual(potential.derivative(&self.rates)).map(|e| -e);
+                (Action::Potential(real(*potential)), wrench)
+            }
+            Action::Field(field) => {
+                let wrench = self.dual(field.potential.derivative(&self.rates)).map(|e| -e);
+                (Action::Field(field.map(real)), wrench)
+            }
+            Action::Forces(forces) => {
+                let wrenches = forces.iter().map(|force| self.wrench_of(force));
+                let wrench = wrenches.fold(Wrench::zero(self.graph), |sum, w| sum.plus(&w));
+                (Action::Forces(forces.iter().map(|force| force.map(real)).collect()), wrench)
+            }
         };
-        elements.iter().map(element).collect()
+        Element { name: element.name.clone(), action, on_link: Some((0, wrench.map(real))) }
     }
 
     /// What the symbols are in a chart.
