@@ -28,6 +28,9 @@ pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> sy
     let model = model::parse(input)?;
     let graph = Graph::new();
     graph.allow(most_operations(&model));
+    // Every body and particle has partial velocities, a row for each speed.
+    graph.spend((model.bodies.len() + model.particles.len()).saturating_mul(model.coordinates.len()));
+    refuse_exhausted(&model, &graph)?;
     let derived = derive_model(&graph, &model, write);
     // Whatever else was found then means nothing.
     refuse_exhausted(&model, &graph)?;
@@ -77,6 +80,28 @@ mod tests {
         let input: DeriveInput = syn::parse_str(source).expect("a struct");
         // Every row is held to the Gauss condition.
         expand(&input).expect("equations of motion");
+    }
+
+    /// Of the first every way to accelerations is the one link by link, of the second as well, with powers besides.
+    #[test]
+    fn some_arrangement_is_left() {
+        let springs = "k * powi(a - d, 2) + k * powi(b - e, 2) + k * powi(f - i, 2)";
+        let sources = [
+            "#[gauss(coordinates(x, turn: Rotation), frame(hull), particle(parent = hull, mass = m, position = [x, 0, 0]),
+                 body(ball, rotation = turn, mass = 1, inertia = 1), linearize)] struct Scene { m: f64 }"
+                .to_owned(),
+            format!(
+                "#[gauss(coordinates(a, b, c, d, e, f, g, h, i), particle(mass = m, position = [a, b, c]),
+                     particle(mass = m, position = [d, e, f]), particle(mass = m, position = [g, h, i]),
+                     potential = {springs}, taylor, linearize(parameters, hessian, inverse))] struct Scene {{ m: f64, k: f64 }}"
+            ),
+        ];
+        for source in sources {
+            let input: DeriveInput = syn::parse_str(&source).expect("a struct");
+            if let Err(error) = expand(&input) {
+                panic!("{error}");
+            }
+        }
     }
 
     /// Wherever the last node is made, the derivation ends with one message and without a panic.

@@ -7,7 +7,7 @@ use std::cell::Cell;
 const SIZE: [usize; 2] = [60, 3_000_000];
 
 /// Products of terms that may be formed while a derivation multiplies out: three times as many as any scene that is known
-/// needs. What would take more stays as it is.
+/// needs; and as many rewritings of them. What would take more stays as it is.
 const TERMS: u64 = 1_000_000;
 
 /// What is left.
@@ -17,11 +17,13 @@ pub(super) struct Budget {
     size: Cell<usize>,
     most: Cell<usize>,
     terms: Cell<u64>,
+    rewritings: Cell<u64>,
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { size: Cell::new(0), most: Cell::new(SIZE[1]), terms: Cell::new(TERMS) }
+        let [terms, rewritings] = [TERMS; 2].map(Cell::new);
+        Self { size: Cell::new(0), most: Cell::new(SIZE[1]), terms, rewritings }
     }
 }
 
@@ -37,10 +39,13 @@ impl Budget {
         self.most.set(size);
     }
 
-    /// Gives back what was taken since.
+    /// Gives back what was taken since; what ran out in between is meaningless, and stays run out.
     pub(super) fn restore(&self, earlier: &Self) {
-        self.size.set(earlier.size.get());
+        if !self.is_exhausted() {
+            self.size.set(earlier.size.get());
+        }
         self.terms.set(earlier.terms.get());
+        self.rewritings.set(earlier.rewritings.get());
     }
 
     pub(super) fn is_exhausted(&self) -> bool {
@@ -49,7 +54,7 @@ impl Budget {
 
     /// Takes a node with its edges.
     pub(super) fn count(&self, size: usize) {
-        self.size.set(self.size.get() + size);
+        self.size.set(self.size.get().saturating_add(size));
     }
 
     /// Takes the work of multiplying terms; false when nothing is left.
@@ -57,5 +62,12 @@ impl Budget {
         let left = self.terms.get();
         self.terms.set(left.saturating_sub(work));
         left > work
+    }
+
+    /// Takes the work of rewriting a term; false when nothing is left.
+    pub(super) fn may_rewrite(&self) -> bool {
+        let left = self.rewritings.get();
+        self.rewritings.set(left.saturating_sub(1));
+        left > 1
     }
 }

@@ -6,6 +6,27 @@ use super::map::Map;
 
 use super::rational::Rational;
 
+/// Derivatives of many expressions along one flow, with what has been differentiated so far.
+pub struct Along<'a, 'g> {
+    rates: &'a Map<u32, Expr<'g>>,
+    done: Map<u32, Expr<'g>>,
+}
+
+impl<'a, 'g> Along<'a, 'g> {
+    /// `rates` maps each moving symbol (by key) to its rate; all others stand still.
+    pub fn new(rates: &'a Map<u32, Expr<'g>>) -> Self {
+        Self { rates, done: Map::default() }
+    }
+
+    pub fn derivative(&mut self, e: Expr<'g>) -> Expr<'g> {
+        let Self { rates, done } = self;
+        for part in e.stages(|key| done.contains_key(&key)) {
+            part.differentiate(rates, done);
+        }
+        e.differentiate(rates, done)
+    }
+}
+
 impl<'g> Expr<'g> {
     /// ∂self/∂symbol.
     pub fn partial(self, symbol: Expr<'g>) -> Self {
@@ -18,11 +39,7 @@ impl<'g> Expr<'g> {
 
     /// Derivative along a flow: `rates` maps each moving symbol (by key) to its rate; all others stand still.
     pub fn derivative(self, rates: &Map<u32, Expr<'g>>) -> Self {
-        let mut memo = Map::default();
-        for part in self.stages(|_| false) {
-            part.differentiate(rates, &mut memo);
-        }
-        self.differentiate(rates, &mut memo)
+        Along::new(rates).derivative(self)
     }
 
     fn differentiate(self, rates: &Map<u32, Expr<'g>>, memo: &mut Map<u32, Expr<'g>>) -> Self {

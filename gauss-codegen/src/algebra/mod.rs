@@ -39,6 +39,7 @@ mod substitute;
 mod tests;
 
 pub use differences::without_differences;
+pub use differentiate::Along;
 pub use doubled::Doubled;
 pub use dual::Dual;
 pub use evaluate::{Evaluation, Number, Scalar, Tangents};

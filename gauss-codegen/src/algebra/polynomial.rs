@@ -313,7 +313,7 @@ impl<'g> Expander<'g> {
                 return None;
             }
             for (n, d) in &b.terms {
-                self.add_reduced(&mut result, m.times(n), *c * *d);
+                self.add_reduced(&mut result, m.times(n), *c * *d)?;
             }
             if result.terms.len() > self.limit {
                 return None;
@@ -322,20 +322,29 @@ impl<'g> Expander<'g> {
         Some(result)
     }
 
-    /// Adds a term after rewriting it by the rules of its atoms.
-    fn add_reduced(&self, result: &mut Polynomial<'g>, monomial: Monomial, coefficient: Rational) {
+    /// Adds a term after rewriting it by the rules of its atoms; `None` where that takes too long.
+    fn add_reduced(&self, result: &mut Polynomial<'g>, monomial: Monomial, coefficient: Rational) -> Option<()> {
         for (k, &(atom, n)) in monomial.factors.iter().enumerate() {
             if n >= 2
                 && let Node::Call(Function::Cos, argument) = self.graph.node(atom)
             {
                 let sine = self.graph.call(Function::Sin, self.graph.expr(argument));
                 let mut rest = monomial.factors.clone();
-                rest[k].1 -= 2;
+                rest[k].1 %= 2;
                 rest.retain(|&(_, n)| n != 0);
-                let rest = Monomial::new(rest);
-                self.add_reduced(result, rest.times(&Monomial::new(vec![(sine.id, 2)])), -coefficient);
-                self.add_reduced(result, rest, coefficient);
-                return;
+                let mut rest = Monomial::new(rest);
+                // (1 − s²)ʰ, term by term: one factor after the other would be 2ʰ of them.
+                let (squares, square) = (i64::from(n / 2), Monomial::new(vec![(sine.id, 2)]));
+                let mut binomial = coefficient;
+                for power in 0..=squares {
+                    if !self.graph.budget.may_rewrite() {
+                        return None;
+                    }
+                    self.add_reduced(result, rest.clone(), binomial)?;
+                    rest = rest.times(&square);
+                    binomial = binomial * Rational::new(power - squares, power + 1);
+                }
+                return Some(());
             }
             if n < 0
                 && let Some(denominator) = self.denominators.get(&atom)
@@ -343,18 +352,22 @@ impl<'g> Expander<'g> {
                 let Denominator { sum, leading } = denominator;
                 if let Some(rest) = monomial.over(leading) {
                     let coefficient = coefficient * sum.terms[leading].recip();
-                    self.add_reduced(result, rest.times(&Monomial::new(vec![(atom, 1)])), coefficient);
+                    self.add_reduced(result, rest.times(&Monomial::new(vec![(atom, 1)])), coefficient)?;
                     for (m, c) in &sum.terms {
+                        if !self.graph.budget.may_rewrite() {
+                            return None;
+                        }
                         if m != leading {
                             let c = -(coefficient * *c);
-                            self.add_reduced(result, rest.times(m), c);
+                            self.add_reduced(result, rest.times(m), c)?;
                         }
                     }
-                    return;
+                    return Some(());
                 }
             }
         }
         result.add_term(monomial, coefficient);
+        Some(())
     }
 }
 

@@ -15,6 +15,11 @@ impl Graph {
         self.budget.allow(operations);
     }
 
+    /// Takes work that makes no nodes: as much as they would be.
+    pub fn spend(&self, work: usize) {
+        self.budget.count(work);
+    }
+
     /// Lets no more than so many nodes and edges be made.
     #[cfg(test)]
     pub fn restrict(&self, size: usize) {

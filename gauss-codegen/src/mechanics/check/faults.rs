@@ -57,7 +57,12 @@ pub fn check_system_against_definition<'g>(
     system: &System<'g>,
     formulas: &[Formula<'g>],
 ) -> Result<(), Vec<SystemFault>> {
-    check_in::<f64>(system, formulas).or_else(|_| check_in::<Precise>(system, formulas))
+    // What is made once there is too much of everything means nothing.
+    let exhausted = || system.scene.graph.is_exhausted();
+    match check_in::<f64>(system, formulas) {
+        Err(_) if !exhausted() => check_in::<Precise>(system, formulas),
+        result => result,
+    }
 }
 
 fn check_in<'g, N: Number>(system: &System<'g>, formulas: &[Formula<'g>]) -> Result<(), Vec<SystemFault>> {

@@ -3,7 +3,7 @@
 
 use std::cell::OnceCell;
 
-use crate::algebra::{Evaluation, Expr, Map, Number, Rational, Tangents};
+use crate::algebra::{Along, Evaluation, Expr, Map, Number, Rational, Tangents};
 
 use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
 use crate::mechanics::kinematics::vector::Axes;
@@ -36,10 +36,11 @@ struct Still<N> {
 
 impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
     pub fn new(system: &'a System<'g>, state: Map<u32, N>) -> Self {
-        let rates = &system.scene.rates;
+        let mut along = Along::new(&system.scene.rates);
         let velocity = |link: &Link<'g>| {
-            let axis = |j: usize| std::array::from_fn(|i| link.rotation[i][j].derivative(rates));
-            [link.position.map(|e| e.derivative(rates)), axis(0), axis(1), axis(2)]
+            let origin = link.position.map(|e| along.derivative(e));
+            let [e1, e2, e3] = [0, 1, 2].map(|j| [0, 1, 2].map(|i| along.derivative(link.rotation[i][j])));
+            [origin, e1, e2, e3]
         };
         let velocities = system.scene.tree.links.iter().map(velocity).collect();
         Self { system, state, velocities, still: OnceCell::new() }

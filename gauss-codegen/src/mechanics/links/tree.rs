@@ -203,10 +203,11 @@ impl<'g> Tree<'g> {
         let n = self.speeds.len();
         let mut matrix = vec![vec![self.graph.zero(); n]; n];
         let mut together: Vec<Moments<'g>> = self.links.iter().map(|link| link.moments).collect();
+        let moved_by = |link: &Link<'g>| self.speeds().filter(|&z| link.is_moved_by(z)).collect();
+        let moving: Vec<Vec<usize>> = self.links.iter().map(moved_by).collect();
         for k in (0..self.links.len()).rev() {
-            let link = &self.links[k];
-            let moved: Vec<usize> = self.speeds().filter(|&z| link.is_moved_by(z)).collect();
-            for &column in &moved {
+            let (link, moved) = (&self.links[k], &moving[k]);
+            for &column in moved {
                 let (row_a, row_o) = (&link.linear_rows[column], &link.angular_rows[column]);
                 let (q, gamma) = link.momentum(&together[k], row_a, row_o);
                 for &row in moved.iter().filter(|&&row| row <= column) {
@@ -218,7 +219,7 @@ impl<'g> Tree<'g> {
                     (linear, angular) = (linear.map(Expr::group), angular.map(Expr::group));
                     at = parent;
                     let above = &self.links[at];
-                    for row in self.speeds().filter(|&z| above.is_moved_by(z)) {
+                    for &row in &moving[at] {
                         let entry = above.project(row, &above.frame.body_vector(linear), &angular);
                         let (low, high) = (row.min(column), row.max(column));
                         // On the diagonal the pair of links counts in both orders.
