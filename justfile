@@ -36,6 +36,11 @@ fuzz:
     mkdir -p fuzz/corpus
     cargo +nightly fuzz run -s none derive fuzz/corpus fuzz/seeds -- -max_len=8192 -timeout=60 -rss_limit_mb=2048
 
+# Changed scenes, expressions and files of robots by the million, each in a process that may die; faults are told as they come.
+mutants count="1000000" first="0":
+    MUTATIONS={{count}} FIRST={{first}} nice -n 19 cargo test --release --target-dir target/mutants \
+        -p gauss-codegen --features urdf,mjcf --test mutations no_input_is_too_much -- --nocapture
+
 # Features of the published crates, in a clone: `cargo install --locked cargo-hack` once.
 features:
     rm -rf target/features && git clone --quiet . target/features

@@ -1,11 +1,16 @@
-//! What is changed: every scene of this project, and scenes that once were too much.
+//! What is changed: every scene of this project, scenes that once were too much, files of robots; and scenes of random
+//! expressions.
 
 #[allow(dead_code)]
 #[path = "../operations/sources.rs"]
 mod sources;
 
+use std::fmt;
+
 use proc_macro2::TokenStream;
 
+use super::expressions;
+use super::files::{self, Robot};
 use super::mutate::{Tree, mutated};
 use super::random::Random;
 
@@ -14,6 +19,23 @@ const SEEDS: &str = include_str!("seeds.txt");
 
 pub struct Corpus {
     scenes: Vec<Vec<Tree>>,
+}
+
+/// What is derived.
+pub enum Mutation {
+    Scene(TokenStream),
+    /// A file, which is read by its name.
+    #[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code))]
+    Robot(Robot),
+}
+
+impl fmt::Display for Mutation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(tokens) => tokens.fmt(f),
+            Self::Robot(Robot { format, text }) => write!(f, "{format}:\n{text}"),
+        }
+    }
 }
 
 impl Corpus {
@@ -26,8 +48,16 @@ impl Corpus {
     }
 
     /// The mutation of that number.
-    pub fn mutation(&self, number: u64) -> TokenStream {
+    pub fn mutation(&self, number: u64) -> Mutation {
         let mut random = Random::new(number);
+        match number % 16 {
+            0 if cfg!(all(feature = "urdf", feature = "mjcf")) => Mutation::Robot(files::robot(&mut random)),
+            1..=4 => Mutation::Scene(expressions::scene(&mut random).parse().expect("tokens")),
+            _ => Mutation::Scene(self.changed(random)),
+        }
+    }
+
+    fn changed(&self, mut random: Random) -> TokenStream {
         // Most scenes are long; short ones are derived in no time.
         let pair = [0; 2].map(|_| random.below(self.scenes.len()));
         let shorter = pair.into_iter().min_by_key(|&k| Tree::count(&self.scenes[k])).unwrap_or(0);

@@ -3,11 +3,16 @@
 use std::io::Write;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::corpus::Corpus;
+use proc_macro2::TokenStream;
+
+use super::computed::computed;
+use super::corpus::{Corpus, Mutation};
 use super::fault::fault;
+use super::files::Robot;
 
 /// Half of what the compiler has for a macro.
 const STACK: usize = 4 << 20;
@@ -25,11 +30,15 @@ pub fn all(numbers: Range<u64>) {
     };
     let worker = thread::Builder::new().stack_size(STACK).spawn(work).expect("a thread");
     worker.join().expect("panics are caught");
+    for format in ["urdf", "mjcf"] {
+        // It may be that there was none.
+        let _ = std::fs::remove_file(file(format));
+    }
 }
 
 fn one(corpus: &Corpus, number: u64) {
     say(&format!("{NEXT}{number}"));
-    let tokens = corpus.mutation(number);
+    let tokens = scene_of(corpus.mutation(number));
     let begun = Instant::now();
     let before = computed(begun);
     match catch_unwind(AssertUnwindSafe(|| fault(tokens))) {
@@ -43,11 +52,19 @@ fn one(corpus: &Corpus, number: u64) {
     }
 }
 
-/// How long this thread has computed, whatever else runs on the machine; where the system does not say, what has passed.
-fn computed(begun: Instant) -> Duration {
-    let scheduled = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = scheduled.and_then(|text| text.split(' ').next()?.parse().ok());
-    nanoseconds.map_or_else(|| begun.elapsed(), Duration::from_nanos)
+fn file(format: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("gauss-mutation-{}.{format}", std::process::id()))
+}
+
+/// A robot is read from a file, which the next one of this process replaces.
+fn scene_of(mutation: Mutation) -> TokenStream {
+    let Robot { format, text } = match mutation {
+        Mutation::Scene(tokens) => return tokens,
+        Mutation::Robot(robot) => robot,
+    };
+    let path = file(format);
+    std::fs::write(&path, text).expect("a folder for files that do not stay");
+    format!("#[gauss({format} = {path:?}, gravity = 9.81)] struct Robot;").parse().expect("tokens")
 }
 
 /// At the start of a line, whatever the test harness has written before.

@@ -1,13 +1,18 @@
 //! Whatever is written in the place of a scene ends in code or in located mistakes: no panic, no abort, no blame on this crate, no
 //! derivation above 10 s or 1 GB, no code that is no Rust.
 //!
-//! All scenes of this project are changed at random, token by token. Each run makes some thousand of them;
-//! `MUTATIONS=200000 cargo test -p gauss-codegen --test mutations` makes more, `MUTATION=17` shows the one with that number. They
-//! are derived in other processes, which may be killed.
+//! All scenes of this project are changed at random, token by token, and files of robots tag by tag; others are made of random
+//! expressions. Each run derives some thousand of them; `MUTATIONS=200000 cargo test -p gauss-codegen --test mutations` more,
+//! from `FIRST=5000000` on others, and `MUTATION=17` shows the one with that number. They are derived in other processes, which
+//! may be killed.
 
+#[path = "../common/computed.rs"]
+mod computed;
 mod corpus;
 mod derive;
+mod expressions;
 mod fault;
+mod files;
 mod mutate;
 #[allow(dead_code, reason = "the choices of samples are not made here")]
 #[path = "../../src/accuracy/random.rs"]
@@ -25,6 +30,8 @@ use corpus::Corpus;
 const MUTATIONS: u64 = 2_000;
 /// How many one process derives: what is kept for the life of a process does not add up.
 const TOGETHER: u64 = 500;
+/// After how many that is said.
+const PROGRESS: u64 = 50_000;
 
 fn number(variable: &str) -> Option<u64> {
     std::env::var(variable).ok()?.parse().ok()
@@ -37,15 +44,21 @@ fn no_input_is_too_much() {
         println!("{}", corpus.mutation(one));
         return;
     }
-    let count = number("MUTATIONS").unwrap_or(MUTATIONS);
-    let (next, found) = (AtomicU64::new(0), Mutex::new(Vec::new()));
+    let (begin, count) = (number("FIRST").unwrap_or(0), number("MUTATIONS").unwrap_or(MUTATIONS));
+    let end = begin.saturating_add(count);
+    let (next, found) = (AtomicU64::new(begin), Mutex::new(Vec::new()));
     let work = || {
         loop {
             let first = next.fetch_add(TOGETHER, Ordering::Relaxed);
-            if first >= count {
+            if first >= end {
                 return;
             }
-            let faults = watch::derive(first..(first + TOGETHER).min(count));
+            if first > begin && (first - begin).is_multiple_of(PROGRESS) {
+                eprintln!("{} derived", first - begin);
+            }
+            let faults = watch::derive(first..(first + TOGETHER).min(end));
+            // Told at once: a long run may not come to its end.
+            faults.iter().for_each(|(number, fault)| eprintln!("{number}: {fault}"));
             found.lock().expect("no thread panics with it").extend(faults);
         }
     };
