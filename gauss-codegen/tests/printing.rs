@@ -166,3 +166,26 @@ fn latex_can_be_set() {
         assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
     }
 }
+
+/// A motor between a craft and its wheel: on the craft's speeds it does not act, in whatever attitude.
+#[test]
+fn a_torque_between_two_links_is_printed_on_their_joint_alone() {
+    let source = "#[gauss(
+            coordinates(craft: Pose, angle),
+            speeds(u: Vector3, w: Vector3, spin),
+            kinematics(craft = twist(u, w), angle = spin),
+            body(hull, pose = craft, mass = 10, inertia = 0.2),
+            body(wheel, parent = hull, rotation = rotation_z(angle), position = [0.1, 0, 0], mass = 0.5,
+                 inertia = [a, a, b]),
+            input(motor = \"N m\"),
+            torque(drive, body = wheel, value = [0, 0, motor], reaction = hull),
+        )]
+        struct Spacecraft { a: f64, b: f64 }";
+    let derivation = Derivation::of_source(source, "Spacecraft").expect("a valid scene");
+    let printed = derivation.equations(Notation::Text);
+    let with_motor: Vec<&str> = printed.lines().filter(|line| line.contains("motor")).collect();
+    assert_eq!(with_motor, ["  F_spin = motor"], "{printed}");
+    for of_craft in ["u1", "u2", "u3", "w1", "w2", "w3"] {
+        assert!(printed.contains(&format!("\n  F_{of_craft} = 0\n")), "{printed}");
+    }
+}

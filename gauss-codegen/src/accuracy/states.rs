@@ -309,6 +309,7 @@ impl<'g> Seen<'g> {
                 Action::Forces(forces) => forces.iter().for_each(|force| match force {
                     Force::AtPoint { at, force } => seen.look(at.iter().chain(force)),
                     Force::OnLink { at, force, torque, .. } => seen.look(at.iter().chain(force).chain(torque)),
+                    Force::Between { torque, .. } => seen.look(torque),
                     Force::OnRate { rate, force } => seen.look([rate, force]),
                     Force::Dissipation(function) => seen.look([function]),
                 }),

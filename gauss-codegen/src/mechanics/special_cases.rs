@@ -92,10 +92,12 @@ fn compare_loads(graph: &Graph, motion: Motion, chart: Chart) {
             Action::Potential(potential) | Action::Field(Field { potential, .. }) => {
                 system.potential_forces(*potential)
             }
-            Action::Forces(forces) => match forces[0].generalised(&kinematics.speeds, &kinematics.rates) {
-                Some(rows) => rows,
-                None => system.scene.tree.loads(&Loads::of_forces(forces)),
-            },
+            Action::Forces(forces) => {
+                match forces[0].generalised(&system.scene.tree.links, &kinematics.speeds, &kinematics.rates) {
+                    Some(rows) => rows,
+                    None => system.scene.tree.loads(&Loads::of_forces(forces)),
+                }
+            }
         };
         let account = accounts.iter().find(|account| account.name == element.name).expect("an account each");
         for (row, (found, expected)) in account.forces.iter().zip(&expected).enumerate() {

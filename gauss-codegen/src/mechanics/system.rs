@@ -256,7 +256,8 @@ impl<'g> System<'g> {
     /// Of the potential, and of what acts elsewhere than on links.
     pub(in crate::mechanics) fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
-        let acting = self.forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
+        let acting =
+            self.forces.iter().filter_map(|force| force.generalised(&scene.tree.links, &scene.speeds, &scene.rates));
         let potential = potential_of_forces(&scene.elements).unwrap_or_else(|| scene.graph.zero());
         acting.fold(self.potential_forces(potential), |sum, forces| sums(&sum, &forces))
     }

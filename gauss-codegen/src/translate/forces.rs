@@ -8,13 +8,15 @@ use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::Expr;
-use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, entrained};
+use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, common, entrained};
 use crate::model::{
-    Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Property,
+    BinaryOperator, Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceAxes, ForceClause,
+    ForceKind, Property,
 };
 
 use super::drag::DragMatrix;
 use super::laws::{Law, LawKind};
+use super::value::Value;
 use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
@@ -79,29 +81,25 @@ impl<'g> Translator<'_, 'g> {
         let vector = |e: &Option<Expression>| e.as_ref().map_or(Ok(none), |e| self.vector(e, tree));
         let forces = match &clause.kind {
             ForceKind::AtPoint { at, value } => {
-                vec![Force::AtPoint { at: self.vector(at, tree)?, force: self.vector(value, tree)? }]
+                vec![self.force_at(at, value, tree)?]
             }
             ForceKind::OnBody { body, at, value, axes } => {
-                let (link, force) = (self.link(body)?, self.vector(value, tree)?);
-                vec![Force::OnLink { link, at: vector(at)?, force, torque: none, axes: axes_of(*axes) }]
+                let link = self.link(body)?;
+                let (axes, [force, torque]) = self.parts(link, [Some(value), None], *axes, tree)?;
+                vec![Force::OnLink { link, at: vector(at)?, force, torque, axes }]
             }
             ForceKind::Wrench { body, at, force, torque, axes } => {
-                let (link, axes) = (self.link(body)?, axes_of(*axes));
-                vec![Force::OnLink { link, at: vector(at)?, force: vector(force)?, torque: vector(torque)?, axes }]
+                let link = self.link(body)?;
+                let (axes, [force, torque]) = self.parts(link, [force.as_ref(), torque.as_ref()], *axes, tree)?;
+                vec![Force::OnLink { link, at: vector(at)?, force, torque, axes }]
             }
             ForceKind::Torque { body, value, axes, reaction } => {
-                let (link, torque) = (self.link(body)?, self.vector(value, tree)?);
-                let mut loads = vec![Force::OnLink { link, at: none, force: none, torque, axes: axes_of(*axes) }];
-                if let Some(other) = reaction {
-                    // The same components in the observer's axes, which both share.
-                    let turned = match axes {
-                        ForceAxes::Observer => torque,
-                        ForceAxes::Body => tree.links[link].axes().to_space(&torque).map(Expr::group),
-                    };
-                    let (link, torque) = (self.link(other)?, turned.map(|e| -e));
-                    loads.push(Force::OnLink { link, at: none, force: none, torque, axes: Axes::Space });
+                let link = self.link(body)?;
+                let (axes, [force, torque]) = self.parts(link, [None, Some(value)], *axes, tree)?;
+                match reaction {
+                    Some(other) => self.with_reaction([link, self.link(other)?], torque, axes, tree),
+                    None => vec![Force::OnLink { link, at: none, force, torque, axes }],
                 }
-                loads
             }
             ForceKind::Drive { rates } => {
                 let drive = |(coordinate, force): &(Ident, Expression)| -> syn::Result<Force<'g>> {
@@ -130,6 +128,68 @@ impl<'g> Translator<'_, 'g> {
             }
         };
         Ok(vec![Action::Forces(forces)])
+    }
+
+    /// A force and a torque on a link with their axes: its own where links of its tree know them, whatever the axes in
+    /// which the user gives them.
+    fn parts(
+        &self,
+        link: usize,
+        written: [Option<&Expression>; 2],
+        axes: ForceAxes,
+        tree: &Tree<'g>,
+    ) -> syn::Result<(Axes, [Triple<'g>; 2])> {
+        let none = [self.graph.zero(); 3];
+        let (mut own, mut given) = ([Some(none); 2], [none; 2]);
+        for (k, e) in written.into_iter().enumerate() {
+            let Some(e) = e else { continue };
+            own[k] = self.seen_by(link, e, tree)?;
+            given[k] = self.vector(e, tree)?;
+        }
+        Ok(match (axes, own) {
+            (ForceAxes::Observer, [Some(force), Some(torque)]) => (Axes::Body, [force, torque]),
+            (ForceAxes::Observer, _) => (Axes::Space, given),
+            (ForceAxes::Body, _) => (Axes::Body, given),
+        })
+    }
+
+    /// A vector in the axes of a link, where a link of its tree knows it.
+    fn seen_by(&self, link: usize, e: &Expression, tree: &Tree<'g>) -> syn::Result<Option<Triple<'g>>> {
+        Ok(match self.value(e, tree)? {
+            Value::Local(local) => local.seen_by(link, tree),
+            _ => None,
+        })
+    }
+
+    fn force_at(&self, at: &Expression, value: &Expression, tree: &Tree<'g>) -> syn::Result<Force<'g>> {
+        let none = [self.graph.zero(); 3];
+        if let Value::Local(point) = self.value(at, tree)?
+            && let Some(force) = self.seen_by(point.link, value, tree)?.filter(|_| point.is_point)
+        {
+            let (link, at) = (point.link, point.components);
+            return Ok(Force::OnLink { link, at, force, torque: none, axes: Axes::Body });
+        }
+        Ok(Force::AtPoint { at: self.vector(at, tree)?, force: self.vector(value, tree)? })
+    }
+
+    /// A torque on a link with its reaction on another: in one tree on the joints between them, else on each by itself.
+    fn with_reaction(&self, links: [usize; 2], torque: Triple<'g>, axes: Axes, tree: &Tree<'g>) -> Vec<Force<'g>> {
+        let link = tree.links[links[0]].axes();
+        if common(&tree.links, links).is_some() {
+            let torque = match axes {
+                Axes::Body => torque,
+                Axes::Space => link.to_body(&torque).map(Expr::group),
+            };
+            return vec![Force::Between { links, torque }];
+        }
+        let none = [self.graph.zero(); 3];
+        let on = |link, torque, axes| Force::OnLink { link, at: none, force: none, torque, axes };
+        // The same components in the observer's axes, which both share.
+        let turned = match axes {
+            Axes::Space => torque,
+            Axes::Body => link.to_space(&torque).map(Expr::group),
+        };
+        vec![on(links[0], torque, axes), on(links[1], turned.map(|e| -e), Axes::Space)]
     }
 
     /// Takes note of what the argument `word` of the element `name` is.
@@ -166,8 +226,13 @@ impl<'g> Translator<'_, 'g> {
                 (length, length.powi(2))
             }
             Extent::Between { from, to } => {
-                let (from, to) = (self.vector(from, tree)?, self.vector(to, tree)?);
-                let square = (0..3).map(|i| (to[i] - from[i]).powi(2)).sum::<Expr<'g>>().group();
+                let (start, end) = (self.value(from, tree)?, self.value(to, tree)?);
+                let arm = match self.binary(BinaryOperator::Subtract, end, start, tree) {
+                    Some(Value::Local(arm)) => arm.components,
+                    Some(Value::Vector(arm)) => arm,
+                    _ => return Err(bug(from.span)),
+                };
+                let square = arm.iter().map(|e| e.powi(2)).sum::<Expr<'g>>().group();
                 (square.sqrt(), square)
             }
         })
@@ -384,12 +449,5 @@ fn noun(clause: &ForceClause) -> &'static str {
     match clause.kind {
         ForceKind::Dissipation(_) => "damping",
         _ => clause.noun(),
-    }
-}
-
-fn axes_of(axes: ForceAxes) -> Axes {
-    match axes {
-        ForceAxes::Body => Axes::Body,
-        ForceAxes::Observer => Axes::Space,
     }
 }

@@ -145,7 +145,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         let nothing = self.no_links();
         let value = |clause: &RoleClause| {
             let values = match &clause.value {
-                RoleValue::Expression(e) => match self.value(e, &nothing)? {
+                RoleValue::Expression(e) => match self.value(e, &nothing)?.observed() {
                     Value::Scalar(value) => vec![value],
                     Value::Vector(values) => values.to_vec(),
                     _ => return Err(bug(clause.span)),
@@ -412,7 +412,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         let nothing = self.no_links();
         for (k, (_, e)) in self.model.kinematics.iter().enumerate() {
             self.observed_rates[k] = self.observed_rates_of(k, e, &nothing)?;
-            match self.value(e, &nothing)? {
+            match self.value(e, &nothing)?.observed() {
                 Value::Scalar(rate) => rates.push(rate),
                 Value::Vector(omega) => rates.extend(omega),
                 Value::Twist(linear, angular) => rates.extend(linear.into_iter().chain(angular)),
@@ -495,7 +495,7 @@ impl<'a, 'g> Translator<'a, 'g> {
                 model::ConstraintKind::Position => ConstraintKind::Position,
                 model::ConstraintKind::Velocity => ConstraintKind::Velocity,
             };
-            match self.value(&written.expression, tree)? {
+            match self.value(&written.expression, tree)?.observed() {
                 // So do some of those that a file makes of one relation.
                 Value::Scalar(value) if written.place.is_some() && value.collected(LIMIT).is_zero() => {}
                 Value::Scalar(value) => constraints.push(Constraint { kind, value, clause }),

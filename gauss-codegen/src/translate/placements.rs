@@ -7,7 +7,7 @@ use crate::algebra::Expr;
 use crate::mechanics::{Body, Matter, Placement, Tree, Vector};
 use crate::model::{BodyClause, ExpressionKind, Property};
 
-use super::value::Value;
+use super::value::{Local, Value};
 use super::{Translator, bug, name_of_property};
 
 impl<'g> Translator<'_, 'g> {
@@ -86,11 +86,11 @@ impl<'g> Translator<'_, 'g> {
     pub(super) fn name_points(&mut self, tree: &Tree<'g>) -> syn::Result<()> {
         for clause in &self.model.points {
             let at = self.vector(&clause.at, tree)?;
-            let link = self.links.get(&clause.body.unraw().to_string()).map(|&k| &tree.links[k]);
-            let link = link.ok_or_else(|| bug(clause.span))?;
+            let index = *self.links.get(&clause.body.unraw().to_string()).ok_or_else(|| bug(clause.span))?;
+            let link = &tree.links[index];
             let turned = link.axes().to_space(&at);
             let position: [Expr<'g>; 3] = std::array::from_fn(|i| link.position[i] + turned[i].group());
-            self.names.insert(clause.name.unraw().to_string(), Value::Vector(position));
+            self.names.insert(clause.name.unraw().to_string(), Value::Local(Local::point(index, at, position)));
         }
         Ok(())
     }

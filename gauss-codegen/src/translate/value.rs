@@ -1,7 +1,7 @@
 //! What expressions stand for.
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::mechanics::{Turn, about_axis, identity};
+use crate::mechanics::{Tree, Turn, about_axis, add, common, identity, point_seen_from, subtract, turned};
 
 type Triple<'g> = [Expr<'g>; 3];
 
@@ -11,12 +11,91 @@ pub enum Value<'g> {
     Scalar(Expr<'g>),
     /// Observer's axes, or those in which it was written.
     Vector(Triple<'g>),
+    /// A vector of which a link knows the components in its axes.
+    Local(Local<'g>),
     /// A product.
     Rotation(Vec<Piece<'g>>),
     /// R and b.
     Pose(Piece<'g>, Triple<'g>),
     /// (u, ω), or the force and the torque of a wrench.
     Twist(Triple<'g>, Triple<'g>),
+}
+
+impl<'g> Value<'g> {
+    /// A vector in observer's axes, whoever knows it in others.
+    pub fn observed(self) -> Self {
+        match self {
+            Value::Local(local) => Value::Vector(local.observed),
+            other => other,
+        }
+    }
+}
+
+/// A vector, or a point from Ω, that a link knows in its own axes: between links of one tree the observer's need not be
+/// gone through.
+#[derive(Clone, Copy)]
+pub struct Local<'g> {
+    pub link: usize,
+    /// A point of the link, whose components are from O; else they are the vector's.
+    pub is_point: bool,
+    pub components: Triple<'g>,
+    /// Observer's components.
+    pub observed: Triple<'g>,
+}
+
+impl<'g> Local<'g> {
+    pub fn point(link: usize, components: Triple<'g>, observed: Triple<'g>) -> Self {
+        Self { link, is_point: true, components, observed }
+    }
+
+    /// A vector in the axes of a link.
+    pub fn turned(link: usize, components: Triple<'g>, tree: &Tree<'g>) -> Self {
+        Self::vector(link, components, tree.links[link].axes().to_space(&components))
+    }
+
+    fn vector(link: usize, components: Triple<'g>, observed: Triple<'g>) -> Self {
+        Self { link, is_point: false, components, observed }
+    }
+
+    /// A function of its components that does not depend on the axes.
+    pub fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Option<Self> {
+        (!self.is_point).then(|| Self::vector(self.link, self.components.map(&f), self.observed.map(&f)))
+    }
+
+    /// The components in the axes of another link of the tree.
+    pub fn seen_by(&self, link: usize, tree: &Tree<'g>) -> Option<Triple<'g>> {
+        if self.is_point { None } else { turned(&tree.links, [self.link, link], &self.components) }
+    }
+
+    /// Of two vectors the components in the axes of the last link that both hang on.
+    pub fn together(&self, other: &Self, tree: &Tree<'g>) -> Option<(usize, [Triple<'g>; 2])> {
+        let link = common(&tree.links, [self.link, other.link])?;
+        Some((link, [self.seen_by(link, tree)?, other.seen_by(link, tree)?]))
+    }
+
+    pub fn plus(&self, other: &Self, tree: &Tree<'g>) -> Option<Self> {
+        let observed = add(&self.observed, &other.observed);
+        let (to, vector) = match (self.is_point, other.is_point) {
+            (true, true) => return None,
+            (false, true) => (other, self),
+            (true, false) => (self, other),
+            (false, false) => {
+                let (link, [a, b]) = self.together(other, tree)?;
+                return Some(Self::vector(link, add(&a, &b), observed));
+            }
+        };
+        let components = add(&to.components, &vector.seen_by(to.link, tree)?);
+        Some(Self::point(to.link, components, observed))
+    }
+
+    pub fn minus(&self, other: &Self, tree: &Tree<'g>) -> Option<Self> {
+        if !(self.is_point && other.is_point) {
+            return self.plus(&other.map(|e| -e)?, tree);
+        }
+        let link = common(&tree.links, [self.link, other.link])?;
+        let [end, start] = [self, other].map(|p| point_seen_from(&tree.links, [p.link, link], &p.components));
+        Some(Self::vector(link, subtract(&end, &start), subtract(&self.observed, &other.observed)))
+    }
 }
 
 /// One factor of a rotation.

@@ -4,10 +4,10 @@ use proc_macro2::Span;
 use syn::ext::IdentExt;
 
 use crate::algebra::{BinaryFunction, Expr, Function, Notation, Rational, decimal};
-use crate::mechanics::{Axes, Tree, Turn, subtract};
+use crate::mechanics::{Axes, Tree, Turn, dot, subtract};
 use crate::model::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 
-use super::value::{Piece, Value};
+use super::value::{Local, Piece, Value};
 use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
@@ -46,7 +46,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     pub(super) fn vector(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Triple<'g>> {
-        match self.value(e, tree)? {
+        match self.value(e, tree)?.observed() {
             Value::Vector(value) => Ok(value),
             _ => Err(bug(e.span)),
         }
@@ -70,6 +70,7 @@ impl<'g> Translator<'_, 'g> {
             ExpressionKind::Negate(inner) => match self.value(inner, tree)? {
                 Value::Scalar(a) => Value::Scalar(-a),
                 Value::Vector(a) => Value::Vector(a.map(|a| -a)),
+                Value::Local(a) => a.map(|a| -a).map_or(Value::Vector(a.observed.map(|a| -a)), Value::Local),
                 _ => return Err(bug(e.span)),
             },
             ExpressionKind::Power(inner, exponent) => {
@@ -94,7 +95,7 @@ impl<'g> Translator<'_, 'g> {
                     (BinaryOperator::Divide, Value::Scalar(b)) => Value::Scalar(self.divisor(b, right.span)),
                     (_, other) => other,
                 };
-                match self.binary(*operator, value, other).ok_or_else(|| bug(e.span))? {
+                match self.binary(*operator, value, other, tree).ok_or_else(|| bug(e.span))? {
                     Value::Scalar(value) => Value::Scalar(self.in_range(value, e)),
                     value => value,
                 }
@@ -130,16 +131,30 @@ impl<'g> Translator<'_, 'g> {
         }
     }
 
+    /// Two vectors in axes that are theirs both: those of a link where it knows them, else the observer's.
+    fn in_common_axes(&self, [a, b]: [&Expression; 2], tree: &Tree<'g>) -> syn::Result<[Triple<'g>; 2]> {
+        if let (Value::Local(a), Value::Local(b)) = (self.value(a, tree)?, self.value(b, tree)?)
+            && let Some((_, both)) = a.together(&b, tree)
+        {
+            return Ok(both);
+        }
+        Ok([self.vector(a, tree)?, self.vector(b, tree)?])
+    }
+
     fn property(&self, owner: &Expression, property: Property, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
         let ExpressionKind::Name(name) = &owner.kind else { return Err(bug(owner.span)) };
         let word = name.unraw().to_string();
         match self.names.get(&word) {
-            Some(Value::Pose(_, position)) if property == Property::Position => return Ok(Value::Vector(*position)),
+            Some(Value::Pose(_, position)) if property == Property::Position => {
+                let here = tree.links.iter().position(|link| link.position == *position);
+                let none = [self.graph.zero(); 3];
+                return Ok(here.map_or(Value::Vector(*position), |k| Value::Local(Local::point(k, none, *position))));
+            }
             Some(Value::Pose(rotation, _)) if property == Property::Rotation => {
                 return Ok(Value::Rotation(vec![*rotation]));
             }
-            Some(Value::Vector(position)) if property == Property::Velocity => {
-                return Ok(Value::Vector(position.map(|e| e.derivative(&self.rates))));
+            Some(Value::Local(point)) if property == Property::Velocity => {
+                return Ok(Value::Vector(point.observed.map(|e| e.derivative(&self.rates))));
             }
             Some(Value::Pose(..) | Value::Rotation(_)) => {
                 return self.velocity_of_coordinate(&word, property).map(Value::Vector).ok_or_else(|| bug(owner.span));
@@ -156,7 +171,7 @@ impl<'g> Translator<'_, 'g> {
         let index = *self.links.get(&word).ok_or_else(|| bug(owner.span))?;
         let link = tree.links.get(index).ok_or_else(|| bug(owner.span))?;
         Ok(match property {
-            Property::Position => Value::Vector(link.position),
+            Property::Position => Value::Local(Local::point(index, [self.graph.zero(); 3], link.position)),
             Property::Rotation => {
                 // Its angular velocity is not asked for: rotations of bodies are named where vectors are turned.
                 Value::Rotation(vec![Piece::Given(Turn::given(link.rotation, [self.graph.zero(); 3]))])
@@ -212,10 +227,45 @@ impl<'g> Translator<'_, 'g> {
         }
     }
 
-    fn binary(&self, operator: BinaryOperator, left: Value<'g>, right: Value<'g>) -> Option<Value<'g>> {
+    /// The same of vectors that links know, where the result is one.
+    fn local(
+        &self,
+        operator: BinaryOperator,
+        left: &Value<'g>,
+        right: &Value<'g>,
+        tree: &Tree<'g>,
+    ) -> Option<Local<'g>> {
+        use BinaryOperator::{Add, Divide, Multiply, Subtract};
+        use Value::{Rotation, Scalar};
+        match (operator, left, right) {
+            (Add, Value::Local(a), Value::Local(b)) => a.plus(b, tree),
+            (Subtract, Value::Local(a), Value::Local(b)) => a.minus(b, tree),
+            (Multiply, Scalar(a), Value::Local(b)) | (Multiply, Value::Local(b), Scalar(a)) => b.map(|b| *a * b),
+            (Divide, Value::Local(a), Scalar(b)) => a.map(|a| a * b.recip()),
+            (Multiply, Rotation(pieces), Value::Vector(a)) => {
+                let [piece] = pieces.as_slice() else { return None };
+                let matrix = piece.matrix(self.graph);
+                let turning = !matrix.iter().flatten().all(|e| e.is_constant());
+                let link = tree.links.iter().position(|link| link.rotation == matrix).filter(|_| turning)?;
+                Some(Local::turned(link, *a, tree))
+            }
+            _ => None,
+        }
+    }
+
+    pub(super) fn binary(
+        &self,
+        operator: BinaryOperator,
+        left: Value<'g>,
+        right: Value<'g>,
+        tree: &Tree<'g>,
+    ) -> Option<Value<'g>> {
         use BinaryOperator::{Add, Divide, Multiply, Subtract};
         use Value::{Rotation, Scalar, Vector};
-        Some(match (operator, left, right) {
+        if let Some(local) = self.local(operator, &left, &right, tree) {
+            return Some(Value::Local(local));
+        }
+        Some(match (operator, left.observed(), right.observed()) {
             (Add, Scalar(a), Scalar(b)) => Scalar(a + b),
             (Add, Vector(a), Vector(b)) => Vector(std::array::from_fn(|i| a[i] + b[i])),
             (Subtract, Scalar(a), Scalar(b)) => Scalar(a - b),
@@ -308,8 +358,8 @@ impl<'g> Translator<'_, 'g> {
             (FunctionName::RotationY, [a]) => turn(1, a)?,
             (FunctionName::RotationZ, [a]) => turn(2, a)?,
             (FunctionName::Dot, [a, b]) => {
-                let (a, b) = (self.vector(a, tree)?, self.vector(b, tree)?);
-                Value::Scalar((0..3).map(|i| a[i] * b[i]).sum())
+                let [a, b] = self.in_common_axes([a, b], tree)?;
+                Value::Scalar(dot(&a, &b))
             }
             (FunctionName::Cross, [a, b]) => {
                 let (a, b) = (self.vector(a, tree)?, self.vector(b, tree)?);
@@ -322,7 +372,7 @@ impl<'g> Translator<'_, 'g> {
                 Value::Rotation(pieces) => Value::Rotation(pieces.iter().rev().map(Piece::inverse).collect()),
                 _ => return Err(bug(span)),
             },
-            (FunctionName::Rate, [a]) => match self.value(a, tree)? {
+            (FunctionName::Rate, [a]) => match self.value(a, tree)?.observed() {
                 Value::Scalar(a) => Value::Scalar(a.derivative(&self.rates)),
                 Value::Vector(a) => Value::Vector(a.map(|e| e.derivative(&self.rates))),
                 _ => return Err(bug(span)),

@@ -5,6 +5,7 @@
 
 mod formulas;
 mod hostile;
+mod relative;
 mod scenes;
 
 use std::collections::BTreeMap;

@@ -41,6 +41,17 @@ fn vector(numbers: [f64; 3]) -> String {
 }
 
 impl Scene {
+    /// With coordinates and clauses as they are written.
+    pub fn written(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> Self {
+        Self {
+            kind: "written",
+            clauses: vec![clauses.to_owned()],
+            coordinates: coordinates.iter().map(|name| (*name).to_owned()).collect(),
+            values: values.iter().map(|value| value.to_vec()).collect(),
+            speed,
+        }
+    }
+
     pub fn source(&self) -> String {
         format!("#[gauss(coordinates({}), {})] struct Scene {{}}", self.coordinates.join(", "), self.clauses.join(", "))
     }

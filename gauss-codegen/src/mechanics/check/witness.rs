@@ -15,6 +15,15 @@ use crate::mechanics::system::System;
 /// A velocity field of a link: of O, and of the axes e as columns.
 type Field<N> = [[N; 3]; 4];
 
+/// A torque between two links as what it is on each of them, seen by the observer.
+fn apart<'g>(links: &[Link<'g>], force: &Force<'g>) -> Vec<Force<'g>> {
+    let Force::Between { links: [link, other], torque } = *force else { return vec![*force] };
+    let none = [torque[0].graph().zero(); 3];
+    let turned = links[link].axes().to_space(&torque);
+    let on = |link, torque| Force::OnLink { link, at: none, force: none, torque, axes: Axes::Space };
+    vec![on(link, turned), on(other, turned.map(|e| -e))]
+}
+
 /// One state, and what (3.1) says at it.
 pub struct Witness<'a, 'g, N> {
     pub system: &'a System<'g>,
@@ -138,14 +147,15 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
         let scene = &self.system.scene;
         let mut rows = vec![N::number(0.0); scene.speeds.len()];
         let dot = |a: &[N], b: &[N]| sum(a.iter().zip(b).map(|(a, b)| *a * *b));
-        for force in &self.system.forces {
-            match force {
+        for force in self.system.forces.iter().flat_map(|force| apart(&scene.tree.links, force)) {
+            match &force {
                 Force::AtPoint { at, force } => {
                     let velocity = at.map(|e| e.derivative(&scene.rates));
                     let force = self.values(force);
                     let partials = self.partials(&velocity);
                     rows.iter_mut().zip(partials).for_each(|(row, w)| *row = *row + dot(&force, &w));
                 }
+                Force::Between { .. } => {}
                 Force::OnRate { rate, force } => {
                     let force = self.values([force]);
                     let partials = self.partials(&[*rate]);

@@ -5,6 +5,7 @@ pub mod floating;
 pub mod frames;
 pub mod inertia;
 pub mod link;
+pub mod path;
 pub mod regroup;
 pub mod tree;
 pub mod weight;

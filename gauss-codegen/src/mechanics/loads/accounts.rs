@@ -89,7 +89,8 @@ impl<'g> System<'g> {
 
     fn account_of(&self, name: &str, forces: &[Force<'g>]) -> Account<'g> {
         let scene = &self.scene;
-        let elsewhere = forces.iter().filter_map(|force| force.generalised(&scene.speeds, &scene.rates));
+        let elsewhere =
+            forces.iter().filter_map(|force| force.generalised(&scene.tree.links, &scene.speeds, &scene.rates));
         let powers = forces.iter().map(|force| force.power(&scene.tree.links, &scene.speeds, &scene.rates));
         let power = powers.fold(scene.graph.zero(), |sum, power| sum + power);
         let forces = elsewhere.fold(scene.tree.loads(&Loads::of_forces(forces)), |sum, own| sums(&sum, &own));

@@ -5,6 +5,7 @@ use crate::algebra::{Expr, Map};
 
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector, add, cross, dot};
 use crate::mechanics::links::link::Link;
+use crate::mechanics::links::path::{power_between, torque_between};
 use crate::mechanics::loads::wrench::Wrench;
 
 /// One element of what acts, under the name by which its power and its generalised force are known.
@@ -126,6 +127,8 @@ pub enum Force<'g> {
     AtPoint { at: Triple<'g>, force: Triple<'g> },
     /// A force at a point fixed in a link (body axes from O), and a torque; components in the given axes.
     OnLink { link: usize, at: Triple<'g>, force: Triple<'g>, torque: Triple<'g>, axes: Axes },
+    /// A torque on the first of two links of one tree, in its body axes, and its reaction on the second.
+    Between { links: [usize; 2], torque: Triple<'g> },
     /// A generalised force on a rate (of a coordinate): power = force · rate.
     OnRate { rate: Expr<'g>, force: Expr<'g> },
     /// Rayleigh's dissipation function R: −∂R/∂z.
@@ -157,6 +160,7 @@ impl<'g> Force<'g> {
             Force::OnLink { link, at, force, torque, axes } => {
                 Force::OnLink { link, at: at.map(&f), force: force.map(&f), torque: torque.map(&f), axes }
             }
+            Force::Between { links, torque } => Force::Between { links, torque: torque.map(&f) },
             Force::OnRate { rate, force } => Force::OnRate { rate: f(rate), force: f(force) },
             Force::Dissipation(function) => Force::Dissipation(f(function)),
         }
@@ -182,6 +186,7 @@ impl<'g> Force<'g> {
                 let link = &links[*link];
                 link.frame.dot(&force, &link.velocity) + dot(&torque, &link.angular_velocity)
             }
+            Force::Between { links: pair, torque } => power_between(links, *pair, torque),
             Force::OnRate { rate, force } => rate.group() * force.group(),
             Force::Dissipation(function) => {
                 let terms = speeds.iter().map(|&z| -z * function.partial(z));
@@ -190,8 +195,13 @@ impl<'g> Force<'g> {
         }
     }
 
-    /// Its generalised forces where it does not act on a link.
-    pub fn generalised(&self, speeds: &[Expr<'g>], rates: &Map<u32, Expr<'g>>) -> Option<Vec<Expr<'g>>> {
+    /// Its generalised forces where it does not act on one link.
+    pub fn generalised(
+        &self,
+        links: &[Link<'g>],
+        speeds: &[Expr<'g>],
+        rates: &Map<u32, Expr<'g>>,
+    ) -> Option<Vec<Expr<'g>>> {
         Some(match self {
             Force::AtPoint { at, force } => {
                 let velocity = at.map(|e| e.derivative(rates).group());
@@ -199,6 +209,7 @@ impl<'g> Force<'g> {
                 speeds.iter().map(|&z| dot(&force, &velocity.map(|e| e.partial(z)))).collect()
             }
             Force::OnLink { .. } => return None,
+            Force::Between { links: pair, torque } => torque_between(links, *pair, torque, speeds.len()),
             Force::OnRate { rate, force } => speeds.iter().map(|&z| rate.partial(z) * force.group()).collect(),
             Force::Dissipation(function) => speeds.iter().map(|&z| -function.partial(z)).collect(),
         })

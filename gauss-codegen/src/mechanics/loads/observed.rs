@@ -112,6 +112,8 @@ impl<'g> Observed<'g> {
                 let weighted = partials.iter().zip(force).map(|(w, f)| w.map(|e| e * f.group()));
                 weighted.fold(Wrench::zero(self.graph), |sum, w| sum.plus(&w))
             }
+            // One link has none between it and another.
+            Force::Between { .. } => Wrench::zero(self.graph),
             Force::OnRate { rate, force } => self.dual(*rate).map(|e| e * force.group()),
             Force::Dissipation(function) => self.dual(*function).map(|e| -e),
         }

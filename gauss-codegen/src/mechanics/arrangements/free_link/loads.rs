@@ -37,7 +37,7 @@ impl<'g> FreeLink<'g> {
         let wrenches = forces.iter().map(|force| match force {
             Force::OnLink { link, .. } if *link == self.link => force.wrench(&self.kinematics.frame).unwrap_or(nothing),
             Force::OnLink { .. } => self.dual(self.of_block(&scene.tree.loads(&Loads::of_forces(&[*force])))),
-            _ => match force.generalised(&scene.speeds, &scene.rates) {
+            _ => match force.generalised(&scene.tree.links, &scene.speeds, &scene.rates) {
                 Some(rows) => self.dual(self.of_block(&rows)),
                 None => nothing,
             },

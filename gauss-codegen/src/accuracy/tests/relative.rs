@@ -1,0 +1,138 @@
+//! Links of one tree beside each other: what is between them does not depend on how all of them move together.
+
+use super::scenes::Scene;
+use super::{computed, loss, state};
+use crate::expand::derive;
+use crate::mechanics::Method;
+
+/// Roundings of some hundred operations, of random signs, in units of one rounding of every number.
+const FEW: f64 = 10.0;
+/// States of each scene: speeds of their own.
+const STATES: u64 = 4;
+
+const POSE: [f64; 7] = [0.3, -0.5, 0.7, 0.4, 10.3, 20.1, -7.7];
+const HULL: &str = "body(hull, pose = craft, mass = 10, inertia = [0.2, 0.3, 0.4])";
+const ARM: &str = "body(arm, parent = hull, rotation = rotation_z(angle), position = [0.1, 0, 0], mass = 0.5, \
+                   inertia = [0.001, 0.003, 0.002])";
+
+/// Accelerations of a scene.
+struct Tried {
+    /// The worst of all states.
+    loss: f64,
+    operations: u32,
+    values: Vec<f64>,
+    /// Speeds with generalised forces of elements.
+    pushed: Vec<usize>,
+}
+
+fn tried(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> Tried {
+    let scene = Scene::written(coordinates, clauses, values, speed);
+    let input: syn::DeriveInput = syn::parse_str(&scene.source()).expect("a struct");
+    let tried = derive(&input, |derived| {
+        let program = derived.program(Method::Acceleration);
+        let system = derived.subject.system;
+        let of = |seed| loss(derived, &scene, seed).map_or(f64::INFINITY, |(loss, _)| loss);
+        Ok(Tried {
+            loss: (0..STATES).map(of).fold(0.0, f64::max),
+            operations: program.cost().operations,
+            values: computed(derived, &state(derived, &scene, 0)),
+            pushed: (0..system.scene.speeds.len()).filter(|&k| !system.element_forces()[k].is_zero()).collect(),
+        })
+    });
+    tried.unwrap_or_else(|error| panic!("{error}: {}", scene.source()))
+}
+
+fn on_craft(clauses: &[&str]) -> Tried {
+    tried(&["craft: Pose", "angle"], &clauses.join(", "), &[&POSE, &[0.7]], 1.0)
+}
+
+#[track_caller]
+fn agree(a: &Tried, b: &Tried) {
+    for (a, b) in a.values.iter().zip(&b.values) {
+        // Either loses less than FEW.
+        assert!((a - b).abs() <= 2.0 * FEW * f64::EPSILON * b.abs().max(1.0), "{a:e} and {b:e}");
+    }
+}
+
+#[test]
+fn a_torque_with_its_reaction_is_a_drive_of_the_hinge() {
+    let drive = on_craft(&[HULL, ARM, "drive(motor, angle = 1000.7)"]);
+    for torque in [
+        "torque(motor, body = arm, value = [0, 0, 1000.7], reaction = hull)",
+        "torque(motor, body = hull, value = [0, 0, -1000.7], reaction = arm)",
+        "torque(motor, body = arm, value = arm.rotation * [0, 0, 1000.7], axes = observer, reaction = hull)",
+    ] {
+        let by_torque = on_craft(&[HULL, ARM, torque]);
+        assert!(by_torque.loss < FEW, "{:e}", by_torque.loss);
+        assert!(by_torque.operations <= drive.operations, "{} and {}", by_torque.operations, drive.operations);
+        assert_eq!(by_torque.pushed, [6]);
+        agree(&by_torque, &drive);
+    }
+}
+
+#[test]
+fn a_torque_passes_the_joints_between_its_links_alone() {
+    let hand = "body(hand, parent = arm, rotation = rotation_x(b), position = [0.4, 0, 0], mass = 0.1, \
+                center_of_mass = [0.1, 0, 0], inertia = [0.001, 0.003, 0.002])";
+    let other = "body(other, parent = hull, rotation = rotation_y(c), position = [0, 0.2, 0], mass = 0.2, \
+                 inertia = [0.002, 0.001, 0.002])";
+    let coordinates = ["craft: Pose", "angle", "b", "c"];
+    let with = |torque: &str| {
+        let clauses = [HULL, ARM, hand, other, torque].join(", ");
+        tried(&coordinates, &clauses, &[&POSE, &[0.7], &[0.4], &[-1.1]], 1.0)
+    };
+    // To the hull: the wrist, about its axis, and the shoulder; to a link beside it: that one's hinge as well.
+    for (torque, joints) in [
+        ("torque(a, body = hand, value = [7, 8, 9], reaction = arm)", vec![7]),
+        ("torque(a, body = hand, value = [7, 8, 9], reaction = hull)", vec![6, 7]),
+        ("torque(a, body = hand, value = [7, 8, 9], reaction = other)", vec![6, 7, 8]),
+        ("torque(a, body = hull, value = [7, 8, 9], reaction = other)", vec![8]),
+    ] {
+        let tried = with(torque);
+        assert_eq!(tried.pushed, joints, "{torque}");
+        assert!(tried.loss < FEW, "{torque}: {:e}", tried.loss);
+    }
+}
+
+#[test]
+fn a_spring_between_points_is_one_along_their_distance() {
+    let along = "spring(along = sqrt((0.1 * cos(angle) - 0.05 * sin(angle) - 0.2).powi(2) \
+                 + (0.1 * sin(angle) + 0.05 * cos(angle) - 0.1).powi(2)), stiffness = 10007, length = 0.1)";
+    let along = on_craft(&[HULL, ARM, along]);
+    let points = "point(p, body = hull, at = [0.3, 0.1, 0]), point(q, body = arm, at = [0.1, 0.05, 0])";
+    for spring in [
+        "spring(from = p, to = q, stiffness = 10007, length = 0.1)",
+        "spring(from = craft.position + craft.rotation * [0.3, 0.1, 0], \
+         to = arm.position + arm.rotation * [0.1, 0.05, 0], stiffness = 10007, length = 0.1)",
+        "spring(along = sqrt(dot(q - p, q - p)), stiffness = 10007, length = 0.1)",
+    ] {
+        let between = on_craft(&[HULL, ARM, points, spring]);
+        assert!(between.loss < FEW, "{spring}: {:e}", between.loss);
+        assert!(between.operations <= along.operations, "{spring}: {} and {}", between.operations, along.operations);
+        assert_eq!(between.pushed, [6]);
+        agree(&between, &along);
+    }
+}
+
+#[test]
+fn a_tether_to_what_is_seen_from_a_craft_far_away_keeps_its_digits() {
+    let clauses = "body(hull, pose = craft, mass = 100, inertia = [20, 30, 40]), \
+                   body(load, parent = hull, position = [x, y, z], mass = 5, inertia = [1, 2, 3]), \
+                   point(p, body = hull, at = [0.3, 0.1, 0]), \
+                   spring(from = p, to = load.position, stiffness = 10007, length = 0.009999)";
+    let pose = [0.3, -0.5, 0.7, 0.4, 7_000_100.3, 20.1, -7.7];
+    let tether = tried(&["craft: Pose", "x", "y", "z"], clauses, &[&pose, &[0.31], &[0.1], &[0.0001]], 1.0);
+    assert!(tether.loss < FEW, "{:e}", tether.loss);
+}
+
+#[test]
+fn links_of_two_trees_push_each_other_through_the_observer() {
+    let clauses = "body(one, pose = a, mass = 10, inertia = [0.2, 0.3, 0.4]), \
+                   body(two, pose = b, mass = 5, inertia = [1, 2, 3]), \
+                   torque(motor, body = one, value = [1, 2, 3], reaction = two), \
+                   spring(from = a.position, to = two.position + two.rotation * [0.1, 0.2, 0.3], stiffness = 7)";
+    let other = [0.1, 0.2, -0.3, 0.8, 1.0, 2.0, 3.0];
+    let apart = tried(&["a: Pose", "b: Pose"], clauses, &[&POSE, &other], 1.0);
+    assert_eq!(apart.pushed, (0..12).collect::<Vec<_>>());
+    assert!(apart.loss < FEW, "{:e}", apart.loss);
+}
