@@ -66,9 +66,9 @@ impl<'g> System<'g> {
         let (potential, forces) = (potential_of(&scene.elements), forces_of(&scene.elements));
         let loads = Loads::of(&scene.elements);
         let (driven, matrix) = (false, Vec::new());
-        // Where sums of squares keep the digits, the links stay as they were given: little is to be gained there.
+        // Where sums of squares keep the digits, other links stay as they were given: little is to be gained there.
         let short = scene.speeds.len() <= most_squares(&scene);
-        let working = if short { None } else { Working::of(&scene.tree, &loads) };
+        let working = if short { Working::of_rotors(&scene.tree, &loads) } else { Working::of(&scene.tree, &loads) };
         let mut system = Self { scene, potential, forces, loads, working, constraints, free, driven, along, matrix };
         system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();
@@ -372,7 +372,7 @@ impl<'g> System<'g> {
             link.parent.is_none() && rows.into_iter().any(|(a, o)| !is_zero(o) && far(a))
         };
         let relative = !self.scene.tree.links.iter().any(about_far_pole);
-        (few && relative && self.scene.tree.rotors.is_empty()).then(|| Elements::new(&self.scene.tree)).flatten()
+        (few && relative && self.scene.tree.rotors.is_empty()).then(|| Elements::new(self.tree())).flatten()
     }
 
     /// Coordinates that turn nothing.

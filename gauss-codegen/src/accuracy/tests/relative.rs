@@ -3,7 +3,7 @@
 use super::scenes::Scene;
 use super::{computed, loss, state};
 use crate::expand::derive;
-use crate::mechanics::Method;
+use crate::mechanics::{Coordinate, Method};
 
 /// Roundings of some hundred operations, of random signs, in units of one rounding of every number.
 const FEW: f64 = 10.0;
@@ -12,6 +12,8 @@ const STATES: u64 = 4;
 
 const POSE: [f64; 7] = [0.3, -0.5, 0.7, 0.4, 10.3, 20.1, -7.7];
 const HULL: &str = "body(hull, pose = craft, mass = 10, inertia = [0.2, 0.3, 0.4])";
+const WHEEL: &str = "body(wheel, parent = hull, rotation = rotation_z(angle), position = [0.1, 0, 0], mass = 0.5, \
+                     inertia = [0.001, 0.001, 0.002])";
 const ARM: &str = "body(arm, parent = hull, rotation = rotation_z(angle), position = [0.1, 0, 0], mass = 0.5, \
                    inertia = [0.001, 0.003, 0.002])";
 
@@ -20,6 +22,8 @@ struct Tried {
     /// The worst of all states.
     loss: f64,
     operations: u32,
+    /// Which scalar coordinates they are computed from.
+    read: Vec<String>,
     values: Vec<f64>,
     /// Speeds with generalised forces of elements.
     pushed: Vec<usize>,
@@ -30,11 +34,18 @@ fn tried(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> 
     let input: syn::DeriveInput = syn::parse_str(&scene.source()).expect("a struct");
     let tried = derive(&input, |derived| {
         let program = derived.program(Method::Acceleration);
+        let inputs: Vec<u32> = program.inputs().iter().map(|symbol| symbol.key()).collect();
         let system = derived.subject.system;
+        let is_read = |coordinate: &Coordinate<'_>| match coordinate {
+            Coordinate::Scalar(q) => inputs.contains(&q.key()),
+            _ => false,
+        };
+        let named = coordinates.iter().zip(&system.scene.coordinates).filter(|(_, q)| is_read(q));
         let of = |seed| loss(derived, &scene, seed).map_or(f64::INFINITY, |(loss, _)| loss);
         Ok(Tried {
             loss: (0..STATES).map(of).fold(0.0, f64::max),
             operations: program.cost().operations,
+            read: named.map(|(name, _)| (*name).to_owned()).collect(),
             values: computed(derived, &state(derived, &scene, 0)),
             pushed: (0..system.scene.speeds.len()).filter(|&k| !system.element_forces()[k].is_zero()).collect(),
         })
@@ -135,4 +146,31 @@ fn links_of_two_trees_push_each_other_through_the_observer() {
     let apart = tried(&["a: Pose", "b: Pose"], clauses, &[&POSE, &other], 1.0);
     assert_eq!(apart.pushed, (0..12).collect::<Vec<_>>());
     assert!(apart.loss < FEW, "{:e}", apart.loss);
+}
+
+#[test]
+fn the_angle_of_a_symmetric_rotor_drops_out() {
+    let gimbal =
+        "body(gimbal, parent = hull, rotation = rotation_x(tilt), mass = 0.5, inertia = [0.001, 0.002, 0.002])";
+    let wheel = |parent: &str, place: &str| {
+        format!("body(wheel, parent = {parent}, {place}, mass = 0.5, inertia = [0.001, 0.001, 0.002])")
+    };
+    let second = "body(second, parent = wheel, rotation = rotation_z(tilt), position = [0, 0, 0.3], mass = 0.5, \
+                  inertia = [0.003, 0.003, 0.002])";
+    let drive = "drive(motor, angle = 1000.7)".to_owned();
+    for (clauses, read) in [
+        (vec![wheel("hull", "rotation = rotation_z(angle), position = [0.1, 0, tilt]"), drive.clone()], vec!["tilt"]),
+        (vec![gimbal.to_owned(), wheel("gimbal", "rotation = rotation_z(angle)"), drive.clone()], vec!["tilt"]),
+        (vec![wheel("hull", "rotation = rotation_x(tilt) * rotation_z(angle)"), drive.clone()], vec!["tilt"]),
+        (vec![wheel("hull", "rotation = rotation_z(angle)"), second.to_owned(), drive], vec![]),
+    ] {
+        let clauses = [vec![HULL.to_owned()], clauses].concat().join(", ");
+        let rotor = tried(&["craft: Pose", "tilt", "angle"], &clauses, &[&POSE, &[0.4], &[0.7]], 10.0);
+        assert_eq!(rotor.read, read, "{clauses}");
+        assert!(rotor.loss < FEW, "{clauses}: {:e}", rotor.loss);
+    }
+    // What pushes it in its own axes does not drop out.
+    let pushed = on_craft(&[HULL, WHEEL, "torque(jet, body = wheel, value = [0.3, 0, 0])"]);
+    assert_eq!(pushed.read, ["angle"]);
+    assert!(pushed.loss < FEW, "{:e}", pushed.loss);
 }

@@ -108,7 +108,7 @@ impl<'a, 'g> Elements<'a, 'g> {
     fn acting(&self, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
         let tree = self.tree;
         let mut wrenches: Vec<(Triple<'g>, Triple<'g>)> =
-            tree.links.iter().map(|link| ([tree.graph.zero(); 3], gyroscopic(link))).collect();
+            tree.links.iter().map(|link| ([tree.graph.zero(); 3], gyroscopic(tree, link))).collect();
         for (k, force, torque) in forces.iter().filter_map(|force| force.load(&tree.links)) {
             let link = &tree.links[k];
             let (linear, angular) = &mut wrenches[k];
@@ -177,17 +177,17 @@ fn center_of<'g>(link: &Link<'g>) -> Triple<'g> {
 }
 
 /// `ω × I_G ω` of a link; about one axis there is none.
-fn gyroscopic<'g>(link: &Link<'g>) -> Triple<'g> {
+fn gyroscopic<'g>(tree: &Tree<'g>, link: &Link<'g>) -> Triple<'g> {
     let w = &link.angular_velocity;
-    let Some(inertia) = central_inertia(link).filter(|_| link.works_in_body_axes()) else {
+    let Some(inertia) = central_inertia(link).filter(|_| tree.planar_axis().is_none()) else {
         return [link.frame.graph.zero(); 3];
     };
     let spin: Triple<'g> = std::array::from_fn(|i| dot(&inertia[i], w).group());
     cross(w, &spin).map(Expr::group)
 }
 
-/// I_G of a body, body axes.
+/// I_G of a body, working axes.
 fn central_inertia<'g>(link: &Link<'g>) -> Option<[Triple<'g>; 3]> {
-    let body = link.body()?;
-    Some(body.central_inertia())
+    let inertia = link.body()?.central_inertia();
+    Some(link.turned.map_or(inertia, |turn| turn.tensor(&inertia)))
 }

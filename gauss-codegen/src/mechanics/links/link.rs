@@ -211,7 +211,8 @@ impl<'g> Link<'g> {
         };
         let named = |e: Expr<'g>| compact(e).group();
         let linear_rows = speeds.iter().map(|&z| own_velocity.partial(z).map(named)).collect();
-        let angular_rows = speeds.iter().map(|&z| spin.map(|e| named(e.partial(z)))).collect();
+        let turning = if planar { spin } else { angular_velocity(&joint.turns, &[frame.graph.zero(); 3]) };
+        let angular_rows = speeds.iter().map(|&z| turning.map(|e| named(e.partial(z)))).collect();
         let moments = matter.moments(frame.graph);
         Self {
             matter,

@@ -4,7 +4,8 @@
 //!   between joints (the common normals of Denavit and Hartenberg).
 //! - Nothing but the moments of a link shows how far it has turned, if all that hangs on it turns about the same axis: it
 //!   works in the axes that it has before it turns. Its moments are turned there, once, and not velocities, accelerations,
-//!   forces, and inertias of all that hangs on it.
+//!   forces, and inertias of all that hangs on it. Those of a rotor that is symmetric about its axis are not even
+//!   turned: its angle drops out.
 
 use crate::algebra::Expr;
 
@@ -13,16 +14,17 @@ use crate::mechanics::kinematics::vector::{Triple, add, is_zero, subtract};
 use crate::mechanics::links::link::{Description, Joint, Link, identity};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::{Force, Loads};
+use crate::mechanics::tidy::tidy;
 
 /// How often the poles are gone through; what has not settled by then is as good as it is.
 const ROUNDS: usize = 4;
 
-/// The axis of a link that turns about it, with O on it and at rest in the parent.
+/// The axis of a link that turns about it, with O on it.
 #[derive(Clone, Copy)]
 struct Hinge {
     /// Of the link.
     axis: usize,
-    /// The axis of the parent that it is, if it is one, and whether it points the other way.
+    /// The axis of the parent that it is, if it is one and at rest there with O, and whether it points the other way.
     in_parent: Option<(usize, bool)>,
 }
 
@@ -35,7 +37,7 @@ impl Hinge {
         let still =
             fixed.iter().all(|turn| is_zero(&turn.spin) && turn.matrix.iter().flatten().all(|e| e.is_constant()));
         let at_rest = link.own_joint.offset.iter().all(|e| e.is_constant());
-        if wet || !still || !at_rest || is_zero(&last.spin) {
+        if wet || is_zero(&last.spin) {
             return None;
         }
         let graph = last.spin[0].graph();
@@ -43,7 +45,8 @@ impl Hinge {
         let seen = outward(fixed, &unit);
         let mut there = (0..3).filter(|&i| !seen[i].is_zero());
         let (one, others) = (there.next(), there.next());
-        let in_parent = one.filter(|&i| others.is_none() && (seen[i] == graph.one() || -seen[i] == graph.one()));
+        let along_it = |i: usize| others.is_none() && (seen[i] == graph.one() || -seen[i] == graph.one());
+        let in_parent = one.filter(|&i| still && at_rest && along_it(i));
         Some(Self { axis, in_parent: in_parent.map(|i| (i, seen[i] != graph.one())) })
     }
 
@@ -72,9 +75,14 @@ struct Poles<'a, 'g> {
 }
 
 impl<'a, 'g> Poles<'a, 'g> {
+    /// At the O of every link.
+    fn given(tree: &'a Tree<'g>) -> Self {
+        let hinges = tree.links.iter().map(Hinge::of).collect();
+        Self { tree, hinges, ways: vec![tree.graph.zero(); tree.links.len()] }
+    }
+
     fn new(tree: &'a Tree<'g>) -> Self {
-        let hinges = tree.links.iter().map(|link| Hinge::of(link).filter(|hinge| hinge.in_parent.is_some()));
-        let mut poles = Self { tree, hinges: hinges.collect(), ways: vec![tree.graph.zero(); tree.links.len()] };
+        let mut poles = Self::given(tree);
         for _ in 0..ROUNDS {
             let before = poles.ways.clone();
             (0..tree.links.len()).for_each(|k| poles.settle(k));
@@ -141,14 +149,15 @@ struct Angles<'g> {
 }
 
 impl<'g> Angles<'g> {
-    fn new(poles: &Poles<'_, 'g>) -> Self {
+    /// Of links of which `may_stay` is true.
+    fn new(poles: &Poles<'_, 'g>, may_stay: impl Fn(usize) -> bool) -> Self {
         let (tree, hinges) = (poles.tree, &poles.hinges);
         // The axis of a child stays where it is in these axes only if it is the same.
         let parallel = |k: usize, child: usize| {
             let axes = hinges[child].and_then(|child| child.in_parent).zip(hinges[k]);
             axes.is_some_and(|((axis, _), own)| axis == own.axis)
         };
-        let stays = |k: usize| hinges[k].is_some() && poles.children(k).all(|child| parallel(k, child));
+        let stays = |k: usize| hinges[k].is_some() && may_stay(k) && poles.children(k).all(|child| parallel(k, child));
         let stays: Vec<bool> = (0..tree.links.len()).map(stays).collect();
         let mut angles: Vec<Option<Expr<'g>>> = Vec::with_capacity(stays.len());
         for (k, link) in tree.links.iter().enumerate() {
@@ -187,6 +196,14 @@ impl<'g> Angles<'g> {
     }
 }
 
+/// Whether the moments of a link are the same however far it has turned about the axis of its hinge.
+fn is_symmetric(link: &Link<'_>) -> bool {
+    let Some(turn) = link.own_joint.turns.last() else { return false };
+    let (moments, turned) = (&link.moments_in_body, link.moments_in_body.turned(&[*turn]));
+    let pairs = moments.first.iter().chain(moments.second.iter().flatten());
+    pairs.zip(turned.first.iter().chain(turned.second.iter().flatten())).all(|(a, b)| tidy(*a - *b).is_zero())
+}
+
 /// A tree that describes the same motion of the same matter by other poles and axes, and what acts on it.
 pub struct Working<'g> {
     pub tree: Tree<'g>,
@@ -200,7 +217,22 @@ impl<'g> Working<'g> {
             return None;
         }
         let poles = Poles::new(tree);
-        let angles = Angles::new(&poles);
+        let fixed = |k: usize| poles.hinges[k].is_some_and(|hinge| hinge.in_parent.is_some());
+        let angles = Angles::new(&poles, |k| fixed(k) || is_symmetric(&tree.links[k]));
+        Self::by(&poles, &angles, loads)
+    }
+
+    /// Only where the angles of rotors drop out; poles stay where they were given. `None` where there are none.
+    pub fn of_rotors(tree: &Tree<'g>, loads: &Loads<'g>) -> Option<Self> {
+        if tree.planar_axis().is_some() {
+            return None;
+        }
+        let poles = Poles::given(tree);
+        Self::by(&poles, &Angles::new(&poles, |k| is_symmetric(&tree.links[k])), loads)
+    }
+
+    fn by(poles: &Poles<'_, 'g>, angles: &Angles<'g>, loads: &Loads<'g>) -> Option<Self> {
+        let tree = poles.tree;
         if poles.ways.iter().all(|way| way.is_zero()) && !angles.stays.contains(&true) {
             return None;
         }
@@ -211,7 +243,7 @@ impl<'g> Working<'g> {
             other => other,
         };
         let loads = Loads { forces: loads.forces.iter().map(moved).collect(), uniform: loads.uniform.clone() };
-        let descriptions = (0..tree.links.len()).map(|k| angles.description(&poles, k)).collect();
+        let descriptions = (0..tree.links.len()).map(|k| angles.description(poles, k)).collect();
         Some(Self { tree: tree.described(descriptions), loads })
     }
 }
