@@ -1,10 +1,12 @@
 //! Small linear systems with symbolic entries.
 
-use super::graph::Expr;
+use super::graph::{Expr, NodeView};
 use super::map::Map;
 
 /// Terms that an entry may have while a determinant is brought to normal form.
 const LIMIT: usize = 400;
+/// Nodes and terms up to which it is looked for whether a product is left of two pivots.
+const SHORT: usize = 32;
 
 /// A linear system whose elimination has been worked out, to be solved for several right-hand sides.
 ///
@@ -168,6 +170,31 @@ pub fn solve_symmetric<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<
     solve_by_blocks(matrix, right, matrix.len())
 }
 
+/// `a c − b²`, where it is a product, as the `sin²` that is left of `1 − cos²`: of the difference no digit is left near
+/// zero. `None` also where that is long to find out.
+fn product_of_pivots<'g>([a, b, c]: [Expr<'g>; 3]) -> Option<Expr<'g>> {
+    let mut nodes = SHORT;
+    if ![a, b, c].into_iter().all(|e| is_within(e, &mut nodes)) {
+        return None;
+    }
+    let terms = (a * c - b.powi(2)).expand_around_sums(SHORT)?;
+    (terms.len() == 1).then(|| terms.collect())
+}
+
+/// Whether an expression has no more nodes than are left.
+fn is_within(e: Expr<'_>, left: &mut usize) -> bool {
+    if *left == 0 {
+        return false;
+    }
+    *left -= 1;
+    match e.view() {
+        NodeView::Sum(terms) => terms.into_iter().all(|(_, term)| is_within(term, left)),
+        NodeView::Product(factors) => factors.into_iter().all(|(factor, _)| is_within(factor, left)),
+        NodeView::Group(inner) => is_within(inner, left),
+        _ => true,
+    }
+}
+
 /// The same with blocks of two unknowns solved by Cramer's rule: one division instead of two that wait for one another. For two unknowns,
 /// and not for more, the rule is as accurate as elimination (Higham, Accuracy and Stability of Numerical Algorithms, 2002, 1.10.1).
 /// `None` when there is no such block.
@@ -181,7 +208,8 @@ pub fn solve_pairs<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Option<V
     for [i, j] in pairs {
         let (a, b, c) = (matrix[i][i], matrix[i.min(j)][i.max(j)], matrix[j][j]);
         let (f, g) = (right[i].group(), right[j].group());
-        let reciprocal = (a.group() * c.group() - b.group().powi(2)).group().recip();
+        let determinant = product_of_pivots([a, b, c]).unwrap_or(a.group() * c.group() - b.group().powi(2));
+        let reciprocal = determinant.group().recip();
         solution[i] = (c.group() * f - b.group() * g).group() * reciprocal;
         solution[j] = (a.group() * g - b.group() * f).group() * reciprocal;
     }
@@ -303,7 +331,13 @@ impl<'g> FactoredBlock<'g> {
                 x[i] = (x[i] - factor * x[k]).group();
                 for j in k + 1..=i {
                     if !block.rest[j][k].is_zero() {
-                        block.rest[i][j] = (block.rest[i][j] - factor * block.rest[j][k]).group();
+                        let pivots = [block.rest[k][k], block.rest[i][k], block.rest[i][i]];
+                        let product = if i == j { product_of_pivots(pivots) } else { None };
+                        let left = match product {
+                            Some(product) => product * block.rest[k][k].group().recip(),
+                            None => block.rest[i][j] - factor * block.rest[j][k],
+                        };
+                        block.rest[i][j] = left.group();
                     }
                 }
             }

@@ -174,3 +174,22 @@ fn the_angle_of_a_symmetric_rotor_drops_out() {
     assert_eq!(pushed.read, ["angle"]);
     assert!(pushed.loss < FEW, "{:e}", pushed.loss);
 }
+
+#[test]
+fn a_disk_that_lies_nearly_flat_keeps_its_digits() {
+    // Its speeds are the rates of its angles: of A is left sin² of the lean.
+    for inertia in ["[1, 1, 1]", "[0.06, 0.06, 0.12]"] {
+        let clauses = format!(
+            "speeds(u, v, w), kinematics(x = -0.3 * (w + u * cos(lean)) * cos(heading) + 0.3 * sin(lean) * v * sin(heading), \
+             y = -0.3 * (w + u * cos(lean)) * sin(heading) - 0.3 * sin(lean) * v * cos(heading), \
+             heading = u, lean = v, spin = w), body(disk, position = [x, y, 0.3 * sin(lean)], \
+             rotation = rotation_z(heading) * rotation_x(lean) * rotation_z(spin), mass = 1.5, inertia = {inertia}), \
+             gravity = 9.81"
+        );
+        for lean in [1e-3, 1e-8] {
+            let coordinates = ["x", "y", "heading", "lean", "spin"];
+            let disk = tried(&coordinates, &clauses, &[&[0.0], &[0.0], &[0.3], &[lean], &[0.7]], 1.0);
+            assert!(disk.loss < FEW, "{inertia} at {lean:e}: {:e}", disk.loss);
+        }
+    }
+}
