@@ -36,6 +36,9 @@ pub struct System<'g> {
     pub(in crate::mechanics) loads: Loads<'g>,
     /// By other poles, where that is shorter.
     working: Option<Working<'g>>,
+    /// The links in their own axes for sums of squares, where they work in those of the observer: differences of angles
+    /// do not come in.
+    in_own_axes: Option<Tree<'g>>,
     pub constraints: Constraints<'g>,
     /// Links that nothing else moves with.
     pub free: Vec<FreeLink<'g>>,
@@ -69,7 +72,9 @@ impl<'g> System<'g> {
         // Where sums of squares keep the digits, other links stay as they were given: little is to be gained there.
         let short = scene.speeds.len() <= most_squares(&scene);
         let working = if short { Working::of_rotors(&scene.tree, &loads) } else { Working::of(&scene.tree, &loads) };
-        let mut system = Self { scene, potential, forces, loads, working, constraints, free, driven, along, matrix };
+        let in_own_axes = if short { scene.tree.in_own_axes() } else { None };
+        let mut system =
+            Self { scene, potential, forces, loads, working, in_own_axes, constraints, free, driven, along, matrix };
         system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();
         let mut velocities = system.constraints.on_velocities.clone();
@@ -360,9 +365,15 @@ impl<'g> System<'g> {
 
     /// C as a sum of squares, where several speeds share it. Where a speed turns a root about a pole that may be far from
     /// its O, as those of twists about Ω do, the squares are not of what is relative.
-    fn elements(&self) -> Option<Elements<'_, 'g>> {
-        let few = (2..=most_squares(&self.scene)).contains(&self.scene.speeds.len()) && self.only_body().is_none();
-        let lengths = if few { self.lengths() } else { Vec::new() };
+    fn elements(&self) -> Vec<Elements<'_, 'g>> {
+        let few = self.scene.speeds.len() <= most_squares(&self.scene);
+        let trees = few.then(|| [self.tree()].into_iter().chain(&self.in_own_axes));
+        trees.into_iter().flatten().filter_map(|tree| self.elements_of(tree)).collect()
+    }
+
+    fn elements_of<'a>(&self, tree: &'a Tree<'g>) -> Option<Elements<'a, 'g>> {
+        let several = self.scene.speeds.len() > 1 && self.only_body().is_none();
+        let lengths = if several { self.lengths() } else { Vec::new() };
         let far = |a: &Vector<'g>| {
             let mut parts = a.body.iter().chain(&a.space);
             parts.any(|e| lengths.iter().any(|&length| !e.partial(length).is_zero()))
@@ -372,7 +383,10 @@ impl<'g> System<'g> {
             link.parent.is_none() && rows.into_iter().any(|(a, o)| !is_zero(o) && far(a))
         };
         let relative = !self.scene.tree.links.iter().any(about_far_pole);
-        (few && relative && self.scene.tree.rotors.is_empty()).then(|| Elements::new(self.tree())).flatten()
+        if !several || !relative || !self.scene.tree.rotors.is_empty() {
+            return None;
+        }
+        Elements::new(tree, self.scene.tree.planar_axis())
     }
 
     /// Coordinates that turn nothing.
@@ -399,7 +413,8 @@ impl<'g> System<'g> {
         let right: Vec<Expr<'g>> = self.scene.momenta.iter().zip(beside).map(|(symbol, p)| *symbol - p).collect();
         let compact = (!self.is_long()).then(|| tidied(&self.matrix));
         let matrices = compact.iter().chain([&self.matrix]);
-        let orthogonal = self.elements().map(|elements| elements.solve(&right));
+        let elements = self.elements();
+        let orthogonal = elements.iter().map(|elements| elements.solve(&right));
         matrices.flat_map(|matrix| self.solutions(matrix, &right)).chain(orthogonal).collect()
     }
 

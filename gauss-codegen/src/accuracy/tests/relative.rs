@@ -7,6 +7,8 @@ use crate::mechanics::{Coordinate, Method};
 
 /// Roundings of some hundred operations, of random signs, in units of one rounding of every number.
 const FEW: f64 = 10.0;
+/// The same where a cheaper arrangement may be taken that loses so many times what the best does (`trial.rs`).
+const CHOSEN: f64 = 32.0;
 /// States of each scene: speeds of their own.
 const STATES: u64 = 4;
 
@@ -173,6 +175,34 @@ fn the_angle_of_a_symmetric_rotor_drops_out() {
     let pushed = on_craft(&[HULL, WHEEL, "torque(jet, body = wheel, value = [0.3, 0, 0])"]);
     assert_eq!(pushed.read, ["angle"]);
     assert!(pushed.loss < FEW, "{:e}", pushed.loss);
+}
+
+#[test]
+fn short_levers_before_long_ones_keep_their_digits() {
+    let links = |near: f64, far: f64| {
+        format!(
+            "body(near, rotation = rotation_z(a), mass = 1, inertia = [0, 0, {:e}], center_of_mass = [{:e}, 0, 0]), \
+             body(far, parent = near, position = [{near:e}, 0, 0], rotation = rotation_z(b), mass = 1, \
+             inertia = [0, 0, {:e}], center_of_mass = [{:e}, 0, 0]), gravity = [0, -9.81, 0]",
+            0.3 * near * near,
+            0.5 * near,
+            0.3 * far * far,
+            0.5 * far,
+        )
+    };
+    let particles = "frame(near, rotation = rotation_z(a)), particle(parent = near, mass = 1, position = [0.001, 0, 0]), \
+                     frame(far, parent = near, position = [0.001, 0, 0], rotation = rotation_z(b)), \
+                     particle(parent = far, mass = 1, position = [1e6, 0, 0]), gravity = [0, -9.81, 0]";
+    for (clauses, bends) in [
+        (links(1e-3, 1e6), [0.9, 1e-3, 1e-7]),
+        (particles.to_owned(), [0.9, 1e-3, 1e-7]),
+        (links(1e6, 1e-3), [0.9, 0.1, 1e-3]),
+    ] {
+        for bent in bends {
+            let pendulum = tried(&["a", "b"], &clauses, &[&[0.4], &[bent]], 1.0);
+            assert!(pendulum.loss < CHOSEN, "{clauses} at {bent}: {:e}", pendulum.loss);
+        }
+    }
 }
 
 #[test]

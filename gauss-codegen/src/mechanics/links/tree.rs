@@ -90,6 +90,17 @@ impl<'g> Tree<'g> {
         self.links.iter_mut().for_each(Link::settle);
     }
 
+    /// The same links by the poles that are given, each in its own axes, where all work in those of the observer.
+    pub fn in_own_axes(&self) -> Option<Self> {
+        let own = |link: &Link<'g>| Description {
+            shift: link.shift,
+            own_offset: link.own_joint.offset,
+            joint: link.own_joint.clone(),
+            turned: None,
+        };
+        self.planar.map(|_| self.described(self.links.iter().map(own).collect()))
+    }
+
     /// The same links by other poles and axes; not in the plane.
     pub fn described(&self, descriptions: Vec<Description<'g>>) -> Self {
         let mut tree = Self::new(self.graph, Vec::new(), self.speeds.clone(), self.rates.clone(), self.gravity);
