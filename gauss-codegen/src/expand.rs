@@ -7,7 +7,9 @@ use syn::DeriveInput;
 use crate::algebra::Graph;
 use crate::emit::{Derived, Equations, emit, file};
 use crate::formulation::Formulation;
+use crate::kernel::Kernel;
 use crate::lowering::lower;
+use crate::mechanics::Method;
 use crate::mistakes::{most_operations, refuse_exhausted};
 use crate::model::{self, Model};
 use crate::translate::Translator;
@@ -43,9 +45,18 @@ fn derive_model<R>(
     write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>,
 ) -> syn::Result<R> {
     let mut translator = Translator::new(graph, model)?;
-    let formulation = Formulation::of(model, &mut translator)?;
-    let kernel = lower(graph, model, &translator, &formulation)?;
+    let mut formulation = Formulation::of(model, &mut translator)?;
+    let mut kernel = lower(graph, model, &translator, &formulation)?;
+    if !keeps_digits(&formulation, &kernel) && formulation.with_squares(model, &translator)? {
+        kernel = lower(graph, model, &translator, &formulation)?;
+    }
     write(&Derived::new(model, &translator, &formulation, &kernel)?)
+}
+
+/// Whether accelerations lose no more than is tolerable.
+fn keeps_digits<'g>(formulation: &Formulation<'g>, kernel: &Kernel<'g>) -> bool {
+    let mut accelerations = formulation.formulas.iter().zip(&kernel.losses);
+    accelerations.all(|(formula, loss)| formula.method != Method::Acceleration || loss.is_tolerable())
 }
 
 #[cfg(test)]

@@ -104,6 +104,31 @@ impl<'g> Formulation<'g> {
         })
     }
 
+    /// Adds forms of the accelerations that are long and keep the digits of light links beside heavy ones; false where
+    /// there are none, or where masses are fields: whoever has ordinary ones does not pay for others.
+    ///
+    /// # Errors
+    /// Mistakes of this crate.
+    pub fn with_squares(&mut self, model: &Model, translator: &Translator<'_, 'g>) -> syn::Result<bool> {
+        let literals = translator.literals();
+        let is_known =
+            |mass: &Expr<'g>| mass.as_number().is_some() || literals.iter().any(|(_, literal)| literal == mass);
+        if self.elimination.is_some() || !self.system.scene.tree.masses().all(|mass| is_known(&mass)) {
+            return Ok(false);
+        }
+        let arrangements = self.system.accelerations_by_squares();
+        if arrangements.is_empty() {
+            return Ok(false);
+        }
+        let more = [Formula { method: Method::Acceleration, arrangements }];
+        check_system_against_definition(&self.system, &more)
+            .map_err(|faults| system_faults(model, translator, &self.system, &faults))?;
+        let [more] = more;
+        let known = self.formulas.iter_mut().find(|formula| formula.method == Method::Acceleration);
+        known.into_iter().for_each(|formula| formula.arrangements.extend(more.arrangements.iter().cloned()));
+        Ok(true)
+    }
+
     /// The constraints, those among them that were solved too.
     pub fn constraints(&self) -> &Constraints<'g> {
         &self.elimination.as_ref().map_or(&self.system, |elimination| &elimination.whole).constraints

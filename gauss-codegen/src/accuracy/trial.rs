@@ -111,7 +111,8 @@ impl Loss {
         self.0.iter().zip(&before.0).all(|(loss, before)| *loss <= REORDERED * before.max(1.0))
     }
 
-    fn is_tolerable(&self) -> bool {
+    /// Whether nobody needs to pay for more.
+    pub fn is_tolerable(&self) -> bool {
         self.worst() <= TOLERABLE && self.median() <= ORDINARY
     }
 

@@ -371,6 +371,19 @@ impl<'g> System<'g> {
         trees.into_iter().flatten().filter_map(|tree| self.elements_of(tree)).collect()
     }
 
+    /// ż from C as a sum of squares where a scene has too many speeds for that to be tried at once: if nothing else keeps
+    /// the digits.
+    pub fn accelerations_by_squares(&self) -> Vec<Vec<Expr<'g>>> {
+        let [_, most] = SQUARES;
+        let many = most_squares(&self.scene) + 1..=most;
+        if !many.contains(&self.scene.speeds.len()) || !self.constraints.is_empty() {
+            return Vec::new();
+        }
+        let own = self.scene.tree.in_own_axes();
+        let elements = [&self.scene.tree].into_iter().chain(&own).filter_map(|tree| self.elements_of(tree));
+        elements.map(|elements| elements.accelerations(&self.loads, &self.other_forces())).collect()
+    }
+
     fn elements_of<'a>(&self, tree: &'a Tree<'g>) -> Option<Elements<'a, 'g>> {
         let several = self.scene.speeds.len() > 1 && self.only_body().is_none();
         let lengths = if several { self.lengths() } else { Vec::new() };

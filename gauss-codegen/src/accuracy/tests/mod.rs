@@ -38,8 +38,7 @@ const TINY: f64 = 1e-30;
 /// value.
 fn loss(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Option<(f64, usize)> {
     let system = derived.subject.system;
-    let mut random = Random::new(seed ^ 0xabcdef);
-    let values = values_of(derived, &scene.values, std::iter::repeat_with(|| scene.speed * random.signed(0.5)));
+    let values = values_of_scene(derived, scene, seed);
     let found = computed(derived, derived.kernel, Method::Acceleration, &values);
     assert_eq!(found.len(), system.scene.speeds.len());
     loss_beside(derived, &values, |state| acceleration_by_definition(system, state), &found, seed)
@@ -72,6 +71,12 @@ fn loss_beside(
     });
     let worst = losses.enumerate().map(|(k, loss)| (loss, k)).max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(worst).filter(|(loss, _)| !loss.is_nan())
+}
+
+/// What a scene is given at a state, with speeds by a seed.
+fn values_of_scene(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Vec<(u32, f64)> {
+    let mut random = Random::new(seed ^ 0xabcdef);
+    values_of(derived, &scene.values, std::iter::repeat_with(|| scene.speed * random.signed(0.5)))
 }
 
 /// Symbols of everything that a number is given for, in order, by the numbers of each coordinate; quaternions are scaled.

@@ -119,6 +119,15 @@ impl<'g> Tree<'g> {
         self.links.iter_mut().for_each(Link::settle);
     }
 
+    /// Masses of all matter.
+    pub fn masses(&self) -> impl Iterator<Item = Expr<'g>> {
+        self.links.iter().filter_map(|link| match &link.matter {
+            Matter::Nothing => None,
+            Matter::Particle(mass) => Some(*mass),
+            Matter::Body(body) => Some(body.mass),
+        })
+    }
+
     /// Whether some link floats.
     pub fn floats(&self) -> bool {
         self.floating.iter().any(Option::is_some)
