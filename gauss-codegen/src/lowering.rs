@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use crate::accuracy::{Point, States, Trial, sample_states};
+use crate::accuracy::{Names, States, Trial};
 use crate::algebra::{Expr, Graph, Rational};
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
@@ -10,9 +10,6 @@ use crate::mechanics::{Formula, Method};
 use crate::mistakes::{failed, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives};
 use crate::model::{Model, Scalar};
 use crate::translate::Translator;
-
-/// How many states programs are tried at.
-const STATES: usize = 6;
 
 /// The programs of all formulas and of the derivatives that are wanted.
 ///
@@ -45,9 +42,11 @@ pub fn lower<'g>(
     };
     let literals = translator.literals();
     let known = foldable(&model.scalar, &literals);
-    let mut trial = Trial::new(states(translator, formulation));
+    let states = states(&literals, formulation);
+    let samples = states.samples();
+    let mut trial = Trial::new(samples.points());
     let joined = joined(formulas);
-    let kernel = Kernel::lower(graph, &functions, &joined, &formulation.definitions, &wanted, known, &mut trial)
+    let mut kernel = Kernel::lower(graph, &functions, &joined, &formulation.definitions, &wanted, known, &mut trial)
         .map_err(|error| failed(&error))?;
     if graph.is_undefined() {
         return Err(undefined());
@@ -56,24 +55,25 @@ pub fn lower<'g>(
     refuse_too_much(model, &kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), regressor.as_ref(), &kernel)?;
     refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), formulas, &kernel)?;
+    kernel.seek_losses(&samples, formulas.iter().position(|formula| formula.method == Method::Momentum));
     Ok(kernel)
 }
 
-/// States at which the programs are tried.
-fn states<'g>(translator: &Translator<'_, 'g>, formulation: &Formulation<'g>) -> Vec<Point> {
+/// What states are made from at which the programs are tried.
+pub fn states<'a, 'g>(literals: &[(Rational, Expr<'g>)], formulation: &'a Formulation<'g>) -> States<'a, 'g> {
     let Formulation { system, formulas, definitions, units, .. } = formulation;
     let momentum = formulas.iter().find(|formula| formula.method == Method::Momentum);
     let parameters = formulation.parameters.iter();
-    let states = States {
+    States {
         system,
         momentum: momentum.map_or(&[], |formula| &formula.arrangements[0]),
         parameters: parameters.map(|parameter| (parameter.symbol, parameter.name.contains('['))).collect(),
-        literals: translator.literals(),
+        literals: literals.to_vec(),
         units,
         weights: formulation.hessian.as_ref().map_or(&[], |hessian| &hessian.weights),
         definitions,
-    };
-    sample_states(&states, STATES)
+        names: Names::default(),
+    }
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.

@@ -4,14 +4,22 @@
 //! - `states`: states of a scene that reach what makes digits cancel.
 //! - `random`: choices that are the same in every run.
 //! - `tape`: programs that are run many times, on numbers of several kinds.
+//! - `flat`: programs as one list of steps, with a first-order analysis of their rounding.
+//! - `moves`, `seek`: a search for the states at which programs lose most; `figure`: what is said of it.
 //! - `trial`: results in 106 binary digits, their conditioning, and the loss of a program beside them.
 
+mod figure;
+mod flat;
+mod moves;
 mod random;
+mod seek;
 mod states;
 mod tape;
 #[cfg(test)]
 mod tests;
 mod trial;
 
-pub use states::{States, sample_states};
-pub use trial::{Loss, Point, Trial, Tried, taken, usable};
+pub use figure::Figure;
+pub use seek::{Found, Sought};
+pub use states::{Names, Samples, States};
+pub use trial::{Loss, Trial, Tried, taken, usable};

@@ -26,12 +26,13 @@ pub struct States<'a, 'g> {
     pub weights: &'a [Expr<'g>],
     /// Symbols that stand for expressions of others.
     pub definitions: &'a Map<u32, Expr<'g>>,
+    pub names: Names,
 }
 
 /// How a state is chosen.
-struct Profile {
+pub(super) struct Profile {
     /// Powers of ten up and down from one that a number can be apart from it.
-    decades: f64,
+    pub decades: f64,
     /// The share of differences whose sides are brought together, and the powers of ten that are left at least.
     near: f64,
     closest: f64,
@@ -44,7 +45,7 @@ struct Profile {
 }
 
 /// From the ordinary to the extreme; few are enough, because each puts every number on its own.
-const PROFILES: [Profile; 6] = [
+pub(super) const PROFILES: [Profile; 6] = [
     Profile { decades: 0.5, near: 0.0, closest: 0.0, quarters: 0.0, far: 0.0, slow: 0.0 },
     Profile { decades: 1.5, near: 1.0, closest: 3.0, quarters: 0.3, far: 2.0, slow: 0.0 },
     Profile { decades: 3.0, near: 0.3, closest: 6.0, quarters: 0.3, far: 0.0, slow: 0.0 },
@@ -53,40 +54,61 @@ const PROFILES: [Profile; 6] = [
     Profile { decades: 2.0, near: 0.9, closest: 4.0, quarters: 0.5, far: 3.0, slow: 0.0 },
 ];
 
-/// As many states as are worth their time.
-pub fn sample_states(states: &States<'_, '_>, count: usize) -> Vec<Point> {
-    let (seen, names) = (Seen::of(states.system), Names::default());
-    (0..count).map(|k| states.state(&seen, &names, &PROFILES[k % PROFILES.len()], k as u64)).collect()
+/// Sample states, with what the scene is written with.
+pub struct Samples<'s, 'a, 'g> {
+    pub(super) states: &'s States<'a, 'g>,
+    pub(super) seen: Seen<'g>,
+    pub(super) values: Vec<Values<'s>>,
+}
+
+impl Samples<'_, '_, '_> {
+    /// The states as programs are tried there.
+    pub fn points(&self) -> Vec<Point> {
+        let States { units, definitions, .. } = self.states;
+        let point = |values: &Values<'_>| {
+            let list: Vec<_> = values.list.iter().map(|&(key, name)| (key, name, values.map[&key])).collect();
+            Point::new(&list, units, definitions)
+        };
+        self.values.iter().map(point).collect()
+    }
 }
 
 /// Symbols and their values, in the order in which they are chosen, with what their names amount to.
-struct Values<'n> {
+#[derive(Clone)]
+pub(super) struct Values<'n> {
     list: Vec<(u32, u64)>,
-    map: Map<u32, f64>,
+    pub map: Map<u32, f64>,
     names: &'n Names,
 }
 
 impl Values<'_> {
-    fn put(&mut self, symbol: Expr<'_>, value: f64) {
+    pub fn put(&mut self, symbol: Expr<'_>, value: f64) {
         if self.map.insert(symbol.key(), value).is_none() {
             self.list.push((symbol.key(), self.names.hash(symbol)));
         }
     }
 
-    fn of(&self, e: Expr<'_>) -> f64 {
+    pub fn of(&self, e: Expr<'_>) -> f64 {
         Evaluation::new(&self.map).value(e)
     }
 
     /// Choices for a symbol that depend on its name alone, so that what else a scene has does not change them.
-    fn random_of(&self, symbol: Expr<'_>, seed: u64) -> Random {
+    pub fn random_of(&self, symbol: Expr<'_>, seed: u64) -> Random {
         Random::new(self.names.hash(symbol).wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
     }
 }
 
 impl<'g> States<'_, 'g> {
-    fn state(&self, seen: &Seen<'g>, names: &Names, profile: &Profile, seed: u64) -> Point {
+    /// As many as are worth their time.
+    pub fn samples(&self) -> Samples<'_, '_, 'g> {
+        let seen = Seen::of(self.system);
+        let values = PROFILES.iter().enumerate().map(|(k, profile)| self.values(&seen, profile, k as u64)).collect();
+        Samples { states: self, seen, values }
+    }
+
+    fn values(&self, seen: &Seen<'g>, profile: &Profile, seed: u64) -> Values<'_> {
         let scene = &self.system.scene;
-        let mut values = Values { list: Vec::new(), map: Map::default(), names };
+        let mut values = Values { list: Vec::new(), map: Map::default(), names: &self.names };
         self.give_parameters(&mut values, profile, seed);
         self.give_motion(&mut values, seen, profile, seed);
         self.define(&mut values);
@@ -102,8 +124,7 @@ impl<'g> States<'_, 'g> {
         self.define(&mut values);
         let momenta: Vec<f64> = self.momentum.iter().map(|e| values.of(*e)).collect();
         scene.momenta.iter().zip(momenta).for_each(|(p, value)| values.put(*p, value));
-        let list: Vec<_> = values.list.iter().map(|&(key, name)| (key, name, values.map[&key])).collect();
-        Point::new(&list, self.units, self.definitions)
+        values
     }
 
     fn give_parameters(&self, values: &mut Values<'_>, profile: &Profile, seed: u64) {
@@ -157,14 +178,17 @@ impl<'g> States<'_, 'g> {
     }
 
     fn give_masses(&self, values: &mut Values<'_>, profile: &Profile, seed: u64) {
-        for body in self.system.scene.tree.links.iter().filter_map(|link| link.body()) {
-            let Some(parameter) = body.parameters.first() else { continue };
-            self.give_mass(body, values, &mut values.random_of(parameter.symbol, seed ^ 1 << 50), profile);
-        }
+        self.bodies().for_each(|body| self.give_mass(body, values, seed ^ 1 << 50, profile.decades));
+    }
+
+    /// Bodies with fields of their own.
+    pub(super) fn bodies(&self) -> impl Iterator<Item = &Body<'g>> {
+        let bodies = self.system.scene.tree.links.iter().filter_map(|link| link.body());
+        bodies.filter(|body| !body.parameters.is_empty())
     }
 
     /// Scales units, and computes what stands for expressions of the others.
-    fn define(&self, values: &mut Values) {
+    pub(super) fn define(&self, values: &mut Values) {
         for unit in self.units {
             let norm = unit.iter().map(|symbol| values.map[&symbol.key()].powi(2)).sum::<f64>().sqrt();
             unit.iter().for_each(|symbol| values.put(*symbol, values.map[&symbol.key()] / norm));
@@ -177,11 +201,13 @@ impl<'g> States<'_, 'g> {
     }
 
     /// Moments of inertia that a body can have, about O; added mass that is positive definite.
-    fn give_mass(&self, body: &Body<'g>, values: &mut Values<'_>, random: &mut Random, profile: &Profile) {
+    pub(super) fn give_mass(&self, body: &Body<'g>, values: &mut Values<'_>, seed: u64, decades: f64) {
+        let Some(first) = body.parameters.first() else { return };
+        let random = &mut values.random_of(first.symbol, seed);
         let of = |role: Role| -> Vec<Expr<'g>> {
             body.parameters.iter().filter(|p| p.quantity == role).map(|p| p.symbol).collect()
         };
-        let second: [f64; 3] = std::array::from_fn(|_| random.size(profile.decades));
+        let second: [f64; 3] = std::array::from_fn(|_| random.size(decades));
         let principal: [f64; 3] = std::array::from_fn(|i| second[(i + 1) % 3] + second[(i + 2) % 3]);
         let central = of(Role::CentralInertia);
         if central.is_empty() {
@@ -191,7 +217,7 @@ impl<'g> States<'_, 'g> {
             put_inertia(values, &central, principal, 0.0, [0.0; 3]);
         }
         let added = of(Role::AddedMass);
-        let sizes: [f64; 6] = std::array::from_fn(|_| random.size(profile.decades));
+        let sizes: [f64; 6] = std::array::from_fn(|_| random.size(decades));
         match added.len() {
             0 => {}
             6 => (0..6).for_each(|i| values.put(added[i], sizes[i])),
@@ -273,18 +299,21 @@ fn put_inertia(values: &mut Values<'_>, symbols: &[Expr<'_>], principal: [f64; 3
 
 /// What a scene is written with.
 #[derive(Default)]
-struct Seen<'g> {
+pub(super) struct Seen<'g> {
     done: Map<u32, ()>,
     /// Symbols that are part of an angle.
-    angles: Vec<u32>,
-    /// Sums.
+    pub angles: Vec<u32>,
+    /// Sums, and those of them that have a symbol.
+    pub sums: Vec<Vec<(Rational, Expr<'g>)>>,
     differences: Vec<Vec<(Rational, Expr<'g>)>>,
+    /// How many of them are enough.
+    room: usize,
 }
 
 impl<'g> Seen<'g> {
     fn of(system: &System<'g>) -> Self {
         let scene = &system.scene;
-        let mut seen = Self::default();
+        let mut seen = Self { room: usize::MAX, ..Self::default() };
         for link in &scene.tree.links {
             seen.look(
                 link.own_joint
@@ -318,15 +347,22 @@ impl<'g> Seen<'g> {
         seen
     }
 
-    fn look<'a>(&mut self, expressions: impl IntoIterator<Item = &'a Expr<'g>>)
+    pub fn look<'a>(&mut self, expressions: impl IntoIterator<Item = &'a Expr<'g>>)
     where
         'g: 'a,
     {
         expressions.into_iter().for_each(|e| self.visit(*e));
     }
 
+    /// The sums in some expressions, up to so many.
+    pub fn sums_in(expressions: &[Expr<'g>], most: usize) -> Vec<Vec<(Rational, Expr<'g>)>> {
+        let mut seen = Self { room: most, ..Self::default() };
+        seen.look(expressions);
+        seen.sums
+    }
+
     fn visit(&mut self, e: Expr<'g>) {
-        if self.done.insert(e.key(), ()).is_some() {
+        if self.sums.len() == self.room || self.done.insert(e.key(), ()).is_some() {
             return;
         }
         match e.view() {
@@ -336,8 +372,9 @@ impl<'g> Seen<'g> {
                 let cancels =
                     terms.len() > 1 && terms.iter().any(|(_, term)| matches!(term.view(), NodeView::Symbol(_)));
                 if cancels {
-                    self.differences.push(terms);
+                    self.differences.push(terms.clone());
                 }
+                self.sums.push(terms);
             }
             NodeView::Product(factors) => factors.iter().for_each(|(factor, _)| self.visit(*factor)),
             NodeView::Call(function, inner) => {
@@ -368,7 +405,7 @@ impl<'g> Seen<'g> {
 
 /// What the names of symbols amount to, which are long to print.
 #[derive(Default)]
-struct Names(RefCell<Map<u32, u64>>);
+pub struct Names(RefCell<Map<u32, u64>>);
 
 impl Names {
     /// After Fowler, Noll & Vo.

@@ -70,29 +70,6 @@ struct Reference {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loss(pub Vec<f64>);
 
-/// A loss of which no digit is left.
-const NO_DIGIT: f64 = 1e16;
-/// Round bounds of losses up to that.
-const ROUND: [f64; 52] = {
-    let mut bounds = [0.0; 52];
-    let (mut k, mut power) = (0, 0.1);
-    while k < bounds.len() {
-        bounds[k] = power
-            * if k % 3 == 0 {
-                1.0
-            } else if k % 3 == 1 {
-                2.0
-            } else {
-                5.0
-            };
-        k += 1;
-        if k % 3 == 0 {
-            power *= 10.0;
-        }
-    }
-    bounds
-};
-
 impl Loss {
     /// The largest; zero of none.
     pub fn worst(&self) -> f64 {
@@ -114,14 +91,6 @@ impl Loss {
     /// Whether nobody needs to pay for more.
     pub fn is_tolerable(&self) -> bool {
         self.worst() <= TOLERABLE && self.median() <= ORDINARY
-    }
-
-    /// Worst and median, up to the next of 1, 2 and 5 times a power of ten: nothing at all where nothing was tried.
-    pub fn rounded(&self) -> [f64; 2] {
-        [self.worst(), self.median()].map(|loss| {
-            let round = ROUND.iter().copied().find(|round| loss <= *round).unwrap_or(NO_DIGIT);
-            if self.0.is_empty() { 0.0 } else { round }
-        })
     }
 }
 

@@ -16,7 +16,7 @@ use syn::DeriveInput;
 use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
-use crate::emit::{Derived, Equations, emit};
+use crate::emit::{Derived, Equations, emit, figures};
 use crate::expand::derive;
 use crate::mistakes::bug;
 use crate::program::Program;
@@ -75,8 +75,7 @@ impl Derivation {
         let programs = programs(derived, &signature).map_err(|malformed| refused(&malformed))?;
         let equations = Equations::of(derived);
         let rust = emit(derived, &equations);
-        let losses = derived.formulas.iter().zip(&derived.kernel.losses);
-        let accuracy = losses.map(|(formula, loss)| (formula.method.name().to_owned(), loss.rounded())).collect();
+        let accuracy = figures(derived).map(|(_, name, figure)| (name.to_owned(), figure.rounded())).collect();
         let described = derived.subject.model.described.iter();
         let remarks = described.flat_map(|file| &file.remarks).map(|remark| remark.text.clone()).collect();
         Ok(Self { name: ident.unraw().to_string(), constants, programs, accuracy, remarks, equations, rust })
@@ -104,8 +103,8 @@ impl Derivation {
         self.programs.iter().find(|program| program.name == method)
     }
 
-    /// What each method loses to rounding at sample states, at most and in the middle, in units of what a change of every argument in
-    /// its last place does.
+    /// What each method loses to rounding at the worst state that a search finds, and in the middle of sample states, in
+    /// units of what a change of every parameter and argument in its last place does.
     pub fn accuracy(&self) -> &[(String, [f64; 2])] {
         &self.accuracy
     }

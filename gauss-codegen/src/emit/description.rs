@@ -3,12 +3,12 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
-use crate::accuracy::Loss;
+use crate::accuracy::Figure;
 use crate::kernel::Counts;
-use crate::mechanics::{Formula, Method};
+use crate::mechanics::Method;
 
 use super::derived::Derived;
-use super::documentation::{DERIVATIVES, Equations};
+use super::documentation::{DERIVATIVES, Equations, figures};
 use super::framed::frame_operations;
 use super::state::component_names;
 
@@ -37,13 +37,13 @@ pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStrea
 /// `method = loss`, for every method.
 fn losses(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
     let private = derived.private();
-    let methods = derived.formulas.iter().zip(&derived.kernel.losses).filter(|(f, _)| f.method <= Method::Powers);
-    let loss = |(formula, loss): (&Formula<'_>, &Loss)| {
-        let (field, [worst, median]) = (Ident::new(formula.method.name(), Span::call_site()), loss.rounded());
-        let [worst, median] = [worst, median].map(Literal::f64_unsuffixed);
+    let listed = figures(derived).filter(|(method, ..)| method.is_none_or(|method| method <= Method::Powers));
+    let loss = |(_, name, figure): (Option<Method>, &str, &Figure)| {
+        let [worst, median] = figure.rounded().map(Literal::f64_unsuffixed);
+        let field = Ident::new(name, Span::call_site());
         quote!(#field = #private::Loss::new(#worst, #median))
     };
-    methods.map(loss).collect()
+    listed.map(loss).collect()
 }
 
 /// `method = count`, for every method.

@@ -2,8 +2,10 @@
 
 use syn::ext::IdentExt;
 
+use crate::accuracy::Figure;
 use crate::algebra::Notation;
 use crate::formulation::Printed;
+use crate::kernel::Counts;
 use crate::mathml;
 use crate::mechanics::Method;
 use crate::model::{InChart, InputKind, Role};
@@ -229,25 +231,51 @@ fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
     sentences.join(" ")
 }
 
+/// What is written besides the formulas, with what it costs and loses.
+fn besides<'d, 'g>(derived: &'d Derived<'_, 'g>) -> impl Iterator<Item = (&'static str, Counts, Option<&'d Figure>)> {
+    let kernel = derived.kernel;
+    let derivatives =
+        DERIVATIVES.into_iter().zip(kernel.derivatives()).filter_map(|(name, program)| Some((name, program?)));
+    let all = std::iter::once(("evaluate", &kernel.joined)).chain(derivatives);
+    all.zip(&kernel.found.besides).map(|((name, program), figure)| (name, program.counts(), figure.as_ref()))
+}
+
+/// What each method loses, then `evaluate` and the derivatives, by their names.
+pub fn figures<'d>(derived: &'d Derived<'_, '_>) -> impl Iterator<Item = (Option<Method>, &'static str, &'d Figure)> {
+    let formulas = derived.formulas.iter().map(|formula| formula.method).zip(&derived.kernel.found.functions);
+    let formulas = formulas.filter_map(|(method, figure)| Some((Some(method), method.name(), figure.as_ref()?)));
+    formulas.chain(besides(derived).filter_map(|(name, _, figure)| Some((None, name, figure?))))
+}
+
 /// What each method costs and loses.
 fn costs(derived: &Derived<'_, '_>) -> String {
-    let mut rows: Vec<Vec<String>> = Vec::new();
-    for ((formula, program), loss) in derived.formulas.iter().zip(&derived.kernel.functions).zip(&derived.kernel.losses)
-    {
-        let [worst, median] = loss.rounded();
-        let warning = if worst > MUCH { ": **digits are lost**" } else { "" };
-        let loss = if worst > 0.0 { format!("{worst} ({median}){warning}") } else { "none".to_owned() };
-        rows.push(vec![code(&call_of(derived, formula.method)), program.counts().to_string(), loss]);
-    }
-    let others = DERIVATIVES.into_iter().zip(derived.kernel.derivatives());
-    let others = others.filter_map(|(name, program)| Some((name, program.as_ref()?.counts())));
-    let others = std::iter::once(("evaluate", derived.kernel.joined.counts())).chain(others);
-    rows.extend(others.map(|(name, counts)| vec![code(name), counts.to_string(), "not measured".to_owned()]));
+    let functions = derived.kernel.functions.iter().zip(&derived.kernel.found.functions);
+    let formulas = derived
+        .formulas
+        .iter()
+        .zip(functions)
+        .map(|(formula, (program, figure))| (call_of(derived, formula.method), program.counts(), figure.as_ref()));
+    let besides = besides(derived).map(|(name, counts, figure)| (name.to_owned(), counts, figure));
+    let row = |(name, counts, figure): (String, Counts, Option<&Figure>)| {
+        vec![code(&name), counts.to_string(), figure.map_or_else(|| "none".to_owned(), loss)]
+    };
     format!(
-        "\n# Cost and rounding\n\nThe loss is the largest error of double precision at sample states (median), in units \
-         of what a change of every parameter and argument in its last place does.\n{}",
-        table(["method", "operations", "loss, at most"], rows)
+        "\n# Cost and rounding\n\nThe loss is the largest error of double precision that a search over states of the \
+         scene found (median of sample states), in units of what a change of every parameter and argument in its last \
+         place does. Sizes are up to 10⁹ apart there, and sums as near zero as 10⁻⁹ of their terms.\n{}",
+        table(["method", "operations", "loss, at most"], formulas.chain(besides).map(row).collect())
     )
+}
+
+/// What a method loses, and where, if that is much.
+fn loss(figure: &Figure) -> String {
+    let [worst, median] = figure.rounded();
+    let at = match &figure.at[..] {
+        [] => String::new(),
+        at => format!(" ({})", at.join("; ")),
+    };
+    let warning = if worst > MUCH { format!(": **digits are lost**{at}") } else { String::new() };
+    format!("{worst} ({median}){warning}")
 }
 
 /// What a method is called, as it is called: `pose_of(tool)`.

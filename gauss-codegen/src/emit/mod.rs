@@ -60,7 +60,7 @@ mod whole;
 
 pub use arguments::{OF_EQUATIONS, OF_HESSIAN, OF_REGRESSOR, OF_RESIDUAL, arguments_of};
 pub use derived::Derived;
-pub use documentation::Equations;
+pub use documentation::{Equations, figures};
 pub use fallback::fallback;
 pub use file::file;
 pub use hessian::blocks;

@@ -1,6 +1,6 @@
 //! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
-use crate::accuracy::{Loss, Trial};
+use crate::accuracy::{Found, Loss, Samples, Sought, Trial};
 use crate::algebra::{Expr, Graph, Map, Rational};
 
 use super::check::{Checked, Miscompiled, Sample};
@@ -39,6 +39,10 @@ pub struct Kernel<'g> {
     pub constant_symbols: Vec<Expr<'g>>,
     /// Constants that literal numbers alone determine, with their values.
     pub known_constants: Vec<(Expr<'g>, f64)>,
+    /// What is said of the losses of functions, of `joined` and of the derivatives that are there.
+    pub found: Found,
+    /// The definitions of known constants.
+    folded: Vec<(Expr<'g>, Expr<'g>)>,
 }
 
 /// What is differentiated beside the functions of a kernel.
@@ -123,12 +127,14 @@ impl<'g> Kernel<'g> {
             hessian,
             constant_symbols,
             known_constants,
+            found: Found::default(),
+            folded,
         };
         let outputs = chosen.into_iter().chain([of_joined.as_slice()]).map(Expected::of);
         let expected_hessian = wanted.hessian.map(Expected::of_second);
         let derived =
             [expected_tangents, expected_by_parameters, expected_inverse, expected_regressor, expected_hessian];
-        let sample = Sample { definitions, units: wanted.units, literals: &numbers, folded: &folded };
+        let sample = Sample { definitions, units: wanted.units, literals: &numbers, folded: &kernel.folded };
         kernel.checked(outputs, derived).check(graph, &sample)?;
         Ok(kernel)
     }
@@ -153,6 +159,25 @@ impl<'g> Kernel<'g> {
     pub fn derivatives_as_written(&self) -> impl Iterator<Item = &Program<'g>> {
         let tangents = self.columns.as_ref().map(|columns| &columns.program).or(self.tangents.as_ref());
         tangents.into_iter().chain(self.derivatives().skip(1).flatten())
+    }
+
+    /// Looks for the states where the functions lose most, and tries what is written besides there: `joined` and the
+    /// derivatives.
+    pub fn seek_losses(&mut self, samples: &Samples<'_, '_, 'g>, momentum: Option<usize>) {
+        self.found = samples.seek(&self.sought(momentum));
+    }
+
+    /// What is sought.
+    pub fn sought(&self, momentum: Option<usize>) -> Sought<'_, 'g> {
+        Sought {
+            constants: &self.constants,
+            symbols: &self.constant_symbols,
+            folded: &self.folded,
+            functions: &self.functions,
+            measured: &self.losses,
+            momentum,
+            besides: std::iter::once(&self.joined).chain(self.derivatives().flatten()).collect(),
+        }
     }
 
     /// The programs of derivatives, in the order in which their values are expected.

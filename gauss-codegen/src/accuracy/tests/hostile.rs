@@ -1,7 +1,8 @@
 //! Scenes at states where sums nearly vanish whose squares may not be multiplied out, and where functions nearly agree
 //! whose difference may not be formed: kernels beside their formulas in 256 binary digits.
 
-use crate::accuracy::{Point, Trial};
+use crate::accuracy::Trial;
+use crate::accuracy::trial::Point;
 use crate::algebra::{Evaluation, Expr, Map, Precise};
 use crate::emit::Derived;
 use crate::expand::derive;

@@ -1,8 +1,10 @@
 //! The loss of kernels of random scenes, beside the definition (3.1) in 256 binary digits, in units of what a change of
 //! every number of the scene and of the state in its last place does.
 //!
-//! `SCENES=2000 cargo test --release -p gauss-codegen accuracy` tries more of them than every run does.
+//! `SCENES=2000 cargo test --release -p gauss-codegen accuracy` tries more of them than every run does; `FIRST=1000`
+//! others.
 
+mod figures;
 mod formulas;
 mod hostile;
 mod relative;
@@ -25,9 +27,10 @@ const SCENES: u64 = 208;
 const CHANGES: u64 = 2;
 const CHANGE: f64 = 1.0 / (1_u64 << 44) as f64;
 
-/// What no scene may lose, what one in a hundred may, and what half of a kind may: the roundings of some ten operations
+/// What no scene may lose unless its kernel says so within a factor; what one in a hundred may, and what half of a kind may: the roundings of some ten operations
 /// that do not amplify each other, in units of one rounding of every number, are of the order of one.
 const MOST: f64 = 1e3;
+const WITHIN: f64 = 10.0;
 const SELDOM: f64 = 30.0;
 const ORDINARY: f64 = 2.0;
 /// Results below this share of the largest vanish identically; the largest is not below this.
@@ -152,28 +155,45 @@ fn computed<'g>(derived: &Derived<'_, 'g>, kernel: &Kernel<'g>, method: Method, 
     kernel.functions[place.expect("a method that is derived")].run(&state)
 }
 
+/// The loss of a scene at its state, what its kernel says of it, and what the scene is.
+struct Lost {
+    loss: f64,
+    said: f64,
+    text: String,
+}
+
 /// The losses of scenes, with what is said of each.
-fn losses(seeds: impl Iterator<Item = u64>) -> Vec<(f64, String)> {
+fn losses(seeds: impl Iterator<Item = u64>) -> Vec<Lost> {
     let of = |seed: u64| {
         let scene = scenes::scene(seed);
         let source = scene.source();
         let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
-        let loss = derive(&input, |derived| Ok(loss(derived, &scene, seed)))
+        let found = derive(&input, |derived| Ok(loss(derived, &scene, seed).zip(said(derived))))
             .unwrap_or_else(|error| panic!("{error}: {source}"));
-        loss.map(|(loss, row)| (loss, format!("{} (scene {seed}, row {row}): {source}", scene.kind)))
+        found.map(|((loss, row), said)| Lost {
+            loss,
+            said,
+            text: format!("{} (scene {seed}, row {row}): {source}", scene.kind),
+        })
     };
     seeds.filter_map(of).collect()
 }
 
-/// Losses of all scenes, the largest first.
-fn losses_of(count: u64) -> Vec<(f64, String)> {
+/// What is said of accelerations.
+fn said(derived: &Derived<'_, '_>) -> Option<f64> {
+    let place = derived.formulas.iter().position(|formula| formula.method == Method::Acceleration)?;
+    Some(derived.kernel.found.functions[place].as_ref()?.rounded()[0])
+}
+
+/// Losses of scenes from one on, the largest first.
+fn losses_of(first: u64, count: u64) -> Vec<Lost> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
-    let mut losses: Vec<(f64, String)> = std::thread::scope(|scope| {
-        let workers: Vec<_> =
-            (0..threads).map(|first| scope.spawn(move || losses((first..count).step_by(threads as usize)))).collect();
+    let seeds = |worker: u64| (first + worker..first + count).step_by(threads as usize);
+    let mut losses: Vec<Lost> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|worker| scope.spawn(move || losses(seeds(worker)))).collect();
         workers.into_iter().flat_map(|worker| worker.join().expect("every scene is valid")).collect()
     });
-    losses.sort_by(|a, b| b.0.total_cmp(&a.0));
+    losses.sort_by(|a, b| b.loss.total_cmp(&a.loss));
     losses
 }
 
@@ -181,13 +201,16 @@ fn above(losses: &[f64], limit: f64) -> usize {
     losses.iter().filter(|loss| **loss > limit).count()
 }
 
+fn number_from(name: &str, otherwise: u64) -> u64 {
+    std::env::var(name).ok().and_then(|number| number.parse().ok()).unwrap_or(otherwise)
+}
+
 #[test]
 fn kernels_of_random_scenes_lose_what_their_conditioning_excuses() {
-    let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(SCENES);
-    let losses = losses_of(count);
+    let losses = losses_of(number_from("FIRST", 0), number_from("SCENES", SCENES));
     let kind_of = |text: &str| text.split(" (").next().unwrap_or_default().to_owned();
     let mut kinds: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-    losses.iter().for_each(|(loss, text)| kinds.entry(kind_of(text)).or_default().push(*loss));
+    losses.iter().for_each(|lost| kinds.entry(kind_of(&lost.text)).or_default().push(lost.loss));
     for (kind, own) in &kinds {
         println!(
             "{kind:<18} {:>5} scenes, median {:>8.2}, 90 % {:>10.3e}, worst {:>10.3e}; above 30: {}, above 1e3: {}",
@@ -199,12 +222,14 @@ fn kernels_of_random_scenes_lose_what_their_conditioning_excuses() {
             above(own, MOST)
         );
     }
-    losses.iter().take(8).for_each(|(loss, text)| println!("{loss:9.3e}  {text}"));
+    losses.iter().take(8).for_each(|lost| println!("{:9.3e} said {:e}  {}", lost.loss, lost.said, lost.text));
+    for Lost { loss, said, text } in losses.iter().filter(|lost| lost.loss > MOST) {
+        assert!(*loss <= WITHIN * said, "{text} loses {loss:e}, and its kernel says {said:e}");
+    }
     for (kind, own) in &kinds {
-        assert!(own[0] <= MOST, "{kind}: {} of {} scenes lose more than three digits", above(own, MOST), own.len());
         assert!(own[own.len() / 2] <= ORDINARY, "{kind}: half of the scenes lose {}", own[own.len() / 2]);
     }
-    let all: Vec<f64> = losses.iter().map(|(loss, _)| *loss).collect();
+    let all: Vec<f64> = losses.iter().map(|lost| lost.loss).collect();
     // Twice the square root by which such a count differs from one list of scenes to the next.
     let expected = all.len() as f64 / 100.0;
     let many = above(&all, SELDOM) as f64 > expected + 2.0 * expected.sqrt();

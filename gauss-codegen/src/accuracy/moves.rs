@@ -1,0 +1,304 @@
+//! Moves from one state to another at which digits cancel: sizes, angles, sums near zero, moments of inertia.
+
+use crate::algebra::{Expr, Map, NodeView, Notation, Rational, print};
+use crate::mechanics::Coordinate;
+use crate::model::Role;
+
+use super::random::Random;
+use super::states::{Seen, States, Values};
+
+/// Powers of ten that numbers of fields, speeds and forces are apart from one, and those of coordinates.
+const SIZES: [f64; 2] = [-4.5, 4.5];
+const PLACES: [f64; 2] = [-9.0, 7.0];
+const ANGLES: [f64; 2] = [-9.0, 3.0];
+/// How near zero a sum is brought at most, as a power of ten of its terms.
+const CLOSEST: f64 = -9.0;
+/// Sums that are brought near zero together: the components of a vector.
+const TOGETHER: usize = 3;
+/// Characters up to which a sum is printed as it is.
+const SHORT: usize = 40;
+/// Sums in momenta that are brought near zero, and symbols by which a sum is.
+const RATES: usize = 32;
+const SYMBOLS: usize = 8;
+/// Steps of the secant method: one is enough for what is linear.
+const SECANTS: usize = 6;
+
+/// One state, with the seeds and the spread of the moments of inertia of its bodies.
+#[derive(Clone)]
+pub struct Draft<'n> {
+    pub values: Values<'n>,
+    pub masses: Vec<(u64, f64)>,
+    /// How it was made from a sample state.
+    pub moves: Vec<Move>,
+}
+
+/// A change of a state. Closeness is a power of ten.
+#[derive(Clone, Copy)]
+pub enum Move {
+    /// A number is so many powers of ten larger.
+    Scale(usize, f64),
+    /// An angle is near that many quarter turns.
+    Quarter(usize, f64, f64),
+    /// A sum is near zero, by one of its symbols.
+    Near(usize, usize, f64),
+    /// Three sums in a row are near zero, each by any of its symbols.
+    AllNear(usize, usize, f64),
+    /// The moments of inertia of a body are drawn anew.
+    Body(usize, u64),
+    /// All speeds are so many powers of ten larger.
+    Faster(f64),
+}
+
+impl Move {
+    /// The same again, or closer.
+    pub fn further(self) -> Self {
+        match self {
+            Self::Quarter(k, turns, closeness) => Self::Quarter(k, turns, (closeness - 3.0).max(CLOSEST)),
+            Self::Near(k, symbol, closeness) => Self::Near(k, symbol, (closeness - 3.0).max(CLOSEST)),
+            Self::AllNear(k, seed, closeness) => Self::AllNear(k, seed, (closeness - 3.0).max(CLOSEST)),
+            Self::Body(k, seed) => Self::Body(k, seed + 1),
+            other => other,
+        }
+    }
+}
+
+/// A number that may be moved.
+struct Free<'g> {
+    symbol: Expr<'g>,
+    angle: bool,
+    positive: bool,
+    /// The body whose moments of inertia depend on it.
+    body: Option<usize>,
+    /// Powers of ten.
+    range: [f64; 2],
+}
+
+/// A sum that may be brought near zero, by these of the free numbers.
+struct Sum<'g> {
+    terms: Vec<(Rational, Expr<'g>)>,
+    by: Vec<usize>,
+}
+
+impl Sum<'_> {
+    fn printed(&self) -> String {
+        let terms: Vec<String> = self.terms.iter().map(|(c, e)| print(e.scale(*c), Notation::Text)).collect();
+        let printed = terms.join(" + ").replace("+ -", "- ");
+        if printed.chars().count() > SHORT { "a sum".to_owned() } else { printed }
+    }
+}
+
+/// Everything that can be moved in a scene.
+pub struct Moves<'s, 'a, 'g> {
+    states: &'s States<'a, 'g>,
+    free: Vec<Free<'g>>,
+    angles: Vec<usize>,
+    sums: Vec<Sum<'g>>,
+    bodies: usize,
+}
+
+impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
+    pub fn new(states: &'s States<'a, 'g>, seen: &Seen<'g>) -> Self {
+        let free = free(states, seen);
+        let places: Map<u32, usize> = free.iter().enumerate().map(|(k, free)| (free.symbol.key(), k)).collect();
+        // Momenta cancel where rates do.
+        let rates = Seen::sums_in(states.momentum, RATES);
+        let sums = seen.sums.iter().chain(&rates).map(|terms| {
+            let mut by = Vec::new();
+            let mut done = Map::default();
+            terms.iter().for_each(|(_, e)| symbols_of(*e, &places, &mut done, &mut by));
+            by.sort_unstable();
+            Sum { terms: terms.clone(), by }
+        });
+        let sums = sums.filter(|sum| !sum.by.is_empty()).collect();
+        let angles = (0..free.len()).filter(|&k| free[k].angle).collect();
+        Self { states, free, angles, sums, bodies: states.bodies().count() }
+    }
+
+    #[cfg(test)]
+    pub fn symbols(&self) -> impl Iterator<Item = Expr<'g>> {
+        self.free.iter().map(|free| free.symbol)
+    }
+
+    /// Whether there is nothing to move.
+    pub fn are_none(&self) -> bool {
+        self.free.is_empty()
+    }
+
+    pub fn any(&self, random: &mut Random) -> Move {
+        let closeness = -1.0 - 7.0 * random.fraction();
+        match random.below(8) {
+            0 | 1 if !self.angles.is_empty() => {
+                Move::Quarter(self.angles[random.below(self.angles.len())], random.below(4) as f64 - 1.0, closeness)
+            }
+            2 | 3 if !self.sums.is_empty() => {
+                let sum = random.below(self.sums.len());
+                let by = &self.sums[sum].by;
+                Move::Near(sum, by[random.below(by.len())], closeness)
+            }
+            4 if !self.sums.is_empty() => {
+                Move::AllNear(random.below(self.sums.len()), random.below(1 << 20), closeness)
+            }
+            5 if self.bodies > 0 => Move::Body(random.below(self.bodies), random.below(1 << 30) as u64),
+            6 => Move::Faster(random.sign() * 3.0),
+            _ => {
+                let decades = [1.0, 2.0, 4.0, 8.0][random.below(4)];
+                Move::Scale(random.below(self.free.len()), random.sign() * decades)
+            }
+        }
+    }
+
+    /// What moves make of a sample state, in words.
+    pub fn described(&self, moves: &[Move]) -> Vec<String> {
+        let name = |k: usize| print(self.free[k].symbol, Notation::Text);
+        let mut words: Vec<String> = Vec::new();
+        for change in moves {
+            let word = match *change {
+                Move::Scale(k, decades) if decades > 0.0 => format!("large {}", name(k)),
+                Move::Scale(k, _) => format!("small {}", name(k)),
+                Move::Quarter(k, turns, _) if turns == 0.0 => format!("small {}", name(k)),
+                Move::Quarter(k, ..) => format!("{} near quarter turns", name(k)),
+                Move::Near(sum, ..) => format!("{} near 0", self.sums[sum].printed()),
+                Move::AllNear(sum, ..) => {
+                    let sums: Vec<String> = self.sums.iter().skip(sum).take(TOGETHER).map(Sum::printed).collect();
+                    format!("{} near 0", sums.join(" and "))
+                }
+                Move::Body(..) => "unlike moments of inertia".to_owned(),
+                Move::Faster(decades) if decades > 0.0 => "high speeds".to_owned(),
+                Move::Faster(_) => "low speeds".to_owned(),
+            };
+            if !words.contains(&word) {
+                words.push(word);
+            }
+        }
+        words
+    }
+
+    pub fn apply(&self, change: Move, draft: &mut Draft<'_>) {
+        draft.moves.push(change);
+        match change {
+            Move::Scale(k, decades) => {
+                let before = draft.values.map[&self.free[k].symbol.key()];
+                let sign = if before < 0.0 { -1.0 } else { 1.0 };
+                let [least, most] = self.free[k].range;
+                let size = (before.abs().max(1e-30).log10() + decades).clamp(least, most);
+                self.put(k, sign * 10.0_f64.powf(size), draft);
+            }
+            Move::Quarter(k, turns, closeness) => {
+                self.put(k, turns * std::f64::consts::FRAC_PI_2 + 10.0_f64.powf(closeness), draft);
+            }
+            Move::Near(sum, by, closeness) => self.bring_near(&self.sums[sum], by, closeness, draft),
+            Move::AllNear(sum, seed, closeness) => {
+                for sum in self.sums.iter().skip(sum).take(TOGETHER) {
+                    self.bring_near(sum, sum.by[seed % sum.by.len()], closeness, draft);
+                }
+            }
+            Move::Body(k, seed) => {
+                draft.masses[k] = (seed, if seed % 2 == 0 { 3.0 } else { 0.5 });
+                self.give_mass(k, draft);
+            }
+            Move::Faster(decades) => {
+                for speed in &self.states.system.scene.speeds {
+                    let faster = draft.values.map[&speed.key()] * 10.0_f64.powf(decades);
+                    let [least, most] = SIZES.map(|size| 10.0_f64.powf(size));
+                    draft.values.put(*speed, faster.signum() * faster.abs().clamp(least, most));
+                }
+            }
+        }
+    }
+
+    fn put(&self, k: usize, value: f64, draft: &mut Draft<'_>) {
+        draft.values.put(self.free[k].symbol, value);
+        if let Some(body) = self.free[k].body {
+            self.give_mass(body, draft);
+        }
+    }
+
+    fn give_mass(&self, k: usize, draft: &mut Draft<'_>) {
+        let (seed, decades) = draft.masses[k];
+        if let Some(body) = self.states.bodies().nth(k) {
+            self.states.give_mass(body, &mut draft.values, seed, decades);
+        }
+    }
+
+    /// By the secant method; what it does not find stays as it was.
+    fn bring_near(&self, sum: &Sum<'g>, by: usize, closeness: f64, draft: &mut Draft<'_>) {
+        if !self.states.definitions.is_empty() {
+            self.states.define(&mut draft.values);
+        }
+        let Free { symbol, positive, range, .. } = self.free[by];
+        let begun = draft.values.map[&symbol.key()];
+        let mut at = |x: f64| {
+            draft.values.put(symbol, x);
+            let terms = sum.terms.iter().map(|(c, e)| c.to_f64() * draft.values.of(*e));
+            terms.fold((0.0, 0.0), |(sum, size): (f64, f64), term| (sum + term, size + term.abs()))
+        };
+        let (first, size) = at(begun);
+        let goal = first.signum() * size * 10.0_f64.powf(closeness.max(CLOSEST));
+        let mut before = (begun, first);
+        let mut x = begun * 1.001 + f64::MIN_POSITIVE;
+        for _ in 0..SECANTS {
+            let value = at(x).0;
+            let step = (value - goal) * (x - before.0) / (value - before.1);
+            if !step.is_finite() || step == 0.0 {
+                break;
+            }
+            before = (x, value);
+            x -= step;
+        }
+        let [least, most] = range.map(|size| 10.0_f64.powf(size));
+        let nearer = at(x).0.abs() < first.abs();
+        let allowed = (least..=most).contains(&x.abs()) && (x > 0.0 || !positive);
+        self.put(by, if nearer && allowed { x } else { begun }, draft);
+    }
+}
+
+/// The numbers of a state that are given, but for time and for what follows from others.
+fn free<'g>(states: &States<'_, 'g>, seen: &Seen<'g>) -> Vec<Free<'g>> {
+    let mut free = Vec::new();
+    let of_bodies: Map<u32, (usize, Role)> = states
+        .bodies()
+        .enumerate()
+        .flat_map(|(k, body)| body.parameters.iter().map(move |own| (own.symbol.key(), (k, own.quantity))))
+        .collect();
+    for (symbol, component) in &states.parameters {
+        let (body, role) = of_bodies.get(&symbol.key()).copied().unzip();
+        if !matches!(role, Some(Role::Inertia | Role::CentralInertia | Role::AddedMass)) {
+            free.push(Free { symbol: *symbol, angle: false, positive: !component, body, range: SIZES });
+        }
+    }
+    let of =
+        |symbol: &Expr<'g>, range: [f64; 2]| Free { symbol: *symbol, angle: false, positive: false, body: None, range };
+    let scene = &states.system.scene;
+    for coordinate in &scene.coordinates {
+        match coordinate {
+            Coordinate::Scalar(q) if seen.angles.contains(&q.key()) => {
+                free.push(Free { angle: true, ..of(q, ANGLES) });
+            }
+            Coordinate::Scalar(q) => free.push(of(q, PLACES)),
+            Coordinate::Rotation(_) => {}
+            Coordinate::Pose(_, position) => free.extend(position.iter().map(|b| of(b, PLACES))),
+            Coordinate::Plane { position, .. } => free.extend(position.iter().map(|b| of(b, PLACES))),
+        }
+    }
+    free.extend(states.units.iter().flatten().map(|x| of(x, [ANGLES[0], 0.0])));
+    let twist = states.system.rigid_body().map_or(&[][..], |body| &body.twist);
+    let lists = [&scene.speeds[..], twist, &scene.speed_rates, &scene.inputs, states.weights];
+    free.extend(lists.into_iter().flatten().map(|z| of(z, SIZES)));
+    free
+}
+
+/// Which of some symbols an expression has, by their places.
+fn symbols_of(e: Expr<'_>, places: &Map<u32, usize>, done: &mut Map<u32, ()>, found: &mut Vec<usize>) {
+    if found.len() >= SYMBOLS || done.insert(e.key(), ()).is_some() {
+        return;
+    }
+    let mut visit = |e: Expr<'_>| symbols_of(e, places, done, found);
+    match e.view() {
+        NodeView::Number(_) => {}
+        NodeView::Symbol(_) => found.extend(places.get(&e.key())),
+        NodeView::Sum(terms) => terms.iter().for_each(|(_, term)| visit(*term)),
+        NodeView::Product(factors) => factors.iter().for_each(|(factor, _)| visit(*factor)),
+        NodeView::Call(_, inner) | NodeView::Group(inner) | NodeView::Opaque(inner) => visit(inner),
+        NodeView::Binary(_, a, b) => [a, b].into_iter().for_each(visit),
+    }
+}

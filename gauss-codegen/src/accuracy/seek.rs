@@ -1,0 +1,306 @@
+//! A search for the states at which programs lose most: from sample states on, by moves that make digits cancel. It is
+//! the same in every run, and bounded in the number of states.
+
+use crate::algebra::{Doubled, Expr, Map, Number, Scalar, Set};
+use crate::mechanics::Matter;
+use crate::program::Code;
+
+use super::figure::{Figure, NO_DIGIT};
+use super::flat::{Flat, Slot, Trace, Traced};
+use super::moves::{Draft, Move, Moves};
+use super::random::Random;
+use super::states::{PROFILES, Samples, States};
+use super::trial::Loss;
+
+/// The programs whose losses are sought, and what they read.
+pub struct Sought<'a, 'g> {
+    /// Constants, computed from parameters, and their symbols.
+    pub constants: &'a Code<Expr<'g>>,
+    pub symbols: &'a [Expr<'g>],
+    /// Constants that literals alone determine, with their definitions.
+    pub folded: &'a [(Expr<'g>, Expr<'g>)],
+    /// With their losses at sample states, by measurement.
+    pub functions: &'a [Code<Expr<'g>>],
+    pub measured: &'a [Loss],
+    /// Which of them gives p.
+    pub momentum: Option<usize>,
+    /// Programs that are tried at the states that are found, without a search of their own.
+    pub besides: Vec<&'a Code<Expr<'g>>>,
+}
+
+/// What is said of programs; nothing of those that have no value at any state.
+#[derive(Default)]
+pub struct Found {
+    pub functions: Vec<Option<Figure>>,
+    pub besides: Vec<Option<Figure>>,
+}
+
+/// The largest loss so far, and where.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Best {
+    pub loss: f64,
+    pub state: usize,
+}
+
+/// Steps that all states together may take, and the least and the largest number of states.
+const STEPS: usize = 100_000;
+const LEAST: usize = 24;
+const MOST: usize = 96;
+/// What is smaller than its error, or than other components, by that factor at every sample state vanishes identically.
+const NOTHING: f64 = (1_u64 << 40) as f64;
+
+pub(super) struct Search<'s, 'a, 'g> {
+    states: &'s States<'a, 'g>,
+    moves: Moves<'s, 'a, 'g>,
+    pub flat: Flat,
+    /// Steps until p is known, until the functions are, and all of them.
+    ends: [usize; 3],
+    momenta: Vec<(Slot, Slot)>,
+    pub outputs: Vec<Vec<Slot>>,
+    besides: Vec<Vec<Slot>>,
+    /// Components that vanish identically.
+    vanishing: Set<Slot>,
+}
+
+impl<'s, 'g> Samples<'s, '_, 'g> {
+    /// Looks for the states where functions lose most.
+    pub fn seek(&self, sought: &Sought<'_, 'g>) -> Found {
+        let mut search = Search::new(self, sought);
+        let mut trace = search.flat.room();
+        let (drafts, best) = search.searched(self, &mut trace);
+        let sampled = drafts.iter().filter(|draft| draft.moves.is_empty()).count();
+        let at = |state: usize| drafts.get(state).map_or(Vec::new(), |draft| search.moves.described(&draft.moves));
+        let mut ordinary: Vec<Vec<f64>> = vec![Vec::new(); search.outputs.len()];
+        let mut besides: Vec<Vec<Best>> = vec![Vec::new(); search.besides.len()];
+        let found: Set<usize> = (0..sampled).chain(best.iter().map(|best| best.state)).collect();
+        for state in (0..drafts.len()).filter(|k| found.contains(k)) {
+            search.try_at(&drafts[state], &mut trace);
+            trace.run(&search.flat, search.ends[1], search.ends[2]);
+            for (losses, outputs) in ordinary.iter_mut().zip(&search.outputs).filter(|_| state < sampled) {
+                losses.extend(search.loss(&trace, outputs));
+            }
+            for (losses, outputs) in besides.iter_mut().zip(&search.besides) {
+                losses.extend(search.loss(&trace, outputs).map(|loss| Best { loss: loss.min(NO_DIGIT), state }));
+            }
+        }
+        let functions = best.iter().zip(ordinary).zip(sought.measured).map(|((best, ordinary), measured)| {
+            match (ordinary.is_empty(), measured.0.is_empty()) {
+                (_, true) => None,
+                // No sample state is one that the scene can be in.
+                (true, false) => Some(Figure { worst: measured.worst(), median: measured.median(), at: Vec::new() }),
+                _ => Some(Figure { worst: best.loss, median: Loss(ordinary).median(), at: at(best.state) }),
+            }
+        });
+        let besides = besides.into_iter().map(|losses| {
+            let ordinary = losses.iter().filter(|best| best.state < sampled).map(|best| best.loss).collect();
+            let worst = losses.iter().max_by(|a, b| a.loss.total_cmp(&b.loss))?;
+            Some(Figure { worst: worst.loss, median: Loss(ordinary).median(), at: at(worst.state) })
+        });
+        Found { functions: functions.collect(), besides: besides.collect() }
+    }
+}
+
+impl States<'_, '_> {
+    /// Positive masses, and moments of inertia that a body can have, also where they are numbers of fields.
+    fn is_physical(&self, draft: &Draft<'_>) -> bool {
+        self.system.scene.tree.links.iter().all(|link| match &link.matter {
+            Matter::Nothing => true,
+            Matter::Particle(mass) => draft.values.of(*mass) > 0.0,
+            Matter::Body(body) if !body.parameters.is_empty() => true,
+            Matter::Body(body) => {
+                let (mass, c) = (draft.values.of(body.mass), body.center_of_mass.map(|e| draft.values.of(e)));
+                let own = body.inertia.map(|row| row.map(|e| draft.values.of(e)));
+                let square: f64 = c.iter().map(|c| c * c).sum();
+                let about_g = |i: usize, j: usize| own[i][j] - mass * (if i == j { square } else { 0.0 } - c[i] * c[j]);
+                // ∫ x xᵀ dm about G, which is positive semidefinite, but for the roundings of what is subtracted.
+                let half = 0.5 * (about_g(0, 0) + about_g(1, 1) + about_g(2, 2));
+                let s = |i: usize, j: usize| if i == j { half - about_g(i, i) } else { -about_g(i, j) };
+                let minor = |i: usize, j: usize| s(i, i) * s(j, j) - s(i, j) * s(i, j);
+                let whole = s(0, 0) * minor(1, 2) - s(0, 1) * (s(0, 1) * s(2, 2) - s(0, 2) * s(1, 2))
+                    + s(0, 2) * (s(0, 1) * s(1, 2) - s(0, 2) * s(1, 1));
+                let size = 1e-9 * (own[0][0] + own[1][1] + own[2][2]).abs();
+                mass > 0.0
+                    && (0..3).all(|i| s(i, i) >= -size)
+                    && [(0, 1), (0, 2), (1, 2)].iter().all(|&(i, j)| minor(i, j) >= -size * size)
+                    && whole >= -size * size * size
+            }
+        })
+    }
+}
+
+impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
+    pub fn new(samples: &'s Samples<'s, 'a, 'g>, sought: &Sought<'_, 'g>) -> Self {
+        let Samples { states, seen, .. } = samples;
+        let mut flat = Flat::default();
+        states.units.iter().for_each(|unit| flat.scale(unit));
+        for (key, e) in states.definitions.iter() {
+            let slot = flat.expression(*e);
+            flat.define(*key, slot);
+        }
+        for (symbol, e) in sought.folded {
+            let slot = flat.expression(*e);
+            flat.define(symbol.key(), slot);
+        }
+        let constants = flat.program(sought.constants);
+        sought.symbols.iter().zip(constants).for_each(|(symbol, slot)| flat.define(symbol.key(), slot));
+        let of_momentum = sought.momentum.map(|k| (k, flat.program(&sought.functions[k])));
+        let known = flat.len();
+        let outputs = sought.functions.iter().enumerate().map(|(k, program)| match &of_momentum {
+            Some((momentum, outputs)) if *momentum == k => outputs.clone(),
+            _ => flat.program(program),
+        });
+        let outputs = outputs.collect();
+        let functions = flat.len();
+        let besides = sought.besides.iter().map(|program| flat.program(program)).collect();
+        let momenta = of_momentum.into_iter().flat_map(|(_, outputs)| outputs).zip(&states.system.scene.momenta);
+        let momenta = momenta.filter_map(|(from, p)| Some((from, flat.input(*p)?))).collect();
+        let ends = [known, functions, flat.len()];
+        Self {
+            states,
+            moves: Moves::new(states, seen),
+            flat,
+            ends,
+            momenta,
+            outputs,
+            besides,
+            vanishing: Set::default(),
+        }
+    }
+
+    /// States and the worst of them for each function: physical samples, then those that were found.
+    pub fn searched(&mut self, samples: &'s Samples<'s, 'a, 'g>, trace: &mut Trace) -> (Vec<Draft<'s>>, Vec<Best>) {
+        let drafts = samples.values.iter().zip(&PROFILES).enumerate().map(|(k, (values, profile))| Draft {
+            values: values.clone(),
+            masses: vec![(k as u64 ^ 1 << 50, profile.decades); self.states.bodies().count()],
+            moves: Vec::new(),
+        });
+        let mut drafts: Vec<Draft<'s>> = drafts.filter(|draft| self.states.is_physical(draft)).collect();
+        self.find_vanishing(&drafts, trace);
+        let mut best: Vec<Best> = vec![Best::default(); self.outputs.len()];
+        for (k, draft) in drafts.iter().enumerate() {
+            self.try_at(draft, trace);
+            self.note(trace, draft, k, &mut best);
+        }
+        self.climb(&mut drafts, &mut best, trace);
+        (drafts, best)
+    }
+
+    /// The first of the numbers that can be moved of which something holds.
+    #[cfg(test)]
+    pub fn symbol(&self, is: impl Fn(Expr<'g>) -> bool) -> Option<Expr<'g>> {
+        self.moves.symbols().find(|symbol| is(*symbol))
+    }
+
+    /// Runs all functions at a state.
+    pub fn try_at(&self, draft: &Draft<'_>, trace: &mut Trace) {
+        for (key, slot) in self.flat.inputs() {
+            trace.give(*slot, draft.values.map.get(key).copied().unwrap_or(f64::NAN));
+        }
+        trace.run(&self.flat, 0, self.ends[0]);
+        for &(from, p) in &self.momenta {
+            trace.give(p, trace.slots()[from as usize].value);
+        }
+        trace.run(&self.flat, self.ends[0], self.ends[1]);
+    }
+
+    /// The largest of the components; `None` where there is no value.
+    pub fn loss(&self, trace: &Trace, outputs: &[Slot]) -> Option<f64> {
+        let (mut worst, mut largest, mut vanishing) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let slots = trace.slots();
+        for &slot in outputs {
+            let traced = &slots[slot as usize];
+            let (error, unit) = (traced.error.abs(), traced.unit());
+            if !(error + unit).is_finite() {
+                return None;
+            }
+            if self.vanishing.contains(&slot) {
+                vanishing = vanishing.max(error);
+            } else if error > worst * unit {
+                worst = error / unit;
+            }
+            largest = largest.max(unit);
+        }
+        Some(if vanishing > worst * largest { vanishing / largest } else { worst })
+    }
+
+    /// Components that have no digit at any of the states.
+    fn find_vanishing(&mut self, drafts: &[Draft<'_>], trace: &mut Trace) {
+        let slots: Vec<Slot> = self.outputs.iter().chain(&self.besides).flatten().copied().collect();
+        let mut vanish = vec![true; slots.len()];
+        for draft in drafts {
+            self.try_at(draft, trace);
+            trace.run(&self.flat, self.ends[1], self.ends[2]);
+            let mut vanish = vanish.iter_mut();
+            for outputs in self.outputs.iter().chain(&self.besides) {
+                let traced = || outputs.iter().map(|&slot| &trace.slots()[slot as usize]);
+                let largest = traced().map(Traced::unit).fold(0.0, f64::max);
+                for (traced, vanish) in traced().zip(&mut vanish) {
+                    *vanish &= largest.max(traced.error.abs()) >= NOTHING * traced.unit();
+                }
+            }
+        }
+        self.vanishing = slots.into_iter().zip(vanish).filter_map(|(slot, vanish)| vanish.then_some(slot)).collect();
+    }
+
+    /// Notes where functions lose more than at the states before; whether one of them loses much more.
+    fn note(&self, trace: &Trace, draft: &Draft<'_>, state: usize, best: &mut [Best]) -> bool {
+        let (mut much, mut exact) = (false, None);
+        for (outputs, best) in self.outputs.iter().zip(best) {
+            if outputs.is_empty() || best.loss >= NO_DIGIT {
+                continue;
+            }
+            let loss = self.loss(trace, outputs).unwrap_or_else(|| {
+                let exact = exact.get_or_insert_with(|| self.exact(draft, trace, |_| Doubled::number(1.0)));
+                if outputs.iter().all(|&slot| exact[slot as usize].is_finite()) { NO_DIGIT } else { 0.0 }
+            });
+            if loss > best.loss {
+                much |= loss > 1.5 * best.loss;
+                *best = Best { loss: loss.min(NO_DIGIT), state };
+            }
+        }
+        much
+    }
+
+    /// All numbers in 106 binary digits, with what each input is multiplied by.
+    pub fn exact(&self, draft: &Draft<'_>, trace: &Trace, factor: impl Fn(Slot) -> Doubled) -> Vec<Doubled> {
+        let momenta = self.momenta.iter().map(|&(from, p)| (p, trace.slots()[from as usize].value));
+        let momenta: Map<Slot, f64> = momenta.collect();
+        let of = |key: u32, slot: Slot| match momenta.get(&slot) {
+            Some(&value) => value,
+            None => draft.values.map.get(&key).copied().unwrap_or(f64::NAN),
+        };
+        self.flat.run(|key, slot| Doubled::number(of(key, slot)) * factor(slot), self.ends[1])
+    }
+
+    fn climb<'n>(&self, drafts: &mut Vec<Draft<'n>>, best: &mut [Best], trace: &mut Trace) {
+        let sampled = drafts.len();
+        let tries = (STEPS / self.ends[1].max(1)).clamp(LEAST, MOST);
+        let mut random = Random::new(26);
+        let functions: Vec<usize> = (0..self.outputs.len()).filter(|&k| !self.outputs[k].is_empty()).collect();
+        if functions.is_empty() || sampled == 0 || self.moves.are_none() {
+            return;
+        }
+        let mut again: Option<(usize, Move)> = None;
+        for n in 0..tries {
+            let (base, change) = again.take().unwrap_or_else(|| {
+                let best = best[functions[n % functions.len()]].state;
+                let base = if random.below(4) == 0 { random.below(sampled) } else { best };
+                let further = drafts[base].moves.last().filter(|_| random.below(3) == 0);
+                (base, further.map_or_else(|| self.moves.any(&mut random), |last| last.further()))
+            });
+            let mut draft = drafts[base].clone();
+            self.moves.apply(change, &mut draft);
+            if !self.states.is_physical(&draft) {
+                continue;
+            }
+            self.try_at(&draft, trace);
+            let state = drafts.len();
+            if self.note(trace, &draft, state, best) {
+                again = Some((state, change.further()));
+            }
+            if best.iter().any(|best| best.state == state) {
+                drafts.push(draft);
+            }
+        }
+    }
+}

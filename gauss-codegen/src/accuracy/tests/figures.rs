@@ -1,0 +1,169 @@
+//! What is said of losses: beside 106 binary digits at the states that are found, and beside states that are known to
+//! be bad.
+
+use crate::accuracy::flat::{Slot, Trace};
+use crate::accuracy::moves::Draft;
+use crate::accuracy::seek::Search;
+use crate::algebra::{Doubled, Graph, Notation, Number, Scalar, print};
+use crate::formulation::Formulation;
+use crate::lowering::{lower, states};
+use crate::mechanics::Method;
+use crate::model;
+use crate::translate::Translator;
+
+use super::Random;
+
+/// Errors to first order and those of 106 digits are of different roundings, and changes of different signs.
+const WITHIN: f64 = 10.0;
+/// The loss from which on first order is not enough to say more.
+const ALL: f64 = 1e12;
+/// What is not worth a word.
+const LITTLE: f64 = 10.0;
+
+/// A method of a scene, with its figure before it is rounded, its loss where the search found it, and its loss at a
+/// state that is given in part.
+struct Seen {
+    method: &'static str,
+    figure: f64,
+    estimated: f64,
+    there: f64,
+    given: f64,
+}
+
+/// What a loss is by measurement: beside 106 digits, and what changes of all inputs do.
+fn measured(search: &Search<'_, '_, '_>, draft: &Draft<'_>, trace: &mut Trace) -> Vec<f64> {
+    // Far below what sums are near zero by, and far above 2⁻¹⁰⁴.
+    const CHANGE: f64 = 1.0 / (1_u64 << 45) as f64;
+    search.try_at(draft, trace);
+    let one = |_: Slot| Doubled::number(1.0);
+    let exact = search.exact(draft, trace, one);
+    let changed = [1, 2].map(|n: u64| {
+        search.exact(draft, trace, |slot| {
+            let share = 2.0 * Random::new(7 * u64::from(slot) + n).fraction() - 1.0;
+            Doubled::number(1.0) + Doubled::number(CHANGE * 3.0_f64.sqrt() * share)
+        })
+    });
+    let units = |slot: Slot| {
+        let k = slot as usize;
+        let change = changed.each_ref().map(|changed| ((changed[k] - exact[k]).to_f64() / CHANGE).powi(2));
+        f64::EPSILON * (exact[k].to_f64().abs() + (0.5 * (change[0] + change[1])).sqrt())
+    };
+    let of = |outputs: &Vec<Slot>| {
+        let largest = outputs.iter().map(|slot| units(*slot)).fold(0.0, f64::max);
+        let loss = outputs.iter().map(|&slot| {
+            let found = trace.slots()[slot as usize].value;
+            let error = (Doubled::number(found) - exact[slot as usize]).to_f64().abs();
+            let unit = units(slot);
+            if !found.is_finite() && exact[slot as usize].is_finite() {
+                return f64::INFINITY;
+            }
+            error / if unit <= error * f64::EPSILON / 1024.0 || unit <= 1e-18 * largest { largest } else { unit }
+        });
+        loss.fold(0.0, |a: f64, b: f64| if b.is_nan() { a } else { a.max(b) })
+    };
+    search.outputs.iter().map(of).collect()
+}
+
+/// All methods of a scene; the state that is given is the ordinary sample state but for the symbols that are named.
+fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
+    let source = format!("#[gauss({clauses})] struct Scene {{ {fields} }}");
+    let input = syn::parse_str(&source).expect("the source is a struct");
+    let model = model::parse(&input).unwrap_or_else(|error| panic!("{error}: {source}"));
+    let graph = Graph::new();
+    let mut translator = Translator::new(&graph, &model).expect("a scene");
+    let formulation = Formulation::of(&model, &mut translator).expect("equations");
+    let kernel = lower(&graph, &model, &translator, &formulation).expect("a kernel");
+    let literals = translator.literals();
+    let states = states(&literals, &formulation);
+    let samples = states.samples();
+    let momentum = formulation.formulas.iter().position(|formula| formula.method == Method::Momentum);
+    let sought = kernel.sought(momentum);
+    let mut search = Search::new(&samples, &sought);
+    let mut trace = search.flat.room();
+    let (drafts, best) = search.searched(&samples, &mut trace);
+    let mut own = drafts[0].clone();
+    for (name, value) in given {
+        let symbol = search.symbol(|symbol| print(symbol, Notation::Text) == *name);
+        own.values.put(symbol.unwrap_or_else(|| panic!("no {name}: {source}")), *value);
+    }
+    let of_given = measured(&search, &own, &mut trace);
+    let functions = formulation.formulas.iter().zip(&kernel.found.functions).enumerate();
+    let functions = functions.filter_map(|(k, (formula, figure))| {
+        let figure = figure.as_ref()?;
+        let there = measured(&search, &drafts[best[k].state], &mut trace)[k];
+        let (method, figure) = (formula.method.name(), figure.worst);
+        Some(Seen { method, figure, estimated: best[k].loss, there, given: of_given[k] })
+    });
+    functions.collect()
+}
+
+/// A scene with its fields, a method, and a state where that is known to lose digits, or not.
+type Known = (&'static str, &'static str, &'static str, &'static [(&'static str, f64)]);
+
+const SCENES: [Known; 7] = [
+    // A torus at its inner rim: the square of the distance from the axis is multiplied out.
+    (
+        "coordinates(a, b), particle(mass = 1, position = [(2 + 1.999 * cos(a)) * cos(b), (2 + 1.999 * cos(a)) * sin(b), \
+         1.999 * sin(a)])",
+        "",
+        "mass_matrix",
+        &[("a", 3.1415)],
+    ),
+    (
+        "coordinates(a, b), particle(mass = 1, position = [(R + r * cos(a)) * cos(b), (R + r * cos(a)) * sin(b), r * sin(a)])",
+        "R: f64, r: f64",
+        "acceleration",
+        &[("a", 3.141592), ("R", 1.0), ("r", 0.9999999)],
+    ),
+    // A ring: a length of 1000 and a distance of nearly that.
+    (
+        "coordinates(x, y), particle(mass = 1, position = [x, y, 0]), \
+         spring(from = [0, 0, 0], to = [x, y, 0], stiffness = 10, length = 1000)",
+        "",
+        "potential_energy",
+        &[("x", 600.0001), ("y", 800.0)],
+    ),
+    // A bead between two springs that pull as much.
+    (
+        "coordinates(x), particle(mass = 1, position = [x, 0, 0]), \
+         spring(from = [-1, 0, 0], to = [x, 0, 0], stiffness = 10, length = 0.5), \
+         spring(from = [1, 0, 0], to = [x, 0, 0], stiffness = 10, length = 0.5)",
+        "",
+        "acceleration",
+        &[("x", 1.1e-8)],
+    ),
+    // A disk that is nearly flat.
+    (
+        "coordinates(x, y, yaw, lean, spin), body(disk, position = [x, y, cos(lean)], mass = 1, \
+         rotation = rotation_z(yaw) * rotation_x(lean) * rotation_y(spin), inertia = [0.25, 0.5, 0.25]), gravity = 9.8",
+        "",
+        "acceleration",
+        &[("lean", 1.570796)],
+    ),
+    // Euler's equations: rates of momenta that vanish identically.
+    ("chart = jet(euler_zxz), motion = fixed_point, mass = 1, inertia = [0.25, 0.25, 0.5]", "", "acceleration", &[]),
+    // A craft: nothing is lost.
+    (
+        "coordinates(craft: Pose), body(hull, pose = craft, mass = 1000, inertia = [300, 400, 500]), gravity = 9.8",
+        "",
+        "acceleration",
+        &[],
+    ),
+];
+
+#[test]
+fn what_is_said_is_lost_where_the_search_found_it() {
+    for (clauses, fields, known, given) in SCENES {
+        let of_known = seen(clauses, fields, given).into_iter().filter(|seen| seen.method == known);
+        for Seen { method, figure, estimated, there, given } in of_known {
+            let agree =
+                estimated.min(ALL) <= WITHIN * there.max(LITTLE) && there.min(ALL) <= WITHIN * estimated.max(LITTLE);
+            println!(
+                "{method}: said {figure:e}, estimated {estimated:e}, measured {there:e}, given {given:e}: {clauses}"
+            );
+            assert!(agree, "{method} loses {there:e}, not {estimated:e}: {clauses}");
+            let enough = given <= WITHIN * figure.max(LITTLE);
+            assert!(enough, "{method} loses {given:e}, and {figure:e} is said: {clauses}");
+        }
+    }
+}
