@@ -108,7 +108,7 @@ pub fn programs(derivation: &Derivation) -> impl Iterator<Item = &Program> {
     std::iter::once(derivation.constants()).chain(derivation.programs())
 }
 
-/// Digits that a method loses to rounding: at most, and in the middle, of its sample states; as words.
+/// Digits that a method loses to rounding: at the worst state found, and in the middle; as words.
 pub fn loss(derivation: &Derivation, method: &str) -> Option<[f64; 2]> {
     derivation.accuracy().iter().find(|(name, _)| name == method).map(|(_, loss)| *loss)
 }

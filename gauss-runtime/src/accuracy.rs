@@ -48,8 +48,9 @@ by_method! {
     /// from 10⁻⁹ to 10⁷, angles near quarter turns, sums of the scene and of momenta as near zero as 10⁻⁹ of their terms.
     /// Masses are positive and moments of inertia those of a body. A scene of ordinary numbers loses what `median` says;
     /// the kernel's documentation names what `worst` takes. Derivatives and `evaluate` are tried where the other methods
-    /// lose most. The figure is right within a factor of ten of the largest loss at the states that the search came by;
-    /// that no other state is worse is not proved. What a certain state loses is said by [`Bounded`](crate::bounded).
+    /// lose most. A figure is an estimate to first order of the largest loss at the states that the search came by: right
+    /// within ten where it was compared with 106 digits, and other states may be worse. What a certain state loses is
+    /// said by [`Bounded`](crate::bounded).
     ///
     /// Of the arrangements of a method the cheapest is taken that loses little more than the best of them at every sample
     /// state.
