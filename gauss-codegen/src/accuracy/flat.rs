@@ -384,5 +384,5 @@ impl Flat {
 
 /// A rounding of a function whose exact value is not at hand: a quarter of a unit in the last place, of either sign.
 fn rounded(value: f64, place: Slot) -> f64 {
-    0.25 * f64::EPSILON * value * if place.count_ones() % 2 == 0 { 1.0 } else { -1.0 }
+    0.25 * f64::EPSILON * value * if place.count_ones().is_multiple_of(2) { 1.0 } else { -1.0 }
 }

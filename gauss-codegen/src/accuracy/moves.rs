@@ -155,7 +155,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
             let word = match *change {
                 Move::Scale(k, decades) if decades > 0.0 => format!("large {}", name(k)),
                 Move::Scale(k, _) => format!("small {}", name(k)),
-                Move::Quarter(k, turns, _) if turns == 0.0 => format!("small {}", name(k)),
+                Move::Quarter(k, 0.0, _) => format!("small {}", name(k)),
                 Move::Quarter(k, ..) => format!("{} near quarter turns", name(k)),
                 Move::Near(sum, ..) => format!("{} near 0", self.sums[sum].printed()),
                 Move::AllNear(sum, ..) => {

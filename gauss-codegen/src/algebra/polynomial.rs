@@ -342,7 +342,7 @@ impl<'g> Expander<'g> {
                     }
                     self.add_reduced(result, rest.clone(), binomial)?;
                     rest = rest.times(&square);
-                    binomial = binomial * Rational::new(power - squares, power + 1);
+                    binomial *= Rational::new(power - squares, power + 1);
                 }
                 return Some(());
             }

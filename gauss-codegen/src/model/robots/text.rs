@@ -87,7 +87,7 @@ fn marks_of(text: &str) -> Vec<Mark> {
         if character == '\n' {
             (mark.line, mark.column) = (mark.line + 1, 0);
         }
-        if mark.column % APART == 0 {
+        if mark.column.is_multiple_of(APART) {
             marks.push(Mark { offset: offset + character.len_utf8(), ..mark });
         }
     }
