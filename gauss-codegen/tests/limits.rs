@@ -251,7 +251,8 @@ fn depth_of_files() {
     works(whole(bodies(most, "<body>").replace("<body></body>", arm)));
     let frames = nested(most - 1, "<frame>", "</frame>").replace("<frame></frame>", &format!("<frame>{arm}</frame>"));
     works(whole(format!("<worldbody>{frames}</worldbody>")));
-    works(with_arm(nested(most + 2, "<default class=\"a\">", "</default>")));
+    let classes: String = (0..most + 2).map(|index| format!("<default class=\"c{index}\">")).collect();
+    works(with_arm(classes + &"</default>".repeat(most + 2)));
     works(with_arm(nested(most + 2, "<custom>", "</custom>")));
     for count in [most + 3, 3_000, 200_000] {
         refused(whole(bodies(count, "<body>")), "<body> is nested more than 256 levels deep");

@@ -158,6 +158,7 @@
 /// | `inputs = actuators` | the controls of transmissions and actuators, by their names and with their gears, gains and biases: of a motor its torque, of a servo where it is to go |
 /// | `joint_friction = smooth(w)`, `none` | dry friction f as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
 /// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; or none, as without the clause, but without the warning |
+/// | `saturation = clamp`, `none` | controls, forces and efforts are kept in their ranges: what is beyond is cut off exactly, so that derivatives are zero there. `ctrlrange` and `forcerange` belong to actuators, and act with `inputs = actuators`; `actuatorfrcrange`, and `effort` of a URDF unless it is zero, to joints. Or they do not act, as without the clause, but without the warning |
 /// | `parameters = inertial` | the mass data of every link that moves are fields `#[gauss(body)] upper_arm: RigidBody<f64>`; such fields can also be there for some links alone. `Arm::from_file(…)` has the values of the file; the other fields of the struct are its arguments, in their order |
 /// | `ignore(gazebo, contact)` | elements and attributes of the file that are known not to act: no warnings of these |
 ///
@@ -179,11 +180,13 @@
 /// clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures, with the square of `mechanicalReduction`.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references, damping, dry
-/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms, also of meshes in STL and OBJ
-/// files (by `inertia="exact"`, `legacy`, `convex` or `shell`), scaled to `settotalmass`; classes of defaults;
+/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms, of shells as well, of meshes in STL and
+/// OBJ files (by `inertia="exact"`, `legacy`, `convex` or `shell`), of the groups in `inertiagrouprange`, within bounds, scaled to
+/// `settotalmass`; classes of defaults; what a body's `gravcomp` holds of its weight; what flags switch off;
 /// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
 /// as coupled joints, others and those of fixed tendons as constraints; points in common and welds as constraints; springs and
-/// dampers of fixed tendons; actuators along joints and fixed tendons that are linear in their control, and at sites, without `refsite`: those are wrenches, each with its
+/// dampers of fixed tendons, slack over a range; actuators along joints and fixed tendons that are linear in their control, with
+/// gains that may depend on length and rate, and at sites, without `refsite`: those are wrenches, each with its
 /// control for an input whatever `inputs` asks for. A ball is a `Rotation`, a free joint a `Pose`; armature and damping act in both.
 /// Keyframes are functions `ArmState::home()`, by their names, and `ArmInput::home()` where inputs are controls;
 /// `ArmState::start()` is where the file has everything at first, if that is not zero. `<include>` puts what is in the root of another
@@ -195,7 +198,8 @@
 /// include, a mesh of 64 MiB; elements are nested 256 deep at most, includes 32; a file attaches 32 models, and replicates 100 times, a
 /// thousand copies each. What is beyond is a mistake with its place.
 ///
-/// Nothing is left out in silence. What acts in the file and not in the equations (elements and attributes that are not known, laws of
+/// Nothing is left out in silence: every element and attribute of both formats is in a table of what acts, what is warned of, and
+/// what is harmless. What acts in the file and not in the equations (elements and attributes that are not known, laws of
 /// joints with several speeds, actuators with states) is a warning of the compiler with its line, one for all of a kind. The page of
 /// the kernel lists these, names that are no identifiers or taken and have been changed, and what says nothing of the motion, such as
 /// looks and shapes for contacts. Numbers of the file are literals. Mistakes in it are shown at its name, with line and column:

@@ -129,6 +129,7 @@ fn a_biped() {
     gravity = 9.81,
     joint_friction = smooth(width),
     limits = stop(stiffness = 1e4, width = 1e-3),
+    saturation = none,
     point(pad, body = left_finger, at = [0, 0, 0.04]),
     frames(upper_arm, left_finger),
     methods(centroidal, nonlinear_effects, gravity_torques, jacobian_rates)
@@ -144,6 +145,7 @@ struct Gripper {
     gravity = 9.81,
     joint_friction = smooth(width),
     limits = none,
+    saturation = none,
     parameters = inertial
 )]
 struct LoadedGripper {
@@ -308,7 +310,13 @@ fn mass_data_in_fields() {
 
 /// A gripper by published numbers: ten links that mimics tie to one motor.
 #[derive(GaussDynamics)]
-#[gauss(urdf = "robots/robotiq_2f_85.urdf", gravity = 9.81, limits = none, frames(left_pad, right_pad))]
+#[gauss(
+    urdf = "robots/robotiq_2f_85.urdf",
+    gravity = 9.81,
+    limits = none,
+    saturation = none,
+    frames(left_pad, right_pad)
+)]
 struct Robotiq;
 
 /// Knuckles and outer fingers turn about the palm; inner fingers turn as far back, and so move on circles: the inertia is the same
@@ -557,6 +565,52 @@ fn a_point_and_a_place_in_common() {
     let down = Vector3::new(0.0, 0.0, -1.62);
     assert!((flight_u - down).amax() <= 1e3 * EPSILON && flight_omega.amax() <= 1e3 * EPSILON, "{fall}");
     assert!((start.carried.rotation * carried_u - down).amax() <= 1e3 * EPSILON, "{fall}");
+}
+
+#[derive(GaussDynamics)]
+#[gauss(mjcf = "robots/servos.xml", inputs = actuators, saturation = clamp)]
+struct Servos;
+
+/// What MuJoCo finds (3.3.7 and 4.0.0, `qacc` of `mj_forward`): at the second and the third state controls, forces and the efforts of
+/// the shoulder are at their ends, at the last the tendon is slack.
+#[test]
+fn ranges_classes_and_held_weights() {
+    let kernel = Servos.kernel().unwrap();
+    let states = [
+        (
+            [[0.3, -0.4, 0.2], [0.1, 0.2, -0.3]],
+            [0.5, 0.2, 0.1, 1.0],
+            [1.5413403534508796, 16.694051613873377, 2.8708056863713454],
+        ),
+        (
+            [[0.9, -0.8, 1.2], [-1.1, 0.7, 0.9]],
+            [2.5, 3.0, -1.9, 5.0],
+            [7.388476536743999, -3.605261107695215, -16.390720891059573],
+        ),
+        (
+            [[-0.7, 0.6, -0.5], [1.3, -0.2, 2.0]],
+            [-4.0, -0.1, 0.61, -1.0],
+            [12.648635872557664, -24.284727543460065, -3.391266521033782],
+        ),
+        (
+            [[0.2, 0.2, 2.0], [0.0, 0.0, 0.5]],
+            [0.7, 1.0, 0.3, 0.25],
+            [13.155557445018314, -16.17309694719139, -1.7830963733099763],
+        ),
+    ];
+    for ([q, z], [lift, tug, bend, brake], expected) in states {
+        let (q, z, expected) = (SVector::from(q), SVector::from(z), SVector::from(expected));
+        let input = ServosInput { lift, tug, bend, brake }.input();
+        let found = kernel.acceleration(0.0, &q, &z, &input);
+        let mass = kernel.mass_matrix(0.0, &q);
+        let condition = mass.norm() * mass.try_inverse().unwrap().norm();
+        // Each sums some hundred terms, the largest of which are tens of N m beside some that are left.
+        assert!((found - expected).amax() <= 500.0 * EPSILON * condition * expected.amax(), "{found} {expected}");
+    }
+    // Beyond the range of its control an input changes nothing: exactly, so that derivatives are zero there.
+    let [a, b] = [2.0, 3.0].map(|lift| ServosInput { lift, ..Default::default() }.input());
+    let (q, z) = (SVector::from([0.1, 0.2, 0.3]), SVector::zeros());
+    assert_eq!(kernel.acceleration(0.0, &q, &z, &a), kernel.acceleration(0.0, &q, &z, &b));
 }
 
 /// The compiler is told of the files, so that an edit of one compiles its struct anew.

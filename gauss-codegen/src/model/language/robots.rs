@@ -1,6 +1,6 @@
-//! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`, `inputs
-//! = all | none | transmissions | actuators`,
-//! `joint_friction = smooth(width) | none`, `limits = stop(…) | none`, `parameters = inertial`, `ignore(…)`.
+//! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`,
+//! `inputs = all | none | transmissions | actuators`, `joint_friction = smooth(width) | none`, `limits = stop(…) | none`,
+//! `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
 
 use super::arguments;
 use super::arithmetic;
@@ -19,6 +19,7 @@ pub struct RobotClauses {
     pub inputs: Option<Inputs>,
     pub friction: Option<Friction>,
     pub limits: Option<Limits>,
+    pub saturation: Option<Saturation>,
     /// The word `parameters` of `parameters = inertial`.
     pub inertial: Option<Ident>,
     /// What of the file is known not to act.
@@ -70,6 +71,14 @@ pub enum Limits {
     None,
 }
 
+/// What becomes of the ranges of controls, forces and efforts.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Saturation {
+    /// What is beyond is cut off.
+    Clamp,
+    None,
+}
+
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum RobotTopic {
     File(Format),
@@ -77,6 +86,7 @@ pub enum RobotTopic {
     Inputs,
     Friction,
     Limits,
+    Saturation,
     Parameters,
     Ignore,
 }
@@ -91,6 +101,7 @@ pub const OPTIONS: &Table<RobotTopic> = &[
     ("inputs", RobotTopic::Inputs),
     ("joint_friction", RobotTopic::Friction),
     ("limits", RobotTopic::Limits),
+    ("saturation", RobotTopic::Saturation),
     ("parameters", RobotTopic::Parameters),
     ("ignore", RobotTopic::Ignore),
 ];
@@ -104,6 +115,7 @@ const INPUTS: &Table<Inputs> = &[
 ];
 const FRICTION: &Table<bool> = &[("smooth", true), ("none", false)];
 const LIMITS: &Table<bool> = &[("stop", true), ("none", false)];
+const SATURATION: &Table<Saturation> = &[("clamp", Saturation::Clamp), ("none", Saturation::None)];
 const STOP: &Table<()> = &[("stiffness", ()), ("width", ()), ("damping", ())];
 const PARAMETERS: &Table<()> = &[("inertial", ())];
 
@@ -128,6 +140,7 @@ impl RobotClauses {
             RobotTopic::Inputs => self.inputs.is_some(),
             RobotTopic::Friction => self.friction.is_some(),
             RobotTopic::Limits => self.limits.is_some(),
+            RobotTopic::Saturation => self.saturation.is_some(),
             RobotTopic::Parameters => self.inertial.is_some(),
             RobotTopic::Ignore => false,
         };
@@ -141,6 +154,9 @@ impl RobotClauses {
             RobotTopic::Inputs => self.inputs = self.inputs.or(read_word("inputs", clause, INPUTS, context)),
             RobotTopic::Friction => self.friction = self.friction.take().or(read_friction(clause, context)),
             RobotTopic::Limits => self.limits = self.limits.take().or(read_limits(clause, context)),
+            RobotTopic::Saturation => {
+                self.saturation = self.saturation.or(read_word("saturation", clause, SATURATION, context));
+            }
             RobotTopic::Parameters => {
                 let read = read_word("parameters", clause, PARAMETERS, context);
                 self.inertial = self.inertial.take().or(read.map(|()| clause.name.clone()));

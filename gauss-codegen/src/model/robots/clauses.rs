@@ -76,7 +76,7 @@ pub struct Robot<'a> {
     pub links: Vec<Ident>,
     /// The mass data of the link are those of a field.
     pub in_field: Vec<bool>,
-    gravity_in_field: bool,
+    pub gravity_in_field: bool,
     pub notes: Vec<Note>,
 }
 
@@ -202,9 +202,10 @@ impl<'a> Robot<'a> {
         statements.bodies.splice(0..0, bodies);
         self.add_armatures(statements);
         statements.constraints.splice(0..0, self.constraints(&text.names()));
-        let has_gravity = statements.role_clauses.iter().any(|clause| clause.role == Role::Gravity);
-        statements.role_clauses.extend(self.gravity().filter(|_| !has_gravity && !self.gravity_in_field));
-        let forces = self.forces();
+        let gravity = statements.role_clauses.iter().find(|clause| clause.role == Role::Gravity);
+        let forces = self.forces(gravity);
+        let own = self.gravity().filter(|_| gravity.is_none() && !self.gravity_in_field);
+        statements.role_clauses.extend(own);
         statements.forces_of_file = forces.len();
         statements.forces.splice(0..0, forces);
         self.described(file, text)

@@ -106,6 +106,8 @@ pub struct Link {
     pub name: String,
     pub at: At,
     pub inertial: Option<Inertial>,
+    /// How much of its weight is held by a force at its centre of mass, as part of all.
+    pub held: f64,
 }
 
 /// Mass data in the axes of the link.
@@ -161,6 +163,8 @@ pub struct Joint {
     /// Force by coordinate beyond the rest of a spring.
     pub stiffness: f64,
     pub rest: f64,
+    /// The least and the most of all efforts that are put in.
+    pub efforts: Option<[f64; 2]>,
     /// Inertia of the joint alone, such as that of a rotor behind gears.
     pub armature: f64,
     /// The value of the coordinate where nothing is turned or moved.
@@ -187,6 +191,7 @@ impl Joint {
             friction: 0.0,
             stiffness: 0.0,
             rest: 0.0,
+            efforts: None,
             armature: 0.0,
             reference: 0.0,
             start: ([0.0; 3], Rotation::none()),
@@ -194,8 +199,8 @@ impl Joint {
     }
 }
 
-/// What drives joints by a control u: along the length l = Σ c q the force gain · u + b₀ + b₁ l + b₂ l̇; or by a wrench
-/// on a frame, whose l stays zero.
+/// What drives joints by a control u: along the length l = Σ c q the force (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇; or by
+/// a wrench on a frame, whose l stays zero.
 #[derive(Clone, Debug)]
 pub struct Drive {
     pub name: String,
@@ -204,8 +209,21 @@ pub struct Drive {
     pub along: Vec<(String, f64)>,
     /// A link, and the force and torque at it, in its axes, of a unit of force of the drive; `along` is empty then.
     pub at_link: Option<(String, [Triple; 2])>,
-    pub gain: f64,
+    pub gain: Triple,
     pub bias: Triple,
+    /// The least and the most of the control, and of the force.
+    pub controls: Option<[f64; 2]>,
+    pub forces: Option<[f64; 2]>,
+}
+
+impl Drive {
+    /// Its force is its control.
+    pub fn is_plain(&self) -> bool {
+        self.gain == Drive::DIRECT && self.bias == [0.0; 3]
+    }
+
+    /// The gain of what has none.
+    pub const DIRECT: Triple = [1.0, 0.0, 0.0];
 }
 
 /// A spring with a damper along the length l = Σ c q.
@@ -216,7 +234,8 @@ pub struct Tendon {
     pub along: Vec<(String, f64)>,
     pub stiffness: f64,
     pub damping: f64,
-    pub rest: f64,
+    /// The least and the most length without force.
+    pub rest: [f64; 2],
 }
 
 /// A sum of coordinates, with their factors, is a polynomial of another, all from their references.

@@ -66,8 +66,7 @@ fn controls(description: &Description, which: impl Fn(&Drive) -> bool, names: &m
                 false => names.identifier(&drive.name, "control", drive.at),
             };
             // The control of a gain has whatever unit that gives it.
-            let plain = drive.gain == 1.0 && drive.bias == [0.0; 3];
-            let unit = drive.along.first().filter(|_| plain).and_then(|(name, _)| kind(name)).map(unit);
+            let unit = drive.along.first().filter(|_| drive.is_plain()).and_then(|(name, _)| kind(name)).map(unit);
             input(ident, &drive.name, unit, Driven::Drive(index))
         })
         .collect()
@@ -89,7 +88,7 @@ pub fn notes(description: &Description, inputs: &[Input]) -> Vec<Note> {
         |input: &Input| matches!(input.of, Driven::Drive(drive) if description.drives[drive].at_link.is_none());
     let plain = |drive: &&Drive| {
         let geared = drive.along.iter().any(|(_, factor)| *factor != 1.0);
-        drive.at_link.is_none() && (geared || drive.gain != 1.0 || drive.bias != [0.0; 3])
+        drive.at_link.is_none() && (geared || !drive.is_plain())
     };
     let told = |drive: &Drive| {
         let text = format!(

@@ -5,14 +5,14 @@ use quote::format_ident;
 use syn::ext::IdentExt;
 
 use super::clauses::Robot;
-use super::description::{Joint, JointKind, Note};
+use super::description::{Joint, JointKind, Note, Tendon};
 use crate::model::language::robots::{Friction, Limits};
-use crate::model::scene::clauses::{Extent, ForceClause, ForceKind};
-use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
+use crate::model::scene::clauses::{Extent, ForceAxes, ForceClause, ForceKind, RoleClause, RoleValue};
+use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 
 impl Robot<'_> {
     /// What acts in the joints.
-    pub fn forces(&mut self) -> Vec<ForceClause> {
+    pub fn forces(&mut self, gravity: Option<&RoleClause>) -> Vec<ForceClause> {
         let named = |name: &str, kind: ForceKind| ForceClause {
             name: Some(Ident::new(name, self.writer.span)),
             kind,
@@ -30,6 +30,9 @@ impl Robot<'_> {
         let (tendons, mut of_tendons) = self.tendons();
         forces.extend(tendons);
         self.notes.append(&mut of_tendons);
+        let (held, mut of_weights) = self.held(gravity);
+        forces.extend(held);
+        self.notes.append(&mut of_weights);
         let (friction, mut notes) = self.friction();
         if !friction.is_empty() {
             forces.push(named("joint_friction", ForceKind::Drive { rates: friction }));
@@ -37,6 +40,7 @@ impl Robot<'_> {
         let (stops, limits) = self.stops();
         forces.extend(stops);
         notes.extend(limits);
+        notes.extend(self.notes_of_ranges());
         self.notes.extend(notes);
         forces
     }
@@ -123,13 +127,78 @@ impl Robot<'_> {
                 continue;
             };
             let number = |value: f64| (value != 0.0).then(|| writer.number(value));
-            let kind = ForceKind::Spring {
-                extent: Extent::Along(along),
-                stiffness: writer.number(tendon.stiffness),
-                length: number(tendon.rest),
-                damping: number(tendon.damping),
+            let kind = if tendon.rest[0] == tendon.rest[1] {
+                ForceKind::Spring {
+                    extent: Extent::Along(along),
+                    stiffness: writer.number(tendon.stiffness),
+                    length: number(tendon.rest[0]),
+                    damping: number(tendon.damping),
+                }
+            } else {
+                ForceKind::Drive { rates: self.over_a_range(tendon, along) }
             };
             forces.push(ForceClause { name: None, kind, span: writer.span });
+        }
+        (forces, notes)
+    }
+
+    /// −k (l − l₀) − d l̇ of a tendon, with the l₀ of its range that is the nearest to l.
+    fn over_a_range(&self, tendon: &Tendon, along: Expression) -> Vec<(Ident, Expression)> {
+        let writer = self.writer;
+        let mut ends = vec![along.clone()];
+        ends.extend(tendon.rest.map(|end| writer.number(end)));
+        let nearest = writer.call(FunctionName::Clamp, ends);
+        let beyond = writer.binary(BinaryOperator::Subtract, along.clone(), nearest);
+        let mut force = writer.times(writer.number(-tendon.stiffness), beyond);
+        if tendon.damping > 0.0 {
+            let rate = writer.call(FunctionName::Rate, vec![along]);
+            force = writer.plus(force, writer.times(writer.number(-tendon.damping), rate));
+        }
+        let mut rates: Vec<(Ident, Expression)> = Vec::new();
+        for (_, q, multiplier, factor) in self.ends_of(&tendon.along) {
+            let part = writer.times(writer.number(factor * multiplier), force.clone());
+            match rates.iter_mut().find(|(name, _)| name == q) {
+                Some((_, sum)) => *sum = writer.plus(sum.clone(), part),
+                None => rates.push((q.clone(), part)),
+            }
+        }
+        rates
+    }
+
+    /// Forces that hold a part of the weight of links, at their centres of mass; `gravity` is that of the struct, if it has one.
+    fn held(&self, gravity: Option<&RoleClause>) -> (Vec<ForceClause>, Vec<Note>) {
+        let writer = self.writer;
+        let (mut forces, mut notes) = (Vec::new(), Vec::new());
+        let gravity = match gravity.map(|clause| &clause.value) {
+            None if self.gravity_in_field => None,
+            None => self.description.gravity.map(|g| writer.triple(&g)),
+            Some(RoleValue::Expression(down)) => match (&down.kind, down.literal()) {
+                (_, Some(down)) => Some(writer.triple(&[0.0, 0.0, -down])),
+                (ExpressionKind::Vector(_), None) => Some(Some(down.clone())),
+                _ => None,
+            },
+            Some(RoleValue::Coefficients(_)) => None,
+        };
+        for (link, own) in self.description.links.iter().enumerate() {
+            let Some(data) = own.inertial.filter(|data| own.held != 0.0 && self.moves(link) && data.mass > 0.0) else {
+                continue;
+            };
+            match &gravity {
+                Some(gravity) if !self.in_field[link] => forces.extend(gravity.as_ref().map(|gravity| {
+                    let value = writer.times(writer.number(-data.mass * own.held), gravity.clone());
+                    let body = self.links[link].clone();
+                    let at = writer.triple(&data.center);
+                    let kind = ForceKind::OnBody { body, at, value, axes: ForceAxes::Observer };
+                    ForceClause { name: None, kind, span: writer.span }
+                })),
+                _ => {
+                    let text = format!(
+                        "`gravcomp` of `{}` does not act: its mass and gravity are to be numbers, not fields",
+                        own.name
+                    );
+                    notes.push(Note::ignored(own.at, "gravcomp", text).about("gravcomp"));
+                }
+            }
         }
         (forces, notes)
     }

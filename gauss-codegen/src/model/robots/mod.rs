@@ -5,11 +5,13 @@
 //! | `description` | links and joints as plain data, whatever the format, with the places in the file |
 //! | `rotation` | constant rotations, inertias in other axes |
 //! | `xml`, `urdf`, `mjcf` | a format → a description |
+//! | `reference`, `urdf_reference` | of every attribute what becomes of it |
 //! | `structure`, `mimic` | what must hold between links and joints; what moves with what |
 //! | `names` | names of the file → identifiers |
 //! | `joints` | a joint → position and rotation of its link |
 //! | `clauses` | a description → clauses, before those of the struct |
-//! | `drives`, `efforts`, `laws`, `relations` | inputs; what they do; what else acts in joints; what joins links beside the tree |
+//! | `drives`, `efforts`, `ranges` | inputs; what they do; how much of it at most |
+//! | `laws`, `relations` | what else acts in joints; what joins links beside the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
 //! | `mesh`, `hull` | surfaces from STL and OBJ files, and their masses; convex hulls |
@@ -31,6 +33,9 @@ mod mimic;
 #[cfg(feature = "mjcf")]
 mod mjcf;
 mod names;
+mod ranges;
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+mod reference;
 mod relations;
 #[cfg_attr(not(all(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "what readers alone use"))]
 mod rotation;
@@ -41,6 +46,8 @@ mod structure;
 mod text;
 #[cfg(feature = "urdf")]
 mod urdf;
+#[cfg(feature = "urdf")]
+mod urdf_reference;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 mod xml;
 

@@ -113,6 +113,31 @@ pub fn direction(v: Triple) -> Option<Triple> {
     Some(scaled.map(|c| c / length).map(|c| if c.abs() <= RESIDUE { 0.0 } else { c }))
 }
 
+/// The eigenvalues of a symmetric matrix with their directions, the columns of a matrix, by turns that bring its entries
+/// beside the diagonal to zero (Jacobi).
+pub fn principal(mut a: Matrix) -> (Triple, Matrix) {
+    let mut axes = Rotation::none().matrix;
+    // Each round squares what is left of them.
+    for _ in 0..16 {
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            if a[p][q] == 0.0 {
+                continue;
+            }
+            let slope = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+            let tangent = slope.signum() / (slope.abs() + slope.hypot(1.0));
+            let cosine = 1.0 / tangent.hypot(1.0);
+            let sine = tangent * cosine;
+            for row in a.iter_mut().chain(&mut axes) {
+                (row[p], row[q]) = (cosine * row[p] - sine * row[q], sine * row[p] + cosine * row[q]);
+            }
+            for k in 0..3 {
+                (a[p][k], a[q][k]) = (cosine * a[p][k] - sine * a[q][k], sine * a[p][k] + cosine * a[q][k]);
+            }
+        }
+    }
+    ([a[0][0], a[1][1], a[2][2]], axes)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,6 +159,26 @@ mod tests {
             let again = Rotation::from_matrix(&rotation.matrix);
             for (a, b) in rotation.matrix.iter().flatten().zip(again.matrix.iter().flatten()) {
                 assert!((a - b).abs() <= 4.0 * f64::EPSILON, "{angles:?}");
+            }
+        }
+    }
+
+    /// Turned moments are the same moments, and their directions are turned.
+    #[test]
+    fn principal_moments() {
+        for angles in [[0.0; 3], [0.3, -0.7, 1.1], [2.0, 0.5, -0.1]] {
+            let turn = Rotation::from_angles(angles).matrix;
+            let tensor = turned_tensor(&turn, &[[1.0, 0.0, 0.0], [0.0, 2.5, 0.0], [0.0, 0.0, 3.0]]);
+            let (found, axes) = principal(tensor);
+            let diagonal = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { found[i] } else { 0.0 }));
+            let again = turned_tensor(&axes, &diagonal);
+            for (a, b) in again.iter().flatten().zip(tensor.iter().flatten()) {
+                assert!((a - b).abs() < 64.0 * f64::EPSILON, "{a} {b}");
+            }
+            let mut found = found;
+            found.sort_by(f64::total_cmp);
+            for (found, expected) in found.into_iter().zip([1.0, 2.5, 3.0]) {
+                assert!((found - expected).abs() < 16.0 * f64::EPSILON, "{found} {expected}");
             }
         }
     }

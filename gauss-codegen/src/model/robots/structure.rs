@@ -74,7 +74,7 @@ impl Structure {
     }
 
     /// Where a link is in the axes of the root while no joint is turned or moved.
-    fn at_rest(&self, description: &Description, link: usize) -> (Triple, Matrix) {
+    pub fn at_rest(&self, description: &Description, link: usize) -> (Triple, Matrix) {
         let (mut link, mut place) = (link, ([0.0; 3], Rotation::none().matrix));
         while let (Some(joint), Some(parent)) = (self.joint_of[link], self.parent_of[link]) {
             let joint = &description.joints[joint];
@@ -120,7 +120,7 @@ fn hung(joint: &Joint, (position, matrix): (Triple, Matrix)) -> (Triple, Matrix)
     (std::array::from_fn(|i| joint.position[i] + moved[i]), multiply(&joint.rotation.matrix, &matrix))
 }
 
-/// Mass data in other axes, where its own are placed.
+/// Mass data in the axes of another link.
 pub fn placed(own: Inertial, (position, matrix): &(Triple, Matrix)) -> Inertial {
     if *matrix == Rotation::none().matrix && *position == [0.0; 3] {
         return own;

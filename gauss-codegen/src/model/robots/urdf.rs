@@ -6,22 +6,17 @@ use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, 
 use super::names::unknown;
 use super::rotation::{Rotation, Triple, direction, turned_tensor};
 use super::text::Text;
-use super::xml::{Reading, Silent, parse, shown};
+use super::urdf_reference::ELEMENTS;
+use super::xml::{Reading, parse, shown};
 
 /// Turns of a joint without an axis, by the specification.
 const AXIS: Triple = [1.0, 0.0, 0.0];
-
-/// What says nothing of the dynamics.
-const SILENT: Silent = Silent {
-    elements: &["calibration", "collision", "material", "sensor", "version", "visual"],
-    attributes: &["effort", "group", "id", "schemaLocation", "velocity", "type", "version"],
-};
 
 /// # Errors
 /// Everything that is wrong in the elements of the file, each by itself.
 pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
     let document = parse(&text.whole).map_err(|fault| vec![fault])?;
-    let mut reading = Reading::new(&document, text);
+    let mut reading = Reading::new(&document, text, ELEMENTS);
     let robot = document.root_element();
     let mut description = Description::default();
     if robot.tag_name().name() != "robot" {
@@ -45,7 +40,7 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
         }
         strange.is_none()
     });
-    reading.note_unread(&SILENT);
+    reading.note_unread();
     description.notes = reading.notes;
     if reading.faults.is_empty() { Ok(description) } else { Err(reading.faults) }
 }
@@ -61,7 +56,7 @@ fn refuse_macros<'a>(robot: Node<'a, 'a>, reading: &mut Reading<'a>) {
 fn link<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Link> {
     let name = reading.required(node, "name")?;
     let inertial = reading.child(node, "inertial").and_then(|inertial| mass_data(inertial, reading));
-    Some(Link { name, at: reading.at(node), inertial })
+    Some(Link { name, at: reading.at(node), inertial, held: 0.0 })
 }
 
 /// Mass data, turned into the axes of the link.
@@ -136,26 +131,22 @@ fn joint<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Joint> {
     if !scalar && (damping, friction) != (0.0, 0.0) {
         reading.ignored(node, format!("damping and friction of {} do not act: it has not one coordinate", shown(node)));
     }
-    let safety = reading.child(node, "safety_controller");
-    if let Some(controller) = safety {
-        let text = format!("the <safety_controller> of {} does not act", shown(node));
-        reading.notes.push(Note::told(reading.at(controller), text).about("safety"));
-        reading.pass(controller);
-    }
-    let limits = match (kind, reading.child(node, "limit")) {
-        (Some(JointKind::Turning | JointKind::Sliding), Some(limit))
-            if reading.text(node, "type") != Some("continuous") =>
-        {
+    let limit = reading.child(node, "limit");
+    let limits = match limit {
+        Some(limit) if scalar && reading.text(node, "type") != Some("continuous") => {
             // By the specification what is not said is zero; files that leave out both mean none.
             let limits = ["lower", "upper"].map(|name| reading.number(limit, name));
             if limits == [None; 2] { limits } else { limits.map(|limit| limit.or(Some(0.0))) }
         }
         _ => [None; 2],
     };
+    // Zero stands where nothing is known: so MuJoCo reads it, too (`xml_urdf.cc`).
+    let most = limit.and_then(|limit| reading.number(limit, "effort")).map(f64::abs);
+    let efforts = most.filter(|most| scalar && *most > 0.0).map(|most| [-most, most]);
     let (name, kind, parent, child, axis) = (name?, kind?, parent?, child?, axis?);
     let at = reading.at(node);
     let joint = Joint::new(name, at, kind, parent, child);
-    Some(Joint { position, rotation, axis, mimic, limits, damping, friction, ..joint })
+    Some(Joint { position, rotation, axis, mimic, limits, damping, friction, efforts, ..joint })
 }
 
 fn kind<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<JointKind> {
@@ -230,8 +221,10 @@ fn transmission<'a>(node: Node<'a, 'a>, description: &mut Description, reading: 
             at,
             along: vec![(joint.clone(), gear)],
             at_link: None,
-            gain: 1.0,
+            gain: Drive::DIRECT,
             bias: [0.0; 3],
+            controls: None,
+            forces: None,
         });
         let own = description.joints.iter_mut().find(|own| own.name == *joint);
         if let (Some(own), Some(rotor), true) = (own, rotor, simple) {

@@ -1,7 +1,7 @@
 //! Elements and attributes of an XML file, with what is wrong in them and where.
 
 use std::cell::RefCell;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 use std::ops::Range;
 #[cfg(feature = "mjcf")]
 use std::path::Path;
@@ -11,6 +11,7 @@ use roxmltree::{Document, Node, NodeId};
 use super::description::{At, Fault, Note, lines};
 #[cfg(feature = "mjcf")]
 use super::names::unknown;
+use super::reference::{Element, Verdict};
 use super::text::{Text, options};
 
 /// A file while it is read.
@@ -23,14 +24,8 @@ pub struct Reading<'a> {
     seen: RefCell<HashSet<NodeId>>,
     /// Those of which all that matters is noted elsewhere.
     passed: RefCell<HashSet<NodeId>>,
-    /// Attributes that were asked for, with the name of the element.
-    asked: RefCell<BTreeSet<(&'a str, &'static str)>>,
-}
-
-/// What a format has that says nothing of the motion, by name.
-pub struct Silent {
-    pub elements: &'static [&'static str],
-    pub attributes: &'static [&'static str],
+    /// What becomes of every element and attribute of the format.
+    elements: &'static [Element],
 }
 
 /// Elements within elements that are read: what walks them calls itself once a level, on the stack of a macro. A chain
@@ -83,7 +78,7 @@ fn qualified<'a>(node: Node<'a, 'a>) -> &'a str {
 
 impl<'a> Reading<'a> {
     /// Of a text, parsed.
-    pub fn new(document: &'a Document<'a>, text: &'a Text) -> Self {
+    pub fn new(document: &'a Document<'a>, text: &'a Text, elements: &'static [Element]) -> Self {
         let reading = Self {
             document,
             text,
@@ -91,7 +86,7 @@ impl<'a> Reading<'a> {
             notes: Vec::new(),
             seen: RefCell::default(),
             passed: RefCell::default(),
-            asked: RefCell::default(),
+            elements,
         };
         reading.see(document.root_element());
         reading
@@ -134,6 +129,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Of this element, and what is in it, nothing more is to be noted.
+    #[cfg(feature = "mjcf")]
     pub fn pass(&self, node: Node<'a, 'a>) {
         self.passed.borrow_mut().insert(node.id());
     }
@@ -177,7 +173,6 @@ impl<'a> Reading<'a> {
 
     /// An attribute as it is written.
     pub fn text(&self, node: Node<'a, 'a>, name: &'static str) -> Option<&'a str> {
-        self.asked.borrow_mut().insert((node.tag_name().name(), name));
         node.attribute(name).map(str::trim)
     }
 
@@ -239,14 +234,14 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Notes everything that nobody looked at: what is `silent` in one note, what may act as ignored, once for each name.
-    pub fn note_unread(&mut self, silent: &Silent) {
+    /// Notes everything that nobody looked at: what is harmless in one note, what may act as ignored, once for each name.
+    pub fn note_unread(&mut self) {
         let (mut quiet, mut acting) = (Unread::default(), Unread::default());
-        self.unread(self.document.root_element(), silent, &mut quiet, &mut acting);
+        self.unread(self.document.root_element(), &mut quiet, &mut acting);
         for Kind { key, first, shown, places } in acting.kinds {
             let others =
                 if places.len() > 1 { format!("; likewise in {}", lines(first, &places[1..])) } else { String::new() };
-            self.notes.push(Note::ignored(first, key, format!("{shown} is not read{others}")));
+            self.notes.push(Note::ignored(first, key, format!("{shown}{others}")));
         }
         if let Some(Kind { first, .. }) = quiet.kinds.first() {
             let names: Vec<String> =
@@ -256,7 +251,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    fn unread(&self, node: Node<'a, 'a>, silent: &Silent, quiet: &mut Unread<'a>, acting: &mut Unread<'a>) {
+    fn unread(&self, node: Node<'a, 'a>, quiet: &mut Unread<'a>, acting: &mut Unread<'a>) {
         let tag = node.tag_name().name();
         if self.passed.borrow().contains(&node.id()) {
             return;
@@ -264,28 +259,48 @@ impl<'a> Reading<'a> {
         if is_foreign(node) && !self.seen.borrow().contains(&node.id()) {
             // All of one language together.
             let language = qualified(node).split(':').next().unwrap_or_default();
-            return acting.add(language, self.at(node), || shown(node));
+            return acting.add(language, self.at(node), || format!("{} is not read", shown(node)));
         }
-        if silent.elements.contains(&tag) && !self.seen.borrow().contains(&node.id()) {
-            return quiet.add(tag, self.at(node), String::new);
-        }
-        if !self.seen.borrow().contains(&node.id()) {
-            return acting.add(tag, self.at(node), || shown(node));
+        let parent = node.parent_element().map_or("", |parent| parent.tag_name().name());
+        let element = Element::find(self.elements, parent, tag);
+        match element.map(|element| element.verdict) {
+            Some(Verdict::Harmless(_)) => return quiet.add(tag, self.at(node), String::new),
+            Some(Verdict::Warned(words, _)) => {
+                return acting.add(tag, self.at(node), || format!("{} does not act: {words}", shown(node)));
+            }
+            Some(Verdict::Acts) if self.seen.borrow().contains(&node.id()) => {}
+            _ => return acting.add(tag, self.at(node), || format!("{} is not read", shown(node))),
         }
         for attribute in node.attributes() {
             let name = attribute.name();
             let is_own = attribute.namespace().is_none();
-            if is_own && (self.asked.borrow().iter().any(|asked| *asked == (tag, name)) || name == "name") {
-                continue;
-            }
-            let at = self.place(attribute.range());
-            match silent.attributes.contains(&name) {
-                true => quiet.add(name, at, String::new),
-                false => acting.add(name, at, || format!("the attribute `{name}` of {}", shown(node))),
+            let at = || self.place(attribute.range());
+            let what = || format!("the attribute `{name}` of {}", shown(node));
+            match element.and_then(|element| element.of(name)).filter(|_| is_own) {
+                Some(Verdict::Acts) => {}
+                // Names are not told of.
+                Some(Verdict::Harmless(_)) if name == "name" => {}
+                Some(Verdict::Harmless(_)) => quiet.add(name, at(), String::new),
+                Some(Verdict::Warned(_, usual)) if is_usual(attribute.value(), usual) => {
+                    quiet.add(name, at(), String::new);
+                }
+                Some(Verdict::Warned(words, _)) => {
+                    acting.add(name, at(), || format!("{} does not act: {words}", what()))
+                }
+                None => acting.add(name, at(), || format!("{} is not read", what())),
             }
         }
-        node.children().filter(Node::is_element).for_each(|child| self.unread(child, silent, quiet, acting));
+        node.children().filter(Node::is_element).for_each(|child| self.unread(child, quiet, acting));
     }
+}
+
+/// A value is one of those that do nothing: numbers all of that size, or the word.
+fn is_usual(value: &str, usual: &str) -> bool {
+    let same = |word: &str, other: &str| match (word.parse::<f64>(), other.parse::<f64>()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => word == other,
+    };
+    value.split_whitespace().all(|word| usual.split_whitespace().any(|other| same(word, other)))
 }
 
 /// What is not read, by its name.

@@ -202,6 +202,13 @@ fn what_is_told() {
             false
         )]
     );
+    let limited = arm("<limit effort=\"7\" velocity=\"2\" lower=\"0\" upper=\"0\"/>");
+    let text = "3:1: the range -7 to 7 of `elbow` (`effort`) does not act; write `saturation = clamp` to cut off what is \
+                beyond, or `saturation = none`";
+    assert_eq!(remarks(&limited, ", limits = none")[0], told(text, true));
+    for known in ["saturation = clamp", "saturation = none", "inputs = none"] {
+        assert!(remarks(&limited, &format!(", limits = none, {known}")).iter().all(|(_, ignored)| !ignored), "{known}");
+    }
     let blank = model(&robot(&(joint("left knee", "revolute", "base", "arm", "") + &link("arm"))), "", "");
     let (q, input) = (&blank.coordinates[0].ident, &blank.inputs[0]);
     assert_eq!((q.to_string().as_str(), input.field.as_deref()), ("left_knee", Some("left_knee")));
@@ -228,7 +235,7 @@ fn what_is_not_read() {
     let all = [
         told("3:112: the attribute `yaw` of <origin> is not read", true),
         told("3:143: the attribute `backlash` of <dynamics> is not read", true),
-        told("5:1: <gazebo> is not read; likewise in lines 6, 7", true),
+        told("5:1: <gazebo> does not act: what Gazebo adds is not read; likewise in lines 6, 7", true),
         told("8:20: not read, as it says nothing of the motion, how many times: visual (2), collision (1)", false),
     ];
     assert_eq!(remarks(&text, ""), all);

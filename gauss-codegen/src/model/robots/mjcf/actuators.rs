@@ -3,13 +3,11 @@
 use roxmltree::Node;
 
 use super::File;
+use super::gains::{ACTUATOR, Gains};
 use crate::model::robots::description::Drive;
 use crate::model::robots::names::unknown;
 use crate::model::robots::rotation::Triple;
-
-/// Elements of defaults that all set the same.
-const ACTUATOR: &[&str] =
-    &["general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "muscle", "adhesion"];
+use crate::model::robots::xml::shown;
 
 /// What an actuator acts on.
 enum ActsOn {
@@ -22,27 +20,102 @@ enum ActsOn {
 impl<'a> File<'a> {
     pub fn actuators(&mut self, section: Node<'a, 'a>) {
         for node in self.reading.elements(section) {
-            let drive = self.acts_on(node).and_then(|on| self.drive(node, on));
+            let drive = self.drive(node);
             // Keyframes count those that are not read as well.
             self.controls.push(drive.as_ref().map(|_| self.description.drives.len()));
             self.description.drives.extend(drive);
         }
     }
 
-    fn drive(&mut self, node: Node<'a, 'a>, on: ActsOn) -> Option<Drive> {
-        let (gain, bias) = self.law(node)?;
-        let (along, at_link) = match on {
+    fn drive(&mut self, node: Node<'a, 'a>) -> Option<Drive> {
+        let gains = self.gains(node);
+        if self.disabled.actuation || self.disabled.groups.contains(&gains.group) {
+            self.reading.note(node, format!("{} is switched off by <option>", shown(node)));
+            self.reading.pass(node);
+            return None;
+        }
+        if !gains.is_affine() {
+            self.ignored(node, "it is not linear in its control, or has a state of its own");
+            return None;
+        }
+        let (along, at_link) = match self.acts_on(node, &gains.gear)? {
             ActsOn::Joints(along) => (along, None),
             ActsOn::Link(link, wrench) => (Vec::new(), Some((link, wrench))),
         };
         let named = self.reading.text(node, "name").map(str::to_owned);
         let first = along.first().map(|(joint, _)| joint).or(at_link.as_ref().map(|(link, _)| link)).cloned();
-        Some(Drive { name: named.or(first)?, at: self.reading.at(node), along, at_link, gain, bias })
+        let [gain, mut bias] = gains.acting();
+        if let Some(ratio) = gains.ratio() {
+            bias[2] = -self.damping(node, &along, (gain[0], ratio))?;
+        }
+        let [controls, forces] = self.ranges(node, &gains, &along);
+        let at = self.reading.at(node);
+        Some(Drive { name: named.or(first)?, at, along, at_link, gain, bias, controls, forces })
     }
 
-    fn acts_on(&mut self, node: Node<'a, 'a>) -> Option<ActsOn> {
-        let gears = self.list(node, ACTUATOR, "gear", None).unwrap_or_default();
-        let Some(site) = self.reading.text(node, "site") else { return self.along(node, &gears).map(ActsOn::Joints) };
+    /// What defaults and an element say.
+    fn gains(&mut self, node: Node<'a, 'a>) -> Gains<'a> {
+        let mut said: Vec<Node<'a, 'a>> = self.classes.nearest((node, ACTUATOR), None, &self.reading).collect();
+        said.reverse();
+        let gains = Gains::of(&said, &mut self.reading);
+        // Of elements of one kind all versions of MuJoCo make the same.
+        let tag = node.tag_name().name();
+        let strange = |element: &Node<'a, 'a>| !["general", tag].contains(&element.tag_name().name());
+        if tag != "general" && said.iter().any(strange) {
+            let other = said.iter().copied().find(strange).map_or("", |element| element.tag_name().name());
+            said.retain(|element| !strange(element));
+            let own = Gains::of(&said, &mut self.reading);
+            if own.law() != gains.law() {
+                let text = format!(
+                    "{} has defaults of <{other}>, of which versions of MuJoCo make different things; write its gains \
+                     in itself",
+                    shown(node)
+                );
+                self.reading.ignored(node, text);
+            }
+        }
+        gains
+    }
+
+    /// Those of the control, and of the force, that limit.
+    fn ranges(&mut self, node: Node<'a, 'a>, gains: &Gains<'a>, along: &[(String, f64)]) -> [Option<[f64; 2]>; 2] {
+        let mut ranges = gains.ranges;
+        let [gain, bias] = gains.acting();
+        if gains.inherited > 0.0 && gain[0] == -bias[1] {
+            let of_joint = match along {
+                [(name, _)] => self.description.joints.iter().find(|joint| joint.name == *name),
+                _ => None,
+            };
+            match of_joint.map(|joint| joint.limits) {
+                Some([Some(least), Some(most)]) => {
+                    let (mean, half) = ((least + most) / 2.0, (most - least) / 2.0 * gains.inherited);
+                    ranges[0].0 = [mean - half, mean + half];
+                }
+                _ => self.ignored(node, "`inheritrange` is read of joints with limits"),
+            }
+        }
+        let ranges = ranges.map(|(range, word)| self.limited(node, range, word));
+        [ranges[0].filter(|_| !self.disabled.clamps), ranges[1]]
+    }
+
+    /// A range, if it limits: where nothing says so, if it is not from zero to zero.
+    pub fn limited(&mut self, node: Node<'a, 'a>, range: [f64; 2], word: Option<&str>) -> Option<[f64; 2]> {
+        let limits = match word {
+            Some("true") => true,
+            Some("false") => false,
+            _ => self.automatic && range != [0.0; 2],
+        };
+        if limits && range[0] > range[1] {
+            let [least, most] = range;
+            self.reading.fault(node, format!("a range is from its least to its most, found {least} to {most}"));
+        }
+        limits.then_some(range)
+    }
+
+    fn acts_on(&mut self, node: Node<'a, 'a>, gear: &[f64; 6]) -> Option<ActsOn> {
+        let Some(site) = self.reading.text(node, "site") else {
+            return self.along(node, gear[0]).map(ActsOn::Joints);
+        };
         if self.reading.text(node, "refsite").is_some() {
             self.ignored(node, "a `refsite` is not read; of sites alone the wrench at `site` is");
             return None;
@@ -52,14 +125,11 @@ impl<'a> File<'a> {
             self.reading.fault(node, format!("it acts at {message}"));
             return None;
         };
-        let usual = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let gear = |k: usize| gears.get(k).copied().unwrap_or(if gears.is_empty() { usual[k] } else { 0.0 });
-        Some(ActsOn::Link(link.clone(), [[0, 1, 2], [3, 4, 5]].map(|part| part.map(gear))))
+        Some(ActsOn::Link(link.clone(), [[0, 1, 2], [3, 4, 5]].map(|part| part.map(|k| gear[k]))))
     }
 
     /// The joints that an actuator acts on, with what its length changes by those.
-    fn along(&mut self, node: Node<'a, 'a>, gears: &[f64]) -> Option<Vec<(String, f64)>> {
-        let gear = gears.first().copied().unwrap_or(1.0);
+    fn along(&mut self, node: Node<'a, 'a>, gear: f64) -> Option<Vec<(String, f64)>> {
         let named = |name: &str| self.description.tendons.iter().find(|tendon| tendon.name.as_deref() == Some(name));
         let joint = self.reading.text(node, "joint").or(self.reading.text(node, "jointinparent"));
         let along = match (joint, self.reading.text(node, "tendon")) {
@@ -80,48 +150,5 @@ impl<'a> File<'a> {
             return None;
         }
         Some(along)
-    }
-
-    /// Gain and bias; `None` of what is not linear in the control, or has a state of its own.
-    fn law(&mut self, node: Node<'a, 'a>) -> Option<(f64, Triple)> {
-        let number = |file: &mut Self, name: &'static str, or: f64| {
-            file.numbers::<1>(node, ACTUATOR, name, None).map_or(or, |[number]| number)
-        };
-        let law = match node.tag_name().name() {
-            "motor" => (1.0, [0.0; 3]),
-            "position" => {
-                let [kp, kv] = [number(self, "kp", 1.0), number(self, "kv", 0.0)];
-                if number(self, "dampratio", 0.0) != 0.0 || number(self, "timeconst", 0.0) != 0.0 {
-                    self.ignored(node, "`dampratio` and `timeconst` are not read; write `kv`");
-                    return None;
-                }
-                (kp, [0.0, -kp, -kv])
-            }
-            "velocity" => {
-                let kv = number(self, "kv", 1.0);
-                (kv, [0.0, 0.0, -kv])
-            }
-            "general" => {
-                let word = |name: &'static str, usual| {
-                    self.text(node, ACTUATOR, name, None).is_none_or(|word: &str| word == usual)
-                };
-                let linear = word("dyntype", "none") && word("gaintype", "fixed");
-                let biased = self.text(node, ACTUATOR, "biastype", None);
-                let gains = self.list(node, ACTUATOR, "gainprm", None);
-                let biases = self.list(node, ACTUATOR, "biasprm", None).unwrap_or_default();
-                if !linear || !matches!(biased, None | Some("none" | "affine")) {
-                    self.ignored(node, "it is not linear in its control, or has a state of its own");
-                    return None;
-                }
-                let affine = biased == Some("affine");
-                let bias = |k: usize| biases.get(k).copied().filter(|_| affine).unwrap_or(0.0);
-                (gains.and_then(|gains| gains.first().copied()).unwrap_or(1.0), [bias(0), bias(1), bias(2)])
-            }
-            _ => {
-                self.ignored(node, "it is not linear in its control, or has a state of its own");
-                return None;
-            }
-        };
-        Some(law)
     }
 }

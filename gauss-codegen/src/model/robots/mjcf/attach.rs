@@ -35,7 +35,7 @@ impl<'a> File<'a> {
         let prefix = prefix.ok_or("the attribute `prefix` is missing")?;
         let text = self.reading.model(name).map_err(|which| format!("it attaches {which}"))?;
         let read = part(text, body, prefix)?;
-        let read = read.and_then(|part| model(&part, Some(prefix)));
+        let read = read.and_then(|part| model(&part, Some((prefix, &*self))));
         let other = match read {
             Ok(other) => other,
             Err(faults) => {
@@ -257,6 +257,31 @@ mod tests {
         assert_eq!((found.tendons.len(), found.polynomials.len(), found.gravity), (1, 1, Some([0.0, 0.0, -9.81])));
         assert_eq!(found.closures[0].links, ["a-shin", "world"]);
         assert_eq!(found.joints[1].at.file, 1);
+    }
+
+    /// `opt.gravity` and `opt.disableflags` of MuJoCo 3.3 and 4.0 are those of the first file.
+    #[test]
+    fn options_are_those_of_the_first_file() {
+        let told = |own: &str, other: &str| {
+            let folder = Folder::new("options", &LEG.replace("<option gravity=\"0 0 -1\"/>", other));
+            let world = "<worldbody><attach model=\"leg\" prefix=\"a\"/></worldbody>";
+            let found = folder.read(&format!("{own}{ASSET}{world}")).expect("both");
+            let told: Vec<String> =
+                found.notes.into_iter().filter(|note| note.ignored.is_some()).map(|note| note.text).collect();
+            let limits = found.joints.iter().any(|joint| joint.limits != [None; 2]);
+            (told.join("; "), found.gravity, limits, found.drives.len())
+        };
+        let earth = Some([0.0, 0.0, -9.81]);
+        let text = "<option> does not act: those of the file that attaches this one act: gravity and what is switched off \
+                    are others here";
+        assert_eq!(told("", "<option timestep=\"0.01\"/>"), (String::new(), earth, true, 3));
+        assert_eq!(told("", "<option gravity=\"0 0 -1\"/>"), (text.to_owned(), earth, true, 3));
+        let off = "<option><flag limit=\"disable\" actuation=\"disable\"/></option>";
+        assert_eq!(told("", off), (text.to_owned(), earth, true, 3));
+        let moon = "<option gravity=\"0 0 -1.6\"/>";
+        assert_eq!(told(moon, "<option timestep=\"0.01\"/>"), (String::new(), Some([0.0, 0.0, -1.6]), true, 3));
+        assert_eq!(told(off, ""), (String::new(), earth, false, 0));
+        assert_eq!(told(off, off), (String::new(), earth, false, 0));
     }
 
     /// `body_pos` and `body_quat` of MuJoCo 4.0.0.

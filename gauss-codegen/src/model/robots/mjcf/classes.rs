@@ -8,34 +8,54 @@ use crate::model::robots::xml::Reading;
 /// The class of what names none.
 const MAIN: &str = "main";
 
-/// One `<default>`.
+/// A class of defaults.
 struct Class<'a> {
-    name: &'a str,
-    parent: Option<usize>,
-    node: Node<'a, 'a>,
+    /// The class that it is in, with how many elements of that it began with: what comes there later is not its own.
+    parent: Option<(usize, usize)>,
+    /// Elements that set defaults, in their order.
+    elements: Vec<Node<'a, 'a>>,
 }
 
 /// All of them; the first is that of elements without a class.
 pub struct Classes<'a> {
     all: Vec<Class<'a>>,
+    /// Of what each is called the index.
+    names: Vec<(&'a str, usize)>,
 }
 
 impl<'a> Classes<'a> {
-    pub fn read(root: Node<'a, 'a>, reading: &Reading<'a>) -> Self {
-        let mut classes = Self { all: Vec::new() };
+    /// Every `<default>` in the root adds to one class, `main`, in the order of the file. A class in it begins with what that
+    /// is then, as MuJoCo's `mjXReader::Default` has it: elements of a `<default>` come before the classes in it.
+    pub fn read(root: Node<'a, 'a>, reading: &mut Reading<'a>) -> Self {
+        let main = Class { parent: None, elements: Vec::new() };
+        let mut classes = Self { all: vec![main], names: vec![(MAIN, 0)] };
         for node in reading.children(root, "default") {
-            let top = if classes.all.is_empty() { None } else { Some(0) };
-            classes.add(node, top, reading);
+            // Before version 4 the root could be called otherwise.
+            let name = reading.text(node, "class").filter(|name| *name != MAIN);
+            classes.names.extend(name.map(|name| (name, 0)));
+            classes.add(node, 0, reading);
         }
         classes
     }
 
-    fn add(&mut self, node: Node<'a, 'a>, parent: Option<usize>, reading: &Reading<'a>) {
-        let index = self.all.len();
-        let name = reading.text(node, "class").unwrap_or(MAIN);
-        self.all.push(Class { name, parent, node });
-        for child in reading.children(node, "default") {
-            self.add(child, Some(index), reading);
+    /// What is in a `<default>` comes to a class.
+    fn add(&mut self, node: Node<'a, 'a>, index: usize, reading: &mut Reading<'a>) {
+        let is_class = |child: &Node<'a, 'a>| child.tag_name().name() == "default";
+        let (inner, own): (Vec<_>, Vec<_>) = reading.elements(node).into_iter().partition(is_class);
+        self.all[index].elements.extend(own);
+        for child in inner {
+            let Some(name) = reading.text(child, "class").filter(|name| !name.is_empty()) else {
+                reading.fault(child, "a class in another has a name; write `class=\"…\"`");
+                continue;
+            };
+            if self.names.iter().any(|(known, _)| *known == name) {
+                reading.fault(child, format!("a second class is called `{name}`"));
+            }
+            let new = self.all.len();
+            let parent = Some((index, self.all[index].elements.len()));
+            self.all.push(Class { parent, elements: Vec::new() });
+            self.names.push((name, new));
+            self.add(child, new, reading);
         }
     }
 
@@ -46,8 +66,8 @@ impl<'a> Classes<'a> {
         for node in root.descendants().filter(outside) {
             for name in ["class", "childclass"] {
                 let Some(class) = node.attribute(name).map(str::trim) else { continue };
-                if class != MAIN && !self.all.iter().any(|known| known.name == class) {
-                    let which = unknown("class", class, self.all.iter().map(|known| known.name));
+                if !self.names.iter().any(|(known, _)| *known == class) {
+                    let which = unknown("class", class, self.names.iter().map(|(known, _)| *known));
                     reading.fault(node, format!("its `{name}` is {which}"));
                 }
             }
@@ -63,26 +83,22 @@ impl<'a> Classes<'a> {
         class: Option<&str>,
         reading: &Reading<'a>,
     ) -> Option<Node<'a, 'a>> {
-        let named = |node: &Node<'a, 'a>| tags.contains(&node.tag_name().name());
-        // What elements are asked for their defaults are, too.
-        for child in self.all.iter().flat_map(|class| class.node.children()).filter(named) {
-            reading.see(child);
-            reading.text(child, name);
-        }
-        if reading.text(node, name).is_some() {
-            return Some(node);
-        }
+        self.nearest((node, tags), class, reading).find(|element| element.attribute(name).is_some())
+    }
+
+    /// An element, then what sets defaults of it, the nearest first: of the same default the last.
+    pub fn nearest(
+        &self,
+        (node, tags): (Node<'a, 'a>, &[&str]),
+        class: Option<&str>,
+        reading: &Reading<'a>,
+    ) -> impl Iterator<Item = Node<'a, 'a>> {
         let class = reading.text(node, "class").or(class);
-        let known = class.and_then(|class| self.all.iter().position(|other| other.name == class));
-        let mut next = known.or((!self.all.is_empty()).then_some(0));
-        while let Some(index) = next {
-            let Class { node, parent, .. } = &self.all[index];
-            let element = node.children().find(|child| named(child) && child.attribute(name).is_some());
-            if element.is_some() {
-                return element;
-            }
-            next = *parent;
-        }
-        None
+        let known = class.and_then(|class| self.names.iter().find(|(name, _)| *name == class));
+        let first = known.map_or(0, |(_, index)| *index);
+        let whole = Some((first, self.all[first].elements.len()));
+        let chain = std::iter::successors(whole, |(index, _)| self.all[*index].parent);
+        let defaults = chain.flat_map(|(index, count)| self.all[index].elements[..count].iter().rev().copied());
+        [node].into_iter().chain(defaults.filter(|element| tags.contains(&element.tag_name().name())))
     }
 }

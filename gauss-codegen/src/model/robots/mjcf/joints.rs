@@ -128,6 +128,9 @@ impl<'a> File<'a> {
             _ => self.automatic,
         };
         let limits = range.filter(|_| limited).map_or([None; 2], |range| range.map(Some));
-        Joint { damping, friction, stiffness, armature, rest, reference, limits, ..joint }
+        let efforts = self.numbers::<2>(node, JOINT, "actuatorfrcrange", class);
+        let word = self.text(node, JOINT, "actuatorfrclimited", class);
+        let efforts = efforts.and_then(|range| self.limited(node, range, word));
+        Joint { damping, friction, stiffness, armature, rest, reference, limits, efforts, ..joint }
     }
 }

@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 
 use roxmltree::Node;
 
+use super::bounds::diagonal_of;
 use super::rotations::to_direction;
+use super::shells::area_and_moments;
 use super::{File, Geoms, Place};
 use crate::model::robots::description::Inertial;
 use crate::model::robots::rotation::{Rotation, Triple, turned_tensor};
@@ -13,12 +15,17 @@ use crate::model::robots::xml::shown;
 
 const GEOM: &[&str] = &["geom"];
 
-/// kg/m³, of geoms that say nothing.
+/// kg/m³, of geoms that say nothing; of shells kg/m².
 const DENSITY: f64 = 1000.0;
 
 impl<'a> File<'a> {
     /// Of what is written for a body, in its axes.
     pub fn inertial(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) -> Option<Inertial> {
+        let own = self.said(node, class);
+        self.bounds.kept(own)
+    }
+
+    fn said(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) -> Option<Inertial> {
         let written = self.reading.child(node, "inertial");
         match (written, self.geoms) {
             (Some(inertial), Geoms::Missing | Geoms::None) => self.written(inertial),
@@ -89,18 +96,22 @@ impl<'a> File<'a> {
         let own: Option<[f64; 1]> = self.numbers(node, GEOM, "mass", class);
         let density = self.numbers(node, GEOM, "density", class).map_or(DENSITY, |[density]| density);
         let place = self.triple(node, "geom", "pos", class);
-        let rotation = self.angles.of(node, &mut self.reading);
+        let rotation = self.rotation(node, GEOM, class);
+        let group = self.numbers(node, GEOM, "group", class).map_or(0.0, |[group]| group);
+        if group < self.groups[0] || group > self.groups[1] {
+            return None;
+        }
         if own == Some([0.0]) || (own.is_none() && density == 0.0) || matches!(kind, "plane" | "hfield") {
             return None;
         }
-        if self.text(node, GEOM, "shellinertia", class) == Some("true") {
-            self.reading.ignored(node, format!("the inertia of {} is that of a volume, not of a shell", shown(node)));
-        }
         if let Some(mesh) = self.text(node, GEOM, "mesh", class) {
+            // MuJoCo leaves `shellinertia` out here: a mesh has its own `inertia="shell"`.
             let solid = self.of_mesh(node, kind, mesh)?;
             let solid = solid.scaled(own.map_or(density, |[mass]| mass / solid.mass));
             return Some(placed(solid, &(place, rotation.matrix)));
         }
+        let is_shell = self.text(node, GEOM, "shellinertia", class) == Some("true");
+        let measure = if is_shell { area_and_moments } else { volume_and_moments };
         let (center, matrix, half) = match ends {
             Some([a, b, c, d, e, f]) => {
                 let along = [d - a, e - b, f - c];
@@ -109,9 +120,10 @@ impl<'a> File<'a> {
             }
             None => (place, rotation.matrix, None),
         };
-        let Some((volume, moments)) = volume_and_moments(kind, &size, half) else {
+        let Some((volume, moments)) = measure(kind, &size, half) else {
+            let shell = if is_shell { "shell" } else { "<geom>" };
             let text =
-                format!("the mass of {} is not read: a <geom> of type `{kind}` needs its mesh or sizes", shown(node));
+                format!("the mass of {} is not read: a {shell} of type `{kind}` needs its mesh or sizes", shown(node));
             self.reading.ignored(node, text);
             return None;
         };
@@ -121,12 +133,8 @@ impl<'a> File<'a> {
     }
 }
 
-fn diagonal_of([a, b, c]: Triple) -> [[f64; 3]; 3] {
-    [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]
-}
-
 /// The volume of a shape, and its central moments by mass; `half` its length along the third axis, where its ends say it.
-fn volume_and_moments(kind: &str, size: &[f64], half: Option<f64>) -> Option<(f64, Triple)> {
+pub fn volume_and_moments(kind: &str, size: &[f64], half: Option<f64>) -> Option<(f64, Triple)> {
     let round = || Some((*size.first()?, half.or(size.get(1).copied())?));
     let three = || match half {
         Some(half) => Some([*size.first()?, *size.get(1).or(size.first())?, half]),

@@ -43,7 +43,11 @@ impl<'a> File<'a> {
     }
 
     fn solid(&mut self, node: Node<'a, 'a>) -> Option<Inertial> {
-        let word = self.text(node, MESH, "inertia", None).unwrap_or("legacy");
+        // Before version 3.3 the compiler said it for all meshes.
+        let compilers = self.reading.children(node.document().root_element(), "compiler");
+        let is_exact = |node: &Node<'a, 'a>| self.reading.text(*node, "exactmeshinertia") == Some("true");
+        let usual = if compilers.iter().any(is_exact) { "exact" } else { "legacy" };
+        let word = self.text(node, MESH, "inertia", None).unwrap_or(usual);
         let rule = match word {
             "exact" | "convex" => Rule::Exact,
             "legacy" => Rule::Legacy,
@@ -56,7 +60,7 @@ impl<'a> File<'a> {
         let mut mesh = self.surface(node)?;
         // Points without faces stand for their hull.
         if word == "convex" || mesh.faces.is_empty() {
-            let most = self.reading.number(node, "maxhullvert").filter(|most| *most > 0.0);
+            let most = self.numbers(node, MESH, "maxhullvert", None).filter(|[most]| *most > 0.0);
             mesh.faces = hull(&mesh.vertices).filter(|_| most.is_none()).unwrap_or_default();
             if !mesh.is_convex() {
                 self.reading

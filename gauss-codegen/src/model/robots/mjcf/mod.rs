@@ -4,129 +4,52 @@
 //! |---|---|
 //! | `classes`, `rotations` | defaults of elements; the ways to write a rotation |
 //! | `joints` | the joints of a body |
-//! | `masses`, `meshes` | mass data: of `<inertial>`, of geoms, of the files of meshes |
+//! | `masses`, `shells`, `meshes`, `bounds` | mass data: of `<inertial>`, of geoms, of files; what they are at least |
+//! | `options`, `disabled` | gravity, what is switched off |
+//! | `reference` | of every attribute what becomes of it |
 //! | `relations` | equalities and tendons |
 //! | `attach` | parts of other models |
 //! | `include`, `replicate`, `labels` | the text of several files, and with copies, which have names of their own |
-//! | `actuators`, `keys` | what drives joints; states with names |
+//! | `actuators`, `gains`, `ratios` | what drives joints, and by how much |
+//! | `keys` | states with names |
 //!
 //! Of several joints in a body all but the last have a link of their own, without mass; so has one whose anchor is
 //! not the origin of its body, which is then fixed to it.
 
 mod actuators;
 mod attach;
+mod bounds;
 mod classes;
+mod disabled;
+mod gains;
 mod include;
 mod joints;
 mod keys;
 mod labels;
 mod masses;
 mod meshes;
+mod options;
+mod ratios;
+mod reference;
 mod relations;
 mod replicate;
 mod rotations;
+mod shells;
+#[cfg(test)]
+mod tests;
 
 pub use self::include::included;
 use roxmltree::Node;
 
+use self::bounds::Bounds;
 use self::classes::Classes;
-use self::rotations::Angles;
+use self::disabled::Disabled;
+use self::reference::ELEMENTS;
+use self::rotations::{Angles, ORIENTATION};
 use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link};
 use super::rotation::{Matrix, Rotation, Triple, multiply, turned};
 use super::text::Text;
-use super::xml::{Reading, Silent, parse, shown};
-
-/// What says nothing of the motion: looks, contacts of which none are modelled, and how MuJoCo solves.
-const SILENT: Silent = Silent {
-    elements: &[
-        "asset",
-        "camera",
-        "custom",
-        "exclude",
-        "extension",
-        "geom",
-        "light",
-        "material",
-        "mesh",
-        "sensor",
-        "size",
-        "statistic",
-        "visual",
-    ],
-    attributes: &[
-        "actlimited",
-        "actrange",
-        "actuatorfrclimited",
-        "actuatorfrcrange",
-        "align",
-        "apirate",
-        "assetdir",
-        "ccd_iterations",
-        "ccd_tolerance",
-        "childclass",
-        "class",
-        "conaffinity",
-        "condim",
-        "cone",
-        "contype",
-        "ctrllimited",
-        "ctrlrange",
-        "discardvisual",
-        "exactmeshinertia",
-        "file",
-        "fitaabb",
-        "fitscale",
-        "forcelimited",
-        "forcerange",
-        "fovy",
-        "friction",
-        "fromto",
-        "fusestatic",
-        "gap",
-        "group",
-        "hfield",
-        "impratio",
-        "inertiagrouprange",
-        "integrator",
-        "iterations",
-        "jacobian",
-        "kd",
-        "lengthrange",
-        "ls_iterations",
-        "ls_tolerance",
-        "margin",
-        "material",
-        "mesh",
-        "meshdir",
-        "model",
-        "mpos",
-        "mquat",
-        "noslip_iterations",
-        "noslip_tolerance",
-        "priority",
-        "rgba",
-        "sdf_initpoints",
-        "sdf_iterations",
-        "size",
-        "solimp",
-        "solimpfriction",
-        "solimplimit",
-        "solmix",
-        "solref",
-        "solreffriction",
-        "solreflimit",
-        "solver",
-        "strippath",
-        "texturedir",
-        "time",
-        "timestep",
-        "tolerance",
-        "torquescale",
-        "type",
-        "user",
-        "width",
-    ],
-};
+use super::xml::{Reading, parse, shown};
 
 /// The link that holds all others.
 const WORLD: &str = "world";
@@ -147,25 +70,28 @@ struct Model {
     controls: Vec<Option<usize>>,
 }
 
-/// A whole file, or a part that is attached with a prefix.
-fn model(text: &Text, prefix: Option<&str>) -> Result<Model, Vec<Fault>> {
+/// A whole file, or a part that another attaches with a prefix.
+fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fault>> {
     let document = parse(&text.whole).map_err(|fault| vec![fault])?;
-    let mut reading = Reading::new(&document, text);
+    let mut reading = Reading::new(&document, text, ELEMENTS);
     let root = document.root_element();
     if root.tag_name().name() != "mujoco" {
         reading.fault(root, "an MJCF file is a <mujoco>");
     }
     let mut file = File {
         angles: Angles::read(root, &mut reading),
-        classes: Classes::read(root, &reading),
+        classes: Classes::read(root, &mut reading),
         description: Description { only_driven: true, ..Description::default() },
         automatic: true,
         geoms: Geoms::Missing,
+        groups: [0.0, 5.0],
+        bounds: Bounds::default(),
+        disabled: Disabled::default(),
         total_mass: None,
         sites: Vec::new(),
         controls: Vec::new(),
         meshes: Vec::new(),
-        prefix: prefix.unwrap_or_default().to_owned(),
+        prefix: around.map_or("", |(prefix, _)| prefix).to_owned(),
         attached: Vec::new(),
         bodies: root
             .descendants()
@@ -175,14 +101,14 @@ fn model(text: &Text, prefix: Option<&str>) -> Result<Model, Vec<Fault>> {
         reading,
     };
     file.classes.refuse_strange(root, &mut file.reading);
-    file.description.gravity = Some(file.gravity(root));
+    file.options(root, around.map(|(_, file)| file));
     file.compiler(root);
     // What follows names joints, which are all in the world.
     for world in file.reading.children(root, "worldbody") {
         file.world(world);
     }
     // What attaches the file weighs it.
-    if prefix.is_none() {
+    if around.is_none() {
         file.scale_masses();
     }
     file.reading.children(root, "tendon").into_iter().for_each(|section| file.tendons(section));
@@ -190,14 +116,15 @@ fn model(text: &Text, prefix: Option<&str>) -> Result<Model, Vec<Fault>> {
     file.reading.children(root, "actuator").into_iter().for_each(|section| file.actuators(section));
     file.add_drives_of_attached();
     file.reading.children(root, "keyframe").into_iter().for_each(|section| file.keys(section));
-    for contact in file.reading.children(root, "contact") {
-        let shown = file.reading.children(contact, "exclude").len();
-        if shown > 0 {
-            file.reading.note(contact, "contacts are not modelled, so that none is to be excluded");
-            file.reading.children(contact, "exclude").into_iter().for_each(|node| file.reading.pass(node));
+    file.switch_off();
+    // Masses and attached models look for what they need; the rest says nothing of the motion.
+    for asset in file.reading.children(root, "asset") {
+        for tag in ["mesh", "model"] {
+            file.reading.children(asset, tag);
         }
     }
-    file.reading.note_unread(&SILENT);
+    file.reading.children(root, "contact");
+    file.reading.note_unread();
     let File { mut description, reading, sites, controls, .. } = file;
     description.notes = reading.notes;
     if reading.faults.is_empty() { Ok(Model { description, sites, controls }) } else { Err(reading.faults) }
@@ -221,6 +148,10 @@ struct File<'a> {
     /// A range limits without being told to.
     automatic: bool,
     geoms: Geoms,
+    /// The least and the largest group of geoms that have masses.
+    groups: [f64; 2],
+    bounds: Bounds,
+    disabled: Disabled,
     /// What all bodies weigh together, where masses are to be scaled to that.
     total_mass: Option<f64>,
     /// Names of bodies.
@@ -238,24 +169,6 @@ struct File<'a> {
 }
 
 impl<'a> File<'a> {
-    /// Observer's axes, m/s²; that of the earth where the file says nothing.
-    fn gravity(&mut self, root: Node<'a, 'a>) -> Triple {
-        let mut gravity = [0.0, 0.0, -9.81];
-        for option in self.reading.children(root, "option") {
-            gravity = self.reading.numbers(option, "gravity").unwrap_or(gravity);
-            for flag in self.reading.children(option, "flag") {
-                if self.reading.text(flag, "gravity") == Some("disable") {
-                    gravity = [0.0; 3];
-                }
-                if flag.attributes().any(|attribute| attribute.name() != "gravity") {
-                    self.reading.note(flag, "of <flag> `gravity` alone is read");
-                    self.reading.pass(flag);
-                }
-            }
-        }
-        gravity
-    }
-
     fn compiler(&mut self, root: Node<'a, 'a>) {
         for node in self.reading.children(root, "compiler") {
             self.automatic &= self.reading.text(node, "autolimits") != Some("false");
@@ -264,6 +177,8 @@ impl<'a> File<'a> {
                 Some("false") => self.geoms = Geoms::None,
                 _ => {}
             }
+            self.groups = self.reading.numbers(node, "inertiagrouprange").unwrap_or(self.groups);
+            self.bounds.read(node, &mut self.reading);
             // Zero and less mean that nothing is scaled.
             self.total_mass = self.reading.number(node, "settotalmass").filter(|mass| *mass > 0.0).or(self.total_mass);
             if self.reading.text(node, "coordinate").is_some_and(|word| word != "local") {
@@ -275,7 +190,12 @@ impl<'a> File<'a> {
     fn world(&mut self, node: Node<'a, 'a>) {
         let name = WORLD.to_owned();
         if !self.description.links.iter().any(|link| link.name == name) {
-            self.description.links.push(Link { name: name.clone(), at: self.reading.at(node), inertial: None });
+            self.description.links.push(Link {
+                name: name.clone(),
+                at: self.reading.at(node),
+                inertial: None,
+                held: 0.0,
+            });
         }
         self.inside(node, &name, None, &([0.0; 3], Rotation::none().matrix));
     }
@@ -287,6 +207,7 @@ impl<'a> File<'a> {
                 "body" => self.body(child, parent, class, place),
                 "site" => self.site(child, parent, class, place),
                 "attach" => self.attach(child, parent, place),
+                "geom" => self.reading.see(child),
                 "frame" => {
                     self.reading.see(child);
                     let class = self.reading.text(child, "childclass").or(class);
@@ -301,9 +222,16 @@ impl<'a> File<'a> {
     /// The place of an element in that of what it is in.
     fn placed(&mut self, node: Node<'a, 'a>, tag: &'static str, class: Option<&'a str>, (at, matrix): &Place) -> Place {
         let position = self.triple(node, tag, "pos", class);
-        let rotation = self.angles.of(node, &mut self.reading);
+        let rotation = self.rotation(node, &[tag], class);
         let moved = turned(matrix, &position);
         (std::array::from_fn(|i| at[i] + moved[i]), multiply(matrix, &rotation.matrix))
+    }
+
+    /// The rotation of an element, or of the defaults of its class.
+    fn rotation(&mut self, node: Node<'a, 'a>, tags: &[&str], class: Option<&'a str>) -> Rotation {
+        let is_written = |element: &Node<'a, 'a>| ORIENTATION.iter().any(|way| element.attribute(*way).is_some());
+        let carrier = self.classes.nearest((node, tags), class, &self.reading).find(is_written);
+        carrier.map_or(Rotation::none(), |carrier| self.angles.of(carrier, &mut self.reading))
     }
 
     /// A named site is a frame.
@@ -331,12 +259,15 @@ impl<'a> File<'a> {
         let (position, matrix) = self.placed(node, "body", class, place);
         let inertial = self.inertial(node, class);
         self.link(name.clone(), node, inertial);
+        if let (Some(held), Some(link)) = (self.reading.number(node, "gravcomp"), self.description.links.last_mut()) {
+            link.held = held;
+        }
         self.joints(node, &name, parent, (position, Rotation::from_matrix(&matrix)), class);
         self.inside(node, &name, class, &([0.0; 3], Rotation::none().matrix));
     }
 
     fn link(&mut self, name: String, node: Node<'a, 'a>, inertial: Option<Inertial>) {
-        self.description.links.push(Link { name, at: self.reading.at(node), inertial });
+        self.description.links.push(Link { name, at: self.reading.at(node), inertial, held: 0.0 });
     }
 
     /// A joint without laws.

@@ -119,9 +119,7 @@ impl<'a> File<'a> {
     /// Springs and dampers along sums of coordinates.
     pub fn tendons(&mut self, section: Node<'a, 'a>) {
         for node in self.reading.elements(section) {
-            let tag = node.tag_name().name();
-            if tag != "fixed" {
-                self.ignored(node, "only tendons that are linear in joints are read");
+            if node.tag_name().name() != "fixed" {
                 continue;
             }
             let mut along = Vec::new();
@@ -139,15 +137,14 @@ impl<'a> File<'a> {
                 |name: &String| joints.iter().find(|joint| joint.name == *name).map_or(0.0, |joint| joint.reference);
             let at_rest: f64 = along.iter().map(|(name, factor)| factor * reference(name)).sum();
             let rest = match written.as_slice() {
-                [] | [-1.0, ..] => at_rest,
-                [one] => *one,
-                [least, most, ..] => {
-                    if least != most {
-                        self.reading.ignored(node, "the spring of a tendon rests over a range: its middle counts");
-                    }
-                    (least + most) / 2.0
-                }
+                // MuJoCo's word for that.
+                [] | [-1.0] | [-1.0, -1.0, ..] => [at_rest; 2],
+                [one] => [*one; 2],
+                [least, most, ..] => [*least, *most],
             };
+            if rest[0] > rest[1] {
+                self.reading.fault(node, "`springlength` is from the least to the most");
+            }
             let name = self.reading.text(node, "name").map(str::to_owned);
             let at = self.reading.at(node);
             self.description.tendons.push(Tendon { name, at, along, stiffness, damping, rest });

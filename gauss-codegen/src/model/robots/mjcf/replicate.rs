@@ -10,6 +10,7 @@ use std::ops::Range;
 use roxmltree::Node;
 
 use super::labels::{Affix, Named, SECTIONS, name_of, references};
+use super::reference::ELEMENTS;
 use super::rotations::Angles;
 use crate::model::robots::description::Fault;
 use crate::model::robots::rotation::{Triple, turned};
@@ -17,6 +18,9 @@ use crate::model::robots::text::{MOST_OF_TEXT, Text};
 use crate::model::robots::xml::{Reading, is_foreign, parse, shown};
 
 const REPLICATE: &str = "replicate";
+
+/// What is read of it. MuJoCo's schema has `prefix`, too.
+const KNOWN: [&str; 5] = ["count", "offset", "euler", "sep", "childclass"];
 
 /// Copies of one element.
 const MOST_COPIES: usize = 1000;
@@ -46,7 +50,7 @@ fn once(text: &Text) -> Result<Option<Text>, Fault> {
     let is_replicate = |node: &Node<'_, '_>| node.tag_name().name() == REPLICATE && !is_foreign(*node);
     let innermost = |node: &Node<'_, '_>| !node.descendants().skip(1).any(|inner| is_replicate(&inner));
     let Some(node) = root.descendants().find(|node| is_replicate(node) && innermost(node)) else { return Ok(None) };
-    let mut reading = Reading::new(&document, text);
+    let mut reading = Reading::new(&document, text, ELEMENTS);
     let angles = Angles::read(root, &mut reading);
     // Those are told when the whole is read.
     let others = reading.faults.len();
@@ -89,6 +93,10 @@ impl<'a> Copies<'a> {
         let count = reading.required_number(node, "count").unwrap_or(1.0);
         if !(count >= 1.0 && count <= MOST_COPIES as f64 && count.fract() == 0.0) {
             reading.fault(node, format!("`count` is a whole number from 1 to {MOST_COPIES}, found `{count}`"));
+        }
+        // Nobody sees the element after this.
+        for attribute in node.attributes().filter(|attribute| !KNOWN.contains(&attribute.name())) {
+            reading.fault(node, format!("the attribute `{}` is not read", attribute.name()));
         }
         for inner in reading.elements(node) {
             let tag = inner.tag_name().name();

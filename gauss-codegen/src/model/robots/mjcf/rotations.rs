@@ -5,6 +5,9 @@ use roxmltree::Node;
 use crate::model::robots::rotation::{Matrix, Rotation, Triple, about, direction, multiply};
 use crate::model::robots::xml::Reading;
 
+/// The attributes that write a rotation.
+pub const ORIENTATION: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
+
 /// How angles are meant in a file.
 pub struct Angles {
     /// What one is in radians.

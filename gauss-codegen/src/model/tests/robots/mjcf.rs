@@ -34,8 +34,12 @@ fn what_is_told_and_refused() {
             "",
             Some("3:8: <body>: its `childclass` is `leg`, which is no class of this file"),
         ),
-        (format!("{hinge}<deformable/>"), "", Some("3:41: <deformable> is not read")),
-        (format!("{hinge}<contact><pair geom1=\"a\"/></contact>"), "", Some("3:50: <pair> is not read")),
+        (format!("{hinge}<deformable/>"), "", Some("3:41: <deformable> does not act: what bends is not modelled")),
+        (
+            format!("{hinge}<contact><pair geom1=\"a\"/></contact>"),
+            "",
+            Some("3:50: <pair> does not act: contacts are not modelled"),
+        ),
         (
             format!("{hinge}<tendon><spatial name=\"s\"/></tendon>"),
             "",
@@ -245,6 +249,89 @@ fn actuators_at_sites() {
     assert_eq!(controls(read), [("lift".to_owned(), 4.0), ("arm_site".to_owned(), 6.0)]);
     let all = controls(model(inside, ", inputs = actuators"));
     assert_eq!(all, [("lift".to_owned(), 4.0), ("a".to_owned(), 5.0), ("arm_site".to_owned(), 6.0)]);
+}
+
+/// Ranges of controls, forces and efforts act where the struct says so, and are warned of otherwise.
+#[test]
+fn ranges_of_inputs() {
+    let inside = "<joint name=\"a\" actuatorfrcrange=\"-5 6\"/><joint name=\"b\"/></body></worldbody><actuator>\
+                  <motor name=\"m\" joint=\"a\" gear=\"3\" ctrlrange=\"-1 1\"/>\
+                  <position name=\"p\" joint=\"b\" kp=\"2\" forcerange=\"-3 4\"/></actuator>";
+    let warned = |clauses: &str| -> Vec<String> {
+        let remarks = model(inside, clauses).described.unwrap().remarks.into_iter();
+        remarks
+            .filter(|remark| remark.ignored)
+            .map(|remark| remark.text.split_once(": ").unwrap().1.to_owned())
+            .collect()
+    };
+    assert_eq!(
+        warned(", inputs = actuators"),
+        [
+            "the range -5 to 6 of `a` (`actuatorfrcrange`) does not act; write `saturation = clamp` to cut off what is \
+             beyond, or `saturation = none`",
+            "the range -1 to 1 of `m` (`ctrlrange`) does not act; write `saturation = clamp` to cut off what is beyond, \
+             or `saturation = none`",
+            "the range -3 to 4 of `p` (`forcerange`) does not act; write `saturation = clamp` to cut off what is beyond, \
+             or `saturation = none`",
+        ]
+    );
+    let efforts = warned(", saturation = clamp");
+    assert_eq!(efforts.len(), 2);
+    assert!(
+        efforts[0].contains("of `m` (`ctrlrange`) does not act; the input is the effort of its joint"),
+        "{efforts:?}"
+    );
+    for clauses in [", inputs = none", ", saturation = none", ", inputs = actuators, saturation = clamp"] {
+        assert!(warned(clauses).is_empty(), "{clauses}");
+    }
+    let drives = |clauses: &str| {
+        let read = model(inside, clauses);
+        let ForceKind::Drive { rates } = &read.forces[0].kind else { panic!("no drive") };
+        rates.iter().map(|(q, force)| format!("{q}: {}", show(force))).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        drives(", inputs = actuators, saturation = clamp"),
+        ["b: (clamp (Add (Multiply 2 p) (Multiply (-2) b)) (-3) 4)", "a: (clamp (Multiply 3 (clamp m (-1) 1)) (-5) 6)"]
+    );
+    assert_eq!(drives(", saturation = clamp"), ["b: b_effort", "a: (clamp a_effort (-5) 6)"]);
+    assert_eq!(drives(""), ["a: a_effort", "b: b_effort"]);
+    let wrong = inside.replace("-1 1", "1 -1");
+    assert_eq!(
+        reported(&wrong, ""),
+        ["3:88: <motor name=\"m\">: a range is from its least to its most, found 1 to -1"]
+    );
+}
+
+/// Forces at centres of mass hold a part of the weight; what a tendon's spring does over a range of lengths.
+#[test]
+fn held_weights_and_springs_over_ranges() {
+    let held = "<joint name=\"a\"/><body name=\"load\" gravcomp=\"0.5\"><geom size=\"1\" mass=\"4\" pos=\"0 0 2\"/></body>\
+                </body></worldbody>";
+    let forces = |clauses: &str| -> Vec<String> {
+        let shown = |force: &ForceKind| match force {
+            ForceKind::OnBody { body, at, value, .. } => {
+                Some(format!("{body} at {}: {}", at.as_ref().map(show).unwrap_or_default(), show(value)))
+            }
+            _ => None,
+        };
+        model(held, clauses).forces.iter().filter_map(|force| shown(&force.kind)).collect()
+    };
+    assert_eq!(forces(""), ["load at [0 0 2]: (Multiply (-2) [0 0 (-981/100)])"]);
+    assert_eq!(forces(", gravity = 1.5"), ["load at [0 0 2]: (Multiply (-2) [0 0 (-3/2)])"]);
+    assert_eq!(forces(", gravity = [0, 1, 0]"), ["load at [0 0 2]: (Multiply (-2) [0 1 0])"]);
+    let tendon = format!(
+        "{TWO}<tendon><fixed stiffness=\"2\" damping=\"3\" springlength=\"-1 1\"><joint joint=\"a\" coef=\"4\"/></fixed></tendon>"
+    );
+    let read = model(&tendon, "");
+    let drive = read.forces.iter().find_map(|force| match &force.kind {
+        ForceKind::Drive { rates } => Some(rates),
+        _ => None,
+    });
+    let along = "(Multiply 4 a)";
+    let force =
+        format!("(Add (Multiply (-2) (Subtract {along} (clamp {along} (-1) 1))) (Multiply (-3) (rate {along})))");
+    assert_eq!(show(&drive.unwrap()[0].1), format!("(Multiply 4 {force})"));
+    assert!(read.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
 }
 
 /// Armatures and dampers of joints whose coordinates are rotations and poses.

@@ -1,0 +1,16 @@
+//! What a file switches off.
+
+/// What `<option>` and its `<flag>` switch off.
+#[derive(Clone, Default, PartialEq)]
+pub struct Disabled {
+    pub actuation: bool,
+    /// Groups of actuators.
+    pub groups: Vec<f64>,
+    /// Controls have no ranges.
+    pub clamps: bool,
+    pub springs: bool,
+    pub dampers: bool,
+    pub equalities: bool,
+    pub frictions: bool,
+    pub limits: bool,
+}
