@@ -80,15 +80,14 @@ impl<'a> File<'a> {
     /// Those of the control, and of the force, that limit.
     fn ranges(&mut self, node: Node<'a, 'a>, gains: &Gains<'a>, along: &[(String, f64)]) -> [Option<[f64; 2]>; 2] {
         let mut ranges = gains.ranges;
-        let [gain, bias] = gains.acting();
-        if gains.inherited > 0.0 && gain[0] == -bias[1] {
+        if gains.inherited() > 0.0 {
             let of_joint = match along {
                 [(name, _)] => self.description.joints.iter().find(|joint| joint.name == *name),
                 _ => None,
             };
             match of_joint.map(|joint| joint.limits) {
                 Some([Some(least), Some(most)]) => {
-                    let (mean, half) = ((least + most) / 2.0, (most - least) / 2.0 * gains.inherited);
+                    let (mean, half) = ((least + most) / 2.0, (most - least) / 2.0 * gains.inherited());
                     ranges[0].0 = [mean - half, mean + half];
                 }
                 _ => self.ignored(node, "`inheritrange` is read of joints with limits"),

@@ -39,7 +39,7 @@ pub struct Gains<'a> {
     /// Of the control, and of the force, with whether it limits.
     pub ranges: [([f64; 2], Option<&'a str>); 2],
     /// The control has the range of its joint, times this.
-    pub inherited: f64,
+    inherited: f64,
     pub group: f64,
 }
 
@@ -66,7 +66,13 @@ impl<'a> Gains<'a> {
 
     /// What the force is, for a comparison.
     pub fn law(&self) -> ([&'a str; 3], [Triple; 2], f64) {
-        (self.kinds, self.acting(), self.inherited)
+        (self.kinds, self.acting(), self.inherited())
+    }
+
+    /// How much of the range of its joint the control of a servo has, if it has that; zero otherwise.
+    pub fn inherited(&self) -> f64 {
+        let [gain, bias] = self.acting();
+        if gain[0] == -bias[1] { self.inherited } else { 0.0 }
     }
 
     /// What an element says.

@@ -146,7 +146,12 @@ fn gains_of_actuators() {
     let laws: [(&str, &str, [f64; 3], [f64; 3]); 8] = [
         ("", r#"<motor joint="x"/>"#, [1.0, 0.0, 0.0], [0.0; 3]),
         (r#"<position kp="50"/><velocity kv="7"/>"#, r#"<velocity joint="x"/>"#, [7.0, 0.0, 0.0], [0.0, 0.0, -7.0]),
-        (r#"<position kp="50"/><velocity kv="7"/>"#, r#"<motor joint="x"/>"#, [1.0, 0.0, 0.0], [0.0; 3]),
+        (
+            r#"<position kp="50" inheritrange="1"/><velocity kv="7"/>"#,
+            r#"<motor joint="x"/>"#,
+            [1.0, 0.0, 0.0],
+            [0.0; 3],
+        ),
         (r#"<position kp="50" kv="2"/>"#, r#"<general joint="x"/>"#, [50.0, 0.0, 0.0], [0.0, -50.0, -2.0]),
         (r#"<position kp="2" kv="3"/>"#, r#"<position joint="x" kp="9"/>"#, [9.0, 0.0, 0.0], [0.0, -9.0, -3.0]),
         (r#"<general gainprm="3"/>"#, r#"<position joint="x"/>"#, [3.0, 0.0, 0.0], [0.0, -3.0, 0.0]),
