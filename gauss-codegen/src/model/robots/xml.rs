@@ -69,6 +69,11 @@ pub fn is_foreign(node: Node<'_, '_>) -> bool {
     node.is_element() && node.tag_name().namespace() != own
 }
 
+/// The elements of the format in an element.
+pub fn own_elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children().filter(|child| child.is_element() && !is_foreign(*child))
+}
+
 /// `drake:joint`, as it is written.
 fn qualified<'a>(node: Node<'a, 'a>) -> &'a str {
     let written = node.document().input_text().get(node.range()).unwrap_or_default();
@@ -152,14 +157,13 @@ impl<'a> Reading<'a> {
     /// All elements in an element, which are looked at by that.
     #[cfg(feature = "mjcf")]
     pub fn elements(&self, node: Node<'a, 'a>) -> Vec<Node<'a, 'a>> {
-        let own = |child: &Node<'a, 'a>| child.is_element() && !is_foreign(*child);
-        node.children().filter(own).inspect(|child| self.see(*child)).collect()
+        own_elements(node).inspect(|child| self.see(*child)).collect()
     }
 
     /// The elements of that name in an element.
     pub fn children(&self, node: Node<'a, 'a>, name: &'static str) -> Vec<Node<'a, 'a>> {
-        let named = |child: &Node<'a, 'a>| child.is_element() && child.tag_name().name() == name && !is_foreign(*child);
-        node.children().filter(named).inspect(|child| self.see(*child)).collect()
+        let named = |child: &Node<'a, 'a>| child.tag_name().name() == name;
+        own_elements(node).filter(named).inspect(|child| self.see(*child)).collect()
     }
 
     /// The one element of that name; a second is a fault.

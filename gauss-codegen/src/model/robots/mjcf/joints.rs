@@ -5,7 +5,7 @@ use roxmltree::Node;
 use super::File;
 use crate::model::robots::description::{Joint, JointKind};
 use crate::model::robots::rotation::{Rotation, Triple, direction, turned};
-use crate::model::robots::xml::shown;
+use crate::model::robots::xml::{own_elements, shown};
 
 const JOINT: &[&str] = &["joint"];
 
@@ -20,7 +20,7 @@ impl<'a> File<'a> {
         class: Option<&'a str>,
     ) {
         let is_joint = |child: &Node<'a, 'a>| matches!(child.tag_name().name(), "joint" | "freejoint");
-        let all: Vec<Node<'a, 'a>> = node.children().filter(is_joint).collect();
+        let all: Vec<Node<'a, 'a>> = own_elements(node).filter(is_joint).collect();
         let mut parent = parent.to_owned();
         for (index, &element) in all.iter().enumerate() {
             self.reading.see(element);

@@ -11,7 +11,7 @@ use super::{File, Geoms, Place};
 use crate::model::robots::description::Inertial;
 use crate::model::robots::rotation::{Rotation, Triple, turned_tensor};
 use crate::model::robots::structure::{placed, sum};
-use crate::model::robots::xml::shown;
+use crate::model::robots::xml::{own_elements, shown};
 
 const GEOM: &[&str] = &["geom"];
 
@@ -75,7 +75,7 @@ impl<'a> File<'a> {
     }
 
     fn collect(&mut self, node: Node<'a, 'a>, class: Option<&'a str>, place: &Place, all: &mut Vec<Inertial>) {
-        for child in node.children().filter(Node::is_element) {
+        for child in own_elements(node) {
             match child.tag_name().name() {
                 "geom" => all.extend(self.of_geom(child, class).map(|own| placed(own, place))),
                 "frame" => {

@@ -49,7 +49,7 @@ use self::rotations::{Angles, ORIENTATION};
 use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link};
 use super::rotation::{Matrix, Rotation, Triple, multiply, turned};
 use super::text::Text;
-use super::xml::{Reading, parse, shown};
+use super::xml::{Reading, own_elements, parse, shown};
 
 /// The link that holds all others.
 const WORLD: &str = "world";
@@ -202,7 +202,7 @@ impl<'a> File<'a> {
 
     /// Bodies, frames and sites of a body; those of a frame are placed in it.
     fn inside(&mut self, node: Node<'a, 'a>, parent: &str, class: Option<&'a str>, place: &Place) {
-        for child in node.children().filter(Node::is_element) {
+        for child in own_elements(node) {
             match child.tag_name().name() {
                 "body" => self.body(child, parent, class, place),
                 "site" => self.site(child, parent, class, place),

@@ -88,6 +88,16 @@ fn classes_have_names_of_their_own() {
     );
 }
 
+#[test]
+fn elements_of_other_languages_are_no_bodies() {
+    let inside = r#"<body><joint/><x:joint type="slide"/><geom size="1"/><x:geom size="2"/></body>"#;
+    let read = described(&format!("<worldbody>{inside}<x:body><joint/></x:body></worldbody>"));
+    assert_eq!((read.links.len(), read.joints.len()), (2, 1));
+    assert!(near(read.links[1].inertial.unwrap().mass, 4_188.790_204_786_39));
+    let told: Vec<&str> = read.notes.iter().filter(|note| note.ignored.is_some()).map(|note| &*note.text).collect();
+    assert_eq!(told, ["<x:joint> is not read; likewise in lines 1, 1"]);
+}
+
 const LINKED: &str = r#"<worldbody><body><geom size="0.1"/><geom type="box" size="1 1 1" group="3"/>
     <joint name="x" axis="0 1 0" pos="0.5 0 0" range="-60 90"/>
     <body pos="1 0 0"><geom size="0.2"/><joint name="y" type="slide"/></body></body></worldbody>"#;
