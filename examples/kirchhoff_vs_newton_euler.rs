@@ -3,8 +3,8 @@
 //! `cargo run --release --example kirchhoff_vs_newton_euler [-- FOLDER]` writes its files into `FOLDER`, by default
 //! `target/kirchhoff_vs_newton_euler`.
 
+use std::env;
 use std::path::PathBuf;
-use std::{env, fs};
 
 use gauss_examples::measure::{Comparison, Fleet};
 use gauss_examples::{figure, report, timing};

@@ -1,7 +1,6 @@
 //! A run of the benchmarks, from its options to its tables.
 
 use std::error::Error;
-use std::fs;
 use std::path::Path;
 
 use crate::cases::Case;

@@ -11,8 +11,8 @@
 mod picture;
 mod report;
 
+use std::env;
 use std::path::Path;
-use std::{env, fs};
 
 use gauss_comparisons::suite;
 use gauss_examples::figure::png;

@@ -8,9 +8,9 @@
 //! A method is one line in `measure/methods.rs`; a scene is one entry in `measure/catalogue.rs` with a struct for the
 //! derive, its data and its equations by hand.
 
+use std::env;
 use std::error::Error;
 use std::path::PathBuf;
-use std::{env, fs};
 
 use gauss_comparisons::measure;
 use gauss_examples::figure;

@@ -1,9 +1,9 @@
 //! Plots with plain axes: a title, a legend in a row of its own below it, curves, words among them.
 
+use std::env;
 use std::error::Error;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::{env, fs};
 
 use gauss_playback::Playback;
 use gauss_runtime::system::GaussSystem;
