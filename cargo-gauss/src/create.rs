@@ -20,7 +20,7 @@ const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
 fn impossible(name: &str) -> Option<&'static str> {
     let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     let small = name.to_ascii_lowercase();
-    let numbered = |device: &str| small.strip_prefix(device).is_some_and(|n| n.len() == 1 && n >= "0" && n <= "9");
+    let numbered = |device: &str| small.strip_prefix(device).is_some_and(|n| n.len() == 1 && ("0"..="9").contains(&n));
     let krate = name.replace('-', "_");
     if !name.starts_with(|c: char| c.is_ascii_alphabetic()) || !name.chars().all(fits) {
         Some("letters, digits, `-` and `_`, a letter first")

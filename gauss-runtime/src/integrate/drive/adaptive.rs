@@ -220,10 +220,17 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
             None => 0.0,
             Some(floor) => tolerance.excess(&Trial { from, to: &reached, length, floor: Some(floor) }),
         };
-        // Well below what rounding does there is nothing to be learnt of the step.
-        let told = if excess > 0.0 && error < 0.5 { error.min(ROUNDED) } else { error };
         let taken = Taken { rejected: core::mem::take(&mut self.rejected), excess };
         (self.state, self.rates) = (reached, rates);
+        self.choose_length(used, error, excess);
+        Ok(Some((taken, last)))
+    }
+
+    /// The length of the next step, after one of this length with its error and what rounding adds to it.
+    #[inline(always)]
+    fn choose_length(&mut self, used: f64, error: f64, excess: f64) {
+        // Well below what rounding does there is nothing to be learnt of the step.
+        let told = if excess > 0.0 && error < 0.5 { error.min(ROUNDED) } else { error };
         self.length = (used * self.lengths.accept(told)).min(self.longest);
         // Where rounding is in the way it is asked for again, elsewhere when steps have become short.
         let short = self.length < 0.5 * self.looked;
@@ -231,7 +238,6 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
             self.look(excess > 0.0 || short);
         }
         self.looked = self.looked.max(self.length);
-        Ok(Some((taken, last)))
     }
 
     /// Measures what rounding does where the run is now, or forgets it.

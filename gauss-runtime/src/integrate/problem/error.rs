@@ -231,6 +231,25 @@ impl Part {
 }
 
 impl IntegrationErrorKind {
+    /// The message of those that constraints bring.
+    fn of_constraints(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Projection { error } => fmt::Display::fmt(error, f),
+            Self::ProjectionTooFar { level, distance, allowed } => write!(
+                f,
+                "the projection onto the constraints moves the {level} by {distance:.1e} after the next step, and no more than \
+                 {allowed:.1e} is an error of the step: the constraints become dependent on one another here (a singular position \
+                 of a mechanism); leave out constraints that others imply, start elsewhere, or use a smaller step or tolerance"
+            ),
+            Self::InconsistentStart { level, distance } => write!(
+                f,
+                "the initial {level} violates the constraints, the nearest one that satisfies them is {distance:e} away; \
+                 call `kernel.project(t, &q, &z)` first and start from what it returns"
+            ),
+            _ => Ok(()),
+        }
+    }
+
     /// What is wrong with the jump of an event.
     fn of_jump(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -303,18 +322,9 @@ impl fmt::Display for IntegrationErrorKind {
                 "the implicit step is not solved after {iterations} iterations, of which the last changes it by {residual:e} \
                  (relative); use a smaller step"
             ),
-            Self::Projection { error } => error.fmt(f),
-            Self::ProjectionTooFar { level, distance, allowed } => write!(
-                f,
-                "the projection onto the constraints moves the {level} by {distance:.1e} after the next step, and no more than \
-                 {allowed:.1e} is an error of the step: the constraints become dependent on one another here (a singular position \
-                 of a mechanism); leave out constraints that others imply, start elsewhere, or use a smaller step or tolerance"
-            ),
-            Self::InconsistentStart { level, distance } => write!(
-                f,
-                "the initial {level} violates the constraints, the nearest one that satisfies them is {distance:e} away; \
-                 call `kernel.project(t, &q, &z)` first and start from what it returns"
-            ),
+            Self::Projection { .. } | Self::ProjectionTooFar { .. } | Self::InconsistentStart { .. } => {
+                self.of_constraints(f)
+            }
             Self::InvalidStep { step } => write!(f, "a step of {step} was asked for; it must be finite and not zero"),
             Self::InvalidTolerance { relative, absolute } => write!(
                 f,
