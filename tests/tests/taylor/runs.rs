@@ -109,7 +109,7 @@ fn next_to_instabilities_series_are_as_exact_as_order_8() {
     let kernel = Pendulum { g: 9.81 }.kernel().expect("a pendulum");
     let run = Simulation::new(&kernel);
     let rest = SVector::from([0.0]);
-    for angle in [3.14159, 3.1].map(|angle| SVector::from([angle])) {
+    for angle in [std::f64::consts::PI - 2.65e-6, 3.1].map(|angle| SVector::from([angle])) {
         let exact = run.taylor(1e-18, 1e-18).run_to_end(angle, rest, 0.0..7.0).expect("runs");
         for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
             let error = |end: gauss_runtime::integrate::End<PendulumKernel>| {
