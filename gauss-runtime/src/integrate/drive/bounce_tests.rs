@@ -218,7 +218,8 @@ fn a_jump_sets_what_it_may() {
     assert_eq!(by_momenta.run(start.0, start.1, 0.0..1.0).expect("runs").last().q, expected.last().q);
     let path = by_both.run(start.0, start.1, 0.0..1.0).expect("runs");
     assert!(path.samples().windows(2).any(|two| two[0].t == two[1].t && two[1].z == -two[0].z));
-    let refused: [(fn(&mut Sample<Particle>), JumpMistake); 3] = [
+    type Jump = fn(&mut Sample<Particle>);
+    let refused: [(Jump, JumpMistake); 3] = [
         (|s| s.t += 1.0, JumpMistake::Time),
         (|s| s.t = f64::NAN, JumpMistake::Time),
         (|s| (s.z[1], s.p[0]) = (4.0, 1.0), JumpMistake::SpeedsAndMomenta),
