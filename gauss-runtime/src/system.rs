@@ -169,9 +169,8 @@ pub trait GaussSystem {
     ) -> Self::Scalar;
 
     /// How far the coordinates are from a singularity: 0 at one, ±1 at best, of opposite signs on its two sides. For Euler
-    /// angles the sine or cosine of the middle angle (det ∂ω/∂q̇ over the lengths of its columns); for Rodrigues' parameters, which
-    /// become infinite, 1/(1 + |g|²), the cosine squared of half the angle, and for modified ones (1 + |σ|²) to the power −3/2 (the root
-    /// of det ∂ω/∂q̇ over its value at zero); 1 in charts without singularities. Errors of velocities grow like its reciprocal.
+    /// angles the sine or cosine of the middle angle, in general det ∂ω/∂q̇ over the lengths of its columns; 1 in charts
+    /// without singularities. Errors of velocities grow like its reciprocal.
     #[inline]
     fn regularity(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar {
         let _ = (t, q);

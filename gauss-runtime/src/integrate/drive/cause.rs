@@ -62,18 +62,13 @@ pub(in crate::integrate) fn cause<S: GaussSystem, P: Problem<System = S>>(
     let used_up = matches!(kind, IntegrationErrorKind::TooManySteps { .. });
     // What is undefined at once, and not because it grew, has another reason.
     let run_away = undefined && largest(&state.y, lanes) > RUN_AWAY;
-    let unsolved =
-        matches!(kind, IntegrationErrorKind::NotConverged { .. } | IntegrationErrorKind::IncrementTooLarge { .. });
-    if !(used_up || vanish || run_away || undefined && shrunk || unsolved) {
+    if !(used_up || vanish || run_away || undefined && shrunk) {
         return kind;
     }
     let regularity = problem.system().regularity(state.t, &state.q);
     let regularity = lanes.clone().map(|lane| regularity.lane(lane).abs()).fold(f64::INFINITY, f64::min);
     if regularity < NEAR_SINGULARITY {
         return IntegrationErrorKind::SingularChart { regularity };
-    }
-    if unsolved {
-        return kind;
     }
     if lost && S::SMOOTHNESS == Smoothness::Jumps {
         return IntegrationErrorKind::StepTooSmall { step: length };

@@ -280,25 +280,13 @@ impl<'g> FreeLink<'g> {
         self.project(Pair { linear: pair.linear.map(Expr::group), angular: pair.angular.map(Expr::group) })
     }
 
-    /// A volume and a square, by the root of which it is divided. `None` where the coordinates have no singularity.
-    ///
-    /// Where the columns of ∂ω/∂q̇ keep their lengths, as for angles, it is the volume that they span over these: 0 where they lie in a
-    /// plane. Where lengths change, as those of Rodrigues' parameters, coordinates become infinite, also along an axis about which the columns
-    /// stay perpendicular: √(volume/volume at zero), which is 1/(1 + |g|²) there.
+    /// `None` where the coordinates have no singularity: the volume that the columns of ∂ω/∂q̇ span is constant.
     pub fn regularity(&self) -> Option<Vec<Expr<'g>>> {
         let columns: Vec<&Triple<'g>> = self.angular_rows.iter().filter(|column| !is_zero(column)).collect();
         let [a, b, c] = columns[..] else { return None };
         let volume = dot(a, &cross(b, c)).collected(VOLUME_LIMIT);
         let lengths = [a, b, c].map(|column| dot(column, column).collected(VOLUME_LIMIT));
         let product = lengths[0] * lengths[1] * lengths[2];
-        if product.as_number().is_none() {
-            let origin: Map<u32, Expr<'g>> =
-                self.kinematics.rates.keys().map(|&key| (key, volume.graph().zero())).collect();
-            let most = volume.substitute(&origin);
-            if most.as_number().is_some_and(|most| !most.is_zero()) {
-                return Some(vec![volume, volume * most]);
-            }
-        }
         let ratio = (volume * volume * product.recip()).collected(VOLUME_LIMIT);
         ratio.as_number().is_none().then(|| vec![volume, product])
     }
