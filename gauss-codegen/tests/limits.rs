@@ -303,3 +303,20 @@ fn files_that_never_end() {
     }
     refused(include("0.xml"), "files include each other more than 32 deep");
 }
+
+/// What stands twice in each function of a function is doubled 2⁶⁰ times where it is written out: equations and the names of
+/// sums leave it out.
+#[test]
+fn functions_of_what_stands_twice() {
+    let nested = |function: &str| (0..60).fold("x * y".to_owned(), |inner, _| format!("{function}({inner})"));
+    for position in [format!("[k, ln({}), y]", nested("tan")), format!("[x, {} - y, k]", nested("tanh"))] {
+        // Refused or not: it ends.
+        let _ = derived(plane(&format!("particle(mass = m, position = {position})")));
+    }
+}
+
+/// Larger than any double at every state: nothing can be compared there, and no formula is blamed for it.
+#[test]
+fn numbers_above_those_of_double_precision() {
+    works(plane("particle(mass = m, position = [exp(exp(7 + x * x)), y, 0])"));
+}

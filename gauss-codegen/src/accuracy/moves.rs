@@ -1,6 +1,6 @@
 //! Moves from one state to another at which digits cancel: sizes, angles, sums near zero, moments of inertia.
 
-use crate::algebra::{Expr, Map, NodeView, Notation, Rational, print};
+use crate::algebra::{Expr, Map, NodeView, Notation, Rational, print, print_short};
 use crate::mechanics::Coordinate;
 use crate::model::Role;
 
@@ -81,9 +81,10 @@ struct Sum<'g> {
 
 impl Sum<'_> {
     fn printed(&self) -> String {
-        let terms: Vec<String> = self.terms.iter().map(|(c, e)| print(e.scale(*c), Notation::Text)).collect();
-        let printed = terms.join(" + ").replace("+ -", "- ");
-        if printed.chars().count() > SHORT { "a sum".to_owned() } else { printed }
+        let term = |(c, e): &(Rational, Expr<'_>)| print_short(e.scale(*c), Notation::Text, SHORT as u64);
+        let terms: Option<Vec<String>> = self.terms.iter().map(term).collect();
+        let printed = terms.map(|terms| terms.join(" + ").replace("+ -", "- "));
+        printed.filter(|printed| printed.chars().count() <= SHORT).unwrap_or_else(|| "a sum".to_owned())
     }
 }
 

@@ -51,6 +51,6 @@ pub use orthogonal::LeastSquares;
 pub use parts::Parts;
 pub use polynomial::{Expander, Polynomial};
 pub use precise::Precise;
-pub use print::{Notation, decimal, print, print_definition, print_parts, print_with};
+pub use print::{Notation, decimal, print, print_definition, print_parts, print_short, print_with};
 pub use rational::Rational;
 pub use substitute::Substitution;

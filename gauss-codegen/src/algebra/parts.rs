@@ -29,11 +29,7 @@ impl<'g> Parts<'g> {
         let graph = first.graph;
         let roots: Vec<Id> = printed.iter().map(|(_, e)| graph.ungrouped(e.id)).collect();
         let everything = graph.reached(&roots, parts_of);
-        let mut leaves: Map<Id, u64> = Map::default();
-        for &id in &everything {
-            let own = leaves_of(graph, id, &leaves);
-            leaves.insert(id, own);
-        }
+        let leaves = leaves_of_all(graph, &everything);
         let long: Vec<Id> = roots.iter().copied().filter(|id| leaves[id] > LONG).collect();
         let mut occurrences: Map<Id, usize> = Map::default();
         let uses = graph.reached(&long, parts_of).into_iter().flat_map(|id| parts_of(graph, id));
@@ -82,8 +78,23 @@ fn parts_of(graph: &Graph, id: Id) -> Vec<Id> {
     graph.node(id).children().into_iter().map(|id| graph.ungrouped(id)).collect()
 }
 
-/// Symbols, numbers and functions that it has when it is written out.
-fn leaves_of(graph: &Graph, id: Id, known: &Map<Id, u64>) -> u64 {
+/// Symbols, numbers and functions that an expression has when it is written out.
+pub(super) fn leaves_of(e: Expr<'_>) -> u64 {
+    let root = e.graph.ungrouped(e.id);
+    leaves_of_all(e.graph, &e.graph.reached(&[root], parts_of))[&root]
+}
+
+/// The same of all of these, parts before what is made of them.
+fn leaves_of_all(graph: &Graph, nodes: &[Id]) -> Map<Id, u64> {
+    let mut leaves = Map::default();
+    for &id in nodes {
+        let own = leaves_from(graph, id, &leaves);
+        leaves.insert(id, own);
+    }
+    leaves
+}
+
+fn leaves_from(graph: &Graph, id: Id, known: &Map<Id, u64>) -> u64 {
     let own = match graph.node(id) {
         Node::Number(_) | Node::Symbol(_) | Node::Call(..) | Node::Binary(..) => 1,
         Node::Sum(terms) => terms.iter().filter(|(c, _)| !c.abs().is_one()).count() as u64,

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::function::{BinaryFunction, Function};
 use super::graph::{Expr, NodeView};
-use super::parts::Parts;
+use super::parts::{Parts, leaves_of};
 use super::rational::Rational;
 
 /// How to write.
@@ -27,7 +27,13 @@ pub fn print(e: Expr<'_>, notation: Notation) -> String {
     Printer::new(notation, &Parts::default()).sum(e)
 }
 
-/// The same; what is long, with names in the place of parts.
+/// The same, if no more than so many numbers, symbols and functions are written: what has parts in common may be
+/// doubled by each function that it is within.
+pub fn print_short(e: Expr<'_>, notation: Notation, leaves: u64) -> Option<String> {
+    (leaves_of(e) <= leaves).then(|| print(e, notation))
+}
+
+/// The same as [`print`]; what is long, with names in the place of parts.
 pub fn print_with<'g>(e: Expr<'g>, notation: Notation, parts: &Parts<'g>) -> String {
     if !parts.is_long(e) {
         return print(e, notation);

@@ -29,7 +29,7 @@ use corpus::Corpus;
 /// How many by default: some seconds.
 const MUTATIONS: u64 = 2_000;
 /// How many one process derives: what is kept for the life of a process does not add up.
-const TOGETHER: u64 = 500;
+const TOGETHER: u64 = 1_000;
 /// After how many that is said.
 const PROGRESS: u64 = 50_000;
 

@@ -9,10 +9,9 @@ use std::time::{Duration, Instant};
 
 use super::derive::{FAULT, NEXT};
 
-/// Until a derivation hangs: it says itself when it took more than 10 s of a processor that it may have to share.
-const PATIENCE: Duration = Duration::from_secs(60);
-/// To gather the corpus as well.
-const START: Duration = Duration::from_secs(60);
+/// Until a derivation hangs: it says itself when it took more than 10 s of a processor, of which it may have a thirtieth
+/// where other programs come first. The first of a process gathers the corpus as well.
+const PATIENCE: Duration = Duration::from_secs(300);
 /// Address space in kilobytes: the gigabyte, and what the program itself and its threads reserve.
 const MEMORY: u32 = 1_400_000;
 
@@ -48,12 +47,11 @@ fn process(numbers: Range<u64>, faults: &mut Vec<(u64, String)>) -> Option<(u64,
     let (sender, said) = channel();
     thread::spawn(move || lines.map_while(Result::ok).try_for_each(|line| sender.send(line)));
     let (mut at, mut begun) = (numbers.start, Instant::now());
-    let mut patience = START;
     loop {
-        match said.recv_timeout(patience.saturating_sub(begun.elapsed())) {
+        match said.recv_timeout(PATIENCE.saturating_sub(begun.elapsed())) {
             Ok(line) => {
                 if let Some(number) = line.strip_prefix(NEXT).and_then(|number| number.parse().ok()) {
-                    (at, begun, patience) = (number, Instant::now(), PATIENCE);
+                    (at, begun) = (number, Instant::now());
                 } else if let Some(fault) = line.strip_prefix(FAULT) {
                     faults.push((at, fault.to_owned()));
                 }

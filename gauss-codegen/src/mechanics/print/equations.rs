@@ -1,6 +1,6 @@
 //! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is short.
 
-use crate::algebra::{Expr, Map, Notation, Parts, print, print_definition, print_parts, print_with};
+use crate::algebra::{Expr, Map, Notation, Parts, print_definition, print_parts, print_short, print_with};
 use crate::mechanics::tidy::{LIMIT, legible, readable};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
@@ -210,7 +210,7 @@ impl<'g> Textbook<'_, 'g> {
         let rows = |link: Vec<(Name, Expr<'g>)>| -> Vec<Row<'g>> {
             link.into_iter()
                 .map(|(name, e)| (name, legible(e)))
-                .filter(|(name, e)| print(*e, Notation::Text) != name.text)
+                .filter(|(name, e)| print_short(*e, Notation::Text, 1).is_none_or(|text| text != name.text))
                 .map(|(name, e)| Row::Definition(name, e))
                 .collect()
         };
