@@ -33,8 +33,8 @@ times *options:
 
 # Mutations of scenes, chosen by what they reach: needs a nightly compiler and `cargo install cargo-fuzz`.
 fuzz:
-    mkdir -p fuzz/corpus
-    cargo +nightly fuzz run -s none derive fuzz/corpus fuzz/seeds -- -max_len=8192 -timeout=60 -rss_limit_mb=2048
+    mkdir -p tools/fuzz/corpus
+    cargo +nightly fuzz run --fuzz-dir tools/fuzz -s none derive tools/fuzz/corpus tools/fuzz/seeds -- -max_len=8192 -timeout=60 -rss_limit_mb=2048
 
 # Changed scenes, expressions and files of robots by the million, each in a process that may die; faults are told as they come.
 mutants count="1000000" first="0":
@@ -58,7 +58,7 @@ guide:
 neighbours:
     cargo test -p gauss-tables --features parquet
     cargo test --manifest-path examples/bevy/Cargo.toml --target-dir target/neighbours
-    cargo test --manifest-path gauss-rerun/Cargo.toml --target-dir target/neighbours
+    cargo test --manifest-path crates/gauss-rerun/Cargo.toml --target-dir target/neighbours
 
 # The front page, with kernels that run in it, in `target/gauss`: `rustup target add wasm32-unknown-unknown` once.
 page:

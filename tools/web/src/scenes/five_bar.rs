@@ -8,7 +8,7 @@ use crate::scene::{Backdrop, Body, Scene, Show, Slider, Start, Trace, View};
 /// A robot's leg, pointing up, with a load: the file has a tree, and two constraints join its tips.
 #[derive(GaussDynamics)]
 #[gauss(
-    urdf = "../tests/robots/five_bar.urdf",
+    urdf = "../../tests/robots/five_bar.urdf",
     inputs = none,
     gravity = 9.81,
     constraint(position = dot(left_tip.position - right_tip.position, [1, 0, 0])),

@@ -8,13 +8,13 @@ use crate::scene::{Show, Slider};
 use crate::scenes::{ALL, Entry};
 
 const TEMPLATE: &str = include_str!("live.html");
-const STYLES: [&str; 2] = [include_str!("../../gauss-playback/src/page.css"), include_str!("live.css")];
+const STYLES: [&str; 2] = [include_str!("../../../crates/gauss-playback/src/page.css"), include_str!("live.css")];
 /// Those of `gauss-playback`, and what runs instead of its player.
 const SCRIPTS: [&str; 5] = [
-    include_str!("../../gauss-playback/src/solids.js"),
-    include_str!("../../gauss-playback/src/stage.js"),
-    include_str!("../../gauss-playback/src/curves.js"),
-    include_str!("../../gauss-playback/src/camera.js"),
+    include_str!("../../../crates/gauss-playback/src/solids.js"),
+    include_str!("../../../crates/gauss-playback/src/stage.js"),
+    include_str!("../../../crates/gauss-playback/src/curves.js"),
+    include_str!("../../../crates/gauss-playback/src/camera.js"),
     include_str!("live.js"),
 ];
 

@@ -119,7 +119,7 @@ fn robots_are_those_of_the_package() {
 fn a_package_is_made_once() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("my_top");
     let _ = fs::remove_dir_all(&folder);
-    let clone = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
+    let clone = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("the workspace");
     let arguments = ["new", folder.to_str().expect("UTF-8"), "--gauss", clone.to_str().expect("UTF-8")];
     printed(&arguments);
     let manifest = fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");

@@ -6,7 +6,7 @@ use gauss_runtime::prelude::*;
 use crate::scene::{Backdrop, Body, Scene, Show, Slider, Start, Trace, View};
 use example::{AXES, Rattleback, RattlebackKernel, pose, stone};
 
-#[path = "../../../examples/rattleback/stone.rs"]
+#[path = "../../../../examples/rattleback/stone.rs"]
 pub mod example;
 
 /// Sliders: its spin, how it is set down, its skewness, its weight.
@@ -21,7 +21,7 @@ impl Scene for Scenery {
         Slider::parameter("product of inertia", "kg cm²", [-1.0, 1.0], 0.2),
         Slider::parameter("gravity", "m/s²", [1.0, 20.0], 9.81),
     ];
-    const SOURCE: &'static str = include_str!("../../../examples/rattleback/stone.rs");
+    const SOURCE: &'static str = include_str!("../../../../examples/rattleback/stone.rs");
 
     fn show() -> Show {
         Show {

@@ -6,7 +6,7 @@ use gauss_runtime::prelude::*;
 use crate::scene::{Backdrop, Body, Scene, Show, Slider, Start, Trace, View};
 use example::{Plate, PlateKernel, THICKNESS, released};
 
-#[path = "../../../examples/falling_plate/scene.rs"]
+#[path = "../../../../examples/falling_plate/scene.rs"]
 pub mod example;
 
 /// Sliders: its angle at first, its weight, what resists its turning.
@@ -21,7 +21,7 @@ impl Scene for Scenery {
         Slider::parameter("lift by rotation, C_R", "", [0.0, 4.0], std::f64::consts::PI),
         Slider::parameter("resistance to turning, μ", "", [0.05, 0.6], 0.2),
     ];
-    const SOURCE: &'static str = include_str!("../../../examples/falling_plate/scene.rs");
+    const SOURCE: &'static str = include_str!("../../../../examples/falling_plate/scene.rs");
 
     fn show() -> Show {
         Show {
