@@ -7,7 +7,7 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
-use gauss_runtime::bounded::{exact, rounded};
+use gauss_bounded::{Bounded, exact, rounded};
 use gauss_runtime::prelude::*;
 
 /// An arm of two equal links with a mass at the elbow and one in the hand, by the place of the hand.

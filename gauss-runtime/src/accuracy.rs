@@ -50,7 +50,7 @@ by_method! {
     /// the kernel's documentation names what `worst` takes. Derivatives and `evaluate` are tried where the other methods
     /// lose most. A figure is an estimate to first order of the largest loss at the states that the search came by: right
     /// within ten where it was compared with 106 digits, and other states may be worse. What a certain state loses is
-    /// said by [`Bounded`](crate::bounded).
+    /// said by the scalar of the crate `gauss-bounded`.
     ///
     /// Of the arrangements of a method the cheapest is taken that loses little more than the best of them at every sample
     /// state.

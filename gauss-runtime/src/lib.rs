@@ -4,7 +4,6 @@
 //! |---|---|
 //! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): what a kernel offers |
 //! | [`description`] | [`Described`](description::Described): a kernel's equations as text, and what its methods cost |
-//! | [`bounded`] | a scalar that knows how many of its digits are right |
 //! | [`condition`](mod@condition) | how well a mass matrix can be inverted |
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): what acts, element by element; powers and the balance of energy |
@@ -64,7 +63,6 @@ pub mod accuracy;
 pub mod adapters;
 #[cfg(feature = "alloc")]
 pub mod batch;
-pub mod bounded;
 pub mod centroidal;
 pub mod chart;
 pub mod condition;

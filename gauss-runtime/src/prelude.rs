@@ -5,7 +5,6 @@
 pub use gauss_derive::GaussDynamics;
 
 pub use crate::accuracy::Accuracy;
-pub use crate::bounded::Bounded;
 pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
 pub use crate::configuration::{Configuration, VectorSpace};

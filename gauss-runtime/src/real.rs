@@ -187,7 +187,9 @@ pub trait Real:
     }
 
     /// `self`, of which terms were left out that are together at most `at_most` in magnitude: the rest of a power series, the
-    /// rounding of a coefficient. Scalars that account for their error widen it; others are what they are.
+    /// rounding of a coefficient. Scalars that account for their error (`gauss-bounded`) widen it; others are what they are.
+    // No trait of its own: functions that take any `Real` call it, so that each scalar would have to implement that one, too.
+    #[doc(hidden)]
     #[inline(always)]
     fn omitting(self, at_most: Self) -> Self {
         let _ = at_most;

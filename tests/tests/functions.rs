@@ -1,7 +1,7 @@
 //! Functions of expressions: inverse and hyperbolic ones, powers, π, tables, and functions of the user's own, in forces, potentials,
 //! derivatives and power series, and in every scalar.
 
-use gauss_runtime::bounded::Bounded;
+use gauss_bounded::Bounded;
 use gauss_runtime::integrate::Taylor;
 use gauss_runtime::prelude::*;
 use gauss_runtime::table::{Cubic, Linear};

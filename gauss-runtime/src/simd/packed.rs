@@ -3,7 +3,6 @@
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
 use super::Lanes;
-use crate::bounded::{Bounded, Float};
 use crate::configuration::{Configuration, Product, VectorSpace};
 use crate::real::Real;
 
@@ -64,7 +63,6 @@ pub(crate) use packs_of_one;
 packs_of_one! {
     [] f32;
     [] f64;
-    [T: Float] Bounded<T>;
 }
 
 impl<T: Real, const N: usize> Packed for Lanes<T, N> {

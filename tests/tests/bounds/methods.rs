@@ -1,7 +1,7 @@
 //! Methods of fixed steps, some steps of each: what they round, and what their coefficients are off by. Methods that
 //! iterate are left out: what is left when they stop is not rounding.
 
-use gauss_runtime::bounded::exact;
+use gauss_bounded::exact;
 use gauss_runtime::integrate::{
     CommutatorFree4, Compensated, IncrementStep, MoserVeselov, Problem, Rkmk, Scheme, Splitting, State, SystemProblem,
 };

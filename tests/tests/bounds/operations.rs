@@ -1,6 +1,6 @@
 //! Each operation alone, on operands with bounds and on extreme magnitudes.
 
-use gauss_runtime::bounded::{Lift, exact, measured, rounded};
+use gauss_bounded::{Lift, exact, measured, rounded};
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
 
@@ -279,13 +279,13 @@ fn states_and_bodies_are_lifted() {
     assert!(pair.1.iter().chain(&pair.0.translation.vector).all(|x| x.bound == 1e-3));
     let plane = exact(&Isometry2::new(SVector::from([0.1, 0.2]), 0.4));
     assert_eq!((plane.rotation.re.value, plane.translation.vector[1].value), (0.4_f64.cos(), 0.2));
-    assert_eq!([0.5_f32].lift(&gauss_runtime::bounded::Bounded::exact)[0].bound, 0.0);
+    assert_eq!([0.5_f32].lift(&gauss_bounded::Bounded::exact)[0].bound, 0.0);
 }
 
 /// In single precision against double precision, which holds its products exactly.
 #[test]
 fn single_precision_is_covered() {
-    type Single = gauss_runtime::bounded::Bounded<f32>;
+    type Single = gauss_bounded::Bounded<f32>;
     let mut random = Random(5);
     let check = |what: &str, found: Single, exact: f64| {
         let error = (f64::from(found.value) - exact).abs();

@@ -245,7 +245,7 @@ fn functions_kinks_and_cancellation() {
     explore!(bowl, "bowl", vec![1000.0], (vec![1000.3], vec![1.3]), None, 300, 0.0);
     // What is known of x − 1000 = 0.3 after it was multiplied out: no digit is right, and the bound says so.
     let state = (SVector::from([1000.3]), SVector::from([1.3]));
-    let (q, z) = (gauss_runtime::bounded::exact(&state.0), gauss_runtime::bounded::exact(&state.1));
+    let (q, z) = (gauss_bounded::exact(&state.0), gauss_bounded::exact(&state.1));
     let found = bowl::kernel::<Bounded>(&[1000.0]).acceleration(Bounded::zero(), &q, &z, &())[0];
     let lift = |v: &SVector<f64, 1>| SVector::from([DoubleDouble::new(v[0])]);
     let exact = bowl::kernel::<DoubleDouble>(&[1000.0]);

@@ -23,4 +23,4 @@ pub mod scenes;
 pub mod states;
 
 /// Numbers that carry a bound on their own rounding error.
-pub type Bounded = gauss_runtime::bounded::Bounded<f64>;
+pub type Bounded = gauss_bounded::Bounded<f64>;

@@ -3,8 +3,9 @@
 //! Each rule bounds |f(a) − f(A)| by the largest slope between a and A, or where slopes are infinite by how far f can
 //! go over a distance of α anywhere. f(a) − f(A) is also never more than the width of the range of f.
 
-use super::{Bounded, Float};
-use crate::real::Real;
+use gauss_runtime::real::Real;
+
+use crate::{Bounded, Float};
 
 /// What one evaluation of a function rounds, in units of 2u, which is one unit in the last place or more.
 const SINE: f64 = 1.0;

@@ -5,7 +5,7 @@
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use super::{Bounded, Float};
+use crate::{Bounded, Float};
 
 impl<T: Float> Add for Bounded<T> {
     type Output = Self;

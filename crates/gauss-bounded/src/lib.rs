@@ -1,45 +1,40 @@
 //! How many digits of a result are right: a scalar that carries a guaranteed bound on its own rounding.
 //!
-//! Every generic kernel, [`linearize`](crate::linearize), energies and integrators of fixed step take [`Bounded`] as
+//! Every generic kernel, [`linearize`](gauss_runtime::linearize), energies and integrators of fixed step take [`Bounded`] as
 //! they take `f64`. Its `value` is, to the last bit, what the same code computes in the plain scalar; its `bound` is
 //! never below the distance of that value from what exact arithmetic makes of the same inputs.
 //!
-#![cfg_attr(
-    feature = "derive",
-    doc = r##"
-```
-use gauss_runtime::bounded::exact;
-use gauss_runtime::prelude::*;
-
-/// An arm of two links that carries a load at its end.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(a, b),
-    particle(mass = elbow, position = [l * cos(a), l * sin(a), 0]),
-    particle(mass = load, position = [l * (cos(a) + cos(a + b)), l * (sin(a) + sin(a + b)), 0]),
-)]
-struct Arm<T> {
-    elbow: T,
-    load: T,
-    l: T,
-}
-
-# fn main() -> Result<(), Box<dyn std::error::Error>> {
-let [elbow, load, l] = exact(&[1.0, 2.0, 0.5]);
-let arm = Arm { elbow, load, l }.kernel()?;
-let (q, z) = (SVector::from([0.3, 1.2]), SVector::from([2.0, -1.0]));
-let a = arm.acceleration(Bounded::exact(0.0), &exact(&q), &exact(&z), &());
-assert!(a.iter().all(|a| a.digits() > 14.0));
-
-// A load that was weighed to a gram leaves three digits.
-let arm = Arm { elbow, load: Bounded::measured(2.0, 1e-3), l }.kernel()?;
-let a = arm.acceleration(Bounded::exact(0.0), &exact(&q), &exact(&z), &());
-assert!(a.iter().all(|a| (2.0..4.0).contains(&a.digits())));
-# Ok(())
-# }
-```
-"##
-)]
+//! ```
+//! use gauss_bounded::{Bounded, exact};
+//! use gauss_runtime::prelude::*;
+//!
+//! /// An arm of two links that carries a load at its end.
+//! #[derive(GaussDynamics)]
+//! #[gauss(
+//!     coordinates(a, b),
+//!     particle(mass = elbow, position = [l * cos(a), l * sin(a), 0]),
+//!     particle(mass = load, position = [l * (cos(a) + cos(a + b)), l * (sin(a) + sin(a + b)), 0]),
+//! )]
+//! struct Arm<T> {
+//!     elbow: T,
+//!     load: T,
+//!     l: T,
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let [elbow, load, l] = exact(&[1.0, 2.0, 0.5]);
+//! let arm = Arm { elbow, load, l }.kernel()?;
+//! let (q, z) = (SVector::from([0.3, 1.2]), SVector::from([2.0, -1.0]));
+//! let a = arm.acceleration(Bounded::exact(0.0), &exact(&q), &exact(&z), &());
+//! assert!(a.iter().all(|a| a.digits() > 14.0));
+//!
+//! // A load that was weighed to a gram leaves three digits.
+//! let arm = Arm { elbow, load: Bounded::measured(2.0, 1e-3), l }.kernel()?;
+//! let a = arm.acceleration(Bounded::exact(0.0), &exact(&q), &exact(&z), &());
+//! assert!(a.iter().all(|a| (2.0..4.0).contains(&a.digits())));
+//! # Ok(())
+//! # }
+//! ```
 //!
 //! # What is bounded
 //!
@@ -58,7 +53,7 @@ assert!(a.iter().all(|a| (2.0..4.0).contains(&a.digits())));
 //!   NaN.
 //! - Where a comparison is open, because the two numbers lie within their bounds, the bound covers either outcome.
 //! - What the runtime leaves out of its power series, and the rounding of the coefficients of Runge–Kutta methods and
-//!   of compositions, counts ([`Real::omitting`](crate::real::Real::omitting)).
+//!   of compositions, counts.
 //!
 //! Exact results are those of the same steps. What a method leaves out (the error of an integrator, what is left when
 //! an iteration stops, the order in which rows are eliminated) is not rounding, and not in the bound. Roots, logarithms
@@ -68,21 +63,21 @@ assert!(a.iter().all(|a| (2.0..4.0).contains(&a.digits())));
 //!
 //! From step to step a bound grows as `e^{βLt}`, whatever the motion does. L is the norm of the Jacobian of the rates
 //! with all its signs forgotten, of an oscillator its frequency ω; β is the sum of the weights `|bᵢ|` of a Runge–Kutta
-//! method: 1 for [`RK4`](crate::integrate::Tableau::RK4), 13 for the method of order 8 that `fixed_step` takes. A digit
+//! method: 1 for [`RK4`](gauss_runtime::integrate::Tableau::RK4), 13 for the method of order 8 that `fixed_step` takes. A digit
 //! is gone every `2.3/(βL)`: of an oscillator by `RK4` nothing is left after six periods, by order 8 after half a
 //! period, where the run itself has lost a digit or two. So bounds are for a function at a state (a kernel, `linearize`,
 //! an energy) and for some steps; check long runs against one with more digits, or with half the step.
 //!
 //! # What is not
 //!
-//! - A splitting [`Scheme`](crate::integrate::Scheme) holds the lengths of its kicks and drifts in `f64`. They are
+//! - A splitting [`Scheme`](gauss_runtime::integrate::Scheme) holds the lengths of its kicks and drifts in `f64`. They are
 //!   taken as they are: exact results are those of the method with these numbers, not with those that they round.
-//! - The elliptic functions of [`FreeFlow`](crate::integrate::FreeFlow) are for `f64` alone, so it takes no bounded
-//!   numbers, and neither does [`Splitting::exact`](crate::integrate::Splitting::exact).
-//!   [`Splitting::discrete`](crate::integrate::Splitting::discrete) does, but forgotten correlations in its iterations
+//! - The elliptic functions of [`FreeFlow`](gauss_runtime::integrate::FreeFlow) are for `f64` alone, so it takes no bounded
+//!   numbers, and neither does [`Splitting::exact`](gauss_runtime::integrate::Splitting::exact).
+//!   [`Splitting::discrete`](gauss_runtime::integrate::Splitting::discrete) does, but forgotten correlations in its iterations
 //!   make bounds that hold and say little: after five steps of a top the median is 10⁹ times the error, where that of
 //!   explicit methods is below a hundred times, and some thousand times when they are
-//!   [`Compensated`](crate::integrate::Compensated).
+//!   [`Compensated`](gauss_runtime::integrate::Compensated).
 //!
 //! # Inputs
 //!
@@ -96,6 +91,10 @@ assert!(a.iter().all(|a| (2.0..4.0).contains(&a.digits())));
 //! body or a pair of them. Of a unit quaternion they take the four components as they are; formulas that agree for unit
 //! quaternions only agree up to its norm, so compare them with [`rounded`].
 
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
 mod arithmetic;
 mod float;
 mod functions;
@@ -105,3 +104,8 @@ mod number;
 pub use float::Float;
 pub use lift::{Lift, exact, measured, rounded};
 pub use number::Bounded;
+
+/// The example of the README is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

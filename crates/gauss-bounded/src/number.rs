@@ -2,10 +2,11 @@
 
 use core::fmt;
 
-use super::Float;
-use crate::real::Real;
+use gauss_runtime::real::Real;
 
-/// A computed number and a bound on its distance from the exact one; see the [module](super).
+use crate::Float;
+
+/// A computed number and a bound on its distance from the exact one; see the [crate](crate).
 ///
 /// Numbers are equal when their values are: bounds never decide what is computed.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +64,7 @@ impl<T: Float> Bounded<T> {
 
     /// The least magnitude that the exact number can have, rounded down.
     #[inline(always)]
-    pub(super) fn least(self) -> T {
+    pub(crate) fn least(self) -> T {
         if self.bound == T::zero() {
             return self.value.abs();
         }
@@ -73,14 +74,14 @@ impl<T: Float> Bounded<T> {
 
     /// The greatest magnitude that the exact number can have, rounded up.
     #[inline(always)]
-    pub(super) fn greatest(self) -> T {
+    pub(crate) fn greatest(self) -> T {
         (self.value.abs() + self.bound) * T::MORE
     }
 
     /// A result: what its operands' bounds came to and what the operation itself rounded, each made of at most ten
     /// operations on numbers that are not negative, which [`Float::MORE`] rounds up.
     #[inline(always)]
-    pub(super) fn finish(value: T, inherited: T, rounding: T) -> Self {
+    pub(crate) fn finish(value: T, inherited: T, rounding: T) -> Self {
         let bound = (inherited + rounding) * T::MORE;
         let known = bound >= T::zero() && value.is_finite();
         Self { value, bound: if known { bound } else { T::INFINITY } }
@@ -88,7 +89,7 @@ impl<T: Float> Bounded<T> {
 
     /// The same, where the distance cannot be more than `most` for another reason.
     #[inline(always)]
-    pub(super) fn at_most(self, most: T) -> Self {
+    pub(crate) fn at_most(self, most: T) -> Self {
         let most = most * T::MORE;
         Self { bound: if most < self.bound && self.value.is_finite() { most } else { self.bound }, ..self }
     }

@@ -2,7 +2,7 @@
 
 use core::fmt::Display;
 
-use crate::real::Real;
+use gauss_runtime::real::Real;
 
 mod sealed {
     pub trait Sealed {}
@@ -10,7 +10,7 @@ mod sealed {
     impl Sealed for f64 {}
 }
 
-/// The formats that [`Bounded`](super::Bounded) knows: `f32` and `f64`, of IEEE 754.
+/// The formats that [`Bounded`](crate::Bounded) knows: `f32` and `f64`, of IEEE 754.
 pub trait Float: Real + PartialOrd + Display + sealed::Sealed {
     /// Unit roundoff u: half the distance from 1 to the next larger number.
     #[doc(hidden)]

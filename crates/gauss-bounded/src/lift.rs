@@ -1,9 +1,12 @@
 //! States, parameters and inputs as bounded numbers.
 
-use nalgebra::{Isometry2, Isometry3, Quaternion, SMatrix, Translation, Unit, UnitComplex, UnitQuaternion};
+use gauss_runtime::nalgebra::{
+    Isometry2, Isometry3, Quaternion, SMatrix, Translation, Unit, UnitComplex, UnitQuaternion,
+};
+use gauss_runtime::simd::Packed;
+use gauss_runtime::system::{AboutCenterOfMass, RigidBody};
 
-use super::{Bounded, Float};
-use crate::system::{AboutCenterOfMass, RigidBody};
+use crate::{Bounded, Float};
 
 /// Numbers and what is made of them: vectors, matrices, rotations, poses, [`RigidBody`], arrays and pairs.
 pub trait Lift {
@@ -83,7 +86,7 @@ impl<T: Float> Lift for UnitComplex<T> {
 
     fn lift(&self, bounded: &impl Fn(T) -> Bounded<T>) -> Self::Lifted {
         let (re, im) = (bounded(self.as_ref().re), bounded(self.as_ref().im));
-        Unit::new_unchecked(nalgebra::Complex { re, im })
+        Unit::new_unchecked(gauss_runtime::nalgebra::Complex { re, im })
     }
 }
 
@@ -148,5 +151,26 @@ impl<A: Lift, B: Lift<Number = A::Number>> Lift for (A, B) {
 
     fn lift(&self, bounded: &impl Fn(A::Number) -> Bounded<A::Number>) -> Self::Lifted {
         (self.0.lift(bounded), self.1.lift(bounded))
+    }
+}
+
+/// One state of a batch is one number.
+impl<T: Float> Packed for Bounded<T> {
+    type Single = Self;
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn repeat(single: &Self) -> Self {
+        *single
+    }
+
+    #[inline(always)]
+    fn extract(&self, lane: usize) -> Self {
+        [*self][lane]
+    }
+
+    #[inline(always)]
+    fn replace(&mut self, lane: usize, single: &Self) {
+        [self][lane].clone_from(single);
     }
 }
