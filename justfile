@@ -47,8 +47,10 @@ features:
     cd target/features && export RUSTFLAGS="-D warnings" CARGO_TARGET_DIR="$PWD/target" && \
     cargo hack check -p gauss-codegen -p gauss-derive -p gauss-tables --feature-powerset --no-dev-deps && \
     cargo hack check -p gauss-runtime --feature-powerset --depth 2 --no-dev-deps --at-least-one-of std,libm \
-        --exclude-features default --group-features urdf,mjcf \
-        --group-features glam030,glam031,glam032,glam033 --group-features ode_solvers,differential-equations,diffsol
+        --exclude-features default --group-features urdf,mjcf && \
+    cargo hack check -p gauss-adapters --feature-powerset --depth 2 --no-dev-deps --at-least-one-of std,libm \
+        --exclude-features default --group-features glam030,glam031,glam032,glam033 \
+        --group-features ode_solvers,differential-equations,diffsol
 
 # The guide as pages: `cargo install mdbook mdbook-katex` once.
 guide:

@@ -6,7 +6,7 @@
 use std::cell::Cell;
 use std::time::Instant;
 
-use gauss_runtime::adapters::FlatSystem;
+use gauss_adapters::FlatSystem;
 use gauss_runtime::prelude::*;
 
 /// A heavy top about its fixed point.

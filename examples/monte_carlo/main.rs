@@ -9,6 +9,7 @@ use std::error::Error;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
+use gauss_adapters::DualNumber;
 use gauss_examples::figure::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, mosaic, write, write_page};
 use gauss_examples::statistics::Random;
@@ -51,12 +52,12 @@ type Linearised = ([f64; 2], [[f64; 6]; 2]);
 
 /// The end of the mean throw and its derivatives by the six uncertain numbers, from one run in dual numbers.
 fn linearised() -> Result<Linearised, Box<dyn Error>> {
-    let variables: [DualSVec64<6>; 6] = std::array::from_fn(|k| {
-        let mut variable = DualSVec64::from_re(MEAN[k]);
+    let number = |value: f64| DualNumber(DualSVec64::from_re(value));
+    let variables: [DualNumber<DualSVec64<6>>; 6] = std::array::from_fn(|k| {
+        let mut variable = number(MEAN[k]);
         variable.eps = Derivative::some(SVector::from(std::array::from_fn(|i| f64::from(u8::from(i == k)))));
         variable
     });
-    let number = DualSVec64::from_re;
     let ((q, z), system) = (start(&variables), kernel(&variables)?);
     let run = Simulation::new(&system).control(Fixed::by(RungeKutta(Classical4), number(STEP)));
     let end = run.run_to_end(q, z, number(0.0)..number(FLIGHT))?;

@@ -17,13 +17,11 @@
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
 //! | [`integrate`] | geometric and adaptive integrators, [`Simulation`](integrate::Simulation), trajectories |
-//! | [`adapters`] | kernels in the integrators of other crates |
 //! | [`monitor`] | energy and momentum watched over a run, energy against the work supplied |
 //! | [`error`] | parameters that no body has, and warnings |
 //! | [`real`] | the scalar: floats, SIMD lanes, dual numbers |
 //! | [`simd`] | packs of numbers that are worked on in lockstep |
 //! | `saved` | parameters, states and runs as data, for `serde` |
-//! | `interchange` | poses in the types of `mint` and `glam` |
 //! | `batch` | many states of one scene at once: lanes times threads |
 //!
 //! Mathematics and numbers of equations: Massa & Vignolo, *Newton–Euler, Lagrange and Kirchhoff formulations of rigid body
@@ -39,10 +37,7 @@
 //! - `wide` (default): sines and cosines of several angles in vectors, by the crate `wide`, with the same bits; its vectors as
 //!   scalars, for the widest instructions that the target has; see [`simd`].
 //! - `rayon`: batches on all threads.
-//! - `num-dual`: the dual numbers of that crate as scalars; see [`real`].
-//! - `mint`, `glam030` to `glam033`: vectors, rotations and poses in the types of these crates: the module `interchange`.
 //! - `serde`: parameters, states and runs as data: the module `saved`.
-//! - `differential-equations`, `diffsol`, `ode_solvers`: [`adapters`] to the crates of these names; each implies `std`.
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -60,7 +55,6 @@ extern crate alloc;
 extern crate std;
 
 pub mod accuracy;
-pub mod adapters;
 #[cfg(feature = "alloc")]
 pub mod batch;
 pub mod centroidal;
@@ -69,16 +63,12 @@ pub mod condition;
 pub mod configuration;
 pub mod constraint;
 pub mod description;
-#[cfg(feature = "num-dual")]
-mod dual;
 pub mod error;
 pub mod forces;
 pub mod frames;
 pub mod hessian;
 pub mod identification;
 pub mod integrate;
-#[cfg(feature = "mint")]
-pub mod interchange;
 pub mod inverse;
 pub mod lie;
 pub mod linearize;

@@ -1,7 +1,7 @@
 //! Kernels in the integrators of other crates against our own runs: a free body in space and in fluid, a pendulum, in both forms;
 //! with the feature `adapters`.
 
-use gauss_runtime::adapters::FlatSystem;
+use gauss_adapters::FlatSystem;
 use gauss_runtime::integrate::{NoInput, Problem, SystemProblem};
 use gauss_runtime::prelude::*;
 

@@ -439,6 +439,7 @@ fn lanes_and_single_precision() {
 /// Second derivatives, by the mass and by what is structurally there but zero at this state: nothing is left out that has a rate.
 #[test]
 fn dual_numbers_differentiate_once_more() {
+    use gauss_adapters::DualNumber;
     use num_dual::Dual64;
     let q = UnitQuaternion::<f64>::from_euler_angles(0.4, 0.7, -0.3);
     // ω₂ = 0 makes entries of the derivatives zero that vary with it.
@@ -447,17 +448,15 @@ fn dual_numbers_differentiate_once_more() {
         let z = Vector3::new(2.0, omega, 6.0);
         CommutatorFree4.step_linearized(&kernel, 0.0, &q, &z, &(), 0.05).unwrap().by_state
     };
-    let dual = |mass: Dual64, omega: Dual64| {
-        let (number, kernel) = (Dual64::from_re, Top { m: mass, ..Top::<Dual64>::sample() }.kernel().unwrap());
+    let number = |value: f64| DualNumber(Dual64::from_re(value));
+    let dual = |mass: DualNumber<Dual64>, omega: DualNumber<Dual64>| {
+        let kernel = Top { m: mass, ..Top::<DualNumber<Dual64>>::sample() }.kernel().unwrap();
         let z = Vector3::new(number(2.0), omega, number(6.0));
         let q = Configuration::from_components(&SVector::from(q.components().data.0[0].map(number)));
         CommutatorFree4.step_linearized(&kernel, number(0.0), &q, &z, &(), number(0.05)).unwrap().by_state
     };
-    let number = Dual64::from_re;
-    for (which, found) in [dual(number(1.5).derivative(), number(0.0)), dual(number(1.5), number(0.0).derivative())]
-        .into_iter()
-        .enumerate()
-    {
+    let variable = |value: f64| DualNumber(Dual64::from_re(value).derivative());
+    for (which, found) in [dual(variable(1.5), number(0.0)), dual(number(1.5), variable(0.0))].into_iter().enumerate() {
         let at = |e: f64| if which == 0 { by_state(1.5 + e, 0.0) } else { by_state(1.5, e) };
         let expected = slope(|e| SVector::<f64, 36>::from_column_slice(at(e).as_slice()));
         for (i, entry) in found.iter().enumerate() {

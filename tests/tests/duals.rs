@@ -1,5 +1,6 @@
 //! Dual numbers of `num-dual` in kernels and integrators: derivatives of whole simulations by parameters, against differences.
 
+use gauss_adapters::DualNumber;
 use gauss_runtime::linearize::{Factored, Lu};
 use gauss_runtime::prelude::*;
 use gauss_tests::top::Top;
@@ -34,6 +35,18 @@ fn slope(f: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|i| (4.0 * fine[i] - coarse[i]) / 3.0)
 }
 
+fn number(value: f64, rate: f64) -> DualNumber<Dual64> {
+    DualNumber(Dual64::new(value, rate))
+}
+
+fn variable(value: f64) -> DualNumber<Dual64> {
+    number(value, 1.0)
+}
+
+fn constant(value: f64) -> DualNumber<Dual64> {
+    number(value, 0.0)
+}
+
 const MASS: f64 = 0.8;
 const HEIGHT: f64 = 0.3;
 const TOLERANCE: f64 = 1e-9;
@@ -47,12 +60,12 @@ fn derivatives_of_a_run_by_its_parameters_are_those_of_differences() {
     let by_mass = slope(|e| spin(MASS + e, HEIGHT));
     let by_height = slope(|e| spin(MASS, HEIGHT + e));
     let plain = spin(MASS, HEIGHT);
-    let one = spin(Dual64::from_re(MASS).derivative(), Dual64::from_re(HEIGHT));
-    let variables = DualSVec64::<2>::from_re;
+    let one = spin(variable(MASS), constant(HEIGHT));
+    let variables = |value: f64| DualNumber(DualSVec64::<2>::from_re(value));
     let mut gradient = [variables(MASS), variables(HEIGHT)];
     gradient[0].eps = num_dual::Derivative::some(SVector::from([1.0, 0.0]));
     gradient[1].eps = num_dual::Derivative::some(SVector::from([0.0, 1.0]));
-    let both: [DualSVec64<2>; 3] = spin(gradient[0], gradient[1]);
+    let both: [DualNumber<DualSVec64<2>>; 3] = spin(gradient[0], gradient[1]);
     for i in 0..3 {
         // The values take the same operations, but num-dual divides by reciprocals.
         assert!((one[i].re - plain[i]).abs() < 1e-12 && (both[i].re - plain[i]).abs() < 1e-12);
@@ -65,12 +78,12 @@ fn derivatives_of_a_run_by_its_parameters_are_those_of_differences() {
 
 #[test]
 fn so_are_second_derivatives() {
-    let first =
-        |mass: f64, height: f64| spin(Dual64::from_re(mass).derivative(), Dual64::from_re(height)).map(|x| x.eps);
+    let first = |mass: f64, height: f64| spin(variable(mass), constant(height)).map(|x| x.eps);
     let twice_by_mass = slope(|e| first(MASS + e, HEIGHT));
     let mixed = slope(|e| first(MASS, HEIGHT + e));
-    let second = spin(Dual2_64::from_re(MASS).derivative(), Dual2_64::from_re(HEIGHT));
-    let cross = spin(HyperDual64::from_re(MASS).derivative1(), HyperDual64::from_re(HEIGHT).derivative2());
+    let second = spin(DualNumber(Dual2_64::from_re(MASS).derivative()), DualNumber(Dual2_64::from_re(HEIGHT)));
+    let mass = DualNumber(HyperDual64::from_re(MASS).derivative1());
+    let cross = spin(mass, DualNumber(HyperDual64::from_re(HEIGHT).derivative2()));
     for i in 0..3 {
         assert!(near(second[i].v2, twice_by_mass[i]), "{i}: {} for {}", second[i].v2, twice_by_mass[i]);
         assert!(near(cross[i].eps1eps2, mixed[i]), "{i}: {} for {}", cross[i].eps1eps2, mixed[i]);
@@ -107,7 +120,7 @@ fn functions_know_their_derivatives() {
             T::select_lt(x, T::one(), x * x, T::from_f64(f64::NAN)),
         ]
     }
-    let at = functions(Dual64::new(0.7, 1.0));
+    let at = functions(number(0.7, 1.0));
     for (number, dual) in at.into_iter().enumerate() {
         let value = |e: f64| functions(0.7 + e)[number];
         let central = |e: f64| (value(e) - value(-e)) / (2.0 * e);
@@ -115,19 +128,19 @@ fn functions_know_their_derivatives() {
         // e⁴ of a fifth derivative up to 1e3, and rounding as above.
         assert!((dual.eps - expected).abs() < 1e-8 * (1.0 + expected.abs()), "{number}: {} for {expected}", dual.eps);
     }
-    assert!(!Real::is_finite(Dual64::new(1.0, f64::NAN)) && Real::is_finite(Dual64::new(1.0, 2.0)));
-    assert!(!Real::is_finite(Real::sqrt(Dual64::new(0.0, 1.0))));
+    assert!(!Real::is_finite(number(1.0, f64::NAN)) && Real::is_finite(number(1.0, 2.0)));
+    assert!(!Real::is_finite(Real::sqrt(number(0.0, 1.0))));
 }
 
 /// Lanes of dual numbers: the derivatives of many states at once.
 #[test]
 fn duals_go_into_lanes() {
-    type Pack = Lanes<Dual64, 4>;
+    type Pack = Lanes<DualNumber<Dual64>, 4>;
     let masses = [0.5, 0.8, 1.1, 1.4];
-    let mass = Pack::from_fn(|i| Dual64::from_re(masses[i]).derivative());
-    let together = spin(mass, Pack::splat(Dual64::from_re(HEIGHT)));
+    let mass = Pack::from_fn(|i| variable(masses[i]));
+    let together = spin(mass, Pack::splat(constant(HEIGHT)));
     for (lane, mass) in masses.into_iter().enumerate() {
-        let alone = spin(Dual64::from_re(mass).derivative(), Dual64::from_re(HEIGHT));
+        let alone = spin(variable(mass), constant(HEIGHT));
         for i in 0..3 {
             assert_eq!((together[i][lane].re, together[i][lane].eps), (alone[i].re, alone[i].eps));
         }
@@ -137,7 +150,6 @@ fn duals_go_into_lanes() {
 /// An entry that is zero may have a derivative: dual numbers compare by their values alone.
 #[test]
 fn systems_of_dual_equations_keep_derivatives_of_zeros() {
-    let number = |value: f64, rate: f64| Dual64::new(value, rate);
     // 2a + b = 2, ε a + b = 0: a = 1 + ε/2, b = −ε.
     let factors = Lu::new([[number(2.0, 0.0), number(1.0, 0.0)], [number(0.0, 1.0), number(1.0, 0.0)]]);
     let solution = factors.solve(&SVector::from([number(2.0, 0.0), number(0.0, 0.0)]));

@@ -19,8 +19,6 @@ mod together;
 mod wide;
 
 pub use packed::Packed;
-#[cfg(feature = "num-dual")]
-pub(crate) use packed::packs_of_one;
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

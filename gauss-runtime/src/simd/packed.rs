@@ -57,8 +57,6 @@ macro_rules! packs_of_one {
         }
     )+};
 }
-#[cfg(feature = "num-dual")]
-pub(crate) use packs_of_one;
 
 packs_of_one! {
     [] f32;

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-use gauss_runtime::adapters::FlatSystem;
+use gauss_adapters::FlatSystem;
 use gauss_runtime::batch::{Batch, States};
 use gauss_runtime::configuration::Configuration;
 use gauss_runtime::integrate::{

@@ -1,10 +1,10 @@
 //! ∂f/∂x times a vector, for implicit methods.
 
-use super::flat::FlatSystem;
-use super::ways::{Differences, Given};
-use crate::integrate::Problem;
-use crate::real::Real;
-use crate::system::GaussSystem;
+use crate::flat::FlatSystem;
+use crate::ways::{Differences, Given};
+use gauss_runtime::integrate::Problem;
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
 
 type Scalar<P> = <<P as Problem>::System as GaussSystem>::Scalar;
 

@@ -1,6 +1,17 @@
 //! Flat vectors against states; products by differences against dual numbers.
 
-use super::*;
+// Modules that the included ones know as those of their crate.
+use gauss_runtime::{chart, configuration, constraint, description, forces, integrate, real, system};
+
+#[path = "../../../gauss-runtime/src/testing/mod.rs"]
+#[allow(dead_code, reason = "tests of the runtime need more")]
+mod testing;
+#[path = "../../../gauss-runtime/src/triple.rs"]
+#[allow(dead_code, reason = "the runtime needs more")]
+mod triple;
+
+use gauss_adapters::{Differences, FlatSystem, Given, JacobianProduct};
+
 use crate::testing::FreeTop;
 use crate::testing::dual::{Dual, dual};
 use crate::testing::order::{NONE, TOP, start_by_velocity};
@@ -50,8 +61,9 @@ fn differences_are_right_to_their_step() {
     Differences.product(&system, 0.0, &x, &[0.0; 7], &mut nothing);
     assert_eq!(nothing, [0.0; 7]);
 
-    let given = system.jacobian(|_, _: &[f64], v: &[f64], product: &mut [f64]| product.copy_from_slice(v));
-    given.jacobian.product(&given, 0.0, &x, &directions[1], &mut nothing);
+    let copy = |_: f64, _: &[f64], v: &[f64], product: &mut [f64]| product.copy_from_slice(v);
+    let given = system.jacobian(copy);
+    Given(copy).product(&given, 0.0, &x, &directions[1], &mut nothing);
     assert_eq!(nothing, directions[1]);
 }
 

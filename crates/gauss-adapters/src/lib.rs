@@ -1,4 +1,4 @@
-//! Kernels in integrators of other crates: a kernel, a form and an input as `ẋ = f(t, x)` on flat vectors.
+//! Kernels of [`gauss_runtime`] in other crates: in their integrators, with their scalars, in their types.
 //!
 //! | file | holds |
 //! |---|---|
@@ -7,12 +7,27 @@
 //! | `differential_equations` | the trait `ODE` of `differential-equations` (feature `differential-equations`) |
 //! | `ode_solvers` | the trait `System` of `ode_solvers` (feature `ode_solvers`) |
 //! | `diffsol` | a problem of `diffsol` (feature `diffsol`) |
+//! | `dual` | the dual numbers of `num-dual` as scalars (feature `num-dual`) |
+//! | `interchange` | poses in the types of `mint` and `glam` (features `mint`, `glam030` to `glam033`) |
 //!
-//! The integrators of [`integrate`](crate::integrate) keep the group, are faster, and say why they stop; these are for methods
+//! The integrators of [`integrate`](gauss_runtime::integrate) keep the group, are faster, and say why they stop; these are for methods
 //! that they do not have, and for programs that are built on one of those crates already. For any other crate [`FlatSystem`] has
 //! all that is needed.
 
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+extern crate alloc;
+#[cfg(test)]
+extern crate std;
+
+#[cfg(feature = "num-dual")]
+pub mod dual;
 pub mod flat;
+#[cfg(feature = "mint")]
+pub mod interchange;
 pub mod jacobian;
 mod ways;
 
@@ -23,9 +38,13 @@ pub mod diffsol;
 #[cfg(feature = "ode_solvers")]
 pub mod ode_solvers;
 
+#[cfg(feature = "num-dual")]
+pub use dual::DualNumber;
 pub use flat::FlatSystem;
 pub use jacobian::JacobianProduct;
 pub use ways::{Differences, Given};
 
-#[cfg(test)]
-mod tests;
+/// The example of the README is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

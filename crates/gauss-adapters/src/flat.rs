@@ -1,13 +1,14 @@
 //! A kernel, a form and an input as one ordinary differential equation on flat vectors.
 
-#[cfg(feature = "alloc")]
 use alloc::{vec, vec::Vec};
 
-use super::ways::{Differences, Given};
-use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::{Feedback, Form, InputSource, MomentumForm, Problem, Rates, Sample, State, SystemProblem};
-use crate::real::Real;
-use crate::system::GaussSystem;
+use crate::ways::{Differences, Given};
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::integrate::{
+    Feedback, Form, InputSource, MomentumForm, Problem, Rates, Sample, State, SystemProblem,
+};
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
 
 /// A kernel, a form and an input as `ẋ = f(t, x)`, with x the components of the configuration
 /// ([`Configuration::Components`]) and then those of y: quasi-velocities z, or momenta p in the momentum form.
@@ -16,53 +17,48 @@ use crate::system::GaussSystem;
 /// change in proportion to their length, which the exact solution then keeps. What an integrator adds to the length is no error of
 /// the rotation; to the velocity of O it is one, of the order of the tolerance.
 ///
-/// Made like a [`Simulation`](crate::integrate::Simulation). It does not bring a state back onto constraints while it runs, as those
+/// Made like a [`Simulation`](gauss_runtime::integrate::Simulation). It does not bring a state back onto constraints while it runs, as those
 /// do: accelerations satisfy constraints that were differentiated, so states leave them slowly, and
 /// [`GaussSystem::project`] of what comes back repairs a short run. `f` never fails; what is undefined is NaN.
 ///
 /// J says how ∂f/∂x is found where an implicit method asks for it.
 ///
-#[cfg_attr(
-    feature = "derive",
-    doc = r##"
-One step by hand:
-
-```
-use gauss_runtime::adapters::FlatSystem;
-use gauss_runtime::prelude::*;
-
-/// A heavy top that turns about O.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
-struct Top {
-    #[gauss(mass)]           mass: f64,
-    #[gauss(center_of_mass)] center: Vector3<f64>,
-    #[gauss(inertia)]        inertia: Vector3<f64>,
-    #[gauss(gravity)]        g: f64,
-}
-
-# fn main() -> Result<(), Box<dyn std::error::Error>> {
-let top = Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.4), inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 };
-let kernel = top.kernel()?;
-let system = FlatSystem::new(&kernel);
-// The quaternion x, y, z, w, then ω in body axes.
-let mut x: [f64; 7] = system.vector(0.0, &UnitQuaternion::identity(), &Vector3::new(0.0, 0.1, 20.0));
-let mut slope = [0.0; 7];
-system.rates(0.0, &x, &mut slope);
-for i in 0..7 {
-    x[i] += 1e-3 * slope[i];
-}
-let after = system.sample(1e-3, &x);
-assert!((after.q.norm() - 1.0).abs() < 1e-15);
-# Ok(())
-# }
-```
-"##
-)]
+/// One step by hand:
+///
+/// ```
+/// use gauss_adapters::FlatSystem;
+/// use gauss_runtime::prelude::*;
+///
+/// /// A heavy top that turns about O.
+/// #[derive(GaussDynamics)]
+/// #[gauss(motion = fixed_point)]
+/// struct Top {
+///     #[gauss(mass)]           mass: f64,
+///     #[gauss(center_of_mass)] center: Vector3<f64>,
+///     #[gauss(inertia)]        inertia: Vector3<f64>,
+///     #[gauss(gravity)]        g: f64,
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let top = Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.4), inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 };
+/// let kernel = top.kernel()?;
+/// let system = FlatSystem::new(&kernel);
+/// // The quaternion x, y, z, w, then ω in body axes.
+/// let mut x: [f64; 7] = system.vector(0.0, &UnitQuaternion::identity(), &Vector3::new(0.0, 0.1, 20.0));
+/// let mut slope = [0.0; 7];
+/// system.rates(0.0, &x, &mut slope);
+/// for i in 0..7 {
+///     x[i] += 1e-3 * slope[i];
+/// }
+/// let after = system.sample(1e-3, &x);
+/// assert!((after.q.norm() - 1.0).abs() < 1e-15);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct FlatSystem<P, J = Differences> {
     problem: P,
-    pub(super) jacobian: J,
+    pub(crate) jacobian: J,
 }
 
 impl<'k, S: GaussSystem> FlatSystem<SystemProblem<'k, S>> {
@@ -138,7 +134,6 @@ where
     }
 
     /// x of a state as a [`Vec`].
-    #[cfg(feature = "alloc")]
     #[must_use]
     pub fn to_vec(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> Vec<S::Scalar> {
         let mut x = vec![S::Scalar::zero(); Self::DIM];

@@ -9,7 +9,7 @@
 //! the observer the latter.
 //!
 //! ```
-//! use gauss_runtime::interchange::{pose_from_mint, pose_to_mint};
+//! use gauss_adapters::interchange::{pose_from_mint, pose_to_mint};
 //! use gauss_runtime::prelude::*;
 //!
 //! let pose = Isometry3::new(Vector3::new(1.0, 2.0, 3.0), Vector3::new(0.1, 0.2, 0.3));
@@ -24,8 +24,8 @@
 
 use nalgebra::{Isometry3, Quaternion, Scalar, SimdValue, UnitQuaternion, Vector3};
 
-use crate::configuration::{StateError, check};
-use crate::real::Real;
+use gauss_runtime::configuration::{StateError, check};
+use gauss_runtime::real::Real;
 
 /// b and R of a pose.
 #[must_use]
