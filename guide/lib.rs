@@ -10,6 +10,7 @@ macro_rules! chapters {
 }
 
 chapters! {
+    Readme: "../README.md",
     FirstBody: "src/first_body.md",
     Frames: "src/frames.md",
     Charts: "src/charts.md",

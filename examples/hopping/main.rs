@@ -7,6 +7,7 @@ mod model;
 mod picture;
 
 use gauss_examples::plots::{write, write_page};
+use gauss_tables::Tabulate;
 
 use model::{Ball, Runner, bounce};
 

@@ -6,6 +6,7 @@ use gauss_examples::figure::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
+use gauss_tables::Tabulate;
 
 use crate::model::{BallKernel, Flight, FlightKernel, Moment, Run, Runner, StanceKernel};
 

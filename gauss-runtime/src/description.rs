@@ -6,7 +6,7 @@ use crate::accuracy::Accuracy;
 use crate::methods::by_method;
 
 /// A system that says what its equations are, what its methods cost and what they lose. Generated for every kernel; nothing is computed
-/// with it, and a system that is written by hand needs it only to be [tuned](crate::integrate::Simulation::tune):
+/// with it, and a system that is written by hand needs it only to be tuned (crate `gauss-tune`):
 /// `impl Described for MySystem {}`.
 pub trait Described {
     /// The equations, as they were derived.

@@ -104,8 +104,3 @@ pub use gauss_derive::GaussDynamics;
 
 #[cfg(test)]
 mod testing;
-
-/// The examples of the README are tests.
-#[cfg(all(doctest, feature = "derive"))]
-#[doc = include_str!("../README.md")]
-pub struct Readme;

@@ -182,10 +182,8 @@ impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + Described> Deserialize<'de>
     }
 }
 
-/// What is kept of a run: its samples, at which times nothing else is known, and its events. [`Table::new`] and what
-/// else takes samples goes on from there.
-///
-/// [`Table::new`]: crate::integrate::Table::new
+/// What is kept of a run: its samples, at which times nothing else is known, and its events. What takes samples, as
+/// `Table::new` of the crate `gauss-tables` does, goes on from there.
 #[cfg(feature = "alloc")]
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(

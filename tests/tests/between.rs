@@ -2,6 +2,7 @@
 
 use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, Method, Rkmk, Scheme, Splitting};
 use gauss_runtime::prelude::*;
+use gauss_tables::Tabulate;
 use gauss_tests::top::{Top, TopKernel};
 
 /// x = cos t from (1, 0).

@@ -5,7 +5,7 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use gauss_runtime::prelude::*;
-use gauss_tables::Export;
+use gauss_tables::{Export, Tabulate};
 
 /// A heavy top.
 #[derive(GaussDynamics)]

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_ipc::writer::FileWriter;
 use arrow_schema::{DataType, Field, Schema};
-use gauss_runtime::integrate::Column;
 
 use crate::error::TableError;
+use crate::table::Column;
 
 pub fn batch<'a>(columns: impl Iterator<Item = Column<'a>>) -> Result<RecordBatch, TableError> {
     let (mut fields, mut arrays) = (Vec::new(), Vec::<ArrayRef>::new());

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use gauss_runtime::integrate::Table;
 use gauss_runtime::system::GaussSystem;
 
 use crate::error::TableError;
+use crate::table::Table;
 
 /// Files and plots of a [`Table`]. Folders above a file are made where they are missing; a file that cannot be written
 /// whole, as on a full disk, leaves the one before it unchanged.

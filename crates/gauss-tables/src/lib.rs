@@ -1,8 +1,8 @@
-//! [Tables](gauss_runtime::integrate::Table) of runs as files that other programs read, and as plots.
+//! Tables of runs: named columns with units, as CSV, as files that other programs read, and as plots.
 //!
 //! ```
 //! use gauss_runtime::prelude::*;
-//! use gauss_tables::Export;
+//! use gauss_tables::{Export, Tabulate};
 //!
 //! #[derive(GaussDynamics)]
 //! #[gauss(
@@ -50,6 +50,8 @@ mod error;
 mod export;
 #[cfg(feature = "plot")]
 mod picture;
+mod table;
 
 pub use error::TableError;
 pub use export::Export;
+pub use table::{Column, Table, Tabulate, UnknownColumns};

@@ -3,11 +3,11 @@
 mod axis;
 mod points;
 
-use gauss_runtime::integrate::Column;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::error::TableError;
+use crate::table::Column;
 use axis::Axis;
 
 /// So many units of the drawing make a pixel: curves go through whole units, and would look jagged through whole

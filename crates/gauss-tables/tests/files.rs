@@ -3,9 +3,8 @@
 use std::error::Error;
 use std::fs;
 
-use gauss_runtime::integrate::Table;
 use gauss_runtime::prelude::*;
-use gauss_tables::{Export, TableError};
+use gauss_tables::{Export, Table, TableError, Tabulate};
 
 /// A top: a rotation, quasi-velocities and energies, so that units are known.
 #[derive(GaussDynamics)]

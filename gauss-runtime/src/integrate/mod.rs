@@ -11,9 +11,8 @@
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`adams`] | multistep methods: of what earlier steps knew |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
-//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`table`](drive::table), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
+//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
 //! | `lanes` | many runs in lockstep, each with steps of its own |
-//! | [`tune`] | [`method`](tune::method): methods and forms chosen at run time; `measure`: the cheapest for a scene, measured on it |
 
 pub mod adams;
 pub mod body;
@@ -27,7 +26,6 @@ pub mod runge_kutta;
 pub mod step;
 pub mod structure;
 pub mod taylor;
-pub mod tune;
 
 pub use adams::Adams;
 pub use body::{FreeFlow, MoserVeselov, Scheme, Splitting, SplittingError, TopError, TopFlow};
@@ -45,8 +43,6 @@ pub(crate) use drive::projection::accept;
 pub use drive::search::Crossing;
 pub use drive::simulation::Simulation;
 pub use drive::summary::{End, Summary};
-#[cfg(feature = "alloc")]
-pub use drive::table::{Column, Table, UnknownColumns};
 #[cfg(feature = "alloc")]
 pub use drive::trajectory::{EventSample, Trajectory};
 #[cfg(feature = "alloc")]
@@ -68,9 +64,6 @@ pub use structure::composition::{Composed, Composition};
 pub use structure::energy_momentum::EnergyMomentum;
 pub use structure::variational::Variational;
 pub use taylor::Taylor;
-#[cfg(feature = "alloc")]
-pub use tune::measure::{Candidate, Measured, TuneError, Tuned};
-pub use tune::method::{EitherForm, Method};
 
 #[cfg(all(test, feature = "alloc"))]
 mod product_tests;

@@ -10,8 +10,10 @@ use gauss_runtime::integrate::{
     Compensated, Composed, Composition, Control, EnergyMomentum, FreeFlow, Method, Rkmk, Scheme, Splitting, Variational,
 };
 use gauss_runtime::prelude::*;
+use gauss_tables::Tabulate;
 use gauss_tests::top::TopKernel;
 use gauss_tests::watchdog::within;
+use gauss_tune::Tune;
 
 use crate::scenes::{
     Angles, Bead, Driven, GenericTop, GenericTopKernel, Inclined, Pendulum, PendulumKernel, Spring, one, toy,
@@ -109,7 +111,7 @@ trait Rows {
     fn energies_are_as_many_as(&self, rows: usize) -> bool;
 }
 
-impl<K: GaussSystem> Rows for gauss_runtime::integrate::Table<K> {
+impl<K: GaussSystem> Rows for gauss_tables::Table<K> {
     fn energies_are_as_many_as(&self, rows: usize) -> bool {
         self.get("t").is_some_and(|times| times.len() == rows)
     }

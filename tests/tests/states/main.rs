@@ -2,8 +2,9 @@
 
 mod saved;
 
-use gauss_runtime::integrate::{Crossing, Table};
+use gauss_runtime::integrate::Crossing;
 use gauss_runtime::prelude::*;
+use gauss_tables::{Table, Tabulate};
 
 /// Scalars before, between and after elements of groups, which come first in the configuration.
 #[derive(GaussDynamics)]

@@ -50,12 +50,14 @@ pub fn create(wanted: &New) -> Result<(), String> {
     if folder.exists() {
         return Err(format!("{} exists", folder.display()));
     }
-    let runtime = match &wanted.gauss {
-        Some(clone) => at(clone)?,
-        None => format!("version = \"{}\"", env!("CARGO_PKG_VERSION")),
+    let from = |folder: &str| match &wanted.gauss {
+        Some(clone) => at(clone, folder),
+        None => Ok(format!("version = \"{}\"", env!("CARGO_PKG_VERSION"))),
     };
+    let (runtime, tables) = (from("gauss-runtime")?, from("crates/gauss-tables")?);
     let manifest = format!(
-        "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\ngauss-runtime = {{ {runtime} }}\n\n\
+        "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\ngauss-runtime = {{ {runtime} }}\n\
+         gauss-tables = {{ {tables}, default-features = false }}\n\n\
          # A macro that is not optimised takes longer to compile than it saves.\n[profile.dev.build-override]\nopt-level = 1\n\n\
          [workspace]\n"
     );
@@ -74,9 +76,9 @@ pub fn create(wanted: &New) -> Result<(), String> {
     Ok(())
 }
 
-/// The runtime in a clone.
-fn at(clone: &Path) -> Result<String, String> {
-    let runtime = clone.join("gauss-runtime");
-    let absolute = runtime.canonicalize().map_err(|error| format!("{}: {error}", runtime.display()))?;
+/// A crate in a clone.
+fn at(clone: &Path, folder: &str) -> Result<String, String> {
+    let folder = clone.join(folder);
+    let absolute = folder.canonicalize().map_err(|error| format!("{}: {error}", folder.display()))?;
     Ok(format!("path = {:?}", absolute.display().to_string()))
 }

@@ -16,8 +16,6 @@ pub mod search;
 pub mod simulation;
 pub(in crate::integrate) mod step_length;
 pub mod summary;
-#[cfg(feature = "alloc")]
-pub mod table;
 pub(in crate::integrate) mod tolerance;
 #[cfg(feature = "alloc")]
 pub mod trajectory;

@@ -66,12 +66,12 @@ assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a simulation does nothing before `run`"]
 pub struct Simulation<P, C = Undecided, O = Unobserved, E = NoEvents> {
-    pub(in crate::integrate) problem: P,
+    problem: P,
     control: C,
     observer: O,
     events: E,
     every: u64,
-    pub(in crate::integrate) limit: Option<u64>,
+    limit: Option<u64>,
 }
 
 impl<'k, S: GaussSystem> Simulation<SystemProblem<'k, S>> {
@@ -309,6 +309,18 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
     pub fn max_steps(mut self, limit: u64) -> Self {
         self.limit = Some(limit);
         self
+    }
+
+    /// What is integrated: the kernel, the form of its equations, the input.
+    #[must_use]
+    pub fn problem(&self) -> &P {
+        &self.problem
+    }
+
+    /// The most steps, where they were [given](Self::max_steps).
+    #[must_use]
+    pub fn limit(&self) -> Option<u64> {
+        self.limit
     }
 
     fn with_problem<Q>(self, change: impl FnOnce(P) -> Q) -> Simulation<Q, C, O, E> {

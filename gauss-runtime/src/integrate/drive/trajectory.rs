@@ -38,7 +38,7 @@ copy_and_debug!(EventSample { number, sample });
 /// Samples in the order of integration, at least one, and by [`at`](Self::at) any state between them.
 ///
 /// It keeps the samples and borrows what made them: the kernel, and what the input refers to.
-/// [`into_samples`](Self::into_samples) and [tables](Self::table) stand alone.
+/// [`into_samples`](Self::into_samples) and tables (crate `gauss-tables`) stand alone.
 pub struct Trajectory<'k, S: GaussSystem> {
     samples: Vec<Sample<S>>,
     events: Vec<EventSample<S>>,

@@ -1,22 +1,14 @@
-//! Methods and forms that are chosen at run time, as [`Simulation::tune`](crate::integrate::Simulation::tune) does.
+//! Methods and forms that are chosen at run time, as [`Tune::tune`](crate::Tune::tune) does.
 
 use core::fmt;
 
-use crate::integrate::drive::adaptive::Adaptive;
-use crate::integrate::drive::control::{Control, Emit};
-use crate::integrate::drive::fixed::Fixed;
-use crate::integrate::lie_group::commutator_free::CommutatorFree4;
-use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
-use crate::integrate::problem::form::{Form, MomentumForm, VelocityForm};
-use crate::integrate::problem::input::InputSource;
-use crate::integrate::problem::state::{Rates, State};
-use crate::integrate::runge_kutta::components::RungeKutta;
-use crate::integrate::runge_kutta::tableau::{Classical4, DormandPrince5, DormandPrince8, Verner9};
-use crate::integrate::structure::collocation::Collocation;
-use crate::integrate::structure::composition::{Composed, Composition};
-use crate::real::Real;
-use crate::system::GaussSystem;
+use gauss_runtime::integrate::{
+    Adaptive, Classical4, Collocation, CommutatorFree4, Composed, Composition, Control, DormandPrince5, DormandPrince8,
+    Emit, Fixed, Form, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Problem, Rates, RungeKutta,
+    State, VelocityForm, Verner9,
+};
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
 
 /// A method with its step or tolerances, chosen at run time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,20 +62,18 @@ pub enum Method<T> {
     },
 }
 
-/// What [`Simulation::tune`](crate::integrate::Simulation::tune) varies in a method.
-#[cfg(feature = "alloc")]
-pub(in crate::integrate) enum Family<T> {
+/// What [`Tune::tune`](crate::Tune::tune) varies in a method.
+pub(crate) enum Family<T> {
     /// The length of its steps, with whose power `order` the error goes.
     Steps { order: u32, of: fn(T) -> Method<T> },
     /// Its relative and absolute tolerance, which the error is proportional to.
     Tolerances { of: fn(f64, f64) -> Method<T> },
 }
 
-#[cfg(feature = "alloc")]
 impl<T> Method<T> {
-    /// All that [`Simulation::tune`](crate::integrate::Simulation::tune) tries, the likely ones first: what they take bounds the search among the
+    /// All that [`Tune::tune`](crate::Tune::tune) tries, the likely ones first: what they take bounds the search among the
     /// rest.
-    pub(in crate::integrate) const FAMILIES: [Family<T>; 8] = [
+    pub(crate) const FAMILIES: [Family<T>; 8] = [
         Family::Tolerances { of: |relative, absolute| Self::DormandPrince8 { relative, absolute } },
         Family::Tolerances { of: |relative, absolute| Self::Verner9 { relative, absolute } },
         Family::Tolerances { of: |relative, absolute| Self::DormandPrince5 { relative, absolute } },

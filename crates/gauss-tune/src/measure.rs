@@ -7,24 +7,22 @@
 //!
 //! Errors are those of the whole run, not of a step, at sixteen times spread evenly over the interval.
 
-use alloc::vec::Vec;
 use core::cell::Cell;
 use core::fmt;
 use core::ops::{ControlFlow, Range};
 
-use crate::configuration::{Configuration, VectorSpace};
-use crate::description::Described;
-use crate::integrate::drive::control::Control;
-use crate::integrate::drive::simulation::Simulation;
-use crate::integrate::drive::step_length::power;
-use crate::integrate::problem::equations::SystemProblem;
-use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
-use crate::integrate::problem::form::Form;
-use crate::integrate::problem::input::InputSource;
-use crate::integrate::problem::state::{Rates, State, TangentOf};
-use crate::integrate::tune::method::{EitherForm, Family, Method};
-use crate::real::Real;
-use crate::system::GaussSystem;
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::description::Described;
+use gauss_runtime::integrate::{
+    Control, Form, InputSource, IntegrationError, IntegrationErrorKind, Rates, Simulation, State, SystemProblem,
+};
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
+
+use crate::method::{EitherForm, Family, Method};
+
+/// An increment of the configuration of S.
+type TangentOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
 /// A method on the user's scene, with what was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +54,7 @@ impl<T> Candidate<T> {
     }
 }
 
-/// A method of your own on the user's scene, with what was measured: see [`Simulation::tune_steps`].
+/// A method of your own on the user's scene, with what was measured: see [`Tune::tune_steps`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Measured<C> {
@@ -72,7 +70,7 @@ pub struct Measured<C> {
     pub seconds: Option<f64>,
 }
 
-/// What [`Simulation::tune`] found.
+/// What [`Tune::tune`] found.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Tuned<T> {
@@ -93,7 +91,7 @@ impl<T: Real> fmt::Display for Tuned<T> {
             "method", "form", "error", "evaluations", "steps", "seconds"
         )?;
         for Candidate { method, form, error, evaluations, steps, seconds, .. } in &self.candidates {
-            write!(f, "\n{:<58} {form:<9} {error:>8.1e} {evaluations:>12} {steps:>10} ", alloc::format!("{method}"))?;
+            write!(f, "\n{:<58} {form:<9} {error:>8.1e} {evaluations:>12} {steps:>10} ", format!("{method}"))?;
             match seconds {
                 Some(seconds) => write!(f, "{seconds:>10.2e}")?,
                 None => write!(f, "{:>10}", "-")?,
@@ -181,7 +179,32 @@ struct Seen<S: GaussSystem> {
     steps: u64,
 }
 
-impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
+impl<'a, S: GaussSystem, I: InputSource<S>> Bench<'a, S, I> {
+    /// The scene of a simulation, from this state and over this interval.
+    fn of<F, C, O, E>(
+        scene: &'a Simulation<SystemProblem<'_, S, F, I>, C, O, E>,
+        (q, z): (S::Configuration, S::Speeds),
+        interval: Range<S::Scalar>,
+        relative: f64,
+        absolute: f64,
+    ) -> Result<Self, TuneError> {
+        let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
+        if !(usable(relative) && usable(absolute) && relative + absolute > 0.0) {
+            return Err(TuneError::InvalidTolerance);
+        }
+        let SystemProblem { system, input, .. } = scene.problem();
+        Ok(Self {
+            system,
+            input,
+            q,
+            z,
+            interval,
+            limit: scene.limit().map_or(MOST_STEPS, |limit| limit.min(MOST_STEPS)),
+            relative,
+            absolute,
+        })
+    }
+
     fn start<F: Form<S>>(&self, form: F) -> State<S> {
         let (t, q) = (self.interval.start, self.q.renormalise());
         State { t, q, y: form.variables(self.system, t, &q, &self.z) }
@@ -332,7 +355,7 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
                     if (0.2..=1.0).contains(&error) {
                         break;
                     }
-                    let factor = power(0.5 / error.clamp(1e-12, 1e12), 1.0 / order).clamp(0.01, 100.0);
+                    let factor = Real::exp(Real::ln(0.5 / error.clamp(1e-12, 1e12)) * (1.0 / order)).clamp(0.01, 100.0);
                     // Not again beyond what has failed, nor below what has met the error.
                     if best.as_ref().is_some_and(|(coarsest, _)| setting * factor <= *coarsest && error > 1.0) {
                         break;
@@ -362,7 +385,7 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
     }
 
     /// The shortest of a few runs, in seconds.
-    #[cfg(all(feature = "std", not(target_family = "wasm")))]
+    #[cfg(not(target_family = "wasm"))]
     fn time<C: Control<S>, F: Form<S>>(&self, method: &C, form: F) -> Option<f64> {
         struct Uncounted<'a, I>(&'a I);
         impl<S: GaussSystem, I: InputSource<S>> InputSource<S> for Uncounted<'_, I> {
@@ -385,7 +408,7 @@ impl<S: GaussSystem, I: InputSource<S>> Bench<'_, S, I> {
         Some(shortest)
     }
 
-    #[cfg(not(all(feature = "std", not(target_family = "wasm"))))]
+    #[cfg(target_family = "wasm")]
     fn time<C: Control<S>, F: Form<S>>(&self, _: &C, _: F) -> Option<f64> {
         None
     }
@@ -401,7 +424,11 @@ fn operations<S: Described>(form: EitherForm) -> u64 {
     u64::from(counts.kinematics.total() + dynamics).max(1)
 }
 
-impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
+/// Measures methods on the scene of a [`Simulation`].
+pub trait Tune<S: GaussSystem>: Sized {
+    /// A simulation by a candidate.
+    type Chosen;
+
     /// Measures methods on this scene, with its input, from this state and over this interval, and says which one is the cheapest that
     /// keeps the error of the whole run within `absolute + relative·size`, component by component, where sizes are the largest
     /// over the run: 1 for a rotation, |b| for a translation, |q| and |z| for a plain coordinate and a quasi-velocity.
@@ -416,40 +443,105 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C
     /// Form, control, observers and events that were set are not looked at. Settings near the best ones are as good, and times
     /// vary: what is chosen may differ from call to call, its error does not.
     ///
-    #[cfg_attr(
-        feature = "derive",
-        doc = r##"
-```
-use gauss_runtime::prelude::*;
-
-/// A heavy top that turns about O.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
-struct Top {
-    #[gauss(mass)]           mass: f64,
-    #[gauss(center_of_mass)] center: Vector3<f64>,
-    #[gauss(inertia)]        inertia: Vector3<f64>,
-    #[gauss(gravity)]        g: f64,
-}
-
-# fn main() -> Result<(), Box<dyn std::error::Error>> {
-let top = Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.4), inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 };
-let kernel = top.kernel()?;
-let (tilted, spinning) = (UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0), Vector3::new(0.0, 0.0, 40.0));
-let scene = Simulation::new(&kernel);
-let tuned = scene.tune(tilted, spinning, 0.0..0.5, 1e-8, 1e-8)?;
-println!("{tuned}");
-let end = scene.tuned(&tuned.best).run_to_end(tilted, spinning, 0.0..10.0)?;
-# assert!(tuned.best.error <= 1.0 && end.t == 10.0);
-# Ok(())
-# }
-```
-"##
-    )]
+    /// ```
+    /// use gauss_runtime::prelude::*;
+    /// use gauss_tune::Tune;
+    ///
+    /// /// A heavy top that turns about O.
+    /// #[derive(GaussDynamics)]
+    /// #[gauss(motion = fixed_point)]
+    /// struct Top {
+    ///     #[gauss(mass)]           mass: f64,
+    ///     #[gauss(center_of_mass)] center: Vector3<f64>,
+    ///     #[gauss(inertia)]        inertia: Vector3<f64>,
+    ///     #[gauss(gravity)]        g: f64,
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let top = Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.4), inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 };
+    /// let kernel = top.kernel()?;
+    /// let (tilted, spinning) = (UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0), Vector3::new(0.0, 0.0, 40.0));
+    /// let scene = Simulation::new(&kernel);
+    /// let tuned = scene.tune(tilted, spinning, 0.0..0.5, 1e-8, 1e-8)?;
+    /// println!("{tuned}");
+    /// let end = scene.tuned(&tuned.best).run_to_end(tilted, spinning, 0.0..10.0)?;
+    /// # assert!(tuned.best.error <= 1.0 && end.t == 10.0);
+    /// # Ok(())
+    /// # }
+    /// ```
     ///
     /// # Errors
     /// [`TuneError`] when errors cannot be measured, or no method meets the one that is wanted.
-    pub fn tune(
+    fn tune(
+        &self,
+        q0: S::Configuration,
+        z0: S::Speeds,
+        interval: Range<S::Scalar>,
+        relative: f64,
+        absolute: f64,
+    ) -> Result<Tuned<S::Scalar>, TuneError>
+    where
+        S: Described;
+
+    /// Measures a method of your own that has a step, in the form that was set and against the same reference as [`tune`](Self::tune): the
+    /// longest step that meets the relative and absolute tolerance, and what it costs. `make` gives the method of a step, `order` says how its error goes.
+    ///
+    /// For methods that not every scene admits, and that [`tune`](Self::tune), which is for any scene, cannot try:
+    ///
+    /// ```
+    /// use gauss_runtime::integrate::{Scheme, Splitting};
+    /// use gauss_runtime::prelude::*;
+    /// use gauss_tune::Tune;
+    ///
+    /// /// A heavy top that turns about O.
+    /// #[derive(GaussDynamics)]
+    /// #[gauss(motion = fixed_point)]
+    /// struct Top {
+    ///     #[gauss(mass)]           mass: f64,
+    ///     #[gauss(center_of_mass)] center: Vector3<f64>,
+    ///     #[gauss(inertia)]        inertia: Vector3<f64>,
+    ///     #[gauss(gravity)]        g: f64,
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let top = Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.4), inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 };
+    /// let kernel = top.kernel()?;
+    /// let (tilted, spinning) = (UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0), Vector3::new(0.0, 0.0, 40.0));
+    /// let scene = Simulation::new(&kernel).momentum_form();
+    /// let splitting = Splitting::exact(&kernel, Scheme::BLANES_MOAN_4)?;
+    /// let found = scene.tune_steps(tilted, spinning, 0.0..0.5, (1e-8, 1e-8), 4, |step| Fixed::by(splitting, step))?;
+    /// println!("{} steps, {:?} s", found.steps, found.seconds);
+    /// let end = scene.control(found.control).run_to_end(tilted, spinning, 0.0..10.0)?;
+    /// # assert!(found.error <= 1.0 && end.t == 10.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`TuneError`] when errors cannot be measured, or no step meets the one that is wanted.
+    fn tune_steps<D: Control<S>>(
+        &self,
+        q0: S::Configuration,
+        z0: S::Speeds,
+        interval: Range<S::Scalar>,
+        tolerances: (f64, f64),
+        order: u32,
+        make: impl Fn(S::Scalar) -> D,
+    ) -> Result<Measured<D>, TuneError>;
+
+    /// Runs by a candidate of [`tune`](Self::tune).
+    fn tuned(self, candidate: &Candidate<S::Scalar>) -> Self::Chosen;
+}
+
+impl<'k, S, F, I, C, O, E> Tune<S> for Simulation<SystemProblem<'k, S, F, I>, C, O, E>
+where
+    S: GaussSystem,
+    F: Form<S>,
+    I: InputSource<S>,
+{
+    type Chosen = Simulation<SystemProblem<'k, S, EitherForm, I>, Method<S::Scalar>, O, E>;
+
+    fn tune(
         &self,
         q0: S::Configuration,
         z0: S::Speeds,
@@ -459,9 +551,8 @@ let end = scene.tuned(&tuned.best).run_to_end(tilted, spinning, 0.0..10.0)?;
     ) -> Result<Tuned<S::Scalar>, TuneError>
     where
         S: Described,
-        I: InputSource<S>,
     {
-        let bench = self.bench((q0, z0), interval, relative, absolute)?;
+        let bench = Bench::of(self, (q0, z0), interval, relative, absolute)?;
         let (reference, disagreement) = bench.reference()?;
 
         let mut candidates = Vec::new();
@@ -490,47 +581,7 @@ let end = scene.tuned(&tuned.best).run_to_end(tilted, spinning, 0.0..10.0)?;
         }
     }
 
-    /// Measures a method of your own that has a step, in the form that was set and against the same reference as [`tune`](Self::tune): the
-    /// longest step that meets the error, and what it costs. `make` gives the method of a step, `order` says how its error goes.
-    ///
-    /// For methods that not every scene admits, and that [`tune`](Self::tune), which is for any scene, cannot try:
-    ///
-    #[cfg_attr(
-        feature = "derive",
-        doc = r##"
-```
-use gauss_runtime::integrate::{Scheme, Splitting};
-use gauss_runtime::prelude::*;
-
-/// A heavy top that turns about O.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
-struct Top {
-    #[gauss(mass)]           mass: f64,
-    #[gauss(center_of_mass)] center: Vector3<f64>,
-    #[gauss(inertia)]        inertia: Vector3<f64>,
-    #[gauss(gravity)]        g: f64,
-}
-
-# fn main() -> Result<(), Box<dyn std::error::Error>> {
-let top = Top { mass: 1.0, center: Vector3::new(0.0, 0.0, 0.4), inertia: Vector3::new(0.2, 0.2, 0.05), g: 9.81 };
-let kernel = top.kernel()?;
-let (tilted, spinning) = (UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0), Vector3::new(0.0, 0.0, 40.0));
-let scene = Simulation::new(&kernel).momentum_form();
-let splitting = Splitting::discrete(&kernel, Scheme::BLANES_MOAN_4)?;
-let found = scene.tune_steps(tilted, spinning, 0.0..0.5, (1e-8, 1e-8), 4, |step| Fixed::by(splitting, step))?;
-println!("{} steps, {:?} s", found.steps, found.seconds);
-let end = scene.control(found.control).run_to_end(tilted, spinning, 0.0..10.0)?;
-# assert!(found.error <= 1.0 && end.t == 10.0);
-# Ok(())
-# }
-```
-"##
-    )]
-    ///
-    /// # Errors
-    /// [`TuneError`] when errors cannot be measured, or no step meets the one that is wanted.
-    pub fn tune_steps<D: Control<S>>(
+    fn tune_steps<D: Control<S>>(
         &self,
         q0: S::Configuration,
         z0: S::Speeds,
@@ -538,56 +589,20 @@ let end = scene.control(found.control).run_to_end(tilted, spinning, 0.0..10.0)?;
         (relative, absolute): (f64, f64),
         order: u32,
         make: impl Fn(S::Scalar) -> D,
-    ) -> Result<Measured<D>, TuneError>
-    where
-        F: Form<S>,
-        I: InputSource<S>,
-    {
-        let bench = self.bench((q0, z0), interval, relative, absolute)?;
+    ) -> Result<Measured<D>, TuneError> {
+        let bench = Bench::of(self, (q0, z0), interval, relative, absolute)?;
         let (reference, _) = bench.reference()?;
         let make = |setting: f64| make(bench.whole(setting));
         // As many evaluations as the reference took at tolerances that are tighter by a hundred and more, and ten times as many.
         let budget = 10.0 * reference.evaluations as f64;
         let setting = bench.mean_step(&reference);
-        match bench.search(&reference, self.problem.form, (&make, f64::from(order)), setting, budget) {
+        match bench.search(&reference, self.problem().form, (&make, f64::from(order)), setting, budget) {
             Some(found) if found.error <= 1.0 => Ok(found),
             _ => Err(TuneError::NoCandidate),
         }
     }
 
-    fn bench(
-        &self,
-        (q, z): (S::Configuration, S::Speeds),
-        interval: Range<S::Scalar>,
-        relative: f64,
-        absolute: f64,
-    ) -> Result<Bench<'_, S, I>, TuneError> {
-        let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
-        if !(usable(relative) && usable(absolute) && relative + absolute > 0.0) {
-            return Err(TuneError::InvalidTolerance);
-        }
-        let (system, input) = (self.problem.system, &self.problem.input);
-        Ok(Bench {
-            system,
-            input,
-            q,
-            z,
-            interval,
-            limit: self.limit.map_or(MOST_STEPS, |limit| limit.min(MOST_STEPS)),
-            relative,
-            absolute,
-        })
-    }
-
-    /// Runs by a candidate of [`tune`](Self::tune).
-    pub fn tuned(
-        self,
-        candidate: &Candidate<S::Scalar>,
-    ) -> Simulation<SystemProblem<'k, S, EitherForm, I>, Method<S::Scalar>, O, E> {
+    fn tuned(self, candidate: &Candidate<S::Scalar>) -> Self::Chosen {
         self.form(candidate.form).control(candidate.method)
     }
 }
-
-#[cfg(test)]
-#[path = "measure_tests.rs"]
-mod tests;

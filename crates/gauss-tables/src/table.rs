@@ -1,70 +1,67 @@
 //! Runs as tables: named columns of numbers over time, printed as CSV.
 
-use core::fmt;
+use std::fmt;
 
-use alloc::format;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
+use gauss_runtime::chart::Chart;
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::description::Described;
+use gauss_runtime::forces::ForcedSystem;
+use gauss_runtime::integrate::{IntegrationError, Sample, Trajectory};
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
 
-use crate::chart::Chart;
-use crate::configuration::{Configuration, VectorSpace};
-use crate::description::Described;
-use crate::forces::ForcedSystem;
-use crate::integrate::drive::trajectory::Trajectory;
-use crate::integrate::problem::error::IntegrationError;
-use crate::integrate::problem::state::Sample;
-use crate::real::Real;
-use crate::system::GaussSystem;
-
-impl<S: GaussSystem> Trajectory<'_, S> {
+/// Tables of a run.
+pub trait Tabulate<S: GaussSystem> {
     /// A table with a row for every sample, and the time as its first column.
     ///
-    #[cfg_attr(
-        feature = "derive",
-        doc = r##"
-```
-use gauss_runtime::prelude::*;
-
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(angle),
-    particle(mass = 1, position = [sin(angle), 0, -cos(angle)]),
-    spring(bearing, along = angle, stiffness = 0, damping = 0.1),
-)]
-struct Pendulum {
-    #[gauss(gravity)] g: f64,
-}
-
-# fn main() -> Result<(), Box<dyn std::error::Error>> {
-let kernel = Pendulum { g: 9.81 }.kernel()?;
-let run = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(SVector::from([1.0]), SVector::from([0.0]), 0.0..10.0)?;
-let table = run
-    .table_at((0..=100).map(|n| 0.1 * f64::from(n)))?
-    .columns(["angle", "rate"], |s| [s.q[0], s.z[0]])
-    .energies(&kernel)
-    .powers(&kernel, |_t, _q, _z| ());
-# let folder = std::env::temp_dir();
-# std::fs::write(folder.join("gauss_table_example.csv"), table.to_string())?;
-# std::fs::remove_file(folder.join("gauss_table_example.csv"))?;
-assert!(table.to_string().starts_with("t,angle,rate,kinetic energy,potential energy,energy,gravity power,"));
-assert!(table.get("bearing power").is_some());
-let energy = table.get("energy").expect("is there");
-assert!(energy.len() == 101 && energy.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9));
-# Ok(())
-# }
-```
-"##
-    )]
+    /// ```
+    /// use gauss_runtime::prelude::*;
+    /// use gauss_tables::Tabulate;
+    ///
+    /// #[derive(GaussDynamics)]
+    /// #[gauss(
+    ///     coordinates(angle),
+    ///     particle(mass = 1, position = [sin(angle), 0, -cos(angle)]),
+    ///     spring(bearing, along = angle, stiffness = 0, damping = 0.1),
+    /// )]
+    /// struct Pendulum {
+    ///     #[gauss(gravity)] g: f64,
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let kernel = Pendulum { g: 9.81 }.kernel()?;
+    /// let run = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(SVector::from([1.0]), SVector::from([0.0]), 0.0..10.0)?;
+    /// let table = run
+    ///     .table_at((0..=100).map(|n| 0.1 * f64::from(n)))?
+    ///     .columns(["angle", "rate"], |s| [s.q[0], s.z[0]])
+    ///     .energies(&kernel)
+    ///     .powers(&kernel, |_t, _q, _z| ());
+    /// # let folder = std::env::temp_dir();
+    /// # std::fs::write(folder.join("gauss_table_example.csv"), table.to_string())?;
+    /// # std::fs::remove_file(folder.join("gauss_table_example.csv"))?;
+    /// assert!(table.to_string().starts_with("t,angle,rate,kinetic energy,potential energy,energy,gravity power,"));
+    /// assert!(table.get("bearing power").is_some());
+    /// let energy = table.get("energy").expect("is there");
+    /// assert!(energy.len() == 101 && energy.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9));
+    /// # Ok(())
+    /// # }
+    /// ```
     #[must_use]
-    pub fn table(&self) -> Table<S> {
-        Table::new(self.samples().to_vec())
-    }
+    fn table(&self) -> Table<S>;
 
     /// A table with a row for every given time, which is its first column.
     ///
     /// # Errors
-    /// What [`at`](Self::at) says of the first time that is not to be had.
-    pub fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Table<S>, IntegrationError> {
+    /// What [`Trajectory::at`] says of the first time that is not to be had.
+    fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Table<S>, IntegrationError>;
+}
+
+impl<S: GaussSystem> Tabulate<S> for Trajectory<'_, S> {
+    fn table(&self) -> Table<S> {
+        Table::new(self.samples().to_vec())
+    }
+
+    fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Table<S>, IntegrationError> {
         self.at_times(times).map(Table::new)
     }
 }
@@ -73,7 +70,7 @@ assert!(energy.len() == 101 && energy.windows(2).all(|pair| pair[1] <= pair[0] +
 /// (RFC 4180, with the names in the first line, and every digit that tells a number from its neighbours).
 ///
 /// Columns have units where these were [given](Self::units) or are those of the [SI](Self::si); the heading of CSV is then
-/// `angle / rad`. Other formats and plots are in the crate `gauss-tables`.
+/// `angle / rad`. [`Export`](crate::Export) has other formats and plots.
 pub struct Table<S: GaussSystem> {
     samples: Vec<Sample<S>>,
     columns: Vec<Stored>,
@@ -125,7 +122,7 @@ impl fmt::Display for UnknownColumns {
     }
 }
 
-impl core::error::Error for UnknownColumns {}
+impl std::error::Error for UnknownColumns {}
 
 #[derive(Clone, Debug)]
 struct Stored {
@@ -297,52 +294,5 @@ impl<S: GaussSystem> fmt::Display for Table<S> {
             f.write_str("\n")?;
         }
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::SVector;
-    use std::borrow::ToOwned;
-
-    use crate::integrate::Simulation;
-    use crate::testing::oscillator::{Oscillator, Viscous};
-
-    type One = SVector<f64, 1>;
-
-    impl Described for Oscillator<Viscous> {}
-
-    #[test]
-    fn columns_have_names_and_csv_reads_back() {
-        let system = Oscillator::<Viscous>::new(0.0);
-        let (q, z) = (One::from([1.0]), One::from([0.0]));
-        let push = |t: f64, _: &One, _: &One| t.sin();
-        let run = Simulation::new(&system).input(push).adaptive(1e-10, 1e-10).run(q, z, 0.0..3.0).expect("runs");
-        let table = run.table_at([0.0, 0.125, 1e-17, 3.0]).expect("inside");
-        let table = table.state().energies(&system).powers(&system, push).column("a, \"b\"", |s| s.q[0] / 0.0);
-        let text = table.to_string();
-        let mut lines = text.lines();
-        let heading =
-            "t,q1,z1,kinetic energy,potential energy,energy,spring power,law power,drive power,\"a, \"\"b\"\"\"";
-        assert_eq!(lines.next(), Some(heading));
-        let times = table.get("t").expect("is there");
-        assert_eq!((times, table.names().len(), table.get("nothing")), (&[0.0, 0.125, 1e-17, 3.0][..], 10, None));
-        for (row, line) in lines.enumerate() {
-            let numbers: Vec<f64> = line.split(',').map(|word| word.parse().expect("a number")).collect();
-            let sample = &table.samples()[row];
-            assert_eq!(numbers[..3], [sample.t, sample.q[0], sample.z[0]]);
-            assert_eq!(numbers[8], sample.t.sin() * sample.z[0]);
-            assert_eq!(numbers[9], f64::INFINITY);
-        }
-        assert_eq!(run.table().samples().len(), run.len());
-        assert!(run.table_at([0.5, 3.5]).is_err());
-        let heading = |table: Table<_>| table.to_string().lines().next().map(str::to_owned);
-        let table = table.si().units([("q1", "m"), ("z1", "m/s"), ("a, \"b\"", "N m")]).expect("are there");
-        let heads = "t / s,q1 / m,z1 / (m/s),kinetic energy / J,potential energy / J,energy / J,spring power / W,\
-                     law power / W,drive power / W,\"a, \"\"b\"\" / (N m)\"";
-        assert_eq!(heading(table.clone()).as_deref(), Some(heads));
-        let unknown = table.units([("q1", "mm"), ("q2", "m"), ("q 1", "m")]).expect_err("are not there");
-        assert_eq!(unknown.to_string(), "the table has no column `q2`, `q 1`");
     }
 }
