@@ -6,9 +6,8 @@
 //! roundings are independent of each other, 1 where each step errs the same way or the method itself does. The energy of a body in a
 //! fluid is quadratic without weight, and kept to rounding; with weight it is kept to the error of the method.
 
-use gauss_runtime::integrate::{
-    Collocation, Compensated, Control, Fixed, MoserVeselov, Scheme, Splitting, Variational,
-};
+use gauss_exact::{MoserVeselov, Scheme, Splitting};
+use gauss_runtime::integrate::{Collocation, Compensated, Control, Fixed, Variational};
 use gauss_runtime::prelude::*;
 
 /// A top on a fixed tip.

@@ -98,6 +98,15 @@ pub use nalgebra;
 pub mod __private_0_1_0;
 use __private_0_1_0 as private;
 
+/// What the other crates of Gauss use, and nobody else should: no promise of stability is made here.
+#[doc(hidden)]
+pub mod __crates_0_1_0 {
+    pub use crate::lie::carried::two_sum;
+    pub use crate::lie::se3::{join, split};
+    pub use crate::lie::so3::turned;
+    pub use crate::triple::*;
+}
+
 #[cfg(feature = "derive")]
 #[doc = include_str!("language.md")]
 pub use gauss_derive::GaussDynamics;

@@ -1,8 +1,10 @@
-"""Jacobi's functions and the integrals of the first and third kind, for the tests of the runtime's elliptic functions.
+"""Jacobi's functions and the integrals of the first and third kind, for the tests of `gauss-exact`.
 
-Run: `pip install mpmath`, then `python elliptic_values.py`. It prints the tables of `integrate/body/elliptic_values.rs`.
+Run: `pip install mpmath`, then `python elliptic_values.py`. It writes the tables
+`crates/gauss-exact/tests/data/elliptic_*.csv`.
 """
 
+from pathlib import Path
 from random import Random
 
 from mpmath import atan2, cos, ellipf, ellipfun, ellipk, elliprj, mp, mpf, sin, sqrt
@@ -38,7 +40,11 @@ def integrals():
                 yield complement, g, sn, cn, sqrt(square), first, third
 
 
-for title, rows in (("FUNCTIONS", functions()), ("INTEGRALS", integrals())):
-    print(title)
-    for row in rows:
-        print("    [" + ", ".join(repr(float(value)) for value in row) + "],")
+DATA = Path(__file__).parents[2] / "crates/gauss-exact/tests/data"
+TABLES = {
+    "functions": ("k',u,sn,cn,dn", functions()),
+    "integrals": ("k',g,sn,cn,dn,first kind,third kind", integrals()),
+}
+for name, (heading, rows) in TABLES.items():
+    lines = [heading, *(",".join(repr(float(value)) for value in row) for row in rows)]
+    (DATA / f"elliptic_{name}.csv").write_text("\n".join(lines) + "\n")

@@ -13,8 +13,8 @@ checked. s and d are polynomials in N = h²|y|²/2 and H = h²T(y), whose coeffi
 where e1, e2, e3 are the elementary symmetric functions of I, of weights 1, 2, 3. The rational numbers in P are found from
 samples in exact arithmetic, and tested on samples that did not take part. Orders 4 and 6 are those of the paper.
 
-Run: `python moser_veselov.py`; standard library only, a few seconds. It prints the tables of the runtime's
-`integrate/body/corrections.rs`.
+Run: `python moser_veselov.py`; standard library only, a few seconds. It prints the tables of
+`gauss-exact/src/corrections.rs`.
 """
 
 from fractions import Fraction

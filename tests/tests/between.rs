@@ -1,9 +1,11 @@
 //! States between samples are as accurate as the samples, by every method, and tables of them.
 
-use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, Method, Rkmk, Scheme, Splitting};
+use gauss_exact::{Scheme, Splitting};
+use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, Rkmk};
 use gauss_runtime::prelude::*;
 use gauss_tables::Tabulate;
 use gauss_tests::top::{Top, TopKernel};
+use gauss_tune::Method;
 
 /// x = cos t from (1, 0).
 #[derive(GaussDynamics)]

@@ -70,11 +70,11 @@
 //!
 //! # What is not
 //!
-//! - A splitting [`Scheme`](gauss_runtime::integrate::Scheme) holds the lengths of its kicks and drifts in `f64`. They are
+//! - A splitting `Scheme` (crate `gauss-exact`) holds the lengths of its kicks and drifts in `f64`. They are
 //!   taken as they are: exact results are those of the method with these numbers, not with those that they round.
-//! - The elliptic functions of [`FreeFlow`](gauss_runtime::integrate::FreeFlow) are for `f64` alone, so it takes no bounded
-//!   numbers, and neither does [`Splitting::exact`](gauss_runtime::integrate::Splitting::exact).
-//!   [`Splitting::discrete`](gauss_runtime::integrate::Splitting::discrete) does, but forgotten correlations in its iterations
+//! - The elliptic functions of its `FreeFlow` are for `f64` alone, so it takes no bounded
+//!   numbers, and neither does `Splitting::exact`.
+//!   `Splitting::discrete` does, but forgotten correlations in its iterations
 //!   make bounds that hold and say little: after five steps of a top the median is 10⁹ times the error, where that of
 //!   explicit methods is below a hundred times, and some thousand times when they are
 //!   [`Compensated`](gauss_runtime::integrate::Compensated).

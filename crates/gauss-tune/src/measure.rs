@@ -489,7 +489,7 @@ pub trait Tune<S: GaussSystem>: Sized {
     /// For methods that not every scene admits, and that [`tune`](Self::tune), which is for any scene, cannot try:
     ///
     /// ```
-    /// use gauss_runtime::integrate::{Scheme, Splitting};
+    /// use gauss_exact::{Scheme, Splitting};
     /// use gauss_runtime::prelude::*;
     /// use gauss_tune::Tune;
     ///

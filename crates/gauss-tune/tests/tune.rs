@@ -47,7 +47,7 @@ fn figures_are_what_a_run_costs() {
         let count = Cell::new(0);
         let counted = scene.input(|t, q: &_, z: &_| {
             count.set(count.get() + 1);
-            TORQUE.input(t, q, z)
+            (TORQUE.0)(t, q, z)
         });
         let mut samples = 0;
         let seen =

@@ -33,7 +33,7 @@ pub fn linearly_implicit(step: f64) -> Fixed<f64, Rosenbrock> {
 /// Splitting of order 4 over the exact free motion: spin costs nothing, and a body without forces needs one step.
 macro_rules! splitting {
     ($kernel:expr, $step:expr) => {{
-        use gauss_runtime::integrate::{Scheme, Splitting};
+        use gauss_exact::{Scheme, Splitting};
         gauss_runtime::integrate::Fixed::by(Splitting::exact($kernel, Scheme::BLANES_MOAN_4)?, $step)
     }};
 }

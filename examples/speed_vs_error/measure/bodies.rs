@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::rc::Rc;
 
-use gauss_runtime::integrate::TopError;
+use gauss_exact::TopError;
 use gauss_runtime::prelude::*;
 
 use super::baselines::baselines;

@@ -4,8 +4,8 @@
 use std::hint::black_box;
 use std::rc::Rc;
 
-use gauss_runtime::integrate::body::FreeMotion;
-use gauss_runtime::integrate::{FreeFlow, MoserVeselov};
+use gauss_exact::FreeMotion;
+use gauss_exact::{FreeFlow, MoserVeselov};
 use gauss_runtime::prelude::*;
 
 use super::entry::{Ask, Entry, Setting, Side};

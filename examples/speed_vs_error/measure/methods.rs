@@ -1,8 +1,10 @@
 //! The methods of Gauss, one line each. What no forces act on has more of them in `free_motion`.
 
-use gauss_runtime::integrate::body::BodyConfiguration;
-use gauss_runtime::integrate::{Adams, Composed, Composition, Form, Scheme, Splitting, SplittingError};
-use gauss_runtime::integrate::{TopError, TopFlow, Variational};
+use gauss_exact::BodyConfiguration;
+use gauss_exact::{Scheme, Splitting, SplittingError};
+use gauss_exact::{TopError, TopFlow};
+use gauss_runtime::integrate::Variational;
+use gauss_runtime::integrate::{Adams, Composed, Composition, Form};
 use gauss_runtime::prelude::*;
 
 use super::counted::Counted;

@@ -7,7 +7,6 @@
 //! | [`runge_kutta`] | [`tableau`](runge_kutta::tableau): coefficients; [`components`](runge_kutta::components): steps on the components, brought back onto the group |
 //! | [`lie_group`] | [`rkmk`](lie_group::rkmk): Runge–Kutta–Munthe-Kaas steps; [`commutator_free`](lie_group::commutator_free): a method of order 4; [`discrete`](lie_group::discrete): exact derivatives of its steps, transition matrices for filters and regulators |
 //! | [`structure`] | [`collocation`](structure::collocation): Gauss' implicit methods of orders 2, 4, 6, symmetric; [`composition`](structure::composition): symmetric methods composed to higher orders; [`variational`](structure::variational): symplectic in the left-invariant chart; [`energy_momentum`](structure::energy_momentum): energy and momenta of bodies at once |
-//! | [`body`] | free and heavy bodies: exact flow, discrete Moser–Veselov, splitting |
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`adams`] | multistep methods: of what earlier steps knew |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
@@ -15,7 +14,6 @@
 //! | `lanes` | many runs in lockstep, each with steps of its own |
 
 pub mod adams;
-pub mod body;
 pub mod drive;
 #[cfg(feature = "alloc")]
 pub mod lanes;
@@ -28,7 +26,6 @@ pub mod structure;
 pub mod taylor;
 
 pub use adams::Adams;
-pub use body::{FreeFlow, MoserVeselov, Scheme, Splitting, SplittingError, TopError, TopFlow};
 pub use drive::adaptive::Adaptive;
 pub use drive::compensated::Compensated;
 #[cfg(feature = "alloc")]

@@ -18,7 +18,7 @@ use crate::triple::{add, compose, conjugate, cross, quaternion, rotate, rotate_b
 
 /// a + b to nearest, and exactly what is missing there (Knuth).
 #[inline(always)]
-pub(crate) fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
+pub fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     let second = sum - a;
     let first = sum - second;

@@ -14,14 +14,17 @@ use crate::triple::{
 };
 
 /// Linear and angular part of a twist.
+#[doc(hidden)]
 #[inline(always)]
-pub(crate) fn split<T: Real>(twist: &SVector<T, 6>) -> ([T; 3], [T; 3]) {
+pub fn split<T: Real>(twist: &SVector<T, 6>) -> ([T; 3], [T; 3]) {
     let [a, b, c, d, e, f] = twist.data.0[0];
     ([a, b, c], [d, e, f])
 }
 
+/// The twist of a linear and an angular part.
+#[doc(hidden)]
 #[inline(always)]
-pub(crate) fn join<T: Real>(linear: [T; 3], angular: [T; 3]) -> SVector<T, 6> {
+pub fn join<T: Real>(linear: [T; 3], angular: [T; 3]) -> SVector<T, 6> {
     let ([a, b, c], [d, e, f]) = (linear, angular);
     SVector::from([a, b, c, d, e, f])
 }

@@ -106,8 +106,9 @@ pub(super) fn less_one<T: Real>(sigma: [T; 3]) -> [T; 4] {
 }
 
 /// `q ∘ (1 + step)`, held at norm 1.
+#[doc(hidden)]
 #[inline(always)]
-pub(crate) fn turned<T: Real>(q: [T; 4], step: [T; 4]) -> [T; 4] {
+pub fn turned<T: Real>(q: [T; 4], step: [T; 4]) -> [T; 4] {
     let (change, correction) = (compose(q, step), norm_correction(q));
     core::array::from_fn(|i| q[i] + (change[i] + correction[i]))
 }

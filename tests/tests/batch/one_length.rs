@@ -1,7 +1,8 @@
 //! Ensembles by steps of one length, of methods that remember the steps before, too: the bits of single runs, their events, their
 //! reasons to stop.
 
-use gauss_runtime::integrate::{Adams, FreeFlow, Scheme, Splitting};
+use gauss_exact::{FreeFlow, Scheme, Splitting};
+use gauss_runtime::integrate::Adams;
 
 use super::ensembles::{agree, bounce_as_alone, fail_as_alone};
 use super::*;

@@ -2,9 +2,8 @@
 //! iterate are left out: what is left when they stop is not rounding.
 
 use gauss_bounded::exact;
-use gauss_runtime::integrate::{
-    CommutatorFree4, Compensated, IncrementStep, MoserVeselov, Problem, Rkmk, Scheme, Splitting, State, SystemProblem,
-};
+use gauss_exact::{MoserVeselov, Scheme, Splitting};
+use gauss_runtime::integrate::{CommutatorFree4, Compensated, IncrementStep, Problem, Rkmk, State, SystemProblem};
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
 

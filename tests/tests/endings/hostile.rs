@@ -4,16 +4,15 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
 use gauss_adapters::FlatSystem;
+use gauss_exact::{FreeFlow, Scheme, Splitting};
 use gauss_runtime::batch::{Batch, States};
 use gauss_runtime::configuration::Configuration;
-use gauss_runtime::integrate::{
-    Compensated, Composed, Composition, Control, EnergyMomentum, FreeFlow, Method, Rkmk, Scheme, Splitting, Variational,
-};
+use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, EnergyMomentum, Rkmk, Variational};
 use gauss_runtime::prelude::*;
 use gauss_tables::Tabulate;
 use gauss_tests::top::TopKernel;
 use gauss_tests::watchdog::within;
-use gauss_tune::Tune;
+use gauss_tune::{Method, Tune};
 
 use crate::scenes::{
     Angles, Bead, Driven, GenericTop, GenericTopKernel, Inclined, Pendulum, PendulumKernel, Spring, one, toy,

@@ -38,7 +38,8 @@ const fn symmetric<const N: usize>(first: &[i64], order: u32) -> Composition<N> 
 
 impl<const N: usize> Composition<N> {
     /// The weights as the nearest doubles, or their neighbours.
-    pub(in crate::integrate) const fn doubles(&self) -> [f64; N] {
+    #[must_use]
+    pub const fn doubles(&self) -> [f64; N] {
         let mut doubles = [0.0; N];
         let mut i = 0;
         while i < N {

@@ -1,8 +1,8 @@
 //! Free bodies over up to 10⁶ steps of the exact motion and of the discrete one.
 
+use gauss_exact::FreeMotion;
+use gauss_exact::{FreeFlow, MoserVeselov};
 use gauss_long_runs::steps;
-use gauss_runtime::integrate::body::FreeMotion;
-use gauss_runtime::integrate::{FreeFlow, MoserVeselov};
 use gauss_runtime::lie::so3;
 use gauss_runtime::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Lengths of kicks and drifts: splitting methods as tables.
 
-use crate::integrate::structure::composition::Composition;
+use gauss_runtime::integrate::Composition;
 
 /// A symmetric splitting method: kick, drift, kick, …, kick, as fractions of the step.
 ///

@@ -4,22 +4,19 @@
 //! force at a fixed place. Both are done exactly (or to order 10), in turn, and how fast the body spins costs nothing
 //! (McLachlan 1993; Celledoni, Fassò, Säfström & Zanna 2008).
 
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Part, Problem, Properties, Rates, State, Step};
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
 use nalgebra::Matrix3;
 
-use super::configuration::{BodyConfiguration, DriftingBody, SplittingError};
-use super::free_flow::FreeFlow;
-use super::inertia::{FreeMotion, PrincipalAxes};
-use super::moser_veselov::MoserVeselov;
-use super::scheme::Scheme;
-use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::state::{Rates, State, TangentOf};
-use crate::integrate::step::one_step::{OneStep, Properties, Step};
-use crate::real::Real;
-use crate::system::GaussSystem;
+use crate::configuration::{BodyConfiguration, DriftingBody, SplittingError};
+use crate::free_flow::FreeFlow;
+use crate::inertia::{FreeMotion, PrincipalAxes};
+use crate::moser_veselov::MoserVeselov;
+use crate::scheme::Scheme;
 
-/// A splitting method for one body, for [`Fixed::by`](crate::integrate::Fixed::by).
+/// A splitting method for one body, for [`Fixed::by`](gauss_runtime::integrate::Fixed::by).
 ///
 /// For kernels whose quasi-velocities are the body's in its own axes (`chart = left_invariant`), about a fixed point, or free
 /// with O in the centre of mass; inertia with products too. What acts may depend on time and configuration, not on velocities:
@@ -81,7 +78,7 @@ impl<T: Real, M: FreeMotion<T>> Splitting<T, M> {
 }
 
 /// Mass and inertia about O, which are to be the same at every configuration and time.
-pub(super) fn constant_body<S>(
+pub(crate) fn constant_body<S>(
     system: &S,
     samples: &[S::Configuration; 3],
 ) -> Result<(S::Scalar, Matrix3<S::Scalar>), SplittingError>
@@ -106,7 +103,7 @@ where
 
 /// Tries kinematics and forces at a few states. Those where the forces are not finite (the centre of attraction, say) do not
 /// count.
-pub(super) fn try_system<S>(system: &S, samples: &[S::Configuration; 3]) -> Result<(), SplittingError>
+pub(crate) fn try_system<S>(system: &S, samples: &[S::Configuration; 3]) -> Result<(), SplittingError>
 where
     S: GaussSystem<Input: Default>,
     S::Configuration: BodyConfiguration<Tangent = S::Speeds>,
@@ -152,14 +149,12 @@ where
 {
     fn properties(&self) -> Properties {
         let order = self.scheme.order();
-        Properties {
-            order: self.body.motion.order().map_or(order, |of_motion| order.min(of_motion)),
-            symmetric: true,
-            symplectic: self.body.motion.symplectic(),
-            keeps_momentum: true,
-            keeps_energy: false,
-            stiff: false,
-        }
+        let order = self.body.motion.order().map_or(order, |of_motion| order.min(of_motion));
+        let mut properties = Properties::of_order(order);
+        properties.symmetric = true;
+        properties.symplectic = self.body.motion.symplectic();
+        properties.keeps_momentum = true;
+        properties
     }
 
     /// Refuses what the free motion refuses, and what is infinite or undefined ([`IntegrationErrorKind::NonFinite`]).
@@ -197,7 +192,8 @@ where
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
         let y = problem.of_momentum(t, &q, &p);
-        let error = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+        let error =
+            Rates { configuration: <S::Configuration as Configuration>::Tangent::zero(), variables: S::Speeds::zero() };
         Ok(Step { state: State { t, q, y }, error, rates: None })
     }
 }

@@ -6,14 +6,14 @@
 //! orbits are those of the body at a wrong rate. `1/Ĩ_i = s/I_i + d` with s and d functions of the energy and of |y| puts the
 //! rate right (Hairer & Vilmart, J. Phys. A 39, 2006).
 
+use gauss_runtime::__crates_0_1_0::{add, cross, dot, scaled, triple, unit_quaternion};
+use gauss_runtime::integrate::{IntegrationErrorKind, Part};
+use gauss_runtime::lie::so3;
+use gauss_runtime::real::Real;
 use nalgebra::{SVector, Vector3};
 
-use super::corrections::Corrections;
-use super::inertia::{FreeMotion, Turn};
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::lie::so3;
-use crate::real::Real;
-use crate::triple::{add, cross, dot, scaled, triple, unit_quaternion};
+use crate::corrections::Corrections;
+use crate::inertia::{FreeMotion, Turn};
 
 /// Newton's iteration converges in three or four steps where a step of the method makes sense.
 const MOST_ITERATIONS: u32 = 20;

@@ -3,10 +3,10 @@
 
 use nalgebra::{SVector, UnitQuaternion};
 
-use super::top_orbit::Top;
 use crate::integrate::{Feedback, MomentumForm, RungeKutta, State, SystemProblem, Verner9};
 use crate::testing::FreeTop;
 use crate::testing::order::{Torque, march};
+use crate::top_orbit::Top;
 use crate::triple::unit_quaternion;
 
 const EPSILON: f64 = f64::EPSILON;

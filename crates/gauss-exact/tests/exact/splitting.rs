@@ -1,8 +1,8 @@
 //! Splitting methods on a top under torques: orders, symmetry, the symplectic form, what is refused.
 
+use gauss_exact::{FreeMotion, MoserVeselov, Scheme, Splitting};
 use nalgebra::{SMatrix, SVector};
 
-use super::{FreeMotion, MoserVeselov, Scheme, Splitting};
 use crate::configuration::Configuration;
 use crate::integrate::SystemProblem;
 use crate::integrate::{

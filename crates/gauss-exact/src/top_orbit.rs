@@ -16,9 +16,9 @@
 //! Sources: Klein & Sommerfeld, *Theorie des Kreisels*, VI; Whittaker, *Analytical Dynamics*, 71; Carlson (Numer. Algorithms 10,
 //! 1995); the arrangement is ours.
 
-use super::elliptic::{Jacobi, Modulus, complete};
-use super::free_flow::round;
-use crate::real::Real;
+use gauss_runtime::real::Real;
+
+use crate::elliptic::{Jacobi, Modulus, complete, round};
 
 /// re + i im.
 type Complex = [f64; 2];
@@ -47,13 +47,13 @@ fn unit(x: f64) -> Complex {
 
 /// A top on its way.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Top {
-    pub(super) alpha: Complex,
-    pub(super) beta: Complex,
+pub(crate) struct Top {
+    pub(crate) alpha: Complex,
+    pub(crate) beta: Complex,
     /// Momentum across the axis, body axes.
-    pub(super) across: Complex,
+    pub(crate) across: Complex,
     /// Momentum along the axis.
-    pub(super) along: f64,
+    pub(crate) along: f64,
 }
 
 /// Smaller numbers are taken for this one: its square is a number.
@@ -180,7 +180,7 @@ impl Top {
     }
 
     /// After a time t; `ratio` is that of the moments, across to along.
-    pub(super) fn after(&self, t: f64, ratio: f64) -> Self {
+    pub(crate) fn after(&self, t: f64, ratio: f64) -> Self {
         // On the vertical one of the parameters is zero, and without a direction: that in which it is about to move.
         let still = square(self.across) < LEAST;
         let vertical = |of: Complex| square(of) < LEAST;

@@ -1,11 +1,10 @@
 //! Principal axes of a body, and what a free motion does in them.
 
+use gauss_runtime::__crates_0_1_0::{compose, quaternion, rotate, rotate_back, triple, unit_quaternion};
+use gauss_runtime::integrate::IntegrationErrorKind;
+use gauss_runtime::lie::so3;
+use gauss_runtime::real::Real;
 use nalgebra::{Matrix3, SVector, UnitQuaternion, Vector3};
-
-use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::lie::so3;
-use crate::real::Real;
-use crate::triple::{compose, quaternion, rotate, rotate_back, triple, unit_quaternion};
 
 /// What a span of free motion does to a body, in its principal axes.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +19,7 @@ pub struct Turn<T> {
 /// A way to move a free rigid body that turns about a fixed point: exactly, or by a discretisation.
 ///
 /// A type of your own that implements it becomes a splitting method by
-/// [`Splitting::with`](super::splitting::Splitting::with).
+/// [`Splitting::with`](crate::splitting::Splitting::with).
 pub trait FreeMotion<T: Real> {
     /// The order of the global error; `None` when there is none but rounding.
     fn order(&self) -> Option<u32>;
@@ -127,7 +126,7 @@ fn annihilate<T: Real>(a: &mut [[T; 3]; 3], turned: &mut [T; 4], p: usize, q: us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simd::Lanes;
+    use gauss_runtime::simd::Lanes;
 
     /// Products of a rotation and its moments, put together again.
     #[test]
@@ -167,9 +166,7 @@ mod tests {
             Matrix3::new(2.0, 0.3, 0.0, 0.3, 1.5, 0.2, 0.0, 0.2, 1.0),
             Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0)),
         ];
-        let both = crate::private::matrix(core::array::from_fn(|i| {
-            core::array::from_fn(|j| Lanes([tensors[0][(i, j)], tensors[1][(i, j)]]))
-        }));
+        let both = Matrix3::from_fn(|i, j| Lanes([tensors[0][(i, j)], tensors[1][(i, j)]]));
         let both = PrincipalAxes::of(&both).expect("positive definite");
         for lane in 0..2 {
             assert_eq!(both.moments().map(|m| m.0[lane]), at(lane, tensors).moments());

@@ -14,16 +14,15 @@
 //! Sources: Celledoni, Fassò, Säfström & Zanna (SIAM J. Sci. Comput. 30, 2008); van Zon & Schofield (J. Comput. Phys. 225, 2007);
 //! Carlson (Numer. Algorithms 10, 1995); the arrangement is ours.
 
+use gauss_runtime::__crates_0_1_0::{Triple, add, dot, quaternion, sub, triple, two_sum, unit_quaternion};
+use gauss_runtime::integrate::{IntegrationErrorKind, Part};
+use gauss_runtime::lie::coefficients::sinc_cos;
+use gauss_runtime::lie::so3;
+use gauss_runtime::real::Real;
 use nalgebra::{SVector, Vector3};
 
-use super::elliptic::{Jacobi, Modulus, complete};
-use super::inertia::{FreeMotion, Turn};
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::lie::carried::two_sum;
-use crate::lie::coefficients::sinc_cos;
-use crate::lie::so3;
-use crate::real::Real;
-use crate::triple::{Triple, add, dot, quaternion, sub, triple, unit_quaternion};
+use crate::elliptic::{Jacobi, Modulus, complete, round};
+use crate::inertia::{FreeMotion, Turn};
 
 /// The exact free motion of a body with given principal moments, in one call of some thousand operations.
 ///
@@ -33,8 +32,7 @@ use crate::triple::{Triple, add, dot, quaternion, sub, triple, unit_quaternion};
 /// For `f64`: the number of operations depends on the state.
 ///
 /// ```
-/// use gauss_runtime::integrate::FreeFlow;
-/// use gauss_runtime::integrate::body::FreeMotion;
+/// use gauss_exact::{FreeFlow, FreeMotion};
 /// use gauss_runtime::prelude::*;
 ///
 /// // A wing nut, thrown with a little wobble about its middle axis: where is it after a quarter of an hour?
@@ -425,12 +423,7 @@ fn so3_exp(sigma: Triple<f64>) -> [f64; 4] {
 
 /// The largest power of two that does not exceed a number; units of this size round nothing, and leave no component at 1, where
 /// floating-point numbers lie twice as densely below as above and roundings are not of random sign.
-pub(super) fn power_of_two(x: f64) -> f64 {
+pub(crate) fn power_of_two(x: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
     f64::from_bits(x.to_bits() & EXPONENT).max(f64::MIN_POSITIVE)
-}
-
-/// To the nearest integer; beyond 2⁵¹ what is given is one, or has no digits left that would tell.
-pub(super) fn round(x: f64) -> f64 {
-    if x.abs() < 2.0e15 { (x + if x < 0.0 { -0.5 } else { 0.5 }) as i64 as f64 } else { x }
 }

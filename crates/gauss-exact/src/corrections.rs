@@ -1,7 +1,7 @@
 //! The corrections of the discrete Moser–Veselov method as polynomials: computed in exact arithmetic by
 //! `tests/references/moser_veselov.py`, orders 4 and 6 as published by Hairer & Vilmart (J. Phys. A 39, 2006).
 
-use crate::real::Real;
+use gauss_runtime::real::Real;
 
 /// `p/q · e₁ᵃ e₂ᵇ e₃ᶜ/e₃^(m+n) · Nᵐ Hⁿ`: e are the elementary symmetric functions of the moments.
 #[derive(Clone, Copy)]
@@ -19,7 +19,7 @@ impl Term {
 
 /// s − 1 and d as polynomials in N and H for one body: entry [m + n − 1][n].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Corrections<T> {
+pub(crate) struct Corrections<T> {
     s: [[T; 5]; 4],
     d: [[T; 5]; 4],
     degree: usize,
@@ -27,7 +27,7 @@ pub(super) struct Corrections<T> {
 
 impl<T: Real> Corrections<T> {
     /// To the given degree ≤ 4 in N and H, for a body with these moments.
-    pub(super) fn new([a, b, c]: [T; 3], degree: usize) -> Self {
+    pub(crate) fn new([a, b, c]: [T; 3], degree: usize) -> Self {
         let symmetric = [a + b + c, a * b + b * c + c * a, a * b * c];
         let gather = |terms: &[Term]| {
             let mut table = [[T::zero(); 5]; 4];
@@ -42,7 +42,7 @@ impl<T: Real> Corrections<T> {
 
     /// (s − 1, d) for N = h²|y|²/2, H = h²T.
     #[inline]
-    pub(super) fn at(&self, n: T, h: T) -> (T, T) {
+    pub(crate) fn at(&self, n: T, h: T) -> (T, T) {
         let form = |row: &[T; 5], degree: usize| {
             let (mut sum, mut power) = (row[0], T::one());
             for k in 1..=degree {

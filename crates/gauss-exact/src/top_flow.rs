@@ -2,24 +2,22 @@
 
 use core::fmt;
 
+use gauss_runtime::__crates_0_1_0::{
+    Triple, add, axpy, compose, conjugate, cross, dot, quaternion, rotate, rotate_back, scaled, triple, unit_quaternion,
+};
+use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Part, Problem, Properties, Rates, State, Step};
+use gauss_runtime::lie::so3;
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
 use nalgebra::{SMatrix, SVector, UnitQuaternion};
 
-use super::configuration::{BodyConfiguration, SplittingError};
-use super::splitting::{constant_body, try_system};
-use super::top_orbit::Top;
-use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::state::{Rates, State};
-use crate::integrate::step::one_step::{OneStep, Properties, Step};
-use crate::lie::so3;
-use crate::real::Real;
-use crate::system::GaussSystem;
-use crate::triple::{Triple, add, compose, conjugate, cross, dot, quaternion, rotate, rotate_back, scaled, triple};
-use crate::triple::{axpy, unit_quaternion};
+use crate::configuration::{BodyConfiguration, SplittingError};
+use crate::splitting::{constant_body, try_system};
+use crate::top_orbit::Top;
 
 /// The exact motion of a body about a fixed point of its axis, with equal moments across it, under a weight: Lagrange's top, and with
 /// no spin the spherical pendulum. One call for any span of time, of some thousand operations; for
-/// [`Fixed::by`](crate::integrate::Fixed::by), in velocity form or momentum form, with steps as long as states are wanted;
+/// [`Fixed::by`](gauss_runtime::integrate::Fixed::by), in velocity form or momentum form, with steps as long as states are wanted;
 /// where events are looked for, steps that resolve the motion.
 ///
 /// Errors: some roundings of the angles through which the body spins, precesses and nutates, times how much the motion depends on
@@ -47,7 +45,7 @@ pub struct TopFlow {
 pub enum TopError {
     /// Not one body with a constant inertia, under forces that do not depend on its velocities.
     NotABody(SplittingError),
-    /// Nothing acts: a free body has a motion of its own ([`FreeFlow`](super::free_flow::FreeFlow)).
+    /// Nothing acts: a free body has a motion of its own ([`FreeFlow`](crate::free_flow::FreeFlow)).
     Free,
     /// What acts is not the moment of one constant force at one point of the body.
     NotAWeight,
@@ -186,14 +184,12 @@ where
     S: GaussSystem<Scalar = f64, Input = (), Configuration = UnitQuaternion<f64>, Speeds = SVector<f64, 3>>,
 {
     fn properties(&self) -> Properties {
-        Properties {
-            order: u32::MAX,
-            symmetric: true,
-            symplectic: true,
-            keeps_momentum: true,
-            keeps_energy: true,
-            stiff: false,
-        }
+        let mut properties = Properties::of_order(u32::MAX);
+        properties.symmetric = true;
+        properties.symplectic = true;
+        properties.keeps_momentum = true;
+        properties.keeps_energy = true;
+        properties
     }
 
     #[inline]

@@ -1,16 +1,16 @@
 //! The exact free motion of several bodies, one in each lane.
 
+use gauss_runtime::integrate::IntegrationErrorKind;
+use gauss_runtime::real::Real;
+use gauss_runtime::simd::Packed;
 use nalgebra::Vector3;
 
-use super::free_flow::FreeFlow;
-use super::inertia::{FreeMotion, Turn};
-use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::real::Real;
-use crate::simd::Packed;
+use crate::free_flow::FreeFlow;
+use crate::inertia::{FreeMotion, Turn};
 
 impl FreeFlow {
     /// The motions of N bodies with the principal moments in the lanes of packs, for
-    /// [`Splitting::with`](super::Splitting::with). What is computed is that of each lane by itself.
+    /// [`Splitting::with`](crate::Splitting::with). What is computed is that of each lane by itself.
     #[must_use]
     pub fn in_lanes<T: Packed<Single = f64>, const N: usize>(moments: [T; 3]) -> [Self; N] {
         core::array::from_fn(|lane| Self::new(moments.map(|moment| moment.extract(lane))))

@@ -3,13 +3,13 @@
 
 use std::vec::Vec;
 
+use gauss_exact::{FreeFlow, FreeMotion, MoserVeselov};
+use gauss_runtime::lie::so3;
+use gauss_runtime::simd::Lanes;
 use nalgebra::{SVector, UnitQuaternion, Vector3};
 
-use super::{FreeFlow, FreeMotion, MoserVeselov};
 use crate::integrate::IntegrationErrorKind;
-use crate::lie::so3;
 use crate::real::Real;
-use crate::simd::Lanes;
 use crate::triple::{quaternion, rotate, unit_quaternion};
 
 type State = (UnitQuaternion<f64>, Vector3<f64>);

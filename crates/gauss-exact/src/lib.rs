@@ -11,6 +11,13 @@
 //! | [`splitting`] | [`Splitting`]: a step for a kernel |
 //! | [`configuration`](mod@configuration) | what a splitting needs to know of attitudes and poses |
 
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+#[cfg(test)]
+extern crate std;
+
 pub mod configuration;
 mod corrections;
 mod elliptic;
@@ -31,11 +38,7 @@ pub use scheme::Scheme;
 pub use splitting::Splitting;
 pub use top_flow::{TopError, TopFlow};
 
-#[cfg(test)]
-mod elliptic_values;
-#[cfg(test)]
-mod free_tests;
-#[cfg(test)]
-mod splitting_tests;
-#[cfg(test)]
-mod top_tests;
+/// The example of the README is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

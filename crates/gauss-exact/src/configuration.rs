@@ -2,15 +2,15 @@
 
 use core::fmt;
 
+use gauss_runtime::__crates_0_1_0::{
+    axpy, cross, join, quaternion, rotate, rotate_back, split, triple, turned as turned_by, unit_quaternion,
+};
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::integrate::IntegrationErrorKind;
+use gauss_runtime::real::Real;
 use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, Translation3, UnitQuaternion};
 
-use super::inertia::{FreeMotion, PrincipalAxes};
-use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::lie::se3::{join, split};
-use crate::lie::so3;
-use crate::real::Real;
-use crate::triple::{axpy, cross, quaternion, rotate, rotate_back, triple, unit_quaternion};
+use crate::inertia::{FreeMotion, PrincipalAxes};
 
 /// A system that cannot be split into free motion of one body and forces that depend on time and configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,10 +73,10 @@ impl core::error::Error for SplittingError {}
 /// A body that moves freely between kicks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriftingBody<T, M> {
-    pub(super) axes: PrincipalAxes<T>,
-    pub(super) motion: M,
+    pub(crate) axes: PrincipalAxes<T>,
+    pub(crate) motion: M,
     /// Not used where O is fixed.
-    pub(super) mass: T,
+    pub(crate) mass: T,
 }
 
 /// Configurations of one rigid body: an attitude, or a pose with O at the centre of mass.
@@ -114,7 +114,7 @@ pub trait BodyConfiguration: Configuration {
 #[inline(always)]
 fn turned<T: Real>(q: [T; 4], turn: &UnitQuaternion<T>) -> [T; 4] {
     let [x, y, z, w] = quaternion(turn);
-    so3::turned(q, [x, y, z, w - T::one()])
+    turned_by(q, [x, y, z, w - T::one()])
 }
 
 fn attitudes<T: Real>() -> [UnitQuaternion<T>; 3] {
@@ -154,7 +154,7 @@ impl<T: Real> BodyConfiguration for Isometry3<T> {
 
     fn mass_and_inertia(matrix: &Self::MassMatrix) -> Result<(T, Matrix3<T>), SplittingError> {
         let entry = |i: usize, j: usize| matrix.data.0[j][i];
-        let inertia = crate::private::matrix(core::array::from_fn(|i| core::array::from_fn(|j| entry(i + 3, j + 3))));
+        let inertia = Matrix3::from_fn(|i, j| entry(i + 3, j + 3));
         for lane in 0..T::LANES {
             let mass = entry(0, 0).lane(lane);
             let rounding = 16.0 * T::EPSILON;
