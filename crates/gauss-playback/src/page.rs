@@ -1,9 +1,9 @@
 //! What the page holds, and the page itself.
 
-use gauss_runtime::prelude::Isometry3;
 use serde::{Serialize, Serializer};
 
 use crate::shape::Shape;
+pub use crate::shape::{can_be_shown, pose};
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
@@ -73,12 +73,6 @@ pub struct Curve {
     pub values: Vec<f64>,
 }
 
-/// Whether numbers can be shown: finite as `f32`, as which the page has poses and arrows. Half of the largest `f32` is
-/// the limit, so that rounding stays below it and differences of two are finite as well.
-pub fn can_be_shown(numbers: &[f64]) -> bool {
-    numbers.iter().all(|number| number.abs() <= f64::from(f32::MAX / 2.0))
-}
-
 /// Numbers as a screen shows them: `f32` has more digits than it has pixels, and half the length.
 fn short<const N: usize, S: Serializer>(rows: &[[f64; N]], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(rows.iter().map(|row| row.map(|number| number as f32).to_vec()))
@@ -127,10 +121,4 @@ fn filled<'a>(template: &str, contents: impl Fn(&str) -> &'a str) -> String {
         page += rest;
     }
     page
-}
-
-/// Position and quaternion.
-pub fn pose(pose: &Isometry3<f64>) -> [f64; 7] {
-    let (b, turn) = (pose.translation.vector, pose.rotation.coords);
-    [b.x, b.y, b.z, turn.x, turn.y, turn.z, turn.w]
 }

@@ -3,8 +3,6 @@
 use gauss_runtime::prelude::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use serde::Serialize;
 
-use crate::page::{can_be_shown, pose};
-
 /// A solid fixed in a body. Two shades in eight parts of it show how it turns.
 #[derive(Clone, Debug, Serialize)]
 pub struct Shape {
@@ -111,4 +109,16 @@ impl Shape {
     pub(crate) fn can_be_shown(&self) -> bool {
         can_be_shown(&self.size) && can_be_shown(&self.pose)
     }
+}
+
+/// Whether numbers can be shown: finite as `f32`, as which the page has poses and arrows. Half of the largest `f32` is
+/// the limit, so that rounding stays below it and differences of two are finite as well.
+pub fn can_be_shown(numbers: &[f64]) -> bool {
+    numbers.iter().all(|number| number.abs() <= f64::from(f32::MAX / 2.0))
+}
+
+/// Position and quaternion.
+pub fn pose(pose: &Isometry3<f64>) -> [f64; 7] {
+    let (b, turn) = (pose.translation.vector, pose.rotation.coords);
+    [b.x, b.y, b.z, turn.x, turn.y, turn.z, turn.w]
 }
