@@ -13,8 +13,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use gauss_batch::{Batch, BatchSystem, States};
 use gauss_examples::statistics::quartiles;
-use gauss_runtime::batch::{Batch, BatchSystem, States};
 use gauss_runtime::integrate::OneStep;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;

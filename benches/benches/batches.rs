@@ -5,6 +5,7 @@
 use std::cell::RefCell;
 use std::hint::black_box;
 
+use gauss_batch::{Batch, BatchSystem, Packs, SingleConfiguration, SingleSpeeds, States};
 use gauss_benches::measure::{Way, times};
 #[cfg(feature = "robots")]
 use gauss_benches::packs::{anymal, fingers};
@@ -12,7 +13,6 @@ use gauss_benches::packs::{cart_pole, double_pendulum, immersed, top};
 #[cfg(feature = "robots")]
 use gauss_benches::states::of_a_floating_base;
 use gauss_benches::states::{STATES, of_a_body, of_angles, of_the_top};
-use gauss_runtime::batch::{Batch, BatchSystem, Packs, SingleConfiguration, SingleSpeeds, States};
 use gauss_runtime::prelude::*;
 
 /// States one after another, each through a call.

@@ -10,9 +10,9 @@ mod threads;
 
 use std::time::Instant;
 
+use gauss_batch::{Batch, BatchSystem, States};
 use gauss_benches::packs::{free_top, immersed, symmetric_top};
 use gauss_exact::{FreeFlow, Scheme, Splitting};
-use gauss_runtime::batch::{Batch, BatchSystem, States};
 use gauss_runtime::integrate::{Adams, Adaptive, LaneControl, Taylor, Verner9};
 use gauss_runtime::prelude::*;
 use wide::f64x8;

@@ -10,9 +10,9 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::time::Instant;
 
+use gauss_batch::{Batch, States};
 use gauss_examples::plots::write;
 use gauss_examples::runs;
-use gauss_runtime::batch::{Batch, States};
 use gauss_runtime::prelude::*;
 use indicatif::{ProgressBar, ProgressStyle};
 use wide::f64x8;

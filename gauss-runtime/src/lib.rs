@@ -22,7 +22,6 @@
 //! | [`real`] | the scalar: floats, SIMD lanes, dual numbers |
 //! | [`simd`] | packs of numbers that are worked on in lockstep |
 //! | `saved` | parameters, states and runs as data, for `serde` |
-//! | `batch` | many states of one scene at once: lanes times threads |
 //!
 //! Mathematics and numbers of equations: Massa & Vignolo, *Newton–Euler, Lagrange and Kirchhoff formulations of rigid body
 //! dynamics: a unified approach*.
@@ -36,7 +35,6 @@
 //!   allocate.
 //! - `wide` (default): sines and cosines of several angles in vectors, by the crate `wide`, with the same bits; its vectors as
 //!   scalars, for the widest instructions that the target has; see [`simd`].
-//! - `rayon`: batches on all threads.
 //! - `serde`: parameters, states and runs as data: the module `saved`.
 
 #![no_std]
@@ -55,8 +53,6 @@ extern crate alloc;
 extern crate std;
 
 pub mod accuracy;
-#[cfg(feature = "alloc")]
-pub mod batch;
 pub mod centroidal;
 pub mod chart;
 pub mod condition;
@@ -101,6 +97,11 @@ use __private_0_1_0 as private;
 /// What the other crates of Gauss use, and nobody else should: no promise of stability is made here.
 #[doc(hidden)]
 pub mod __crates_0_1_0 {
+    pub use crate::integrate::drive::control::prepare;
+    pub use crate::integrate::drive::fixed::{further, steps_within};
+    pub use crate::integrate::drive::projection::accept;
+    #[cfg(feature = "alloc")]
+    pub use crate::integrate::lanes::run::{InLanes, Runs};
     pub use crate::lie::carried::two_sum;
     pub use crate::lie::se3::{join, split};
     pub use crate::lie::so3::turned;

@@ -1,5 +1,5 @@
 //! What most simulations need: `use gauss_runtime::prelude::*;`. The other methods are in [`integrate`](crate::integrate), many states
-//! at once in [`batch`](mod@crate::batch), reports on energy and momenta in [`monitor`](mod@crate::monitor).
+//! at once in the crate `gauss-batch`, reports on energy and momenta in [`monitor`](mod@crate::monitor).
 
 #[cfg(feature = "derive")]
 pub use gauss_derive::GaussDynamics;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gauss_runtime::batch::{Batch, States};
+use gauss_batch::{Batch, States};
 use gauss_runtime::prelude::*;
 use gauss_tests::watchdog::within;
 

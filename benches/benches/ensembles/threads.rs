@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
+use gauss_batch::{Batch, BatchSystem, States};
 use gauss_benches::packs::{free_top, immersed, symmetric_top};
-use gauss_runtime::batch::{Batch, BatchSystem, States};
 use gauss_runtime::integrate::{Adams, LaneControl, Taylor};
 use gauss_runtime::simd::Packed;
 use rayon::{ThreadPool, ThreadPoolBuilder};

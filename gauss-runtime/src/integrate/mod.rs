@@ -28,15 +28,9 @@ pub mod taylor;
 pub use adams::Adams;
 pub use drive::adaptive::Adaptive;
 pub use drive::compensated::Compensated;
-#[cfg(feature = "alloc")]
-pub(crate) use drive::control::prepare;
 pub use drive::control::{Control, DEFAULT_LIMIT, Emit, Taken};
 pub use drive::fixed::Fixed;
-#[cfg(feature = "alloc")]
-pub(crate) use drive::fixed::{further, steps_within};
 pub use drive::observer::Observer;
-#[cfg(feature = "alloc")]
-pub(crate) use drive::projection::accept;
 pub use drive::search::Crossing;
 pub use drive::simulation::Simulation;
 pub use drive::summary::{End, Summary};

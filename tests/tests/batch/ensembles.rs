@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use gauss_runtime::batch::{Ended, HowItEnded};
+use gauss_batch::{Ended, HowItEnded};
 use gauss_runtime::integrate::LaneControl;
 
 use super::*;

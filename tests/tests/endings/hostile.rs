@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
 use gauss_adapters::FlatSystem;
+use gauss_batch::{Batch, States};
 use gauss_exact::{FreeFlow, Scheme, Splitting};
-use gauss_runtime::batch::{Batch, States};
 use gauss_runtime::configuration::Configuration;
 use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, EnergyMomentum, Rkmk, Variational};
 use gauss_runtime::prelude::*;

@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 
 use super::beginning::{Ahead, begin, point};
 use super::{Adams, History, multistep};
-use crate::batch::BatchSystem;
 use crate::integrate::drive::cause::Gave;
 use crate::integrate::drive::fixed::Advanced;
+use crate::integrate::lanes::BatchSystem;
 use crate::integrate::lanes::fixed::{Advance, Lane, March, Trial};
 use crate::integrate::lanes::{Group, LaneControl, Verdict, chosen, chosen_rates, chosen_state, number, ones_in};
 use crate::integrate::problem::called::Called;

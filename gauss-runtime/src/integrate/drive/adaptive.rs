@@ -62,6 +62,18 @@ impl<M> Adaptive<M> {
     pub fn by(method: M, relative: f64, absolute: f64) -> Self {
         Self { method, tolerance: Tolerance { relative, absolute }, first_step: None, largest_step: None }
     }
+
+    /// The length of the first step, instead of an estimate.
+    #[must_use]
+    pub fn first_step(self, length: f64) -> Self {
+        Self { first_step: Some(length), ..self }
+    }
+
+    /// The longest step.
+    #[must_use]
+    pub fn largest_step(self, length: f64) -> Self {
+        Self { largest_step: Some(length), ..self }
+    }
 }
 
 /// The error, in tolerances, for which one that is but rounding is taken: steps then grow by a sixth.

@@ -139,7 +139,8 @@ pub(in crate::integrate) fn unresolved<T: Real>(step: f64, time: f64, span: f64)
 
 /// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the first
 /// step.
-pub(crate) fn prepare<S: GaussSystem, P: Problem<System = S>>(
+#[doc(hidden)]
+pub fn prepare<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     start: &State<S>,
     end: S::Scalar,

@@ -121,7 +121,9 @@ pub struct Watched<E, G, J = Stay> {
 }
 
 impl<E, G> Watched<E, G> {
-    pub(crate) fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
+    /// One more event after others.
+    #[doc(hidden)]
+    pub fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
         let mark = Mark {
             crossing,
             terminal,
@@ -139,7 +141,8 @@ impl<E, G> Watched<E, G> {
     }
 
     /// With a jump, after which the function may go on through zero or has to be led back.
-    pub(crate) fn then<J>(self, jump: J, through: bool) -> Watched<E, G, Then<J>> {
+    #[doc(hidden)]
+    pub fn then<J>(self, jump: J, through: bool) -> Watched<E, G, Then<J>> {
         let Self { others, function, mark, .. } = self;
         Watched { others, function, jump: Then(jump), mark: Mark { through, ..mark } }
     }

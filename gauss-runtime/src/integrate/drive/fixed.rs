@@ -61,12 +61,8 @@ fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
 /// How many steps of a length fill a span of time that comes as far from zero as `time`, where these are no more than
 /// the limit and follow one another: neighbouring times are numbers that differ where a step is no less than their
 /// distance there.
-pub(crate) fn steps_within<T: Real>(
-    span: f64,
-    time: f64,
-    length: f64,
-    limit: u64,
-) -> Result<u64, IntegrationErrorKind> {
+#[doc(hidden)]
+pub fn steps_within<T: Real>(span: f64, time: f64, length: f64, limit: u64) -> Result<u64, IntegrationErrorKind> {
     let steps = number_of_steps::<T>(span, length);
     if steps > limit as f64 {
         Err(IntegrationErrorKind::TooManySteps { limit })
@@ -78,7 +74,9 @@ pub(crate) fn steps_within<T: Real>(
 }
 
 /// The one of two times that is further from zero.
-pub(crate) fn further(a: f64, b: f64) -> f64 {
+#[doc(hidden)]
+#[inline]
+pub fn further(a: f64, b: f64) -> f64 {
     if a.abs() > b.abs() { a } else { b }
 }
 

@@ -10,7 +10,7 @@ pub(in crate::integrate) mod leaving;
 pub(in crate::integrate) mod logarithms;
 pub mod observer;
 pub(in crate::integrate) mod pace;
-pub(in crate::integrate) mod projection;
+pub(crate) mod projection;
 pub(in crate::integrate) mod run;
 pub mod search;
 pub mod simulation;

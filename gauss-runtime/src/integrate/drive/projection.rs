@@ -34,7 +34,7 @@ const PROJECTED: f64 = 10.0;
 /// any, and gives the derivatives at the end; refuses speeds whose squares overflow. Derivatives that came with the step belong to its end
 /// before it was projected, and serve without constraints only.
 #[inline(always)]
-pub(crate) fn accept<S: GaussSystem, P: Problem<System = S>>(
+pub fn accept<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     from: (&State<S>, &Rates<S>),
     state: &mut State<S>,

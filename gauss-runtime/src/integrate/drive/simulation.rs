@@ -338,13 +338,13 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
 impl<P, O, E, M> Simulation<P, Adaptive<M>, O, E> {
     /// The length of the first step, instead of an estimate.
     pub fn first_step(mut self, length: f64) -> Self {
-        self.control.first_step = Some(length);
+        self.control = self.control.first_step(length);
         self
     }
 
     /// The longest step.
     pub fn largest_step(mut self, length: f64) -> Self {
-        self.control.largest_step = Some(length);
+        self.control = self.control.largest_step(length);
         self
     }
 }

@@ -3,8 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::system::BatchSystem;
 use super::{Group, LaneControl, Verdict, chosen_state, largest, number, numbers_of, ones_in};
-use crate::batch::BatchSystem;
 use crate::integrate::drive::adaptive::{Adaptive, ROUNDED};
 use crate::integrate::drive::cause::{Gave, change};
 use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, unresolved};

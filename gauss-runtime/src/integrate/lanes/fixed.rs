@@ -3,8 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::system::BatchSystem;
 use super::{Group, LaneControl, Verdict, chosen_state, number, ones_in};
-use crate::batch::BatchSystem;
 use crate::integrate::drive::cause::Gave;
 use crate::integrate::drive::control::Taken;
 use crate::integrate::drive::fixed::{Advanced, Fixed, further, steps_within};

@@ -3,17 +3,21 @@
 //! A step is made in all lanes at once, but its length, its error, and whether it stands are those of each lane; of steps of one
 //! length, only how many are left. So every run takes
 //! the steps that it would take alone, and a lane is handed to the next run as soon as one ends
-//! ([`Ensemble`](crate::batch::Ensemble)). A common step, that of the most demanding lane, would need none of this and takes more
+//! (`Ensemble` of the crate `gauss-batch`). A common step, that of the most demanding lane, would need none of this and takes more
 //! steps the more the runs differ.
 
 mod adaptive;
+mod ended;
 pub(in crate::integrate) mod fixed;
 pub(crate) mod run;
+mod system;
 mod taylor;
+
+pub use ended::{Ended, EventState, HowItEnded, StateError};
+pub use system::{BatchSystem, SingleConfiguration, SingleSpeeds};
 
 use alloc::vec::Vec;
 
-use crate::batch::BatchSystem;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::Gave;
 use crate::integrate::drive::control::{Control, Taken};

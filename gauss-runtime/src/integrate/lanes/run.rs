@@ -3,8 +3,9 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::ended::{Ended, EventState, HowItEnded, StateError};
+use super::system::{BatchSystem, SingleConfiguration, SingleSpeeds};
 use super::{Group, LaneControl, Verdict, chosen_rates, number, numbers_of, ones_in};
-use crate::batch::{BatchSystem, Ended, EventState, HowItEnded, SingleConfiguration, SingleSpeeds, StateError};
 use crate::configuration::Configuration;
 use crate::integrate::drive::cause::{Gave, Place, cause};
 use crate::integrate::drive::control::prepare;
@@ -26,7 +27,7 @@ type First<S> = (usize, SingleConfiguration<S>, SingleSpeeds<S>);
 type Start<S> = Result<(f64, State<S>, Rates<S>), IntegrationErrorKind>;
 
 /// Where runs come from, and where their ends go: by their numbers.
-pub(crate) trait Runs<S: BatchSystem> {
+pub trait Runs<S: BatchSystem> {
     /// The number of the next one, and its start.
     fn next(&mut self) -> Option<First<S>>;
 
@@ -47,12 +48,17 @@ struct Running<'a, S: BatchSystem, P, C, E> {
 }
 
 /// What all runs have in common.
-pub(crate) struct InLanes<'a, P, C, E> {
-    pub(crate) control: &'a C,
-    pub(crate) problem: &'a P,
-    pub(crate) events: &'a E,
-    pub(crate) times: (f64, f64),
-    pub(crate) limit: u64,
+pub struct InLanes<'a, P, C, E> {
+    /// The choice of steps.
+    pub control: &'a C,
+    /// The kernel, the form of its equations, the input.
+    pub problem: &'a P,
+    /// What is looked for in each run.
+    pub events: &'a E,
+    /// The beginning and the end.
+    pub times: (f64, f64),
+    /// The most steps of a run.
+    pub limit: u64,
 }
 
 /// Lanes with their runs.
@@ -73,7 +79,7 @@ where
     E: Events<S> + Clone,
 {
     /// Carries all runs to their ends. The first ones get the lanes in their order.
-    pub(crate) fn carry(&self, runs: &mut dyn Runs<S>) {
+    pub fn carry(&self, runs: &mut dyn Runs<S>) {
         let firsts: Vec<_> = (0..S::Scalar::WIDTH).map_while(|_| runs.next()).collect();
         let Some(mut lanes) = self.open(&firsts, runs) else {
             // None of them can be started, which says nothing about the others.

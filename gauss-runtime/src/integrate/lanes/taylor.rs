@@ -4,8 +4,8 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::system::BatchSystem;
 use super::{Group, LaneControl, Verdict, chosen_state, number, numbers_of, ones_in};
-use crate::batch::BatchSystem;
 use crate::configuration::Configuration;
 use crate::integrate::drive::cause::Gave;
 use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, unresolved};

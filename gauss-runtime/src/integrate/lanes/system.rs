@@ -8,3 +8,9 @@ use crate::system::GaussSystem;
 pub trait BatchSystem: GaussSystem<Scalar: Packed<Single: Real>, Configuration: Packed, Speeds: Packed> {}
 
 impl<S> BatchSystem for S where S: GaussSystem<Scalar: Packed<Single: Real>, Configuration: Packed, Speeds: Packed> {}
+
+/// The configuration of one state of a batch.
+pub type SingleConfiguration<S> = <<S as GaussSystem>::Configuration as Packed>::Single;
+
+/// The quasi-velocities of one state of a batch.
+pub type SingleSpeeds<S> = <<S as GaussSystem>::Speeds as Packed>::Single;

@@ -1,13 +1,14 @@
 //! How runs of an ensemble end.
 
 use alloc::vec::Vec;
+use core::fmt;
 
-use super::error::StateError;
-use super::packs::{SingleConfiguration, SingleSpeeds};
-use crate::integrate::Summary;
+use super::system::{SingleConfiguration, SingleSpeeds};
+use crate::integrate::drive::summary::Summary;
+use crate::integrate::problem::error::IntegrationErrorKind;
 
 /// A run of an ensemble that has come to its end, in configurations Q and speeds Z of one lane; the state there is among the
-/// [`States`](super::States).
+/// `States` of the crate `gauss-batch`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Ended<Q, Z> {
@@ -36,3 +37,31 @@ pub struct EventState<Q, Z> {
 
 /// How one run of an ensemble ended.
 pub type HowItEnded<S> = Result<Ended<SingleConfiguration<S>, SingleSpeeds<S>>, StateError>;
+
+/// A state that did not reach the end: the batch holds the last good one, at `time`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct StateError {
+    /// The number of the state.
+    pub state: usize,
+    /// The last time that it reached.
+    pub time: f64,
+    /// What went wrong in the step from there.
+    pub kind: IntegrationErrorKind,
+}
+
+impl StateError {
+    /// The state of this number stopped at `time`.
+    #[must_use]
+    pub const fn new(state: usize, time: f64, kind: IntegrationErrorKind) -> Self {
+        Self { state, time, kind }
+    }
+}
+
+impl fmt::Display for StateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "state {} stopped at t = {}: {}", self.state, self.time, self.kind)
+    }
+}
+
+impl core::error::Error for StateError {}

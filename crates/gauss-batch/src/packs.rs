@@ -3,9 +3,9 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::system::BatchSystem;
-use crate::simd::Packed;
-use crate::system::GaussSystem;
+use gauss_runtime::integrate::lanes::{BatchSystem, SingleConfiguration, SingleSpeeds};
+use gauss_runtime::simd::Packed;
+use gauss_runtime::system::GaussSystem;
 
 /// Values of many states: blocks of as many as there are lanes, each block in structure-of-arrays layout, one after another.
 ///
@@ -13,7 +13,7 @@ use crate::system::GaussSystem;
 /// number of states. Where the number is no multiple of the lanes, the rest of the last block repeats the last state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Packs<V> {
-    pub(super) blocks: Vec<V>,
+    pub(crate) blocks: Vec<V>,
     count: usize,
 }
 
@@ -84,22 +84,22 @@ impl<V: Packed> Packs<V> {
     }
 
     /// Other values, in the same memory where there is enough of it.
-    pub(super) fn refill(&mut self, count: usize, blocks: impl Iterator<Item = V>) {
+    pub(crate) fn refill(&mut self, count: usize, blocks: impl Iterator<Item = V>) {
         self.blocks.clear();
         self.blocks.extend(blocks);
         self.count = count;
     }
 
     /// As many blocks of other values, from those of `self`.
-    pub(super) fn with_blocks<W>(&self, blocks: Vec<W>) -> Packs<W> {
+    pub(crate) fn with_blocks<W>(&self, blocks: Vec<W>) -> Packs<W> {
         Packs { blocks, count: self.count }
     }
 }
 
 /// The states of a batch: configurations and quasi-velocities.
 pub struct States<S: GaussSystem> {
-    pub(super) configurations: Packs<S::Configuration>,
-    pub(super) speeds: Packs<S::Speeds>,
+    pub(crate) configurations: Packs<S::Configuration>,
+    pub(crate) speeds: Packs<S::Speeds>,
 }
 
 // Written by hand: deriving would ask the same of the system S, which is only named here.
@@ -114,12 +114,6 @@ impl<S: GaussSystem> fmt::Debug for States<S> {
         f.debug_struct("States").field("configurations", &self.configurations).field("speeds", &self.speeds).finish()
     }
 }
-
-/// The configuration of one state of a batch.
-pub type SingleConfiguration<S> = <<S as GaussSystem>::Configuration as Packed>::Single;
-
-/// The quasi-velocities of one state of a batch.
-pub type SingleSpeeds<S> = <<S as GaussSystem>::Speeds as Packed>::Single;
 
 impl<S: BatchSystem> States<S> {
     /// The states (q, z) that a function gives of their numbers, 0 to `count − 1`.

@@ -3,25 +3,22 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::error::StateError;
-use super::packs::{SingleConfiguration, SingleSpeeds};
-use super::system::BatchSystem;
-use crate::configuration::Configuration;
-use crate::integrate::{
-    DEFAULT_LIMIT, IntegrationErrorKind, OneStep, Problem, Rates, State, accept, further, prepare, steps_within,
-};
-use crate::real::Real;
-use crate::simd::Packed;
+use gauss_runtime::__crates_0_1_0::{accept, further, prepare, steps_within};
+use gauss_runtime::configuration::Configuration;
+use gauss_runtime::integrate::lanes::{BatchSystem, SingleConfiguration, SingleSpeeds, StateError};
+use gauss_runtime::integrate::{DEFAULT_LIMIT, IntegrationErrorKind, OneStep, Problem, Rates, State};
+use gauss_runtime::real::Real;
+use gauss_runtime::simd::Packed;
 
 /// The interval of time of a run, and the length of its steps.
-pub(super) struct Interval {
+pub(crate) struct Interval {
     start: f64,
     end: f64,
     step: f64,
 }
 
 impl Interval {
-    pub(super) fn new(step: f64, interval: Range<f64>) -> Self {
+    pub(crate) fn new(step: f64, interval: Range<f64>) -> Self {
         Self { start: interval.start, end: interval.end, step }
     }
 }
@@ -57,7 +54,7 @@ struct Block<'a, S: BatchSystem, P, M> {
 
 /// Carries a block, of which the first `states` lanes count, over the interval. What stopped is returned, by lane; (q, z) then holds
 /// the last good state of that lane.
-pub(super) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
+pub(crate) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
     problem: &P,
     method: &M,
     interval: &Interval,
@@ -130,7 +127,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
                     let single = (q.extract(state), z.extract(state));
                     match self.check(interval, &S::Configuration::repeat(&single.0), &S::Speeds::repeat(&single.1)) {
                         Ok(_) => good = Some(single),
-                        Err(kind) => self.failures.push(StateError { state, time: interval.start, kind }),
+                        Err(kind) => self.failures.push(StateError::new(state, interval.start, kind)),
                     }
                 }
                 let (mut q, mut z) = (*q, *z);
@@ -188,7 +185,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
             (Trial::OfTheAble(_), None) => return Some(trial),
             (Trial::Alone(state, first), failed) => {
                 if let Some(kind) = failed {
-                    self.failures.push(StateError { state, time: from.t.extract(state).lane(0), kind });
+                    self.failures.push(StateError::new(state, from.t.extract(state).lane(0), kind));
                     self.held.extend(self.lanes_of(state).map(|lane| Held::at(from, lane)));
                 }
                 Trial::Alone(state + 1, first)
@@ -210,7 +207,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
     fn fail_the_rest(&mut self, time: f64, kind: IntegrationErrorKind) {
         for state in 0..self.states {
             if self.failures.iter().all(|failure| failure.state != state) {
-                self.failures.push(StateError { state, time, kind });
+                self.failures.push(StateError::new(state, time, kind));
             }
         }
     }

@@ -3,17 +3,17 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::ended::HowItEnded;
-use super::packs::{SingleConfiguration, SingleSpeeds, States};
-use super::system::BatchSystem;
-use super::{Batch, Borrowed, Kernels};
-use crate::integrate::drive::event::{Events, NoEvents, Then, Watched};
-use crate::integrate::lanes::run::{InLanes, Runs};
-use crate::integrate::{
+use gauss_runtime::__crates_0_1_0::{InLanes, Runs};
+use gauss_runtime::integrate::drive::event::{Events, NoEvents, Then, Watched};
+use gauss_runtime::integrate::lanes::{BatchSystem, HowItEnded, SingleConfiguration, SingleSpeeds};
+use gauss_runtime::integrate::{
     Adaptive, Crossing, DEFAULT_LIMIT, Form, InputSource, LaneControl, Sample, SystemProblem, Taylor,
 };
-use crate::simd::Packed;
-use crate::system::GaussSystem;
+use gauss_runtime::simd::Packed;
+use gauss_runtime::system::GaussSystem;
+
+use crate::packs::States;
+use crate::{Batch, Borrowed, Kernels};
 
 /// Many runs over one interval, in lanes and on threads, each with steps and an end of its own.
 ///
@@ -21,49 +21,44 @@ use crate::system::GaussSystem;
 /// others, its lane is handed to the next. Where all states share a kernel ([`Batch::new`]) that is the next state whichever
 /// block it is in; where each has parameters of its own ([`Batch::each`]), lanes belong to their states.
 ///
-#[cfg_attr(
-    feature = "derive",
-    doc = r##"
-Throws until they hit the ground, at speeds that differ:
-
-```
-use gauss_runtime::batch::{Batch, States};
-use gauss_runtime::prelude::*;
-
-/// A point with weight and drag.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(x, z),
-    particle(mass = mass, position = [x, 0, z]),
-    damping = drag / 2 * (rate(x) * rate(x) + rate(z) * rate(z)),
-)]
-struct Point<T> {
-    mass: T,
-    drag: T,
-    #[gauss(gravity)] g: T,
-}
-
-# fn main() -> Result<(), Box<dyn std::error::Error>> {
-type Eight = Lanes<f64, 8>;
-let number = Eight::splat;
-let kernel = Point { mass: number(0.2), drag: number(0.01), g: number(9.81) }.kernel()?;
-let speed = |i: usize| 1.0 + 0.1 * i as f64;
-let start = |i: usize| (SVector::from([0.0, 1.0]), SVector::from([speed(i), speed(i)]));
-let mut states = States::<PointKernel<Eight>>::from_fn(100, start);
-let ends = Batch::new(&kernel)
-    .adaptive(1e-10, 1e-10)
-    .until(Crossing::Falling, |_t, q, _z| q[1])
-    .run(0.0..60.0, &mut states);
-for (i, end) in ends.into_iter().enumerate() {
-    let end = end?; // or why this one failed
-    let (q, _) = states.get(i);
-    assert!(end.stopped_by == Some(0) && q[1].abs() < 1e-9 && q[0] < speed(i) * end.time);
-}
-# Ok(())
-# }
-```
-"##
-)]
+/// Throws until they hit the ground, at speeds that differ:
+///
+/// ```
+/// use gauss_batch::{Batch, States};
+/// use gauss_runtime::prelude::*;
+///
+/// /// A point with weight and drag.
+/// #[derive(GaussDynamics)]
+/// #[gauss(
+///     coordinates(x, z),
+///     particle(mass = mass, position = [x, 0, z]),
+///     damping = drag / 2 * (rate(x) * rate(x) + rate(z) * rate(z)),
+/// )]
+/// struct Point<T> {
+///     mass: T,
+///     drag: T,
+///     #[gauss(gravity)] g: T,
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// type Eight = Lanes<f64, 8>;
+/// let number = Eight::splat;
+/// let kernel = Point { mass: number(0.2), drag: number(0.01), g: number(9.81) }.kernel()?;
+/// let speed = |i: usize| 1.0 + 0.1 * i as f64;
+/// let start = |i: usize| (SVector::from([0.0, 1.0]), SVector::from([speed(i), speed(i)]));
+/// let mut states = States::<PointKernel<Eight>>::from_fn(100, start);
+/// let ends = Batch::new(&kernel)
+///     .adaptive(1e-10, 1e-10)
+///     .until(Crossing::Falling, |_t, q, _z| q[1])
+///     .run(0.0..60.0, &mut states);
+/// for (i, end) in ends.into_iter().enumerate() {
+///     let end = end?; // or why this one failed
+///     let (q, _) = states.get(i);
+///     assert!(end.stopped_by == Some(0) && q[1].abs() < 1e-9 && q[0] < speed(i) * end.time);
+/// }
+/// # Ok(())
+/// # }
+/// ```
 #[must_use = "an ensemble does nothing before `run`"]
 pub struct Ensemble<'k, K: ?Sized, F, I, C, E = NoEvents> {
     batch: Batch<'k, K, F, I>,
@@ -74,7 +69,7 @@ pub struct Ensemble<'k, K: ?Sized, F, I, C, E = NoEvents> {
 }
 
 impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
-    /// Steps as long as the tolerances allow, of each state by itself, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8
+    /// Steps as long as the tolerances allow, of each state by itself, by [`RungeKutta`](gauss_runtime::integrate::RungeKutta) of order 8
     /// (Dormand and Prince): see [`Adaptive::new`].
     pub fn adaptive(self, relative: f64, absolute: f64) -> Ensemble<'k, K, F, I, Adaptive> {
         self.control(Adaptive::new(relative, absolute))
@@ -107,7 +102,7 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
     }
 
     /// Finds the states in which a function of time and state passes through zero, in every run by itself: see
-    /// [`Simulation::event`](crate::integrate::Simulation::event). The function is one of whole packs.
+    /// [`Simulation::event`](gauss_runtime::integrate::Simulation::event). The function is one of whole packs.
     pub fn event<S, G>(self, crossing: Crossing, function: G) -> Ensemble<'k, K, F, I, C, Watched<E, G>>
     where
         S: GaussSystem,
@@ -117,7 +112,7 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
         self.watch(|events| Watched::after(events, crossing, false, function))
     }
 
-    /// Ends a run at the first such state: [`Ended::stopped_by`](super::Ended::stopped_by) tells whether it came to that.
+    /// Ends a run at the first such state: [`Ended::stopped_by`](crate::Ended) tells whether it came to that.
     pub fn until<S, G>(self, crossing: Crossing, function: G) -> Ensemble<'k, K, F, I, C, Watched<E, G>>
     where
         S: GaussSystem,
@@ -136,20 +131,20 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
 impl<'k, K: ?Sized, F, I, M, E> Ensemble<'k, K, F, I, Adaptive<M>, E> {
     /// The length of the first step of every run, instead of an estimate.
     pub fn first_step(mut self, length: f64) -> Self {
-        self.control.first_step = Some(length);
+        self.control = self.control.first_step(length);
         self
     }
 
     /// The longest step.
     pub fn largest_step(mut self, length: f64) -> Self {
-        self.control.largest_step = Some(length);
+        self.control = self.control.largest_step(length);
         self
     }
 }
 
 impl<'k, K: ?Sized, F, I, C, E, G> Ensemble<'k, K, F, I, C, Watched<E, G>> {
     /// Changes the state at the event that was asked for last, as
-    /// [`Simulation::then`](crate::integrate::Simulation::then) does. The function sees a whole pack; what it makes of the lanes of
+    /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then) does. The function sees a whole pack; what it makes of the lanes of
     /// other runs is dropped.
     pub fn then<S, J>(self, jump: J) -> Ensemble<'k, K, F, I, C, Watched<E, G, Then<J>>>
     where
@@ -161,7 +156,7 @@ impl<'k, K: ?Sized, F, I, C, E, G> Ensemble<'k, K, F, I, C, Watched<E, G>> {
     }
 
     /// Changes the state where the function may go on through zero, as
-    /// [`Simulation::then_through`](crate::integrate::Simulation::then_through) does.
+    /// [`Simulation::then_through`](gauss_runtime::integrate::Simulation::then_through) does.
     pub fn then_through<S, J>(self, jump: J) -> Ensemble<'k, K, F, I, C, Watched<E, G, Then<J>>>
     where
         S: GaussSystem,

@@ -1,6 +1,6 @@
 //! Many states of one scene at once: lanes times threads.
 //!
-//! A kernel whose scalar is a pack ([`simd`](crate::simd)) works on several states for about the price of one. [`States`] holds any
+//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) works on several states for about the price of one. [`States`] holds any
 //! number of states in blocks of that width, and a [`Batch`] works through the blocks: accelerations, runs of fixed steps by any
 //! [`OneStep`], or runs whose steps are chosen, with events ([`Ensemble`]), on one thread or, with the feature `rayon`, on all.
 //!
@@ -8,89 +8,92 @@
 //! parameters, these are numbers repeated in every lane; a sweep over parameters gives each state its own, a kernel for every
 //! block ([`Batch::each`]).
 //!
-#![cfg_attr(
-    feature = "derive",
-    doc = r##"
-```
-use gauss_runtime::batch::{Batch, Packs, States};
-use gauss_runtime::prelude::*;
-
-/// A heavy top that turns about O.
-#[derive(GaussDynamics)]
-#[gauss(motion = fixed_point)]
-struct Top<T> {
-    #[gauss(mass)]           mass: T,
-    #[gauss(center_of_mass)] center: Vector3<T>,
-    #[gauss(inertia)]        inertia: Vector3<T>,
-    #[gauss(gravity)]        g: T,
-}
-
-/// The same top in any scalar, its mass given.
-fn top<T: Real>(mass: T) -> Top<T> {
-    let f = T::from_f64;
-    Top { mass, center: Vector3::new(f(0.0), f(0.0), f(0.4)), inertia: Vector3::new(f(0.2), f(0.2), f(0.05)), g: f(9.81) }
-}
-
-# fn main() -> Result<(), Box<dyn std::error::Error>> {
-type Four = Lanes<f64, 4>;
-
-// A thousand spins of one top.
-let tilted = UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0);
-let spin = |i: usize| Vector3::new(0.0, 0.0, 20.0 + 0.02 * i as f64);
-let mut states = States::<TopKernel<Four>>::from_fn(1000, |i| (tilted, spin(i)));
-let kernel = top(Four::splat(1.0)).kernel()?;
-Batch::new(&kernel).advance(&RungeKutta(DormandPrince8), 0.01, 0.0..1.0, &mut states)?;
-
-// Each is, bit by bit, what a run of its own gives.
-let alone = top(1.0).kernel()?;
-let end = Simulation::new(&alone).fixed_step(0.01).run_to_end(tilted, spin(617), 0.0..1.0)?;
-assert_eq!(states.get(617), (end.q, end.z));
-
-// A thousand masses: a kernel for every block of four.
-let masses = Packs::<Four>::from_fn(1000, |i| 1.0 + 0.001 * i as f64);
-let kernels: Vec<_> = masses.blocks().iter().map(|&mass| top(mass).kernel()).collect::<Result<_, _>>()?;
-let mut states = States::<TopKernel<Four>>::from_fn(1000, |_| (tilted, spin(0)));
-Batch::each(&kernels).advance(&RungeKutta(DormandPrince8), 0.01, 0.0..1.0, &mut states)?;
-let accelerations = Batch::each(&kernels).accelerations(1.0, &states);
-assert_eq!(accelerations.len(), 1000);
-# Ok(())
-# }
-```
-"##
-)]
+//! ```
+//! use gauss_batch::{Batch, Packs, States};
+//! use gauss_runtime::prelude::*;
 //!
-//! **Bits.** A state gets the bits of a run of its own ([`Fixed`](crate::integrate::Fixed)) by explicit methods. Two things look at
+//! /// A heavy top that turns about O.
+//! #[derive(GaussDynamics)]
+//! #[gauss(motion = fixed_point)]
+//! struct Top<T> {
+//!     #[gauss(mass)]           mass: T,
+//!     #[gauss(center_of_mass)] center: Vector3<T>,
+//!     #[gauss(inertia)]        inertia: Vector3<T>,
+//!     #[gauss(gravity)]        g: T,
+//! }
+//!
+//! /// The same top in any scalar, its mass given.
+//! fn top<T: Real>(mass: T) -> Top<T> {
+//!     let f = T::from_f64;
+//!     Top { mass, center: Vector3::new(f(0.0), f(0.0), f(0.4)), inertia: Vector3::new(f(0.2), f(0.2), f(0.05)), g: f(9.81) }
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! type Four = Lanes<f64, 4>;
+//!
+//! // A thousand spins of one top.
+//! let tilted = UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0);
+//! let spin = |i: usize| Vector3::new(0.0, 0.0, 20.0 + 0.02 * i as f64);
+//! let mut states = States::<TopKernel<Four>>::from_fn(1000, |i| (tilted, spin(i)));
+//! let kernel = top(Four::splat(1.0)).kernel()?;
+//! Batch::new(&kernel).advance(&RungeKutta(DormandPrince8), 0.01, 0.0..1.0, &mut states)?;
+//!
+//! // Each is, bit by bit, what a run of its own gives.
+//! let alone = top(1.0).kernel()?;
+//! let end = Simulation::new(&alone).fixed_step(0.01).run_to_end(tilted, spin(617), 0.0..1.0)?;
+//! assert_eq!(states.get(617), (end.q, end.z));
+//!
+//! // A thousand masses: a kernel for every block of four.
+//! let masses = Packs::<Four>::from_fn(1000, |i| 1.0 + 0.001 * i as f64);
+//! let kernels: Vec<_> = masses.blocks().iter().map(|&mass| top(mass).kernel()).collect::<Result<_, _>>()?;
+//! let mut states = States::<TopKernel<Four>>::from_fn(1000, |_| (tilted, spin(0)));
+//! Batch::each(&kernels).advance(&RungeKutta(DormandPrince8), 0.01, 0.0..1.0, &mut states)?;
+//! let accelerations = Batch::each(&kernels).accelerations(1.0, &states);
+//! assert_eq!(accelerations.len(), 1000);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! **Bits.** A state gets the bits of a run of its own ([`Fixed`](gauss_runtime::integrate::Fixed)) by explicit methods. Two things look at
 //! other lanes: iterations of implicit methods end when all lanes are solved, and increments of more than half a radian, in the same
 //! step as smaller ones, take another formula for the same number; both differ by rounding.
 //!
 //! **Steps of their own.** In an [`Ensemble`] every run takes the steps that it would take alone: the trials, errors and lengths of a
-//! step are those of its lane, and a lane whose run has ended is handed to the next. [`Taylor`](crate::integrate::Taylor) has one
+//! step are those of its lane, and a lane whose run has ended is handed to the next. [`Taylor`](gauss_runtime::integrate::Taylor) has one
 //! order for the lanes of a block, so only with an order given are its steps those of single runs.
 //!
 //! **Failures.** A state that cannot go on stops by itself: it stays in its lane, with a step of length zero, and the others of its
 //! block go on as if nothing had happened.
 
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+extern crate alloc;
+
 mod advance;
-mod ended;
 mod ensemble;
 mod error;
 mod packs;
-mod system;
 
 use alloc::vec::Vec;
 use core::ops::Range;
 
-pub use ended::{Ended, EventState, HowItEnded};
-pub use ensemble::Ensemble;
-pub use error::{BatchError, StateError};
-pub use packs::{Packs, SingleConfiguration, SingleSpeeds, States};
-pub use system::BatchSystem;
+use gauss_runtime::integrate::{
+    Feedback, Form, InputSource, MomentumForm, NoInput, OneStep, SystemProblem, VelocityForm,
+};
+use gauss_runtime::real::Real;
+use gauss_runtime::simd::Packed;
+use gauss_runtime::system::GaussSystem;
 
-use crate::integrate::{Feedback, Form, InputSource, MomentumForm, NoInput, OneStep, SystemProblem, VelocityForm};
-use crate::real::Real;
-use crate::simd::Packed;
-use crate::system::GaussSystem;
 use advance::Interval;
+pub use ensemble::Ensemble;
+pub use error::BatchError;
+pub use gauss_runtime::integrate::lanes::{
+    BatchSystem, Ended, EventState, HowItEnded, SingleConfiguration, SingleSpeeds, StateError,
+};
+pub use packs::{Packs, States};
 
 /// The kernels of a batch: one for all blocks, or a slice with one for each.
 pub trait Kernels<S> {
@@ -329,3 +332,8 @@ impl<S: GaussSystem, I: InputSource<S>> InputSource<S> for Borrowed<'_, I> {
         self.0.input(t, q, z)
     }
 }
+
+/// The example of the README is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
