@@ -18,9 +18,14 @@ pub fn shapes(text: &str) -> Result<Vec<(String, Shape)>, String> {
         }
         _ => text.to_owned(),
     };
+    let lines = with_prefixes(lines);
     let document = Document::parse(&lines).map_err(|error| format!("this is no XML: {error}"))?;
+    let mut roots = document.root_element().children().filter(Node::is_element);
+    let (Some(robot), None) = (roots.next(), roots.next()) else {
+        return Err("this is no XML: it has one root element".to_owned());
+    };
     let mut all = Vec::new();
-    for link in children(document.root_element(), "link") {
+    for link in children(robot, "link") {
         let name = link.attribute("name").unwrap_or_default();
         let of = |kind: &'static str| -> Result<Vec<Shape>, String> {
             children(link, kind).filter_map(|node| shape(node).transpose()).collect()
@@ -32,6 +37,19 @@ pub fn shapes(text: &str) -> Result<Vec<(String, Shape)>, String> {
     Ok(all)
 }
 
+/// The lines within an element that declares the prefixes that nothing in them does, such as that of `<drake:joint>`: XML asks for
+/// it, readers of robots do not.
+fn with_prefixes(lines: String) -> String {
+    /// More than any file has; each is found by parsing once more.
+    const MOST: usize = 16;
+    let mut lines = format!("<file>{lines}</file>");
+    for _ in 0..MOST {
+        let Err(roxmltree::Error::UnknownNamespace(prefix, _)) = Document::parse(&lines) else { break };
+        lines.insert_str("<file".len(), &format!(" xmlns:{prefix}=\"{prefix}\""));
+    }
+    lines
+}
+
 /// Whether a body is that link: names that are no identifiers have been changed by the derive.
 pub fn is_called(body: &str, link: &str) -> bool {
     let changed: String = link.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
@@ -40,14 +58,19 @@ pub fn is_called(body: &str, link: &str) -> bool {
         || [("link_", ""), ("", "_link")].iter().any(|(a, b)| body == format!("{a}{changed}{b}"))
 }
 
+/// Those of URDF: what has another prefix than its parent is something else, whatever its name.
 fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
-    node.children().filter(move |child| child.tag_name().name() == name)
+    elements(node).filter(move |child| child.tag_name().name() == name)
+}
+
+fn elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children().filter(move |child| child.tag_name().namespace() == node.tag_name().namespace())
 }
 
 /// None of a mesh.
 fn shape(node: Node<'_, '_>) -> Result<Option<Shape>, String> {
     let Some(geometry) = children(node, "geometry").next() else { return Ok(None) };
-    let shape = geometry.children().find_map(|solid| match solid.tag_name().name() {
+    let shape = elements(geometry).find_map(|solid| match solid.tag_name().name() {
         "box" => Some(numbers(solid, "size").map(Shape::cuboid)),
         "sphere" => Some(numbers(solid, "radius").map(|[radius]| Shape::ball(radius))),
         "cylinder" => Some(numbers(solid, "radius").and_then(|[radius]| {
@@ -131,6 +154,17 @@ mod tests {
         let wrong = ARM.replace("size=\"1 2 3\"", "size=\"1 2\"");
         let error = shapes(&wrong).expect_err("two numbers");
         assert_eq!(error, "line 12: `size` of <box> is 3 numbers, found `1 2`");
-        assert!(shapes("<robot>").expect_err("it is open").starts_with("this is no XML"));
+        for text in ["<robot>", "", "<robot/><robot/>", "<robot/></file><file>"] {
+            assert!(shapes(text).expect_err("no element").starts_with("this is no XML"), "{text}");
+        }
+    }
+
+    #[test]
+    fn prefixes_need_no_declaration() {
+        let drake = "<drake:link name=\"other\"><visual/></drake:link><link name=\"ball\"><visual><geometry>\
+                     <drake:box size=\"soft\"/><sphere radius=\"2\"/></geometry></visual></link></robot>";
+        let shapes = shapes(&ARM.replace("</robot>", drake)).expect("as the reader of robots has it");
+        let names: Vec<&str> = shapes.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["base", "upper-arm", "upper-arm", "ball"]);
     }
 }
