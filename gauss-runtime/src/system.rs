@@ -168,9 +168,11 @@ pub trait GaussSystem {
         input: &Self::Input,
     ) -> Self::Scalar;
 
-    /// How far the coordinates are from a singularity: 0 at one, ±1 at best, of opposite signs on its two sides. For Euler
-    /// angles the sine or cosine of the middle angle, in general det ∂ω/∂q̇ over the lengths of its columns; 1 in charts
-    /// without singularities. Errors of velocities grow like its reciprocal.
+    /// How far the coordinates are from a singularity: 0 at one, where it vanishes with the distance, and ±1 at best. For Euler
+    /// angles the sine or cosine of the middle angle (det ∂ω/∂q̇ over the lengths of its columns), of opposite signs on the
+    /// two sides; for Rodrigues' parameters, which become infinite, 1/√(1 + |g|²), the cosine of half the angle of the rotation,
+    /// and for modified ones 1/√(1 + |σ|²), that of a quarter; 1 in charts without singularities. Errors of velocities
+    /// grow like its reciprocal, but for modified parameters, which stretch equally in all directions.
     #[inline]
     fn regularity(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar {
         let _ = (t, q);

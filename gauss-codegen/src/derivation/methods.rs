@@ -51,7 +51,7 @@ fn of_method<'g>(
     }
 }
 
-/// The volume over the product of the lengths.
+/// The numerator over the root of the square.
 fn regularity<'g>(code: &kernel::Program<'g>) -> kernel::Program<'g> {
     let mut code = code.clone();
     let (volume, squares) = (code.outputs[0], code.outputs[1]);

@@ -345,7 +345,7 @@ impl<'a, 'g> Derived<'a, 'g> {
                 let rows = outputs.chunks(speeds.len()).map(|row| quote!([#(#row),*]));
                 quote!(#private::matrix([#(#rows),*]))
             }
-            // The volume over the product of the lengths.
+            // The numerator over the root of the square.
             Method::Regularity => {
                 let (volume, squares, real) = (&outputs[0], &outputs[1], self.scalar().real);
                 quote!(#volume / #real::sqrt(#squares))

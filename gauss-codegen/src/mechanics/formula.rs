@@ -28,7 +28,7 @@ pub enum Method {
     /// Only where the configuration is not that pose in a chart of its own.
     Pose,
     PoseByConfiguration,
-    /// det ∂ω/∂q̇ and the product of the squared lengths of its columns; only in charts with a singularity.
+    /// A numerator and the square of what it is divided by; only in charts with a singularity.
     Regularity,
     /// φ of positions, and on the level of velocities; what cancels them to first order. Only with constraints.
     PositionResidual,

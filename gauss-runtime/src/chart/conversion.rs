@@ -131,12 +131,13 @@ fn refuse_near_singularity<B: RigidBodySystem>(
     let Chart::Jet(chart) = B::CHART else { return Ok(()) };
     let regularity = to.regularity(t, q);
     for lane in 0..B::Scalar::LANES {
-        let distance = regularity.lane(lane).abs();
-        if distance <= Real::sqrt(B::Scalar::EPSILON) {
-            // Near a singularity its sine is the angle. Euler angles are singular in the middle one.
-            let angle = match chart {
-                RotationChart::Euler(_) => coordinates_of_rotation(chart, &pose.rotation)?[1].lane(lane),
-                _ => core::f64::consts::PI - distance,
+        let regularity = regularity.lane(lane).abs();
+        if regularity <= Real::sqrt(B::Scalar::EPSILON) {
+            // Near a singularity the sine of an angle is the angle. Euler angles are singular in the middle one; for a Rodrigues
+            // vector it is half the distance.
+            let (angle, distance) = match chart {
+                RotationChart::Euler(_) => (coordinates_of_rotation(chart, &pose.rotation)?[1].lane(lane), regularity),
+                _ => (core::f64::consts::PI - 2.0 * regularity, 2.0 * regularity),
             };
             return Err(ChartError::Singular { chart, angle, distance });
         }

@@ -30,6 +30,14 @@ pub enum Chart {
     Own,
 }
 
+impl Chart {
+    /// Whether velocities lose digits near a singularity of the coordinates. Not where these stretch equally in all directions, as modified
+    /// Rodrigues parameters do: a motion past a full turn loses none, however close.
+    pub(crate) const fn loses_digits(self) -> bool {
+        !matches!(self, Self::Jet(RotationChart::ModifiedRodrigues))
+    }
+}
+
 impl fmt::Display for Chart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

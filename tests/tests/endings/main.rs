@@ -5,14 +5,17 @@ mod scenes;
 
 use std::f64::consts::FRAC_PI_2;
 
-use gauss_runtime::integrate::{DEFAULT_LIMIT, Part, Summary};
+use gauss_batch::{Batch, States};
+use gauss_runtime::integrate::{Adams, Collocation, DEFAULT_LIMIT, Part, Summary};
 use gauss_runtime::prelude::*;
 use gauss_tests::watchdog::within;
 
-use scenes::{Angles, Comet, Inclined, Moon, Pendulum, Rodrigues, Slider, Spring, one, toy};
+use scenes::{Angles, Comet, Inclined, Modified, Moon, Pendulum, Rodrigues, Slider, Spring, one, toy};
 
 /// Seconds in which each of these runs ends, on a slow machine that does other things too.
 const SOON: u64 = 60;
+
+type Four = Lanes<f64, 4>;
 
 /// Why a run does not reach its end.
 fn refusal<K: GaussSystem>(run: (Trajectory<'_, K>, Option<IntegrationError>)) -> IntegrationError {
@@ -145,6 +148,97 @@ fn steps_do_not_chase_rounding_in_coordinates_that_become_singular() {
     assert!(steps.windows(2).all(|pair| pair[1] < 3 * pair[0]) && steps[3] < 7 * steps[0], "{steps:?}");
 }
 
+/// About an axis the columns of ∂ω/∂q̇ stay perpendicular, and the parameters become infinite all the same. The kernels are one in `f64` and
+/// one in packs; the turn about an axis has this rate, and ends at this time.
+fn ends_where_parameters_are_infinite<S, L>(name: &str, (kernel, pack): (&S, &L), (rate, singular): (f64, f64))
+where
+    S: TaylorSystem<Scalar = f64, Configuration = Vector3<f64>, Speeds = Vector3<f64>, Input = ()>,
+    L: TaylorSystem<Scalar = Four, Configuration = Vector3<Four>, Speeds = Vector3<Four>, Input = ()> + Sync,
+{
+    let check = |method: &str, time: f64, kind: &IntegrationErrorKind| {
+        assert!(matches!(kind, IntegrationErrorKind::SingularChart { .. }), "{name}, {method}: {kind}");
+        // Within five steps of one length.
+        assert!((time - singular).abs() < 0.05, "{name}, {method}: {time}");
+    };
+    let run = Simulation::new(kernel);
+    let axes = [Vector3::x(), Vector3::y(), -Vector3::z(), Vector3::new(0.6, 0.0, 0.8)];
+    for axis in &axes[..3] {
+        let (q, z, span) = (Vector3::zeros(), axis * rate, 0.0..10.0);
+        for (method, error) in [
+            ("adaptive", run.adaptive(1e-9, 1e-9).attempt(q, z, span.clone()).1),
+            ("momenta", run.momentum_form().adaptive(1e-9, 1e-9).attempt(q, z, span.clone()).1),
+            ("loose", run.adaptive(1e-4, 1e-4).attempt(q, z, span.clone()).1),
+            ("fixed", run.fixed_step(0.01).attempt(q, z, span.clone()).1),
+            ("Taylor", run.taylor(1e-9, 1e-9).attempt(q, z, span.clone()).1),
+            ("Adams", run.control(Adams::<_, 8>::new(0.01)).attempt(q, z, span.clone()).1),
+            ("implicit", run.control(Fixed::by(Collocation::order_4(), 0.01)).attempt(q, z, span.clone()).1),
+        ] {
+            let error = error.unwrap_or_else(|| panic!("{name}, {method}: passes"));
+            check(method, error.time, &error.kind);
+        }
+    }
+    let states = || States::<L>::from_fn(3, |n| (Vector3::zeros(), axes[n] * rate));
+    let batch = || Batch::new(pack);
+    for (method, ends) in [
+        ("adaptive lanes", batch().adaptive(1e-9, 1e-9).run(0.0..10.0, &mut states())),
+        ("Taylor lanes", batch().taylor(1e-9, 1e-9).run(0.0..10.0, &mut states())),
+        ("Adams lanes", batch().control(Adams::<_, 8>::new(Four::splat(0.01))).run(0.0..10.0, &mut states())),
+    ] {
+        for end in ends {
+            let error = end.expect_err("does not pass");
+            check(method, error.time, &error.kind);
+        }
+    }
+    // It vanishes with the distance, and is 1 where the body is not turned.
+    let regularity = |time: f64| {
+        let end = run.taylor(1e-14, 1e-14).run_to_end(Vector3::zeros(), axes[0] * rate, 0.0..time).expect("regular");
+        kernel.regularity(end.t, &end.q)
+    };
+    assert_eq!(kernel.regularity(0.0, &Vector3::zeros()), 1.0);
+    let quarter = std::f64::consts::FRAC_PI_2 / singular;
+    for left in [1.0, 0.1, 1e-3, 1e-5] {
+        // Coordinates and time are rounded at 1 beside what is left.
+        let found = regularity(singular - left);
+        assert!((found / (quarter * left).sin() - 1.0).abs() < 1e-13 / left + 1e-12, "{name}: {found} at {left}");
+    }
+}
+
+#[test]
+fn parameters_that_become_infinite_are_named_by_every_method() {
+    within(SOON, "turns about an axis", || {
+        let (moments, pi) = (Vector3::new(1.0, 2.0, 2.5), std::f64::consts::PI);
+        let (one, packs) = (Four::splat(1.0), moments.map(Four::splat));
+        let single = Rodrigues { mass: 1.0, inertia: moments }.kernel().expect("a body");
+        let pack = Rodrigues { mass: one, inertia: packs }.kernel().expect("a body");
+        ends_where_parameters_are_infinite("Rodrigues", (&single, &pack), (0.5, pi));
+        let single = Modified { mass: 1.0, inertia: moments }.kernel().expect("a body");
+        let pack = Modified { mass: one, inertia: packs }.kernel().expect("a body");
+        ends_where_parameters_are_infinite("modified", (&single, &pack), (0.25, 2.0 * pi));
+    });
+}
+
+/// A full turn is one point of the rotations: a motion past it at a distance of 10⁻³ goes on.
+#[test]
+fn what_stays_at_a_distance_from_infinite_parameters_runs() {
+    within(SOON, "a turn past the singularity", || {
+        let ball = Modified { mass: 1.0, inertia: Vector3::new(1.0, 1.0, 1.0) }.kernel().expect("a body");
+        let tilt = UnitQuaternion::new(Vector3::y() * 1e-3);
+        let turned = |t: f64| tilt * UnitQuaternion::new(Vector3::x() * t);
+        let parameters = |turn: UnitQuaternion<f64>| turn.imag() / (1.0 + turn.scalar());
+        let q = parameters(tilt);
+        let z = ball.speeds(0.0, &q, &SVector::from([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]));
+        let run = Simulation::new(&ball);
+        for (method, end) in [
+            ("adaptive", run.adaptive(1e-13, 1e-13).run_to_end(q, z, 0.0..9.0).expect("passes")),
+            ("Taylor", run.taylor(1e-13, 1e-13).run_to_end(q, z, 0.0..9.0).expect("passes")),
+        ] {
+            // Parameters grow to 4000 and shrink again: velocities there are known to a tolerance times that.
+            let error = (end.q - parameters(turned(9.0))).amax();
+            assert!(error < 1e-8, "{method}: {error:e}");
+        }
+    });
+}
+
 #[test]
 fn steps_do_not_chase_rounding_in_momenta() {
     within(SOON, "a sleeping top in momenta", || {
@@ -270,7 +364,6 @@ fn what_is_out_of_reach_is_refused_before_the_first_step() {
     assert_eq!((end.summary.steps, end.stopped_by), (1_000_000, None));
     // A batch has no other limit.
     use gauss_batch::{Batch, States};
-    type Four = Lanes<f64, 4>;
     let top = scenes::GenericTop::<Four>::toy().kernel().expect("a top");
     let mut states =
         States::<scenes::GenericTopKernel<Four>>::from_fn(5, |_| (UnitQuaternion::identity(), Vector3::z()));

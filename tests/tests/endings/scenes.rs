@@ -20,12 +20,22 @@ pub struct Angles {
 
 /// A body in Rodrigues' vector, which is infinite at half a turn.
 #[derive(GaussDynamics)]
-#[gauss(chart = jet(rodrigues), motion = fixed_point)]
-pub struct Rodrigues {
+#[gauss(chart = jet(rodrigues), motion = fixed_point, taylor)]
+pub struct Rodrigues<T> {
     #[gauss(mass)]
-    pub mass: f64,
+    pub mass: T,
     #[gauss(inertia)]
-    pub inertia: Vector3<f64>,
+    pub inertia: Vector3<T>,
+}
+
+/// The same in modified parameters, which are infinite at a full turn.
+#[derive(GaussDynamics)]
+#[gauss(chart = jet(modified_rodrigues), motion = fixed_point, taylor)]
+pub struct Modified<T> {
+    #[gauss(mass)]
+    pub mass: T,
+    #[gauss(inertia)]
+    pub inertia: Vector3<T>,
 }
 
 /// A heavy top in ω.

@@ -36,8 +36,12 @@ pub(in crate::integrate) struct Place<'a, S: GaussSystem> {
 }
 
 /// Coordinates that are nearer to a singularity than this have to do with what fails there: velocities in them are ten
-/// thousand times as large as those of the bodies.
+/// thousand times as large as those of the bodies, or change the coordinates by ten thousand times their size.
 const NEAR_SINGULARITY: f64 = 1e-4;
+
+/// So have those that are nearer than this and come to it within so many steps of the length that fails: where coordinates become
+/// infinite, the iteration of an implicit step is not solved from two steps before on. Farther away it is steps that are too long.
+const AHEAD: (f64, f64) = (0.1, 4.0);
 
 /// Speeds or momenta that are larger have run away, in whatever units.
 const RUN_AWAY: f64 = 1e12;
@@ -62,13 +66,15 @@ pub(in crate::integrate) fn cause<S: GaussSystem, P: Problem<System = S>>(
     let used_up = matches!(kind, IntegrationErrorKind::TooManySteps { .. });
     // What is undefined at once, and not because it grew, has another reason.
     let run_away = undefined && largest(&state.y, lanes) > RUN_AWAY;
+    let unsolved =
+        matches!(kind, IntegrationErrorKind::NotConverged { .. } | IntegrationErrorKind::IncrementTooLarge { .. });
+    if (used_up || vanish || undefined || unsolved)
+        && let Some(regularity) = near_singularity(problem.system(), place)
+    {
+        return IntegrationErrorKind::SingularChart { regularity };
+    }
     if !(used_up || vanish || run_away || undefined && shrunk) {
         return kind;
-    }
-    let regularity = problem.system().regularity(state.t, &state.q);
-    let regularity = lanes.clone().map(|lane| regularity.lane(lane).abs()).fold(f64::INFINITY, f64::min);
-    if regularity < NEAR_SINGULARITY {
-        return IntegrationErrorKind::SingularChart { regularity };
     }
     if lost && S::SMOOTHNESS == Smoothness::Jumps {
         return IntegrationErrorKind::StepTooSmall { step: length };
@@ -86,6 +92,20 @@ pub(in crate::integrate) fn cause<S: GaussSystem, P: Problem<System = S>>(
         return IntegrationErrorKind::TooFast { rate, step: length };
     }
     kind
+}
+
+/// The regularity of the coordinates where they are at a singularity or come to one at once, in the worst of the lanes.
+fn near_singularity<S: GaussSystem>(system: &S, place: &Place<'_, S>) -> Option<f64> {
+    let &Place { state, rates, length, ref lanes, .. } = place;
+    let part = Real::sqrt(S::Scalar::EPSILON);
+    let soon = S::Scalar::from_f64(part * length);
+    let here = system.regularity(state.t, &state.q);
+    let change = system.regularity(state.t + soon, &state.q.retract(&rates.configuration.scale(soon))) - here;
+    let near = |lane: &usize| {
+        let (regularity, change) = (here.lane(*lane).abs(), change.lane(*lane).abs() / part);
+        regularity < NEAR_SINGULARITY || regularity < AHEAD.0 && regularity < AHEAD.1 * change
+    };
+    lanes.clone().filter(near).map(|lane| here.lane(lane).abs()).reduce(f64::min)
 }
 
 /// The fastest of the motions near a state.

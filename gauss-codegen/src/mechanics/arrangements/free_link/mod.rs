@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 mod loads;
 mod momenta;
 
-use crate::algebra::{Expr, Map, Solver, Substitution};
+use crate::algebra::{Expr, Map, NodeView, Solver, Substitution};
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
 use crate::mechanics::links::link::Matter;
@@ -280,11 +280,21 @@ impl<'g> FreeLink<'g> {
         self.project(Pair { linear: pair.linear.map(Expr::group), angular: pair.angular.map(Expr::group) })
     }
 
-    /// `None` where the coordinates have no singularity: the volume that the columns of ∂ω/∂q̇ span is constant.
+    /// A numerator, and the square of what it is divided by; `None` where the coordinates have no singularity.
+    ///
+    /// Where the volume that the columns of ∂ω/∂q̇ span is a power D⁻ᵏ of one sum, coordinates become infinite where it vanishes: those
+    /// of Rodrigues with D = 1 + |g|² and k = 2, the modified ones with D = 1 + |σ|² and k = 3. D then grows as the square of
+    /// their size, and that as the reciprocal of the distance from the singularity: it is 1/√D. Else it is the volume over the lengths
+    /// of the columns, 0 where these lie in a plane.
     pub fn regularity(&self) -> Option<Vec<Expr<'g>>> {
         let columns: Vec<&Triple<'g>> = self.angular_rows.iter().filter(|column| !is_zero(column)).collect();
         let [a, b, c] = columns[..] else { return None };
         let volume = dot(a, &cross(b, c)).collected(VOLUME_LIMIT);
+        if let NodeView::Product(factors) = volume.split_coefficient().1.view()
+            && let [(sum, ..0)] = factors[..]
+        {
+            return Some(vec![volume.graph().one(), sum]);
+        }
         let lengths = [a, b, c].map(|column| dot(column, column).collected(VOLUME_LIMIT));
         let product = lengths[0] * lengths[1] * lengths[2];
         let ratio = (volume * volume * product.recip()).collected(VOLUME_LIMIT);
