@@ -10,7 +10,7 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{Gave, Place, cause};
 use crate::integrate::drive::control::{
-    Control, Emit, Taken, check_tolerances, longest, prepare, smallest, unresolved,
+    Control, Emit, Taken, check_tolerances, longest, prepare, smallest, to_a_number, unresolved,
 };
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::{accept, onto_constraints};
@@ -283,7 +283,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             }
             let length = length.min(longest);
             let last = length >= left * 0.999;
-            let h = if last { end - state.t } else { S::Scalar::from_f64(direction * length) };
+            let h = if last { end - state.t } else { to_a_number(state.t, direction * length) };
             if state.t + h == state.t || !last && length <= smallest::<S::Scalar>(state.t.lane(0), span) {
                 return Err(gave(Gave::AnyStep(unresolved::<S::Scalar>(length, state.t.lane(0), span))));
             }

@@ -130,6 +130,44 @@ fn tolerances_below_rounding_are_met_as_far_as_rounding_lets_them() {
     });
 }
 
+/// At t = 10⁹ times are 10⁻⁷ apart. Steps end at times that are numbers, so that the state has gone as far as the time.
+#[test]
+fn far_from_zero_the_state_goes_as_far_as_the_time() {
+    let kernel = Spring { k: 1.0, c: 0.0 }.kernel().expect("a spring");
+    let (run, start, step) = (Simulation::new(&kernel), 1e9, 0.013);
+    for span in [64.0, -64.0] {
+        for (name, end) in [
+            (
+                "adaptive",
+                run.adaptive(1e-12, 1e-12).largest_step(step).run_to_end(one(1.0), one(0.0), start..start + span),
+            ),
+            (
+                "Taylor",
+                run.control(Taylor::new(1e-12, 1e-12).largest_step(step)).run_to_end(
+                    one(1.0),
+                    one(0.0),
+                    start..start + span,
+                ),
+            ),
+        ] {
+            let error = (end.expect("runs").q[0] - span.cos()).abs();
+            // A tolerance in each of 5000 steps; roundings of the time would be 10⁻⁶.
+            assert!(error < 5e-9, "{name}: {error:e}");
+        }
+    }
+    let (top, packs) = (scenes::GenericTop::<f64>::toy().kernel(), scenes::GenericTop::<Four>::toy().kernel());
+    let (top, packs) = (top.expect("a top"), packs.expect("tops"));
+    let first = |n: usize| (UnitQuaternion::identity(), Vector3::new(0.1 * n as f64, 1.0, 2.0));
+    let mut states = States::<scenes::GenericTopKernel<Four>>::from_fn(5, first);
+    let ends = Batch::new(&packs).adaptive(1e-12, 1e-12).largest_step(step).run(start..start + 8.0, &mut states);
+    assert!(ends.iter().all(Result::is_ok));
+    for n in 0..5 {
+        let ((q, z), alone) = (first(n), Simulation::new(&top).adaptive(1e-12, 1e-12).largest_step(step));
+        let end = alone.run_to_end(q, z, start..start + 8.0).expect("runs");
+        assert_eq!((end.q, end.z), states.get(n));
+    }
+}
+
 /// A wing nut from near its middle axis to where the Rodrigues vector is infinite: derivatives cancel on the way there.
 #[test]
 fn steps_do_not_chase_rounding_in_coordinates_that_become_singular() {

@@ -5,7 +5,7 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{Gave, Place, cause, change};
 use crate::integrate::drive::control::{
-    Control, Emit, Taken, check_tolerances, longest, one_step, prepare, smallest, unresolved,
+    Control, Emit, Taken, check_tolerances, longest, one_step, prepare, smallest, to_a_number, unresolved,
 };
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::{accept, check_move, is_hopeless};
@@ -184,7 +184,7 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         let signed = if last {
             self.end - self.state.t
         } else {
-            S::Scalar::from_f64(if self.span < 0.0 { -self.length } else { self.length })
+            to_a_number(self.state.t, if self.span < 0.0 { -self.length } else { self.length })
         };
         if self.state.t + signed == self.state.t || !last && self.vanishes(self.length) {
             return Err(unresolved::<S::Scalar>(self.length, self.state.t.lane(0), self.span));

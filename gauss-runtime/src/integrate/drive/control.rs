@@ -120,6 +120,15 @@ pub(in crate::integrate) fn longest(asked: Option<f64>, span: f64, limit: u64) -
     Ok(length.min(span.abs()))
 }
 
+/// A step of about this length from t that ends at a time which is a number: what is left of it once it has been added, so that
+/// the state goes as far as the time does. Far from zero these differ by a rounding of t in each step.
+#[inline(always)]
+pub(in crate::integrate) fn to_a_number<T: Real>(t: T, length: f64) -> T {
+    let h = T::from_f64(length);
+    // As a plain number: bounds and derivatives of t are none of the step's.
+    T::from_f64(((t + h) - t).lane(0))
+}
+
 /// The length at or below which a step does nothing: a rounding of the time, or of what the span is to a rounding, for runs that
 /// start at zero.
 pub(in crate::integrate) fn smallest<T: Real>(t: f64, span: f64) -> f64 {

@@ -7,7 +7,7 @@ use super::system::BatchSystem;
 use super::{Group, LaneControl, Verdict, chosen_state, largest, number, numbers_of, ones_in};
 use crate::integrate::drive::adaptive::{Adaptive, ROUNDED};
 use crate::integrate::drive::cause::{Gave, change};
-use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, unresolved};
+use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, to_a_number, unresolved};
 use crate::integrate::drive::logarithms::{exponential, logarithm};
 use crate::integrate::drive::projection::{accept, check_move, is_hopeless};
 use crate::integrate::drive::step_length::StepLength;
@@ -63,9 +63,9 @@ impl<S: BatchSystem> Memory<S> {
             // Stretch by 1 % rather than leave a sliver.
             lane.last = lane.length >= left * 0.99;
             let of = <S::Scalar as Packed>::Single::from_f64;
-            let signed =
-                if lane.last { rest.extract(n) } else { of(if group.span < 0.0 { -lane.length } else { lane.length }) };
             let t = group.state.t.extract(n);
+            let length = if group.span < 0.0 { -lane.length } else { lane.length };
+            let signed = if lane.last { rest.extract(n) } else { to_a_number(t, length) };
             if t + signed == t || !lane.last && lane.length <= smallest::<S::Scalar>(t.lane(0), group.span) {
                 let vanishes = unresolved::<S::Scalar>(lane.length, t.lane(0), group.span);
                 group.verdicts[n] = Verdict::Gave(Gave::AnyStep(vanishes));

@@ -8,7 +8,7 @@ use super::system::BatchSystem;
 use super::{Group, LaneControl, Verdict, chosen_state, number, numbers_of, ones_in};
 use crate::configuration::Configuration;
 use crate::integrate::drive::cause::Gave;
-use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, unresolved};
+use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, to_a_number, unresolved};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
@@ -65,9 +65,8 @@ where
             }
             let (length, left) = (length.min(self.longest), number(rest, n).abs());
             lane.last = length >= left * 0.999;
-            let of = <S::Scalar as Packed>::Single::from_f64;
-            let signed = if lane.last { rest.extract(n) } else { of(direction * length) };
             let t = group.state.t.extract(n);
+            let signed = if lane.last { rest.extract(n) } else { to_a_number(t, direction * length) };
             if t + signed == t || !lane.last && length <= smallest::<S::Scalar>(t.lane(0), group.span) {
                 gave(unresolved::<S::Scalar>(length, t.lane(0), group.span));
                 continue;
