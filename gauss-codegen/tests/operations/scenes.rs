@@ -216,7 +216,7 @@ fn written_out() -> Vec<Scene> {
         "tests/tests/central_gravity.rs",
         "tests/tests/elements.rs",
         "tests/tests/holonomic.rs",
-        "tests/tests/linkages.rs",
+        "tests/tests/linkages",
         "tests/tests/media.rs",
         "tests/tests/nonholonomic",
         "tests/tests/rolling",

@@ -3,7 +3,7 @@
 //! The coefficients come from the derive (`#[gauss(taylor)]`, [`TaylorSystem`]), exact up to rounding at any order, so a step may be
 //! nearly as long as the radius of convergence allows: at tolerances of 1e-9 and less the cheapest way to a trajectory of a smooth
 //! system. Order and step are those of Jorba & Zou (Experimental Mathematics 14, 2005): the last two terms of the series are to
-//! be as small as the tolerance. No step is rejected.
+//! be as small as the tolerance. No step is rejected, but for what the projection onto constraints says of it.
 
 use core::ops::Range;
 
@@ -13,8 +13,10 @@ use crate::integrate::drive::control::{
     Control, Emit, Taken, check_tolerances, longest, prepare, smallest, to_a_number, unresolved,
 };
 use crate::integrate::drive::pace::Pace;
-use crate::integrate::drive::projection::{accept, onto_constraints};
+use crate::integrate::drive::projection::{accept, check_move, is_hopeless, onto_constraints};
 use crate::integrate::drive::simulation::Simulation;
+use crate::integrate::drive::step_length::StepLength;
+use crate::integrate::drive::tolerance::{Tolerance, Trial};
 use crate::integrate::problem::equations::{Problem, SystemProblem};
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
 use crate::integrate::problem::state::{Rates, State};
@@ -45,6 +47,9 @@ const LEFT_OUT: f64 = 1.0 / 32.0;
 
 /// The part of a rounding of the state below which nothing need be left out of a series.
 const LEAST: f64 = 1.0 / 64.0;
+
+/// So many times a step is tried again that the projection onto constraints moves too far: each time the series is expanded anew.
+const SHORTENED: u32 = 8;
 
 /// The lowest order that is chosen, and how far apart orders are compared.
 const LOWEST: usize = 6;
@@ -180,6 +185,47 @@ impl Order {
     }
 }
 
+/// A step that the projection onto the constraints would move farther than its error, and that is tried again.
+#[derive(Clone, Copy, Default)]
+pub(in crate::integrate) struct Shortened {
+    /// The part of the length that the series allows, and why it is not all of it.
+    reason: Option<(f64, IntegrationErrorKind)>,
+    rejected: u32,
+}
+
+impl Shortened {
+    pub(in crate::integrate) fn part(&self) -> f64 {
+        self.reason.map_or(1.0, |(part, _)| part)
+    }
+
+    /// What is said where no shorter step can be made.
+    pub(in crate::integrate) fn reason(&self) -> Option<IntegrationErrorKind> {
+        self.reason.map(|(_, kind)| kind)
+    }
+
+    /// How the step was taken at last.
+    pub(in crate::integrate) fn taken(&mut self, excess: f64) -> Taken {
+        Taken { rejected: core::mem::take(self).rejected, excess }
+    }
+
+    /// After a step from a state that failed in some lanes: whether a shorter one may do.
+    #[cold]
+    pub(in crate::integrate) fn again<S: TaylorSystem, P: Problem<System = S>>(
+        &mut self,
+        (problem, state): (&P, &State<S>),
+        lanes: Range<usize>,
+        kind: IntegrationErrorKind,
+    ) -> bool {
+        use IntegrationErrorKind::{Projection, ProjectionTooFar};
+        self.rejected += 1;
+        let again = self.rejected <= SHORTENED
+            && matches!(kind, Projection { .. } | ProjectionTooFar { .. })
+            && !is_hopeless(problem, state, lanes, (&kind, self.rejected));
+        self.reason = Some((self.part() * StepLength::part(&kind), kind));
+        again
+    }
+}
+
 /// The state a time h after the one that the series starts from.
 pub(in crate::integrate) fn summed<S, P>(
     problem: &P,
@@ -204,6 +250,29 @@ pub(in crate::integrate) fn expanded<S: TaylorSystem, P: Problem<System = S>>(
 ) {
     let State { t, q, y } = state;
     problem.system().expand(*t, q, &problem.speeds(*t, q, y), order, series);
+}
+
+impl Taylor {
+    /// What the end of a step must keep to; it is brought onto the constraints, and the derivatives there are given.
+    pub(in crate::integrate) fn accepted<S: TaylorSystem, P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        from: (&State<S>, &Rates<S>),
+        reached: &mut State<S>,
+    ) -> Result<Rates<S>, IntegrationErrorKind> {
+        if !(reached.q.is_finite() && reached.y.is_finite()) {
+            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        }
+        check_chart(problem.system(), from.0, reached)?;
+        let computed = *reached;
+        let rates = accept(problem, from, reached, None)?;
+        if S::CONSTRAINED {
+            let tolerance = Tolerance { relative: self.relative, absolute: self.absolute };
+            let length = (reached.t - from.0.t).abs();
+            check_move(&tolerance, problem, &Trial { from: from.0, to: reached, length, floor: None }, &computed)?;
+        }
+        Ok(rates)
+    }
 }
 
 impl<'k, S: TaylorSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
@@ -265,7 +334,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         let mut order = Order::new(self, self.first_order());
         let mut series = S::Series::zero();
         let (mut state, mut rates) = (start, rates);
-        let mut guess = 0.0;
+        let (mut guess, mut shortened) = (0.0, Shortened::default());
         loop {
             let left = (end - state.t).lane(0).abs();
             let place =
@@ -281,24 +350,24 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             if length.is_nan() {
                 return Err(gave(Gave::AnyStep(IntegrationErrorKind::NonFinite { part: Part::Derivative })));
             }
-            let length = length.min(longest);
+            let length = (length * shortened.part()).min(longest);
             let last = length >= left * 0.999;
             let h = if last { end - state.t } else { to_a_number(state.t, direction * length) };
             if state.t + h == state.t || !last && length <= smallest::<S::Scalar>(state.t.lane(0), span) {
-                return Err(gave(Gave::AnyStep(unresolved::<S::Scalar>(length, state.t.lane(0), span))));
+                let unresolved = unresolved::<S::Scalar>(length, state.t.lane(0), span);
+                return Err(gave(Gave::AnyStep(shortened.reason().unwrap_or(unresolved))));
             }
             let mut reached = summed(problem, state.t, &series, order.value(), h);
             if last {
                 reached.t = end;
             }
-            if !(reached.q.is_finite() && reached.y.is_finite()) {
-                return Err(gave(Gave::AnyStep(IntegrationErrorKind::NonFinite { part: Part::Step })));
-            }
-            check_chart(problem.system(), &state, &reached).map_err(|kind| stopped(&state, kind))?;
-            let next: Rates<S> =
-                accept(problem, (&state, &rates), &mut reached, None).map_err(|kind| gave(Gave::AnyStep(kind)))?;
+            let next: Rates<S> = match self.accepted(problem, (&state, &rates), &mut reached) {
+                Ok(next) => next,
+                Err(kind) if shortened.again((problem, &state), 0..S::Scalar::LANES, kind) => continue,
+                Err(kind) => return Err(gave(Gave::AnyStep(kind))),
+            };
             (state, rates) = (reached, next);
-            if emit(&state, &rates, Taken { rejected: 0, excess }).is_break() || last {
+            if emit(&state, &rates, shortened.taken(excess)).is_break() || last {
                 return Ok(state);
             }
             guess = length;

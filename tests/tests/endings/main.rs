@@ -401,7 +401,6 @@ fn what_is_out_of_reach_is_refused_before_the_first_step() {
     let end = run.fixed_step(1e-6).run_to_end(q, z, 0.0..1.0).expect("runs");
     assert_eq!((end.summary.steps, end.stopped_by), (1_000_000, None));
     // A batch has no other limit.
-    use gauss_batch::{Batch, States};
     let top = scenes::GenericTop::<Four>::toy().kernel().expect("a top");
     let mut states =
         States::<scenes::GenericTopKernel<Four>>::from_fn(5, |_| (UnitQuaternion::identity(), Vector3::z()));

@@ -6,15 +6,11 @@ use alloc::vec::Vec;
 
 use super::system::BatchSystem;
 use super::{Group, LaneControl, Verdict, chosen_state, number, numbers_of, ones_in};
-use crate::configuration::Configuration;
 use crate::integrate::drive::cause::Gave;
-use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, to_a_number, unresolved};
-use crate::integrate::drive::projection::accept;
+use crate::integrate::drive::control::{check_tolerances, longest, smallest, to_a_number, unresolved};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::state::{Rates, State};
-use crate::integrate::step::checks::check_chart;
-use crate::integrate::taylor::{Order, Taylor, expanded, summed};
+use crate::integrate::taylor::{Order, Shortened, Taylor, expanded, summed};
 use crate::real::Real;
 use crate::series::{PowerSeries, TaylorSystem};
 use crate::simd::Packed;
@@ -29,6 +25,7 @@ struct Lane {
     excess: f64,
     last: bool,
     tries: bool,
+    shortened: Shortened,
 }
 
 #[doc(hidden)]
@@ -63,12 +60,13 @@ where
                 gave(IntegrationErrorKind::NonFinite { part: Part::Derivative });
                 continue;
             }
-            let (length, left) = (length.min(self.longest), number(rest, n).abs());
+            let (length, left) = ((length * lane.shortened.part()).min(self.longest), number(rest, n).abs());
             lane.last = length >= left * 0.999;
             let t = group.state.t.extract(n);
             let signed = if lane.last { rest.extract(n) } else { to_a_number(t, direction * length) };
             if t + signed == t || !lane.last && length <= smallest::<S::Scalar>(t.lane(0), group.span) {
-                gave(unresolved::<S::Scalar>(length, t.lane(0), group.span));
+                let unresolved = unresolved::<S::Scalar>(length, t.lane(0), group.span);
+                gave(lane.shortened.reason().unwrap_or(unresolved));
                 continue;
             }
             (lane.guess, lane.tries) = (length, true);
@@ -99,7 +97,8 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
     fn memory(&self, span: f64, limit: u64) -> Result<Memory<S>, IntegrationErrorKind> {
         check_tolerances(self.relative, self.absolute)?;
         let longest = if span == 0.0 { 0.0 } else { longest(self.largest_step, span, limit)? };
-        let lane = Lane { guess: 0.0, lengths: [0.0; 2], excess: 0.0, last: false, tries: false };
+        let shortened = Shortened::default();
+        let lane = Lane { guess: 0.0, lengths: [0.0; 2], excess: 0.0, last: false, tries: false, shortened };
         let (order, series) = (Order::new(self, self.first_order()), Box::new(S::Series::zero()));
         Ok(Memory { order, series, lanes: vec![lane; S::Scalar::WIDTH], longest })
     }
@@ -111,7 +110,7 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
         (lane, _): (usize, u64),
         memory: &mut Memory<S>,
     ) -> Result<(), IntegrationErrorKind> {
-        memory.lanes[lane].guess = 0.0;
+        (memory.lanes[lane].guess, memory.lanes[lane].shortened) = (0.0, Shortened::default());
         Ok(())
     }
 
@@ -139,14 +138,14 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
         if !all {
             reached = chosen_state(ones, &reached, &group.state);
         }
-        let checked = Self::checked(problem, (&group.state, &group.rates), &mut reached);
+        let checked = self.accepted(problem, (&group.state, &group.rates), &mut reached);
         let next = checked.inspect_err(|_| {
             // As if nothing had been tried.
             memory.lanes.iter_mut().zip(&guesses).for_each(|(lane, &guess)| lane.guess = guess);
         })?;
         group.take(ones, all, (reached, next));
-        for (n, lane) in memory.lanes.iter().enumerate().filter(|(_, lane)| lane.tries) {
-            group.verdicts[n] = Verdict::Taken(Taken { rejected: 0, excess: lane.excess }, lane.last);
+        for (n, lane) in memory.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.tries) {
+            group.verdicts[n] = Verdict::Taken(lane.shortened.taken(lane.excess), lane.last);
         }
         if self.order.is_none() {
             memory.choose(self);
@@ -156,15 +155,13 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
 
     fn failed<P: Problem<System = S>>(
         &self,
-        _: (&P, &Group<S>),
-        _: usize,
+        (problem, group): (&P, &Group<S>),
+        n: usize,
         kind: IntegrationErrorKind,
-        _: &mut Memory<S>,
+        memory: &mut Memory<S>,
     ) -> Verdict {
-        Verdict::Gave(match kind {
-            IntegrationErrorKind::SingularChart { .. } => Gave::Step(kind),
-            kind => Gave::AnyStep(kind),
-        })
+        let again = memory.lanes[n].shortened.again((problem, &group.state), numbers_of::<S::Scalar>(n), kind);
+        if again { Verdict::Rejected } else { Verdict::Gave(Gave::AnyStep(kind)) }
     }
 
     fn length(&self, lane: usize, memory: &Memory<S>) -> f64 {
@@ -173,20 +170,5 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
 
     fn passes_over_decay(&self) -> bool {
         false
-    }
-}
-
-impl Taylor {
-    /// What a step must keep to; the derivatives at its end.
-    fn checked<S: TaylorSystem, P: Problem<System = S>>(
-        problem: &P,
-        from: (&State<S>, &Rates<S>),
-        reached: &mut State<S>,
-    ) -> Result<Rates<S>, IntegrationErrorKind> {
-        if !(reached.q.is_finite() && crate::configuration::VectorSpace::is_finite(&reached.y)) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
-        }
-        check_chart(problem.system(), from.0, reached)?;
-        accept(problem, from, reached, None)
     }
 }

@@ -1,7 +1,8 @@
 //! Bodies in gimbals and in a closed loop: a gyroscope and a four-bar linkage, with coordinates that solve the joints and with
 //! constraints that make them.
 
-use gauss_runtime::integrate::Control;
+mod rows;
+
 use gauss_runtime::monitor::EnergyMonitor;
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least, position_rates};
@@ -67,39 +68,6 @@ struct GyroscopeOnAxle {
     rotor: RigidBody<f64>,
     #[gauss(gravity)]
     g: f64,
-}
-
-/// Two four-bar linkages in a row (IFToMM benchmark A02, with N = 2): every rod has a length of 1 m and a mass of 1 kg, and when all lie on
-/// the line through the bearings the constraints depend on one another.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(a0, a1, a2, b0, b1),
-    body(first, rotation = rotation_z(a0)),
-    body(second, position = [1, 0, 0], rotation = rotation_z(a1)),
-    body(third, position = [2, 0, 0], rotation = rotation_z(a2)),
-    body(left, position = [cos(a0), sin(a0), 0], rotation = rotation_z(b0)),
-    body(right, position = [1 + cos(a1), sin(a1), 0], rotation = rotation_z(b1)),
-    point(top, body = second, at = [1, 0, 0]),
-    point(last, body = third, at = [1, 0, 0]),
-    point(end_of_left, body = left, at = [1, 0, 0]),
-    point(end_of_right, body = right, at = [1, 0, 0]),
-    constraint(position = end_of_left - top),
-    constraint(position = end_of_right - last),
-    taylor
-)]
-struct Row {
-    #[gauss(body)]
-    first: RigidBody<f64>,
-    #[gauss(body)]
-    second: RigidBody<f64>,
-    #[gauss(body)]
-    third: RigidBody<f64>,
-    #[gauss(body)]
-    left: RigidBody<f64>,
-    #[gauss(body)]
-    right: RigidBody<f64>,
-    #[gauss(gravity)]
-    g: Vector3<f64>,
 }
 
 macro_rules! four_bars {
@@ -327,71 +295,6 @@ fn four_bar_linkage_as_in_the_reference() {
         let angles = |v: &Nine| SVector::from([v[2], v[5], v[8]]);
         see(&angles(q), &angles(z))
     });
-}
-
-fn row() -> RowKernel {
-    let rod = RigidBody {
-        mass: 1.0,
-        center_of_mass: Vector3::new(0.5, 0.0, 0.0),
-        inertia: Matrix3::from_diagonal(&Vector3::new(1e-6, 1.0 / 3.0, 1.0 / 3.0)),
-    };
-    let g = Vector3::new(0.0, -9.81, 0.0);
-    Row { first: rod, second: rod, third: rod, left: rod, right: rod, g }.kernel().unwrap()
-}
-
-/// What a run from the upright position with Ḃ₀ₓ = 1 m/s kept of its energy, 35.8 J, and how it ended; 10 s hold nine passages of the singular
-/// position for one that gets through.
-fn passages<C: Control<RowKernel>>(control: C, end: f64) -> (f64, usize, Option<IntegrationErrorKind>) {
-    let (kernel, upright) = (row(), std::f64::consts::FRAC_PI_2);
-    let (q, z) = (SVector::from([upright, upright, upright, 0.0, 0.0]), SVector::from([-1.0, -1.0, -1.0, 0.0, 0.0]));
-    let (trajectory, error) = Simulation::new(&kernel).control(control).max_steps(20_000).attempt(q, z, 0.0..end);
-    let last = trajectory.last();
-    let before = kernel.energy(0.0, &q, &z);
-    assert!((before - 35.835).abs() < 1e-9, "{before}");
-    (kernel.energy(last.t, &last.q, &last.z) - before, trajectory.len(), error.map(|error| error.kind))
-}
-
-/// Where constraints become dependent the projection once took all of the energy away, and the run was `Ok`.
-#[test]
-fn energy_is_kept_at_singular_positions_or_the_run_ends_with_the_reason() {
-    let mut through = 0;
-    for power in 6..=12 {
-        for tolerance in [1.0, 2.0, 5.0].map(|factor| factor * 10_f64.powi(-power)) {
-            let (change, steps, ended) = passages(Adaptive::new(tolerance, tolerance), 10.0);
-            // In each step a component of the state is off by √10 tolerances at most, the mean over ten being one, and the projection moves it
-            // by no more than ten times that. The energy changes with the components by what its gradient is: momenta, whose sum is 3.5 m
-            // of rods at 5 m/s at most, and weights with levers, five of 9.81 N at 1 m and less.
-            let bound = 11.0 * 10_f64.sqrt() * tolerance * steps as f64 * (3.5 * 5.0 + 5.0 * 9.81);
-            assert!(change.abs() <= bound, "{tolerance:e}: {change:e} J in {steps} steps, {ended:?}");
-            assert!(
-                matches!(ended, None | Some(IntegrationErrorKind::ProjectionTooFar { .. })),
-                "{tolerance:e}: {ended:?}"
-            );
-            through += usize::from(ended.is_none());
-        }
-    }
-    assert!(through >= 10, "{through} of 21 runs pass");
-}
-
-/// Steps of one length and series know no rejection: they pass, or end. A hundredth of the energy is what coarse steps of order 4 lose.
-#[test]
-fn steps_that_cannot_be_shortened_end_at_singular_positions() {
-    let check = |name: &str, (change, _, ended): (f64, usize, Option<IntegrationErrorKind>)| {
-        assert!(change.abs() <= 0.358, "{name}: {change:e} J, {ended:?}");
-        let told = matches!(
-            ended,
-            None | Some(IntegrationErrorKind::ProjectionTooFar { .. } | IntegrationErrorKind::NotConverged { .. })
-        );
-        assert!(told, "{name}: {ended:?}");
-    };
-    for step in [0.02, 0.013, 0.01, 0.007, 0.004] {
-        check("order 8", passages(Fixed::new(step), 4.0));
-        check("order 4", passages(Fixed::with(&Tableau::RK4, step), 4.0));
-        check("collocation", passages(Fixed::by(Collocation::order_4(), step), 4.0));
-    }
-    for power in 6..=14 {
-        check("Taylor", passages(Taylor::new(10_f64.powi(-power), 10_f64.powi(-power)), 10.0));
-    }
 }
 
 /// A hundred revolutions and more in a hundred thousand steps: the loop stays closed to rounding, at every one of them.
