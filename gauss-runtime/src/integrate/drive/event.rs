@@ -45,6 +45,7 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::leaving::{Leaving, OnZero, Rate, rounding};
+use crate::integrate::drive::projection::check_jump;
 use crate::integrate::drive::search::{Crossing, Function, Looking, Made, side, value};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, Part};
@@ -447,7 +448,7 @@ where
             }
             set.z = z;
         }
-        let (q, z) = consistent(problem, &set)?;
+        let (q, z) = consistent(problem, (&given, &set), &self.lanes)?;
         Ok(Some(problem.state(from.t, q, &z)))
     }
 
@@ -513,16 +514,19 @@ fn differs<T: Real, V: VectorSpace<T>>(a: &V, b: &V, lanes: &Range<usize>, part:
 /// of the velocities.
 fn consistent<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
-    sample: &Sample<S>,
+    (given, set): (&Sample<S>, &Sample<S>),
+    lanes: &Range<usize>,
 ) -> Result<(S::Configuration, S::Speeds), IntegrationErrorKind> {
-    let Sample { t, q, z, .. } = *sample;
+    let Sample { t, q, z, .. } = *set;
     if !(q.is_finite() && z.is_finite()) {
         return Err(IntegrationErrorKind::NonFinite { part: Part::Jump });
     }
     if !S::CONSTRAINED {
         return Ok((q.renormalise(), z));
     }
-    problem.system().project(t, &q, &z).map_err(|error| IntegrationErrorKind::Projection { error })
+    let projected = problem.system().project(t, &q, &z).map_err(|error| IntegrationErrorKind::Projection { error })?;
+    check_jump(problem.system(), given, set, (&projected, lanes))?;
+    Ok(projected)
 }
 
 #[cfg(all(test, feature = "alloc"))]

@@ -19,7 +19,7 @@ use crate::constraint::ConstraintLevel;
 use crate::integrate::drive::tolerance::{PATTERNS, Tolerance, Trial, larger, rounded};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, Part};
-use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, Sample, State, TangentOf};
 use crate::integrate::step::checks::is_in_range;
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -70,7 +70,7 @@ pub(in crate::integrate) fn onto_constraints<S: GaussSystem, P: Problem<System =
         let way = |changed: f64, rate: f64| 0.5 * changed.max(h * rate);
         let of_q = way(largest(&changed.configuration, lane), largest(&rates.configuration, lane));
         let of_y = way(largest(&changed.variables, lane), largest(&rates.variables, lane));
-        let of_q = of_q + half_of_the_digits::<S>(size_of_configuration(end, lane));
+        let of_q = of_q + half_of_the_digits::<S>(size_of_configuration::<S>(&end.q, lane));
         let of_y = of_y + half_of_the_digits::<S>(largest(&end.y, lane));
         for (level, distance, allowed) in [
             (ConstraintLevel::Position, largest(&moved.configuration, lane), of_q),
@@ -139,6 +139,45 @@ fn check_above_rounding<S: GaussSystem, P: Problem<System = S>>(
     worst.1
 }
 
+/// Refuses what the projection makes of a jump where that is farther from the state that was set than the jump itself goes.
+///
+/// The state before is on the constraints of that time. So the nearest one to what was set is no farther from it than the jump: as
+/// the kinetic energy measures it, and by largest components within [`PROJECTED`]. Where the configuration stays, velocities are projected
+/// onto one linear space, and the kinetic energy of what that takes away is no more than that of the jump. Else it is all rounding of
+/// constraints that depend on one another.
+pub(in crate::integrate) fn check_jump<S: GaussSystem>(
+    system: &S,
+    before: &Sample<S>,
+    set: &Sample<S>,
+    ((q, z), lanes): (&(S::Configuration, S::Speeds), &Range<usize>),
+) -> Result<(), IntegrationErrorKind> {
+    let minus = -S::Scalar::one();
+    let (jumped, moved) = (before.q.difference(&set.q), set.q.difference(q));
+    // Twice the kinetic energy of a difference of velocities, lane by lane.
+    let energy = |from: &S::Speeds, to: &S::Speeds, lane: usize| {
+        let speeds = to.add_scaled(minus, from);
+        let momenta = system.momentum(set.t, q, to).add_scaled(minus, &system.momentum(set.t, q, from));
+        (0..S::Speeds::DIM).map(|i| (speeds.component(i) * momenta.component(i)).lane(lane)).sum::<f64>()
+    };
+    for lane in lanes.clone() {
+        let (far, distance) = (largest(&jumped, lane), largest(&moved, lane));
+        let allowed = PROJECTED * far + half_of_the_digits::<S>(size_of_configuration::<S>(&set.q, lane));
+        if distance > allowed {
+            return Err(IntegrationErrorKind::ProjectionTooFar { level: ConstraintLevel::Position, distance, allowed });
+        }
+        let (taken, given) = (energy(&set.z, z, lane), energy(&before.z, &set.z, lane));
+        let [taken, given, all] =
+            [taken, given, energy(&S::Speeds::zero(), &set.z, lane)].map(|e: f64| Real::sqrt(e.max(0.0)));
+        let allowed = given + half_of_the_digits::<S>(all);
+        if far == 0.0 && taken > allowed {
+            let distance = largest(&z.add_scaled(minus, &set.z), lane);
+            let allowed = distance * (allowed / taken);
+            return Err(IntegrationErrorKind::ProjectionTooFar { level: ConstraintLevel::Velocity, distance, allowed });
+        }
+    }
+    Ok(())
+}
+
 /// So many trials of a step are moved too far before it is asked whether the constraints have become dependent at its start.
 const TRIALS: u32 = 4;
 
@@ -162,7 +201,7 @@ pub(in crate::integrate) fn is_hopeless<S: GaussSystem, P: Problem<System = S>>(
     let lost = digits * digits * digits;
     lanes.into_iter().any(|lane| {
         largest(&rounding.variables, lane) > lost * largest(&state.y, lane)
-            || largest(&rounding.configuration, lane) > lost * size_of_configuration(state, lane)
+            || largest(&rounding.configuration, lane) > lost * size_of_configuration::<S>(&state.q, lane)
     })
 }
 
@@ -196,8 +235,8 @@ fn largest<T: Real, V: VectorSpace<T>>(vector: &V, lane: usize) -> f64 {
 }
 
 /// The largest component of the configuration, in one lane.
-fn size_of_configuration<S: GaussSystem>(state: &State<S>, lane: usize) -> f64 {
-    (0..TangentOf::<S>::DIM).map(|i| state.q.magnitudes(i).lane(lane)).fold(0.0, f64::max)
+fn size_of_configuration<S: GaussSystem>(q: &S::Configuration, lane: usize) -> f64 {
+    (0..TangentOf::<S>::DIM).map(|i| q.magnitudes(i).lane(lane)).fold(0.0, f64::max)
 }
 
 /// √ε of a size, and beside it 64 ε for numbers of order 1 that cancel where the state itself is zero.

@@ -5,6 +5,7 @@ use nalgebra::SVector;
 use std::string::ToString;
 use std::vec::Vec;
 
+use super::check_jump;
 use crate::constraint::{ConstrainedSystem, ConstraintLevel, ProjectionFailure};
 use crate::integrate::*;
 use crate::monitor::monitor;
@@ -214,4 +215,33 @@ fn a_constraint_that_can_no_longer_be_met_ends_the_run_in_words() {
     let (trajectory, error) = Simulation::new(&system).adaptive(1e-6, 1e-6).max_steps(2000).attempt(q, z, 0.0..2.0);
     let error = error.expect("stops");
     assert!(error.time > 0.999 && error.time <= 1.0 && error.time == trajectory.last().t, "{error}");
+}
+
+/// A jump is on the constraints again no farther from what was set than it went itself; what is farther is not its projection.
+#[test]
+fn a_jump_is_not_projected_farther_than_it_goes() {
+    let system = pendulum::<f64>(2.0);
+    let two = |x: f64, y: f64| SVector::from([x, y]);
+    let before = Sample { t: 0.0, q: two(0.0, -1.0), z: two(1.0, 0.0), p: two(2.0, 0.0) };
+    let check =
+        |q, z, projected| check_jump(&system, &before, &Sample { q, z, p: 2.0 * z, ..before }, (&projected, &(0..1)));
+    let told =
+        |level| move |kind| matches!(kind, IntegrationErrorKind::ProjectionTooFar { level: of, .. } if of == level);
+    // Off the circle and back, and to its other side.
+    assert_eq!(check(two(0.0, -1.1), before.z, (before.q, before.z)), Ok(()));
+    let across = check(two(0.0, -1.1), before.z, (two(0.0, 1.0), before.z));
+    assert!(across.is_err_and(told(ConstraintLevel::Position)));
+    // What a jump adds across the circle goes, and no more than that.
+    assert_eq!(check(before.q, two(1.0, 0.5), (before.q, before.z)), Ok(()));
+    assert_eq!(check(before.q, two(3.0, 0.0), (before.q, two(3.0, 0.0))), Ok(()));
+    let gone = check(before.q, two(1.0, 0.5), (before.q, two(0.0, 0.0)));
+    assert!(gone.is_err_and(told(ConstraintLevel::Velocity)));
+    let rounded = check(before.q, before.z, (before.q, two(1.0 - 1e-6, 0.0)));
+    assert!(rounded.is_err_and(told(ConstraintLevel::Velocity)));
+    assert_eq!(check(before.q, before.z, (before.q, two(1.0 - 1e-9, 0.0))), Ok(()));
+    // As a run has it: a kick across the circle is taken by the rod.
+    let run = Simulation::new(&system).event(Crossing::Rising, |t, _, _| t - 0.5).then(|state| state.z += state.q);
+    let (q, z) = swing();
+    let end = run.adaptive(1e-10, 1e-10).run_to_end(q, z, 0.0..1.0).expect("runs");
+    assert!(on_the_circle(&end));
 }
