@@ -156,6 +156,25 @@ fn a_jump_of_the_wrong_velocity_is_told_and_a_gate_is_passed() {
     assert_eq!(error, None);
 }
 
+/// Of what it keeps all but a ten thousandth: rest is 160,000 impacts away.
+#[test]
+fn a_run_whose_steps_are_jumps_is_told_so() {
+    let system = particle();
+    let run = Simulation::new(&system)
+        .event(Crossing::Falling, |_, q: &Pair, _| q[1] - 1e3)
+        .then(|state| state.z[1] *= -0.9999)
+        .adaptive(1e-9, 1e-9)
+        .max_steps(3000);
+    let (path, error) = run.attempt(pair(0.0, 1e3 + 1e-6), pair(0.0, 0.0), 0.0..100.0);
+    let error = error.expect("does not reach the end");
+    let IntegrationErrorKind::TooManyJumps { event: 0, jumps, interval } = error.kind else { panic!("{error}") };
+    assert_eq!(jumps, path.summary().jumps);
+    // A flight of a micrometre.
+    let flight = (8e-6 / G).sqrt();
+    assert!(jumps > 300 && interval < flight && interval > 0.5 * flight, "{error}");
+    assert!(error.to_string().contains("max_steps"), "{error}");
+}
+
 /// A flight that begins on zero is seen to end however short it is beside the step.
 #[test]
 fn short_flights_from_zero_end_where_they_should() {

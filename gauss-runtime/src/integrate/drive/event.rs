@@ -33,6 +33,8 @@
 //! - *Infinitely many jumps* (a ball that bounces ever lower) pile up at one time. The run ends with `Zeno` as soon as
 //!   the next flight is not higher than some roundings of the numbers that the function depends on, or shorter than
 //!   what times are told apart by. For a ball at 1 m that is 10⁻¹⁴ m, some 10⁻⁷ s before the time of the last impact.
+//! - *A great many jumps* (a ball that keeps nearly all of its speed, low above the floor) may use up the steps of a run
+//!   before they pile up: it ends with `TooManyJumps`, above the floor.
 //! - *Over other zeros.* Where a jump itself leads over the zero of another event, that one happens at once, in the
 //!   state after the jump. Events whose zeros are the same, to the resolution of the time, happen at one time, in their
 //!   order.

@@ -47,20 +47,34 @@ pub(in crate::integrate) struct Jumps {
     resolution: f64,
     last: Option<f64>,
     in_a_row: u32,
+    /// The last one, and how long it came after the one before.
+    event: usize,
+    interval: f64,
 }
 
 impl Jumps {
     pub(in crate::integrate) fn new<T: Real>(start: f64, end: f64) -> Self {
         let unit = T::EPSILON.max(f64::EPSILON);
-        Self { resolution: 64.0 * unit * start.abs().max(end.abs()), last: None, in_a_row: 0 }
+        Self { resolution: 64.0 * unit * start.abs().max(end.abs()), last: None, in_a_row: 0, event: 0, interval: 0.0 }
     }
 
     /// Takes one more: an error when they pile up.
     pub(in crate::integrate) fn count(&mut self, t: f64, event: usize) -> Result<(), IntegrationErrorKind> {
         let interval = self.last.map_or(f64::INFINITY, |last| (t - last).abs());
         self.in_a_row = if interval <= self.resolution { self.in_a_row + 1 } else { 0 };
-        self.last = Some(t);
+        (self.last, self.event, self.interval) = (Some(t), event, interval);
         if self.in_a_row < AT_ONCE { Ok(()) } else { Err(IntegrationErrorKind::Zeno { event, interval }) }
+    }
+
+    /// Why a run ended: where steps have been used up, and every other one of them at least ended with a jump, by these.
+    pub(in crate::integrate) fn told(&self, kind: IntegrationErrorKind, summary: &Summary) -> IntegrationErrorKind {
+        match kind {
+            IntegrationErrorKind::TooManySteps { .. } if summary.jumps > 0 && 2 * summary.jumps >= summary.steps => {
+                let Self { event, interval, .. } = *self;
+                IntegrationErrorKind::TooManyJumps { event, jumps: summary.jumps, interval }
+            }
+            kind => kind,
+        }
     }
 }
 
@@ -147,22 +161,23 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                     let (left, tries) =
                         ((end - from.t).lane(0).abs(), reached.summary.steps + reached.summary.rejected);
                     if pace.jumped(from.t.lane(0), left, tries) {
-                        return (reached, failed(IntegrationErrorKind::TooManySteps { limit: self.limit }));
+                        let kind =
+                            jumps.told(IntegrationErrorKind::TooManySteps { limit: self.limit }, &reached.summary);
+                        return (reached, failed(kind));
                     }
                 }
                 Some(Cut::Stopped(state)) => return (reached, Ok(state)),
                 Some(Cut::Failed(kind)) => return (reached, failed(kind)),
                 None => {
-                    return (
-                        reached,
-                        outcome.map_err(|mut error| {
-                            // What was left of the limit says nothing to whoever set it.
-                            if let IntegrationErrorKind::TooManySteps { limit } = &mut error.kind {
-                                *limit = self.limit;
-                            }
-                            error
-                        }),
-                    );
+                    let outcome = outcome.map_err(|mut error| {
+                        // What was left of the limit says nothing to whoever set it.
+                        if let IntegrationErrorKind::TooManySteps { limit } = &mut error.kind {
+                            *limit = self.limit;
+                        }
+                        error.kind = jumps.told(error.kind, &reached.summary);
+                        error
+                    });
+                    return (reached, outcome);
                 }
             }
         }

@@ -252,7 +252,10 @@ where
         let last = (q.extract(lane), self.all.problem.speeds(*t, q, y).extract(lane));
         let outcome = match how {
             Ok(stopped_by) => Ok(Ended { time, stopped_by, summary: running.summary, events: running.found }),
-            Err(kind) => Err(StateError { state: running.number, time, kind }),
+            Err(kind) => {
+                let kind = running.jumps.told(kind, &running.summary);
+                Err(StateError { state: running.number, time, kind })
+            }
         };
         runs.end(running.number, last, outcome);
     }

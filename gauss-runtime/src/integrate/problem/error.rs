@@ -84,6 +84,15 @@ pub enum IntegrationErrorKind {
         /// The limit.
         limit: u64,
     },
+    /// The limit of steps was reached before the end, and it was jumps at events that made so many.
+    TooManyJumps {
+        /// The event of the last jump, by its number.
+        event: usize,
+        /// How many there were.
+        jumps: u64,
+        /// The time between the last two.
+        interval: f64,
+    },
     /// Something decays so fast beside the rest of the motion that an explicit method cannot make longer steps, or could not make
     /// those that it was to make.
     Stiff {
@@ -253,6 +262,11 @@ impl IntegrationErrorKind {
     /// What is wrong with the jump of an event.
     fn of_jump(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::TooManyJumps { event, jumps, interval } => write!(
+                f,
+                "after {jumps} jumps, of which the last of event {event} came {interval:.1e} after the one before, the steps that are \
+                 allowed do not reach the end; allow more with `max_steps`, or end the run with `until` where jumps are so near"
+            ),
             Self::Zeno { event, interval } => write!(
                 f,
                 "event {event} comes again after {interval:.1e}, and again: its jump does not lead away from zero, or \
@@ -307,7 +321,9 @@ impl fmt::Display for IntegrationErrorKind {
                 "the motion has rates of {rate:.1e} per unit of time, for which steps of {step:.1e} are too long or too many; check \
                  units and parameters, shorten the run, or use a method that need not resolve them (`FreeFlow`, `Splitting`)"
             ),
-            Self::Zeno { .. } | Self::NotTurnedBack { .. } | Self::InvalidJump { .. } => self.of_jump(f),
+            Self::TooManyJumps { .. } | Self::Zeno { .. } | Self::NotTurnedBack { .. } | Self::InvalidJump { .. } => {
+                self.of_jump(f)
+            }
             Self::IncrementTooLarge { angle } => write!(
                 f,
                 "the body turns by {angle:.3} rad in one step, and at most π can be told from less; use a smaller step"
