@@ -416,6 +416,24 @@ fn bodies_that_spin_do_not_fall_through_floors() {
     assert!(turned > 30 && piled_up == 3 * (3 * 6 * 3) + 1 && whole == 3 * 6 * 3, "{turned} {piled_up} {whole}");
 }
 
+/// Where the body's third axis lies level, or nearly so, turning the velocity along it changes next to nothing of the fall.
+#[test]
+fn a_level_axis_does_not_turn_a_fall_back() {
+    let own = InItsAxes::thrown().kernel().expect("a body");
+    let height = |_: f64, q: &Isometry3<f64>, _: &Vector6<f64>| q.translation.z;
+    let run = Simulation::new(&own).event(Crossing::Falling, height).then(|state| state.z[2] *= -0.5);
+    for off in [0.0, 1e-12, -1e-9, 1e-6, -2e-5, 5e-4, 1e-2, -0.1] {
+        let (mut q, z) = above(0.0, [0.0; 3]);
+        q.rotation = UnitQuaternion::new(Vector3::x() * (std::f64::consts::FRAC_PI_2 + off));
+        for (_, error) in
+            [run.adaptive(1e-8, 1e-8).attempt(q, z, 0.0..2.0), run.fixed_step(0.01).attempt(q, z, 0.0..2.0)]
+        {
+            let kind = error.expect("goes on falling").kind;
+            assert!(matches!(kind, IntegrationErrorKind::NotTurnedBack { event: 0, .. }), "{off:e}: {kind:?}");
+        }
+    }
+}
+
 fn ended_by<K>(
     (path, error): (Trajectory<'_, K>, Option<IntegrationError>),
     floor: f64,

@@ -119,9 +119,15 @@ fn a_jump_of_the_wrong_velocity_is_told_and_a_gate_is_passed() {
     let start = (pair(0.0, 1.0), pair(2.0, 0.0));
     let falls = |_: f64, q: &Pair, _: &Pair| q[1] - 0.1 * q[0];
     let run = Simulation::new(&system).event(Crossing::Falling, falls);
-    // The velocity along the slope alone, a brake, a push, none of which leads back.
-    let jumps: [fn(&mut Sample<Particle>); 4] =
-        [|s| s.z[0] *= -0.5, |s| s.z[1] *= 0.5, |s| s.z[1] -= 1.0, |s| s.z *= 0.1];
+    // The velocity along the level alone, a brake, a push, one along the slope and one nearly so: none of them leads back.
+    let jumps: [fn(&mut Sample<Particle>); 6] = [
+        |s| s.z[0] *= -0.5,
+        |s| s.z[1] *= 0.5,
+        |s| s.z[1] -= 1.0,
+        |s| s.z *= 0.1,
+        |s| s.z += pair(1.0, 0.1),
+        |s| s.z += pair(1e-6, 1e-7 * (1.0 + 1e-6)),
+    ];
     for (n, jump) in jumps.into_iter().enumerate() {
         let (path, error) = run.then(jump).adaptive(1e-9, 1e-9).attempt(start.0, start.1, 0.0..5.0);
         let error = error.expect("does not lead back");
@@ -137,18 +143,23 @@ fn a_jump_of_the_wrong_velocity_is_told_and_a_gate_is_passed() {
         let path = run.then_through(jump).adaptive(1e-9, 1e-9).run(start.0, start.1, 0.0..5.0).expect("passes");
         assert!(path.events().len() == 1 && path.last().q[1] < -50.0);
     }
-    // What does not change the velocity along the function passes: at a time, at a place across, at a turning point.
+    // What no velocity turns back passes: at a time, at a turning point; at a place by its own word, or where no state changes.
+    let switched = core::cell::Cell::new(false);
     let run = Simulation::new(&system)
         .event(Crossing::Rising, |t, _, _| t - 0.25)
         .then(|s| s.z[0] += 1.0)
         .event(Crossing::Rising, |_, q: &Pair, _| q[0] - 1.0)
-        .then(|s| s.z[1] += 5.0)
+        .then_through(|s| s.z[1] += 5.0)
         .event(Crossing::Falling, |_, _, z: &Pair| z[1])
-        .then(|s| s.q[1] += 1.0);
+        .then(|s| s.q[1] += 1.0)
+        .event(Crossing::Rising, |_, q: &Pair, _| q[0] - 1.5)
+        .then(|_| switched.set(true));
     for step in [0.1, 1.0] {
+        switched.set(false);
         let path = run.fixed_step(step).run(start.0, pair(2.0, 1.0), 0.0..2.0).expect("passes");
         let seen: std::vec::Vec<_> = path.events().iter().map(|event| event.number).collect();
-        assert_eq!(seen, [2, 0, 1, 2]);
+        assert_eq!(seen, [2, 0, 1, 3, 2]);
+        assert!(switched.get());
     }
     // A gate may turn back, too.
     let run = Simulation::new(&system).event(Crossing::Falling, |_, q: &Pair, _| q[1]).then_through(|s| s.z[1] *= -0.5);

@@ -22,12 +22,12 @@
 //! rounding, and its sign is rounding too; it is on the side to which the motion leads, however short the flight is
 //! beside the step. So a ball that bounces has not fallen through the floor.
 //!
-//! - *A jump has to lead back.* Where the function goes on through zero, at another rate than before, the run ends with
+//! - *A jump has to lead back.* Where a function of the configuration goes on through zero, the run ends with
 //!   [`IntegrationErrorKind::NotTurnedBack`]: the velocity that was turned is not the one along which the function
 //!   changes. `u` and `ω` of a body are in its own axes, and `z[2] *= -0.8` turns the velocity along the body's third
-//!   axis. Where it is meant to go on, as at a gate that kicks, write
-//!   [`then_through`](crate::integrate::Simulation::then_through). A jump that does not change the velocity along the
-//!   function, as at a given time, lets it pass.
+//!   axis. Where it is meant to go on, as at a gate that kicks or a place where something else jumps, write
+//!   [`then_through`](crate::integrate::Simulation::then_through). Functions of time and speeds alone pass, and so does
+//!   what changes no state, but a switch of the user's.
 //! - *A jump to rest.* Where the function does not leave zero again but for what pulls it on (no restitution, and
 //!   weight), or leaves it by less than rounding, the run ends with [`IntegrationErrorKind::Zeno`].
 //! - *Infinitely many jumps* (a ball that bounces ever lower) pile up at one time. The run ends with `Zeno` as soon as
@@ -46,12 +46,12 @@ use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
-use crate::integrate::drive::leaving::{Leaving, OnZero, Rate, rounding};
+use crate::integrate::drive::leaving::{Leaving, OnZero, rounding};
 use crate::integrate::drive::projection::check_jump;
 use crate::integrate::drive::search::{Crossing, Function, Looking, Made, side, value};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, Part};
-use crate::integrate::problem::state::{Sample, State};
+use crate::integrate::problem::state::{Sample, State, TangentOf};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -83,7 +83,8 @@ pub struct Mark {
 struct BeforeJump {
     /// The side that it came from.
     side: f64,
-    rate: Rate,
+    /// Per unit of time in the direction of integration.
+    rate: f64,
     /// How far beyond zero it may be, since zeros are found to a part of the step.
     beyond: f64,
 }
@@ -404,10 +405,12 @@ where
         (at, after, first, stopped_by): Here<S>,
     ) -> Result<Here<S>, IntegrationErrorKind> {
         let jumped = self.jump(number, &after.unwrap_or(at))?;
+        let changed = jumped.is_some_and(|(_, changed)| changed);
+        let jumped = jumped.map(|(state, _)| state);
         self.each(|n, function, mark| {
             if n == number {
                 mark.last = mark.next.map(|(part, _)| (part, mark.value));
-                mark.jumped |= jumped.is_some();
+                mark.jumped |= changed;
                 let cuts = jumped.is_some() || terminal;
                 mark.next = if cuts { None } else { mark.following(looking, function)? };
             }
@@ -422,15 +425,15 @@ where
         self.each(|_, function, mark| {
             mark.cut = mark.last.filter(|_| mark.here).map(|(_, before)| {
                 let rate = looking.rate(function, state, &rates);
-                let beyond = 2.0 * looking.resolution * looking.duration() * rate.whole.abs();
+                let beyond = 2.0 * looking.resolution * looking.duration() * rate.abs();
                 BeforeJump { side: side(before), rate, beyond }
             });
             Ok(())
         })
     }
 
-    /// The state after the jump of an event, if it has one.
-    fn jump(&mut self, number: usize, from: &State<S>) -> Result<Option<State<S>>, IntegrationErrorKind> {
+    /// The state after the jump of an event, if it has one, and whether it is another; it may be something else that has changed.
+    fn jump(&mut self, number: usize, from: &State<S>) -> Result<Option<(State<S>, bool)>, IntegrationErrorKind> {
         let problem = self.problem;
         let given = problem.sample(from);
         let mut set = given;
@@ -450,8 +453,17 @@ where
             }
             set.z = z;
         }
+        // The least change of a velocity counts: that of an axis which happens to lie level is meant as any other.
+        let touched = |a: &S::Speeds, b: &S::Speeds, lane| {
+            (0..S::Speeds::DIM).any(|i| a.component(i).lane(lane).to_bits() != b.component(i).lane(lane).to_bits())
+        };
+        let (increment, rounding) = (given.q.difference(&set.q), 64.0 * S::Scalar::EPSILON);
+        let changed = self.lanes.clone().any(|lane| {
+            let moved = (0..TangentOf::<S>::DIM).any(|i| increment.component(i).lane(lane).abs() > rounding);
+            moved || touched(&given.z, &set.z, lane) || touched(&given.p, &set.p, lane)
+        });
         let (q, z) = consistent(problem, (&given, &set), &self.lanes)?;
-        Ok(Some(problem.state(from.t, q, &z)))
+        Ok(Some((problem.state(from.t, q, &z), changed)))
     }
 
     /// Reports the events over whose zeros a jump has led, each once, with what follows from them.
@@ -475,7 +487,7 @@ where
             })?;
             let Some((number, terminal)) = first else { break };
             report(number, &state);
-            if let Some(jumped) = self.jump(number, &state)? {
+            if let Some((jumped, _)) = self.jump(number, &state)? {
                 *after = Some(jumped);
             }
             if terminal && stopped_by.is_none() {

@@ -26,16 +26,8 @@ const SPAN: f64 = 1.0 / 4096.0;
 /// Roundings of every number that a function depends on: states are sums of some rounded terms, and so is the function.
 const ROUNDINGS: f64 = 16.0;
 
-/// Rates differ where they do by more than this part: jumps are rounded in 10⁻¹⁶ of them, rates measured to [`SPAN`].
+/// A rate that a jump has left is rest where it is less than this part of the one before: rates are measured to [`SPAN`].
 const DIFFERS: f64 = 1e-6;
-
-/// The rate of a function along the motion, per unit of time in the direction of integration.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::integrate) struct Rate {
-    pub(in crate::integrate) whole: f64,
-    /// With the speeds held.
-    of_configuration: f64,
-}
 
 /// A function that is on zero, to rounding.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +36,7 @@ pub(in crate::integrate) struct OnZero {
     /// What rounding does to values here.
     rounding: f64,
     /// Of an event whose jump has to lead back: the side that the function came from, and its rate before the jump.
-    back: Option<(f64, Rate)>,
+    back: Option<(f64, f64)>,
 }
 
 /// How a function leaves zero.
@@ -74,7 +66,7 @@ impl OnZero {
     }
 
     /// After a jump.
-    pub(in crate::integrate) fn after(value: f64, rounding: f64, back: Option<(f64, Rate)>) -> Self {
+    pub(in crate::integrate) fn after(value: f64, rounding: f64, back: Option<(f64, f64)>) -> Self {
         Self { value, rounding, back }
     }
 
@@ -238,20 +230,30 @@ where
         self.leaves_from(function, &on, (&state, &self.problem.rates(&state)), part)
     }
 
-    /// The rate of a function at a state, measured over a part of the step.
-    pub(in crate::integrate) fn rate(&self, function: Function<'_, S>, state: &State<S>, rates: &Rates<S>) -> Rate {
-        let (lane, problem) = (self.made.lane, self.problem);
-        let z = problem.speeds(state.t, &state.q, &state.y);
-        let slope = |at: &dyn Fn(&State<S>) -> S::Scalar| {
-            let along = |part: f64| at(&moved(state, rates, self.length() * S::Scalar::from_f64(part))).lane(lane);
-            let change = 4.0 * along(SPAN) - along(2.0 * SPAN) - 3.0 * along(0.0);
-            let slope = change / (2.0 * SPAN * self.duration());
-            if slope.is_finite() { slope } else { 0.0 }
+    /// The rate of a function along the motion at a state, per unit of time in the direction of integration, measured over a part of the
+    /// step.
+    pub(in crate::integrate) fn rate(&self, function: Function<'_, S>, state: &State<S>, rates: &Rates<S>) -> f64 {
+        let along = |part: f64| {
+            let state = moved(state, rates, self.length() * S::Scalar::from_f64(part));
+            values(self.problem, function, &state).lane(self.made.lane)
         };
-        Rate {
-            whole: slope(&|state| values(problem, function, state)),
-            of_configuration: slope(&|state| function(state.t, &state.q, &z)),
-        }
+        let change = 4.0 * along(SPAN) - along(2.0 * SPAN) - 3.0 * along(0.0);
+        let slope = change / (2.0 * SPAN * self.duration());
+        if slope.is_finite() { slope } else { 0.0 }
+    }
+
+    /// Whether a function changes with the configuration, where time and speeds stay: moved by half of its digits, every one of its
+    /// components by itself.
+    fn is_of_the_configuration(&self, function: Function<'_, S>, state: &State<S>) -> bool {
+        let z = self.problem.speeds(state.t, &state.q, &state.y);
+        let at = |q: &S::Configuration| function(state.t, q, &z).lane(self.made.lane);
+        let here = at(&state.q);
+        let part = S::Scalar::from_f64(Real::sqrt(S::Scalar::EPSILON));
+        (0..TangentOf::<S>::DIM).any(|i| {
+            let mut sigma = TangentOf::<S>::zero();
+            sigma.set_component(i, part * (S::Scalar::one() + state.q.magnitudes(i)));
+            at(&state.q.retract(&sigma)) != here
+        })
     }
 
     /// Whether the jump of an event has led its function back, where it has to.
@@ -265,20 +267,17 @@ where
         let (state, rates) = self.made.before;
         let after = self.rate(function, state, rates);
         let goes_on = leaving.straight
-            && same_side(before.whole, after.whole)
-            && !same_side(side, after.whole)
-            && after.whole.abs() > DIFFERS * before.whole.abs();
+            && same_side(before, after)
+            && !same_side(side, after)
+            && after.abs() > DIFFERS * before.abs();
         if !goes_on {
             return Err(IntegrationErrorKind::Zeno { event, interval: leaving.seen * self.duration() });
         }
-        // Each rate is a sum of values that are rounded, four times at most.
-        let noise = 8.0 * on.rounding / (SPAN * self.duration());
-        let allowed = DIFFERS * before.whole.abs() + noise.min(0.1 * before.whole.abs());
-        if (after.of_configuration - before.of_configuration).abs() <= allowed {
-            // No velocity along the function has changed: it was not meant to.
-            return Ok(());
+        // What no velocity turns back, such as the time, is not meant to be.
+        if self.is_of_the_configuration(function, state) {
+            return Err(IntegrationErrorKind::NotTurnedBack { event, before, after });
         }
-        Err(IntegrationErrorKind::NotTurnedBack { event, before: before.whole, after: after.whole })
+        Ok(())
     }
 }
 

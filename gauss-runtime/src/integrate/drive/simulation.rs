@@ -202,7 +202,7 @@ impl<'k, S: GaussSystem, F, I, C, O, E, G> Simulation<SystemProblem<'k, S, F, I>
     /// ([`until`](Self::until)). What may be set is `q`, and `z` or `p`; the other follows. Under constraints the state
     /// is brought onto them, with velocities as an impact makes them.
     ///
-    /// A jump that changes the velocity along the function has to turn it back: else the run ends with
+    /// A jump at a zero of the configuration has to turn the function back: else the run ends with
     /// [`NotTurnedBack`](crate::integrate::IntegrationErrorKind::NotTurnedBack), and where it ends at rest, or bounces
     /// ever lower, with [`Zeno`](crate::integrate::IntegrationErrorKind::Zeno). See
     /// [`event`](crate::integrate::drive::event).

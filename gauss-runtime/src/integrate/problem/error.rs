@@ -117,8 +117,8 @@ pub enum IntegrationErrorKind {
         /// The time from the last of them to the next.
         interval: f64,
     },
-    /// The jump at an event changes the velocity and does not lead back: the function goes on through zero, where it
-    /// would never be seen again. See [`event`](crate::integrate::drive::event).
+    /// The jump at an event changes the state and does not lead back: the function of the configuration goes on through zero,
+    /// where it would never be seen again. See [`event`](crate::integrate::drive::event).
     NotTurnedBack {
         /// The number of the event.
         event: usize,
