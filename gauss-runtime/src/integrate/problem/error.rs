@@ -158,8 +158,8 @@ pub enum IntegrationErrorKind {
         /// What the projection says.
         error: ProjectionError,
     },
-    /// The projection onto the constraints would move the end of a step farther than its error can be: the constraints become dependent
-    /// on one another here (a singular position of a mechanism), or the step is too long.
+    /// The projection onto the constraints would move the end of a step farther than its error can be, or what a jump sets farther than
+    /// the jump goes: the constraints become dependent on one another here (a singular position of a mechanism), or the step is too long.
     ProjectionTooFar {
         /// Whether it moves the configuration so far, or the speeds (momenta in the momentum form).
         level: ConstraintLevel,
@@ -246,8 +246,8 @@ impl IntegrationErrorKind {
             Self::Projection { error } => fmt::Display::fmt(error, f),
             Self::ProjectionTooFar { level, distance, allowed } => write!(
                 f,
-                "the projection onto the constraints moves the {level} by {distance:.1e} after the next step, and no more than \
-                 {allowed:.1e} is an error of the step: the constraints become dependent on one another here (a singular position \
+                "the projection onto the constraints moves the {level} by {distance:.1e} after the next step or jump, and no more than \
+                 {allowed:.1e} is due to it: the constraints become dependent on one another here (a singular position \
                  of a mechanism); leave out constraints that others imply, start elsewhere, or use a smaller step or tolerance"
             ),
             Self::InconsistentStart { level, distance } => write!(
