@@ -248,10 +248,11 @@ pub struct Polynomial {
 }
 
 /// A state of the robot with a name.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Posture {
     pub name: String,
-    /// Joints with the numbers that say where they are: one, a quaternion (w, x, y, z), or a position and one.
+    /// Joints with the numbers that say where they are: one, a quaternion (w, x, y, z), or a position and one. Without
+    /// them they are where nothing is turned or moved.
     pub values: Vec<(String, Vec<f64>)>,
     /// Joints with their rates: one, ω in own axes, or the velocity in observer's axes and ω.
     pub rates: Vec<(String, Vec<f64>)>,

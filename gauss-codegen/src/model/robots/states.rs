@@ -18,15 +18,7 @@ impl Robot<'_> {
     /// Where the file has everything at first, unless that is at zero; then its states with names.
     pub fn states(&self) -> Vec<StateOfFile> {
         let joints = &self.description.joints;
-        let start = Posture {
-            name: START.to_owned(),
-            values: joints
-                .iter()
-                .map(|joint| (joint.name.clone(), at_start(joint.kind, joint.reference, &joint.start)))
-                .collect(),
-            rates: Vec::new(),
-            controls: Vec::new(),
-        };
+        let start = Posture { name: START.to_owned(), ..Posture::default() };
         let moved = joints.iter().any(|joint| joint.reference != 0.0 || joint.start != ([0.0; 3], Rotation::none()));
         let all = moved.then_some(&start).into_iter().chain(&self.description.postures);
         let mut taken = ["of", "q", "z", "default", "clone"].map(str::to_owned).to_vec();
@@ -41,15 +33,16 @@ impl Robot<'_> {
             let find =
                 |all: &[(String, Vec<f64>)]| all.iter().find(|(name, _)| *name == joint.name).map(|(_, v)| v.clone());
             let [q] = own.as_slice() else { continue };
-            let place = find(&posture.values);
+            // What says nothing of a place has everything where it is at first.
+            let place = find(&posture.values).unwrap_or_else(|| at_start(joint.kind, joint.reference, &joint.start));
             let speed = |end: &str| format_ident!("{}_{}", q.ident.unraw(), end, span = q.ident.span());
             let rate = find(&posture.rates);
-            match (q.kind, place.as_deref()) {
-                (CoordinateKind::Scalar, Some([value])) => values.push((q.ident.clone(), ValueOfState::Scalar(*value))),
-                (CoordinateKind::Rotation, Some([w, x, y, z])) => {
+            match (q.kind, place.as_slice()) {
+                (CoordinateKind::Scalar, [value]) => values.push((q.ident.clone(), ValueOfState::Scalar(*value))),
+                (CoordinateKind::Rotation, [w, x, y, z]) => {
                     values.push((q.ident.clone(), ValueOfState::Rotation([*w, *x, *y, *z])));
                 }
-                (CoordinateKind::Pose, Some([a, b, c, w, x, y, z])) => {
+                (CoordinateKind::Pose, [a, b, c, w, x, y, z]) => {
                     values.push((q.ident.clone(), ValueOfState::Pose([*a, *b, *c], [*w, *x, *y, *z])));
                 }
                 _ => {}
@@ -60,7 +53,7 @@ impl Robot<'_> {
                     values.push((speed("omega"), ValueOfState::Vector([*x, *y, *z])));
                 }
                 (CoordinateKind::Pose, Some([a, b, c, x, y, z])) => {
-                    values.push((speed("u"), ValueOfState::Vector(in_own_axes(place.as_deref(), &[*a, *b, *c]))));
+                    values.push((speed("u"), ValueOfState::Vector(in_own_axes(&place, &[*a, *b, *c]))));
                     values.push((speed("omega"), ValueOfState::Vector([*x, *y, *z])));
                 }
                 _ => {}
@@ -115,8 +108,8 @@ fn quaternion(r: &Matrix) -> [f64; 4] {
 }
 
 /// Rᵀ v.
-fn in_own_axes(pose: Option<&[f64]>, v: &Triple) -> Triple {
-    let Some([_, _, _, w, x, y, z]) = pose else { return *v };
+fn in_own_axes(pose: &[f64], v: &Triple) -> Triple {
+    let [_, _, _, w, x, y, z] = pose else { return *v };
     let square = w * w + x * x + y * y + z * z;
     let r = [
         [w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],

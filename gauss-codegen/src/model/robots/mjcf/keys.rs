@@ -15,12 +15,27 @@ fn sizes(kind: JointKind) -> [usize; 2] {
     }
 }
 
+/// Numbers that say where a joint is, with a quaternion of length one; that of no length is none, as `mju_normalize4` of
+/// MuJoCo's `src/engine/engine_util_blas.c` has it.
+fn with_turn(kind: JointKind, numbers: &[f64]) -> Vec<f64> {
+    const LEAST: f64 = 1e-15;
+    let count = if matches!(kind, JointKind::Floating | JointKind::Ball) { 4 } else { 0 };
+    let (place, turn) = numbers.split_at(numbers.len() - count);
+    let length = turn.iter().fold(0.0, |length: f64, c| length.hypot(*c));
+    let unit: Vec<f64> = match length < LEAST {
+        true => [1.0, 0.0, 0.0, 0.0].into_iter().take(count).collect(),
+        false => turn.iter().map(|c| c / length).collect(),
+    };
+    [place, &unit].concat()
+}
+
 impl<'a> File<'a> {
     pub fn keys(&mut self, section: Node<'a, 'a>) {
         for (index, node) in self.reading.children(section, "key").into_iter().enumerate() {
             let name = self.reading.text(node, "name").map_or(format!("key_{index}"), str::to_owned);
             let [values, rates] = [("qpos", 0), ("qvel", 1)].map(|(word, which)| {
-                let numbers = self.reading.list(node, word)?;
+                // Without numbers it says nothing.
+                let numbers = self.reading.list(node, word).filter(|numbers| !numbers.is_empty())?;
                 let joints = &self.description.joints;
                 let expected: usize = joints.iter().map(|joint| sizes(joint.kind)[which]).sum();
                 if numbers.len() != expected {
@@ -32,7 +47,8 @@ impl<'a> File<'a> {
                 let parts = joints.iter().map(|joint| {
                     let (own, after) = rest.split_at(sizes(joint.kind)[which]);
                     rest = after;
-                    (joint.name.clone(), own.to_vec())
+                    let own = if which == 0 { with_turn(joint.kind, own) } else { own.to_vec() };
+                    (joint.name.clone(), own)
                 });
                 Some(parts.collect::<Vec<_>>())
             });

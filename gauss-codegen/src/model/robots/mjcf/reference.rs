@@ -128,7 +128,8 @@ pub const ELEMENTS: &[Element] = &[
         &[&[
             ("name qpos qvel ctrl", Acts),
             ("act", STATES),
-            ("time mpos mquat plastic", Harmless("no state of joints")),
+            ("mpos mquat", Warned("a `mocap` body stays where it is", "")),
+            ("time plastic", Harmless("no state of joints")),
         ]],
     ),
 ];

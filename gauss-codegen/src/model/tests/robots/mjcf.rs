@@ -184,6 +184,16 @@ fn states_with_names() {
     assert_eq!(values(0), [("a".to_owned(), std::f64::consts::FRAC_PI_2), ("b".to_owned(), 0.0)]);
     let home = [("a", 0.1), ("a_dot", 3.0), ("b", 0.2), ("b_dot", 4.0)];
     assert_eq!(values(1), home.map(|(name, value)| (name.to_owned(), value)));
+    // What says nothing of places has those of the file, as MuJoCo's `qpos0`.
+    let found = states(&format!("{rest}<keyframe><key qvel=\"3 4\"/><key qpos=\"\"/></keyframe>"));
+    let all = |index: usize| found[index].values.iter().filter(|(name, _)| name == "a").map(|(_, value)| *value);
+    for index in [0, 1, 2] {
+        let places: Vec<ValueOfState> = all(index).collect();
+        assert!(matches!(places[..], [ValueOfState::Scalar(std::f64::consts::FRAC_PI_2)]), "{index}");
+    }
+    // A quaternion of no length is none.
+    let ball = "<joint name=\"a\" type=\"ball\"/></body></worldbody><keyframe><key qpos=\"0 0 0 0\"/></keyframe>";
+    assert!(matches!(states(ball)[0].values[0].1, ValueOfState::Rotation([1.0, 0.0, 0.0, 0.0])));
     let short = format!("{TWO}<keyframe><key qpos=\"1\"/></keyframe>");
     assert_eq!(reported(&short, ""), ["3:77: <key>: `qpos` is 2 numbers in this file, found 1"]);
 }
