@@ -180,14 +180,15 @@
 /// clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures, with the square of `mechanicalReduction`.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references, damping, dry
-/// friction, springs (`elbow_spring`), armature and ranges; inertials, and the masses of geoms, of shells as well, of meshes in STL and
+/// friction, springs (`elbow_spring`), also of balls and free joints, `springdamper` of joints that move alone, armature and ranges; inertials, and the masses of geoms, of shells as well, of meshes in STL and
 /// OBJ files (by `inertia="exact"`, `legacy`, `convex` or `shell`), of the groups in `inertiagrouprange`, within bounds, scaled to
 /// `settotalmass`; classes of defaults; what a body's `gravcomp` holds of its weight; what flags switch off;
 /// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
 /// as coupled joints, others and those of fixed tendons as constraints; points in common and welds as constraints; springs and
-/// dampers of fixed tendons, slack over a range; actuators along joints and fixed tendons that are linear in their control, with
+/// dampers of tendons, fixed ones and spatial ones through sites and pulleys, slack over a range; actuators along joints and fixed tendons that are linear in their control, with
 /// gains that may depend on length and rate, and at sites, without `refsite`: those are wrenches, each with its
-/// control for an input whatever `inputs` asks for. A ball is a `Rotation`, a free joint a `Pose`; armature and damping act in both.
+/// control for an input whatever `inputs` asks for. A ball is a `Rotation`, a free joint a `Pose`; armature, damping and springs act in
+/// both. The spring of a turn is a torque −k φ n, MuJoCo's: no potential energy counts it, and it jumps where φ is half a revolution.
 /// Keyframes are functions `ArmState::home()`, by their names, and `ArmInput::home()` where inputs are controls;
 /// `ArmState::start()` is where the file has everything at first, if that is not zero. `<include>` puts what is in the root of another
 /// file in its place: its path is relative to the folder of the first, or else to that of the file that includes it, and no file is

@@ -92,6 +92,7 @@ pub struct Description {
     pub closures: Vec<Closure>,
     pub polynomials: Vec<Polynomial>,
     pub tendons: Vec<Tendon>,
+    pub cables: Vec<Cable>,
     pub postures: Vec<Posture>,
     /// The acceleration of free fall in observer's axes, where the file says so.
     pub gravity: Option<Triple>,
@@ -236,6 +237,18 @@ pub struct Tendon {
     pub damping: f64,
     /// The least and the most length without force.
     pub rest: [f64; 2],
+}
+
+/// A spring with a damper along a sum of distances.
+#[derive(Clone, Debug)]
+pub struct Cable {
+    /// Two links, between whose origins it runs, with what the length changes by that distance.
+    pub parts: Vec<([String; 2], f64)>,
+    pub stiffness: f64,
+    pub damping: f64,
+    /// The least and the most length without force; where there are none, the length while all joints are where their
+    /// springs have no force.
+    pub rest: Option<[f64; 2]>,
 }
 
 /// A sum of coordinates, with their factors, is a polynomial of another, all from their references.

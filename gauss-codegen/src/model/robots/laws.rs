@@ -1,11 +1,11 @@
-//! What acts in the joints: damping, springs, dry friction, limits, the inertia of rotors.
+//! What acts in the joints: damping, dry friction, limits, the inertia of rotors; weights that are held.
 
 use proc_macro2::Ident;
 use quote::format_ident;
 use syn::ext::IdentExt;
 
 use super::clauses::Robot;
-use super::description::{Joint, JointKind, Note, Tendon};
+use super::description::{Joint, JointKind, Note};
 use crate::model::language::robots::{Friction, Limits};
 use crate::model::scene::clauses::{Extent, ForceAxes, ForceClause, ForceKind, RoleClause, RoleValue};
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
@@ -27,6 +27,10 @@ impl Robot<'_> {
         let damping = self.damping().map(|function| named("joint_damping", ForceKind::Dissipation(function)));
         forces.extend(damping);
         forces.extend(self.springs());
+        let (turns, mut of_turns) = self.springs_of_turns();
+        forces.extend(turns);
+        self.notes.append(&mut of_turns);
+        forces.extend(self.cables());
         let (tendons, mut of_tendons) = self.tendons();
         forces.extend(tendons);
         self.notes.append(&mut of_tendons);
@@ -78,7 +82,7 @@ impl Robot<'_> {
     }
 
     /// Joints whose coordinate is a rotation or a pose.
-    fn groups(&self) -> impl Iterator<Item = (&Joint, &Ident)> {
+    pub fn groups(&self) -> impl Iterator<Item = (&Joint, &Ident)> {
         self.description.joints.iter().zip(&self.coordinates).filter_map(|(joint, own)| {
             match (joint.kind, own.as_slice()) {
                 (JointKind::Ball | JointKind::Floating, [q]) => Some((joint, &q.ident)),
@@ -112,57 +116,6 @@ impl Robot<'_> {
             Some(if *factor == 1.0 { value } else { writer.times(writer.number(*factor), value) })
         });
         terms.reduce(|a, b| writer.plus(a, b))
-    }
-
-    fn tendons(&self) -> (Vec<ForceClause>, Vec<Note>) {
-        let writer = self.writer;
-        let (mut forces, mut notes) = (Vec::new(), Vec::new());
-        for tendon in self.description.tendons.iter().filter(|tendon| tendon.stiffness > 0.0 || tendon.damping > 0.0) {
-            let Some(along) = self.length(&tendon.along) else {
-                notes.push(Note::ignored(
-                    tendon.at,
-                    "tendon",
-                    "a tendon along no joint with one coordinate does not act",
-                ));
-                continue;
-            };
-            let number = |value: f64| (value != 0.0).then(|| writer.number(value));
-            let kind = if tendon.rest[0] == tendon.rest[1] {
-                ForceKind::Spring {
-                    extent: Extent::Along(along),
-                    stiffness: writer.number(tendon.stiffness),
-                    length: number(tendon.rest[0]),
-                    damping: number(tendon.damping),
-                }
-            } else {
-                ForceKind::Drive { rates: self.over_a_range(tendon, along) }
-            };
-            forces.push(ForceClause { name: None, kind, span: writer.span });
-        }
-        (forces, notes)
-    }
-
-    /// −k (l − l₀) − d l̇ of a tendon, with the l₀ of its range that is the nearest to l.
-    fn over_a_range(&self, tendon: &Tendon, along: Expression) -> Vec<(Ident, Expression)> {
-        let writer = self.writer;
-        let mut ends = vec![along.clone()];
-        ends.extend(tendon.rest.map(|end| writer.number(end)));
-        let nearest = writer.call(FunctionName::Clamp, ends);
-        let beyond = writer.binary(BinaryOperator::Subtract, along.clone(), nearest);
-        let mut force = writer.times(writer.number(-tendon.stiffness), beyond);
-        if tendon.damping > 0.0 {
-            let rate = writer.call(FunctionName::Rate, vec![along]);
-            force = writer.plus(force, writer.times(writer.number(-tendon.damping), rate));
-        }
-        let mut rates: Vec<(Ident, Expression)> = Vec::new();
-        for (_, q, multiplier, factor) in self.ends_of(&tendon.along) {
-            let part = writer.times(writer.number(factor * multiplier), force.clone());
-            match rates.iter_mut().find(|(name, _)| name == q) {
-                Some((_, sum)) => *sum = writer.plus(sum.clone(), part),
-                None => rates.push((q.clone(), part)),
-            }
-        }
-        rates
     }
 
     /// Forces that hold a part of the weight of links, at their centres of mass; `gravity` is that of the struct, if it has one.
@@ -201,21 +154,6 @@ impl Robot<'_> {
             }
         }
         (forces, notes)
-    }
-
-    fn springs(&self) -> Vec<ForceClause> {
-        let writer = self.writer;
-        let springs = self.scalar_joints().filter(|(_, joint, ..)| joint.stiffness > 0.0);
-        let spring = |(index, joint, q, _): (usize, &Joint, &Ident, f64)| {
-            let along = self.values(index, 0.0).into_iter().next()?;
-            let stiffness = writer.number(joint.stiffness);
-            let length = (joint.rest != 0.0).then(|| writer.number(joint.rest));
-            let kind = ForceKind::Spring { extent: Extent::Along(along), stiffness, length, damping: None };
-            let own = self.structure.coupling_of[index].joint == index;
-            let name = own.then(|| format_ident!("{}_spring", q.unraw(), span = writer.span));
-            Some(ForceClause { name, kind, span: writer.span })
-        };
-        springs.filter_map(spring).collect()
     }
 
     /// −f v/√(v² + w²) of every joint with dry friction, where a width is said.

@@ -3,7 +3,7 @@
 use super::description::{At, Description, Fault, Inertial, Joint, JointKind};
 use super::mimic::{Coupling, couplings};
 use super::names::unknown;
-use super::rotation::{Matrix, Rotation, Triple, multiply, turned, turned_tensor};
+use super::rotation::{Matrix, Rotation, Triple, about_direction, multiply, turned, turned_tensor};
 
 /// The tree of a description whose parts fit together. Indices are those of its links and joints.
 pub struct Structure {
@@ -75,12 +75,31 @@ impl Structure {
 
     /// Where a link is in the axes of the root while no joint is turned or moved.
     pub fn at_rest(&self, description: &Description, link: usize) -> (Triple, Matrix) {
-        let (mut link, mut place) = (link, ([0.0; 3], Rotation::none().matrix));
+        self.moved(description, link, |_| 0.0)
+    }
+
+    /// The same while all joints are where their springs have no force.
+    pub fn at_springs(&self, description: &Description, link: usize) -> (Triple, Matrix) {
+        self.moved(description, link, |joint| joint.rest - joint.reference)
+    }
+
+    /// The same while joints with one coordinate are turned or moved by that much.
+    fn moved(&self, description: &Description, mut link: usize, by: impl Fn(&Joint) -> f64) -> (Triple, Matrix) {
+        let mut place = ([0.0; 3], Rotation::none().matrix);
         while let (Some(joint), Some(parent)) = (self.joint_of[link], self.parent_of[link]) {
             let joint = &description.joints[joint];
             let (position, rotation) = joint.start;
             let start = Joint { position, rotation, ..joint.clone() };
-            place = hung(if joint.kind == JointKind::Floating { &start } else { joint }, place);
+            let (position, matrix) = place;
+            let own = match (joint.kind, by(joint)) {
+                (JointKind::Turning, angle) if angle != 0.0 => {
+                    let turn = about_direction(&joint.axis, angle);
+                    (turned(&turn, &position), multiply(&turn, &matrix))
+                }
+                (JointKind::Sliding, way) => (std::array::from_fn(|i| position[i] + way * joint.axis[i]), matrix),
+                _ => place,
+            };
+            place = hung(if joint.kind == JointKind::Floating { &start } else { joint }, own);
             link = parent;
         }
         place

@@ -107,14 +107,21 @@ impl<'a> Reading<'a> {
 
     /// Notes what is wrong with an element.
     pub fn fault(&mut self, node: Node<'a, 'a>, message: impl std::fmt::Display) {
-        let message = format!("{}: {message}", shown(node));
-        self.faults.push(Fault { at: self.at(node), message });
+        self.fault_at(self.at(node), format!("{}: {message}", shown(node)));
+    }
+
+    /// Once, however often an element is read.
+    fn fault_at(&mut self, at: At, message: String) {
+        let fault = Fault { at, message };
+        if !self.faults.contains(&fault) {
+            self.faults.push(fault);
+        }
     }
 
     /// Notes what is wrong with the value of an attribute.
     fn fault_of_value(&mut self, node: Node<'a, 'a>, name: &str, message: impl std::fmt::Display) {
         let at = node.attribute_node(name).map_or_else(|| node.range(), |attribute| attribute.range_value());
-        self.faults.push(Fault { at: self.place(at), message: format!("{}: {message}", shown(node)) });
+        self.fault_at(self.place(at), format!("{}: {message}", shown(node)));
     }
 
     /// Notes what a reader of the equations should know.

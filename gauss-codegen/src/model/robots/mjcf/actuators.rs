@@ -97,14 +97,15 @@ impl<'a> File<'a> {
         [ranges[0].filter(|_| !self.disabled.clamps), ranges[1]]
     }
 
-    /// A range, if it limits: where nothing says so, if it is not from zero to zero.
+    /// A range, if it limits: where nothing says so, if it is not empty. MuJoCo takes what is exchanged for empty, too
+    /// (`islimited` of `src/user/user_objects.cc`).
     pub fn limited(&mut self, node: Node<'a, 'a>, range: [f64; 2], word: Option<&str>) -> Option<[f64; 2]> {
         let limits = match word {
             Some("true") => true,
             Some("false") => false,
-            _ => self.automatic && range != [0.0; 2],
+            _ => self.automatic && range[0] != range[1],
         };
-        if limits && range[0] > range[1] {
+        if limits && range[0] >= range[1] {
             let [least, most] = range;
             self.reading.fault(node, format!("a range is from its least to its most, found {least} to {most}"));
         }
@@ -119,12 +120,17 @@ impl<'a> File<'a> {
             self.ignored(node, "a `refsite` is not read; of sites alone the wrench at `site` is");
             return None;
         }
-        let Some((_, link)) = self.sites.iter().find(|(name, _)| name == site) else {
+        let Some(link) = self.link_of_site(site) else {
             let message = unknown("site", site, self.sites.iter().map(|(name, _)| name.as_str()));
             self.reading.fault(node, format!("it acts at {message}"));
             return None;
         };
-        Some(ActsOn::Link(link.clone(), [[0, 1, 2], [3, 4, 5]].map(|part| part.map(|k| gear[k]))))
+        Some(ActsOn::Link(link, [[0, 1, 2], [3, 4, 5]].map(|part| part.map(|k| gear[k]))))
+    }
+
+    /// What a site is called among links.
+    pub fn link_of_site(&self, site: &str) -> Option<String> {
+        self.sites.iter().find(|(name, _)| name == site).map(|(_, link)| link.clone())
     }
 
     /// The joints that an actuator acts on, with what its length changes by those.

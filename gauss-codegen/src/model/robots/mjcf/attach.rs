@@ -61,6 +61,7 @@ impl<'a> File<'a> {
         own.closures.extend(other.description.closures);
         own.polynomials.extend(other.description.polynomials);
         own.tendons.extend(other.description.tendons);
+        own.cables.extend(other.description.cables);
         own.files.extend(other.description.files);
         self.attached.push((other.description.drives, other.controls));
         self.sites.extend(other.sites);

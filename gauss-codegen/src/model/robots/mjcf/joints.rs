@@ -2,10 +2,10 @@
 
 use roxmltree::Node;
 
-use super::File;
+use super::{File, WORLD};
 use crate::model::robots::description::{Joint, JointKind};
-use crate::model::robots::rotation::{Rotation, Triple, direction, turned};
-use crate::model::robots::xml::{own_elements, shown};
+use crate::model::robots::rotation::{Matrix, Rotation, Triple, direction, turned};
+use crate::model::robots::xml::shown;
 
 const JOINT: &[&str] = &["joint"];
 
@@ -19,10 +19,10 @@ impl<'a> File<'a> {
         (mut position, mut rotation): (Triple, Rotation),
         class: Option<&'a str>,
     ) {
-        let is_joint = |child: &Node<'a, 'a>| matches!(child.tag_name().name(), "joint" | "freejoint");
-        let all: Vec<Node<'a, 'a>> = own_elements(node).filter(is_joint).collect();
+        let all = self.framed(node, class, &["joint", "freejoint"]);
         let mut parent = parent.to_owned();
-        for (index, &element) in all.iter().enumerate() {
+        for (index, (element, class, place)) in all.iter().enumerate() {
+            let (element, class) = (*element, *class);
             self.reading.see(element);
             let own = match self.reading.text(element, "name") {
                 Some(own) => own.to_owned(),
@@ -31,20 +31,26 @@ impl<'a> File<'a> {
             };
             let is_free = element.tag_name().name() == "freejoint";
             if is_free || self.text(element, JOINT, "type", class) == Some("free") {
-                // Its pose is that in the world.
+                // Its pose is that in the world, whatever frames it stands in.
+                if parent != WORLD {
+                    self.reading.fault(element, "what moves freely hangs in the world, not on another body");
+                }
                 self.hang(element, own, (&parent, name), JointKind::Floating, ([0.0; 3], Rotation::none()));
                 // `<freejoint>` has no defaults.
-                let [damping, armature] =
-                    ["damping", "armature"].map(|law| if is_free { 0.0 } else { self.amount(element, law, class) });
+                let [damping, armature, stiffness] = ["damping", "armature", "stiffness"]
+                    .map(|law| if is_free { 0.0 } else { self.amount(element, law, class) });
                 if let Some(joint) = self.description.joints.last_mut() {
-                    *joint = Joint { start: (position, rotation), damping, armature, ..joint.clone() };
+                    *joint = Joint { start: (position, rotation), damping, armature, stiffness, ..joint.clone() };
                 }
                 if !is_free {
-                    self.refuse_laws(element, class);
+                    self.refuse_friction(element, class);
                 }
                 return;
             }
             let anchor = self.triple(element, "joint", "pos", class);
+            let (origin, axes) = place;
+            let turned_anchor = turned(axes, &anchor);
+            let anchor: Triple = std::array::from_fn(|i| origin[i] + turned_anchor[i]);
             let moved = turned(&rotation.matrix, &anchor);
             position = std::array::from_fn(|i| position[i] + moved[i]);
             let last = index + 1 == all.len() && anchor == [0.0; 3];
@@ -52,7 +58,7 @@ impl<'a> File<'a> {
             if !last {
                 self.link(child.clone(), element, None);
             }
-            self.joint(element, own, (&parent, &child), (position, rotation), class);
+            self.joint(element, own, (&parent, &child), ((position, rotation), axes), class);
             (parent, position, rotation) = (child, anchor.map(|c| -c), Rotation::none());
         }
         if parent != name {
@@ -61,12 +67,10 @@ impl<'a> File<'a> {
     }
 
     /// What joints with several speeds have not.
-    fn refuse_laws(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) {
-        for name in ["frictionloss", "stiffness"] {
-            if self.amount(node, name, class) > 0.0 {
-                self.reading
-                    .ignored(node, format!("`{name}` of {} does not act: it has not one coordinate", shown(node)));
-            }
+    fn refuse_friction(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) {
+        if self.amount(node, "frictionloss", class) > 0.0 {
+            let text = format!("`frictionloss` of {} does not act: it has not one coordinate", shown(node));
+            self.reading.ignored(node, text);
         }
     }
 
@@ -75,7 +79,7 @@ impl<'a> File<'a> {
         node: Node<'a, 'a>,
         name: String,
         (parent, child): (&str, &str),
-        (position, rotation): (Triple, Rotation),
+        ((position, rotation), axes): ((Triple, Rotation), &Matrix),
         class: Option<&'a str>,
     ) {
         let kind = match self.text(node, JOINT, "type", class) {
@@ -88,22 +92,27 @@ impl<'a> File<'a> {
             }
         };
         let axis: Triple = self.numbers(node, JOINT, "axis", class).unwrap_or([0.0, 0.0, 1.0]);
-        let Some(axis) = direction(axis) else {
+        let Some(axis) = direction(turned(axes, &axis)) else {
             self.reading.fault(node, "its axis is zero and has no direction");
             return;
         };
         let joint = Joint::new(name, self.reading.at(node), kind, parent.to_owned(), child.to_owned());
         let joint = Joint { position, rotation, axis, ..joint };
         let joint = if kind == JointKind::Ball {
-            let [damping, armature] = ["damping", "armature"].map(|law| self.amount(node, law, class));
-            self.refuse_laws(node, class);
+            let [damping, armature, stiffness] =
+                ["damping", "armature", "stiffness"].map(|law| self.amount(node, law, class));
+            self.refuse_friction(node, class);
             if self.numbers::<2>(node, JOINT, "range", class).is_some() {
                 self.reading.note(node, format!("the limit of the ball joint {} does not act", shown(node)));
             }
-            Joint { damping, armature, ..joint }
+            Joint { damping, armature, stiffness, ..joint }
         } else {
             self.with_laws(node, joint, class)
         };
+        // What is not more than zero is none.
+        if let Some(tuned) = self.numbers(node, JOINT, "springdamper", class).filter(|[t, r]| *t > 0.0 && *r > 0.0) {
+            self.tuned.push((node, joint.name.clone(), tuned));
+        }
         self.description.joints.push(joint);
     }
 
@@ -122,12 +131,9 @@ impl<'a> File<'a> {
         let [reference, rest] = ["ref", "springref"]
             .map(|name| self.numbers::<1>(node, JOINT, name, class).map_or(0.0, |[number]| number * unit));
         let range = self.numbers::<2>(node, JOINT, "range", class).map(|range| range.map(|limit| limit * unit));
-        let limited = match self.text(node, JOINT, "limited", class) {
-            Some("true") => true,
-            Some("false") => false,
-            _ => self.automatic,
-        };
-        let limits = range.filter(|_| limited).map_or([None; 2], |range| range.map(Some));
+        let word = self.text(node, JOINT, "limited", class);
+        let range = range.and_then(|range| self.limited(node, range, word));
+        let limits = range.map_or([None; 2], |range| range.map(Some));
         let efforts = self.numbers::<2>(node, JOINT, "actuatorfrcrange", class);
         let word = self.text(node, JOINT, "actuatorfrclimited", class);
         let efforts = efforts.and_then(|range| self.limited(node, range, word));

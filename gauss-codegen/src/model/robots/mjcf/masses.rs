@@ -7,11 +7,11 @@ use roxmltree::Node;
 use super::bounds::diagonal_of;
 use super::rotations::to_direction;
 use super::shells::area_and_moments;
-use super::{File, Geoms, Place};
+use super::{File, Geoms};
 use crate::model::robots::description::Inertial;
 use crate::model::robots::rotation::{Rotation, Triple, turned_tensor};
 use crate::model::robots::structure::{placed, sum};
-use crate::model::robots::xml::{own_elements, shown};
+use crate::model::robots::xml::shown;
 
 const GEOM: &[&str] = &["geom"];
 
@@ -26,9 +26,20 @@ impl<'a> File<'a> {
     }
 
     fn said(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) -> Option<Inertial> {
-        let written = self.reading.child(node, "inertial");
-        match (written, self.geoms) {
-            (Some(inertial), Geoms::Missing | Geoms::None) => self.written(inertial),
+        let written = self.framed(node, class, &["inertial"]);
+        written.iter().for_each(|(inertial, ..)| self.reading.see(*inertial));
+        if let [_, (second, ..), ..] = written.as_slice() {
+            self.reading.fault(*second, format!("{} has a second <inertial>", shown(node)));
+        }
+        match (written.first(), self.geoms) {
+            (Some((inertial, _, place)), Geoms::Missing | Geoms::None) => {
+                let own = self.written(*inertial)?;
+                if *place != ([0.0; 3], Rotation::none().matrix) {
+                    let text = "<inertial> is placed by the <frame> that it is in, as of MuJoCo 4, not of 3";
+                    self.reading.ignored(*inertial, text);
+                }
+                Some(placed(own, place))
+            }
             (None, Geoms::None) => None,
             _ => self.of_geoms(node, class),
         }
@@ -69,23 +80,12 @@ impl<'a> File<'a> {
 
     /// The sum of the geoms of a body, with those in its frames.
     fn of_geoms(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) -> Option<Inertial> {
-        let mut all = Vec::new();
-        self.collect(node, class, &([0.0; 3], Rotation::none().matrix), &mut all);
+        let geoms = self.framed(node, class, GEOM);
+        let all: Vec<Inertial> = geoms
+            .into_iter()
+            .filter_map(|(geom, class, place)| Some(placed(self.of_geom(geom, class)?, &place)))
+            .collect();
         (!all.is_empty()).then(|| sum(&all))
-    }
-
-    fn collect(&mut self, node: Node<'a, 'a>, class: Option<&'a str>, place: &Place, all: &mut Vec<Inertial>) {
-        for child in own_elements(node) {
-            match child.tag_name().name() {
-                "geom" => all.extend(self.of_geom(child, class).map(|own| placed(own, place))),
-                "frame" => {
-                    let class = self.reading.text(child, "childclass").or(class);
-                    let own = self.placed(child, "frame", class, place);
-                    self.collect(child, class, &own, all);
-                }
-                _ => {}
-            }
-        }
     }
 
     /// A volume of one density; `None` of what has none, and of meshes, which is noted.

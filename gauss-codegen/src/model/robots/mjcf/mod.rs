@@ -49,13 +49,16 @@ use self::rotations::{Angles, ORIENTATION};
 use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link};
 use super::rotation::{Matrix, Rotation, Triple, multiply, turned};
 use super::text::Text;
-use super::xml::{Reading, own_elements, parse, shown};
+use super::xml::{Reading, own_descendants, own_elements, parse, shown};
 
 /// The link that holds all others.
 const WORLD: &str = "world";
 
 /// Where something is in the axes of what it is in.
 type Place = (Triple, Matrix);
+
+/// An element, the class around it, and the place of what it is in.
+type Framed<'a> = (Node<'a, 'a>, Option<&'a str>, Place);
 
 /// # Errors
 /// Everything that is wrong in the elements of the file, each by itself.
@@ -91,11 +94,12 @@ fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fa
         sites: Vec::new(),
         controls: Vec::new(),
         meshes: Vec::new(),
+        is_part: around.is_some(),
         prefix: around.map_or("", |(prefix, _)| prefix).to_owned(),
         attached: Vec::new(),
-        bodies: root
-            .descendants()
-            .filter(|node| node.tag_name().name() == "body")
+        tuned: Vec::new(),
+        bodies: own_descendants(root)
+            .filter(|node| node.has_tag_name("body"))
             .filter_map(|body| body.attribute("name").map(str::to_owned))
             .collect(),
         reading,
@@ -111,6 +115,7 @@ fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fa
     if around.is_none() {
         file.scale_masses();
     }
+    file.tune();
     file.reading.children(root, "tendon").into_iter().for_each(|section| file.tendons(section));
     file.reading.children(root, "equality").into_iter().for_each(|section| file.equalities(section));
     file.reading.children(root, "actuator").into_iter().for_each(|section| file.actuators(section));
@@ -162,10 +167,14 @@ struct File<'a> {
     controls: Vec<Option<usize>>,
     /// Meshes that were read, of density one; `None` of those with a mistake.
     meshes: Vec<(String, Option<Inertial>)>,
+    /// Another file attaches it.
+    is_part: bool,
     /// Before the names of bodies that have none.
     prefix: String,
     /// Drives of models that are attached, and their controls: they come after those of the file.
     attached: Vec<(Vec<Drive>, Vec<Option<usize>>)>,
+    /// Joints whose springs are said by times and ratios.
+    tuned: Vec<(Node<'a, 'a>, String, [f64; 2])>,
 }
 
 impl<'a> File<'a> {
@@ -214,6 +223,28 @@ impl<'a> File<'a> {
                     let own = self.placed(child, "frame", class, place);
                     self.inside(child, parent, class, &own);
                 }
+                _ => {}
+            }
+        }
+    }
+
+    /// Elements of some names in a body, and in frames of it: each with the class around it and its frame, in the axes of
+    /// the body.
+    fn framed(&mut self, node: Node<'a, 'a>, class: Option<&'a str>, names: &[&str]) -> Vec<Framed<'a>> {
+        let mut all = Vec::new();
+        self.gather((node, class, ([0.0; 3], Rotation::none().matrix)), names, &mut all);
+        all
+    }
+
+    fn gather(&mut self, (node, class, place): Framed<'a>, names: &[&str], all: &mut Vec<Framed<'a>>) {
+        for child in own_elements(node) {
+            match child.tag_name().name() {
+                "frame" => {
+                    let class = self.reading.text(child, "childclass").or(class);
+                    let own = self.placed(child, "frame", class, &place);
+                    self.gather((child, class, own), names, all);
+                }
+                name if names.contains(&name) => all.push((child, class, place)),
                 _ => {}
             }
         }

@@ -58,6 +58,10 @@ impl<'a> File<'a> {
             tendon.stiffness *= f64::from(!springs);
             tendon.damping *= f64::from(!dampers);
         }
+        for cable in &mut description.cables {
+            cable.stiffness *= f64::from(!springs);
+            cable.damping *= f64::from(!dampers);
+        }
         if equalities {
             description.closures.clear();
             description.polynomials.clear();

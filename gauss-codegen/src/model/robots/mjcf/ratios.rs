@@ -1,4 +1,4 @@
-//! The damping of servos that state a ratio.
+//! The damping of servos, and springs of joints, that are said by times and ratios.
 
 use roxmltree::Node;
 
@@ -27,7 +27,9 @@ impl<'a> File<'a> {
         let part =
             |(joint, factor): &(usize, f64)| inertia_at_rest(&structure, &self.description, *joint) / (factor * factor);
         let damping = 2.0 * ratio * (stiffness * joints.iter().map(part).sum::<f64>()).sqrt();
-        if !matches!(joints.as_slice(), [(joint, _)] if moves_alone(&structure, &self.description, *joint)) {
+        // What attaches a part may move it.
+        let alone = |joint: usize| !self.is_part && moves_alone(&structure, &self.description, joint);
+        if !matches!(joints.as_slice(), [(joint, _)] if alone(*joint)) {
             let text = format!(
                 "`dampratio` of {} is `kv` = {damping} with the inertia of its joint by itself, as of MuJoCo 3, not of 4: \
                  write `kv`",
@@ -36,6 +38,31 @@ impl<'a> File<'a> {
             self.reading.ignored(node, text);
         }
         Some(damping)
+    }
+
+    /// `springdamper="T r"`: the stiffness m/(T r)² and the damping 2 m/T, with the inertia m of the joint at rest while all
+    /// others are free, as `AutoSpringDamper` of MuJoCo's `src/user/user_model.cc` has it.
+    pub fn tune(&mut self) {
+        if self.tuned.is_empty() {
+            return;
+        }
+        let Ok(structure) = Structure::new(&self.description) else { return };
+        for (node, name, [time, ratio]) in std::mem::take(&mut self.tuned) {
+            let joints = &mut self.description.joints;
+            let Some(joint) = joints.iter().position(|joint| joint.name == name) else { continue };
+            if joints[joint].kind.is_scalar() && !self.is_part && moves_alone(&structure, &self.description, joint) {
+                let inertia = inertia_at_rest(&structure, &self.description, joint);
+                let joint = &mut self.description.joints[joint];
+                (joint.stiffness, joint.damping) = (inertia / (time * ratio).powi(2), 2.0 * inertia / time);
+            } else {
+                let text = format!(
+                    "`springdamper` of {} is read of joints that move alone; write the `stiffness` and `damping` that MuJoCo \
+                     makes of it (`jnt_stiffness`, `dof_damping`)",
+                    shown(node)
+                );
+                self.reading.ignored(node, text);
+            }
+        }
     }
 }
 

@@ -20,6 +20,8 @@ const UNKNOWN_LAW: Verdict = Warned("it is not linear in its control, or has a s
 const DELAY: Verdict = Warned("controls act without delay", "0");
 const FILTERED: Attributes = ("timeconst", Warned("it is not linear in its control, or has a state of its own", "0"));
 const OF_JOINT: Verdict = Warned("what an actuator adds to its joint is to be written in the <joint>", "0");
+/// Of tendons through geoms.
+pub const WRAPPED: &str = "it wraps around a geom; through sites alone tendons are read";
 const CLASS: Attributes = ("class", Acts);
 const PLACE: &[Attributes] = &[("pos quat axisangle euler xyaxes zaxis", Acts)];
 const HELD: &[Attributes] = &[("name", NAME), ("class active", Acts), ("solref solimp", SOLVER)];
@@ -85,12 +87,12 @@ pub const ELEMENTS: &[Element] = &[
     element("mujoco", "worldbody", &[]),
     element("worldbody body frame", "body", &[BODY, PLACE]),
     element("worldbody body frame", "frame", &[&[("name", NAME), ("childclass", Acts)], PLACE]),
-    element("body", "inertial", &[&[("mass diaginertia fullinertia", Acts)], PLACE]),
+    element("body frame", "inertial", &[&[("mass diaginertia fullinertia", Acts)], PLACE]),
     element("fixed", "joint", &[&[("joint coef", Acts)]]),
     element("equality", "joint", &[&[("joint1 joint2 polycoef", Acts)], HELD]),
-    element("body default", "joint", &[JOINT]),
+    element("body frame default", "joint", &[JOINT]),
     element(
-        "body",
+        "body frame",
         "freejoint",
         &[&[
             ("name", Acts),
@@ -111,7 +113,10 @@ pub const ELEMENTS: &[Element] = &[
     whole("contact", "exclude", CONTACT),
     whole("contact", "pair", Warned("contacts are not modelled", "")),
     element("tendon", "fixed", &[TENDON]),
-    whole("tendon", "spatial", Warned("only tendons that are linear in joints are read", "")),
+    element("tendon", "spatial", &[TENDON]),
+    element("spatial", "site", &[&[("site", Acts)]]),
+    element("spatial", "pulley", &[&[("divisor", Acts)]]),
+    whole("spatial", "geom", Warned(WRAPPED, "")),
     element("equality", "connect", &[&[("body1 body2 anchor", Acts), SITES], HELD]),
     element("equality", "weld", &[&[("body1 body2 anchor relpose", Acts), SITES, ("torquescale", SOLVER)], HELD]),
     element("equality", "tendon", &[&[("tendon1 tendon2 polycoef", Acts)], HELD]),
@@ -187,7 +192,7 @@ const BODY: &[Attributes] = &[
 const JOINT: &[Attributes] = &[
     ("name class type pos axis range limited ref springref", Acts),
     ("stiffness damping frictionloss armature actuatorfrcrange actuatorfrclimited", Acts),
-    ("springdamper", Warned("`stiffness` and `damping` are read", "0")),
+    ("springdamper", Acts),
     ("springyield", Warned("springs do not yield", "0")),
     ("actuatorgravcomp", Warned("`gravcomp` acts beside the efforts, not within their range", "false")),
     ("margin solreflimit solimplimit solreffriction solimpfriction", SOLVER),

@@ -3,8 +3,10 @@
 use roxmltree::Node;
 
 use super::File;
+use super::reference::WRAPPED;
 use super::rotations::of_quaternion;
-use crate::model::robots::description::{Closure, Mimic, Polynomial, Tendon, Turn};
+use crate::model::robots::description::{Cable, Closure, Mimic, Polynomial, Tendon, Turn};
+use crate::model::robots::names::unknown;
 
 /// The element of defaults.
 const EQUALITY: &[&str] = &["equality"];
@@ -116,38 +118,80 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Springs and dampers along sums of coordinates.
+    /// Springs and dampers along sums of coordinates, and along lengths through sites.
     pub fn tendons(&mut self, section: Node<'a, 'a>) {
         for node in self.reading.elements(section) {
-            if node.tag_name().name() != "fixed" {
-                continue;
+            match node.tag_name().name() {
+                "fixed" => self.fixed(node),
+                "spatial" => self.spatial(node),
+                _ => {}
             }
-            let mut along = Vec::new();
-            for joint in self.reading.children(node, "joint") {
-                let name = self.reading.required(joint, "joint");
-                let factor = self.reading.required_number(joint, "coef");
-                along.extend(name.zip(factor));
-            }
-            let tags = &["tendon"];
-            let [stiffness, damping] = ["stiffness", "damping"]
-                .map(|name| self.numbers::<1>(node, tags, name, None).map_or(0.0, |[amount]| amount));
-            let written = self.list(node, tags, "springlength", None).unwrap_or_default();
-            let joints = &self.description.joints;
-            let reference =
-                |name: &String| joints.iter().find(|joint| joint.name == *name).map_or(0.0, |joint| joint.reference);
-            let at_rest: f64 = along.iter().map(|(name, factor)| factor * reference(name)).sum();
-            let rest = match written.as_slice() {
-                // MuJoCo's word for that.
-                [] | [-1.0] | [-1.0, -1.0, ..] => [at_rest; 2],
-                [one] => [*one; 2],
-                [least, most, ..] => [*least, *most],
-            };
-            if rest[0] > rest[1] {
-                self.reading.fault(node, "`springlength` is from the least to the most");
-            }
-            let name = self.reading.text(node, "name").map(str::to_owned);
-            let at = self.reading.at(node);
-            self.description.tendons.push(Tendon { name, at, along, stiffness, damping, rest });
         }
+    }
+
+    /// The stiffness, the damping, and the lengths without force; none where they are those that joints have where their
+    /// springs have no force.
+    fn law(&mut self, node: Node<'a, 'a>) -> ([f64; 2], Option<[f64; 2]>) {
+        let tags = &["tendon"];
+        let factors = ["stiffness", "damping"]
+            .map(|name| self.numbers::<1>(node, tags, name, None).map_or(0.0, |[amount]| amount));
+        let written = self.list(node, tags, "springlength", None).unwrap_or_default();
+        let rest = match written.as_slice() {
+            // MuJoCo's word for that.
+            [] | [-1.0] | [-1.0, -1.0, ..] => None,
+            [one] => Some([*one; 2]),
+            [least, most, ..] => Some([*least, *most]),
+        };
+        if rest.is_some_and(|[least, most]| least > most) {
+            self.reading.fault(node, "`springlength` is from the least to the most");
+        }
+        (factors, rest)
+    }
+
+    fn fixed(&mut self, node: Node<'a, 'a>) {
+        let mut along = Vec::new();
+        for joint in self.reading.children(node, "joint") {
+            let name = self.reading.required(joint, "joint");
+            let factor = self.reading.required_number(joint, "coef");
+            along.extend(name.zip(factor));
+        }
+        let ([stiffness, damping], rest) = self.law(node);
+        let joints = &self.description.joints;
+        let at_spring = |name: &String| joints.iter().find(|joint| joint.name == *name).map_or(0.0, |joint| joint.rest);
+        let at_springs: f64 = along.iter().map(|(name, factor)| factor * at_spring(name)).sum();
+        let rest = rest.unwrap_or([at_springs; 2]);
+        let name = self.reading.text(node, "name").map(str::to_owned);
+        let at = self.reading.at(node);
+        self.description.tendons.push(Tendon { name, at, along, stiffness, damping, rest });
+    }
+
+    /// From site to site; a pulley begins a part whose length counts by its divisor.
+    fn spatial(&mut self, node: Node<'a, 'a>) {
+        let (mut last, mut factor): (Option<String>, f64) = (None, 1.0);
+        let mut parts = Vec::new();
+        for element in self.reading.elements(node) {
+            match element.tag_name().name() {
+                "site" => {
+                    let Some(name) = self.reading.required(element, "site") else { continue };
+                    let Some(link) = self.link_of_site(&name) else {
+                        let message = unknown("site", &name, self.sites.iter().map(|(name, _)| name.as_str()));
+                        self.reading.fault(element, format!("it runs through {message}"));
+                        continue;
+                    };
+                    parts.extend(last.replace(link.clone()).map(|before| ([before, link], factor)));
+                }
+                "pulley" => {
+                    last = None;
+                    match self.reading.required_number(element, "divisor") {
+                        Some(divisor) if divisor > 0.0 => factor = 1.0 / divisor,
+                        Some(_) => self.reading.fault(element, "`divisor` is more than zero"),
+                        None => {}
+                    }
+                }
+                _ => return self.ignored(node, WRAPPED),
+            }
+        }
+        let ([stiffness, damping], rest) = self.law(node);
+        self.description.cables.push(Cable { parts, stiffness, damping, rest });
     }
 }

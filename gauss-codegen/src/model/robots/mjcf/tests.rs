@@ -88,6 +88,51 @@ fn classes_have_names_of_their_own() {
     );
 }
 
+/// `jnt_pos`, `jnt_axis`, `dof_damping`, `body_ipos` and `body_mass` of MuJoCo 4.0; 3.3 leaves out the frame of <inertial>.
+#[test]
+fn joints_and_masses_in_frames() {
+    let read = described(
+        r#"<default><default class="c"><joint damping="5"/></default></default><worldbody><body name="b" pos="1 0 0">
+        <frame pos="0 1 0" euler="0 90 0" childclass="c"><joint name="a" pos="0 0 1"/><frame euler="90 0 0">
+        <joint name="s" type="slide"/></frame><inertial mass="2" pos="1 0 0" diaginertia="1 2 3"/></frame>
+        <joint name="z"/></body></worldbody>"#,
+    );
+    let joint = |name: &str| read.joints.iter().find(|joint| joint.name == name).unwrap();
+    assert_eq!((joint("a").position, joint("a").axis, joint("a").damping), ([2.0, 1.0, 0.0], [1.0, 0.0, 0.0], 5.0));
+    assert_eq!((joint("s").axis, joint("s").damping), ([0.0, -1.0, 0.0], 5.0));
+    assert_eq!((joint("z").axis, joint("z").damping), ([0.0, 0.0, 1.0], 0.0));
+    let own = read.links.iter().find_map(|link| link.inertial).unwrap();
+    assert!((0..3).all(|i| (own.center[i] - [0.0, 1.0, -1.0][i]).abs() < 1e-15), "{:?}", own.center);
+    assert_eq!((own.mass, own.inertia[0][0], own.inertia[2][2]), (2.0, 3.0, 1.0));
+    let told: Vec<&str> = read.notes.iter().filter(|note| note.ignored.is_some()).map(|note| &*note.text).collect();
+    assert_eq!(told, ["<inertial> is placed by the <frame> that it is in, as of MuJoCo 4, not of 3"]);
+}
+
+/// `tendon_lengthspring`, `jnt_stiffness`, `dof_damping` and `jnt_limited` of MuJoCo 3.3 and 4.0.
+#[test]
+fn rests_times_and_ranges() {
+    let body =
+        |joint: &str| format!(r#"<worldbody><body><joint name="a" {joint}/><geom size="1"/></body></worldbody>"#);
+    let tendon = r#"<tendon><fixed stiffness="3"><joint joint="a" coef="2"/></fixed></tendon>"#;
+    let rest = |joint: &str| described(&format!("{}{tendon}", body(joint))).tendons[0].rest[0];
+    assert!(near(rest(r#"ref="90" springref="30""#), 1.0471975511965976));
+    assert_eq!(rest(r#"ref="90""#), 0.0);
+    let geom = r#"<geom size="0.1" mass="3" pos="0 1 0"/>"#;
+    let tuned = |total: &str| {
+        let joint = r#"<joint springdamper="0.5 0.7" stiffness="9" armature="2"/>"#;
+        let read = described(&format!("{total}<worldbody><body>{joint}{geom}</body></worldbody>"));
+        [read.joints[0].stiffness, read.joints[0].damping]
+    };
+    let expected = [("", [40.91428571, 20.048]), (r#"<compiler settotalmass="30"/>"#, [262.20408163, 128.48])];
+    for (total, [stiffness, damping]) in expected {
+        let found = tuned(total);
+        assert!(near(found[0], stiffness) && near(found[1], damping), "{found:?}");
+    }
+    for range in ["0 0", "1 1"] {
+        assert_eq!(described(&body(&format!(r#"range="{range}""#))).joints[0].limits, [None; 2]);
+    }
+}
+
 #[test]
 fn elements_of_other_languages_are_no_bodies() {
     let inside = r#"<body><joint/><x:joint type="slide"/><geom size="1"/><x:geom size="2"/></body>"#;
@@ -237,25 +282,28 @@ const FILE: &str = r#"<mujoco @/mujoco{}>
   <default class="m"><mesh @default/mesh{}/></default>
   <default class="e"><equality @default/equality{}/></default><default class="t"><tendon @default/tendon{}/></default>
   <default class="i"><intvelocity @default/intvelocity{}/></default>
+  <default class="j"><joint @default/joint{}/></default>
   <default class="h"><adhesion @default/adhesion{}/></default>@in/default{}
 </default>@in/mujoco{}
 <asset @mujoco/asset{}><mesh @asset/mesh{ class="m" name="m" file="meshes/prism.obj"}/>
   <model @asset/model{ name="leg" file="leg.xml"}/>@in/asset{}</asset>
 <worldbody @mujoco/worldbody{}>
-  <frame @worldbody/frame{}><site name="g"/><body><joint name="alone" range="-1 1"/><geom size="1"/></body></frame>
+  <frame @worldbody/frame{}><site name="g"/><body><joint class="j" name="alone" range="-1 1"/><geom size="1"/></body></frame>
   <body @worldbody/body{}>
     <joint name="a" range="-1 1" stiffness="1" damping="1" frictionloss="1"/><geom size="1"/>@in/body{}
     <attach @body/attach{ model="leg" prefix="l-"}/>
     <replicate @body/replicate{ count="2"}><body name="r" pos="1 0 0"><joint/><geom size="1"/></body></replicate>
     <body name="b"><joint @body/joint{ name="b"}/><inertial @body/inertial{ mass="1" diaginertia="1 1 3"}/></body>
-    <body name="c"><geom @body/geom{ size="1"}/><site @body/site{ name="s"}/><joint name="c"/><geom size="1"/>
+    <body name="c"><geom @body/geom{ size="1"}/><site @body/site{ name="s"}/><joint name="c"/><site name="q"/><geom size="1"/>
       <geom type="mesh" mesh="m"/></body>
   </body>
   <body name="d"><freejoint @body/freejoint{}/><geom size="1"/></body>
 </worldbody>
 <contact>@in/contact{}</contact>
 <tendon><fixed @tendon/fixed{ name="t"}><joint @fixed/joint{ joint="a" coef="1"}/></fixed>
-  <fixed name="u" class="t" stiffness="1" damping="1"><joint joint="a" coef="1"/></fixed>@in/tendon{}</tendon>
+  <fixed name="u" class="t" stiffness="1" damping="1"><joint joint="a" coef="1"/></fixed>
+  <spatial @tendon/spatial{ name="v" stiffness="1"}><site site="g"/><pulley @spatial/pulley{ divisor="2"}/>
+    <site @spatial/site{ site="g"}/><site site="q"/>@in/spatial{}</spatial>@in/tendon{}</tendon>
 <equality>
   <connect @equality/connect{ body1="b" anchor="0 0 1"}/><weld @equality/weld{ body1="b"}/>
   <joint @equality/joint{ joint1="a"}/><joint class="e" joint1="c"/>
@@ -363,6 +411,7 @@ const SAMPLES: &[(&str, &str, &str)] = &[
     ("body/joint", "", r#"armature="7""#),
     ("body/joint", "", r#"actuatorfrcrange="-7 7""#),
     ("body/joint", r#"actuatorfrcrange="-7 7""#, r#"actuatorfrclimited="false""#),
+    ("default/joint", "", r#"springdamper="1 2""#),
     ("body/freejoint", "", r#"name="z""#),
     ("body/geom", r#"size="1""#, r#"class="other""#),
     ("body/geom", r#"size="1 2 3""#, r#"type="box""#),
@@ -392,6 +441,8 @@ const SAMPLES: &[(&str, &str, &str)] = &[
     ("tendon/fixed", r#"name="t""#, r#"stiffness="7""#),
     ("tendon/fixed", r#"name="t""#, r#"damping="7""#),
     ("tendon/fixed", r#"name="t""#, r#"springlength="7""#),
+    ("spatial/site", "", r#"!site="s""#),
+    ("spatial/pulley", "", r#"!divisor="3""#),
     ("fixed/joint", r#"coef="1""#, r#"!joint="a""#),
     ("fixed/joint", r#"joint="a""#, r#"!coef="1""#),
     ("equality/connect", r#"body1="b" anchor="0 0 1""#, r#"class="other""#),

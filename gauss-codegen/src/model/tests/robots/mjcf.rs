@@ -40,10 +40,23 @@ fn what_is_told_and_refused() {
             "",
             Some("3:50: <pair> does not act: contacts are not modelled"),
         ),
+        (format!("{hinge}<tendon><spatial name=\"s\"/></tendon>"), "", None),
         (
-            format!("{hinge}<tendon><spatial name=\"s\"/></tendon>"),
+            format!("{hinge}<tendon><spatial name=\"s\"><geom geom=\"g\"/></spatial></tendon>"),
             "",
-            Some("3:49: <spatial name=\"s\"> does not act: only tendons that are linear in joints are read"),
+            Some(
+                "3:49: <spatial name=\"s\"> does not act: it wraps around a geom; through sites alone tendons are read",
+            ),
+        ),
+        (
+            format!("{hinge}<tendon><spatial><site site=\"s\"/></spatial></tendon>"),
+            "",
+            Some("3:58: <site>: it runs through `s`, which is no site of this file"),
+        ),
+        (
+            "<joint/><body><freejoint/></body></body></worldbody>".to_owned(),
+            "",
+            Some("3:15: <freejoint>: what moves freely hangs in the world, not on another body"),
         ),
         (
             "<site name=\"arm\"/><joint type=\"ball\" frictionloss=\"1\"/></body></worldbody>".to_owned(),

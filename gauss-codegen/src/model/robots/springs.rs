@@ -1,0 +1,237 @@
+//! Springs: of joints, along sums of coordinates, and along cables through points.
+
+use proc_macro2::Ident;
+use quote::format_ident;
+use syn::ext::IdentExt;
+
+use super::clauses::Robot;
+use super::description::{Cable, Joint, JointKind, Note, Tendon};
+use super::rotation::{Rotation, Triple};
+use crate::model::scene::clauses::{Extent, ForceAxes, ForceClause, ForceKind};
+use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
+
+/// The square of the sine of an angle below which the angle is its sine, in double precision.
+const SMALL: f64 = 1e-32;
+
+impl Robot<'_> {
+    /// Of joints with one coordinate.
+    pub fn springs(&self) -> Vec<ForceClause> {
+        let writer = self.writer;
+        let springs = self.scalar_joints().filter(|(_, joint, ..)| joint.stiffness > 0.0);
+        let spring = |(index, joint, q, _): (usize, &Joint, &Ident, f64)| {
+            let along = self.values(index, 0.0).into_iter().next()?;
+            let stiffness = writer.number(joint.stiffness);
+            let length = (joint.rest != 0.0).then(|| writer.number(joint.rest));
+            let kind = ForceKind::Spring { extent: Extent::Along(along), stiffness, length, damping: None };
+            let own = self.structure.coupling_of[index].joint == index;
+            let name = own.then(|| format_ident!("{}_spring", q.unraw(), span = writer.span));
+            Some(ForceClause { name, kind, span: writer.span })
+        };
+        springs.filter_map(spring).collect()
+    }
+
+    /// Of joints whose coordinate is a rotation or a pose, as `mj_passive` of MuJoCo's `src/engine/engine_passive.c` has them:
+    /// the force −k (r − r₀) at O, and the torque −k φ n, with the turn R₀ᵀR by the angle φ ≤ π about n.
+    pub fn springs_of_turns(&self) -> (Vec<ForceClause>, Vec<Note>) {
+        let writer = self.writer;
+        let (mut forces, mut notes) = (Vec::new(), Vec::new());
+        let clause = |q: &Ident, end: &str, kind: ForceKind| {
+            let name = format_ident!("{}_{}", q.unraw(), end, span = writer.span);
+            ForceClause { name: Some(name), kind, span: writer.span }
+        };
+        for (joint, q) in self.groups().filter(|(joint, _)| joint.stiffness > 0.0) {
+            let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
+            let (Some(child), Some(parent)) = (index(&joint.child), index(&joint.parent)) else { continue };
+            let is_free = joint.kind == JointKind::Floating;
+            let (place, turn) = joint.start;
+            if is_free {
+                let extent = Extent::Between {
+                    from: writer.vector(place.map(|c| writer.number(c))),
+                    to: writer.property(q, Property::Position),
+                };
+                let stiffness = writer.number(joint.stiffness);
+                forces.push(clause(
+                    q,
+                    "way_spring",
+                    ForceKind::Spring { extent, stiffness, length: None, damping: None },
+                ));
+            }
+            let rotation = if is_free { writer.property(q, Property::Rotation) } else { writer.name(q) };
+            let value = writer.times(writer.number(-joint.stiffness), self.rotation_vector(&rotation, &turn));
+            let reaction = Some(parent).filter(|&parent| self.moves(parent)).map(|parent| self.links[parent].clone());
+            let body = self.links[child].clone();
+            forces.push(clause(q, "spring", ForceKind::Torque { body, value, axes: ForceAxes::Body, reaction }));
+            let text = format!(
+                "the spring of `{}` turns as a torque: its energy is not in the potential energy; where the turn is half \
+                 a revolution the torque jumps",
+                joint.name
+            );
+            notes.push(Note::told(joint.at, text).about("turn"));
+        }
+        (forces, notes)
+    }
+
+    /// φ n of the turn R₀ᵀR, in the axes that it turns: φ from atan2 of its sine and cosine, so that it keeps its digits
+    /// where it is small.
+    fn rotation_vector(&self, rotation: &Expression, from: &Rotation) -> Expression {
+        let writer = self.writer;
+        let unit: [Triple; 3] = Rotation::none().matrix;
+        let vector = |v: Triple| writer.vector(v.map(|c| writer.number(c)));
+        let entry = |i: usize, j: usize| {
+            let row = vector(std::array::from_fn(|k| from.matrix[k][i]));
+            writer.call(FunctionName::Dot, vec![row, writer.times(rotation.clone(), vector(unit[j]))])
+        };
+        let half = |e: Expression| writer.times(writer.number(0.5), e);
+        let minus = |a: Expression, b: Expression| writer.binary(BinaryOperator::Subtract, a, b);
+        let sines = [0, 1, 2].map(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            half(minus(entry(j, i), entry(i, j)))
+        });
+        let trace = writer.plus(writer.plus(entry(0, 0), entry(1, 1)), entry(2, 2));
+        let cosine = half(minus(trace, writer.number(1.0)));
+        let [x, y, z] = sines.clone().map(|e| writer.times(e.clone(), e));
+        let square = writer.plus(writer.plus(x, y), z);
+        let square = writer.call(FunctionName::Max, vec![square, writer.number(SMALL)]);
+        let sine = writer.call(FunctionName::Sqrt, vec![square]);
+        let angle = writer.call(FunctionName::Atan2, vec![sine.clone(), cosine]);
+        writer.times(writer.binary(BinaryOperator::Divide, angle, sine), writer.vector(sines))
+    }
+
+    pub fn tendons(&self) -> (Vec<ForceClause>, Vec<Note>) {
+        let writer = self.writer;
+        let (mut forces, mut notes) = (Vec::new(), Vec::new());
+        for tendon in self.description.tendons.iter().filter(|tendon| tendon.stiffness > 0.0 || tendon.damping > 0.0) {
+            let Some(along) = self.length(&tendon.along) else {
+                notes.push(Note::ignored(
+                    tendon.at,
+                    "tendon",
+                    "a tendon along no joint with one coordinate does not act",
+                ));
+                continue;
+            };
+            let number = |value: f64| (value != 0.0).then(|| writer.number(value));
+            let kind = if tendon.rest[0] == tendon.rest[1] {
+                ForceKind::Spring {
+                    extent: Extent::Along(along),
+                    stiffness: writer.number(tendon.stiffness),
+                    length: number(tendon.rest[0]),
+                    damping: number(tendon.damping),
+                }
+            } else {
+                ForceKind::Drive { rates: self.over_a_range(tendon, along) }
+            };
+            forces.push(ForceClause { name: None, kind, span: writer.span });
+        }
+        (forces, notes)
+    }
+
+    /// −k (l − l₀) − d l̇, with the l₀ of a range that is the nearest to l.
+    fn beyond_a_range(&self, [stiffness, damping]: [f64; 2], rest: [f64; 2], along: Expression) -> Expression {
+        let writer = self.writer;
+        let mut ends = vec![along.clone()];
+        ends.extend(rest.map(|end| writer.number(end)));
+        let nearest = writer.call(FunctionName::Clamp, ends);
+        let beyond = writer.binary(BinaryOperator::Subtract, along.clone(), nearest);
+        let force = writer.times(writer.number(-stiffness), beyond);
+        if damping == 0.0 {
+            return force;
+        }
+        let rate = writer.call(FunctionName::Rate, vec![along]);
+        writer.plus(force, writer.times(writer.number(-damping), rate))
+    }
+
+    fn over_a_range(&self, tendon: &Tendon, along: Expression) -> Vec<(Ident, Expression)> {
+        let writer = self.writer;
+        let force = self.beyond_a_range([tendon.stiffness, tendon.damping], tendon.rest, along);
+        let mut rates: Vec<(Ident, Expression)> = Vec::new();
+        for (_, q, multiplier, factor) in self.ends_of(&tendon.along) {
+            let part = writer.times(writer.number(factor * multiplier), force.clone());
+            match rates.iter_mut().find(|(name, _)| name == q) {
+                Some((_, sum)) => *sum = writer.plus(sum.clone(), part),
+                None => rates.push((q.clone(), part)),
+            }
+        }
+        rates
+    }
+
+    /// Along lengths between points: a potential where one length has no force, else forces on the points.
+    pub fn cables(&self) -> Vec<ForceClause> {
+        let writer = self.writer;
+        let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
+        let mut forces = Vec::new();
+        for cable in self.description.cables.iter().filter(|cable| cable.stiffness > 0.0 || cable.damping > 0.0) {
+            let parts: Option<Vec<([usize; 2], f64)>> = cable
+                .parts
+                .iter()
+                .map(|(ends, factor)| Some(([index(&ends[0])?, index(&ends[1])?], *factor)))
+                .collect();
+            let Some(parts) = parts else { continue };
+            let owner = |link: usize| self.structure.owner_of[link];
+            if parts.iter().all(|([a, b], _)| owner(*a) == owner(*b)) {
+                continue;
+            }
+            let rest = cable.rest.unwrap_or_else(|| [self.length_at_springs(&parts); 2]);
+            if rest[0] != rest[1] {
+                forces.extend(self.pulls(cable, &parts, rest));
+                continue;
+            }
+            let extent = match parts.as_slice() {
+                [([a, b], 1.0)] => Extent::Between { from: self.point(*a), to: self.point(*b) },
+                parts => Extent::Along(self.length_of(parts)),
+            };
+            let number = |value: f64| (value != 0.0).then(|| writer.number(value));
+            let (length, damping) = (number(rest[0]), number(cable.damping));
+            let kind = ForceKind::Spring { extent, stiffness: writer.number(cable.stiffness), length, damping };
+            forces.push(ForceClause { name: None, kind, span: writer.span });
+        }
+        forces
+    }
+
+    fn point(&self, link: usize) -> Expression {
+        self.writer.property(&self.links[link], Property::Position)
+    }
+
+    /// From the first end to the second, and its length.
+    fn arm(&self, [a, b]: [usize; 2]) -> [Expression; 2] {
+        let arm = self.writer.binary(BinaryOperator::Subtract, self.point(b), self.point(a));
+        let square = self.writer.call(FunctionName::Dot, vec![arm.clone(), arm.clone()]);
+        [arm, self.writer.call(FunctionName::Sqrt, vec![square])]
+    }
+
+    fn length_of(&self, parts: &[([usize; 2], f64)]) -> Expression {
+        let writer = self.writer;
+        let terms = parts.iter().map(|(ends, factor)| {
+            let [_, length] = self.arm(*ends);
+            if *factor == 1.0 { length } else { writer.times(writer.number(*factor), length) }
+        });
+        terms.reduce(|a, b| writer.plus(a, b)).unwrap_or_else(|| writer.number(0.0))
+    }
+
+    /// −k (l − l₀) − d l̇ with the l₀ of the range that is the nearest to l, along each part on its ends.
+    fn pulls(&self, cable: &Cable, parts: &[([usize; 2], f64)], rest: [f64; 2]) -> Vec<ForceClause> {
+        let writer = self.writer;
+        let tension = self.beyond_a_range([cable.stiffness, cable.damping], rest, self.length_of(parts));
+        let mut forces = Vec::new();
+        for (ends, factor) in parts {
+            let [arm, length] = self.arm(*ends);
+            let direction = writer.times(writer.binary(BinaryOperator::Divide, writer.number(*factor), length), arm);
+            for (link, sign) in ends.iter().zip([-1.0, 1.0]).filter(|(link, _)| self.moves(**link)) {
+                let value = writer.times(writer.times(writer.number(sign), tension.clone()), direction.clone());
+                let body = self.links[*link].clone();
+                let kind = ForceKind::OnBody { body, at: None, value, axes: ForceAxes::Observer };
+                forces.push(ForceClause { name: None, kind, span: writer.span });
+            }
+        }
+        forces
+    }
+
+    /// The length while all joints are where their springs have no force.
+    fn length_at_springs(&self, parts: &[([usize; 2], f64)]) -> f64 {
+        let place = |link: usize| self.structure.at_springs(self.description, link).0;
+        let distance = |[a, b]: [usize; 2]| {
+            let (a, b) = (place(a), place(b));
+            (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt()
+        };
+        parts.iter().map(|(ends, factor)| factor * distance(*ends)).sum()
+    }
+}
