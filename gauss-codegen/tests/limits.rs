@@ -152,6 +152,14 @@ fn angles_of_functions() {
     works(plane("potential = powi(cos(x), 100) * powi(cos(y), 99) * powi(cos(k * x), 51)"));
 }
 
+/// Accelerations in range, with products that are not, are no mistake of the equations.
+#[test]
+fn checks_out_of_range() {
+    let huge = "define(h = exp(exp(dot([x, 3, 1], [3, 2, x]) * dot([x, 3, 1], [3, 2, x]))) * y)";
+    let found = derived(plane(&format!("{huge}, drive(y = k - h), force(at = [x, y, ln(h)], value = [k, 0, 1])")));
+    assert!(found.as_ref().is_none_or(|message| !message.contains("bug")), "{found:?}");
+}
+
 /// What a file of many links is refused for is found before everything is derived, and names are not looked for one by one.
 #[cfg(feature = "urdf")]
 #[test]
