@@ -53,6 +53,7 @@ pub fn lower<'g>(
     }
     refuse_unknown_derivatives(model, &kernel)?;
     refuse_too_much(model, &kernel)?;
+    translator.refuse_lost(&kernel)?;
     refuse_regressor(model.wanted.regressor.as_ref(), regressor.as_ref(), &kernel)?;
     refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), formulas, &kernel)?;
     kernel.seek_losses(&samples, formulas.iter().position(|formula| formula.method == Method::Momentum));

@@ -152,6 +152,25 @@ fn angles_of_functions() {
     works(plane("potential = powi(cos(x), 100) * powi(cos(y), 99) * powi(cos(k * x), 51)"));
 }
 
+/// Numbers that are in range each, and whose products are not.
+#[test]
+fn constants_beyond_their_range() {
+    let lost = "beyond the range of double precision";
+    refused(plane("drive(x = 1e-200 * y * 1e-200)"), lost);
+    refused(plane("drive(x = 1e200 * y * 1e200)"), lost);
+    refused(plane("drive(x = 1e300 * 1e300 / 1e300)"), lost);
+    refused(plane("define(a = 1e-200 * y), drive(x = a * (k + x) * 1e-200)"), lost);
+    // In the square of the velocity.
+    let light = "#[gauss(coordinates(x), particle(mass = 1e-100, position = [1e-150 * x, 0, 0]), drive(x = 1e-300))] struct \
+                 Light {}";
+    refused(light.to_owned(), lost);
+    refused(plane("drive(x = 1e-30 * y * 1e-30)").replace("f64", "f32"), "beyond the range of single precision");
+    works(plane("drive(x = 1e-150 * y * 1e-150)"));
+    // Rounding leaves nothing of this turn; that is no loss.
+    works(plane("force(at = [x, y, 0], value = rotation_x(0.5) * rotation_x(-0.5) * [0, k, 0])"));
+    works(plane("drive(x = 1e-200 * y * 1e200)"));
+}
+
 /// Accelerations in range, with products that are not, are no mistake of the equations.
 #[test]
 fn checks_out_of_range() {
@@ -321,10 +340,4 @@ fn functions_of_what_stands_twice() {
         // Refused or not: it ends.
         let _ = derived(plane(&format!("particle(mass = m, position = {position})")));
     }
-}
-
-/// Larger than any double at every state: nothing can be compared there, and no formula is blamed for it.
-#[test]
-fn numbers_above_those_of_double_precision() {
-    works(plane("particle(mass = m, position = [exp(exp(7 + x * x)), y, 0])"));
 }

@@ -42,7 +42,7 @@ pub struct Kernel<'g> {
     /// What is said of the losses of functions, of `joined` and of the derivatives that are there.
     pub found: Found,
     /// The definitions of known constants.
-    folded: Vec<(Expr<'g>, Expr<'g>)>,
+    pub folded: Vec<(Expr<'g>, Expr<'g>)>,
 }
 
 /// What is differentiated beside the functions of a kernel.

@@ -2,10 +2,12 @@
 
 use proc_macro2::Span;
 
-use crate::algebra::{Evaluation, Expr, Map, Notation, Number, Precise, Rational, Scalar, decimal};
+use crate::algebra::{Evaluation, Expr, Map, NodeView, Notation, Number, Precise, Rational, Scalar as _, decimal};
+use crate::kernel::Kernel;
 use crate::mechanics::{Body, Tree};
 use crate::mistakes::Mistakes;
-use crate::model::{Expression, FunctionName, LARGEST_EXPONENT, Role, too_many_factors};
+use crate::model::{Expression, FunctionName, LARGEST_EXPONENT, Role, Scalar, too_many_factors};
+use crate::program::{Instruction, Operand};
 
 use super::Translator;
 
@@ -108,13 +110,73 @@ impl<'g> Translator<'_, 'g> {
             }
             None => {
                 let lost = |value: Precise| out_of_range(value.to_f64(), value == Precise::number(0.0));
-                of_literals() && self.known(value).is_some_and(lost)
+                match of_literals() {
+                    true => self.known(value).is_some_and(lost),
+                    // Each number by itself is in range: only extreme ones can leave it together.
+                    false => !self.extreme.borrow().is_empty() && self.factors(value).into_iter().any(lost),
+                }
             }
         };
         if !lost {
             return value;
         }
         self.mistake(written.span, "this number is beyond the range of double precision".to_owned())
+    }
+
+    /// Of every term the product of what literals alone determine in it.
+    fn factors(&self, value: Expr<'g>) -> Vec<Precise> {
+        let terms = match value.view() {
+            NodeView::Sum(terms) => terms,
+            _ => vec![(Rational::one(), value)],
+        };
+        let of_term = |(coefficient, term): (Rational, Expr<'g>)| {
+            let factors = match term.view() {
+                NodeView::Product(factors) => factors,
+                _ => vec![(term, 1)],
+            };
+            let known = factors.into_iter().filter_map(|(factor, power)| self.known(factor.powi(power)));
+            known.fold(Precise::fraction(coefficient), |product, factor| product * factor)
+        };
+        terms.into_iter().map(of_term).collect()
+    }
+
+    /// Constants of the equations that are beyond the range of the scalar although the numbers that they are made of are
+    /// not: nothing, or infinity, would stand in their place.
+    ///
+    /// # Errors
+    /// The first of the extreme numbers, or the name of the struct where there are none.
+    pub fn refuse_lost(&self, kernel: &Kernel<'g>) -> syn::Result<()> {
+        let single = matches!(self.model.scalar, Scalar::F32);
+        let [least, most] = match single {
+            true => [f32::MIN_POSITIVE, f32::MAX].map(f64::from),
+            false => [f64::MIN_POSITIVE, f64::MAX],
+        };
+        let is_lost = |value: f64| !(least..=most).contains(&value.abs());
+        let has_extreme = !self.extreme.borrow().is_empty();
+        // Zero, too small or too large.
+        let suspicious = kernel.known_constants.iter().zip(&kernel.folded).filter(|((_, found), _)| is_lost(*found));
+        let of_literals = suspicious.map(|(_, (_, definition))| self.known(*definition)).any(|exact| {
+            let exact = exact.filter(|exact| *exact != Precise::number(0.0));
+            // Among usual numbers a zero is what rounding left of a difference; among extreme ones a product may be lost.
+            exact.is_some_and(|exact| is_lost(exact.to_f64()) || has_extreme)
+        });
+        let programs = kernel.functions.iter().chain(kernel.derivatives_as_written()).chain([&kernel.constants]);
+        let in_programs = || {
+            let mut operands = programs.flat_map(|program| &program.instructions).flat_map(Instruction::operands);
+            operands.any(|operand| matches!(operand, Operand::Number(n) if !n.is_zero() && is_lost(n.to_f64())))
+        };
+        if !of_literals && !in_programs() {
+            return Ok(());
+        }
+        let extreme = self.extreme.borrow();
+        let span = extreme.first().map_or(self.model.ident.span(), |(span, _)| *span);
+        let of = extreme.first().map(|(_, value)| format!(" with `{}`", decimal(*value, Notation::Text)));
+        let (of, precision) = (of.unwrap_or_default(), if single { "single" } else { "double" });
+        let message = format!(
+            "a constant of the equations{of} is beyond the range of {precision} precision; choose units in which the numbers \
+             are nearer to 1"
+        );
+        Err(syn::Error::new(span, message))
     }
 
     /// Notes a number whose powers may be out of the reach of checks.
