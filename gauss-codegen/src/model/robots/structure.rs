@@ -1,5 +1,7 @@
 //! What must hold between links and joints, and what follows: which link hangs on which, what moves as one.
 
+use std::collections::HashMap;
+
 use super::description::{At, Description, Fault, Inertial, Joint, JointKind};
 use super::mimic::{Coupling, couplings};
 use super::names::unknown;
@@ -194,17 +196,17 @@ fn refuse_strange_joints(description: &Description, faults: &mut Vec<Fault>) {
 }
 
 fn refuse_twice<'a>(noun: &str, names: impl Iterator<Item = (&'a String, At)>, faults: &mut Vec<Fault>) {
-    let mut known: Vec<(&String, At)> = Vec::new();
+    let mut known: HashMap<&String, At> = HashMap::new();
     for (name, at) in names {
-        match known.iter().find(|(earlier, _)| *earlier == name) {
-            Some((_, first)) => faults.push(Fault {
+        match known.get(name) {
+            Some(first) => faults.push(Fault {
                 at,
                 message: format!(
                     "a second {noun} is called `{name}`, the first is in line {}; rename one",
                     first.line_from(at)
                 ),
             }),
-            None => known.push((name, at)),
+            None => _ = known.insert(name, at),
         }
     }
 }
@@ -214,10 +216,11 @@ fn parents(description: &Description, faults: &mut Vec<Fault>) -> (Vec<Option<us
     let count = description.links.len();
     let (mut joint_of, mut parent_of): (Vec<Option<usize>>, Vec<Option<usize>>) =
         (vec![None; count], vec![None; count]);
-    let find = |name: &String| description.links.iter().position(|link| link.name == *name);
+    let places: HashMap<&String, usize> =
+        description.links.iter().enumerate().rev().map(|(place, link)| (&link.name, place)).collect();
     for (index, joint) in description.joints.iter().enumerate() {
         let ends = [&joint.parent, &joint.child].map(|name| {
-            let link = find(name);
+            let link = places.get(name).copied();
             if link.is_none() {
                 let which = unknown("link", name, description.links.iter().map(|link| link.name.as_str()));
                 faults.push(Fault { at: joint.at, message: format!("the joint `{}` joins {which}", joint.name) });
@@ -247,23 +250,28 @@ fn parents(description: &Description, faults: &mut Vec<Fault>) -> (Vec<Option<us
 /// The link that all others hang on.
 fn root(description: &Description, parent_of: &[Option<usize>], faults: &mut Vec<Fault>) -> Option<usize> {
     let links = &description.links;
+    // Links that lead to the root.
+    let mut settled = vec![false; links.len()];
     for start in 0..links.len() {
-        let mut link = start;
+        let (mut link, mut chain) = (start, Vec::new());
         // As many steps as there are links lead to the root, or around.
-        for _ in 0..links.len() {
-            link = parent_of[link].unwrap_or(link);
+        while let Some(parent) = parent_of[link].filter(|_| !settled[link] && chain.len() < links.len()) {
+            chain.push(link);
+            link = parent;
         }
-        if parent_of[link].is_some() {
-            let mut circle = vec![link];
-            while let Some(next) = parent_of[circle[circle.len() - 1]].filter(|next| *next != link) {
-                circle.push(next);
-            }
-            let first = circle.iter().copied().min_by_key(|&member| links[member].at).unwrap_or(link);
-            let names: Vec<String> = circle.iter().map(|&member| format!("`{}`", links[member].name)).collect();
-            let message = format!("links hang on each other in a circle: {}", names.join(" on "));
-            faults.push(Fault { at: links[first].at, message });
-            return None;
+        if settled[link] || parent_of[link].is_none() {
+            chain.into_iter().for_each(|link| settled[link] = true);
+            continue;
         }
+        let mut circle = vec![link];
+        while let Some(next) = parent_of[circle[circle.len() - 1]].filter(|next| *next != link) {
+            circle.push(next);
+        }
+        let first = circle.iter().copied().min_by_key(|&member| links[member].at).unwrap_or(link);
+        let names: Vec<String> = circle.iter().map(|&member| format!("`{}`", links[member].name)).collect();
+        let message = format!("links hang on each other in a circle: {}", names.join(" on "));
+        faults.push(Fault { at: links[first].at, message });
+        return None;
     }
     let roots: Vec<usize> = (0..links.len()).filter(|&link| parent_of[link].is_none()).collect();
     match roots.as_slice() {

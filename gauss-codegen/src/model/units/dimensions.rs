@@ -4,6 +4,8 @@
 //! What has no unit, such as scalar coordinates and speeds, agrees with everything, and so does its product with anything. A
 //! literal agrees with everything too, in a sum or alone; as a factor it has no dimension, unless it is zero.
 
+use std::collections::HashMap;
+
 use super::need::{ANGLE, ANGULAR_VELOCITY, FORCE, LENGTH, Need, TORQUE, VELOCITY};
 use crate::algebra::Rational;
 use crate::model::language::context::Context;
@@ -86,13 +88,13 @@ impl Dimensions {
 pub struct Checker<'a> {
     /// Units as they are written, of names.
     pub units: Vec<(&'a Ident, &'a str)>,
-    pub names: Vec<(String, Dimensions)>,
+    pub names: HashMap<String, Dimensions>,
     pub context: &'a mut Context,
 }
 
 impl Checker<'_> {
     pub fn add(&mut self, name: &Ident, value: Dimensions) {
-        self.names.push((word(name), value));
+        self.name_as(word(name), value);
     }
 
     /// `in N`, `in rad (dimensionless)`, `dimensionless`.
@@ -211,13 +213,12 @@ impl Checker<'_> {
     }
 
     /// A name with two meanings, which is noted elsewhere, has no dimension.
+    pub fn name_as(&mut self, word: String, value: Dimensions) {
+        self.names.entry(word).and_modify(|known| *known = Dimensions::UNKNOWN).or_insert(value);
+    }
+
     fn name(&self, name: &Ident) -> Dimensions {
-        let word = word(name);
-        let mut found = self.names.iter().filter(|(known, _)| *known == word).map(|(_, value)| *value);
-        match (found.next(), found.next()) {
-            (Some(value), None) => value,
-            _ => Dimensions::UNKNOWN,
-        }
+        self.names.get(&word(name)).copied().unwrap_or(Dimensions::UNKNOWN)
     }
 
     /// A vector whose components a rotation mixes.

@@ -1,5 +1,7 @@
 //! What is needed in which unit: forces in N, torques in N m, positions in m, and so on.
 
+use std::collections::HashMap;
+
 use super::dimensions::{Checker, Dimensions, Found};
 use super::need::{
     ADDED_MASS, ANGULAR_VELOCITY, COEFFICIENTS, ENERGY, FORCE, GRAVITATION, LENGTH, MASS, Need, POWER, TORQUE, VELOCITY,
@@ -25,9 +27,9 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     if units.is_empty() {
         return;
     }
-    let mut checker = Checker { units, names: Vec::new(), context };
-    checker.names.push((TIME.into(), Dimensions::of(Dimension::TIME)));
-    checker.names.push((PI.into(), Dimensions::of(Dimension::NONE)));
+    let mut checker = Checker { units, names: HashMap::new(), context };
+    checker.name_as(TIME.into(), Dimensions::of(Dimension::TIME));
+    checker.name_as(PI.into(), Dimensions::of(Dimension::NONE));
     for field in fields {
         let implied = field.role.as_ref().and_then(|claim| Role::unit(claim.role)).map(|(_, dimension)| dimension);
         let written = field.unit.as_ref().and_then(|unit| units::read(unit).ok());
