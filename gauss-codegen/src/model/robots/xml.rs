@@ -74,6 +74,12 @@ pub fn own_elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>
     node.children().filter(|child| child.is_element() && !is_foreign(*child))
 }
 
+/// An element and the elements of the format in it, each before what is in it; of another language nothing.
+pub fn own_descendants<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
+    let inside = move |inner: &Node<'a, 'a>| inner.ancestors().take_while(|around| *around != node).any(is_foreign);
+    node.descendants().filter(move |inner| inner.is_element() && !inside(inner))
+}
+
 /// `drake:joint`, as it is written.
 fn qualified<'a>(node: Node<'a, 'a>) -> &'a str {
     let written = node.document().input_text().get(node.range()).unwrap_or_default();

@@ -11,11 +11,11 @@ use roxmltree::Node;
 
 use super::labels::{Affix, Named, SECTIONS, name_of, references};
 use super::{File, Place, WORLD, model};
-use crate::model::robots::description::Fault;
+use crate::model::robots::description::{Fault, Joint, JointKind};
 use crate::model::robots::names::unknown;
 use crate::model::robots::rotation::{Rotation, Triple, multiply, turned};
 use crate::model::robots::text::Text;
-use crate::model::robots::xml::parse;
+use crate::model::robots::xml::{own_descendants, own_elements, parse};
 
 impl<'a> File<'a> {
     /// Hangs a part of another model on a body of this one, at a place in it.
@@ -35,9 +35,9 @@ impl<'a> File<'a> {
         let prefix = prefix.ok_or("the attribute `prefix` is missing")?;
         let text = self.reading.model(name).map_err(|which| format!("it attaches {which}"))?;
         let read = part(text, body, prefix)?;
-        let read = read.and_then(|part| model(&part, Some((prefix, &*self))));
-        let other = match read {
-            Ok(other) => other,
+        let read = read.and_then(|(part, keys)| Ok((model(&part, Some((prefix, &*self)))?, keys)));
+        let (other, has_keys) = match read {
+            Ok(read) => read,
             Err(faults) => {
                 // Those of a model that is attached twice, once.
                 let new: Vec<Fault> = faults.into_iter().filter(|fault| !self.reading.faults.contains(fault)).collect();
@@ -45,16 +45,22 @@ impl<'a> File<'a> {
                 return Ok(());
             }
         };
-        if text.whole.contains("<keyframe") {
+        if has_keys {
             self.reading.note(node, format!("keyframes of the model `{name}` are not attached"));
+        }
+        let is_free = |joint: &Joint| joint.kind == JointKind::Floating;
+        if parent != WORLD && other.description.joints.iter().any(is_free) {
+            return Err("what moves freely hangs in the world, not on another body".to_owned());
         }
         let own = &mut self.description;
         own.links.extend(other.description.links.into_iter().filter(|link| link.name != WORLD));
         own.joints.extend(other.description.joints.into_iter().map(|mut joint| {
-            if joint.parent == WORLD {
+            if is_free(&joint) {
+                // Its pose is that in the world.
+                joint.start = put(place, joint.start);
+            } else if joint.parent == WORLD {
                 joint.parent = parent.to_owned();
                 (joint.position, joint.rotation) = put(place, (joint.position, joint.rotation));
-                joint.start = put(place, joint.start);
             }
             joint
         }));
@@ -94,18 +100,19 @@ enum Becomes<'a> {
     World(Node<'a, 'a>, Option<&'a str>),
 }
 
-/// The text with the body alone, or all of its world, and what refers to nothing else, with a prefix before names; the
-/// faults of what is no XML.
+/// The text with the body alone, or all of its world, and what refers to nothing else, with a prefix before names, and
+/// whether keyframes were taken out of it; the faults of what is no XML.
 ///
 /// # Errors
 /// Why there is no such body.
-fn part(text: &Text, body: Option<&str>, prefix: &str) -> Result<Result<Text, Vec<Fault>>, String> {
+fn part(text: &Text, body: Option<&str>, prefix: &str) -> Result<Result<(Text, bool), Vec<Fault>>, String> {
     let document = match parse(&text.whole) {
         Ok(document) => document,
         Err(fault) => return Ok(Err(vec![fault])),
     };
     let root = document.root_element();
-    let worlds: Vec<Node<'_, '_>> = root.children().filter(|node| node.has_tag_name("worldbody")).collect();
+    let sections = |name: &'static str| own_elements(root).filter(move |section| section.has_tag_name(name));
+    let worlds: Vec<Node<'_, '_>> = sections("worldbody").collect();
     let mut edits: Vec<(Range<usize>, Becomes<'_>)> = Vec::new();
     let tops = match body {
         None => {
@@ -121,14 +128,13 @@ fn part(text: &Text, body: Option<&str>, prefix: &str) -> Result<Result<Text, Ve
             vec![node]
         }
     };
-    let inside = || tops.iter().flat_map(|top| top.descendants());
+    let inside = || tops.iter().flat_map(|top| own_descendants(*top));
     let mut named: BTreeSet<Named<'_>> = inside().filter_map(name_of).collect();
     let own_prefixes: Vec<&str> =
         inside().filter(|node| node.has_tag_name("attach")).filter_map(|node| node.attribute("prefix")).collect();
     for section in SECTIONS {
-        let all = root.children().filter(|child| child.has_tag_name(section));
-        for element in all.flat_map(|section| section.children().filter(Node::is_element)) {
-            let refers: Vec<Named<'_>> = element.descendants().flat_map(references).map(|(_, own)| own).collect();
+        for element in sections(section).flat_map(own_elements) {
+            let refers: Vec<Named<'_>> = own_descendants(element).flat_map(references).map(|(_, own)| own).collect();
             // Of models that this one attaches.
             let nested = |own: &Named<'_>| own_prefixes.iter().any(|prefix| own.1.starts_with(prefix));
             if refers.iter().all(|own| named.contains(own) || *own == ("body", WORLD) || nested(own)) {
@@ -139,16 +145,16 @@ fn part(text: &Text, body: Option<&str>, prefix: &str) -> Result<Result<Text, Ve
             }
         }
     }
-    let keys = root.children().filter(|child| child.has_tag_name("keyframe"));
-    edits.extend(keys.map(|keys| (keys.range(), Becomes::Nothing)));
+    edits.extend(sections("keyframe").map(|keys| (keys.range(), Becomes::Nothing)));
+    let has_keys = sections("keyframe").flat_map(own_elements).next().is_some();
     edits.sort_by_key(|(range, _)| range.start);
     let affix = Affix { named: &named, before: prefix.to_owned(), after: String::new() };
-    Ok(Ok(edited(text, edits, &affix).of_files(text.clone())))
+    Ok(Ok((edited(text, edits, &affix).of_files(text.clone()), has_keys)))
 }
 
 /// The body of that name.
 fn found<'a>(worlds: &[Node<'a, 'a>], body: &str) -> Result<Node<'a, 'a>, String> {
-    let bodies = || worlds.iter().flat_map(|world| world.descendants()).filter(|node| node.has_tag_name("body"));
+    let bodies = || worlds.iter().flat_map(|world| own_descendants(*world)).filter(|node| node.has_tag_name("body"));
     let is_it = |node: &Node<'_, '_>| node.attribute("name").map(str::trim) == Some(body);
     let node = bodies().find(is_it);
     let node = node.ok_or_else(|| {
@@ -190,6 +196,7 @@ mod tests {
     use crate::model::robots::description::{Description, Fault};
     use crate::model::robots::mjcf::rotations::of_quaternion;
     use crate::model::robots::mjcf::{included, read};
+    use crate::model::robots::rotation::Rotation;
     use crate::model::robots::text::{Text, Written};
 
     /// In radians, with classes, and relations of which some are of another body.
@@ -301,6 +308,42 @@ mod tests {
             assert!((hip.position[i] - [1.0, 1.0, 0.0][i]).abs() < 8.0 * f64::EPSILON, "{hip:?}");
             assert!((0..3).all(|j| (hip.rotation.matrix[i][j] - expected[i][j]).abs() < 8.0 * f64::EPSILON), "{hip:?}");
         }
+    }
+
+    /// Elements of other languages have no names of this one, and what a comment holds is not there.
+    #[test]
+    fn prefixed_elements_and_comments() {
+        let other = "<x:site name=\"h\"/><x:attach prefix=\"n\"/><site name=\"s\"";
+        let leg =
+            LEG.replace("<site name=\"s\"", other).replace("</mujoco>", "<x:keyframe/><!-- <keyframe> --></mujoco>");
+        let told = |leg: &str| {
+            let world = "<worldbody><attach model=\"leg\" body=\"hip\" prefix=\"a-\"/></worldbody>";
+            let found = Folder::new("prefixed", leg).read(&format!("{ASSET}{world}")).expect("both");
+            assert_eq!(names(found.links.iter().map(|link| &link.name)), "world a-hip a-s a-shin");
+            assert_eq!(names(found.drives.iter().map(|drive| &drive.name)), "a-mh a-pu");
+            found.notes.iter().filter(|note| note.text.starts_with("keyframes")).count()
+        };
+        assert_eq!(told(&leg), 0);
+        assert_eq!(told(&leg.replace("<!--", "<keyframe><key/></keyframe><!--")), 1);
+    }
+
+    /// `qpos0` of MuJoCo 4.0.0: the pose of what moves freely is that in the world.
+    #[test]
+    fn what_moves_freely() {
+        let leg = "<mujoco model=\"leg\"><worldbody><body name=\"hip\" pos=\"0 0 1\"><freejoint/><geom size=\"1\"/></body>\
+                   <body name=\"toe\"><joint/><geom size=\"1\"/></body></worldbody></mujoco>";
+        let folder = Folder::new("free", leg);
+        let attach = "<attach model=\"leg\" prefix=\"a\"/>";
+        let found = folder
+            .read(&format!("{ASSET}<worldbody><frame pos=\"1 0 0\" euler=\"0 0 90\">{attach}</frame></worldbody>"))
+            .expect("both");
+        let [hip, toe] = found.joints.as_slice() else { panic!("{:?}", found.joints) };
+        assert_eq!((hip.position, hip.start.0, toe.position), ([0.0; 3], [1.0, 0.0, 1.0], [1.0, 0.0, 0.0]));
+        assert_eq!((hip.rotation, hip.start.1.angles[2]), (Rotation::none(), std::f64::consts::FRAC_PI_2));
+        assert_eq!(toe.start, ([0.0; 3], Rotation::none()));
+        let on_body = format!("{ASSET}<worldbody><body><joint/><geom size=\"1\"/>{attach}</body></worldbody>");
+        let faults = folder.read(&on_body).map(|_| ()).expect_err("a body that moves");
+        assert_eq!(faults[0].message, "<attach>: what moves freely hangs in the world, not on another body");
     }
 
     /// A model that attaches one itself: both prefixes, the outer one first.

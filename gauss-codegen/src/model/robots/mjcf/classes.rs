@@ -3,7 +3,7 @@
 use roxmltree::Node;
 
 use crate::model::robots::names::unknown;
-use crate::model::robots::xml::Reading;
+use crate::model::robots::xml::{Reading, own_descendants};
 
 /// The class of what names none.
 const MAIN: &str = "main";
@@ -61,9 +61,7 @@ impl<'a> Classes<'a> {
 
     /// A class that an element names is one of the file; `main` is there always.
     pub fn refuse_strange(&self, root: Node<'a, 'a>, reading: &mut Reading<'a>) {
-        let is_default = |node: &Node<'a, 'a>| node.tag_name().name() == "default";
-        let outside = |node: &Node<'a, 'a>| node.is_element() && !is_default(node);
-        for node in root.descendants().filter(outside) {
+        for node in own_descendants(root).filter(|node| !node.has_tag_name("default")) {
             for name in ["class", "childclass"] {
                 let Some(class) = node.attribute(name).map(str::trim) else { continue };
                 if !self.names.iter().any(|(known, _)| *known == class) {

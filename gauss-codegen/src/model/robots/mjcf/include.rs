@@ -10,7 +10,7 @@ use roxmltree::Node;
 use super::replicate::replicated;
 use crate::model::robots::description::{At, Fault};
 use crate::model::robots::text::{MOST_OF_TEXT, Text, Written};
-use crate::model::robots::xml::{is_foreign, parse, shown};
+use crate::model::robots::xml::{is_foreign, own_elements, parse, shown};
 
 const INCLUDE: &str = "include";
 
@@ -53,9 +53,9 @@ impl Models {
         let whole = text.whole.clone();
         // What is no XML is told by whoever reads it next.
         let Ok(document) = parse(&whole) else { return (text, Vec::new()) };
-        let sections = document.root_element().children().filter(|node| node.has_tag_name("asset"));
+        let sections = own_elements(document.root_element()).filter(|node| node.has_tag_name("asset"));
         let mut faults = Vec::new();
-        for node in sections.flat_map(|asset| asset.children().filter(|node| node.has_tag_name("model"))) {
+        for node in sections.flat_map(own_elements).filter(|node| node.has_tag_name("model")) {
             match self.model(&text, node) {
                 Ok((name, model, own)) => {
                     text.models.push((name, model));

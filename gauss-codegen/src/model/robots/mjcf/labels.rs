@@ -7,6 +7,7 @@ use std::ops::Range;
 use roxmltree::Node;
 
 use crate::model::robots::text::Text;
+use crate::model::robots::xml::own_descendants;
 
 /// Sections whose elements refer to bodies, joints and sites, in this order: actuators and equalities refer to tendons.
 pub const SECTIONS: [&str; 3] = ["tendon", "equality", "actuator"];
@@ -25,7 +26,7 @@ impl Affix<'_> {
     /// Puts a range of an element to the end of another text.
     pub fn renamed<'a>(&self, text: &Text, node: Node<'a, 'a>, range: Range<usize>, out: &mut Text) {
         let mut start = range.start;
-        for inner in node.descendants().filter(|inner| inner.is_element() && range.contains(&inner.range().start)) {
+        for inner in own_descendants(node).filter(|inner| range.contains(&inner.range().start)) {
             let own = name_of(inner).map(|own| ("name", own));
             let all: Vec<(&str, Named<'a>)> = own.into_iter().chain(references(inner)).collect();
             // In the order of the text.

@@ -15,7 +15,7 @@ use super::rotations::Angles;
 use crate::model::robots::description::Fault;
 use crate::model::robots::rotation::{Triple, turned};
 use crate::model::robots::text::{MOST_OF_TEXT, Text};
-use crate::model::robots::xml::{Reading, is_foreign, parse, shown};
+use crate::model::robots::xml::{Reading, own_descendants, own_elements, parse, shown};
 
 const REPLICATE: &str = "replicate";
 
@@ -47,21 +47,21 @@ fn once(text: &Text) -> Result<Option<Text>, Fault> {
     // What is no XML is told by whoever reads it next.
     let Ok(document) = parse(&text.whole) else { return Ok(None) };
     let root = document.root_element();
-    let is_replicate = |node: &Node<'_, '_>| node.tag_name().name() == REPLICATE && !is_foreign(*node);
-    let innermost = |node: &Node<'_, '_>| !node.descendants().skip(1).any(|inner| is_replicate(&inner));
-    let Some(node) = root.descendants().find(|node| is_replicate(node) && innermost(node)) else { return Ok(None) };
+    let innermost = |node: &Node<'_, '_>| !own_descendants(*node).skip(1).any(|inner| inner.has_tag_name(REPLICATE));
+    let mut replicates = own_descendants(root).filter(|node| node.has_tag_name(REPLICATE));
+    let Some(node) = replicates.find(innermost) else { return Ok(None) };
     let mut reading = Reading::new(&document, text, ELEMENTS);
     let angles = Angles::read(root, &mut reading);
     // Those are told when the whole is read.
     let others = reading.faults.len();
     let copies = Copies::read(node, &angles, &mut reading);
     let mut named = BTreeSet::new();
-    node.descendants().skip(1).for_each(|inner| named.extend(name_of(inner)));
+    own_descendants(node).skip(1).for_each(|inner| named.extend(name_of(inner)));
     let mut referring = Vec::new();
     for section in SECTIONS {
-        let all = root.children().filter(|child| child.tag_name().name() == section);
-        for element in all.flat_map(|section| section.children().filter(Node::is_element)) {
-            if element.descendants().any(|inner| references(inner).iter().any(|(_, own)| named.contains(own))) {
+        let all = own_elements(root).filter(|child| child.has_tag_name(section));
+        for element in all.flat_map(own_elements) {
+            if own_descendants(element).any(|inner| references(inner).iter().any(|(_, own)| named.contains(own))) {
                 named.extend(name_of(element));
                 referring.push((section, element));
             }
@@ -104,7 +104,7 @@ impl<'a> Copies<'a> {
                 reading.fault(node, format!("a <{tag}> cannot stand in it; put it into a <body>"));
             }
         }
-        if node.descendants().any(|inner| inner.tag_name().name() == "attach") {
+        if own_descendants(node).any(|inner| inner.has_tag_name("attach")) {
             reading.fault(node, "an <attach> cannot stand in it");
         }
         let offset: Triple = reading.numbers(node, "offset").unwrap_or_default();
