@@ -61,15 +61,17 @@ impl Budget {
 
     /// Takes the work of multiplying terms; false when nothing is left.
     pub(super) fn may_multiply(&self, work: u64) -> bool {
-        let left = self.terms.get();
-        self.terms.set(left.saturating_sub(work));
-        left > work
+        spend(&self.terms, work)
     }
 
     /// Takes the work of rewriting a term; false when nothing is left.
-    pub(super) fn may_rewrite(&self) -> bool {
-        let left = self.rewritings.get();
-        self.rewritings.set(left.saturating_sub(1));
-        left > 1
+    pub(super) fn may_rewrite(&self, work: u64) -> bool {
+        spend(&self.rewritings, work)
     }
+}
+
+fn spend(budget: &Cell<u64>, work: u64) -> bool {
+    let left = budget.get();
+    budget.set(left.saturating_sub(work));
+    left > work
 }

@@ -308,8 +308,9 @@ impl<'g> Expander<'g> {
         let mut result = Polynomial::zero(self.graph);
         for (m, c) in &a.terms {
             // Long monomials and coefficients take their time.
-            let length = 1 + m.factors.len() as u64 / 4 + if c.parts().is_some() { 0 } else { 40 };
-            if !self.graph.budget.may_multiply(length * b.terms.len() as u64) {
+            let length = m.factors.len() as u64 / 4;
+            let others: u64 = b.terms.values().map(|d| length + effort(*c).max(effort(*d))).sum();
+            if !self.graph.budget.may_multiply(others) {
                 return None;
             }
             for (n, d) in &b.terms {
@@ -337,7 +338,7 @@ impl<'g> Expander<'g> {
                 let (squares, square) = (i64::from(n / 2), Monomial::new(vec![(sine.id, 2)]));
                 let mut binomial = coefficient;
                 for power in 0..=squares {
-                    if !self.graph.budget.may_rewrite() {
+                    if !self.graph.budget.may_rewrite(effort(binomial)) {
                         return None;
                     }
                     self.add_reduced(result, rest.clone(), binomial)?;
@@ -354,7 +355,7 @@ impl<'g> Expander<'g> {
                     let coefficient = coefficient * sum.terms[leading].recip();
                     self.add_reduced(result, rest.times(&Monomial::new(vec![(atom, 1)])), coefficient)?;
                     for (m, c) in &sum.terms {
-                        if !self.graph.budget.may_rewrite() {
+                        if !self.graph.budget.may_rewrite(effort(coefficient)) {
                             return None;
                         }
                         if m != leading {
@@ -369,6 +370,11 @@ impl<'g> Expander<'g> {
         result.add_term(monomial, coefficient);
         Some(())
     }
+}
+
+/// Beside a product of 64-bit fractions: those of a thousand bits are reduced by a greatest common divisor.
+fn effort(coefficient: Rational) -> u64 {
+    if coefficient.parts().is_some() { 1 } else { 40 }
 }
 
 impl<'g> Polynomial<'g> {

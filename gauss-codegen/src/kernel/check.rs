@@ -83,7 +83,8 @@ fn compare<N: Number>(function: usize, found: &[N], expected: &[N]) -> Result<()
         let (apart, found, expected) = ((found - wanted).to_f64(), found.to_f64(), wanted.to_f64());
         // Inputs are of order one; hundreds of roundings stay far below, a wrong term far above this.
         let close = apart.abs() <= 1e-6 * (1.0 + expected.abs());
-        if !close {
+        // Derivatives alone may have no value where functions have one, as that of 0^k by k: there is nothing to compare with.
+        if expected.is_finite() && !close {
             return Err(Miscompiled { function, output, expected, found });
         }
     }
