@@ -14,7 +14,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use gauss_batch::{Batch, BatchSystem, States};
-use gauss_examples::statistics::quartiles;
+use gauss_charts::statistics::quartiles;
 use gauss_runtime::integrate::OneStep;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;

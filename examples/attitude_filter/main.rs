@@ -12,8 +12,8 @@ mod study;
 
 use std::error::Error;
 
+use gauss_charts::statistics::Random;
 use gauss_examples::plots;
-use gauss_examples::statistics::Random;
 
 use filter::Transition;
 use model::{ARCSECOND, DISTURBANCE, FIRST, LOOKS, STEP, STEPS, TRACKER, happens, nominal, spacecraft};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gauss_examples::statistics::Random;
+use gauss_charts::statistics::Random;
 use gauss_runtime::prelude::*;
 
 /// A rigid satellite about its centre of mass O: the torque of its wheels, known, and one that nobody knows, both in body axes.

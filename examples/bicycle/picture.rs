@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use gauss_examples::figure::COLOURS;
+use gauss_charts::drawing::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;

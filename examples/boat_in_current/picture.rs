@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use gauss_examples::figure::{COLOURS, INK};
+use gauss_charts::drawing::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, mosaic};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;

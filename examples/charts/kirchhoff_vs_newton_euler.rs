@@ -6,8 +6,8 @@
 use std::env;
 use std::path::PathBuf;
 
-use gauss_examples::measure::{Comparison, Fleet};
-use gauss_examples::{figure, report, timing};
+use gauss_charts::measure::{Comparison, Fleet};
+use gauss_charts::{drawing, figure, report, timing};
 
 /// Length of the runs, s.
 const DURATION: f64 = 30.0;
@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let page = figure::page(&fleet.kirchhoff, &comparison).html()?;
     let files = [
         ("kirchhoff_vs_newton_euler.svg", svg.clone().into_bytes(), "the picture"),
-        ("kirchhoff_vs_newton_euler.png", figure::png(&svg)?, "the same in pixels"),
+        ("kirchhoff_vs_newton_euler.png", drawing::png(&svg)?, "the same in pixels"),
         ("kirchhoff_vs_newton_euler.html", page.into_bytes(), "the motion, as a page that plays"),
         (
             "equations.txt",

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use gauss_examples::figure::{COLOURS, INK};
+use gauss_charts::drawing::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, mosaic};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use gauss_examples::figure::INK;
+use gauss_charts::drawing::INK;
 use gauss_examples::plots::{Cell, Line, Plot, mosaic};
 use plotters::style::RGBColor;
 

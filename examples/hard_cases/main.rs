@@ -14,8 +14,8 @@ mod report;
 use std::env;
 use std::path::Path;
 
+use gauss_charts::drawing::png;
 use gauss_comparisons::suite;
-use gauss_examples::figure::png;
 use suite::{CASES, Effort, Verdict};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -3,8 +3,8 @@
 
 use std::error::Error;
 
-use gauss_examples::figure::{Area, COLOURS, INK, PALE, text_style};
-use gauss_examples::panels::power_of_ten;
+use gauss_charts::drawing::{Area, COLOURS, INK, PALE, text_style};
+use gauss_charts::panels::power_of_ten;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 

@@ -11,9 +11,9 @@ use std::time::Instant;
 
 use gauss_adapters::DualNumber;
 use gauss_batch::{Batch, Packs, States};
-use gauss_examples::figure::{COLOURS, INK};
+use gauss_charts::drawing::{COLOURS, INK};
+use gauss_charts::statistics::Random;
 use gauss_examples::plots::{Line, Plot, mosaic, write, write_page};
-use gauss_examples::statistics::Random;
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 use indicatif::{ProgressBar, ProgressStyle};

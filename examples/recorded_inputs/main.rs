@@ -9,9 +9,9 @@ use std::error::Error;
 use std::fs::File;
 use std::path::PathBuf;
 
-use gauss_examples::figure::COLOURS;
+use gauss_charts::drawing::COLOURS;
+use gauss_charts::figure::torpedo;
 use gauss_examples::plots::{self, Line, Plot, mosaic};
-use gauss_examples::stage;
 use gauss_playback::Playback;
 use gauss_runtime::prelude::*;
 
@@ -86,7 +86,7 @@ fn page(kernel: &CraftKernel, recording: &Recording, samples: Vec<Sample<CraftKe
     let mut page = Playback::of_samples("A vehicle driven by recorded inputs", samples)
         .up([0.0, 0.0, -1.0])
         .from_above()
-        .body("REMUS 100", pose, stage::torpedo())
+        .body("REMUS 100", pose, torpedo())
         .follow("REMUS 100")
         .trace("REMUS 100", [0.0; 3]);
     // The speeds are (u, v, r): what acts on them are a force in body axes and a torque. Fins push 0.63 m behind O.

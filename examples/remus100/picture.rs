@@ -2,9 +2,9 @@
 
 use std::error::Error;
 
-use gauss_examples::figure::COLOURS;
+use gauss_charts::drawing::COLOURS;
+use gauss_charts::figure::torpedo;
 use gauss_examples::plots::{Line, Plot, sheet};
-use gauss_examples::stage;
 use gauss_playback::Playback;
 use gauss_runtime::prelude::*;
 
@@ -110,7 +110,7 @@ pub fn page(kernel: &RemusKernel, flight: &Flight) -> Playback<RemusKernel> {
     let velocity = |s: &Sample<RemusKernel>| (s.q.translation.vector, s.q.rotation * s.z.fixed_rows::<3>(0));
     let mut page = Playback::of_samples("The REMUS 100 turns", flight.moments.iter().map(sample).collect())
         .up([0.0, 0.0, -1.0])
-        .body("REMUS 100", |s| s.q, stage::torpedo())
+        .body("REMUS 100", |s| s.q, torpedo())
         .follow("REMUS 100")
         .trace("REMUS 100", [0.0; 3])
         .arrow("velocity", 0.6, velocity)

@@ -12,8 +12,8 @@ use std::env;
 use std::error::Error;
 use std::path::PathBuf;
 
+use gauss_charts::drawing;
 use gauss_comparisons::measure;
-use gauss_examples::figure;
 use indicatif::{ProgressBar, ProgressStyle};
 
 mod report;
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("speed_vs_error.csv", tables::csv(&studies)?),
         ("speed_vs_error.json", serde_json::to_vec(&tables::json(&studies, &machine))?),
         ("speed_vs_error.svg", picture.clone().into_bytes()),
-        ("speed_vs_error.png", figure::png(&picture)?),
+        ("speed_vs_error.png", drawing::png(&picture)?),
     ] {
         let file = folder.join(name);
         gauss_files::write(&file, contents)?;

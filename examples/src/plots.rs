@@ -9,7 +9,7 @@ use gauss_playback::Playback;
 use gauss_runtime::system::GaussSystem;
 use plotters::prelude::*;
 
-use crate::figure::{Area, INK, PALE, png, text_style};
+use gauss_charts::drawing::{Area, INK, PALE, png, text_style};
 
 /// A curve of a plot.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use std::error::Error;
 use gauss_runtime::prelude::*;
 use plotters::prelude::*;
 
-use crate::figure::{COLOURS, INK, PALE, text_style};
+use gauss_charts::drawing::{COLOURS, INK, PALE, text_style};
 
 /// A hoop at one time.
 #[derive(Clone, Copy, Debug)]

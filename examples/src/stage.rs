@@ -1,14 +1,7 @@
-//! What several pages that play show: a cart with its pole, a torpedo, links as rods.
+//! What several pages that play show: a cart with its pole, links as rods.
 
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
-
-/// The torpedo of the REMUS 100 and its fins, body axes from the middle: e₁ forward.
-#[must_use]
-pub fn torpedo() -> [Shape; 3] {
-    let fin = |edges: [f64; 3]| Shape::cuboid(edges).at(&Isometry3::translation(-0.63, 0.0, 0.0)).colour("#444444");
-    [Shape::ellipsoid([0.665, 0.095, 0.095]), fin([0.09, 0.31, 0.01]), fin([0.09, 0.01, 0.31])]
-}
 
 /// A cart at q₁ along k₁, a pole of a length on it at the angle q₂ from upright, and the push on the cart, N, drawn so many
 /// metres long for each newton.

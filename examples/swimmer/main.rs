@@ -5,7 +5,7 @@
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use gauss_examples::figure::{COLOURS, INK};
+use gauss_charts::drawing::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;

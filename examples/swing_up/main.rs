@@ -8,7 +8,7 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::time::{Duration, Instant};
 
-use gauss_examples::figure::COLOURS;
+use gauss_charts::drawing::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
 use gauss_examples::stage;
 use gauss_playback::Playback;

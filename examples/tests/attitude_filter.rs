@@ -10,7 +10,7 @@ mod model;
 #[path = "../attitude_filter/study.rs"]
 mod study;
 
-use gauss_examples::statistics::Random;
+use gauss_charts::statistics::Random;
 use gauss_runtime::prelude::*;
 
 use filter::{Estimate, Transition};

@@ -5,7 +5,7 @@
 
 use std::error::Error;
 
-use gauss_examples::figure::{COLOURS, PALE};
+use gauss_charts::drawing::{COLOURS, PALE};
 use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;

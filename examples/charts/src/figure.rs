@@ -1,38 +1,19 @@
-//! The picture: what is where on it, and from SVG to PNG; the motion as a page.
+//! The picture: what is where on it; the motion as a page.
 
 use std::error::Error;
 
-use gauss_playback::Playback;
+use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
-use plotters::coord::Shift;
 use plotters::prelude::*;
-use resvg::{tiny_skia, usvg};
 
+use crate::drawing::{Area, COLOURS, INK, text_style};
 use crate::measure::{Comparison, EVERYDAY_STEP, PRECISE_RATE, differences, energy_drift, momentum_drift};
 use crate::panels::{Curve, LogPanel, Note, View, bars, path};
-use crate::stage::torpedo;
 use crate::timing::Timing;
 use crate::vehicle::KirchhoffKernel;
 
-/// A part of the picture.
-pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
-/// Kirchhoff, Newton–Euler, hybrid, Lagrange: from the palette of Okabe and Ito, told apart by every kind of colour vision.
-pub const COLOURS: [RGBColor; 4] =
-    [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167)];
-/// Text and axes.
-pub const INK: RGBColor = RGBColor(45, 45, 45);
-/// Grids and shadows.
-pub const PALE: RGBColor = RGBColor(222, 222, 222);
-
 /// Width and height in pixels.
 const SIZE: (u32, u32) = (1600, 1300);
-
-/// Text of a size in a colour.
-#[must_use]
-pub fn text_style(size: u32, colour: RGBColor) -> TextStyle<'static> {
-    ("sans-serif", f64::from(size)).into_font().color(&colour)
-}
 
 /// Draws everything.
 ///
@@ -132,22 +113,6 @@ fn momentum(area: &Area<'_>, comparison: &Comparison) -> Result<(), Box<dyn Erro
     .draw(area, &all)
 }
 
-/// The picture in pixels. Text is set in DejaVu Sans, which comes with the program: nothing is asked of the system.
-///
-/// # Errors
-/// When the SVG is not one.
-pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut options = usvg::Options::default();
-    let fonts = options.fontdb_mut();
-    fonts.load_font_data(dejavu::sans::regular().to_vec());
-    fonts.set_sans_serif_family("DejaVu Sans");
-    let tree = usvg::Tree::from_str(svg, &options)?;
-    let size = tree.size().to_int_size();
-    let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height()).ok_or("the picture has no size")?;
-    resvg::render(&tree, tiny_skia::Transform::default(), &mut pixels.as_mut());
-    Ok(pixels.encode_png()?)
-}
-
 /// The motion, with its momenta in space, which gravity along k₃ changes along k₃ only, and how far each chart is from the
 /// reference at an everyday step.
 #[must_use]
@@ -171,4 +136,11 @@ pub fn page(kernel: &KirchhoffKernel, comparison: &Comparison) -> Playback<Kirch
         page = page.curve("distance from the reference, log₁₀ of m", run.name, |s| metres(s).max(1e-16).log10());
     }
     page
+}
+
+/// The torpedo of the REMUS 100 and its fins, body axes from the middle: e₁ forward.
+#[must_use]
+pub fn torpedo() -> [Shape; 3] {
+    let fin = |edges: [f64; 3]| Shape::cuboid(edges).at(&Isometry3::translation(-0.63, 0.0, 0.0)).colour("#444444");
+    [Shape::ellipsoid([0.665, 0.095, 0.095]), fin([0.09, 0.31, 0.01]), fin([0.09, 0.01, 0.31])]
 }

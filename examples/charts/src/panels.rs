@@ -8,7 +8,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::figure::{Area, COLOURS, INK, PALE, text_style};
+use crate::drawing::{Area, COLOURS, INK, PALE, text_style};
 use crate::simulate::{Moment, Run};
 use crate::timing::Timing;
 use crate::vehicle::LENGTH;

@@ -1,10 +1,10 @@
 //! The claims of the example `kirchhoff_vs_newton_euler`, on its first seconds.
 
-use gauss_examples::measure::{
+use gauss_charts::measure::{
     Comparison, EVERYDAY_STEP, Fleet, PRECISE_RATE, energy_drift, largest_difference, largest_energy_drift,
     momenta_with_the_same_bits, momentum_drift, reversals, symmetric_momentum_drift,
 };
-use gauss_examples::{figure, report, timing};
+use gauss_charts::{figure, report, timing};
 
 /// Length of the runs, s.
 const DURATION: f64 = 5.0;
@@ -92,7 +92,7 @@ fn text_and_picture_show_every_chart() {
     }
     assert!(!text.contains("NaN") && !svg.contains("NaN"));
 
-    let png = figure::png(&svg).unwrap();
+    let png = gauss_charts::drawing::png(&svg).unwrap();
     // The signature, then the first chunk with width and height.
     assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
     assert_eq!(png[16..24], [0, 0, 6, 64, 0, 0, 5, 20]);

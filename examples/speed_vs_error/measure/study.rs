@@ -7,7 +7,7 @@
 use std::error::Error;
 use std::time::{Duration, Instant};
 
-use gauss_examples::statistics::quartiles;
+use gauss_charts::statistics::quartiles;
 
 use super::entry::{Ask, Entry, Setting, Side};
 use super::scene::Scene;

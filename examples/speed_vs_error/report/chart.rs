@@ -4,7 +4,7 @@
 use std::fmt::Write;
 use std::ops::Range;
 
-use gauss_examples::panels::power_of_ten;
+use gauss_charts::panels::power_of_ten;
 
 /// What a point looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -235,7 +235,7 @@ fn in_macros() -> Vec<Scene> {
         ("Lagrange", "jet(euler_zyx)"),
     ] {
         let values = [("name", name), ("chart", chart)];
-        scenes.push(sources::in_macro("examples/src/vehicle.rs", "vehicle", &values));
+        scenes.push(sources::in_macro("examples/charts/src/vehicle.rs", "vehicle", &values));
         scenes.push(sources::in_macro("examples/remus100/vehicle.rs", "vehicle", &values));
     }
     let pendulums = [
