@@ -32,6 +32,19 @@ pub fn without_differences<'g>(outputs: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
     found
 }
 
+/// What zero is taken for in sums of roots that are divided by: no length is as small, so that their sum stays as it
+/// is, and a difference that is zero stays zero.
+fn tiny() -> Rational {
+    Rational::new(1, 1 << 50).pow(2)
+}
+
+/// |l|, or [`tiny`] where that is zero.
+fn positive(length: Expr<'_>) -> Expr<'_> {
+    let graph = length.graph;
+    let size = graph.call(Function::Abs, length);
+    size + (graph.one() - graph.call(Function::Signum, size)).group().scale(tiny())
+}
+
 struct Differences<'g> {
     graph: &'g Graph,
     expander: Expander<'g>,
@@ -89,8 +102,8 @@ impl<'g> Differences<'g> {
         }
     }
 
-    /// `k (√u − l)` of a constant l whose square cancels in u: `k (u − l²)/(√u + |l|)`, and `k (|l| − l)`, which is
-    /// zero of a length, once and for all.
+    /// `k (√u − l)` of a constant l whose square cancels in u: `k (u − l²)/(√u + s)`, and `k (s − l)`, with s = |l|, so
+    /// that it is zero of a length, once and for all. Where l is zero, s is [`tiny`]: √u may vanish as well.
     fn of_root(&mut self, sum: Expr<'g>) -> Option<Expr<'g>> {
         let NodeView::Sum(terms) = sum.view() else { return None };
         terms.iter().find_map(|&(c, term)| {
@@ -105,7 +118,7 @@ impl<'g> Differences<'g> {
             if !length.is_constant() || matches!(length.view(), NodeView::Sum(_)) || negative {
                 return None;
             }
-            let size = length.as_number().map_or_else(|| self.graph.call(Function::Abs, length), |_| length);
+            let size = length.as_number().map_or_else(|| positive(length), |_| length);
             let rest = self.difference(u, length.powi(2))?.group() * (root + size).group().recip();
             Some(factor * (rest + (size - length)).group())
         })
@@ -162,7 +175,11 @@ impl<'g> Differences<'g> {
             let found = before.clone().find_map(|&(other, v)| Some((other, self.difference(u, v)?)));
             let Some((other, difference)) = found else { continue };
             let (root, base) = (self.graph.expr(id), self.graph.expr(other));
-            let meaning = (difference.group() * (root + base).group().recip()).group();
+            let finite =
+                whole.terms.keys().flat_map(|monomial| &monomial.factors).any(|&(atom, n)| atom == id && n > 0);
+            // What divides by roots has no value where they vanish; what does not keeps its own.
+            let sum = if finite { root + base + self.graph.number(tiny()) } else { root + base };
+            let meaning = (difference.group() * sum.group().recip()).group();
             near.push(Near { id, base, rest: self.graph.symbol("δ", "\\delta", false), meaning });
         }
         near
@@ -316,7 +333,7 @@ fn root_of<'g>(graph: &'g Graph, factors: &[(Expr<'g>, i32)]) -> Option<Expr<'g>
 
 #[cfg(test)]
 mod tests {
-    use super::without_differences;
+    use super::{tiny, without_differences};
     use crate::algebra::{Evaluation, Expr, Graph, Map, Number, Precise, Scalar};
 
     fn length<'g>(x: Expr<'g>, y: Expr<'g>) -> Expr<'g> {
@@ -363,6 +380,28 @@ mod tests {
         for form in without_differences(&[stretch]) {
             let values = Map::from_iter([(x.key(), 0.0), (l.key(), -2.0)]);
             assert_eq!(Evaluation::new(&values).value(form[0]), 4.0);
+        }
+    }
+
+    /// A length of zero from a point to itself: 0/0 in a form that divides by the sum of both.
+    #[test]
+    fn other_forms_have_a_value_where_a_length_is_zero() {
+        let graph = Graph::new();
+        let [x, y, l] = ["x", "y", "l"].map(|name| graph.symbol(name, name, name == "l"));
+        let stretches = [(length(l + x, y) - l).powi(2), (length(l + x, y) - length(l - x, y)).powi(2)];
+        for stretch in stretches {
+            let forms = without_differences(&[stretch]);
+            assert!(!forms.is_empty());
+            for (x_value, expected) in [(0.0, [0.0, 0.0]), (3e-9, [9e-18, 0.0])] {
+                let values = Map::from_iter([(x.key(), x_value), (y.key(), 0.0), (l.key(), 0.0)]);
+                let expected = expected[usize::from(stretch == stretches[1])];
+                for form in &forms {
+                    let found = Evaluation::new(&values).value(form[0]);
+                    // A few roundings, and the square of what zero is taken for.
+                    let error = 8.0 * f64::EPSILON * expected + 8.0 * tiny().to_f64().powi(2);
+                    assert!((found - expected).abs() <= error, "{found:e}, not {expected:e}");
+                }
+            }
         }
     }
 
