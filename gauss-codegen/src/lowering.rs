@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use crate::accuracy::{Names, States, Trial};
+use crate::accuracy::{Deciding, Names, States, Trial};
 use crate::algebra::{Expr, Graph, Rational};
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
@@ -44,19 +44,29 @@ pub fn lower<'g>(
     let known = foldable(&model.scalar, &literals);
     let states = states(&literals, formulation);
     let samples = states.samples();
-    let mut trial = Trial::new(samples.points());
     let joined = joined(formulas);
-    let mut kernel = Kernel::lower(graph, &functions, &joined, &formulation.definitions, &wanted, known, &mut trial)
-        .map_err(|error| failed(&error))?;
-    if graph.is_undefined() {
-        return Err(undefined());
+    let lowered = |deciding: &[Deciding]| {
+        let mut trial = Trial::new(samples.points()).with(deciding);
+        let definitions = &formulation.definitions;
+        let kernel = Kernel::lower(graph, &functions, &joined, definitions, &wanted, known, &mut trial)
+            .map_err(|error| failed(&error))?;
+        if graph.is_undefined() {
+            return Err(undefined());
+        }
+        refuse_unknown_derivatives(model, &kernel)?;
+        refuse_too_much(model, &kernel)?;
+        translator.refuse_lost(&kernel)?;
+        refuse_regressor(model.wanted.regressor.as_ref(), regressor.as_ref(), &kernel)?;
+        refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), formulas, &kernel)?;
+        Ok(kernel)
+    };
+    let mut kernel = lowered(&[])?;
+    let momentum = formulas.iter().position(|formula| formula.method == Method::Momentum);
+    let deciding = kernel.seek_losses(&samples, momentum, &functions);
+    if !deciding.is_empty() {
+        kernel = lowered(&deciding)?;
+        kernel.seek_losses(&samples, momentum, &[]);
     }
-    refuse_unknown_derivatives(model, &kernel)?;
-    refuse_too_much(model, &kernel)?;
-    translator.refuse_lost(&kernel)?;
-    refuse_regressor(model.wanted.regressor.as_ref(), regressor.as_ref(), &kernel)?;
-    refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), formulas, &kernel)?;
-    kernel.seek_losses(&samples, formulas.iter().position(|formula| formula.method == Method::Momentum));
     Ok(kernel)
 }
 

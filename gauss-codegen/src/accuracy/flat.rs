@@ -94,6 +94,11 @@ impl Flat {
         self.steps.len()
     }
 
+    /// How many numbers are kept.
+    pub fn slots(&self) -> usize {
+        self.slots
+    }
+
     /// Keys of the symbols that values are wanted of, with their slots.
     pub fn inputs(&self) -> &[(u32, Slot)] {
         &self.inputs
@@ -273,20 +278,26 @@ impl Traced {
         let left = (-value).mul_add(b.value, a.value);
         Self::of(value, -left / b.value, (1.0 / b.value, a), (-value / b.value, b))
     }
-
-    /// What a change of every input in its last place does.
-    pub fn unit(&self) -> f64 {
-        let changes = 0.5 * (self.first * self.first + self.second * self.second);
-        f64::EPSILON * (self.value.abs() + changes.sqrt())
-    }
 }
 
-/// The numbers in the slots.
-pub struct Trace(Vec<Traced>);
+/// What a change of every input in its last place does to a number, which several traces may have changed.
+pub fn unit(traced: &[Traced]) -> f64 {
+    let mut squares = 0.0;
+    for Traced { first, second, .. } in traced {
+        squares += first * first + second * second;
+    }
+    f64::EPSILON * (traced[0].value.abs() + (squares / (2 * traced.len()) as f64).sqrt())
+}
+
+/// The numbers in the slots, with what else the changes of inputs depend on.
+pub struct Trace {
+    slots: Vec<Traced>,
+    changes: u64,
+}
 
 impl Flat {
-    /// Room for the numbers, with those that are in the code.
-    pub fn room(&self) -> Trace {
+    /// Room for the numbers, with those that are in the code; changes differ from one number of them to the next.
+    pub fn room(&self, changes: u64) -> Trace {
         let mut slots = vec![Traced::default(); self.slots];
         for &(value, slot) in &self.numbers {
             let nearest = value.to_f64();
@@ -294,25 +305,25 @@ impl Flat {
                 Traced { value: nearest, ..Traced::default() }
             } else {
                 let error = (Doubled::number(nearest) - Doubled::fraction(value)).to_f64();
-                Traced::given(nearest, error, slot.into())
+                Traced::given(nearest, error, name(slot, changes))
             };
         }
-        Trace(slots)
+        Trace { slots, changes }
     }
 }
 
 impl Trace {
     pub fn slots(&self) -> &[Traced] {
-        &self.0
+        &self.slots
     }
 
     pub fn give(&mut self, slot: Slot, value: f64) {
-        self.0[slot as usize] = Traced::given(value, 0.0, slot.into());
+        self.slots[slot as usize] = Traced::given(value, 0.0, name(slot, self.changes));
     }
 
     /// Carries out steps.
     pub fn run(&mut self, flat: &Flat, from: usize, to: usize) {
-        let slots: &mut [Traced] = &mut self.0;
+        let slots: &mut [Traced] = &mut self.slots;
         for step in &flat.steps[from..to] {
             let [a, b] = [slots[step.from[0] as usize], slots[step.from[1] as usize]];
             let result = match step.kind {
@@ -380,6 +391,11 @@ impl Flat {
         }
         slots
     }
+}
+
+/// What the change of the number in a slot depends on.
+fn name(slot: Slot, changes: u64) -> u64 {
+    changes << 32 | u64::from(slot)
 }
 
 /// A rounding of a function whose exact value is not at hand: a quarter of a unit in the last place, of either sign.

@@ -65,6 +65,7 @@ impl Move {
 /// A number that may be moved.
 struct Free<'g> {
     symbol: Expr<'g>,
+    parameter: bool,
     angle: bool,
     positive: bool,
     /// The body whose moments of inertia depend on it.
@@ -148,6 +149,22 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         }
     }
 
+    /// Whether they are changes of what moves alone: a run may come by such a state whatever its parameters are.
+    pub fn are_of_motion(&self, moves: &[Move]) -> bool {
+        let moving = |k: usize| !self.free[k].parameter;
+        moves.iter().all(|change| match *change {
+            Move::Scale(k, _) | Move::Quarter(k, ..) | Move::Near(_, k, _) => moving(k),
+            Move::AllNear(sum, seed, _) => self.together(sum, seed).all(|(_, by)| moving(by)),
+            Move::Body(..) => false,
+            Move::Faster(_) => true,
+        })
+    }
+
+    /// The sums of [`Move::AllNear`], each with the number that is moved.
+    fn together(&self, sum: usize, seed: usize) -> impl Iterator<Item = (&Sum<'g>, usize)> {
+        self.sums.iter().skip(sum).take(TOGETHER).map(move |sum| (sum, sum.by[seed % sum.by.len()]))
+    }
+
     /// What moves make of a sample state, in words.
     pub fn described(&self, moves: &[Move]) -> Vec<String> {
         let name = |k: usize| print(self.free[k].symbol, Notation::Text);
@@ -189,8 +206,8 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
             }
             Move::Near(sum, by, closeness) => self.bring_near(&self.sums[sum], by, closeness, draft),
             Move::AllNear(sum, seed, closeness) => {
-                for sum in self.sums.iter().skip(sum).take(TOGETHER) {
-                    self.bring_near(sum, sum.by[seed % sum.by.len()], closeness, draft);
+                for (sum, by) in self.together(sum, seed) {
+                    self.bring_near(sum, by, closeness, draft);
                 }
             }
             Move::Body(k, seed) => {
@@ -264,11 +281,24 @@ fn free<'g>(states: &States<'_, 'g>, seen: &Seen<'g>) -> Vec<Free<'g>> {
     for (symbol, component) in &states.parameters {
         let (body, role) = of_bodies.get(&symbol.key()).copied().unzip();
         if !matches!(role, Some(Role::Inertia | Role::CentralInertia | Role::AddedMass)) {
-            free.push(Free { symbol: *symbol, angle: false, positive: !component, body, range: SIZES });
+            free.push(Free {
+                symbol: *symbol,
+                parameter: true,
+                angle: false,
+                positive: !component,
+                body,
+                range: SIZES,
+            });
         }
     }
-    let of =
-        |symbol: &Expr<'g>, range: [f64; 2]| Free { symbol: *symbol, angle: false, positive: false, body: None, range };
+    let of = |symbol: &Expr<'g>, range: [f64; 2]| Free {
+        symbol: *symbol,
+        parameter: false,
+        angle: false,
+        positive: false,
+        body: None,
+        range,
+    };
     let scene = &states.system.scene;
     for coordinate in &scene.coordinates {
         match coordinate {

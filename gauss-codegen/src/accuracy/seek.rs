@@ -1,16 +1,16 @@
 //! A search for the states at which programs lose most: from sample states on, by moves that make digits cancel. It is
 //! the same in every run, and bounded in the number of states.
 
-use crate::algebra::{Doubled, Expr, Map, Number, Scalar, Set};
+use crate::algebra::{Doubled, Expr, Map, Number, Scalar};
 use crate::mechanics::Matter;
 use crate::program::Code;
 
 use super::figure::{Figure, NO_DIGIT};
-use super::flat::{Flat, Slot, Trace, Traced};
+use super::flat::{Flat, Slot, Trace, Traced, unit};
 use super::moves::{Draft, Move, Moves};
 use super::random::Random;
 use super::states::{PROFILES, Samples, States};
-use super::trial::Loss;
+use super::trial::{Deciding, Loss};
 
 /// The programs whose losses are sought, and what they read.
 pub struct Sought<'a, 'g> {
@@ -46,6 +46,12 @@ pub(super) struct Best {
 const STEPS: usize = 100_000;
 const LEAST: usize = 24;
 const MOST: usize = 96;
+/// The loss up to which no more is sought after half of the states: nothing cancels in these scenes.
+const ORDINARY: f64 = 10.0;
+/// The loss from which on other forms of a function are tried, six digits, and how many times less they have to lose:
+/// what equally good programs differ by.
+const MUCH: f64 = 1e6;
+const LESS: f64 = 32.0;
 /// What is smaller than its error, or than other components, by that factor at every sample state vanishes identically.
 const NOTHING: f64 = (1_u64 << 40) as f64;
 
@@ -57,30 +63,40 @@ pub(super) struct Search<'s, 'a, 'g> {
     ends: [usize; 3],
     momenta: Vec<(Slot, Slot)>,
     pub outputs: Vec<Vec<Slot>>,
-    besides: Vec<Vec<Slot>>,
-    /// Components that vanish identically.
-    vanishing: Set<Slot>,
+    pub besides: Vec<Vec<Slot>>,
+    /// Whether what is in a slot is a component that vanishes identically.
+    vanishing: Vec<bool>,
 }
 
 impl<'s, 'g> Samples<'s, '_, 'g> {
-    /// Looks for the states where functions lose most.
-    pub fn seek(&self, sought: &Sought<'_, 'g>) -> Found {
+    /// Looks for the states where functions lose most; those of them where another form would keep what is lost.
+    /// `forms` gives the forms of a function.
+    pub fn seek(&self, sought: &Sought<'_, 'g>, forms: &dyn Fn(usize) -> Vec<Vec<Expr<'g>>>) -> (Found, Vec<Deciding>) {
         let mut search = Search::new(self, sought);
-        let mut trace = search.flat.room();
-        let (drafts, best) = search.searched(self, &mut trace);
+        let mut trace = search.flat.room(0);
+        let (drafts, mut best) = search.searched(self, &mut trace);
+        // Of many results at many states one is hardly changed by chance, and said to lose much: changed in other ways
+        // as well, it is not.
+        let mut again = search.flat.room(1);
         let sampled = drafts.iter().filter(|draft| draft.moves.is_empty()).count();
         let at = |state: usize| drafts.get(state).map_or(Vec::new(), |draft| search.moves.described(&draft.moves));
         let mut ordinary: Vec<Vec<f64>> = vec![Vec::new(); search.outputs.len()];
         let mut besides: Vec<Vec<Best>> = vec![Vec::new(); search.besides.len()];
-        let found: Set<usize> = (0..sampled).chain(best.iter().map(|best| best.state)).collect();
-        for state in (0..drafts.len()).filter(|k| found.contains(k)) {
-            search.try_at(&drafts[state], &mut trace);
-            trace.run(&search.flat, search.ends[1], search.ends[2]);
-            for (losses, outputs) in ordinary.iter_mut().zip(&search.outputs).filter(|_| state < sampled) {
-                losses.extend(search.loss(&trace, outputs));
+        for state in search.states_for_others(drafts.len(), sampled, &best) {
+            search.try_all_at(&drafts[state], &mut trace);
+            let lists = || search.outputs.iter().chain(&search.besides);
+            let mut losses: Vec<Option<f64>> = lists().map(|outputs| search.loss(&trace, outputs)).collect();
+            if losses.iter().flatten().any(|loss| *loss > ORDINARY) {
+                search.try_all_at(&drafts[state], &mut again);
+                losses = lists().map(|outputs| search.loss_as_of(&[&trace, &again], outputs, outputs)).collect();
             }
-            for (losses, outputs) in besides.iter_mut().zip(&search.besides) {
-                losses.extend(search.loss(&trace, outputs).map(|loss| Best { loss: loss.min(NO_DIGIT), state }));
+            let (of_functions, of_besides) = losses.split_at(best.len());
+            for ((losses, best), loss) in ordinary.iter_mut().zip(&mut best).zip(of_functions) {
+                losses.extend(loss.filter(|_| state < sampled));
+                best.loss = loss.filter(|_| state == best.state).map_or(best.loss, |loss| loss.min(NO_DIGIT));
+            }
+            for (losses, loss) in besides.iter_mut().zip(of_besides) {
+                losses.extend(loss.map(|loss| Best { loss: loss.min(NO_DIGIT), state }));
             }
         }
         let functions = best.iter().zip(ordinary).zip(sought.measured).map(|((best, ordinary), measured)| {
@@ -96,7 +112,17 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
             let worst = losses.iter().max_by(|a, b| a.loss.total_cmp(&b.loss))?;
             Some(Figure { worst: worst.loss, median: Loss(ordinary).median(), at: at(worst.state) })
         });
-        Found { functions: functions.collect(), besides: besides.collect() }
+        let found = Found { functions: functions.collect(), besides: besides.collect() };
+        let of_motion = |best: &Best| best.loss > MUCH && search.moves.are_of_motion(&drafts[best.state].moves);
+        let losing: Vec<(usize, &Best)> = best.iter().enumerate().filter(|(_, best)| of_motion(best)).collect();
+        let decided =
+            losing.into_iter().filter(|&(k, best)| search.is_decided_at(k, best.loss, &drafts[best.state], &forms(k)));
+        let deciding = decided.map(|(function, best)| {
+            let mut values = drafts[best.state].values.clone();
+            self.states.finish(&mut values);
+            Deciding { function, point: self.states.point(&values) }
+        });
+        (found, deciding.collect())
     }
 }
 
@@ -155,16 +181,8 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         let momenta = of_momentum.into_iter().flat_map(|(_, outputs)| outputs).zip(&states.system.scene.momenta);
         let momenta = momenta.filter_map(|(from, p)| Some((from, flat.input(*p)?))).collect();
         let ends = [known, functions, flat.len()];
-        Self {
-            states,
-            moves: Moves::new(states, seen),
-            flat,
-            ends,
-            momenta,
-            outputs,
-            besides,
-            vanishing: Set::default(),
-        }
+        let vanishing = vec![false; flat.slots()];
+        Self { states, moves: Moves::new(states, seen), flat, ends, momenta, outputs, besides, vanishing }
     }
 
     /// States and the worst of them for each function: physical samples, then those that were found.
@@ -191,6 +209,15 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         self.moves.symbols().find(|symbol| is(*symbol))
     }
 
+    /// Sample states and the worst ones of functions; of the others that were found, which are worse than those before
+    /// them, the latest, as many as are worth their time.
+    fn states_for_others(&self, drafts: usize, sampled: usize, best: &[Best]) -> Vec<usize> {
+        let latest = (STEPS / self.ends[2].max(1)).min(LEAST);
+        let is_worth =
+            |state: usize| state < sampled || state + latest >= drafts || best.iter().any(|best| best.state == state);
+        (0..drafts).filter(|&state| is_worth(state)).collect()
+    }
+
     /// Runs all functions at a state.
     pub fn try_at(&self, draft: &Draft<'_>, trace: &mut Trace) {
         for (key, slot) in self.flat.inputs() {
@@ -203,17 +230,65 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         trace.run(&self.flat, self.ends[0], self.ends[1]);
     }
 
+    /// The same, and what is written besides.
+    pub fn try_all_at(&self, draft: &Draft<'_>, trace: &mut Trace) {
+        self.try_at(draft, trace);
+        trace.run(&self.flat, self.ends[1], self.ends[2]);
+    }
+
+    /// Whether another form of a function loses much less at a state.
+    fn is_decided_at(&mut self, function: usize, loss: f64, draft: &Draft<'_>, forms: &[Vec<Expr<'g>>]) -> bool {
+        if forms.len() < 2 {
+            return false;
+        }
+        let mut slots = |form: &Vec<Expr<'g>>| form.iter().map(|e| self.flat.expression(*e)).collect();
+        let outputs: Vec<Vec<Slot>> = forms.iter().map(&mut slots).collect();
+        let mut trace = self.flat.room(0);
+        self.try_at(draft, &mut trace);
+        trace.run(&self.flat, self.ends[2], self.flat.len());
+        let own = &self.outputs[function];
+        let least = outputs.iter().filter_map(|outputs| self.loss_as_of(&[&trace], outputs, own)).fold(loss, f64::min);
+        LESS * least.max(1.0) < loss
+    }
+
     /// The largest of the components; `None` where there is no value.
     pub fn loss(&self, trace: &Trace, outputs: &[Slot]) -> Option<f64> {
-        let (mut worst, mut largest, mut vanishing) = (0.0_f64, 0.0_f64, 0.0_f64);
         let slots = trace.slots();
+        let (mut worst, mut vanishing) = (0.0_f64, 0.0_f64);
+        // A plain loop that leaves out what cannot be the largest: it is run at every state.
         for &slot in outputs {
             let traced = &slots[slot as usize];
-            let (error, unit) = (traced.error.abs(), traced.unit());
+            let error = traced.error.abs();
+            if error <= worst * f64::EPSILON * traced.value.abs() {
+                continue;
+            }
+            let unit = unit(&[*traced]);
             if !(error + unit).is_finite() {
                 return None;
             }
-            if self.vanishing.contains(&slot) {
+            if self.vanishing[slot as usize] {
+                vanishing = vanishing.max(error);
+            } else if error > worst * unit {
+                worst = error / unit;
+            }
+        }
+        if vanishing > 0.0 {
+            let largest = outputs.iter().map(|&slot| unit(&[slots[slot as usize]])).fold(0.0, f64::max);
+            worst = worst.max(vanishing / largest);
+        }
+        Some(worst)
+    }
+
+    /// The same of outputs that should be what others are, with the changes of several traces.
+    pub fn loss_as_of(&self, traces: &[&Trace], outputs: &[Slot], others: &[Slot]) -> Option<f64> {
+        let (mut worst, mut largest, mut vanishing) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for (slot, other) in outputs.iter().zip(others) {
+            let traced: Vec<Traced> = traces.iter().map(|trace| trace.slots()[*slot as usize]).collect();
+            let (error, unit) = (traced[0].error.abs(), unit(&traced));
+            if !(error + unit).is_finite() {
+                return None;
+            }
+            if self.vanishing[*other as usize] {
                 vanishing = vanishing.max(error);
             } else if error > worst * unit {
                 worst = error / unit;
@@ -228,18 +303,19 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         let slots: Vec<Slot> = self.outputs.iter().chain(&self.besides).flatten().copied().collect();
         let mut vanish = vec![true; slots.len()];
         for draft in drafts {
-            self.try_at(draft, trace);
-            trace.run(&self.flat, self.ends[1], self.ends[2]);
+            self.try_all_at(draft, trace);
             let mut vanish = vanish.iter_mut();
             for outputs in self.outputs.iter().chain(&self.besides) {
                 let traced = || outputs.iter().map(|&slot| &trace.slots()[slot as usize]);
-                let largest = traced().map(Traced::unit).fold(0.0, f64::max);
+                let largest = traced().map(|traced| unit(&[*traced])).fold(0.0, f64::max);
                 for (traced, vanish) in traced().zip(&mut vanish) {
-                    *vanish &= largest.max(traced.error.abs()) >= NOTHING * traced.unit();
+                    *vanish &= largest.max(traced.error.abs()) >= NOTHING * unit(&[*traced]);
                 }
             }
         }
-        self.vanishing = slots.into_iter().zip(vanish).filter_map(|(slot, vanish)| vanish.then_some(slot)).collect();
+        for (slot, vanish) in slots.into_iter().zip(vanish) {
+            self.vanishing[slot as usize] = vanish;
+        }
     }
 
     /// Notes where functions lose more than at the states before; whether one of them loses much more.
@@ -250,7 +326,8 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
                 continue;
             }
             let loss = self.loss(trace, outputs).unwrap_or_else(|| {
-                let exact = exact.get_or_insert_with(|| self.exact(draft, trace, |_| Doubled::number(1.0)));
+                let exact =
+                    exact.get_or_insert_with(|| self.exact(draft, trace, self.ends[1], |_| Doubled::number(1.0)));
                 if outputs.iter().all(|&slot| exact[slot as usize].is_finite()) { NO_DIGIT } else { 0.0 }
             });
             if loss > best.loss {
@@ -261,15 +338,15 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         much
     }
 
-    /// All numbers in 106 binary digits, with what each input is multiplied by.
-    pub fn exact(&self, draft: &Draft<'_>, trace: &Trace, factor: impl Fn(Slot) -> Doubled) -> Vec<Doubled> {
+    /// All numbers up to a step in 106 binary digits, with what each input is multiplied by.
+    pub fn exact(&self, draft: &Draft<'_>, trace: &Trace, to: usize, factor: impl Fn(Slot) -> Doubled) -> Vec<Doubled> {
         let momenta = self.momenta.iter().map(|&(from, p)| (p, trace.slots()[from as usize].value));
         let momenta: Map<Slot, f64> = momenta.collect();
         let of = |key: u32, slot: Slot| match momenta.get(&slot) {
             Some(&value) => value,
             None => draft.values.map.get(&key).copied().unwrap_or(f64::NAN),
         };
-        self.flat.run(|key, slot| Doubled::number(of(key, slot)) * factor(slot), self.ends[1])
+        self.flat.run(|key, slot| Doubled::number(of(key, slot)) * factor(slot), to)
     }
 
     fn climb<'n>(&self, drafts: &mut Vec<Draft<'n>>, best: &mut [Best], trace: &mut Trace) {
@@ -282,6 +359,9 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         }
         let mut again: Option<(usize, Move)> = None;
         for n in 0..tries {
+            if n == tries / 2 && best.iter().all(|best| best.loss < ORDINARY) {
+                return;
+            }
             let (base, change) = again.take().unwrap_or_else(|| {
                 let best = best[functions[n % functions.len()]].state;
                 let base = if random.below(4) == 0 { random.below(sampled) } else { best };

@@ -64,12 +64,7 @@ pub struct Samples<'s, 'a, 'g> {
 impl Samples<'_, '_, '_> {
     /// The states as programs are tried there.
     pub fn points(&self) -> Vec<Point> {
-        let States { units, definitions, .. } = self.states;
-        let point = |values: &Values<'_>| {
-            let list: Vec<_> = values.list.iter().map(|&(key, name)| (key, name, values.map[&key])).collect();
-            Point::new(&list, units, definitions)
-        };
-        self.values.iter().map(point).collect()
+        self.values.iter().map(|values| self.states.point(values)).collect()
     }
 }
 
@@ -107,7 +102,6 @@ impl<'g> States<'_, 'g> {
     }
 
     fn values(&self, seen: &Seen<'g>, profile: &Profile, seed: u64) -> Values<'_> {
-        let scene = &self.system.scene;
         let mut values = Values { list: Vec::new(), map: Map::default(), names: &self.names };
         self.give_parameters(&mut values, profile, seed);
         self.give_motion(&mut values, seen, profile, seed);
@@ -121,10 +115,21 @@ impl<'g> States<'_, 'g> {
         }
         // What was chosen for a difference must not undo the masses.
         self.give_masses(&mut values, profile, seed);
-        self.define(&mut values);
-        let momenta: Vec<f64> = self.momentum.iter().map(|e| values.of(*e)).collect();
-        scene.momenta.iter().zip(momenta).for_each(|(p, value)| values.put(*p, value));
+        self.finish(&mut values);
         values
+    }
+
+    /// What follows from numbers that are given: what is defined, and p.
+    pub(super) fn finish(&self, values: &mut Values<'_>) {
+        self.define(values);
+        let momenta: Vec<f64> = self.momentum.iter().map(|e| values.of(*e)).collect();
+        self.system.scene.momenta.iter().zip(momenta).for_each(|(p, value)| values.put(*p, value));
+    }
+
+    /// A state as programs are tried there.
+    pub(super) fn point(&self, values: &Values<'_>) -> Point {
+        let list: Vec<_> = values.list.iter().map(|&(key, name)| (key, name, values.map[&key])).collect();
+        Point::new(&list, self.units, self.definitions)
     }
 
     fn give_parameters(&self, values: &mut Values<'_>, profile: &Profile, seed: u64) {

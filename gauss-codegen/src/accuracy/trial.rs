@@ -7,12 +7,19 @@ use crate::program::Code;
 use super::random::Random;
 use super::tape::Tape;
 
+/// A state where a function loses much that another form of it keeps.
+pub struct Deciding {
+    pub function: usize,
+    pub point: Point,
+}
+
 /// By how much inputs are changed, relatively: far above 2⁻¹⁰⁴, and so little that results change in proportion.
 const CHANGE: f64 = 1.0 / (1_u64 << 30) as f64;
 /// Changes of all inputs at once, each by something else.
 const CHANGES: u64 = 2;
 
 /// One state: what a kernel is given, the same without its rounding, and with every number changed a little.
+#[derive(Clone)]
 pub struct Point {
     given: Map<u32, f64>,
     exact: Map<u32, Doubled>,
@@ -98,13 +105,28 @@ impl Loss {
 #[derive(Default)]
 pub struct Trial {
     points: Vec<Point>,
+    /// The only functions that are tried at the last of them, one each, and which of the functions is tried.
+    deciding: Vec<usize>,
+    function: Option<usize>,
     /// How many constants have their values.
     defined: usize,
 }
 
 impl Trial {
     pub fn new(points: Vec<Point>) -> Self {
-        Self { points, defined: 0 }
+        Self { points, ..Self::default() }
+    }
+
+    /// With states where one function each is tried as well.
+    pub fn with(mut self, deciding: &[Deciding]) -> Self {
+        self.deciding = deciding.iter().map(|deciding| deciding.function).collect();
+        self.points.extend(deciding.iter().map(|deciding| deciding.point.clone()));
+        self
+    }
+
+    /// From here on programs of that function are tried, or of none of them.
+    pub fn begin(&mut self, function: Option<usize>) {
+        self.function = function;
     }
 
     /// Computes constants, symbols and what they stand for, beyond those that are known.
@@ -154,12 +176,17 @@ impl Trial {
     }
 
     fn tried_beside(&self, tapes: &[Tape], reference: usize) -> Tried {
-        let mut tried = Tried { losses: vec![Loss::default(); tapes.len()], there: Vec::new() };
+        let mut tried = Tried { losses: vec![Loss::default(); tapes.len()], there: Vec::new(), samples: 0 };
+        let samples = self.points.len() - self.deciding.len();
         for (k, point) in self.points.iter().enumerate() {
+            if k >= samples && self.function != Some(self.deciding[k - samples]) {
+                continue;
+            }
             let found: Vec<Vec<f64>> = tapes.iter().map(|tape| tape.run(&point.given, |_| None)).collect();
             let Some(expected) = point.reference(&tapes[reference], &found) else { continue };
             tried.losses.iter_mut().zip(&found).for_each(|(loss, found)| loss.0.push(expected.loss_of(found)));
             tried.there.push((k, expected));
+            tried.samples += usize::from(k < samples);
         }
         tried
     }
@@ -177,6 +204,24 @@ pub struct Tried {
     pub losses: Vec<Loss>,
     /// States where there is a value, by their numbers, with what it should be.
     there: Vec<(usize, Reference)>,
+    /// How many of them are sample states.
+    samples: usize,
+}
+
+impl Tried {
+    /// Of programs with their costs the one that is taken: by all states, unless that costs more than [`DEAR`] times
+    /// what is taken by the sample states.
+    pub fn taken(&self, costs: &[u32]) -> usize {
+        let samples: Vec<Loss> = self.losses.iter().map(|loss| Loss(loss.0[..self.samples].to_vec())).collect();
+        let ordinary = taken(&samples, costs);
+        if self.samples == self.there.len() {
+            return ordinary;
+        }
+        let affordable: Vec<usize> = (0..costs.len()).filter(|&k| costs[k] <= DEAR * costs[ordinary]).collect();
+        let losses: Vec<Loss> = affordable.iter().map(|&k| self.losses[k].clone()).collect();
+        let costs: Vec<u32> = affordable.iter().map(|&k| costs[k]).collect();
+        affordable[taken(&losses, &costs)]
+    }
 }
 
 /// How many times the loss of the best a program may have at a state, and what loss may be had anyhow. The errors of n
@@ -194,6 +239,9 @@ const VANISHING: f64 = 1.0 / 1024.0;
 /// ordinary numbers. One may at half of the states: where more do, it is the scene that is extreme, not the state.
 const TOLERABLE: f64 = 1e3;
 const ORDINARY: f64 = 10.0;
+
+/// What a form may cost at the most that keeps digits at a state that was sought, where nearly all are lost otherwise.
+const DEAR: u32 = 2;
 
 /// Of programs with their costs the one that is taken: the cheapest that keeps the digits; or, where that is dear, the
 /// cheapest whose loss is tolerable.

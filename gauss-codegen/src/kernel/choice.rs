@@ -1,6 +1,6 @@
 //! The arrangements of one function, and which of them is taken.
 
-use crate::accuracy::{Loss, Trial, Tried, taken, usable};
+use crate::accuracy::{Loss, Trial, Tried, usable};
 use crate::algebra::{Expr, without_differences};
 
 use super::hoist::Hoister;
@@ -60,6 +60,15 @@ impl<'g> Candidates<'g> {
         Self { arrangements, aim: Aim::Values }
     }
 
+    /// Everything that could be taken in place of a program of so many instructions.
+    pub(super) fn forms(&self, instructions: usize) -> Vec<Vec<Expr<'g>>> {
+        let mut forms = self.arrangements.clone();
+        if instructions <= LONG {
+            forms.extend(self.arrangements.iter().flat_map(|outputs| without_differences(outputs)));
+        }
+        forms
+    }
+
     /// The arrangement that is taken.
     pub(super) fn taken(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Taken<'g> {
         let Pool { mut lowered, tried, best } = Pool::of(&self.arrangements, self.aim, hoister, Hoister::hoist, trial);
@@ -106,7 +115,7 @@ impl<'g> Pool<'g> {
             let programs: Vec<&Program<'g>> = lowered.iter().map(|other| &other.program).collect();
             let costs: Vec<u32> = programs.iter().map(|program| aim.cost(program, hoister)).collect();
             let tried = trial.tried(&programs);
-            let best = taken(&tried.losses, &costs);
+            let best = tried.taken(&costs);
             (tried, best)
         };
         let (mut tried, mut best) = add(arrangements, &mut lowered);

@@ -1,6 +1,6 @@
 //! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
-use crate::accuracy::{Found, Loss, Samples, Sought, Trial};
+use crate::accuracy::{Deciding, Found, Loss, Samples, Sought, Trial};
 use crate::algebra::{Expr, Graph, Map, Rational};
 
 use super::check::{Checked, Miscompiled, Sample};
@@ -79,8 +79,7 @@ impl<'g> Kernel<'g> {
         trial: &mut Trial,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
-        let functions: Vec<Taken<'g>> =
-            functions.iter().map(|candidates| candidates.taken(&mut hoister, trial)).collect();
+        let functions = taken_of_each(functions, &mut hoister, trial);
         let joined: Vec<&Taken<'g>> = joined.iter().map(|&k| &functions[k]).collect();
         let (joined, of_joined) = lower_together(&mut hoister, &joined);
         let (mut programs, mut carried_out, mut losses) = (Vec::new(), Vec::new(), Vec::new());
@@ -162,9 +161,19 @@ impl<'g> Kernel<'g> {
     }
 
     /// Looks for the states where the functions lose most, and tries what is written besides there: `joined` and the
-    /// derivatives.
-    pub fn seek_losses(&mut self, samples: &Samples<'_, '_, 'g>, momentum: Option<usize>) {
-        self.found = samples.seek(&self.sought(momentum));
+    /// derivatives. Gives those states where another form of a function, if others are given, loses much less.
+    pub fn seek_losses(
+        &mut self,
+        samples: &Samples<'_, '_, 'g>,
+        momentum: Option<usize>,
+        functions: &[Candidates<'g>],
+    ) -> Vec<Deciding> {
+        let forms = |k: usize| {
+            functions.get(k).map_or(Vec::new(), |candidates| candidates.forms(self.functions[k].instructions.len()))
+        };
+        let (found, deciding) = samples.seek(&self.sought(momentum), &forms);
+        self.found = found;
+        deciding
     }
 
     /// What is sought.
@@ -186,6 +195,17 @@ impl<'g> Kernel<'g> {
             .into_iter()
             .map(Option::as_ref)
     }
+}
+
+/// Of each function the arrangement that is taken.
+fn taken_of_each<'g>(functions: &[Candidates<'g>], hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Vec<Taken<'g>> {
+    let taken = functions.iter().enumerate().map(|(k, candidates)| {
+        trial.begin(Some(k));
+        candidates.taken(hoister, trial)
+    });
+    let taken = taken.collect();
+    trial.begin(None);
+    taken
 }
 
 /// Several functions in one program, of each what was taken and what comes first where that keeps the digits. What wins alone may have less in
