@@ -7,9 +7,7 @@ use syn::DeriveInput;
 use crate::algebra::Graph;
 use crate::emit::{Derived, Equations, emit, file};
 use crate::formulation::Formulation;
-use crate::kernel::Kernel;
 use crate::lowering::lower;
-use crate::mechanics::Method;
 use crate::mistakes::{most_operations, refuse_exhausted};
 use crate::model::{self, Model};
 use crate::translate::Translator;
@@ -47,16 +45,10 @@ fn derive_model<R>(
     let mut translator = Translator::new(graph, model)?;
     let mut formulation = Formulation::of(model, &mut translator)?;
     let mut kernel = lower(graph, model, &translator, &formulation)?;
-    if !keeps_digits(&formulation, &kernel) && formulation.with_squares(model, &translator)? {
+    if !kernel.functions.acceleration.loss.is_tolerable() && formulation.with_squares(model, &translator)? {
         kernel = lower(graph, model, &translator, &formulation)?;
     }
     write(&Derived::new(model, &translator, &formulation, &kernel)?)
-}
-
-/// Whether accelerations lose no more than is tolerable.
-fn keeps_digits<'g>(formulation: &Formulation<'g>, kernel: &Kernel<'g>) -> bool {
-    let mut accelerations = formulation.formulas.iter().zip(&kernel.losses);
-    accelerations.all(|(formula, loss)| formula.method != Method::Acceleration || loss.is_tolerable())
 }
 
 #[cfg(test)]

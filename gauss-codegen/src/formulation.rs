@@ -3,14 +3,17 @@
 use proc_macro2::Ident;
 
 use crate::algebra::{Expr, Graph, Map, Notation, Rational};
+use crate::kernel::{Differentiation, Wanted};
 use crate::mechanics::{
-    Constraints, Coordinate, Elimination, Formula, Hessian, InertialParameters, InverseLinearization, Linearization,
-    Method, Regressor, System, check_system_against_definition, needless_constraints, rotation_of_quaternion,
+    Claims, Constraints, Coordinate, Elimination, Formulas, Hessian, InertialParameter, InertialParameters,
+    InverseLinearization, Linearization, Regressor, System, check_system_against_definition, needless_constraints,
+    rotation_of_quaternion,
 };
+use crate::methods::DerivativeKind;
 use crate::mistakes::{
     eliminate, not_linear, refuse_curved_kinematics, refuse_exhausted, refuse_idle_speeds, system_faults,
 };
-use crate::model::{Model, WantedMethod};
+use crate::model::{self, Model, WantedMethod};
 use crate::translate::{Parameter, Translator, parameters};
 
 /// A system with its formulas.
@@ -18,17 +21,13 @@ pub struct Formulation<'g> {
     pub system: System<'g>,
     /// How its speeds were found, where constraints are solved for the others.
     pub elimination: Option<Elimination<'g>>,
-    pub formulas: Vec<Formula<'g>>,
-    /// What is differentiated by the state, where that is asked for.
-    pub linearization: Option<Linearization<'g>>,
-    /// Its derivatives by parameters in forms of their own, where those are asked for.
-    pub derived_by_parameters: Vec<Vec<Expr<'g>>>,
-    /// Inverse dynamics and what it is differentiated along, where that is asked for.
-    pub inverse: Option<InverseLinearization<'g>>,
-    /// What is differentiated twice, where that is asked for.
-    pub hessian: Option<Hessian<'g>>,
-    /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
-    pub regressor: Option<Regressor<'g>>,
+    pub formulas: Formulas<'g>,
+    /// The derivatives that are wanted.
+    pub derivatives: Vec<Wanted<'g>>,
+    /// λ of the second derivatives, where these are wanted.
+    pub weights: Vec<Expr<'g>>,
+    /// The parameters in which the forces of inertia are linear, where the regressor is wanted.
+    pub inertial_parameters: Vec<InertialParameter<'g>>,
     /// The numbers of fields.
     pub parameters: Vec<Parameter<'g>>,
     /// The equations for people, as text and in LaTeX.
@@ -50,52 +49,46 @@ impl<'g> Formulation<'g> {
         refuse_exhausted(model, graph)?;
         let mut formulas = system.formulas();
         refuse_exhausted(model, graph)?;
-        check_system_against_definition(&system, &formulas)
+        check_system_against_definition(&system, &Claims::of(&formulas))
             .map_err(|faults| system_faults(model, translator, &system, &faults))?;
         formulas.extend(system.formulas_of_one_body().into_iter().flatten());
         if let Some(elimination) = &elimination {
-            let accelerations = formulas.iter_mut().find(|formula| formula.method == Method::Acceleration);
-            accelerations.into_iter().for_each(|formula| formula.arrangements.extend(elimination.accelerations()));
+            formulas.acceleration.extend(elimination.accelerations());
             formulas.extend(elimination.formulas());
         }
         let (quaternions, definitions) = system_rotations(system.scene.graph, &system);
-        let linearization = model.wanted.linearize.then(|| Linearization::new(&system, &formulas));
-        let inverse = model.wanted.inverse.then(|| InverseLinearization::new(&system, &formulas));
-        let hessian = model.wanted.hessian.then(|| Hessian::new(&system, &formulas));
         let parameters = parameters(&model.fields, translator.sources());
-        let symbols: Vec<Expr<'g>> = parameters.iter().map(|parameter| parameter.symbol).collect();
-        let by_parameters = linearization.iter().filter(|_| model.wanted.by_parameters);
-        let derived_by_parameters =
-            by_parameters.flat_map(|linearization| linearization.derived_by_parameters(&system, &symbols)).collect();
-        let regressor = model
-            .wanted
-            .regressor
-            .as_ref()
-            .map(|clause| regressor(clause, translator, &system, (&values, &kept), &parameters));
-        let regressor = regressor.transpose()?;
+        let (mut derivatives, weights) = derivatives(&model.wanted, &system, &formulas, &parameters);
+        let clause = model.wanted.regressor.as_ref();
+        let regressor =
+            clause.map(|clause| regressor(clause, translator, &system, (&values, &kept), &parameters)).transpose()?;
         if model.wanted.taylor.is_some() {
-            formulas.push(system.component_rates(&quaternions, &formulas));
+            formulas.extend([system.component_rates(&quaternions, &formulas.acceleration)]);
         }
         formulas.extend(system.frame_formulas(&translator.links_of_frames()));
         for method in &model.wanted.methods {
             match method {
                 WantedMethod::Centroidal => formulas.extend(system.centroidal_formulas()),
-                WantedMethod::NonlinearEffects => formulas.push(system.nonlinear_effects(&formulas)),
-                WantedMethod::GravityTorques => formulas.push(system.gravity_torques()),
+                WantedMethod::NonlinearEffects => formulas.extend([system.nonlinear_effects(&formulas.gauss_residual)]),
+                WantedMethod::GravityTorques => formulas.extend([system.gravity_torques()]),
                 WantedMethod::JacobianRates => formulas.extend(system.jacobian_rates(&translator.links_of_frames())),
             }
         }
-        formulas.extend(regressor.iter().flat_map(|regressor: &Regressor<'g>| regressor.formulas.clone()));
+        let mut inertial_parameters = Vec::new();
+        if let Some(Regressor { differentiated, formulas: of_regressor, parameters }) = regressor {
+            formulas.extend(of_regressor);
+            derivatives.push(wanted(DerivativeKind::Regressor, Differentiation::Alone(differentiated)));
+            inertial_parameters = parameters;
+        }
+        derivatives.sort_by_key(|derivative| derivative.kind);
         let units = units_of(&system, &quaternions);
         Ok(Self {
             system,
             elimination,
             formulas,
-            linearization,
-            derived_by_parameters,
-            inverse,
-            hessian,
-            regressor,
+            derivatives,
+            weights,
+            inertial_parameters,
             parameters,
             printed,
             quaternions,
@@ -120,12 +113,10 @@ impl<'g> Formulation<'g> {
         if arrangements.is_empty() {
             return Ok(false);
         }
-        let more = [Formula { method: Method::Acceleration, arrangements }];
-        check_system_against_definition(&self.system, &more)
+        let claims = Claims { accelerations: &arrangements, ..Claims::default() };
+        check_system_against_definition(&self.system, &claims)
             .map_err(|faults| system_faults(model, translator, &self.system, &faults))?;
-        let [more] = more;
-        let known = self.formulas.iter_mut().find(|formula| formula.method == Method::Acceleration);
-        known.into_iter().for_each(|formula| formula.arrangements.extend(more.arrangements.iter().cloned()));
+        self.formulas.acceleration.extend(arrangements);
         Ok(true)
     }
 
@@ -138,6 +129,43 @@ impl<'g> Formulation<'g> {
     pub fn can_drift(&self) -> bool {
         self.elimination.as_ref().map_or(!self.system.constraints.is_empty(), Elimination::can_drift)
     }
+}
+
+/// Whatever is derived from the system as it is, and λ.
+fn derivatives<'g>(
+    wanted_of: &model::Wanted,
+    system: &System<'g>,
+    formulas: &Formulas<'g>,
+    parameters: &[Parameter<'g>],
+) -> (Vec<Wanted<'g>>, Vec<Expr<'g>>) {
+    let linearization = wanted_of.linearize.then(|| Linearization::new(system, formulas));
+    let inverse = wanted_of.inverse.then(|| InverseLinearization::new(system, formulas));
+    let hessian = wanted_of.hessian.then(|| Hessian::new(system, formulas));
+    let mut derivatives = Vec::new();
+    if let Some(linearization) = linearization {
+        let symbols = || parameters.iter().map(|parameter| parameter.symbol).collect();
+        let by_parameters = wanted_of.by_parameters.then(|| linearization.by_parameters(system, symbols()));
+        let by_state = Differentiation::WithValues(linearization.differentiated);
+        derivatives.push(wanted(DerivativeKind::ByState, by_state));
+        derivatives.extend(
+            by_parameters.map(|by_parameters| {
+                wanted(DerivativeKind::ByParameters, Differentiation::ByParameters(by_parameters))
+            }),
+        );
+    }
+    derivatives.extend(
+        inverse.map(|inverse| wanted(DerivativeKind::OfInverse, Differentiation::WithValues(inverse.differentiated))),
+    );
+    let mut weights = Vec::new();
+    if let Some(Hessian { curved, weights: of_hessian }) = hessian {
+        derivatives.push(wanted(DerivativeKind::Hessian, Differentiation::Twice(curved)));
+        weights = of_hessian;
+    }
+    (derivatives, weights)
+}
+
+fn wanted<'g>(kind: DerivativeKind, differentiation: Differentiation<'g>) -> Wanted<'g> {
+    Wanted { kind, differentiation }
 }
 
 /// The forces of inertia as a linear function of inertial parameters.

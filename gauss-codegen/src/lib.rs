@@ -12,6 +12,7 @@ mod kernel;
 mod lowering;
 pub mod mathml;
 mod mechanics;
+mod methods;
 mod mistakes;
 mod model;
 pub mod program;

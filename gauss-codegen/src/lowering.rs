@@ -6,7 +6,8 @@ use crate::accuracy::{Deciding, Names, States, Trial};
 use crate::algebra::{Expr, Graph, Rational};
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
-use crate::mechanics::{Formula, Method};
+use crate::mechanics::{Arrangements, Method};
+use crate::methods::DerivativeKind;
 use crate::mistakes::{failed, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives};
 use crate::model::{Model, Scalar};
 use crate::translate::Translator;
@@ -26,29 +27,18 @@ pub fn lower<'g>(
     if graph.is_undefined() {
         return Err(undefined());
     }
-    let Formulation { formulas, linearization, regressor, .. } = formulation;
-    let functions: Vec<_> = formulas.iter().map(candidates).collect();
-    let parameters: Vec<Expr<'g>> = formulation.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let by_parameters = linearization.as_ref().filter(|_| model.wanted.by_parameters);
-    let by_parameters = by_parameters
-        .map(|linearization| linearization.by_parameters(formulas, &parameters, &formulation.derived_by_parameters));
-    let wanted = Derivatives {
-        by_state: linearization.as_ref().map(|l| &l.differentiated),
-        inverse: formulation.inverse.as_ref().map(|inverse| &inverse.differentiated),
-        units: if linearization.is_some() { &formulation.units } else { &[] },
-        by_parameters,
-        hessian: formulation.hessian.as_ref().map(|hessian| &hessian.curved),
-        regressor: regressor.as_ref().map(|r| &r.differentiated),
-    };
+    let Formulation { formulas, .. } = formulation;
+    let functions = formulas.each_ref().map(candidates);
+    let by_state = formulation.derivatives.iter().any(|derivative| derivative.kind == DerivativeKind::ByState);
+    let units: &[Vec<Expr<'g>>] = if by_state { &formulation.units } else { &[] };
+    let wanted = Derivatives { list: &formulation.derivatives, units };
     let literals = translator.literals();
     let known = foldable(&model.scalar, &literals);
     let states = states(&literals, formulation);
     let samples = states.samples();
-    let joined = joined(formulas);
     let lowered = |deciding: &[Deciding]| {
         let mut trial = Trial::new(samples.points()).with(deciding);
-        let definitions = &formulation.definitions;
-        let kernel = Kernel::lower(graph, &functions, &joined, definitions, &wanted, known, &mut trial)
+        let kernel = Kernel::lower(graph, &functions, &formulation.definitions, &wanted, known, &mut trial)
             .map_err(|error| failed(&error))?;
         if graph.is_undefined() {
             return Err(undefined());
@@ -56,16 +46,15 @@ pub fn lower<'g>(
         refuse_unknown_derivatives(model, &kernel)?;
         refuse_too_much(model, &kernel)?;
         translator.refuse_lost(&kernel)?;
-        refuse_regressor(model.wanted.regressor.as_ref(), regressor.as_ref(), &kernel)?;
-        refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), formulas, &kernel)?;
+        refuse_regressor(model.wanted.regressor.as_ref(), &formulation.inertial_parameters, &kernel)?;
+        refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), &kernel)?;
         Ok(kernel)
     };
     let mut kernel = lowered(&[])?;
-    let momentum = formulas.iter().position(|formula| formula.method == Method::Momentum);
-    let deciding = kernel.seek_losses(&samples, momentum, &functions);
+    let deciding = kernel.seek_losses(&samples, Some(&functions));
     if !deciding.is_empty() {
         kernel = lowered(&deciding)?;
-        kernel.seek_losses(&samples, momentum, &[]);
+        kernel.seek_losses(&samples, None);
     }
     Ok(kernel)
 }
@@ -73,15 +62,14 @@ pub fn lower<'g>(
 /// What states are made from at which the programs are tried.
 pub fn states<'a, 'g>(literals: &[(Rational, Expr<'g>)], formulation: &'a Formulation<'g>) -> States<'a, 'g> {
     let Formulation { system, formulas, definitions, units, .. } = formulation;
-    let momentum = formulas.iter().find(|formula| formula.method == Method::Momentum);
     let parameters = formulation.parameters.iter();
     States {
         system,
-        momentum: momentum.map_or(&[], |formula| &formula.arrangements[0]),
+        momentum: &formulas.momentum[0],
         parameters: parameters.map(|parameter| (parameter.symbol, parameter.name.contains('['))).collect(),
         literals: literals.to_vec(),
         units,
-        weights: formulation.hessian.as_ref().map_or(&[], |hessian| &hessian.weights),
+        weights: &formulation.weights,
         definitions,
         names: Names::default(),
     }
@@ -92,14 +80,8 @@ fn foldable<'a, 'g>(scalar: &Scalar, literals: &'a [(Rational, Expr<'g>)]) -> Li
     (!matches!(scalar, Scalar::Parameter(_))).then_some(literals)
 }
 
-/// What `evaluate` computes together.
-fn joined(formulas: &[Formula<'_>]) -> Vec<usize> {
-    let of = |method: &Method| formulas.iter().position(|formula| formula.method == *method);
-    Method::EVALUATED.iter().filter_map(of).collect()
-}
-
 /// What a formula is lowered from.
-fn candidates<'g>(formula: &Formula<'g>) -> Candidates<'g> {
-    let aim = if formula.method == Method::ComponentRates { Aim::Series } else { Aim::Values };
-    Candidates { arrangements: formula.arrangements.clone(), aim }
+fn candidates<'g>(method: Method, arrangements: &Arrangements<'g>) -> Candidates<'g> {
+    let aim = if method == Method::ComponentRates { Aim::Series } else { Aim::Values };
+    Candidates { arrangements: arrangements.clone(), aim }
 }

@@ -7,8 +7,9 @@ use proc_macro2::{Ident, Span};
 use crate::algebra::{Function, Graph};
 use crate::kernel::Kernel;
 use crate::mechanics::{
-    Coordinate, Elimination, Formula, Method, Obstacle, Regressor, System, SystemFault, SystemScene,
+    Coordinate, Elimination, InertialParameter, Method, Obstacle, System, SystemFault, SystemScene,
 };
+use crate::methods::DerivativeKind;
 use crate::model::{FunctionKind, Model, SpeedPart};
 use crate::program::Instruction;
 use crate::translate::Translator;
@@ -38,12 +39,7 @@ pub fn refuse_curved_kinematics(model: &Model, scene: &SystemScene<'_>) -> syn::
 }
 
 /// Motions without a power series in time that can be written beforehand.
-pub fn refuse_series(
-    taylor: Option<&Ident>,
-    has_inputs: bool,
-    formulas: &[Formula<'_>],
-    kernel: &Kernel<'_>,
-) -> syn::Result<()> {
+pub fn refuse_series(taylor: Option<&Ident>, has_inputs: bool, kernel: &Kernel<'_>) -> syn::Result<()> {
     let Some(taylor) = taylor else { return Ok(()) };
     let mut mistakes = Mistakes::default();
     if has_inputs {
@@ -54,8 +50,8 @@ pub fn refuse_series(
                 .into(),
         );
     }
-    let rates = formulas.iter().zip(&kernel.functions).find(|(formula, _)| formula.method == Method::ComponentRates);
-    if let Some(function) = rates.and_then(|(_, program)| program.function_without_series()) {
+    let rates = kernel.functions.get(Method::ComponentRates);
+    if let Some(function) = rates.and_then(|rates| rates.program.function_without_series()) {
         mistakes.push(
             taylor.span(),
             format!(
@@ -84,11 +80,11 @@ pub fn refuse_idle_speeds(model: &Model, translator: &Translator<'_, '_>, system
 pub fn refuse_unknown_derivatives(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
     let mut mistakes = Mistakes::default();
     for (index, clause) in model.functions.iter().enumerate() {
-        let programs = kernel.functions.iter().chain(kernel.derivatives().flatten()).chain([&kernel.constants]);
-        let orders = programs.flat_map(|program| &program.instructions).filter_map(|instruction| match instruction {
-            Instruction::Call(Function::Own(own), _) if usize::from(own.index) == index => Some(own.order),
-            _ => None,
-        });
+        let orders =
+            kernel.written().flat_map(|program| &program.instructions).filter_map(|instruction| match instruction {
+                Instruction::Call(Function::Own(own), _) if usize::from(own.index) == index => Some(own.order),
+                _ => None,
+            });
         let (needed, known) = (orders.max().unwrap_or(0), clause.kind.derivatives());
         if needed <= known {
             continue;
@@ -128,13 +124,7 @@ pub fn refuse_exhausted(model: &Model, graph: &Graph) -> syn::Result<()> {
 
 /// More code than the compiler should be given without being asked.
 pub fn refuse_too_much(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
-    let operations = kernel
-        .functions
-        .iter()
-        .chain(kernel.derivatives_as_written())
-        .chain([&kernel.constants])
-        .map(|p| p.instructions.len())
-        .sum::<usize>();
+    let operations = kernel.written().map(|program| program.instructions.len()).sum::<usize>();
     let limit = most_operations(model);
     if operations <= limit {
         return Ok(());
@@ -152,12 +142,15 @@ pub fn refuse_too_much(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
 /// Masses in which the forces of inertia are not linear, because something else depends on them.
 pub fn refuse_regressor(
     clause: Option<&Ident>,
-    regressor: Option<&Regressor<'_>>,
+    parameters: &[InertialParameter<'_>],
     kernel: &Kernel<'_>,
 ) -> syn::Result<()> {
-    let (Some(clause), Some(regressor)) = (clause, regressor) else { return Ok(()) };
-    match regressor.not_linear(kernel).first() {
-        Some(first) => Err(not_linear(clause, first)),
+    let (Some(clause), Some(regressor)) = (clause, kernel.derivative(DerivativeKind::Regressor)) else {
+        return Ok(());
+    };
+    let read = regressor.program.symbols();
+    match parameters.iter().find(|parameter| read.contains(&parameter.symbol)) {
+        Some(first) => Err(not_linear(clause, &first.name)),
         None => Ok(()),
     }
 }

@@ -20,8 +20,8 @@ pub struct Sought<'a, 'g> {
     /// Constants that literals alone determine, with their definitions.
     pub folded: &'a [(Expr<'g>, Expr<'g>)],
     /// With their losses at sample states, by measurement.
-    pub functions: &'a [Code<Expr<'g>>],
-    pub measured: &'a [Loss],
+    pub functions: Vec<&'a Code<Expr<'g>>>,
+    pub measured: Vec<&'a Loss>,
     /// Which of them gives p.
     pub momentum: Option<usize>,
     /// Programs that are tried at the states that are found, without a search of their own.
@@ -99,7 +99,7 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
                 losses.extend(loss.map(|loss| Best { loss: loss.min(NO_DIGIT), state }));
             }
         }
-        let functions = best.iter().zip(ordinary).zip(sought.measured).map(|((best, ordinary), measured)| {
+        let functions = best.iter().zip(ordinary).zip(&sought.measured).map(|((best, ordinary), measured)| {
             match (ordinary.is_empty(), measured.0.is_empty()) {
                 (_, true) => None,
                 // No sample state is one that the scene can be in.
@@ -169,7 +169,7 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         }
         let constants = flat.program(sought.constants);
         sought.symbols.iter().zip(constants).for_each(|(symbol, slot)| flat.define(symbol.key(), slot));
-        let of_momentum = sought.momentum.map(|k| (k, flat.program(&sought.functions[k])));
+        let of_momentum = sought.momentum.map(|k| (k, flat.program(sought.functions[k])));
         let known = flat.len();
         let outputs = sought.functions.iter().enumerate().map(|(k, program)| match &of_momentum {
             Some((momentum, outputs)) if *momentum == k => outputs.clone(),

@@ -1,23 +1,21 @@
 //! The programs of a kernel, method by method: arguments, code, what the outputs are.
 
 use crate::emit::{Derived, OF_EQUATIONS, OF_HESSIAN, OF_REGRESSOR, OF_RESIDUAL, arguments_of, blocks};
-use crate::kernel;
-use crate::mechanics::{FrameQuantity, Method};
+use crate::kernel::{self, Derivative};
+use crate::methods::{DerivativeKind, FrameQuantity, Method};
 use crate::program::{ArgumentKind, Function, Instruction, Operand, Program, Results};
 
 use super::signature::{Signature, Unbound};
 
 /// Every method, then what is computed together, and the derivatives.
 pub fn programs<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Vec<Program>, Unbound> {
-    let formulas = derived.formulas.iter().zip(&derived.kernel.functions);
-    let methods = formulas.map(|(formula, code)| of_method(derived, signature, formula.method, code));
+    let functions = derived.kernel.functions.iter();
+    let methods = functions.map(|(method, function)| of_method(derived, signature, method, &function.program));
     let mut programs = methods.collect::<Result<Vec<_>, _>>()?;
     programs.push(evaluate(derived, signature)?);
-    programs.extend(linearize(derived, signature).transpose()?);
-    programs.extend(by_parameters(derived, signature).transpose()?);
-    programs.extend(linearize_inverse(derived, signature).transpose()?);
-    programs.extend(hessian(derived, signature).transpose()?);
-    programs.extend(regressor(derived, signature).transpose()?);
+    for derivative in &derived.kernel.derivatives {
+        programs.push(of_derivative(derived, signature, derivative)?);
+    }
     Ok(programs)
 }
 
@@ -63,7 +61,7 @@ fn regularity<'g>(code: &kernel::Program<'g>) -> kernel::Program<'g> {
 }
 
 fn evaluate<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Program, Unbound> {
-    let (increments, speeds) = (derived.program(Method::Kinematics).outputs.len(), derived.degrees_of_freedom());
+    let (increments, speeds) = (derived.increments(), derived.degrees_of_freedom());
     let results = vec![
         Results::new("velocity", increments, 1),
         Results::new("acceleration", speeds, 1),
@@ -74,60 +72,50 @@ fn evaluate<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<
     signature.program("evaluate", &arguments, &derived.kernel.joined, results)
 }
 
-fn linearize<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
-    let (linearization, code) = derived.linearization.zip(derived.kernel.tangents.as_ref())?;
-    let (states, inputs) = (linearization.increments + linearization.speeds, linearization.inputs);
-    let results = vec![
-        Results::new("rate", states, 1),
-        Results::new("by_state", states, states),
-        Results::new("by_time", states, 1),
-        Results::new("by_input", states, inputs),
-    ];
-    let arguments = with(OF_EQUATIONS);
-    Some(signature.program("linearize", &arguments, &by_rows(code, &results), results))
-}
-
-fn by_parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
-    let (linearization, code) = derived.linearization.zip(derived.kernel.by_parameters.as_ref())?;
-    let states = linearization.increments + linearization.speeds;
-    let results = vec![Results::new("by_parameters", states, derived.parameters.len())];
-    let arguments = with(OF_EQUATIONS);
-    Some(signature.program("by_parameters", &arguments, &by_rows(code, &results), results))
-}
-
-fn linearize_inverse<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
-    let (inverse, code) = derived.inverse.zip(derived.kernel.inverse.as_ref())?;
-    let (increments, speeds, inputs) = (inverse.increments, inverse.speeds, inverse.inputs);
-    let results = vec![
-        Results::new("force", speeds, 1),
-        Results::new("by_configuration", speeds, increments),
-        Results::new("by_speeds", speeds, speeds),
-        Results::new("by_acceleration", speeds, speeds),
-        Results::new("by_time", speeds, 1),
-        Results::new("by_input", speeds, inputs),
-    ];
-    let arguments = with(OF_RESIDUAL);
-    Some(signature.program("linearize_inverse", &arguments, &by_rows(code, &results), results))
-}
-
-fn hessian<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
-    let (hessian, code) = derived.hessian.zip(derived.kernel.hessian.as_ref())?;
-    let (states, inputs) = (hessian.states, hessian.inputs);
-    let results = vec![
-        Results::new("by_state", states, states),
-        Results::new("by_input_and_state", inputs, states),
-        Results::new("by_input", inputs, inputs),
-    ];
-    let outputs = blocks(states, inputs).iter().flatten().flatten().map(|&k| code.outputs[k]).collect();
-    let code = kernel::Program { instructions: code.instructions.clone(), outputs };
-    Some(signature.program("hessian", &with(OF_HESSIAN), &code, results))
-}
-
-fn regressor<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Option<Result<Program, Unbound>> {
-    let (regressor, code) = derived.regressor.zip(derived.kernel.regressor.as_ref())?;
-    let results = vec![Results::new("regressor", derived.degrees_of_freedom(), regressor.parameters.len())];
-    let arguments = with(OF_REGRESSOR);
-    Some(signature.program("regressor", &arguments, &by_rows(code, &results), results))
+fn of_derivative<'g>(
+    derived: &Derived<'_, 'g>,
+    signature: &Signature<'g>,
+    Derivative { kind, program, .. }: &Derivative<'g>,
+) -> Result<Program, Unbound> {
+    let (increments, speeds) = (derived.increments(), derived.degrees_of_freedom());
+    let (states, inputs) = (increments + speeds, derived.formal().inputs.len());
+    let (arguments, results) = match kind {
+        DerivativeKind::ByState => {
+            let by_state = Results::new("by_state", states, states);
+            let (by_time, by_input) = (Results::new("by_time", states, 1), Results::new("by_input", states, inputs));
+            (OF_EQUATIONS, vec![Results::new("rate", states, 1), by_state, by_time, by_input])
+        }
+        DerivativeKind::ByParameters => {
+            (OF_EQUATIONS, vec![Results::new("by_parameters", states, derived.parameters.len())])
+        }
+        DerivativeKind::OfInverse => (
+            OF_RESIDUAL,
+            vec![
+                Results::new("force", speeds, 1),
+                Results::new("by_configuration", speeds, increments),
+                Results::new("by_speeds", speeds, speeds),
+                Results::new("by_acceleration", speeds, speeds),
+                Results::new("by_time", speeds, 1),
+                Results::new("by_input", speeds, inputs),
+            ],
+        ),
+        DerivativeKind::Regressor => {
+            (OF_REGRESSOR, vec![Results::new("regressor", speeds, derived.inertial_parameters.len())])
+        }
+        DerivativeKind::Hessian => {
+            let by_state = Results::new("by_state", states, states);
+            let by_input_and_state = Results::new("by_input_and_state", inputs, states);
+            (OF_HESSIAN, vec![by_state, by_input_and_state, Results::new("by_input", inputs, inputs)])
+        }
+    };
+    let code = match kind {
+        DerivativeKind::Hessian => {
+            let outputs = blocks(states, inputs).iter().flatten().flatten().map(|&k| program.outputs[k]).collect();
+            kernel::Program { instructions: program.instructions.clone(), outputs }
+        }
+        _ => by_rows(program, &results),
+    };
+    signature.program(kind.name(), &with(arguments), &code, results)
 }
 
 /// Derivatives are computed column by column; results are written row by row.

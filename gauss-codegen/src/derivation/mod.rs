@@ -91,9 +91,8 @@ impl Derivation {
         &self.constants
     }
 
-    /// One program a method of the kernel, then `evaluate`, and `linearize`, `by_parameters`, `linearize_inverse`, `hessian` and `regressor`
-    /// where they are asked for.
-    /// Arguments are those of the method: constants, time and configuration first.
+    /// One program a method of the kernel, then `evaluate`, and `linearize`, `by_parameters`, `linearize_inverse`,
+    /// `regressor` and `hessian` where they are asked for. Arguments are those of the method: constants, time and configuration first.
     pub fn programs(&self) -> &[Program] {
         &self.programs
     }

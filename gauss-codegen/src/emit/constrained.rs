@@ -15,7 +15,7 @@ pub fn constrained_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let subject = constrained(derived)?;
     let (private, ty, count) = (derived.private(), derived.scalar().ty(), subject.constraints.count());
     let methods = subject.constraint_methods(&derived.private()).into_iter();
-    let methods = methods.map(|(method, result)| derived.function(method, result));
+    let methods = methods.filter_map(|(method, result)| derived.function(method, result));
     let items = quote! {
         type Multipliers = #private::SVector<#ty, #count>;
         #(#methods)*

@@ -7,8 +7,8 @@ use quote::{ToTokens, format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational, Set};
 use crate::formulation::{Formulation, Printed};
-use crate::kernel::{Counts, Kernel, Program, Smoothness};
-use crate::mechanics::{Account, Formula, Hessian, InverseLinearization, Linearization, Method, Regressor};
+use crate::kernel::{Counts, Function, Kernel, Program, Smoothness};
+use crate::mechanics::{Account, InertialParameter, Method};
 use crate::model::{Model, Scalar};
 use crate::program::ArgumentKind;
 use crate::translate::{DragMatrix, Law, Parameter, Translator};
@@ -37,20 +37,15 @@ pub struct Derived<'a, 'g> {
     pub drags: Vec<DragMatrix<'g>>,
     /// Constants of springs, stops and other elements.
     pub laws: Vec<Law<'g>>,
-    pub formulas: &'a [Formula<'g>],
     pub kernel: &'a Kernel<'g>,
-    /// What is differentiated by the state, where that is asked for.
-    pub linearization: Option<&'a Linearization<'g>>,
-    /// Inverse dynamics and what it is differentiated along, where that is asked for.
-    pub inverse: Option<&'a InverseLinearization<'g>>,
-    /// What is differentiated twice, where that is asked for.
-    pub hessian: Option<&'a Hessian<'g>>,
+    /// λ of the second derivatives, where these are wanted.
+    pub weights: &'a [Expr<'g>],
     /// The numbers of fields.
     pub parameters: &'a [Parameter<'g>],
     /// The equations for people, as text and in LaTeX.
     pub printed: &'a [Printed; 2],
-    /// The forces of inertia as a linear function of inertial parameters, where that is asked for.
-    pub regressor: Option<&'a Regressor<'g>>,
+    /// The parameters in which the forces of inertia are linear, where the regressor is wanted.
+    pub inertial_parameters: &'a [InertialParameter<'g>],
     /// Methods that are written with vectors.
     pub packs: Packs<'g>,
     /// Asked for by every method: see `private`, `arguments`.
@@ -116,14 +111,11 @@ impl<'a, 'g> Derived<'a, 'g> {
             subject,
             drags: translator.drags(),
             laws: translator.laws(),
-            formulas: &formulation.formulas,
             kernel,
-            linearization: formulation.linearization.as_ref(),
-            inverse: formulation.inverse.as_ref(),
-            hessian: formulation.hessian.as_ref(),
+            weights: &formulation.weights,
             parameters: &formulation.parameters,
             printed: &formulation.printed,
-            regressor: formulation.regressor.as_ref(),
+            inertial_parameters: &formulation.inertial_parameters,
             packs: Packs::default(),
             private: {
                 let (runtime, module) = (&model.runtime, Ident::new(PRIVATE, Span::call_site()));
@@ -155,7 +147,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             twist: system.rigid_body().map_or(&[], |body| &body.twist),
             residuals: &constraints.residuals,
             inputs: &system.scene.inputs,
-            weights: self.hessian.map_or(&[], |hessian| &hessian.weights),
+            weights: self.weights,
         }
     }
 
@@ -187,9 +179,9 @@ impl<'a, 'g> Derived<'a, 'g> {
         (0..self.kernel.constant_symbols.len()).map(|k| format_ident!("k{}", k)).collect()
     }
 
-    pub fn program(&self, method: Method) -> &Program<'g> {
-        let position = self.formulas.iter().position(|f| f.method == method);
-        &self.kernel.functions[position.expect("a method that is written was derived")]
+    /// `None` of a method that this kernel does not have.
+    pub fn program(&self, method: Method) -> Option<&'a Program<'g>> {
+        self.kernel.functions.get(method).map(|function| &function.program)
     }
 
     /// What a method is called: of a frame with its name, `pose_of_tool`.
@@ -205,8 +197,9 @@ impl<'a, 'g> Derived<'a, 'g> {
         &self.subject.model.wanted.frames
     }
 
-    pub fn has(&self, method: Method) -> bool {
-        self.formulas.iter().any(|f| f.method == method)
+    /// How many components an increment of the configuration has.
+    pub fn increments(&self) -> usize {
+        self.kernel.functions.kinematics.program.outputs.len()
     }
 
     pub fn accounts(&self) -> Vec<Account<'g>> {
@@ -214,7 +207,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     pub fn smoothness(&self) -> Smoothness {
-        self.program(Method::Acceleration).smoothness()
+        self.kernel.functions.acceleration.program.smoothness()
     }
 
     /// The module of the runtime that generated code names, with the version that both were made for.
@@ -281,8 +274,8 @@ impl<'a, 'g> Derived<'a, 'g> {
     /// Packs of the methods in which they win.
     fn packed(&self) -> Packs<'g> {
         let (mut packs, arguments, scalar) = (Packs::default(), self.arguments(), self.scalar());
-        let methods = self.formulas.iter().map(|formula| formula.method).zip(&self.kernel.functions);
-        for (method, program) in methods.filter(|(method, _)| are_wanted(*method, scalar.scalar)) {
+        let methods = self.kernel.functions.iter().filter(|(method, _)| are_wanted(*method, scalar.scalar));
+        for (method, Function { program, .. }) in methods {
             let (_, names) = self.named(program, arguments);
             let sources = Sources { kernel: self.kernel, arguments, names: &names };
             packs.add(method, program, &sources, &scalar);
@@ -300,15 +293,15 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     /// Arguments taken apart and the instructions of a method; its outputs. With packs in both forms.
-    fn computed_by(&self, method: Method) -> (TokenStream, Vec<TokenStream>) {
-        let (program, arguments, scalar) = (self.program(method), self.arguments(), self.scalar());
+    fn computed_by(&self, method: Method) -> Option<(TokenStream, Vec<TokenStream>)> {
+        let (program, arguments, scalar) = (self.program(method)?, self.arguments(), self.scalar());
         let (mut written, names) = self.named(program, arguments);
         let single = statements(program, &names, &scalar);
         let sources = Sources { kernel: self.kernel, arguments, names: &names };
         let in_both_forms = self.packs.in_both_forms(method, &single, &sources, (&self.private(), &scalar));
         let (instructions, outputs) = in_both_forms.unwrap_or(single);
         written.extend(instructions);
-        (written, outputs)
+        Some((written, outputs))
     }
 
     /// Arguments taken apart and the instructions of a program; its outputs.
@@ -327,10 +320,10 @@ impl<'a, 'g> Derived<'a, 'g> {
         (written, names)
     }
 
-    /// The body of a method: arguments taken apart, instructions, result.
-    pub fn method_body(&self, method: Method) -> TokenStream {
+    /// The body of a method: arguments taken apart, instructions, result. `None` where there is no such method.
+    pub fn method_body(&self, method: Method) -> Option<TokenStream> {
         let (private, speeds) = (self.private(), self.speeds());
-        let (mut body, outputs) = self.computed_by(method);
+        let (mut body, outputs) = self.computed_by(method)?;
         let result = match method {
             Method::KineticEnergy
             | Method::PotentialEnergy
@@ -354,17 +347,17 @@ impl<'a, 'g> Derived<'a, 'g> {
             _ => quote!(#private::vector([#(#outputs),*])),
         };
         body.extend(result);
-        body
+        Some(body)
     }
 
     pub fn degrees_of_freedom(&self) -> usize {
         self.speeds().len()
     }
 
-    /// A method of a trait, with its result.
-    pub fn function(&self, method: Method, result: TokenStream) -> TokenStream {
-        let function = self.function_of(method.name(), arguments_of(method), result, self.method_body(method));
-        quote!(#[inline] #function)
+    /// A method of a trait, with its result; `None` where the kernel does not have it.
+    pub fn function(&self, method: Method, result: TokenStream) -> Option<TokenStream> {
+        let function = self.function_of(method.name(), arguments_of(method), result, self.method_body(method)?);
+        Some(quote!(#[inline] #function))
     }
 
     /// A function of time, configuration and further arguments.

@@ -8,7 +8,7 @@ use crate::kernel::Counts;
 use crate::mechanics::Method;
 
 use super::derived::Derived;
-use super::documentation::{DERIVATIVES, Equations, figures};
+use super::documentation::{Equations, figures};
 use super::framed::frame_operations;
 use super::state::component_names;
 
@@ -53,13 +53,13 @@ fn operations(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
         quote!(#field = #count)
     };
     let kernel = &derived.kernel;
-    let methods = derived.formulas.iter().zip(&kernel.functions).filter(|(f, _)| f.method <= Method::Powers);
-    let methods = methods.map(|(f, program)| count(f.method.name(), program.counts()));
+    let methods = kernel.functions.iter().filter(|(method, _)| *method <= Method::Powers);
+    let methods = methods.map(|(method, function)| count(method.name(), function.program.counts()));
     let whole = [("kernel", &kernel.constants), ("evaluate", &kernel.joined)].into_iter();
     let whole = whole.map(|(name, program)| count(name, program.counts()));
-    let derivatives = DERIVATIVES.into_iter().zip(kernel.derivatives());
-    let derivatives = derivatives.filter_map(|(name, program)| Some(count(name, program?.counts())));
-    let asked_for = Method::ASKED_FOR.into_iter().filter(|method| derived.has(*method));
-    let asked_for = asked_for.map(|method| count(method.name(), derived.program(method).counts()));
+    let derivatives = kernel.derivatives.iter();
+    let derivatives = derivatives.map(|derivative| count(derivative.kind.name(), derivative.program.counts()));
+    let asked_for = Method::ASKED_FOR.into_iter();
+    let asked_for = asked_for.filter_map(|method| Some(count(method.name(), derived.program(method)?.counts())));
     whole.chain(methods).chain(derivatives).chain(asked_for).chain(frame_operations(derived)).collect()
 }

@@ -5,7 +5,7 @@ use syn::ext::IdentExt;
 use crate::accuracy::Figure;
 use crate::algebra::Notation;
 use crate::formulation::Printed;
-use crate::kernel::Counts;
+use crate::kernel::{Counts, Function};
 use crate::mathml;
 use crate::mechanics::Method;
 use crate::model::{InChart, InputKind, Role};
@@ -126,9 +126,6 @@ fn description(derived: &Derived<'_, '_>) -> String {
     format!("q = ({}), z = ({speeds})", q.join(", "))
 }
 
-/// The methods that [`Kernel::derivatives`](crate::kernel::Kernel::derivatives) has the programs of.
-pub const DERIVATIVES: [&str; 5] = ["linearize", "by_parameters", "linearize_inverse", "regressor", "hessian"];
-
 /// The loss above which the documentation of a kernel warns of it: three decimal places.
 const MUCH: f64 = 1e3;
 
@@ -234,27 +231,25 @@ fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
 /// What is written besides the formulas, with what it costs and loses.
 fn besides<'d, 'g>(derived: &'d Derived<'_, 'g>) -> impl Iterator<Item = (&'static str, Counts, Option<&'d Figure>)> {
     let kernel = derived.kernel;
+    let derivatives = kernel.derivatives.iter();
     let derivatives =
-        DERIVATIVES.into_iter().zip(kernel.derivatives()).filter_map(|(name, program)| Some((name, program?)));
-    let all = std::iter::once(("evaluate", &kernel.joined)).chain(derivatives);
-    all.zip(&kernel.found.besides).map(|((name, program), figure)| (name, program.counts(), figure.as_ref()))
+        derivatives.map(|derivative| (derivative.kind.name(), derivative.program.counts(), derivative.figure.as_ref()));
+    std::iter::once(("evaluate", kernel.joined.counts(), kernel.figure_of_joined.as_ref())).chain(derivatives)
 }
 
 /// What each method loses, then `evaluate` and the derivatives, by their names.
 pub fn figures<'d>(derived: &'d Derived<'_, '_>) -> impl Iterator<Item = (Option<Method>, &'static str, &'d Figure)> {
-    let formulas = derived.formulas.iter().map(|formula| formula.method).zip(&derived.kernel.found.functions);
-    let formulas = formulas.filter_map(|(method, figure)| Some((Some(method), method.name(), figure.as_ref()?)));
-    formulas.chain(besides(derived).filter_map(|(name, _, figure)| Some((None, name, figure?))))
+    let functions = derived.kernel.functions.iter();
+    let functions =
+        functions.filter_map(|(method, function)| Some((Some(method), method.name(), function.figure.as_ref()?)));
+    functions.chain(besides(derived).filter_map(|(name, _, figure)| Some((None, name, figure?))))
 }
 
 /// What each method costs and loses.
 fn costs(derived: &Derived<'_, '_>) -> String {
-    let functions = derived.kernel.functions.iter().zip(&derived.kernel.found.functions);
-    let formulas = derived
-        .formulas
-        .iter()
-        .zip(functions)
-        .map(|(formula, (program, figure))| (call_of(derived, formula.method), program.counts(), figure.as_ref()));
+    let functions = derived.kernel.functions.iter().map(|(method, Function { program, figure, .. })| {
+        (call_of(derived, method), program.counts(), figure.as_ref())
+    });
     let besides = besides(derived).map(|(name, counts, figure)| (name.to_owned(), counts, figure));
     let row = |(name, counts, figure): (String, Counts, Option<&Figure>)| {
         vec![code(&name), counts.to_string(), figure.map_or_else(|| "none".to_owned(), loss)]
@@ -263,7 +258,7 @@ fn costs(derived: &Derived<'_, '_>) -> String {
         "\n# Cost and rounding\n\nThe loss is the largest error of double precision that a search over states of the \
          scene found (median of sample states), in units of what a change of every parameter and argument in its last \
          place does. Sizes are up to 10⁹ apart there, and sums as near zero as 10⁻⁹ of their terms.\n{}",
-        table(["method", "operations", "loss, at most"], formulas.chain(besides).map(row).collect())
+        table(["method", "operations", "loss, at most"], functions.chain(besides).map(row).collect())
     )
 }
 

@@ -8,9 +8,7 @@ use crate::mechanics::Method;
 use super::derived::Derived;
 
 pub fn forced_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    if !derived.has(Method::Powers) {
-        return None;
-    }
+    let powers = derived.function(Method::Powers, quote!(Self::Powers))?;
     let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
     let accounts = derived.accounts();
     let count = accounts.len();
@@ -19,7 +17,6 @@ pub fn forced_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         let damper = (conservative && account.outside.is_some()).then(|| quote!(.with_damper()));
         quote!(#private::Element::new(#name, #conservative) #damper)
     });
-    let powers = derived.function(Method::Powers, quote!(Self::Powers));
     let forces = derived.function(Method::ElementForces, quote!(Self::ElementForces));
     let supplied = derived.function(Method::SuppliedPower, quote!(Self::Scalar));
     let items = quote! {

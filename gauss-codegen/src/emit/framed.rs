@@ -15,11 +15,11 @@ pub fn frame_operations(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let of = |(number, frame): (usize, &Ident)| {
         let name = frame.unraw().to_string();
         let counts = FrameQuantity::ALL.map(|quantity| {
-            let program = derived.program(Method::OfFrame(quantity, number));
-            derived.count(program.counts())
+            derived.program(Method::OfFrame(quantity, number)).map(|program| derived.count(program.counts()))
         });
+        let counts = counts.into_iter().flatten();
         let rate = Method::OfFrame(FrameQuantity::JacobianRate, number);
-        let rate = derived.has(rate).then(|| derived.count(derived.program(rate).counts()));
+        let rate = derived.program(rate).map(|program| derived.count(program.counts()));
         let rate = rate.map(|count| quote!(.with_jacobian_rate(#count)));
         quote!(#private::FrameOperations::new(#name, [#(#counts),*]) #rate)
     };
@@ -34,18 +34,15 @@ pub fn name_of_frames(derived: &Derived<'_, '_>) -> Ident {
 
 /// The enum of names; the implementations.
 pub fn framed_system(derived: &Derived<'_, '_>) -> [Option<TokenStream>; 2] {
-    if derived.frames().is_empty() {
-        return [None, None];
-    }
-    let [names, named] = names(derived);
-    let (system, rates) = (system(derived), jacobian_rates(derived));
+    let Some(system) = system(derived) else { return [None, None] };
+    let ([names, named], rates) = (names(derived), jacobian_rates(derived));
     [Some(names), Some(quote!(#named #system #rates))]
 }
 
 fn jacobian_rates(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let wanted = derived.has(Method::OfFrame(FrameQuantity::JacobianRate, 0));
-    let result = quote!(Self::Jacobian);
-    wanted.then(|| derived.implementation(quote!(JacobianRates), method(derived, FrameQuantity::JacobianRate, &result)))
+    derived.program(Method::OfFrame(FrameQuantity::JacobianRate, 0))?;
+    let method = method(derived, FrameQuantity::JacobianRate, &quote!(Self::Jacobian));
+    Some(derived.implementation(quote!(JacobianRates), method))
 }
 
 fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
@@ -85,7 +82,8 @@ fn word(derived: &Derived<'_, '_>, frame: &Ident) -> String {
     own.map_or_else(|| frame.unraw().to_string(), |(_, word)| word.clone())
 }
 
-fn system(derived: &Derived<'_, '_>) -> TokenStream {
+fn system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let of_all = derived.program(Method::Frames)?;
     let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
     let (name, count) = (name_of_frames(derived), derived.frames().len());
     let jacobian = quote!(#private::SMatrix<#ty, 6, #n>);
@@ -97,7 +95,7 @@ fn system(derived: &Derived<'_, '_>) -> TokenStream {
         (FrameQuantity::Bias, six),
     ];
     let methods = methods.map(|(quantity, result)| method(derived, quantity, &result));
-    let (instructions, outputs) = derived.computed(derived.program(Method::Frames));
+    let (instructions, outputs) = derived.computed(of_all);
     let size = outputs.len() / count;
     let all = outputs.chunks(size).map(|of_frame| {
         let mut rest = of_frame;
@@ -118,16 +116,16 @@ fn system(derived: &Derived<'_, '_>) -> TokenStream {
         #[inline]
         #frames
     };
-    derived.implementation(quote!(FramedSystem), items)
+    Some(derived.implementation(quote!(FramedSystem), items))
 }
 
 /// One quantity of any frame.
 fn method(derived: &Derived<'_, '_>, quantity: FrameQuantity, result: &TokenStream) -> TokenStream {
     let enumeration = name_of_frames(derived);
-    let arms = derived.frames().iter().enumerate().map(|(number, frame)| {
-        let (instructions, outputs) = derived.computed(derived.program(Method::OfFrame(quantity, number)));
+    let arms = derived.frames().iter().enumerate().filter_map(|(number, frame)| {
+        let (instructions, outputs) = derived.computed(derived.program(Method::OfFrame(quantity, number))?);
         let value = made(derived, quantity, &outputs);
-        quote!(#enumeration::#frame => { #instructions #value })
+        Some(quote!(#enumeration::#frame => { #instructions #value }))
     });
     let of_first = Method::OfFrame(quantity, 0);
     let (name, arguments) =

@@ -73,15 +73,14 @@ fn methods(derived: &Derived<'_, '_>) -> TokenStream {
         (Method::Regularity, &scalar),
         (Method::NonlinearEffects, &speeds),
     ];
-    let written = methods.into_iter().filter(|(method, _)| derived.has(*method));
-    written.map(|(method, result)| derived.function(method, result.clone())).collect()
+    methods.into_iter().filter_map(|(method, result)| derived.function(method, result.clone())).collect()
 }
 
 /// `evaluate`: q̇, ż and the energies at once.
 fn evaluate(derived: &Derived<'_, '_>) -> TokenStream {
     let private = derived.private();
     let (mut body, outputs) = derived.computed(&derived.kernel.joined);
-    let (configuration, rest) = outputs.split_at(derived.program(Method::Kinematics).outputs.len());
+    let (configuration, rest) = outputs.split_at(derived.increments());
     let (speeds, energies) = rest.split_at(derived.degrees_of_freedom());
     let velocity = derived.subject.tangent(&derived.private(), configuration);
     body.extend(quote! {

@@ -3,14 +3,17 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::kernel::Derivative;
+use crate::methods::DerivativeKind;
+
 use super::arguments::OF_HESSIAN;
 use super::derived::Derived;
 
 /// The implementation, where it is asked for.
 pub fn hessian_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let (hessian, program) = derived.hessian.zip(derived.kernel.hessian.as_ref())?;
+    let Derivative { program, .. } = derived.kernel.derivative(DerivativeKind::Hessian)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
-    let (states, inputs) = (hessian.states, hessian.inputs);
+    let (states, inputs) = (derived.increments() + derived.degrees_of_freedom(), derived.formal().inputs.len());
     let (instructions, outputs) = derived.computed(program);
     let [by_state, by_input_and_state, by_input] = blocks(states, inputs).map(|block| {
         let row = |row: &Vec<usize>| {

@@ -3,15 +3,19 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::kernel::Derivative;
+use crate::methods::DerivativeKind;
+
 use super::arguments::OF_RESIDUAL;
 use super::derived::Derived;
 use super::linearized;
 
 /// The implementation, where it is asked for.
 pub fn inverse_linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let (inverse, program) = derived.inverse.zip(derived.kernel.inverse.as_ref())?;
+    let Derivative { program, .. } = derived.kernel.derivative(DerivativeKind::OfInverse)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
-    let (increments, speeds, inputs) = (inverse.increments, inverse.speeds, inverse.inputs);
+    let (increments, speeds) = (derived.increments(), derived.degrees_of_freedom());
+    let inputs = derived.formal().inputs.len();
     let (instructions, outputs) = derived.computed(program);
     // Outputs are the forces, and then their derivatives, one column of the matrices after the other.
     let (force, derivatives) = outputs.split_at(speeds);

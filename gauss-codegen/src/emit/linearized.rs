@@ -6,7 +6,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::algebra::Rational;
-use crate::kernel::{Operand, Program};
+use crate::kernel::{Derivative, Operand, Program};
+use crate::methods::DerivativeKind;
 
 use super::arguments::OF_EQUATIONS;
 use super::columns::solved_together;
@@ -14,13 +15,13 @@ use super::derived::Derived;
 
 /// The implementation, where it is asked for.
 pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let (linearization, program) = derived.linearization.zip(derived.kernel.tangents.as_ref())?;
+    let Derivative { program, columns: solved, .. } = derived.kernel.derivative(DerivativeKind::ByState)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
-    let (states, inputs) = (linearization.increments + linearization.speeds, linearization.inputs);
+    let (states, inputs) = (derived.increments() + derived.degrees_of_freedom(), derived.formal().inputs.len());
     // Outputs are the rates, and then their derivatives, one column of the matrices after the other.
     let (of_states, of_time, of_inputs) = (1..states + 1, states + 1, states + 2..states + 2 + inputs);
-    let body = match &derived.kernel.columns {
-        Some(columns) => solved_together(derived, columns, states),
+    let body = match solved {
+        Some(solved) => solved_together(derived, solved, states),
         None => {
             let (instructions, outputs) = derived.computed(program);
             let by_state = columns(&outputs, states, of_states.clone());

@@ -3,15 +3,18 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::kernel::Derivative;
+use crate::methods::DerivativeKind;
+
 use super::arguments::OF_EQUATIONS;
 use super::derived::Derived;
 use super::linearized::{columns, pattern};
 
 /// The derivatives by parameters, where they are asked for.
 pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let (linearization, program) = derived.linearization.zip(derived.kernel.by_parameters.as_ref())?;
+    let Derivative { program, .. } = derived.kernel.derivative(DerivativeKind::ByParameters)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
-    let (states, count) = (linearization.increments + linearization.speeds, derived.parameters.len());
+    let (states, count) = (derived.increments() + derived.degrees_of_freedom(), derived.parameters.len());
     let names = derived.parameters.iter().map(|parameter| &parameter.name);
     let (instructions, outputs) = derived.computed(program);
     let (matrix, pattern) = (columns(&outputs, states, 0..count), pattern(program, states, 0..count));

@@ -3,7 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::mechanics::Method;
+use crate::kernel::Derivative;
+use crate::methods::{DerivativeKind, Method};
 
 use super::arguments::{OF_REGRESSOR, arguments_of};
 use super::derived::Derived;
@@ -11,14 +12,14 @@ use super::linearized::{columns, pattern};
 
 /// The regressor, where it is asked for.
 pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let (regressor, program) = derived.regressor.zip(derived.kernel.regressor.as_ref())?;
+    let Derivative { program, .. } = derived.kernel.derivative(DerivativeKind::Regressor)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
-    let (rates, count) = (derived.degrees_of_freedom(), regressor.parameters.len());
-    let names = regressor.parameters.iter().map(|parameter| &parameter.name);
+    let (rates, count) = (derived.degrees_of_freedom(), derived.inertial_parameters.len());
+    let names = derived.inertial_parameters.iter().map(|parameter| &parameter.name);
     let (instructions, outputs) = derived.computed(program);
     let (matrix, pattern) = (columns(&outputs, rates, 0..count), pattern(program, rates, 0..count));
     let (parameters, forces) =
-        (derived.method_body(Method::InertialParameters), derived.method_body(Method::OtherForces));
+        (derived.method_body(Method::InertialParameters)?, derived.method_body(Method::OtherForces)?);
     let body = quote!(#instructions #private::columns([#(#matrix),*]));
     let regressor = derived.function_of("regressor", OF_REGRESSOR, quote!(Self::Regressor), body);
     let of_forces = arguments_of(Method::OtherForces);

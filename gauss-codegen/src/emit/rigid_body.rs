@@ -12,10 +12,7 @@ use super::pose::pose_bodies;
 pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let private = derived.private();
     let six = quote!(#private::SVector<Self::Scalar, 6>);
-    let placed = match derived.has(Method::Pose) {
-        true => placed_by_coordinates(derived),
-        false => placed_by_chart(derived)?,
-    };
+    let placed = placed_by_coordinates(derived).or_else(|| placed_by_chart(derived))?;
     let twist = derived.function(Method::BodyTwist, six.clone());
     let momentum = derived.function(Method::BodyMomentum, six);
     Some(derived.implementation(quote!(RigidBodySystem), quote!(#placed #twist #momentum)))
@@ -43,13 +40,13 @@ fn placed_by_chart(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 }
 
 /// Of one body with coordinates of its own: the way back is found, by what these do to the pose.
-fn placed_by_coordinates(derived: &Derived<'_, '_>) -> TokenStream {
+fn placed_by_coordinates(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (private, speeds) = (derived.private(), derived.degrees_of_freedom());
     let start = derived.subject.unmoved(&derived.private());
-    let (instructions, pose) = derived.computed(derived.program(Method::Pose));
+    let (instructions, pose) = derived.computed(derived.program(Method::Pose)?);
     let (rotation, position) = pose.split_at(9);
     let rows = rotation.chunks(3).map(|row| quote!([#(#row),*]));
-    let (by_configuration, columns) = derived.computed(derived.program(Method::PoseByConfiguration));
+    let (by_configuration, columns) = derived.computed(derived.program(Method::PoseByConfiguration)?);
     let columns: Vec<_> = columns.chunks(6).map(|column| quote!([#(#column),*])).collect();
     let increments = columns.len();
     let pose = quote!(#instructions #private::pose_from_rows([#(#rows),*], [#(#position),*]));
@@ -58,7 +55,7 @@ fn placed_by_coordinates(derived: &Derived<'_, '_>) -> TokenStream {
     let speeds_of = derived.function_of("speeds", &[ArgumentKind::Twist], quote!(Self::Speeds), speeds_of);
     let determinacy = quote!(#private::determinacy_of_speeds::<Self, #speeds>(self, __t, __q));
     let determinacy = derived.function_of("determinacy", &[], quote!(Self::Scalar), determinacy);
-    quote! {
+    Some(quote! {
         #pose
         fn configuration_at(
             &self,
@@ -78,7 +75,7 @@ fn placed_by_coordinates(derived: &Derived<'_, '_>) -> TokenStream {
         }
         #speeds_of
         #determinacy
-    }
+    })
 }
 
 fn pose_function(derived: &Derived<'_, '_>, body: TokenStream) -> TokenStream {

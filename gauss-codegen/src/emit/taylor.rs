@@ -367,12 +367,9 @@ impl Variables {
 
 /// The implementation, where the series are derived.
 pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    if !derived.has(Method::ComponentRates) {
-        return None;
-    }
+    let program = derived.program(Method::ComponentRates)?;
     let (private, scalar) = (derived.private(), derived.scalar());
     let (ty, real, zero) = (scalar.ty(), &scalar.real, quote!(__zero));
-    let program = derived.program(Method::ComponentRates);
     let variables = Variables::of(derived, program);
     let (instructions, rates) =
         statements(program, &KernelDialect { symbols: &variables.first, scalar: &scalar }, Kept::Everything);

@@ -9,25 +9,23 @@ use super::derived::Derived;
 
 /// The implementations, where they are asked for.
 pub fn of_the_whole(derived: &Derived<'_, '_>) -> TokenStream {
-    let centroidal = derived.has(Method::TotalMass).then(|| centroidal(derived));
-    let torques = derived.has(Method::GravityTorques).then(|| {
-        let method = derived.function(Method::GravityTorques, quote!(Self::Speeds));
-        derived.implementation(quote!(GravityTorques), method)
-    });
+    let centroidal = centroidal(derived);
+    let torques = derived.function(Method::GravityTorques, quote!(Self::Speeds));
+    let torques = torques.map(|method| derived.implementation(quote!(GravityTorques), method));
     quote!(#centroidal #torques)
 }
 
-fn centroidal(derived: &Derived<'_, '_>) -> TokenStream {
+fn centroidal(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let mass = derived.method_body(Method::TotalMass)?;
     let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
     let six = quote!(#private::SVector<#ty, 6>);
-    let mass = derived.method_body(Method::TotalMass);
     let methods = [
         (Method::CenterOfMass, quote!(#private::SVector<#ty, 3>)),
         (Method::CentroidalMomentum, six.clone()),
         (Method::CentroidalMatrix, quote!(Self::CentroidalMatrix)),
         (Method::CentroidalBias, six),
     ];
-    let methods = methods.map(|(method, result)| derived.function(method, result));
+    let methods = methods.into_iter().filter_map(|(method, result)| derived.function(method, result));
     let items = quote! {
         type CentroidalMatrix = #private::SMatrix<#ty, 6, #n>;
         type CenterJacobian = #private::SMatrix<#ty, 3, #n>;
@@ -39,5 +37,5 @@ fn centroidal(derived: &Derived<'_, '_>) -> TokenStream {
             #private::center_jacobian(&self.centroidal_matrix(__t, __q), self.total_mass())
         }
     };
-    derived.implementation(quote!(CentroidalSystem), items)
+    Some(derived.implementation(quote!(CentroidalSystem), items))
 }

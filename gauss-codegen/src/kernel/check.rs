@@ -4,8 +4,8 @@ use std::fmt;
 
 use crate::algebra::{Evaluation, Expr, Function, Graph, Map, Number, Precise};
 
-use super::columns::LoweredColumns;
-use super::derivatives::Expected;
+use super::expected::Expected;
+use super::wanted::Lowered;
 use super::write::Program;
 
 /// A program does not compute what its expressions say: an error of this crate, never of its user.
@@ -29,10 +29,8 @@ pub(super) struct Checked<'a, 'g> {
     pub constants: &'a Program<'g>,
     pub constant_symbols: &'a [Expr<'g>],
     pub functions: Vec<(&'a Program<'g>, Expected<'a, 'g>)>,
-    /// Another way to the first of the derivatives.
-    pub columns: Option<&'a LoweredColumns<'g>>,
     /// Of these the point need not be in the domain.
-    pub derivatives: Vec<(&'a Program<'g>, Expected<'a, 'g>)>,
+    pub derivatives: &'a [Lowered<'a, 'g>],
 }
 
 impl<'g> Checked<'_, 'g> {
@@ -67,11 +65,15 @@ impl<'g> Checked<'_, 'g> {
         values.extend(self.constant_symbols.iter().zip(constants).map(|(s, v)| (s.key(), v)));
         let mut evaluation = Evaluation::new(point);
         values.extend(sample.folded.iter().map(|(s, definition)| (s.key(), evaluation.value(*definition))));
-        for (function, (program, expected)) in self.functions.iter().chain(&self.derivatives).enumerate() {
+        for (function, (program, expected)) in self.functions.iter().enumerate() {
             compare(function, &program.run(&values), &expected.values(&mut evaluation))?;
         }
-        if let Some((columns, (_, expected))) = self.columns.zip(self.derivatives.first()) {
-            compare(self.functions.len(), &columns.run(&values), &expected.values(&mut evaluation))?;
+        for (function, derivative) in (self.functions.len()..).zip(self.derivatives) {
+            let expected = derivative.expected.values(&mut evaluation);
+            compare(function, &derivative.program.run(&values), &expected)?;
+            if let Some(columns) = &derivative.columns {
+                compare(function, &columns.run(&values), &expected)?;
+            }
         }
         Ok(())
     }

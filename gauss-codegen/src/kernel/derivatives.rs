@@ -1,13 +1,11 @@
-//! Derivatives of functions along what moves, and what programs of derivatives should compute.
-
-use std::borrow::Cow;
+//! Derivatives of functions along what moves.
 
 use crate::accuracy::{Loss, Trial, taken, usable};
-use crate::algebra::{Evaluation, Expr, Number, Tangents};
+use crate::algebra::Expr;
 
 use super::choice::{Aim, Lowered as Arranged, Pool};
 use super::columns::{Columns, LoweredColumns};
-use super::hessian::Curved;
+use super::expected::{Expected, Kept};
 use super::hoist::Hoister;
 use super::tangent::{Direction, tangents_alone, with_tangents};
 use super::write::Program;
@@ -31,32 +29,18 @@ pub struct Derived<'g> {
     pub columns: Option<Columns<'g>>,
 }
 
-/// Whether the outputs themselves are wanted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kept {
-    ValuesToo,
-    DerivativesAlone,
-}
-
-/// A program of derivatives, and what it should compute.
-pub(super) type Lowered<'a, 'g> = (Program<'g>, Expected<'a, 'g>);
-
-/// The same, with the way in which many right-hand sides are solved for together.
-pub(super) type LoweredByState<'a, 'g> = (Lowered<'a, 'g>, Option<LoweredColumns<'g>>);
-
-/// What a program of derivatives should compute.
-pub(super) struct Expected<'a, 'g> {
-    outputs: Cow<'a, [Expr<'g>]>,
-    directions: Cow<'a, [Direction<'g>]>,
-    kept: Kept,
-    /// In place of all that, second derivatives.
-    second: Option<&'a Curved<'g>>,
-}
+/// The program of derivatives, with the way in which many right-hand sides are solved for together.
+pub(super) type WithColumns<'g> = (Program<'g>, Option<LoweredColumns<'g>>);
 
 impl<'g> Differentiated<'g> {
     /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple where
     /// those of its definition are not: R σ̂ beside what a quaternion makes of it.
-    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, kept: Kept, trial: &mut Trial) -> LoweredByState<'_, 'g> {
+    pub(super) fn lower(
+        &self,
+        hoister: &mut Hoister<'_, 'g>,
+        kept: Kept,
+        trial: &mut Trial,
+    ) -> (WithColumns<'g>, Expected<'_, 'g>) {
         let definitions = Program::lower(&hoister.hoist(&self.defined));
         let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
         let Pool { lowered, tried, .. } =
@@ -73,22 +57,12 @@ impl<'g> Differentiated<'g> {
         let costs: Vec<u32> = of_usable.iter().map(|(program, ..)| program.cost().total()).collect();
         let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
         let (program, columns) = self.cheaper(program, hoister, trial);
-        let program = program.carried_out();
-        let expected =
-            Expected { outputs: Cow::Owned(outputs), directions: Cow::Borrowed(&self.directions), kept, second: None };
-        ((program, expected), columns)
+        ((program.carried_out(), columns), Expected::along(outputs, &self.directions, kept))
     }
-}
 
-impl<'g> Differentiated<'g> {
     /// A program of derivatives, or what has a form of its own and costs less. Of roots, whose slope may be infinite, only programs know what
     /// their derivatives are where nothing changes.
-    fn cheaper(
-        &self,
-        program: Program<'g>,
-        hoister: &mut Hoister<'_, 'g>,
-        trial: &mut Trial,
-    ) -> (Program<'g>, Option<LoweredColumns<'g>>) {
+    fn cheaper(&self, program: Program<'g>, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> WithColumns<'g> {
         let most = program.cost().total();
         if program.counts().roots > 0 {
             return (program, None);
@@ -107,44 +81,5 @@ impl<'g> Differentiated<'g> {
         let costs: Vec<u32> = ways.iter().map(|(program, _)| program.cost().total()).collect();
         let (program, columns) = ways.swap_remove(taken(&losses, &costs));
         (program, columns.and_then(|columns| columns.lower(hoister)))
-    }
-}
-
-impl<'a, 'g> Expected<'a, 'g> {
-    /// Derivatives of functions alone.
-    pub fn of_derivatives(outputs: Vec<Expr<'g>>, directions: Vec<Direction<'g>>) -> Self {
-        let (outputs, directions) = (Cow::Owned(outputs), Cow::Owned(directions));
-        Self { outputs, directions, kept: Kept::DerivativesAlone, second: None }
-    }
-
-    /// The values of expressions.
-    pub fn of(outputs: &'a [Expr<'g>]) -> Self {
-        Self { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&[]), kept: Kept::ValuesToo, second: None }
-    }
-
-    /// The second derivatives of a number.
-    pub fn of_second(second: &'a Curved<'g>) -> Self {
-        Self { second: Some(second), ..Self::of(&second.arrangements[..1]) }
-    }
-
-    pub fn outputs(&self) -> &[Expr<'g>] {
-        &self.outputs
-    }
-
-    /// By dual numbers through the expressions.
-    pub fn values<N: Number>(&self, evaluation: &mut Evaluation<'_, N>) -> Vec<N> {
-        if let Some(second) = self.second {
-            return second.values(evaluation);
-        }
-        let mut expected = Vec::new();
-        if self.kept == Kept::ValuesToo {
-            expected.extend(self.outputs.iter().map(|e| evaluation.value(*e)));
-        }
-        for direction in self.directions.iter() {
-            let rates = direction.iter().map(|(symbol, rate)| (symbol.key(), evaluation.value(*rate))).collect();
-            let mut tangents = Tangents::new(evaluation, &rates);
-            expected.extend(self.outputs.iter().map(|e| tangents.along(*e)));
-        }
-        expected
     }
 }

@@ -1,163 +1,126 @@
 //! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
-use crate::accuracy::{Deciding, Found, Loss, Samples, Sought, Trial};
+use crate::accuracy::{Deciding, Figure, Found, Loss, Samples, Sought, Trial};
 use crate::algebra::{Expr, Graph, Map, Rational};
+use crate::methods::{DerivativeKind, Method, Methods};
 
 use super::check::{Checked, Miscompiled, Sample};
 use super::choice::{Candidates, Taken};
-use super::columns::LoweredColumns;
 use super::constants::{Constants, Hoisted, Source};
-use super::derivatives::{Differentiated, Expected, Kept};
-use super::hessian::Curved;
+use super::expected::Expected;
 use super::hoist::Hoister;
-use super::parametric::ByParameters;
+use super::wanted::{Derivative, Lowered, Wanted};
 use super::write::Program;
 
-/// Programs of a set of functions that share their constants.
+/// The programs of a kernel, which share their constants.
 pub struct Kernel<'g> {
     /// Computes the constants from the parameters; its outputs are the constants in order.
     pub constants: Program<'g>,
-    /// One program a function, in the order given; the symbols of constants among their inputs are listed below.
-    pub functions: Vec<Program<'g>>,
-    /// What each of them loses at sample states.
-    pub losses: Vec<Loss>,
-    /// The outputs of several functions, one after the other, what they have in common computed once.
+    /// The symbols of constants among the inputs of programs are listed below.
+    pub functions: Methods<Function<'g>>,
+    /// `evaluate`: the outputs of several functions, one after the other, what they have in common computed once.
     pub joined: Program<'g>,
-    /// The outputs of what is differentiated, then all their derivatives along the first direction, and so on.
-    pub tangents: Option<Program<'g>>,
-    /// The same where the columns of derivatives are the solutions of one linear system: what is written then.
-    pub columns: Option<LoweredColumns<'g>>,
-    /// The derivatives of the same outputs by the first parameter, and so on.
-    pub by_parameters: Option<Program<'g>>,
-    /// The outputs of inverse dynamics, then all their derivatives along the first direction, and so on.
-    pub inverse: Option<Program<'g>>,
-    /// The coefficients of the first parameter in outputs that are affine in them, and so on.
-    pub regressor: Option<Program<'g>>,
-    /// The second derivatives of one number, along i and j up to i.
-    pub hessian: Option<Program<'g>>,
+    pub figure_of_joined: Option<Figure>,
+    /// Those that are wanted, in the order of their kinds.
+    pub derivatives: Vec<Derivative<'g>>,
     /// The constants as symbols, in the order of the outputs of `constants`.
     pub constant_symbols: Vec<Expr<'g>>,
     /// Constants that literal numbers alone determine, with their values.
     pub known_constants: Vec<(Expr<'g>, f64)>,
-    /// What is said of the losses of functions, of `joined` and of the derivatives that are there.
-    pub found: Found,
     /// The definitions of known constants.
     pub folded: Vec<(Expr<'g>, Expr<'g>)>,
+}
+
+/// A function as it is carried out.
+pub struct Function<'g> {
+    pub program: Program<'g>,
+    /// What it loses at sample states.
+    pub loss: Loss,
+    /// What it loses at the worst state that is found; `None` where it has no value.
+    pub figure: Option<Figure>,
 }
 
 /// What is differentiated beside the functions of a kernel.
 #[derive(Default)]
 pub struct Derivatives<'a, 'g> {
-    /// Outputs that are wanted together with their derivatives.
-    pub by_state: Option<&'a Differentiated<'g>>,
+    pub list: &'a [Wanted<'g>],
     /// Symbols that are the components of one unit vector or quaternion, and so on: equations are solved for the
     /// accelerations with the help of that, so points at which derivatives are checked must have it, too.
     pub units: &'a [Vec<Expr<'g>>],
-    /// Velocities and accelerations by the parameters.
-    pub by_parameters: Option<ByParameters<'a, 'g>>,
-    /// Inverse dynamics together with its derivatives.
-    pub inverse: Option<&'a Differentiated<'g>>,
-    /// Outputs that are affine in the symbols of their directions: their coefficients.
-    pub regressor: Option<&'a Differentiated<'g>>,
-    /// A number whose second derivatives are wanted.
-    pub hessian: Option<&'a Curved<'g>>,
 }
 
 /// Symbols that stand for literal numbers. Where the scalar is not known before run time, there is no value to fold.
 pub type Literals<'a, 'g> = Option<&'a [(Rational, Expr<'g>)]>;
 
 impl<'g> Kernel<'g> {
-    /// Lowers functions, each of which has an arrangement; those that are `joined` also together. `definitions` are symbols that stand
-    /// for expressions of the arguments. Every program is then run at a pseudo-random point and compared with its expressions.
-    pub fn lower<'a>(
+    /// Lowers functions, each of which has an arrangement; those of `evaluate` also together. `definitions` are symbols
+    /// that stand for expressions of the arguments. Every program is then run at a pseudo-random point and compared with
+    /// its expressions.
+    pub fn lower(
         graph: &'g Graph,
-        functions: &[Candidates<'g>],
-        joined: &[usize],
+        functions: &Methods<Candidates<'g>>,
         definitions: &Map<u32, Expr<'g>>,
-        wanted: &Derivatives<'a, 'g>,
+        wanted: &Derivatives<'_, 'g>,
         literals: Literals<'_, 'g>,
         trial: &mut Trial,
     ) -> Result<Self, Miscompiled> {
         let mut hoister = Hoister::new(graph, definitions);
         let functions = taken_of_each(functions, &mut hoister, trial);
-        let joined: Vec<&Taken<'g>> = joined.iter().map(|&k| &functions[k]).collect();
-        let (joined, of_joined) = lower_together(&mut hoister, &joined);
-        let (mut programs, mut carried_out, mut losses) = (Vec::new(), Vec::new(), Vec::new());
-        let mut outputs = Vec::new();
-        for function in functions {
-            outputs.push(function.outputs);
-            programs.push(function.program);
-            carried_out.push(function.carried_out);
-            losses.push(function.loss);
-        }
-        let chosen: Vec<&[Expr<'g>]> = outputs.iter().map(Vec::as_slice).collect();
-        let mut differentiated = |wanted: Option<&'a Differentiated<'g>>, kept: Kept| {
-            let (lowered, columns) = wanted.map(|wanted| wanted.lower(&mut hoister, kept, trial)).unzip();
-            let (program, expected) = lowered.unzip();
-            (program, expected, columns.flatten())
-        };
-        let (tangents, expected_tangents, columns) = differentiated(wanted.by_state, Kept::ValuesToo);
-        let (inverse, expected_inverse, _) = differentiated(wanted.inverse, Kept::ValuesToo);
-        let (regressor, expected_regressor, _) = differentiated(wanted.regressor, Kept::DerivativesAlone);
-        let hessian = wanted.hessian.map(|wanted| wanted.lower(&mut hoister, trial));
-        let in_columns = columns.as_ref().map(|columns| &columns.program);
-        let derived = tangents.iter().chain(in_columns).chain(&inverse).chain(&regressor).chain(&hessian);
-        let read: Vec<Expr<'g>> = programs.iter().chain([&joined]).chain(derived).flat_map(Program::symbols).collect();
+        let (joined, of_joined) = lower_together(&mut hoister, &functions.evaluated());
+        let direct = wanted.list.iter().filter_map(|wanted| wanted.lower(&mut hoister, trial));
+        let mut derivatives: Vec<Lowered<'_, 'g>> = direct.collect();
+        let programs = functions.iter().map(|(_, function)| &function.program).chain([&joined]);
+        let read: Vec<Expr<'g>> =
+            programs.chain(derivatives.iter().flat_map(Lowered::programs)).flat_map(Program::symbols).collect();
         let numbers: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
         let source = Source { read: &read, literals: literals.map(|_| &numbers) };
-        let lowered =
-            wanted.by_parameters.map(|by| by.lower(graph, (&programs, &chosen), &source, &mut hoister, trial));
-        let (by_parameters, hoisted) = lowered.unzip();
-        let (by_parameters, expected_by_parameters) = by_parameters.unzip();
-        let hoisted = hoisted.unwrap_or_else(|| source.hoisted(&hoister, &[]));
-        let Hoisted { constants: Constants { program, symbols: constant_symbols }, known: known_constants, folded } =
-            hoisted;
-        let kernel = Self {
-            constants: program,
-            functions: carried_out,
-            losses,
-            joined,
-            tangents,
-            columns,
-            by_parameters,
-            inverse,
-            regressor,
-            hessian,
-            constant_symbols,
-            known_constants,
-            found: Found::default(),
-            folded,
+        // Last, because constants are differentiated.
+        let by_parameters = wanted.list.iter().find_map(Wanted::by_parameters);
+        let by_parameters = by_parameters.map(|by| by.lower(graph, &functions, &source, &mut hoister, trial));
+        let hoisted = match by_parameters {
+            Some((program, expected, hoisted)) => {
+                derivatives.push(Lowered { kind: DerivativeKind::ByParameters, program, columns: None, expected });
+                hoisted
+            }
+            None => source.hoisted(&hoister, &[]),
         };
-        let outputs = chosen.into_iter().chain([of_joined.as_slice()]).map(Expected::of);
-        let expected_hessian = wanted.hessian.map(Expected::of_second);
-        let derived =
-            [expected_tangents, expected_by_parameters, expected_inverse, expected_regressor, expected_hessian];
-        let sample = Sample { definitions, units: wanted.units, literals: &numbers, folded: &kernel.folded };
-        kernel.checked(outputs, derived).check(graph, &sample)?;
-        Ok(kernel)
+        derivatives.sort_by_key(|derivative| derivative.kind);
+        let Hoisted { constants: Constants { program: constants, symbols: constant_symbols }, known, folded } = hoisted;
+        let of_functions = functions.iter().map(|(_, function)| (&function.carried_out, &function.outputs));
+        let values = of_functions.chain([(&joined, &of_joined)]);
+        let checked = Checked {
+            constants: &constants,
+            constant_symbols: &constant_symbols,
+            functions: values.map(|(program, outputs)| (program, Expected::of(outputs))).collect(),
+            derivatives: &derivatives,
+        };
+        let sample = Sample { definitions, units: wanted.units, literals: &numbers, folded: &folded };
+        checked.check(graph, &sample)?;
+        let derivatives = derivatives.into_iter().map(Lowered::derivative).collect();
+        let functions =
+            functions.map(|_, taken| Function { program: taken.carried_out, loss: taken.loss, figure: None });
+        Ok(Self {
+            constants,
+            functions,
+            joined,
+            figure_of_joined: None,
+            derivatives,
+            constant_symbols,
+            known_constants: known,
+            folded,
+        })
     }
 
-    /// With what the functions, then those joined, and the derivatives should compute.
-    pub(super) fn checked<'a>(
-        &'a self,
-        functions: impl Iterator<Item = Expected<'a, 'g>>,
-        derivatives: impl IntoIterator<Item = Option<Expected<'a, 'g>>>,
-    ) -> Checked<'a, 'g> {
-        let derivatives = self.derivatives().zip(derivatives);
-        Checked {
-            constants: &self.constants,
-            constant_symbols: &self.constant_symbols,
-            functions: self.functions.iter().chain([&self.joined]).zip(functions).collect(),
-            columns: self.columns.as_ref(),
-            derivatives: derivatives.filter_map(|(program, expected)| program.zip(expected)).collect(),
-        }
+    /// `None` of a derivative that is not wanted.
+    pub fn derivative(&self, kind: DerivativeKind) -> Option<&Derivative<'g>> {
+        self.derivatives.iter().find(|derivative| derivative.kind == kind)
     }
 
-    /// Of the derivatives what is written.
-    pub fn derivatives_as_written(&self) -> impl Iterator<Item = &Program<'g>> {
-        let tangents = self.columns.as_ref().map(|columns| &columns.program).or(self.tangents.as_ref());
-        tangents.into_iter().chain(self.derivatives().skip(1).flatten())
+    /// Every program, as it is written.
+    pub fn written(&self) -> impl Iterator<Item = &Program<'g>> {
+        let functions = self.functions.iter().map(|(_, function)| &function.program);
+        functions.chain(self.derivatives.iter().map(Derivative::written)).chain([&self.constants])
     }
 
     /// Looks for the states where the functions lose most, and tries what is written besides there: `joined` and the
@@ -165,45 +128,51 @@ impl<'g> Kernel<'g> {
     pub fn seek_losses(
         &mut self,
         samples: &Samples<'_, '_, 'g>,
-        momentum: Option<usize>,
-        functions: &[Candidates<'g>],
+        others: Option<&Methods<Candidates<'g>>>,
     ) -> Vec<Deciding> {
         let forms = |k: usize| {
-            functions.get(k).map_or(Vec::new(), |candidates| candidates.forms(self.functions[k].instructions.len()))
+            let (_, function) = self.functions.iter().nth(k)?;
+            Some(others?.iter().nth(k)?.1.forms(function.program.instructions.len()))
         };
-        let (found, deciding) = samples.seek(&self.sought(momentum), &forms);
-        self.found = found;
+        let forms = |k: usize| forms(k).unwrap_or_default();
+        let (Found { functions, besides }, deciding) = samples.seek(&self.sought(), &forms);
+        for ((_, function), figure) in self.functions.each_mut().into_iter().zip(functions) {
+            function.figure = figure;
+        }
+        let derivatives = self.derivatives.iter_mut().map(|derivative| &mut derivative.figure);
+        for (place, figure) in std::iter::once(&mut self.figure_of_joined).chain(derivatives).zip(besides) {
+            *place = figure;
+        }
         deciding
     }
 
     /// What is sought.
-    pub fn sought(&self, momentum: Option<usize>) -> Sought<'_, 'g> {
+    pub fn sought(&self) -> Sought<'_, 'g> {
+        let functions = || self.functions.iter().map(|(_, function)| function);
+        let derivatives = self.derivatives.iter().map(|derivative| &derivative.program);
         Sought {
             constants: &self.constants,
             symbols: &self.constant_symbols,
             folded: &self.folded,
-            functions: &self.functions,
-            measured: &self.losses,
-            momentum,
-            besides: std::iter::once(&self.joined).chain(self.derivatives().flatten()).collect(),
+            functions: functions().map(|function| &function.program).collect(),
+            measured: functions().map(|function| &function.loss).collect(),
+            momentum: self.functions.iter().position(|(method, _)| method == Method::Momentum),
+            besides: std::iter::once(&self.joined).chain(derivatives).collect(),
         }
-    }
-
-    /// The programs of derivatives, in the order in which their values are expected.
-    pub fn derivatives(&self) -> impl Iterator<Item = Option<&Program<'g>>> {
-        [&self.tangents, &self.by_parameters, &self.inverse, &self.regressor, &self.hessian]
-            .into_iter()
-            .map(Option::as_ref)
     }
 }
 
 /// Of each function the arrangement that is taken.
-fn taken_of_each<'g>(functions: &[Candidates<'g>], hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Vec<Taken<'g>> {
-    let taken = functions.iter().enumerate().map(|(k, candidates)| {
-        trial.begin(Some(k));
+fn taken_of_each<'g>(
+    functions: &Methods<Candidates<'g>>,
+    hoister: &mut Hoister<'_, 'g>,
+    trial: &mut Trial,
+) -> Methods<Taken<'g>> {
+    let mut number = 0..;
+    let taken = functions.each_ref().map(|_, candidates| {
+        trial.begin(number.next());
         candidates.taken(hoister, trial)
     });
-    let taken = taken.collect();
     trial.begin(None);
     taken
 }

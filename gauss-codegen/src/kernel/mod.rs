@@ -11,6 +11,7 @@
 //! - `hessian`: second derivatives of one number.
 //! - `derivatives`: derivatives of functions by what moves; `parametric`: by parameters.
 //! - `columns`: derivatives that are the solutions of one linear system, solved for together.
+//! - `wanted`: all of these as one list. `expected`: what each should compute.
 //! - `check`: programs against the expressions that they were made from.
 //!
 //! Knows nothing of frames or bodies. Every program is checked before it is handed out (see [`Kernel::lower`]), and the shape of each
@@ -22,6 +23,7 @@ mod choice;
 mod columns;
 mod constants;
 mod derivatives;
+mod expected;
 mod factor;
 mod hessian;
 mod hoist;
@@ -31,6 +33,7 @@ mod parametric;
 mod tangent;
 #[cfg(test)]
 mod tests;
+mod wanted;
 mod write;
 
 pub use crate::program::{Counts, Smoothness};
@@ -38,7 +41,8 @@ pub use choice::{Aim, Candidates};
 pub use columns::{Columns, LoweredColumns, Parts, TOGETHER};
 pub use derivatives::{Derived, Differentiated};
 pub use hessian::Curved;
-pub use lower::{Derivatives, Kernel, Literals};
+pub use lower::{Derivatives, Function, Kernel, Literals};
 pub use parametric::{ByParameters, Equation};
 pub use tangent::Direction;
+pub use wanted::{Derivative, Differentiation, Wanted};
 pub use write::{Operand, Operation, Program};

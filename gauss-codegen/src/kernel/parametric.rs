@@ -2,37 +2,32 @@
 
 use crate::accuracy::{Trial, taken};
 use crate::algebra::{Expr, Graph, Map};
+use crate::methods::Methods;
 
+use super::choice::Taken;
 use super::constants::{Constants, Hoisted, Source};
-use super::derivatives::{Expected, Lowered};
+use super::expected::Expected;
 use super::hoist::Hoister;
 use super::tangent::{Direction, Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
 use super::write::{Operand, Operation, Program};
 
-/// Two functions of a kernel, one after the other, whose derivatives by parameters are wanted. All functions by their
-/// numbers.
-#[derive(Clone, Copy)]
-pub struct ByParameters<'a, 'g> {
-    pub parameters: &'a [Expr<'g>],
-    pub velocity: usize,
-    /// The outputs of the velocity in another order.
-    pub order: &'a [usize],
-    pub acceleration: usize,
+/// The derivatives of kinematics and then accelerations by parameters.
+pub struct ByParameters<'g> {
+    pub parameters: Vec<Expr<'g>>,
+    /// The outputs of the kinematics in another order.
+    pub order: Vec<usize>,
     /// What the acceleration solves, where nothing else restricts it.
-    pub equation: Option<Equation<'a, 'g>>,
+    pub equation: Option<Equation<'g>>,
     /// Derivatives of both in forms of their own, parameter by parameter.
-    pub derived: &'a [Vec<Expr<'g>>],
+    pub derived: Vec<Vec<Expr<'g>>>,
 }
 
-/// `residual = 0`, solved for the accelerations.
-#[derive(Clone, Copy)]
-pub struct Equation<'a, 'g> {
-    pub residual: usize,
+/// `gauss_residual = 0`, solved for the accelerations.
+pub struct Equation<'g> {
     /// The accelerations in it.
-    pub unknowns: &'a [Expr<'g>],
-    /// Affine in `loads`, with the inverse of the matrix of the residual.
-    pub solution: usize,
-    pub loads: &'a [Expr<'g>],
+    pub unknowns: Vec<Expr<'g>>,
+    /// `velocity` is affine in these, with the inverse of the matrix of the residual.
+    pub loads: Vec<Expr<'g>>,
 }
 
 /// A program that computes derivatives, and the constants of the kernel with it.
@@ -47,23 +42,23 @@ impl Way<'_> {
     }
 }
 
-impl<'g> ByParameters<'_, 'g> {
+impl<'g> ByParameters<'g> {
     /// The cheapest way that keeps the digits, with the constants that it needs computed once.
     pub(super) fn lower<'b>(
         &self,
         graph: &'g Graph,
-        (programs, outputs): (&[Program<'g>], &[&[Expr<'g>]]),
+        functions: &Methods<Taken<'g>>,
         source: &Source<'_, 'g>,
         hoister: &mut Hoister<'_, 'g>,
         trial: &mut Trial,
-    ) -> (Lowered<'b, 'g>, Hoisted<'g>) {
+    ) -> (Program<'g>, Expected<'b, 'g>, Hoisted<'g>) {
         let along: Vec<Direction<'g>> =
             self.parameters.iter().map(|&parameter| vec![(parameter, graph.one())]).collect();
-        let way = self.differentiated(graph, programs, &along, source.hoisted(hoister, &[]));
+        let way = self.differentiated(graph, functions, &along, source.hoisted(hoister, &[]));
         let Way { program, hoisted } = self.cheaper(way, source, hoister, trial);
-        let of_velocity = self.order.iter().map(|&k| outputs[self.velocity][k]);
-        let outputs: Vec<Expr<'g>> = of_velocity.chain(outputs[self.acceleration].iter().copied()).collect();
-        ((program.carried_out(), Expected::of_derivatives(outputs, along)), hoisted)
+        let of_velocity = self.order.iter().map(|&k| functions.kinematics.outputs[k]);
+        let outputs: Vec<Expr<'g>> = of_velocity.chain(functions.acceleration.outputs.iter().copied()).collect();
+        (program.carried_out(), Expected::of_derivatives(outputs, along), hoisted)
     }
 
     /// Programs read constants, not parameters: the program of the constants is differentiated first, and what their
@@ -72,24 +67,24 @@ impl<'g> ByParameters<'_, 'g> {
     fn differentiated(
         &self,
         graph: &'g Graph,
-        programs: &[Program<'g>],
+        functions: &Methods<Taken<'g>>,
         along: &[Direction<'g>],
         hoisted: Hoisted<'g>,
     ) -> Way<'g> {
         let rates = ConstantRates::new(graph, &hoisted.constants, along);
-        let velocity = &programs[self.velocity];
+        let velocity = &functions.kinematics.program;
         let ordered = self.order.iter().map(|&k| velocity.outputs[k]).collect();
         let velocity = Program { instructions: velocity.instructions.clone(), outputs: ordered };
-        let acceleration = &programs[self.acceleration];
+        let acceleration = &functions.acceleration.program;
         let mut candidates =
             vec![tangents_alone(&joined(&velocity, acceleration), (&[], &Program::nothing()), &rates.directions)];
-        candidates.extend(self.equation.map(|equation| {
+        candidates.extend(self.equation.as_ref().map(|equation| {
             let implicit = Implicit {
                 root: acceleration,
-                residual: &programs[equation.residual],
-                unknowns: equation.unknowns,
-                solution: &programs[equation.solution],
-                loads: equation.loads,
+                residual: &functions.gauss_residual.program,
+                unknowns: &equation.unknowns,
+                solution: &functions.velocity.program,
+                loads: &equation.loads,
             };
             implicit_tangents(&velocity, &implicit, &rates.directions)
         }));

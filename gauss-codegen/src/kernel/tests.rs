@@ -1,13 +1,17 @@
 //! Each pass against its input: same values, fewer operations.
 
-use super::check::Sample;
-use super::derivatives::Expected;
+use super::check::{Checked, Sample};
+use super::expected::Expected;
 use super::factor::Factoring;
 use super::hoist::Hoister;
 use super::tangent::with_tangents;
-use super::{ByParameters, Candidates, Counts, Derivatives, Differentiated, Direction, Equation, Kernel, Program};
+use super::{
+    ByParameters, Candidates, Counts, Derivatives, Differentiated, Differentiation, Direction, Equation, Kernel,
+    Program, Wanted,
+};
 use crate::accuracy::Trial;
 use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
+use crate::methods::{DerivativeKind, Methods};
 
 /// A reproducible stream of small integers.
 struct Random(u64);
@@ -38,6 +42,36 @@ fn random_expr<'g>(random: &mut Random, leaves: &[Expr<'g>], depth: u32) -> Expr
 
 fn point_of<'g>(graph: &'g Graph, definitions: &Map<u32, Expr<'g>>) -> Map<u32, f64> {
     Sample { definitions, units: &[], literals: &Map::default(), folded: &[] }.point(graph, 0)
+}
+
+/// A kernel whose methods have no outputs.
+fn nothing<'g>() -> Methods<Candidates<'g>> {
+    let none = || Candidates::of_values(vec![Vec::new()]);
+    Methods {
+        kinematics: none(),
+        acceleration: none(),
+        momentum: none(),
+        velocity: none(),
+        momentum_rate: none(),
+        mass_matrix: none(),
+        kinetic_energy: none(),
+        potential_energy: none(),
+        gauss_residual: none(),
+        constraint_function: none(),
+        others: Vec::new(),
+    }
+}
+
+/// A kernel of one function, with some derivatives.
+fn lowered<'g>(
+    graph: &'g Graph,
+    arrangements: Vec<Vec<Expr<'g>>>,
+    definitions: &Map<u32, Expr<'g>>,
+    list: &[Wanted<'g>],
+) -> Kernel<'g> {
+    let functions = Methods { acceleration: Candidates::of_values(arrangements), ..nothing() };
+    let wanted = Derivatives { list, units: &[] };
+    Kernel::lower(graph, &functions, definitions, &wanted, None, &mut Trial::default()).expect("a program")
 }
 
 #[test]
@@ -137,19 +171,13 @@ fn what_depends_on_parameters_alone_is_a_constant() {
     let [m, i1, i2] = ["m", "I1", "I2"].map(|n| graph.symbol(n, n, true));
     let [x, y] = ["x", "y"].map(|n| graph.symbol(n, n, false));
     let outputs = vec![(i1 - i2) * m.recip() * x + (i2 - i1) * m.recip() * y];
-    let kernel = Kernel::lower(
-        &graph,
-        &[Candidates::of_values(vec![outputs])],
-        &[],
-        &Map::default(),
-        &Derivatives::default(),
-        None,
-        &mut Trial::default(),
-    )
-    .expect("a program");
+    let kernel = lowered(&graph, vec![outputs], &Map::default(), &[]);
     // One constant serves both terms, up to its sign.
     assert_eq!(kernel.constant_symbols.len(), 1);
-    assert_eq!(kernel.functions[0].counts(), Counts { additions: 1, multiplications: 1, ..Counts::default() });
+    assert_eq!(
+        kernel.functions.acceleration.program.counts(),
+        Counts { additions: 1, multiplications: 1, ..Counts::default() }
+    );
 }
 
 #[test]
@@ -158,38 +186,22 @@ fn the_cheapest_arrangement_is_taken() {
     let [a, b, c] = ["a", "b", "c"].map(|n| graph.symbol(n, n, false));
     let wide = vec![a * a.cos().powi(2) * b + a * a.sin().powi(2) * b + c];
     let narrow = vec![a * b + c];
-    let kernel = Kernel::lower(
-        &graph,
-        &[Candidates::of_values(vec![wide, narrow])],
-        &[],
-        &Map::default(),
-        &Derivatives::default(),
-        None,
-        &mut Trial::default(),
-    )
-    .expect("a program");
-    assert_eq!(kernel.functions[0].counts().transcendentals, 0);
+    let kernel = lowered(&graph, vec![wide, narrow], &Map::default(), &[]);
+    assert_eq!(kernel.functions.acceleration.program.counts().transcendentals, 0);
 }
 
 #[test]
 fn a_program_that_computes_something_else_is_refused() {
     let graph = Graph::new();
     let [a, b] = ["a", "b"].map(|n| graph.symbol(n, n, false));
-    let mut kernel = Kernel::lower(
-        &graph,
-        &[Candidates::of_values(vec![vec![a + b]])],
-        &[],
-        &Map::default(),
-        &Derivatives::default(),
-        None,
-        &mut Trial::default(),
-    )
-    .expect("a program");
-    kernel.functions[0] = Program::lower(&[a - b]);
     let sample = Sample { definitions: &Map::default(), units: &[], literals: &Map::default(), folded: &[] };
-    let (functions, joined) = ([a + b], []);
-    let expected = [Expected::of(&functions), Expected::of(&joined)].into_iter();
-    assert!(kernel.checked(expected, []).check(&graph, &sample).is_err());
+    let (constants, outputs) = (Program::nothing(), [a + b]);
+    let refused = |program: &Program<'_>| {
+        let functions = vec![(program, Expected::of(&outputs))];
+        let checked = Checked { constants: &constants, constant_symbols: &[], functions, derivatives: &[] };
+        checked.check(&graph, &sample).is_err()
+    };
+    assert_eq!([Program::lower(&[a + b]), Program::lower(&[a - b])].map(|program| refused(&program)), [false, true]);
 }
 
 /// Values and derivatives along each direction by the symbolic derivatives of the expressions.
@@ -264,20 +276,12 @@ fn what_is_defined_moves_by_its_own_rates() {
         directions: vec![vec![(r, -s), (s, r)], vec![(y, graph.one())]],
         derived: Vec::new(),
     };
-    let by_state = Derivatives { by_state: Some(&wanted), ..Derivatives::default() };
-    let kernel = Kernel::lower(
-        &graph,
-        &[Candidates::of_values(vec![outputs.clone()])],
-        &[],
-        &definitions,
-        &by_state,
-        None,
-        &mut Trial::default(),
-    )
-    .expect("a program");
+    let directions = wanted.directions.clone();
+    let by_state = Wanted { kind: DerivativeKind::ByState, differentiation: Differentiation::WithValues(wanted) };
+    let kernel = lowered(&graph, vec![outputs.clone()], &definitions, &[by_state]);
     let point = point_of(&graph, &definitions);
-    let expected = symbolic(&outputs, &wanted.directions, &point);
-    let found = kernel.tangents.expect("asked for").run(&point);
+    let expected = symbolic(&outputs, &directions, &point);
+    let found = kernel.derivative(DerivativeKind::ByState).expect("it is wanted").program.run(&point);
     for (a, b) in expected.iter().zip(found) {
         assert!((a - b).abs() <= 1e-13 * (1.0 + a.abs()), "{a} {b}");
     }
@@ -291,23 +295,30 @@ fn parameters_move_constants() {
     let [x, f, a, p] = ["x", "f", "a", "p"].map(|n| graph.symbol(n, n, false));
     let force = f - k * l * x;
     let acceleration = force * (m + n).recip();
-    let functions = [vec![n * x], vec![acceleration], vec![(m + n) * a - force], vec![p * (m + n).recip()]];
-    let candidates = functions.clone().map(|outputs| Candidates::of_values(vec![outputs]));
+    let function = |output| Candidates::of_values(vec![vec![output]]);
+    let functions = Methods {
+        kinematics: function(n * x),
+        acceleration: function(acceleration),
+        gauss_residual: function((m + n) * a - force),
+        velocity: function(p * (m + n).recip()),
+        ..nothing()
+    };
     let parameters = [m, n, k, l];
-    let equation = Equation { residual: 2, unknowns: &[a], solution: 3, loads: &[p] };
     let directions: Vec<Direction<'_>> = parameters.iter().map(|&e| vec![(e, graph.one())]).collect();
     let point = point_of(&graph, &Map::default());
     let expected = symbolic(&[n * x, acceleration], &directions, &point);
-    for equation in [None, Some(equation)] {
-        let by_parameters =
-            ByParameters { parameters: &parameters, velocity: 0, order: &[0], acceleration: 1, equation, derived: &[] };
-        let wanted = Derivatives { by_parameters: Some(by_parameters), ..Derivatives::default() };
-        let kernel = Kernel::lower(&graph, &candidates, &[], &Map::default(), &wanted, None, &mut Trial::default())
-            .expect("a program");
+    for equation in [None, Some(Equation { unknowns: vec![a], loads: vec![p] })] {
+        let (parameters, derived) = (parameters.to_vec(), Vec::new());
+        let by_parameters = ByParameters { parameters, order: vec![0], equation, derived };
+        let differentiation = Differentiation::ByParameters(by_parameters);
+        let list = [Wanted { kind: DerivativeKind::ByParameters, differentiation }];
+        let wanted = Derivatives { list: &list, units: &[] };
+        let kernel = Kernel::lower(&graph, &functions, &Map::default(), &wanted, None, &mut Trial::default());
+        let kernel = kernel.expect("a program");
         let mut values = point.clone();
         let constants = kernel.constants.run(&point);
         values.extend(kernel.constant_symbols.iter().zip(constants).map(|(symbol, value)| (symbol.key(), value)));
-        let program = kernel.by_parameters.expect("asked for");
+        let program = &kernel.derivative(DerivativeKind::ByParameters).expect("it is wanted").program;
         for (x, y) in expected[2..].iter().zip(program.run(&values)) {
             assert!((x - y).abs() <= 1e-13 * (1.0 + x.abs()), "{x} {y}");
         }

@@ -45,7 +45,7 @@ mod whole;
 
 pub use arrangements::balance::KineticMatrix;
 pub use check::dependent::needless_constraints;
-pub use check::faults::{SystemFault, check_system_against_definition};
+pub use check::faults::{Claims, SystemFault, check_system_against_definition};
 #[cfg(test)]
 pub use check::witness::acceleration_by_definition;
 pub use constraints::constraint::{Constraint, ConstraintKind};
@@ -54,8 +54,8 @@ pub use constraints::multipliers::Constraints;
 pub use derivatives::hessian::Hessian;
 pub use derivatives::inverse::InverseLinearization;
 pub use derivatives::linearize::Linearization;
-pub use derivatives::regressor::{InertialParameters, Regressor};
-pub use formula::{Formula, FrameQuantity, Method};
+pub use derivatives::regressor::{InertialParameter, InertialParameters, Regressor};
+pub use formula::{Arrangements, Formulas, FrameQuantity, Method};
 pub use kinematics::chart::ChartedBody;
 pub use kinematics::rotation::{about_axis, poisson, rotation_of_quaternion};
 pub use kinematics::turn::Turn;

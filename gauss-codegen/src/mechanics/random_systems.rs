@@ -19,12 +19,12 @@ mod scene;
 mod witness;
 
 use crate::accuracy::Trial;
-use crate::algebra::{Graph, Map};
+use crate::algebra::{Expr, Graph, Map};
 use crate::kernel::{Candidates, Derivatives, Kernel, Program};
 
-use crate::mechanics::check::faults::check_system_against_definition;
+use crate::mechanics::check::faults::{Claims, check_system_against_definition};
 use crate::mechanics::constraints::elimination::Elimination;
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::formula::{Formulas, Method};
 use crate::mechanics::system::System;
 use crate::mechanics::tests::Random;
 
@@ -41,29 +41,25 @@ const BLIND: f64 = 1e-5;
 /// Programs of all formulas, every arrangement by itself.
 struct Compiled<'g> {
     kernel: Kernel<'g>,
-    methods: Vec<Method>,
     constants: Map<u32, f64>,
 }
 
 impl<'g> Compiled<'g> {
-    fn new(graph: &'g Graph, symbols: &Symbols<'g>, formulas: &[Formula<'g>], what: &str) -> Self {
-        let each = formulas.iter().flat_map(|f| f.arrangements.iter().map(|outputs| (f.method, outputs.clone())));
-        let (methods, outputs): (Vec<_>, Vec<_>) =
-            each.map(|(method, outputs)| (method, Candidates::of_values(vec![outputs]))).unzip();
-        let kernel = Kernel::lower(
-            graph,
-            &outputs,
-            &[],
-            &symbols.definitions,
-            &Derivatives::default(),
-            None,
-            &mut Trial::default(),
-        );
+    fn new(graph: &'g Graph, symbols: &Symbols<'g>, formulas: &Formulas<'g>, what: &str) -> Self {
+        let alone = |outputs: &Vec<Expr<'g>>| Candidates::of_values(vec![outputs.clone()]);
+        let mut further = Vec::new();
+        let mut functions = formulas.each_ref().map(|method, arrangements| {
+            further.extend(arrangements[1..].iter().map(|outputs| (method, alone(outputs))));
+            alone(&arrangements[0])
+        });
+        functions.others.extend(further);
+        let (wanted, definitions) = (Derivatives::default(), &symbols.definitions);
+        let kernel = Kernel::lower(graph, &functions, definitions, &wanted, None, &mut Trial::default());
         let kernel = kernel.unwrap_or_else(|error| panic!("{what}: {error}"));
         assert!(!graph.is_undefined(), "{what}: a division by zero");
         let values = kernel.constants.run(&symbols.parameters);
         let constants = kernel.constant_symbols.iter().map(|s| s.key()).zip(values).collect();
-        Self { kernel, methods, constants }
+        Self { kernel, constants }
     }
 
     /// All that programs read at a state.
@@ -79,7 +75,7 @@ impl<'g> Compiled<'g> {
     }
 
     fn programs(&self) -> impl Iterator<Item = (Method, &Program<'g>)> {
-        self.methods.iter().copied().zip(&self.kernel.functions)
+        self.kernel.functions.iter().map(|(method, function)| (method, &function.program))
     }
 
     fn run(&self, method: Method, at: &Map<u32, f64>) -> Vec<f64> {
@@ -111,9 +107,11 @@ impl<'g> Compiled<'g> {
 }
 
 /// Without the accounts of what acts, which say of the same forces what each one does.
-fn formulas_of<'g>(system: &System<'g>) -> Vec<Formula<'g>> {
+fn formulas_of<'g>(system: &System<'g>) -> Formulas<'g> {
     let accounts = [Method::Powers, Method::ElementForces, Method::SuppliedPower];
-    system.formulas().into_iter().filter(|formula| !accounts.contains(&formula.method)).collect()
+    let mut formulas = system.formulas();
+    formulas.others.retain(|(method, _)| !accounts.contains(method));
+    formulas
 }
 
 fn random_values(random: &mut Random, count: usize) -> Vec<f64> {
@@ -142,7 +140,7 @@ fn check_whole(plan: &Plan, random: &mut Random, regrouped: bool, what: &str) ->
     let all: Vec<usize> = (0..plan.speeds).collect();
     let system = System::new(symbols.scene(plan, &symbols.speeds, &all, regrouped));
     let formulas = formulas_of(&system);
-    if let Err(fault) = check_system_against_definition(&system, &formulas) {
+    if let Err(fault) = check_system_against_definition(&system, &Claims::of(&formulas)) {
         panic!("{what}: {fault:?}");
     }
     let compiled = Compiled::new(&graph, &symbols, &formulas, what);
@@ -269,7 +267,7 @@ fn check_elimination(plan: &Plan, random: &mut Random, what: &str) -> bool {
     scene.constraints.clear();
     let system = System::new(scene);
     let mut formulas = formulas_of(&system);
-    if let Err(fault) = check_system_against_definition(&system, &formulas) {
+    if let Err(fault) = check_system_against_definition(&system, &Claims::of(&formulas)) {
         panic!("{what}: {fault:?}");
     }
     formulas.extend(elimination.formulas());

@@ -9,7 +9,7 @@ use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::arrangements::orthogonal::Elements;
 use crate::mechanics::constraints::multipliers::Constraints;
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::formula::{Formula, Formulas, Method};
 use crate::mechanics::kinematics::vector::{Vector, is_zero};
 use crate::mechanics::links::inertia::Inertia;
 use crate::mechanics::links::link::Link;
@@ -128,21 +128,22 @@ impl<'g> System<'g> {
         (placed || self.scene.lettering == Lettering::Textbook).then_some(body)
     }
 
-    pub fn formulas(&self) -> Vec<Formula<'g>> {
+    pub fn formulas(&self) -> Formulas<'g> {
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
-        let mut formulas = vec![single(Method::Kinematics, self.scene.kinematics.clone())];
-        formulas.extend(self.arranged().into_formulas());
+        let mut formulas = self.arranged();
         if let Some(body) = self.rigid_body() {
-            formulas.push(single(Method::BodyTwist, body.kinematics.body_twist().to_vec()));
-            formulas.push(single(Method::Speeds, body.speeds_of_twist()));
-            formulas.push(single(Method::BodyMomentum, body.body_momentum()));
+            formulas.extend([
+                single(Method::BodyTwist, body.kinematics.body_twist().to_vec()),
+                single(Method::Speeds, body.speeds_of_twist()),
+                single(Method::BodyMomentum, body.body_momentum()),
+            ]);
             formulas.extend(body.regularity().map(|outputs| single(Method::Regularity, outputs)));
         }
         if !self.constraints.is_empty() {
             formulas.extend(self.constraint_formulas());
         }
         formulas.extend(account_formulas(&self.accounts(), self.explicit_power()));
-        formulas.sort_by_key(|formula| formula.method);
+        formulas.others.sort_by_key(|(method, _)| *method);
         formulas
     }
 

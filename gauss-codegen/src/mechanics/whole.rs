@@ -2,7 +2,7 @@
 
 use crate::algebra::{Expr, Map};
 
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::formula::{Arrangements, Formula, Method};
 use crate::mechanics::system::System;
 
 impl<'g> System<'g> {
@@ -23,12 +23,11 @@ impl<'g> System<'g> {
     }
 
     /// ∂C/∂ż at ż = 0, from the ways in which it is formed at any ż.
-    pub fn nonlinear_effects(&self, formulas: &[Formula<'g>]) -> Formula<'g> {
+    pub fn nonlinear_effects(&self, residuals: &Arrangements<'g>) -> Formula<'g> {
         let zero = self.scene.graph.zero();
         let still: Map<u32, Expr<'g>> = self.scene.speed_rates.iter().map(|dz| (dz.key(), zero)).collect();
-        let residuals = formulas.iter().filter(|formula| formula.method == Method::GaussResidual);
-        let residuals = residuals.flat_map(|formula| &formula.arrangements);
-        let arrangements = residuals.map(|rows| rows.iter().map(|row| row.substitute(&still)).collect()).collect();
+        let arrangements =
+            residuals.iter().map(|rows| rows.iter().map(|row| row.substitute(&still)).collect()).collect();
         Formula { method: Method::NonlinearEffects, arrangements }
     }
 

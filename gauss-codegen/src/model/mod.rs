@@ -37,5 +37,5 @@ pub use scene::clauses::{
 };
 pub use scene::described::{BodyOfFile, Described, Remark, StateOfFile, ValueOfState};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
-pub use scene::model::{Field, Model, Scalar, WantedMethod};
+pub use scene::model::{Field, Model, Scalar, Wanted, WantedMethod};
 pub use scene::roles::{Role, Shape};

@@ -160,7 +160,7 @@ impl<'g> Translator<'_, 'g> {
             // Among usual numbers a zero is what rounding left of a difference; among extreme ones a product may be lost.
             exact.is_some_and(|exact| is_lost(exact.to_f64()) || has_extreme)
         });
-        let programs = kernel.functions.iter().chain(kernel.derivatives_as_written()).chain([&kernel.constants]);
+        let programs = kernel.written();
         let in_programs = || {
             let mut operands = programs.flat_map(|program| &program.instructions).flat_map(Instruction::operands);
             operands.any(|operand| matches!(operand, Operand::Number(n) if !n.is_zero() && is_lost(n.to_f64())))

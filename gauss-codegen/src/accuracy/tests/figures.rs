@@ -7,7 +7,6 @@ use crate::accuracy::seek::Search;
 use crate::algebra::{Doubled, Graph, Notation, Number, Scalar, print};
 use crate::formulation::Formulation;
 use crate::lowering::{lower, states};
-use crate::mechanics::Method;
 use crate::model;
 use crate::translate::Translator;
 
@@ -80,8 +79,7 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
     let literals = translator.literals();
     let states = states(&literals, &formulation);
     let samples = states.samples();
-    let momentum = formulation.formulas.iter().position(|formula| formula.method == Method::Momentum);
-    let sought = kernel.sought(momentum);
+    let sought = kernel.sought();
     let mut search = Search::new(&samples, &sought);
     let mut trace = search.flat.room(0);
     let (drafts, best) = search.searched(&samples, &mut trace);
@@ -91,16 +89,16 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
         own.values.put(symbol.unwrap_or_else(|| panic!("no {name}: {source}")), *value);
     }
     let [of_given, _] = measured(&search, &own, &mut trace);
-    let functions = formulation.formulas.iter().zip(&kernel.found.functions).enumerate();
-    let functions = functions.filter_map(|(k, (formula, figure))| {
-        let figure = figure.as_ref()?;
+    let functions = kernel.functions.iter().enumerate().filter_map(|(k, (method, function))| {
+        let figure = function.figure.as_ref()?;
         let there = measured(&search, &drafts[best[k].state], &mut trace)[0][k];
-        let (method, figure) = (formula.method.name(), figure.worst);
+        let (method, figure) = (method.name(), figure.worst);
         Some(Seen { method, figure, estimated: best[k].loss, there, given: of_given[k] })
     });
     let mut all: Vec<Seen> = functions.collect();
     let mut again = search.flat.room(1);
-    for (k, figure) in kernel.found.besides.iter().enumerate() {
+    let besides = kernel.derivatives.iter().map(|derivative| &derivative.figure);
+    for (k, figure) in std::iter::once(&kernel.figure_of_joined).chain(besides).enumerate() {
         let Some(figure) = figure else { continue };
         let mut derivatives =
             Seen { method: DERIVATIVES, figure: figure.worst, estimated: -1.0, there: 0.0, given: 0.0 };

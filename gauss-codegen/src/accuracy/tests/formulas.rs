@@ -25,7 +25,7 @@ fn computed(clauses: &str, method: Method, q: &[f64], z: &[f64]) -> Vec<f64> {
             state.insert(symbol.key(), *value);
         }
         state.extend(scene.speeds.iter().zip(z).map(|(symbol, value)| (symbol.key(), *value)));
-        derived.program(method).run(&state)
+        derived.program(method).expect("every kernel has it").run(&state)
     };
     derive(&input, |derived| Ok(run(derived))).unwrap_or_else(|error| panic!("{error}: {source}"))
 }

@@ -7,7 +7,7 @@ use crate::algebra::{Evaluation, Expr, Map, Precise};
 use crate::emit::Derived;
 use crate::expand::derive;
 use crate::kernel::{Candidates, Derivatives, Kernel};
-use crate::mechanics::{Formula, Method, rotation_of_quaternion};
+use crate::mechanics::{Method, rotation_of_quaternion};
 
 use super::{computed, loss_beside, values_of};
 
@@ -49,13 +49,14 @@ fn keeps_its_digits(case: &Case, known: Known) {
         values.extend(scene.speed_rates.iter().zip(1..).map(|(rate, k)| (rate.key(), 0.3 * f64::from(k))));
         let again = (known == Known::ToTheTrial).then(|| lowered_for(derived, &values));
         let kernel = again.as_ref().unwrap_or(derived.kernel);
+        let formulas = derived.subject.system.formulas();
         for method in METHODS {
-            let formula = derived.formulas.iter().find(|formula| formula.method == method).expect("every scene has it");
+            let arrangements = formulas.get(method).expect("every scene has it");
             let exact = |state: Map<u32, Precise>| -> Vec<Precise> {
                 let mut evaluation = Evaluation::new(&state);
-                formula.arrangements[0].iter().map(|e| evaluation.value(*e)).collect()
+                arrangements[0].iter().map(|e| evaluation.value(*e)).collect()
             };
-            let found = computed(derived, kernel, method, &values);
+            let found = computed(kernel, method, &values);
             let (loss, row) = loss_beside(derived, &values, exact, &found, 7).expect("the state is regular");
             assert!(loss <= MOST, "{method:?} loses {loss:.1e} in row {row}: {source}");
         }
@@ -80,11 +81,10 @@ fn lowered_for<'g>(derived: &Derived<'_, 'g>, values: &[(u32, f64)]) -> Kernel<'
     let units: Vec<Vec<Expr<'g>>> = derived.subject.quaternions.iter().flatten().map(|q| q.to_vec()).collect();
     let named: Vec<(u32, u64, f64)> = values.iter().map(|&(key, value)| (key, key.into(), value)).collect();
     let mut trial = Trial::new(vec![Point::new(&named, &units, &definitions)]);
-    let candidates = |formula: &Formula<'g>| Candidates::of_values(formula.arrangements.clone());
-    let functions: Vec<Candidates<'g>> = derived.formulas.iter().map(candidates).collect();
+    let functions = derived.subject.system.formulas().map(|_, arrangements| Candidates::of_values(arrangements));
     let wanted = Derivatives { units: &units, ..Derivatives::default() };
     let literals = Some(derived.subject.literals.as_slice());
-    Kernel::lower(scene.graph, &functions, &[], &definitions, &wanted, literals, &mut trial)
+    Kernel::lower(scene.graph, &functions, &definitions, &wanted, literals, &mut trial)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 

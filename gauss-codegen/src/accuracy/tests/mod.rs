@@ -42,7 +42,7 @@ const TINY: f64 = 1e-30;
 fn loss(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Option<(f64, usize)> {
     let system = derived.subject.system;
     let values = values_of_scene(derived, scene, seed);
-    let found = computed(derived, derived.kernel, Method::Acceleration, &values);
+    let found = computed(derived.kernel, Method::Acceleration, &values);
     assert_eq!(found.len(), system.scene.speeds.len());
     loss_beside(derived, &values, |state| acceleration_by_definition(system, state), &found, seed)
 }
@@ -146,13 +146,12 @@ fn put_rotations<N: Number>(derived: &Derived<'_, '_>, state: &mut Map<u32, N>) 
 }
 
 /// As a kernel computes it.
-fn computed<'g>(derived: &Derived<'_, 'g>, kernel: &Kernel<'g>, method: Method, values: &[(u32, f64)]) -> Vec<f64> {
+fn computed<'g>(kernel: &Kernel<'g>, method: Method, values: &[(u32, f64)]) -> Vec<f64> {
     let mut state: Map<u32, f64> = values.iter().copied().collect();
     let constants = kernel.constants.run(&state);
     state.extend(kernel.constant_symbols.iter().zip(constants).map(|(symbol, value)| (symbol.key(), value)));
     state.extend(kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), *value)));
-    let place = derived.formulas.iter().position(|formula| formula.method == method);
-    kernel.functions[place.expect("a method that is derived")].run(&state)
+    kernel.functions.get(method).expect("a method that is derived").program.run(&state)
 }
 
 /// The loss of a scene at its state, what its kernel says of it, and what the scene is.
@@ -181,8 +180,7 @@ fn losses(seeds: impl Iterator<Item = u64>) -> Vec<Lost> {
 
 /// What is said of accelerations.
 fn said(derived: &Derived<'_, '_>) -> Option<f64> {
-    let place = derived.formulas.iter().position(|formula| formula.method == Method::Acceleration)?;
-    Some(derived.kernel.found.functions[place].as_ref()?.rounded()[0])
+    Some(derived.kernel.functions.acceleration.figure.as_ref()?.rounded()[0])
 }
 
 /// Losses of scenes from one on, the largest first.

@@ -35,7 +35,7 @@ fn tried(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> 
     let scene = Scene::written(coordinates, clauses, values, speed);
     let input: syn::DeriveInput = syn::parse_str(&scene.source()).expect("a struct");
     let tried = derive(&input, |derived| {
-        let program = derived.program(Method::Acceleration);
+        let program = &derived.kernel.functions.acceleration.program;
         let inputs: Vec<u32> = program.inputs().iter().map(|symbol| symbol.key()).collect();
         let system = derived.subject.system;
         let is_read = |coordinate: &Coordinate<'_>| match coordinate {
@@ -48,7 +48,7 @@ fn tried(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> 
             loss: (0..STATES).map(of).fold(0.0, f64::max),
             operations: program.cost().operations,
             read: named.map(|(name, _)| (*name).to_owned()).collect(),
-            values: computed(derived, derived.kernel, Method::Acceleration, &values_of_scene(derived, &scene, 0)),
+            values: computed(derived.kernel, Method::Acceleration, &values_of_scene(derived, &scene, 0)),
             pushed: (0..system.scene.speeds.len()).filter(|&k| !system.element_forces()[k].is_zero()).collect(),
         })
     });

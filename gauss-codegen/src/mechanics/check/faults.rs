@@ -5,7 +5,7 @@ use std::fmt;
 
 use crate::algebra::{Evaluation, Expr, Number, Precise};
 
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::formula::{Formulas, Method};
 use crate::mechanics::system::System;
 
 use super::dependent::{Dependency, dependencies};
@@ -48,6 +48,26 @@ impl SystemFault {
     }
 }
 
+/// What is held against the definition, in all its arrangements.
+#[derive(Default)]
+pub struct Claims<'a, 'g> {
+    /// ∂C/∂ż − Jᵀλ at any ż, with the multipliers of the motion.
+    pub residuals: &'a [Vec<Expr<'g>>],
+    pub accelerations: &'a [Vec<Expr<'g>>],
+    /// λ, where there are constraints.
+    pub multipliers: Option<&'a [Expr<'g>]>,
+}
+
+impl<'a, 'g> Claims<'a, 'g> {
+    pub fn of(formulas: &'a Formulas<'g>) -> Self {
+        Self {
+            residuals: &formulas.gauss_residual,
+            accelerations: &formulas.acceleration,
+            multipliers: formulas.get(Method::Multipliers).and_then(|all| all.first()).map(Vec::as_slice),
+        }
+    }
+}
+
 /// Evaluates the condition at one state, with the residual at any ż and with every arrangement's acceleration.
 ///
 /// Where large terms cancel, right formulas disagree by the roundings of these, and a pivot that is small beside what it was formed of looks
@@ -55,26 +75,24 @@ impl SystemFault {
 /// decimal places, a wrong term and a dependent row are what they were.
 pub fn check_system_against_definition<'g>(
     system: &System<'g>,
-    formulas: &[Formula<'g>],
+    claims: &Claims<'_, 'g>,
 ) -> Result<(), Vec<SystemFault>> {
     // What is made once there is too much of everything means nothing.
     let exhausted = || system.scene.graph.is_exhausted();
-    match check_in::<f64>(system, formulas) {
-        Err(_) if !exhausted() => check_in::<Precise>(system, formulas),
+    match check_in::<f64>(system, claims) {
+        Err(_) if !exhausted() => check_in::<Precise>(system, claims),
         result => result,
     }
 }
 
-fn check_in<'g, N: Number>(system: &System<'g>, formulas: &[Formula<'g>]) -> Result<(), Vec<SystemFault>> {
+fn check_in<'g, N: Number>(system: &System<'g>, claims: &Claims<'_, 'g>) -> Result<(), Vec<SystemFault>> {
     let n = system.scene.speeds.len();
     let matrix: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
-    let arrangements =
-        |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
     let arbitrary: Vec<N> = (0..n).map(|k| N::number(0.7 - 0.3 * (k % 4) as f64)).collect();
     // Roots and logarithms have domains: the first of a few states where everything has a value. Where there is none, the
     // programs are still checked against their expressions.
     let inside = |witness: &Witness<'_, 'g, N>| {
-        let values = witness.values(matrix.iter().chain(arrangements(Method::Acceleration).flatten()));
+        let values = witness.values(matrix.iter().chain(claims.accelerations.iter().flatten()));
         values.iter().chain(&witness.stationarity(&arbitrary)).all(is_in_range)
     };
     let states = || (0..16).map(|shift| Witness::new(system, sample_state(system, shift)));
@@ -91,7 +109,7 @@ fn check_in<'g, N: Number>(system: &System<'g>, formulas: &[Formula<'g>]) -> Res
     // states is refused.
     let mut found = Vec::new();
     for witness in states().filter(inside) {
-        match compare(witness, formulas, &arbitrary) {
+        match compare(witness, claims, &arbitrary) {
             Ok(Comparison::Agrees) => return Ok(()),
             Ok(Comparison::WithoutValue) => {}
             Err(error) => found.push(error),
@@ -113,17 +131,15 @@ enum Comparison {
 /// Residuals at the given ż and accelerations, against the definition.
 fn compare<'g, N: Number>(
     mut witness: Witness<'_, 'g, N>,
-    formulas: &[Formula<'g>],
+    claims: &Claims<'_, 'g>,
     arbitrary: &[N],
 ) -> Result<Comparison, Disagreement> {
     let system = witness.system;
-    let arrangements =
-        |method: Method| formulas.iter().filter(move |f| f.method == method).flat_map(|f| f.arrangements.iter());
     let unconstrained = witness.stationarity(arbitrary);
     let jacobian = witness.partials(&system.constraints.on_velocities);
     let with_forces = |witness: &Witness<'_, 'g, N>, rows: Vec<N>| -> Vec<N> {
         // Jᵀλ with the multipliers of the motion.
-        let Some(multipliers) = arrangements(Method::Multipliers).next() else { return rows };
+        let Some(multipliers) = claims.multipliers else { return rows };
         let multipliers = witness.values(multipliers);
         let force = |row: &Vec<N>| sum(row.iter().zip(&multipliers).map(|(j, l)| *j * *l));
         rows.iter().zip(&jacobian).map(|(r, j)| *r - force(j)).collect()
@@ -132,11 +148,11 @@ fn compare<'g, N: Number>(
     let expected = with_forces(&witness, unconstrained);
     let mut evaluation = Evaluation::new(&witness.state);
     let mut values = |outputs: &[Expr<'g>]| -> Vec<N> { outputs.iter().map(|e| evaluation.value(*e)).collect() };
-    for arrangement in arrangements(Method::GaussResidual) {
+    for arrangement in claims.residuals {
         agree(Method::GaussResidual, &values(arrangement), &expected)?;
     }
     let scale = largest(expected.iter().copied()).max(1.0);
-    for arrangement in arrangements(Method::Acceleration) {
+    for arrangement in claims.accelerations {
         let rates = values(arrangement);
         let found = with_forces(&witness, witness.stationarity(&rates));
         // J ż = γ: what the constraints say of velocities goes on to hold.

@@ -3,7 +3,7 @@
 
 use crate::algebra::Expr;
 
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::formula::{Arrangements, Formula, Method};
 use crate::mechanics::kinematics::rotation::quaternion_rate;
 use crate::mechanics::kinematics::vector::{Axes, Triple, is_zero};
 use crate::mechanics::scene::Coordinate;
@@ -11,7 +11,11 @@ use crate::mechanics::system::System;
 
 impl<'g> System<'g> {
     /// Components of the groups among the coordinates in their order, then scalar coordinates, then ż.
-    pub fn component_rates(&self, quaternions: &[Option<[Expr<'g>; 4]>], formulas: &[Formula<'g>]) -> Formula<'g> {
+    pub fn component_rates(
+        &self,
+        quaternions: &[Option<[Expr<'g>; 4]>],
+        accelerations: &Arrangements<'g>,
+    ) -> Formula<'g> {
         let scene = &self.scene;
         let (mut groups, mut scalars): (Vec<Expr<'g>>, Vec<Expr<'g>>) = (Vec::new(), Vec::new());
         let mut rates = &scene.kinematics[..];
@@ -33,7 +37,9 @@ impl<'g> System<'g> {
             }
         }
         groups.extend(scalars);
-        with_accelerations(&groups, formulas)
+        // The rates, then each arrangement of the accelerations.
+        let arrangements = accelerations.iter().map(|acceleration| [&groups[..], acceleration].concat()).collect();
+        Formula { method: Method::ComponentRates, arrangements }
     }
 
     /// The angular velocity of the free link with that rotation, where the speeds give it in observer's axes.
@@ -42,11 +48,4 @@ impl<'g> System<'g> {
         let omega = &link.kinematics.angular_velocity;
         is_zero(&omega.body).then_some(omega.space)
     }
-}
-
-/// The rates given, then each arrangement of the accelerations.
-fn with_accelerations<'g>(rates: &[Expr<'g>], formulas: &[Formula<'g>]) -> Formula<'g> {
-    let accelerations = formulas.iter().filter(|f| f.method == Method::Acceleration).flat_map(|f| &f.arrangements);
-    let arrangements = accelerations.map(|acceleration| [rates, acceleration].concat()).collect();
-    Formula { method: Method::ComponentRates, arrangements }
 }

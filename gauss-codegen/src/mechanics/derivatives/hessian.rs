@@ -9,7 +9,7 @@ use crate::kernel::{Curved, Direction};
 
 use crate::mechanics::derivatives::linearize::{Increments, alone};
 use crate::mechanics::derivatives::rigid::Rates;
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::formula::Formulas;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::system::System;
 
@@ -19,13 +19,10 @@ pub struct Hessian<'g> {
     pub curved: Curved<'g>,
     /// λ, of V in the order of increments and then of ż.
     pub weights: Vec<Expr<'g>>,
-    /// How many components (σ, δz) have.
-    pub states: usize,
-    pub inputs: usize,
 }
 
 impl<'g> Hessian<'g> {
-    pub fn new(system: &System<'g>, formulas: &[Formula<'g>]) -> Self {
+    pub fn new(system: &System<'g>, formulas: &Formulas<'g>) -> Self {
         let scene = &system.scene;
         let graph = scene.graph;
         let Increments { mut directions, order } = Increments::of(scene);
@@ -34,21 +31,16 @@ impl<'g> Hessian<'g> {
         directions.extend(alone(graph, &scene.inputs));
         let weight = |k: usize| graph.symbol(format!("λ_{}", k + 1), format!("\\lambda_{{{}}}", k + 1), false);
         let weights: Vec<Expr<'g>> = (0..states).map(weight).collect();
-        let of = |method: Method| {
-            let formula = formulas.iter().find(|formula| formula.method == method);
-            &formula.expect("every kernel has kinematics and accelerations").arrangements
-        };
-        let kinematics = &of(Method::Kinematics)[0];
-        let velocity: Vec<Expr<'g>> = order.iter().map(|&k| kinematics[k]).collect();
+        let velocity: Vec<Expr<'g>> = order.iter().map(|&k| scene.kinematics[k]).collect();
         let weighted = |accelerations: &Vec<Expr<'g>>| {
             let values = velocity.iter().chain(accelerations);
             weights.iter().zip(values).fold(graph.zero(), |sum, (weight, value)| sum + *weight * value.group())
         };
-        let arrangements = of(Method::Acceleration).iter().map(weighted).collect();
+        let arrangements = formulas.acceleration.iter().map(weighted).collect();
         let groups = groups(scene, directions.len());
         let mut curved = Curved { arrangements, defined: system.defined(), directions, groups, derived: Vec::new() };
         curved.derived = Recursion::new(system, &curved, &weights, &velocity).ways(system);
-        Self { curved, weights, states, inputs: scene.inputs.len() }
+        Self { curved, weights }
     }
 }
 

@@ -5,27 +5,21 @@ use crate::kernel::{Derived, Differentiated, Direction};
 
 use crate::mechanics::derivatives::linearize::{Increments, alone};
 use crate::mechanics::derivatives::rigid::Rates;
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::formula::Formulas;
 use crate::mechanics::system::System;
 
 /// What is differentiated: the rows of ∂C/∂ż.
 pub struct InverseLinearization<'g> {
     /// Along the components of an increment, the speeds, their rates, time, and the inputs, in this order.
     pub differentiated: Differentiated<'g>,
-    /// How many components an increment has.
-    pub increments: usize,
-    pub speeds: usize,
-    pub inputs: usize,
 }
 
 impl<'g> InverseLinearization<'g> {
-    pub fn new(system: &System<'g>, formulas: &[Formula<'g>]) -> Self {
+    pub fn new(system: &System<'g>, formulas: &Formulas<'g>) -> Self {
         let scene = &system.scene;
         let graph = scene.graph;
-        let residual = formulas.iter().find(|formula| formula.method == Method::GaussResidual);
-        let arrangements = residual.expect("every kernel has its residual").arrangements.clone();
+        let arrangements = formulas.gauss_residual.clone();
         let mut directions = Increments::of(scene).directions;
-        let increments = directions.len();
         directions.extend(alone(graph, &scene.speeds));
         let of_rates = directions.len()..directions.len() + scene.speed_rates.len();
         directions.extend(alone(graph, &scene.speed_rates));
@@ -41,12 +35,7 @@ impl<'g> InverseLinearization<'g> {
             Derived { outputs, columns: None }
         };
         let derived = system.residuals_with_derivatives(&fixed).into_iter().map(whole).collect();
-        Self {
-            differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived },
-            increments,
-            speeds: scene.speeds.len(),
-            inputs: scene.inputs.len(),
-        }
+        Self { differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived } }
     }
 }
 

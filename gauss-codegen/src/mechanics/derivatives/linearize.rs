@@ -9,7 +9,7 @@ use crate::kernel::{ByParameters, Columns, Derived, Differentiated, Direction, E
 
 use crate::mechanics::derivatives::implicit::AccelerationsWithDerivatives;
 use crate::mechanics::derivatives::rigid::Rates;
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::formula::Formulas;
 use crate::mechanics::kinematics::rotation::poisson;
 use crate::mechanics::kinematics::vector::Triple;
 use crate::mechanics::scene::{Coordinate, SystemScene};
@@ -19,16 +19,11 @@ use crate::mechanics::system::System;
 pub struct Linearization<'g> {
     /// Along the components of an increment, the speeds, time, and the inputs, in this order.
     pub differentiated: Differentiated<'g>,
-    /// How many components an increment has.
-    pub increments: usize,
-    pub speeds: usize,
-    pub inputs: usize,
+    /// How many components an increment has, and how many speeds there are.
+    increments: usize,
+    speeds: usize,
     /// The components of an increment in the order of ψ.
     order: Vec<usize>,
-    speed_rates: Vec<Expr<'g>>,
-    momenta: Vec<Expr<'g>>,
-    /// Accelerations are those that constraints admit.
-    constrained: bool,
 }
 
 /// The components of an increment of the configuration: elements of groups come first, then all scalars.
@@ -102,43 +97,23 @@ impl<'g> Linearization<'g> {
     }
 
     /// The derivatives of the same functions by parameters. Without constraints accelerations solve ∂C/∂ż = 0, whose matrix A is
-    /// the one that takes z to the momenta. `derived` are forms of their own.
-    pub fn by_parameters<'a>(
-        &'a self,
-        formulas: &[Formula<'g>],
-        parameters: &'a [Expr<'g>],
-        derived: &'a [Vec<Expr<'g>>],
-    ) -> ByParameters<'a, 'g> {
-        let number = |method: Method| {
-            let number = formulas.iter().position(|formula| formula.method == method);
-            number.expect("every kernel has the methods of a system")
-        };
+    /// the one that takes z to the momenta.
+    pub fn by_parameters(&self, system: &System<'g>, parameters: Vec<Expr<'g>>) -> ByParameters<'g> {
+        let equation = || Equation { unknowns: system.scene.speed_rates.clone(), loads: system.scene.momenta.clone() };
         ByParameters {
+            derived: self.derived_by_parameters(system, &parameters),
             parameters,
-            velocity: number(Method::Kinematics),
-            order: &self.order,
-            acceleration: number(Method::Acceleration),
-            equation: (!self.constrained).then(|| Equation {
-                residual: number(Method::GaussResidual),
-                unknowns: &self.speed_rates,
-                solution: number(Method::Velocity),
-                loads: &self.momenta,
-            }),
-            derived,
+            order: self.order.clone(),
+            equation: system.constraints.is_empty().then(equation),
         }
     }
 
-    pub fn new(system: &System<'g>, formulas: &[Formula<'g>]) -> Self {
+    pub fn new(system: &System<'g>, formulas: &Formulas<'g>) -> Self {
         let scene = &system.scene;
         let graph = scene.graph;
         let Increments { mut directions, order } = Increments::of(scene);
         let increments = directions.len();
-        let arrangements_of = |method: Method| -> &[Vec<Expr<'g>>] {
-            let formula = formulas.iter().find(|formula| formula.method == method);
-            &formula.expect("every kernel has kinematics and accelerations").arrangements
-        };
-        let kinematics = &arrangements_of(Method::Kinematics)[0];
-        let velocity: Vec<Expr<'g>> = order.iter().map(|&k| kinematics[k]).collect();
+        let velocity: Vec<Expr<'g>> = order.iter().map(|&k| scene.kinematics[k]).collect();
         directions.extend(alone(graph, &scene.speeds));
         directions.extend(alone(graph, &[scene.time]));
         directions.extend(alone(graph, &scene.inputs));
@@ -146,7 +121,7 @@ impl<'g> Linearization<'g> {
         // Derivatives with a form of their own solve for all columns without wrenches: where accelerations keep digits
         // because these are gathered first, that would be asked of columns that cost half as much.
         let gathered = if derived.is_empty() { Vec::new() } else { system.gathered_accelerations() };
-        let all = arrangements_of(Method::Acceleration);
+        let all = &formulas.acceleration;
         let others: Vec<&Vec<Expr<'g>>> = all.iter().filter(|outputs| !gathered.contains(outputs)).collect();
         // Where every arrangement is one of these, as of particles that hang on nothing, they stay.
         let arrangements = if others.is_empty() { all.iter().collect() } else { others };
@@ -156,11 +131,7 @@ impl<'g> Linearization<'g> {
             differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived },
             increments,
             speeds: scene.speeds.len(),
-            inputs: scene.inputs.len(),
             order,
-            speed_rates: scene.speed_rates.clone(),
-            momenta: scene.momenta.clone(),
-            constrained: !system.constraints.is_empty(),
         }
     }
 }

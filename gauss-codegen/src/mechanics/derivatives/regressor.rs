@@ -5,7 +5,7 @@
 //! acceleration of the observer and goes with the masses; the elements of what acts, and buoyancy, do not.
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::kernel::{Differentiated, Kernel};
+use crate::kernel::Differentiated;
 
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::links::link::Matter;
@@ -26,7 +26,9 @@ pub struct InertialParameter<'g> {
     /// In terms of what the user calls its factors.
     pub name: String,
     value: Expr<'g>,
-    symbol: Expr<'g>,
+    /// What stands for it where forces of inertia are differentiated: their derivatives do not read it, unless a mass is
+    /// something else besides.
+    pub symbol: Expr<'g>,
 }
 
 /// The inertial parameters of a scene, and what takes the place of the symbols of fields.
@@ -155,15 +157,5 @@ impl<'a, 'g> InertialParameters<'a, 'g> {
             formulas,
             parameters: list,
         })
-    }
-}
-
-impl<'g> Regressor<'g> {
-    /// Parameters in which the forces are not linear after all: the coefficients depend on them. None, unless a mass is
-    /// something else besides.
-    pub fn not_linear(&self, kernel: &Kernel<'g>) -> Vec<&str> {
-        let read: Vec<Expr<'g>> = kernel.regressor.iter().flat_map(|program| program.symbols()).collect();
-        let curved = self.parameters.iter().filter(|parameter| read.contains(&parameter.symbol));
-        curved.map(|parameter| parameter.name.as_str()).collect()
     }
 }

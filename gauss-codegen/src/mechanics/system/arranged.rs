@@ -3,71 +3,14 @@
 use crate::algebra::{Expr, Map};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
-use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::formula::Formulas;
 use crate::mechanics::links::tree::Tree;
 
 use super::{System, tidied};
 
-/// The methods in equivalent arrangements.
-pub(super) struct Arranged<'g> {
-    acceleration: Vec<Vec<Expr<'g>>>,
-    momentum: Vec<Vec<Expr<'g>>>,
-    velocity: Vec<Vec<Expr<'g>>>,
-    momentum_rate: Vec<Vec<Expr<'g>>>,
-    mass_matrix: Vec<Vec<Expr<'g>>>,
-    kinetic_energy: Vec<Vec<Expr<'g>>>,
-    potential_energy: Vec<Vec<Expr<'g>>>,
-    residual: Vec<Vec<Expr<'g>>>,
-    constraint: Vec<Vec<Expr<'g>>>,
-}
-
-impl<'g> Arranged<'g> {
-    /// Of the only body, which is free.
-    fn of_body(system: &System<'g>, body: &FreeLink<'g>) -> Self {
-        let balances = body.balances();
-        let short = body.short();
-        let and = |mut ways: Vec<Vec<Expr<'g>>>, short: Option<Vec<Expr<'g>>>| -> Vec<Vec<Expr<'g>>> {
-            ways.extend(short);
-            ways
-        };
-        let residual = and(body.residuals().into(), short.residual);
-        let for_constraint = residual.iter().chain(&short.collected);
-        let momentum = body.momentum();
-        let dense = system.dense_accelerations(body, &residual);
-        let potential = body.potential_energy();
-        let potential = system.potential.map_or(potential, |other| potential + other);
-        Self {
-            acceleration: and(balances.iter().map(|b| body.acceleration(b)).chain(dense).collect(), short.acceleration),
-            momentum_rate: and(body.momentum_rates(&Map::default()), short.momentum_rate),
-            velocity: and(body.velocities_of_momentum(), short.velocity),
-            mass_matrix: and(vec![body.mass_matrix(&momentum)], short.matrix),
-            momentum: and(vec![momentum], short.momentum),
-            kinetic_energy: and(body.kinetic_energies().map(|e| vec![e]).into(), short.kinetic_energy),
-            potential_energy: and(vec![vec![potential]], system.tidied_too(&[potential])),
-            constraint: for_constraint.flat_map(|r| system.constraints_of(r)).map(|c| vec![c]).collect(),
-            residual,
-        }
-    }
-
-    pub fn into_formulas(self) -> [Formula<'g>; 9] {
-        [
-            (Method::Acceleration, self.acceleration),
-            (Method::Momentum, self.momentum),
-            (Method::Velocity, self.velocity),
-            (Method::MomentumRate, self.momentum_rate),
-            (Method::MassMatrix, self.mass_matrix),
-            (Method::KineticEnergy, self.kinetic_energy),
-            (Method::PotentialEnergy, self.potential_energy),
-            (Method::GaussResidual, self.residual),
-            (Method::ConstraintFunction, self.constraint),
-        ]
-        .map(|(method, arrangements)| Formula { method, arrangements })
-    }
-}
-
 impl<'g> System<'g> {
     /// Everything in the arrangements that are worth trying.
-    pub(super) fn arranged(&self) -> Arranged<'g> {
+    pub(super) fn arranged(&self) -> Formulas<'g> {
         let Some(body) = self.only_body() else {
             let mut general = self.arranged_in_general();
             if self.constraints.is_empty() && !self.free.is_empty() {
@@ -75,7 +18,7 @@ impl<'g> System<'g> {
             }
             return general;
         };
-        let of_body = Arranged::of_body(self, body);
+        let of_body = self.arranged_as_body(body);
         if self.constraints.is_empty() {
             return of_body;
         }
@@ -89,11 +32,41 @@ impl<'g> System<'g> {
         arranged
     }
 
-    fn arranged_in_general(&self) -> Arranged<'g> {
+    /// Of the only body, which is free.
+    fn arranged_as_body(&self, body: &FreeLink<'g>) -> Formulas<'g> {
+        let balances = body.balances();
+        let short = body.short();
+        let and = |mut ways: Vec<Vec<Expr<'g>>>, short: Option<Vec<Expr<'g>>>| -> Vec<Vec<Expr<'g>>> {
+            ways.extend(short);
+            ways
+        };
+        let residual = and(body.residuals().into(), short.residual);
+        let for_constraint = residual.iter().chain(&short.collected);
+        let momentum = body.momentum();
+        let dense = self.dense_accelerations(body, &residual);
+        let potential = body.potential_energy();
+        let potential = self.potential.map_or(potential, |other| potential + other);
+        Formulas {
+            kinematics: vec![self.scene.kinematics.clone()],
+            acceleration: and(balances.iter().map(|b| body.acceleration(b)).chain(dense).collect(), short.acceleration),
+            momentum_rate: and(body.momentum_rates(&Map::default()), short.momentum_rate),
+            velocity: and(body.velocities_of_momentum(), short.velocity),
+            mass_matrix: and(vec![body.mass_matrix(&momentum)], short.matrix),
+            momentum: and(vec![momentum], short.momentum),
+            kinetic_energy: and(body.kinetic_energies().map(|e| vec![e]).into(), short.kinetic_energy),
+            potential_energy: and(vec![vec![potential]], self.tidied_too(&[potential])),
+            constraint_function: for_constraint.flat_map(|r| self.constraints_of(r)).map(|c| vec![c]).collect(),
+            gauss_residual: residual,
+            others: Vec::new(),
+        }
+    }
+
+    fn arranged_in_general(&self) -> Formulas<'g> {
         let arrangements = self.arrangements();
         let momentum = self.momentum();
         let velocity = self.velocities(&momentum);
-        Arranged {
+        Formulas {
+            kinematics: vec![self.scene.kinematics.clone()],
             acceleration: self.accelerations(&arrangements),
             momentum: self.with_tidied(momentum).into_iter().chain(self.by_given_poles(Tree::momentum)).collect(),
             momentum_rate: velocity.iter().flat_map(|z| self.momentum_rates(z, &arrangements[0])).collect(),
@@ -101,8 +74,9 @@ impl<'g> System<'g> {
             mass_matrix: self.with_tidied(self.matrix.concat()),
             kinetic_energy: self.kinetic_energies(),
             potential_energy: self.with_tidied(vec![self.potential_energy()]),
-            constraint: arrangements.iter().map(|a| vec![self.constraint_function(a)]).collect(),
-            residual: arrangements.iter().map(|a| self.gauss_residual(a)).collect(),
+            constraint_function: arrangements.iter().map(|a| vec![self.constraint_function(a)]).collect(),
+            gauss_residual: arrangements.iter().map(|a| self.gauss_residual(a)).collect(),
+            others: Vec::new(),
         }
     }
 
@@ -119,7 +93,7 @@ impl<'g> System<'g> {
     }
 
     /// In the place of the rows of free links what they are in their arrangements.
-    fn put_free_links(&self, arranged: &mut Arranged<'g>) {
+    fn put_free_links(&self, arranged: &mut Formulas<'g>) {
         let balances: Vec<_> = self.free.iter().map(|free| (free, free.balances())).collect();
         let of_all = |f: &dyn Fn(&FreeLink<'g>) -> Vec<Vec<Expr<'g>>>| -> Vec<Vec<Vec<Expr<'g>>>> {
             self.free.iter().map(f).collect()
@@ -127,7 +101,7 @@ impl<'g> System<'g> {
         let accelerations = balances.iter().map(|(free, b)| b.iter().map(|b| free.acceleration(b)).collect()).collect();
         let residuals = self.free.iter().map(|free| free.residuals().into()).collect();
         self.put(&mut arranged.acceleration, accelerations);
-        self.put(&mut arranged.residual, residuals);
+        self.put(&mut arranged.gauss_residual, residuals);
         self.put(&mut arranged.momentum, of_all(&|free| vec![free.momentum()]));
         self.put(&mut arranged.velocity, of_all(&|free| free.velocities_of_momentum()));
         let velocity = arranged.velocity.last().expect("a way at least");
