@@ -10,7 +10,7 @@ use crate::formulation::Formulation;
 use crate::lowering::lower;
 use crate::mistakes::{most_operations, refuse_exhausted};
 use crate::model::{self, Model};
-use crate::translate::Translator;
+use crate::translate::translate;
 
 /// Expands one struct.
 ///
@@ -42,13 +42,13 @@ fn derive_model<R>(
     model: &Model,
     write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>,
 ) -> syn::Result<R> {
-    let mut translator = Translator::new(graph, model)?;
-    let mut formulation = Formulation::of(model, &mut translator)?;
-    let mut kernel = lower(graph, model, &translator, &formulation)?;
-    if !kernel.functions.acceleration.loss.is_tolerable() && formulation.with_squares(model, &translator)? {
-        kernel = lower(graph, model, &translator, &formulation)?;
+    let translated = translate(graph, model)?;
+    let mut formulation = Formulation::of(translated)?;
+    let mut kernel = lower(&formulation)?;
+    if !kernel.functions.acceleration.loss.is_tolerable() && formulation.with_squares()? {
+        kernel = lower(&formulation)?;
     }
-    write(&Derived::new(model, &translator, &formulation, &kernel)?)
+    write(&Derived::new(&formulation, &kernel))
 }
 
 #[cfg(test)]

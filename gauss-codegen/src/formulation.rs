@@ -1,8 +1,8 @@
-//! From a model to formulas: the system, checked against the definition, and all that is asked of it.
+//! From a scene to formulas: the system, checked against the definition, and all that is asked of it.
 
 use proc_macro2::Ident;
 
-use crate::algebra::{Expr, Graph, Map, Notation, Rational};
+use crate::algebra::{Expr, Graph, Map, Notation, Rational, Substitution};
 use crate::kernel::{Differentiation, Wanted};
 use crate::mechanics::{
     Claims, Constraints, Coordinate, Elimination, Formulas, Hessian, InertialParameter, InertialParameters,
@@ -14,10 +14,11 @@ use crate::mistakes::{
     eliminate, not_linear, refuse_curved_kinematics, refuse_exhausted, refuse_idle_speeds, system_faults,
 };
 use crate::model::{self, Model, WantedMethod};
-use crate::translate::{Parameter, Translator, parameters};
+use crate::translate::{Given, Parameter, Translated};
 
 /// A system with its formulas.
-pub struct Formulation<'g> {
+pub struct Formulation<'a, 'g> {
+    pub given: Given<'a, 'g>,
     pub system: System<'g>,
     /// How its speeds were found, where constraints are solved for the others.
     pub elimination: Option<Elimination<'g>>,
@@ -28,8 +29,6 @@ pub struct Formulation<'g> {
     pub weights: Vec<Expr<'g>>,
     /// The parameters in which the forces of inertia are linear, where the regressor is wanted.
     pub inertial_parameters: Vec<InertialParameter<'g>>,
-    /// The numbers of fields.
-    pub parameters: Vec<Parameter<'g>>,
     /// The equations for people, as text and in LaTeX.
     pub printed: [Printed; 2],
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate, and the entries of R in terms of them.
@@ -39,39 +38,38 @@ pub struct Formulation<'g> {
     pub units: Vec<Vec<Expr<'g>>>,
 }
 
-impl<'g> Formulation<'g> {
+impl<'a, 'g> Formulation<'a, 'g> {
     /// # Errors
     /// What only the derivation finds wrong with a system.
-    pub fn of(model: &Model, translator: &mut Translator<'_, 'g>) -> syn::Result<Self> {
-        let Reduced { mut system, elimination, values, kept } = Reduced::of(model, translator)?;
+    pub fn of(translated: Translated<'a, 'g>) -> syn::Result<Self> {
+        let Reduced { given, mut system, elimination } = Reduced::of(translated)?;
+        let model = given.model;
         let graph = system.scene.graph;
         let printed = printed(&mut system);
         refuse_exhausted(model, graph)?;
         let mut formulas = system.formulas();
         refuse_exhausted(model, graph)?;
         check_system_against_definition(&system, &Claims::of(&formulas))
-            .map_err(|faults| system_faults(model, translator, &system, &faults))?;
+            .map_err(|faults| system_faults(&given, &system, &faults))?;
         formulas.extend(system.formulas_of_one_body().into_iter().flatten());
         if let Some(elimination) = &elimination {
             formulas.acceleration.extend(elimination.accelerations());
             formulas.extend(elimination.formulas());
         }
         let (quaternions, definitions) = system_rotations(system.scene.graph, &system);
-        let parameters = parameters(&model.fields, translator.sources());
-        let (mut derivatives, weights) = derivatives(&model.wanted, &system, &formulas, &parameters);
+        let (mut derivatives, weights) = derivatives(&model.wanted, &system, &formulas, &given.parameters);
         let clause = model.wanted.regressor.as_ref();
-        let regressor =
-            clause.map(|clause| regressor(clause, translator, &system, (&values, &kept), &parameters)).transpose()?;
+        let regressor = clause.map(|clause| regressor(clause, &system, &given.parameters)).transpose()?;
         if model.wanted.taylor.is_some() {
             formulas.extend([system.component_rates(&quaternions, &formulas.acceleration)]);
         }
-        formulas.extend(system.frame_formulas(&translator.links_of_frames()));
+        formulas.extend(system.frame_formulas(&given.frames));
         for method in &model.wanted.methods {
             match method {
                 WantedMethod::Centroidal => formulas.extend(system.centroidal_formulas()),
                 WantedMethod::NonlinearEffects => formulas.extend([system.nonlinear_effects(&formulas.gauss_residual)]),
                 WantedMethod::GravityTorques => formulas.extend([system.gravity_torques()]),
-                WantedMethod::JacobianRates => formulas.extend(system.jacobian_rates(&translator.links_of_frames())),
+                WantedMethod::JacobianRates => formulas.extend(system.jacobian_rates(&given.frames)),
             }
         }
         let mut inertial_parameters = Vec::new();
@@ -83,13 +81,13 @@ impl<'g> Formulation<'g> {
         derivatives.sort_by_key(|derivative| derivative.kind);
         let units = units_of(&system, &quaternions);
         Ok(Self {
+            given,
             system,
             elimination,
             formulas,
             derivatives,
             weights,
             inertial_parameters,
-            parameters,
             printed,
             quaternions,
             definitions,
@@ -102,8 +100,8 @@ impl<'g> Formulation<'g> {
     ///
     /// # Errors
     /// Mistakes of this crate.
-    pub fn with_squares(&mut self, model: &Model, translator: &Translator<'_, 'g>) -> syn::Result<bool> {
-        let literals = translator.literals();
+    pub fn with_squares(&mut self) -> syn::Result<bool> {
+        let literals = &self.given.literals;
         let is_known =
             |mass: &Expr<'g>| mass.as_number().is_some() || literals.iter().any(|(_, literal)| literal == mass);
         if self.elimination.is_some() || !self.system.scene.tree.masses().all(|mass| is_known(&mass)) {
@@ -115,7 +113,7 @@ impl<'g> Formulation<'g> {
         }
         let claims = Claims { accelerations: &arrangements, ..Claims::default() };
         check_system_against_definition(&self.system, &claims)
-            .map_err(|faults| system_faults(model, translator, &self.system, &faults))?;
+            .map_err(|faults| system_faults(&self.given, &self.system, &faults))?;
         self.formulas.acceleration.extend(arrangements);
         Ok(true)
     }
@@ -169,17 +167,11 @@ fn wanted<'g>(kind: DerivativeKind, differentiation: Differentiation<'g>) -> Wan
 }
 
 /// The forces of inertia as a linear function of inertial parameters.
-fn regressor<'g>(
-    clause: &Ident,
-    translator: &mut Translator<'_, 'g>,
-    system: &System<'g>,
-    (values, kept): (&[Expr<'g>], &[usize]),
-    parameters: &[Parameter<'g>],
-) -> syn::Result<Regressor<'g>> {
+fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[Parameter<'g>]) -> syn::Result<Regressor<'g>> {
     let names = names_of(parameters);
     let inertial = InertialParameters::new(system, &names);
     // The system once more, of bodies by their first moments.
-    let other = translator.scene_of(|body| inertial.by_first_moment(body), values, kept)?;
+    let other = system.scene.of_bodies(|body| inertial.by_first_moment(body));
     let residuals = System::new(other).inertial_residuals();
     let regressor = inertial.regressor(&residuals, &system.element_forces(), system.defined());
     regressor.map_err(|mass| not_linear(clause, &mass))
@@ -201,35 +193,29 @@ fn printed(system: &mut System<'_>) -> [Printed; 2] {
     printed
 }
 
-/// A system with the speeds that are left, of all declared ones with their values.
-struct Reduced<'g> {
+/// A system with the speeds that are left.
+struct Reduced<'a, 'g> {
+    given: Given<'a, 'g>,
     system: System<'g>,
     elimination: Option<Elimination<'g>>,
-    values: Vec<Expr<'g>>,
-    kept: Vec<usize>,
 }
 
-impl<'g> Reduced<'g> {
-    fn of(model: &Model, translator: &mut Translator<'_, 'g>) -> syn::Result<Self> {
-        let values = translator.speeds().to_vec();
-        let kept: Vec<usize> = (0..values.len()).collect();
-        let scene = translator.scene(&values, &kept)?;
-        translator.refuse_mistakes()?;
+impl<'a, 'g> Reduced<'a, 'g> {
+    fn of(Translated { scene, mut given }: Translated<'a, 'g>) -> syn::Result<Self> {
+        let model = given.model;
         refuse_exhausted(model, scene.graph)?;
         refuse_curved_kinematics(model, &scene)?;
         let mut whole = System::new(scene);
         refuse_exhausted(model, whole.scene.graph)?;
-        leave_out_needless(model, &translator.literals(), &mut whole);
-        refuse_idle_speeds(model, translator, &whole)?;
-        let Some(independent) = &model.independent else {
-            return Ok(Self { system: whole, elimination: None, values, kept });
+        leave_out_needless(model, &given.literals, &mut whole);
+        refuse_idle_speeds(&given, &whole)?;
+        let Some(independent) = &given.independent else {
+            return Ok(Self { given, system: whole, elimination: None });
         };
-        let elimination = eliminate(model, translator, whole, independent)?;
-        let kept = translator.indices_of_speeds(independent);
-        let mut scene = translator.scene(&elimination.values, &kept)?;
-        scene.constraints.clear();
-        let (system, values) = (System::new(scene), elimination.values.clone());
-        Ok(Self { system, elimination: Some(elimination), values, kept })
+        let elimination = eliminate(model, whole, independent)?;
+        let system = System::new(elimination.reduced());
+        given.substitute(&Substitution::new(elimination.replacement()));
+        Ok(Self { given, system, elimination: Some(elimination) })
     }
 }
 

@@ -3,26 +3,25 @@
 use std::fmt::Display;
 
 use crate::accuracy::{Deciding, Names, States, Trial};
-use crate::algebra::{Expr, Graph, Rational};
+use crate::algebra::{Expr, Rational};
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
 use crate::mechanics::{Arrangements, Method};
 use crate::methods::DerivativeKind;
-use crate::mistakes::{failed, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives};
-use crate::model::{Model, Scalar};
-use crate::translate::Translator;
+use crate::mistakes::{
+    failed, refuse_lost, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives,
+};
+use crate::model::Scalar;
+use crate::translate::Given;
 
 /// The programs of all formulas and of the derivatives that are wanted.
 ///
 /// # Errors
 /// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this crate.
-pub fn lower<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    translator: &Translator<'_, 'g>,
-    formulation: &Formulation<'g>,
-) -> syn::Result<Kernel<'g>> {
-    let failed = |what: &dyn Display| failed(model, translator, &formulation.system, &what);
+pub fn lower<'g>(formulation: &Formulation<'_, 'g>) -> syn::Result<Kernel<'g>> {
+    let Given { model, literals, .. } = &formulation.given;
+    let graph = formulation.system.scene.graph;
+    let failed = |what: &dyn Display| failed(&formulation.given, &formulation.system, &what);
     let undefined = || failed(&"the equations divide by zero");
     if graph.is_undefined() {
         return Err(undefined());
@@ -32,9 +31,8 @@ pub fn lower<'g>(
     let by_state = formulation.derivatives.iter().any(|derivative| derivative.kind == DerivativeKind::ByState);
     let units: &[Vec<Expr<'g>>] = if by_state { &formulation.units } else { &[] };
     let wanted = Derivatives { list: &formulation.derivatives, units };
-    let literals = translator.literals();
-    let known = foldable(&model.scalar, &literals);
-    let states = states(&literals, formulation);
+    let known = foldable(&model.scalar, literals);
+    let states = states(formulation);
     let samples = states.samples();
     let lowered = |deciding: &[Deciding]| {
         let mut trial = Trial::new(samples.points()).with(deciding);
@@ -45,7 +43,7 @@ pub fn lower<'g>(
         }
         refuse_unknown_derivatives(model, &kernel)?;
         refuse_too_much(model, &kernel)?;
-        translator.refuse_lost(&kernel)?;
+        refuse_lost(&formulation.given, &kernel)?;
         refuse_regressor(model.wanted.regressor.as_ref(), &formulation.inertial_parameters, &kernel)?;
         refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), &kernel)?;
         Ok(kernel)
@@ -60,14 +58,14 @@ pub fn lower<'g>(
 }
 
 /// What states are made from at which the programs are tried.
-pub fn states<'a, 'g>(literals: &[(Rational, Expr<'g>)], formulation: &'a Formulation<'g>) -> States<'a, 'g> {
-    let Formulation { system, formulas, definitions, units, .. } = formulation;
-    let parameters = formulation.parameters.iter();
+pub fn states<'a, 'g>(formulation: &'a Formulation<'_, 'g>) -> States<'a, 'g> {
+    let Formulation { given, system, formulas, definitions, units, .. } = formulation;
+    let parameters = given.parameters.iter();
     States {
         system,
         momentum: &formulas.momentum[0],
         parameters: parameters.map(|parameter| (parameter.symbol, parameter.name.contains('['))).collect(),
-        literals: literals.to_vec(),
+        literals: given.literals.clone(),
         units,
         weights: &formulation.weights,
         definitions,

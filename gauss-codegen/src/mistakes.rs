@@ -4,15 +4,15 @@ use std::fmt::Display;
 
 use proc_macro2::{Ident, Span};
 
-use crate::algebra::{Function, Graph};
+use crate::algebra::{Function, Graph, Notation, Number, Precise, Scalar as _, decimal};
 use crate::kernel::Kernel;
 use crate::mechanics::{
     Coordinate, Elimination, InertialParameter, Method, Obstacle, System, SystemFault, SystemScene,
 };
 use crate::methods::DerivativeKind;
-use crate::model::{FunctionKind, Model, SpeedPart};
-use crate::program::Instruction;
-use crate::translate::Translator;
+use crate::model::{FunctionKind, Model, Scalar};
+use crate::program::{Instruction, Operand};
+use crate::translate::{Given, SpeedName};
 
 /// Operations up to which code is generated unless the user says otherwise: some seconds of the compiler's time.
 const LIMIT: usize = 50_000;
@@ -64,12 +64,12 @@ pub fn refuse_series(taylor: Option<&Ident>, has_inputs: bool, kernel: &Kernel<'
 }
 
 /// Speeds that nothing with mass moves with.
-pub fn refuse_idle_speeds(model: &Model, translator: &Translator<'_, '_>, system: &System<'_>) -> syn::Result<()> {
+pub fn refuse_idle_speeds(given: &Given<'_, '_>, system: &System<'_>) -> syn::Result<()> {
     let mut mistakes = Mistakes::default();
     for k in system.idle_speeds() {
-        let (name, span) = speed(model, translator, k);
+        let SpeedName { text: name, span } = &given.speeds[k];
         mistakes.push(
-            span,
+            *span,
             format!("no velocity depends on `{name}`: its row of the mass matrix is zero; give what it moves a mass, or leave it out"),
         );
     }
@@ -167,18 +167,13 @@ pub fn not_linear(clause: &Ident, mass: &str) -> syn::Error {
 }
 
 /// Solves the constraints for the speeds that are not named.
-pub fn eliminate<'g>(
-    model: &Model,
-    translator: &Translator<'_, 'g>,
-    whole: System<'g>,
-    independent: &[SpeedPart],
-) -> syn::Result<Elimination<'g>> {
-    let kept = translator.indices_of_speeds(independent);
+pub fn eliminate<'g>(model: &Model, whole: System<'g>, kept: &[usize]) -> syn::Result<Elimination<'g>> {
     let clauses: Vec<Span> =
         whole.scene.constraints.iter().map(|c| model.constraints[c.clause].expression.span).collect();
     let (total, count) = (whole.scene.speeds.len(), clauses.len());
-    let named = independent.first().map_or(model.ident.span(), |speed| speed.ident.span());
-    Elimination::new(whole, &kept).map_err(|obstacle| match obstacle {
+    let named = model.independent.iter().flatten().next();
+    let named = named.map_or(model.ident.span(), |speed| speed.ident.span());
+    Elimination::new(whole, kept).map_err(|obstacle| match obstacle {
         Obstacle::NotAffine(k) => syn::Error::new(
             clauses[k],
             "this constraint is not affine in the speeds, so it cannot be solved for some of them when the code is written; \
@@ -201,12 +196,8 @@ pub fn eliminate<'g>(
 }
 
 /// What the check of a system finds, each at the token that is wrong.
-pub fn system_faults<'g>(
-    model: &Model,
-    translator: &Translator<'_, 'g>,
-    system: &System<'g>,
-    faults: &[SystemFault],
-) -> syn::Error {
+pub fn system_faults<'g>(given: &Given<'_, 'g>, system: &System<'g>, faults: &[SystemFault]) -> syn::Error {
+    let model = given.model;
     let clause = |k: usize, text: &str| {
         let clause = &model.constraints[system.scene.constraints[k].clause];
         (clause.span, format!("{}{text}", clause.place.as_deref().unwrap_or_default()))
@@ -214,14 +205,14 @@ pub fn system_faults<'g>(
     let mut mistakes = Mistakes::default();
     for fault in faults {
         match fault {
-            SystemFault::Disagreement(error) => return failed(model, translator, system, error),
+            SystemFault::Disagreement(error) => return failed(given, system, error),
             SystemFault::DependentSpeed(k) => {
-                let (name, span) = speed(model, translator, *k);
+                let SpeedName { text: name, span } = &given.speeds[*k];
                 let message = format!(
                     "`{name}` moves nothing that the speeds before it do not move: the mass matrix is singular; \
                      leave one of them out, or give what it moves a mass"
                 );
-                mistakes.push(span, message);
+                mistakes.push(*span, message);
             }
             SystemFault::DependentConstraint(k) => {
                 let (span, message) = clause(
@@ -242,17 +233,6 @@ pub fn system_faults<'g>(
         }
     }
     mistakes.finish().err().unwrap_or_else(|| bug(&model.ident, &"a fault without a name"))
-}
-
-/// The name of a speed, and where it is written: without `speeds` at its coordinate.
-fn speed(model: &Model, translator: &Translator<'_, '_>, k: usize) -> (String, Span) {
-    match translator.speed_idents().get(k) {
-        Some(ident) => (ident.to_string(), ident.span()),
-        None => {
-            let ident = translator.coordinate_of_speed(k).map_or(&model.ident, |coordinate| &coordinate.ident);
-            (format!("d{ident}/dt"), ident.span())
-        }
-    }
 }
 
 /// Mistakes that only the derivation sees, all reported at once.
@@ -276,16 +256,49 @@ impl Mistakes {
 }
 
 /// A check that failed: what in the scene is the cause, or a mistake of this crate.
-pub fn failed<'g>(
-    model: &Model,
-    translator: &Translator<'_, 'g>,
-    system: &System<'g>,
-    what: &impl Display,
-) -> syn::Error {
-    translator.cause_of_failure(&system.scene.tree).unwrap_or_else(|| bug(&model.ident, what))
+pub fn failed<'g>(given: &Given<'_, 'g>, system: &System<'g>, what: &impl Display) -> syn::Error {
+    given.cause_of_failure(&system.scene.tree).unwrap_or_else(|| bug(&given.model.ident, what))
 }
 
 /// A mistake of this crate, said as such at the name of the struct.
 pub fn bug(ident: &Ident, what: &impl Display) -> syn::Error {
     syn::Error::new(ident.span(), format!("bug in gauss-derive: {what}; please report it together with this struct"))
+}
+
+/// Constants of the equations that are beyond the range of the scalar although the numbers that they are made of are
+/// not: nothing, or infinity, would stand in their place.
+///
+/// # Errors
+/// The first of the extreme numbers, or the name of the struct where there are none.
+pub fn refuse_lost<'g>(given: &Given<'_, 'g>, kernel: &Kernel<'g>) -> syn::Result<()> {
+    let single = matches!(given.model.scalar, Scalar::F32);
+    let [least, most] = match single {
+        true => [f32::MIN_POSITIVE, f32::MAX].map(f64::from),
+        false => [f64::MIN_POSITIVE, f64::MAX],
+    };
+    let is_lost = |value: f64| !(least..=most).contains(&value.abs());
+    let has_extreme = !given.extreme.is_empty();
+    // Zero, too small or too large.
+    let suspicious = kernel.known_constants.iter().zip(&kernel.folded).filter(|((_, found), _)| is_lost(*found));
+    let of_literals = suspicious.map(|(_, (_, definition))| given.known(*definition)).any(|exact| {
+        let exact = exact.filter(|exact| *exact != Precise::number(0.0));
+        // Among usual numbers a zero is what rounding left of a difference; among extreme ones a product may be lost.
+        exact.is_some_and(|exact| is_lost(exact.to_f64()) || has_extreme)
+    });
+    let programs = kernel.written();
+    let in_programs = || {
+        let mut operands = programs.flat_map(|program| &program.instructions).flat_map(Instruction::operands);
+        operands.any(|operand| matches!(operand, Operand::Number(n) if !n.is_zero() && is_lost(n.to_f64())))
+    };
+    if !of_literals && !in_programs() {
+        return Ok(());
+    }
+    let span = given.extreme.first().map_or(given.model.ident.span(), |(span, _)| *span);
+    let of = given.extreme.first().map(|(_, value)| format!(" with `{}`", decimal(*value, Notation::Text)));
+    let (of, precision) = (of.unwrap_or_default(), if single { "single" } else { "double" });
+    let message = format!(
+        "a constant of the equations{of} is beyond the range of {precision} precision; choose units in which the numbers \
+         are nearer to 1"
+    );
+    Err(syn::Error::new(span, message))
 }

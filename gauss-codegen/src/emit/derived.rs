@@ -9,9 +9,9 @@ use crate::algebra::{Expr, Map, Rational, Set};
 use crate::formulation::{Formulation, Printed};
 use crate::kernel::{Counts, Function, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, InertialParameter, Method};
-use crate::model::{Model, Scalar};
+use crate::model::Scalar;
 use crate::program::ArgumentKind;
-use crate::translate::{DragMatrix, Law, Parameter, Translator};
+use crate::translate::{DragMatrix, Law, Parameter};
 use syn::ext::IdentExt;
 use syn::{Generics, Path, Visibility};
 
@@ -34,9 +34,9 @@ pub const PRIVATE: &str = concat!(
 pub struct Derived<'a, 'g> {
     pub subject: Subject<'a, 'g>,
     /// Matrices of drag.
-    pub drags: Vec<DragMatrix<'g>>,
+    pub drags: &'a [DragMatrix<'g>],
     /// Constants of springs, stops and other elements.
-    pub laws: Vec<Law<'g>>,
+    pub laws: &'a [Law<'g>],
     pub kernel: &'a Kernel<'g>,
     /// λ of the second derivatives, where these are wanted.
     pub weights: &'a [Expr<'g>],
@@ -83,37 +83,29 @@ pub struct Formal<'a, 'g> {
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
-    /// # Errors
-    /// Only what the model should have refused: a bug of this crate.
-    pub fn new(
-        model: &'a Model,
-        translator: &'a Translator<'_, 'g>,
-        formulation: &'a Formulation<'g>,
-        kernel: &'a Kernel<'g>,
-    ) -> syn::Result<Self> {
-        let body_values = model.bodies.iter().map(|body| translator.quantity_values(&body.role_clauses));
-        let declared = translator.speeds();
-        let of_system = &formulation.system.scene.speeds;
+    pub fn new(formulation: &'a Formulation<'_, 'g>, kernel: &'a Kernel<'g>) -> Self {
+        let given = &formulation.given;
+        let model = given.model;
         let subject = Subject {
             model,
             system: &formulation.system,
             constraints: formulation.constraints(),
             can_drift: formulation.can_drift(),
-            sources: translator.sources(),
-            literals: translator.literals(),
-            values: translator.quantity_values(&model.role_clauses)?,
-            body_values: body_values.collect::<syn::Result<_>>()?,
-            kept_speeds: (0..declared.len()).filter(|&k| of_system.contains(&declared[k])).collect(),
-            links: translator.links_of_clauses(),
+            sources: &given.sources,
+            literals: &given.literals,
+            values: &given.mass_data.unnamed,
+            body_values: &given.mass_data.named,
+            kept_speeds: given.independent.clone().unwrap_or_else(|| (0..given.speeds.len()).collect()),
+            links: &given.links,
             quaternions: &formulation.quaternions,
         };
         let mut derived = Self {
             subject,
-            drags: translator.drags(),
-            laws: translator.laws(),
+            drags: &given.drags,
+            laws: &given.laws,
             kernel,
             weights: &formulation.weights,
-            parameters: &formulation.parameters,
+            parameters: &given.parameters,
             printed: &formulation.printed,
             inertial_parameters: &formulation.inertial_parameters,
             packs: Packs::default(),
@@ -124,7 +116,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             arguments: OnceCell::new(),
         };
         derived.packs = derived.packed();
-        Ok(derived)
+        derived
     }
 
     pub fn item(&self) -> Item<'a> {
@@ -232,7 +224,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// Literal numbers that symbols stand for.
     pub fn literals(&self) -> &[(Rational, Expr<'g>)] {
-        &self.subject.literals
+        self.subject.literals
     }
 
     /// The symbol of the time.

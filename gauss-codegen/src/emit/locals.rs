@@ -56,7 +56,7 @@ pub fn parameters_read(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream
     let Subject { model, values, .. } = &derived.subject;
     let fields = model.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
     let mut read: TokenStream = fields.map(|(k, field)| read_field(derived, k, field)).collect();
-    let clauses = model.role_clauses.iter().zip(values);
+    let clauses = model.role_clauses.iter().zip(values.iter());
     read.extend(clauses.map(|(clause, value)| clause_local(derived, &local_of_clause(clause.role), value, symbols)));
     read
 }

@@ -23,14 +23,14 @@ pub struct Subject<'a, 'g> {
     /// Where the symbols of fields are read.
     pub sources: &'a [Source<'g>],
     /// Literal numbers that symbols stand for.
-    pub literals: Vec<(Rational, Expr<'g>)>,
+    pub literals: &'a [(Rational, Expr<'g>)],
     /// Mass data that are written in clauses: of the body without a name, and of each of the others.
-    pub values: Vec<QuantityValues<'g>>,
-    pub body_values: Vec<Vec<QuantityValues<'g>>>,
+    pub values: &'a [QuantityValues<'g>],
+    pub body_values: &'a [Vec<QuantityValues<'g>>],
     /// Which of the speeds that are declared are speeds of the system: not those that constraints determine.
     pub kept_speeds: Vec<usize>,
     /// Which link each clause of a body or frame became.
-    pub links: Vec<usize>,
+    pub links: &'a [usize],
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate.
     pub quaternions: &'a [Option<[Expr<'g>; 4]>],
 }

@@ -263,9 +263,7 @@ fn check_elimination(plan: &Plan, random: &mut Random, what: &str) -> bool {
     let whole = System::new(symbols.scene(plan, &symbols.speeds, &all, true));
     let residual_symbols = whole.constraints.residuals.clone();
     let elimination = Elimination::new(whole, &reduction.kept).unwrap_or_else(|error| panic!("{what}: {error:?}"));
-    let mut scene = symbols.scene(plan, &elimination.values, &reduction.kept, true);
-    scene.constraints.clear();
-    let system = System::new(scene);
+    let system = System::new(elimination.reduced());
     let mut formulas = formulas_of(&system);
     if let Err(fault) = check_system_against_definition(&system, &Claims::of(&formulas)) {
         panic!("{what}: {fault:?}");

@@ -1,10 +1,12 @@
 //! A system as it is given: coordinates, speeds, ψ, links, constraints and loads, in symbols.
 
-use crate::algebra::{Expr, Graph, Map};
+use crate::algebra::{Expr, Graph, Map, Substitution};
 use crate::mechanics::constraints::constraint::Constraint;
 use crate::mechanics::kinematics::vector::Triple;
+use crate::mechanics::links::link::{Matter, Placement};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::Element;
+use crate::mechanics::matter::body::Body;
 use crate::mechanics::print::names::Name;
 use crate::mechanics::tidy::tidy;
 
@@ -91,6 +93,64 @@ pub struct SystemScene<'g> {
 }
 
 impl<'g> SystemScene<'g> {
+    /// The scene of other bodies, each in place of one. What acts stays as it is.
+    pub fn of_bodies(&self, other: impl Fn(&Body<'g>) -> Body<'g>) -> Self {
+        let matter = |matter: &Matter<'g>| match matter {
+            Matter::Body(body) => Matter::Body(Box::new(other(body))),
+            _ => matter.clone(),
+        };
+        let placed = |p: &Placement<'g>| Placement { matter: matter(&p.matter), ..p.clone() };
+        let mut tree = self.tree.changed(self.speeds.clone(), self.rates.clone(), placed);
+        tree.settle();
+        let kept: Vec<usize> = (0..self.speeds.len()).collect();
+        self.assembled(&kept, self.kinematics.clone(), self.rates.clone(), tree, self.elements.clone())
+    }
+
+    /// The scene in which constraints are solved: of its speeds those of `kept` stay, in terms of which the replacement has
+    /// the others.
+    pub fn reduced(&self, replacement: &Substitution<'g>, kept: &[usize]) -> Self {
+        let value = |e: Expr<'g>| replacement.of(e);
+        let kinematics = self.kinematics.iter().copied().map(value).collect();
+        let rates: Map<u32, Expr<'g>> = self.rates.iter().map(|(&key, &rate)| (key, value(rate))).collect();
+        let speeds = kept.iter().map(|&k| self.speeds[k]).collect();
+        let mut tree = self.tree.changed(speeds, rates.clone(), |placement| placement.map_velocities(value));
+        tree.rotors.iter_mut().for_each(|rotor| rotor.rate = value(rotor.rate));
+        let elements = self.elements.iter().map(|element| element.map(value)).collect();
+        tree.settle();
+        self.assembled(kept, kinematics, rates, tree, elements)
+    }
+
+    /// The speeds of `kept`, without constraints.
+    fn assembled(
+        &self,
+        kept: &[usize],
+        kinematics: Vec<Expr<'g>>,
+        rates: Map<u32, Expr<'g>>,
+        tree: Tree<'g>,
+        elements: Vec<Element<'g>>,
+    ) -> Self {
+        let pick = |all: &[Expr<'g>]| kept.iter().map(|&k| all[k]).collect();
+        let names = |all: &[Name]| kept.iter().map(|&k| all[k].clone()).collect();
+        Self {
+            graph: self.graph,
+            time: self.time,
+            coordinates: self.coordinates.clone(),
+            coordinate_names: self.coordinate_names.clone(),
+            lettering: self.lettering,
+            momentum_names: names(&self.momentum_names),
+            force_names: names(&self.force_names),
+            speed_rates: pick(&self.speed_rates),
+            momenta: pick(&self.momenta),
+            speeds: pick(&self.speeds),
+            kinematics,
+            rates,
+            tree,
+            constraints: Vec::new(),
+            inputs: self.inputs.clone(),
+            elements,
+        }
+    }
+
     /// Whether multiplying out would be slow and of no use.
     pub fn is_long(&self) -> bool {
         let [chained, apart] = SMALL;

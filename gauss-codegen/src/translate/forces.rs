@@ -16,8 +16,8 @@ use crate::model::{
 
 use super::drag::DragMatrix;
 use super::laws::{Law, LawKind};
+use super::translator::{Translator, bug};
 use super::value::Value;
-use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
 
@@ -200,7 +200,7 @@ impl<'g> Translator<'_, 'g> {
             _ if word.is_empty() => name.to_owned(),
             _ => format!("{name}.{word}"),
         };
-        self.laws.borrow_mut().push(Law { label, kind, values });
+        self.notes.add().laws.push(Law { label, kind, values });
     }
 
     /// A constant of the element `name`, of which note is taken.
@@ -320,7 +320,7 @@ impl<'g> Translator<'_, 'g> {
                 Coefficients::Field(field) => field.unraw().to_string(),
                 Coefficients::Diagonal(_) => name.to_owned(),
             };
-            self.drags.borrow_mut().push(DragMatrix { label, quadratic, entries: rows.clone() });
+            self.notes.add().drags.push(DragMatrix { label, quadratic, entries: rows.clone() });
             for (component, row) in wrench.iter_mut().zip(rows) {
                 *component = row.iter().zip(&velocities).fold(*component, |sum, (d, v)| sum - *d * *v);
             }
@@ -347,7 +347,7 @@ impl<'g> Translator<'_, 'g> {
         let mut massive = tree.links.iter().filter(|link| !matches!(link.matter, Matter::Nothing));
         massive.any(|link| {
             // What a chart says of it, where the motion stands by symbols of its own.
-            let charted = self.chart.as_ref().filter(|_| self.observed.is_some());
+            let charted = self.chart().filter(|_| self.observed.is_some());
             let position = charted.map_or(link.position, |chart| chart.kinematics.position);
             let arm = std::array::from_fn(|i| position[i] - field.center[i]);
             self.stays_at(&arm, span)

@@ -5,7 +5,7 @@ use syn::ext::IdentExt;
 use crate::algebra::Expr;
 use crate::model::{Field, Role};
 
-use super::{Part, Source};
+use super::symbols::{Part, Source};
 
 /// One number of a field.
 #[derive(Clone, Debug)]

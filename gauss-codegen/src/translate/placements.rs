@@ -7,8 +7,9 @@ use crate::algebra::Expr;
 use crate::mechanics::{Body, Matter, Placement, Tree, Vector};
 use crate::model::{BodyClause, ExpressionKind, Property};
 
+use super::kinematics::name_of_property;
+use super::translator::{Translator, bug};
 use super::value::{Local, Value};
-use super::{Translator, bug, name_of_property};
 
 impl<'g> Translator<'_, 'g> {
     /// Bodies and frames, parents before children.
@@ -36,7 +37,7 @@ impl<'g> Translator<'_, 'g> {
             Some(body) => Matter::Body(Box::new(Body::clone(body))),
             None => Matter::Nothing,
         };
-        if let Some(chart) = self.chart.as_ref().filter(|_| self.model.is_in_chart(clause)) {
+        if let Some(chart) = self.chart().filter(|_| self.model.is_in_chart(clause)) {
             let hangs = |parent: &Option<Ident>| parent.as_ref().is_some_and(|name| name == "body");
             let bodies = self.model.bodies.iter().map(|body| &body.parent);
             let alone = !bodies.chain(self.model.particles.iter().map(|particle| &particle.parent)).any(hangs);

@@ -7,8 +7,8 @@ use crate::algebra::{BinaryFunction, Expr, Function, Notation, Rational, decimal
 use crate::mechanics::{Axes, Tree, Turn, dot, subtract};
 use crate::model::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 
+use super::translator::{Translator, bug};
 use super::value::{Local, Piece, Value};
-use super::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
 
@@ -108,13 +108,13 @@ impl<'g> Translator<'_, 'g> {
         if value.parts().is_some_and(|(numerator, denominator)| numerator.abs().max(denominator) <= EXACT) {
             return self.graph.number(value);
         }
-        let mut literals = self.literals.borrow_mut();
-        if let Some((_, symbol)) = literals.iter().find(|(known, _)| *known == value) {
+        let mut notes = self.notes.add();
+        if let Some((_, symbol)) = notes.literals.iter().find(|(known, _)| *known == value) {
             return *symbol;
         }
         let [text, latex] = [Notation::Text, Notation::Latex].map(|notation| decimal(value, notation));
         let symbol = self.graph.symbol(text, latex, true);
-        literals.push((value, symbol));
+        notes.literals.push((value, symbol));
         symbol
     }
 

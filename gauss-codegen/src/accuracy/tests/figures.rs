@@ -8,7 +8,7 @@ use crate::algebra::{Doubled, Graph, Notation, Number, Scalar, print};
 use crate::formulation::Formulation;
 use crate::lowering::{lower, states};
 use crate::model;
-use crate::translate::Translator;
+use crate::translate::translate;
 
 use super::Random;
 
@@ -73,11 +73,10 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
     let input = syn::parse_str(&source).expect("the source is a struct");
     let model = model::parse(&input).unwrap_or_else(|error| panic!("{error}: {source}"));
     let graph = Graph::new();
-    let mut translator = Translator::new(&graph, &model).expect("a scene");
-    let formulation = Formulation::of(&model, &mut translator).expect("equations");
-    let kernel = lower(&graph, &model, &translator, &formulation).expect("a kernel");
-    let literals = translator.literals();
-    let states = states(&literals, &formulation);
+    let translated = translate(&graph, &model).expect("a scene");
+    let formulation = Formulation::of(translated).expect("equations");
+    let kernel = lower(&formulation).expect("a kernel");
+    let states = states(&formulation);
     let samples = states.samples();
     let sought = kernel.sought();
     let mut search = Search::new(&samples, &sought);

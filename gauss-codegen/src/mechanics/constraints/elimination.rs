@@ -2,10 +2,11 @@
 //! that is left has no constraints. What only the whole system knows, multipliers and the way back onto constraints of
 //! positions, is taken from it.
 
-use crate::algebra::{Expr, Map, Solver};
+use crate::algebra::{Expr, Map, Solver, Substitution};
 
 use crate::mechanics::constraints::constraint::ConstraintKind;
 use crate::mechanics::formula::{Formula, Method};
+use crate::mechanics::scene::SystemScene;
 use crate::mechanics::system::System;
 use crate::mechanics::tidy::tidy;
 
@@ -72,8 +73,13 @@ impl<'g> Elimination<'g> {
         self.whole.ways_to_accelerations().into_iter().map(kept).collect()
     }
 
+    /// The scene of the speeds that stay.
+    pub fn reduced(&self) -> SystemScene<'g> {
+        self.whole.scene.reduced(&Substitution::new(self.replacement()), &self.kept)
+    }
+
     /// What the dependent speeds are.
-    fn replacement(&self) -> Map<u32, Expr<'g>> {
+    pub fn replacement(&self) -> Map<u32, Expr<'g>> {
         let symbols = self.whole.scene.speeds.iter().zip(&self.values).filter(|(z, value)| z != value);
         symbols.map(|(z, value)| (z.key(), *value)).collect()
     }

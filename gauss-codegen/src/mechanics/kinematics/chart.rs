@@ -31,23 +31,6 @@ impl<'g> ChartedBody<'g> {
         Builder { graph, motion, chart }.build()
     }
 
-    /// The same motion where its speeds have these values, as where constraints are solved for some of them.
-    pub fn with_speeds(&self, values: &[Expr<'g>]) -> Self {
-        let own = &self.kinematics;
-        if values == own.speeds {
-            return self.clone();
-        }
-        let put: Map<u32, Expr<'g>> = own.speeds.iter().map(|z| z.key()).zip(values.iter().copied()).collect();
-        let kinematics = Kinematics {
-            speeds: values.to_vec(),
-            rates: own.rates.iter().map(|(&key, rate)| (key, rate.substitute(&put))).collect(),
-            velocity: own.velocity.map(|e| e.substitute(&put)),
-            angular_velocity: own.angular_velocity.map(|e| e.substitute(&put)),
-            ..own.clone()
-        };
-        Self { kinematics, ..self.clone() }
-    }
-
     /// The body as a root. Where something hangs on it, R is made of turns about single axes, if the chart has such.
     pub fn placement(&self, matter: Matter<'g>, alone: bool) -> Placement<'g> {
         let kinematics = &self.kinematics;

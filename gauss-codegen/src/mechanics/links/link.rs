@@ -32,6 +32,7 @@ impl<'g> Matter<'g> {
 }
 
 /// A link as it is given: relative to its parent's O and axes, or to Ω and k.
+#[derive(Clone)]
 pub struct Placement<'g> {
     pub matter: Matter<'g>,
     /// Index of an earlier link.
@@ -42,6 +43,18 @@ pub struct Placement<'g> {
     pub velocity: Option<Vector<'g>>,
     pub angular_velocity: Option<Vector<'g>>,
     pub turns: Vec<Turn<'g>>,
+}
+
+impl<'g> Placement<'g> {
+    /// With other expressions in place of those that depend on speeds.
+    pub fn map_velocities(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
+        Self {
+            velocity: self.velocity.map(|v| v.map(&f)),
+            angular_velocity: self.angular_velocity.map(|v| v.map(&f)),
+            turns: self.turns.iter().map(|turn| turn.with_spin(turn.spin.map(&f))).collect(),
+            ..self.clone()
+        }
+    }
 }
 
 /// How a link hangs on its parent.

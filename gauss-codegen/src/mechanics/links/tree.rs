@@ -40,6 +40,8 @@ pub struct UnderWay<'g> {
 pub struct Tree<'g> {
     pub graph: &'g Graph,
     pub links: Vec<Link<'g>>,
+    /// The links as they were given.
+    placements: Vec<Placement<'g>>,
     /// The axis that every turn is about, if components are taken in k for that.
     planar: Option<usize>,
     speeds: Vec<Expr<'g>>,
@@ -67,9 +69,32 @@ impl<'g> Tree<'g> {
         let about_it = |turn: &Turn<'g>| turn.axis_and_angle().is_some_and(|(own, _)| Some(own) == axis);
         let dry = placements.iter().all(|p| !matches!(&p.matter, Matter::Body(body) if body.added_mass.is_some()));
         let planar = axis.filter(|_| chained && dry && turns.all(about_it));
-        let mut tree =
-            Self { graph, links: Vec::new(), planar, speeds, rates, gravity, floating: Vec::new(), rotors: Vec::new() };
+        let mut tree = Self::without_links(graph, planar, speeds, rates, gravity);
         placements.into_iter().for_each(|placement| tree.hang(placement));
+        tree
+    }
+
+    fn without_links(
+        graph: &'g Graph,
+        planar: Option<usize>,
+        speeds: Vec<Expr<'g>>,
+        rates: Map<u32, Expr<'g>>,
+        gravity: Option<Triple<'g>>,
+    ) -> Self {
+        let (links, placements, floating, rotors) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { graph, links, placements, planar, speeds, rates, gravity, floating, rotors }
+    }
+
+    /// The same links, each placed by what `change` makes of its placement, before they are settled.
+    pub fn changed(
+        &self,
+        speeds: Vec<Expr<'g>>,
+        rates: Map<u32, Expr<'g>>,
+        change: impl Fn(&Placement<'g>) -> Placement<'g>,
+    ) -> Self {
+        let mut tree = Self::without_links(self.graph, self.planar, speeds, rates, self.gravity);
+        self.placements.iter().for_each(|placement| tree.hang(change(placement)));
+        tree.rotors.clone_from(&self.rotors);
         tree
     }
 
@@ -79,7 +104,8 @@ impl<'g> Tree<'g> {
             self.links[parent].has_children = true;
         }
         let parent = placement.parent.map(|k| &self.links[k]);
-        let link = Link::new(self.graph, placement, parent, self.planar, &self.speeds, &self.rates);
+        let link = Link::new(self.graph, placement.clone(), parent, self.planar, &self.speeds, &self.rates);
+        self.placements.push(placement);
         self.links.push(link);
     }
 

@@ -21,6 +21,17 @@ impl<'g> Element<'g> {
     pub fn new(name: String, action: Action<'g>) -> Self {
         Self { name, action, on_link: None }
     }
+
+    /// With other expressions in place of those that it is made of.
+    pub fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
+        let action = match &self.action {
+            Action::Potential(potential) => Action::Potential(f(*potential)),
+            Action::Field(field) => Action::Field(field.map(&f)),
+            Action::Forces(forces) => Action::Forces(forces.iter().map(|force| force.map(&f)).collect()),
+        };
+        let on_link = self.on_link.map(|(link, wrench)| (link, wrench.map(&f)));
+        Self { name: self.name.clone(), action, on_link }
+    }
 }
 
 /// How an element acts.

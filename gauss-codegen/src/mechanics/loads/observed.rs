@@ -12,6 +12,7 @@ use crate::mechanics::print::names::Name;
 
 /// Symbols for the motion of a body: its pose, and its velocities in both frames, so that what is written in the one or in the
 /// other is never turned there and back.
+#[derive(Clone)]
 pub struct Observed<'g> {
     graph: &'g Graph,
     pub rotation: [Triple<'g>; 3],

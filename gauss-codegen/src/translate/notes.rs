@@ -1,0 +1,45 @@
+//! What is noted on the way, wherever the expressions stand that it is about.
+
+use std::cell::{Ref, RefCell, RefMut};
+
+use proc_macro2::Span;
+
+use crate::algebra::{Expr, Rational};
+
+use super::drag::DragMatrix;
+use super::laws::Law;
+
+/// A list of each kind, to which translation adds and from which it takes nothing away.
+pub struct Notes<'g>(RefCell<Noted<'g>>);
+
+#[derive(Default)]
+pub struct Noted<'g> {
+    /// Literal numbers that are constants of their own.
+    pub literals: Vec<(Rational, Expr<'g>)>,
+    /// Numbers with which checks may not be sure, where they are written.
+    pub extreme: Vec<(Span, Rational)>,
+    /// Expressions without a value.
+    pub mistakes: Vec<(Span, String)>,
+    /// Matrices of drag, for warnings.
+    pub drags: Vec<DragMatrix<'g>>,
+    /// Constants of elements, for checks and warnings.
+    pub laws: Vec<Law<'g>>,
+}
+
+impl<'g> Notes<'g> {
+    pub fn new(literals: Vec<(Rational, Expr<'g>)>) -> Self {
+        Self(RefCell::new(Noted { literals, ..Noted::default() }))
+    }
+
+    pub fn read(&self) -> Ref<'_, Noted<'g>> {
+        self.0.borrow()
+    }
+
+    pub fn add(&self) -> RefMut<'_, Noted<'g>> {
+        self.0.borrow_mut()
+    }
+
+    pub fn into_inner(self) -> Noted<'g> {
+        self.0.into_inner()
+    }
+}

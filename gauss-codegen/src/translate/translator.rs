@@ -1,0 +1,338 @@
+//! The scene, part by part, in the order in which one part can name another.
+
+use std::collections::HashMap;
+
+use proc_macro2::{Ident, Span};
+use quote::format_ident;
+use syn::ext::IdentExt;
+
+use crate::algebra::{Expr, Graph, Map, OwnFunction};
+use crate::mechanics::{
+    ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Lettering, Matter, Observed, Placement, SystemScene,
+    Tree, Turn,
+};
+use crate::model::{self, FunctionClause, InChart, Model, SpeedPart};
+
+use super::notes::Notes;
+use super::parameters::parameters;
+use super::symbols::{self, Declared};
+use super::translated::{Given, SpeedName, Translated};
+use super::value::{Piece, Value};
+
+/// Translates a checked system.
+///
+/// # Errors
+/// Expressions without a value, each where it stands; what the model should have refused: a bug of this crate.
+pub fn translate<'a, 'g>(graph: &'g Graph, model: &'a Model) -> syn::Result<Translated<'a, 'g>> {
+    let mut declared = Declared::new(graph, model);
+    let function = |clause: &FunctionClause| {
+        let name = clause.name.unraw().to_string();
+        let index = graph.declare_function(name.clone());
+        (name, OwnFunction::new(index, clause.kind.continuous()))
+    };
+    let functions: HashMap<String, OwnFunction> = model.functions.iter().map(function).collect();
+    let pi = graph.symbol("π", "\\pi", true);
+    let notes = Notes::new(vec![(symbols::pi(), pi)]);
+    let mass_data = Translator::new(graph, model, &declared, &functions, pi, &notes).mass_data()?;
+    declared.assign(model, &mass_data);
+    let mut translator = Translator::new(graph, model, &declared, &functions, pi, &notes);
+    let scene = translator.scene()?;
+    translator.refuse_mistakes()?;
+    let independent = model.independent.as_ref().map(|names| translator.indices_of_speeds(names));
+    let speeds = translator.speed_names();
+    let frames = model.wanted.frames.iter();
+    let frames = frames.filter_map(|name| translator.links.get(&name.unraw().to_string()).copied()).collect();
+    let links = translator.links_of_clauses;
+    let noted = notes.into_inner();
+    Ok(Translated {
+        scene,
+        given: Given {
+            model,
+            parameters: parameters(&model.fields, &declared.sources),
+            sources: declared.sources,
+            literals: noted.literals,
+            extreme: noted.extreme,
+            drags: noted.drags,
+            laws: noted.laws,
+            mass_data,
+            links,
+            frames,
+            speeds,
+            independent,
+        },
+    })
+}
+
+/// ḃ and ω̂, where they are known.
+pub(super) type ObservedRates<'g> = [Option<[Expr<'g>; 3]>; 2];
+
+/// What expressions are translated with.
+#[derive(Clone)]
+pub(super) struct Translator<'a, 'g> {
+    pub(super) graph: &'g Graph,
+    pub(super) model: &'a Model,
+    pub(super) declared: &'a Declared<'g>,
+    /// Functions that clauses declare, by name.
+    pub(super) functions: &'a HashMap<String, OwnFunction>,
+    pub(super) notes: &'a Notes<'g>,
+    /// What names stand for, those of bodies and frames excepted.
+    pub(super) names: HashMap<String, Value<'g>>,
+    /// Indices of bodies and frames among the links, by name.
+    pub(super) links: HashMap<String, usize>,
+    /// Which link each clause of a body or frame became.
+    pub(super) links_of_clauses: Vec<usize>,
+    /// ψ, and the rates of t and of the symbols of q.
+    pub(super) kinematics: Vec<Expr<'g>>,
+    pub(super) rates: Map<u32, Expr<'g>>,
+    /// ḃ and ω̂ of each coordinate that is a pose or a rotation, where the kinematics give them rather than u and ω.
+    pub(super) observed_rates: Vec<ObservedRates<'g>>,
+    /// The motion of the only body, where it stands by symbols of its own.
+    pub(super) observed: Option<Observed<'g>>,
+}
+
+impl<'a, 'g> Translator<'a, 'g> {
+    /// Knows fields, and nothing yet of what moves.
+    fn new(
+        graph: &'g Graph,
+        model: &'a Model,
+        declared: &'a Declared<'g>,
+        functions: &'a HashMap<String, OwnFunction>,
+        pi: Expr<'g>,
+        notes: &'a Notes<'g>,
+    ) -> Self {
+        let mut names: HashMap<String, Value<'g>> = declared.fields.iter().cloned().collect();
+        names.insert("pi".to_owned(), Value::Scalar(pi));
+        Self {
+            graph,
+            model,
+            declared,
+            functions,
+            notes,
+            names,
+            links: HashMap::new(),
+            links_of_clauses: vec![0; model.bodies.len()],
+            kinematics: Vec::new(),
+            rates: Map::default(),
+            observed_rates: vec![[None; 2]; model.coordinates.len()],
+            observed: None,
+        }
+    }
+
+    /// Indices of the speeds with the given names: three for a vector, one for a component.
+    fn indices_of_speeds(&self, names: &[SpeedPart]) -> Vec<usize> {
+        let idents = self.speed_idents();
+        let component = |k: usize| idents[..k].iter().rev().take_while(|earlier| **earlier == idents[k]).count();
+        let named = |k: usize, name: &SpeedPart| {
+            name.ident == idents[k] && name.component.is_none_or(|named| named == component(k))
+        };
+        (0..idents.len()).filter(|&k| names.iter().any(|name| named(k, name))).collect()
+    }
+
+    /// The name of each speed, and where it is written: without `speeds` at its coordinate.
+    fn speed_names(&self) -> Vec<SpeedName> {
+        let idents = self.speed_idents();
+        let name = |k: usize| match idents.get(k) {
+            Some(ident) => SpeedName { text: ident.to_string(), span: ident.span() },
+            None => {
+                let coordinate = Coordinate::of_component(&self.declared.coordinates, k);
+                let own = coordinate.checked_sub(self.declared.before).and_then(|k| self.model.coordinates.get(k));
+                let ident = own.map_or(&self.model.ident, |own| &own.ident);
+                SpeedName { text: format!("d{ident}/dt"), span: ident.span() }
+            }
+        };
+        (0..self.declared.speeds.len()).map(name).collect()
+    }
+
+    /// Names of the speeds as the user writes them: three for a vector.
+    fn speed_idents(&self) -> Vec<Ident> {
+        let of_chart = self.model.in_chart.map(InChart::speed_words).unwrap_or_default();
+        let of_chart = of_chart.into_iter().map(|word| format_ident!("{word}"));
+        let own = self.model.speeds.iter().flatten();
+        let own = own.flat_map(|z| std::iter::repeat_n(z.ident.clone(), symbols::size_of_speed(z.kind)));
+        of_chart.chain(own).collect()
+    }
+
+    /// The chart, where the only body has one.
+    pub(super) fn chart(&self) -> Option<&'a ChartedBody<'g>> {
+        self.declared.chart.as_ref()
+    }
+
+    fn scene(&mut self) -> syn::Result<SystemScene<'g>> {
+        let (graph, model) = (self.graph, self.model);
+        self.name_everything();
+        (self.kinematics, self.observed_rates) = self.kinematics()?;
+        self.rates = self.rates();
+        self.name_rotations(&self.kinematics.clone());
+        let speeds = self.declared.speeds.clone();
+        let placements = self.placements()?;
+        let mut tree = Tree::new(graph, placements, speeds.clone(), self.rates.clone(), self.declared.gravity);
+        self.name_points(&tree)?;
+        for clause in &model.particles {
+            let parent = clause.parent.as_ref().and_then(|name| self.links.get(&name.unraw().to_string()).copied());
+            tree.hang(Placement {
+                matter: Matter::Particle(self.scalar(&clause.mass, &tree)?),
+                parent,
+                position: self.vector(&clause.position, &tree)?,
+                velocity: None,
+                angular_velocity: None,
+                turns: Vec::new(),
+            });
+        }
+        tree.rotors = self.rotors(&tree)?;
+        let elements = match (model.one_body(), self.chart()) {
+            (Some(_), Some(chart)) => self.elements_on(chart)?,
+            _ => self.elements(&tree)?.into_iter().map(|(_, element)| element).collect(),
+        };
+        let constraints = self.constraints(&tree)?;
+        tree.settle();
+        Ok(SystemScene {
+            graph,
+            time: self.declared.time,
+            coordinates: self.declared.coordinates.clone(),
+            coordinate_names: self.declared.coordinate_names.clone(),
+            lettering: if model.one_body().is_some() { Lettering::Textbook } else { Lettering::Declared },
+            momentum_names: self.declared.momentum_names.clone(),
+            force_names: self.declared.force_names.clone(),
+            speed_rates: self.declared.speed_rates.clone(),
+            momenta: self.declared.momenta.clone(),
+            speeds,
+            kinematics: self.kinematics.clone(),
+            rates: self.rates.clone(),
+            tree,
+            constraints,
+            inputs: self.declared.inputs.clone(),
+            elements,
+        })
+    }
+
+    /// What acts on the only body, whose motion a chart describes: translated in terms of symbols for it, so that each part of a
+    /// wrench stays in the axes where it arises.
+    fn elements_on(&self, chart: &ChartedBody<'g>) -> syn::Result<Vec<Element<'g>>> {
+        if !self.model.is_acted_upon() {
+            return Ok(Vec::new());
+        }
+        let observed = Observed::new(self.graph, self.declared.time);
+        let body = self.declared.bodies.first().cloned().flatten().ok_or_else(|| bug(self.model.ident.span()))?;
+        let placement = Placement {
+            matter: Matter::Body(Box::new(body)),
+            parent: None,
+            position: observed.position,
+            velocity: None,
+            angular_velocity: None,
+            turns: vec![Turn::given(observed.rotation, observed.body_angular_velocity)],
+        };
+        let rates = observed.rates.clone();
+        let tree = Tree::new(self.graph, vec![placement], Vec::new(), rates.clone(), None);
+        let mut observer = Self { rates, observed: Some(observed.clone()), ..self.clone() };
+        observer.name_points(&tree)?;
+        let mut in_motion = Vec::new();
+        for (span, element) in observer.elements(&tree)? {
+            match self.graph.defined(|| observed.in_motion(&chart.kinematics, &element)) {
+                Some(element) => in_motion.push(element),
+                None => self.divides_by_zero(span, &element.name),
+            }
+        }
+        Ok(in_motion)
+    }
+
+    fn name_everything(&mut self) {
+        self.names.insert("t".to_owned(), Value::Scalar(self.declared.time));
+        for (written, coordinate) in
+            self.model.coordinates.iter().zip(&self.declared.coordinates[self.declared.before..])
+        {
+            if let Coordinate::Scalar(symbol) = coordinate {
+                self.names.insert(written.ident.unraw().to_string(), Value::Scalar(*symbol));
+            }
+        }
+        // Angular velocities are known once the kinematics are.
+        self.name_rotations(&vec![self.graph.zero(); self.declared.size()]);
+        let mut inputs = self.declared.inputs.iter().copied();
+        for input in &self.model.inputs {
+            let value = self.input(input.kind, &mut inputs);
+            self.names.insert(input.ident.unraw().to_string(), value);
+        }
+        let mut speeds = self.declared.speeds[self.speeds_of_chart()..].iter().copied();
+        for speed in self.model.speeds.iter().flatten() {
+            let value = self.components(speed.kind, &mut speeds);
+            self.names.insert(speed.ident.unraw().to_string(), value);
+        }
+    }
+
+    /// How many of the speeds are the chart's.
+    pub(super) fn speeds_of_chart(&self) -> usize {
+        self.declared.chart.as_ref().map_or(0, |chart| chart.kinematics.speeds.len())
+    }
+
+    /// The value of one name, or of three under one.
+    fn components(&self, kind: model::SpeedKind, symbols: &mut dyn Iterator<Item = Expr<'g>>) -> Value<'g> {
+        let mut next = || symbols.next().unwrap_or_else(|| self.graph.zero());
+        match kind {
+            model::SpeedKind::Scalar => Value::Scalar(next()),
+            model::SpeedKind::Vector => Value::Vector([next(), next(), next()]),
+        }
+    }
+
+    fn input(&self, kind: model::InputKind, symbols: &mut dyn Iterator<Item = Expr<'g>>) -> Value<'g> {
+        let mut next = || symbols.next().unwrap_or_else(|| self.graph.zero());
+        match kind {
+            model::InputKind::Scalar => self.components(model::SpeedKind::Scalar, symbols),
+            model::InputKind::Vector => self.components(model::SpeedKind::Vector, symbols),
+            model::InputKind::Wrench => Value::Twist([next(), next(), next()], [next(), next(), next()]),
+        }
+    }
+
+    /// Rotations, with their angular velocities from the kinematics.
+    fn name_rotations(&mut self, kinematics: &[Expr<'g>]) {
+        for (k, written) in (self.declared.before..).zip(&self.model.coordinates) {
+            let rate = self.declared.rate_of(k, kinematics);
+            let word = written.ident.unraw().to_string();
+            let value = match (&self.declared.coordinates[k], rate) {
+                (Coordinate::Rotation(matrix), &[w1, w2, w3]) => {
+                    Value::Rotation(vec![Piece::Given(Turn::given(*matrix, [w1, w2, w3]))])
+                }
+                (Coordinate::Pose(matrix, position), &[_, _, _, w1, w2, w3]) => {
+                    Value::Pose(Piece::Given(Turn::given(*matrix, [w1, w2, w3])), *position)
+                }
+                _ => continue,
+            };
+            self.names.insert(word, value);
+        }
+    }
+
+    pub(super) fn no_links(&self) -> Tree<'g> {
+        Tree::new(self.graph, Vec::new(), Vec::new(), Map::default(), None)
+    }
+
+    fn constraints(&self, tree: &Tree<'g>) -> syn::Result<Vec<Constraint<'g>>> {
+        let mut constraints = Vec::new();
+        for (clause, written) in self.model.constraints.iter().enumerate() {
+            let kind = match written.kind {
+                model::ConstraintKind::Position => ConstraintKind::Position,
+                model::ConstraintKind::Velocity => ConstraintKind::Velocity,
+            };
+            match self.value(&written.expression, tree)?.observed() {
+                // So do some of those that a file makes of one relation.
+                Value::Scalar(value) if written.place.is_some() && value.collected(LIMIT).is_zero() => {}
+                Value::Scalar(value) => constraints.push(Constraint { kind, value, clause }),
+                Value::Vector(values) => {
+                    // What is identically zero, as across a plane, says nothing.
+                    let values = values.into_iter().filter(|e| !e.collected(LIMIT).is_zero());
+                    constraints.extend(values.map(|value| Constraint { kind, value, clause }));
+                }
+                _ => return Err(bug(written.expression.span)),
+            }
+        }
+        Ok(constraints)
+    }
+}
+
+/// Terms that a component of a constraint may have while it is seen whether it vanishes.
+const LIMIT: usize = 400;
+
+pub(super) fn bug(span: Span) -> syn::Error {
+    syn::Error::new(
+        span,
+        "bug in gauss-derive: an expression passed its checks but cannot be translated; please report it together with \
+         this struct",
+    )
+}
