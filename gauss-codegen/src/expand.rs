@@ -6,6 +6,7 @@ use syn::DeriveInput;
 
 use crate::algebra::Graph;
 use crate::emit::{Derived, Equations, emit, file};
+use crate::error::Result;
 use crate::formulation::Formulation;
 use crate::lowering::lower;
 use crate::mistakes::{most_operations, refuse_exhausted};
@@ -24,7 +25,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
 }
 
 /// Derives one struct, and hands everything that is known of it to whoever writes it down.
-pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>) -> syn::Result<R> {
+pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> Result<R>) -> syn::Result<R> {
     let model = model::parse(input)?;
     let graph = Graph::new();
     graph.allow(most_operations(&model));
@@ -34,14 +35,10 @@ pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> sy
     let derived = derive_model(&graph, &model, write);
     // Whatever else was found then means nothing.
     refuse_exhausted(&model, &graph)?;
-    derived
+    Ok(derived?)
 }
 
-fn derive_model<R>(
-    graph: &Graph,
-    model: &Model,
-    write: impl FnOnce(&Derived<'_, '_>) -> syn::Result<R>,
-) -> syn::Result<R> {
+fn derive_model<R>(graph: &Graph, model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> Result<R>) -> Result<R> {
     let translated = translate(graph, model)?;
     let mut formulation = Formulation::of(translated)?;
     let mut kernel = lower(&formulation)?;

@@ -3,6 +3,7 @@
 use proc_macro2::Ident;
 
 use crate::algebra::{Expr, Graph, Map, Notation, Rational, Substitution};
+use crate::error::Result;
 use crate::kernel::{Differentiation, Wanted};
 use crate::mechanics::{
     Claims, Constraints, Coordinate, Elimination, Formulas, Hessian, InertialParameter, InertialParameters,
@@ -41,7 +42,7 @@ pub struct Formulation<'a, 'g> {
 impl<'a, 'g> Formulation<'a, 'g> {
     /// # Errors
     /// What only the derivation finds wrong with a system.
-    pub fn of(translated: Translated<'a, 'g>) -> syn::Result<Self> {
+    pub fn of(translated: Translated<'a, 'g>) -> Result<Self> {
         let Reduced { given, mut system, elimination } = Reduced::of(translated)?;
         let model = given.model;
         let graph = system.scene.graph;
@@ -100,7 +101,7 @@ impl<'a, 'g> Formulation<'a, 'g> {
     ///
     /// # Errors
     /// Mistakes of this crate.
-    pub fn with_squares(&mut self) -> syn::Result<bool> {
+    pub fn with_squares(&mut self) -> Result<bool> {
         let literals = &self.given.literals;
         let is_known =
             |mass: &Expr<'g>| mass.as_number().is_some() || literals.iter().any(|(_, literal)| literal == mass);
@@ -167,7 +168,7 @@ fn wanted<'g>(kind: DerivativeKind, differentiation: Differentiation<'g>) -> Wan
 }
 
 /// The forces of inertia as a linear function of inertial parameters.
-fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[Parameter<'g>]) -> syn::Result<Regressor<'g>> {
+fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[Parameter<'g>]) -> Result<Regressor<'g>> {
     let names = names_of(parameters);
     let inertial = InertialParameters::new(system, &names);
     // The system once more, of bodies by their first moments.
@@ -201,7 +202,7 @@ struct Reduced<'a, 'g> {
 }
 
 impl<'a, 'g> Reduced<'a, 'g> {
-    fn of(Translated { scene, mut given }: Translated<'a, 'g>) -> syn::Result<Self> {
+    fn of(Translated { scene, mut given }: Translated<'a, 'g>) -> Result<Self> {
         let model = given.model;
         refuse_exhausted(model, scene.graph)?;
         refuse_curved_kinematics(model, &scene)?;

@@ -6,6 +6,7 @@ mod accuracy;
 mod algebra;
 mod derivation;
 mod emit;
+mod error;
 mod expand;
 mod formulation;
 mod kernel;
@@ -19,6 +20,7 @@ pub mod program;
 pub mod scene;
 pub mod targets;
 mod translate;
+mod words;
 
 pub use algebra::Notation;
 pub use derivation::Derivation;

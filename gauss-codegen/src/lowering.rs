@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use crate::accuracy::{Deciding, Names, States, Trial};
 use crate::algebra::{Expr, Rational};
+use crate::error::Result;
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
 use crate::mechanics::{Arrangements, Method};
@@ -18,7 +19,7 @@ use crate::translate::Given;
 ///
 /// # Errors
 /// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this crate.
-pub fn lower<'g>(formulation: &Formulation<'_, 'g>) -> syn::Result<Kernel<'g>> {
+pub fn lower<'g>(formulation: &Formulation<'_, 'g>) -> Result<Kernel<'g>> {
     let Given { model, literals, .. } = &formulation.given;
     let graph = formulation.system.scene.graph;
     let failed = |what: &dyn Display| failed(&formulation.given, &formulation.system, &what);

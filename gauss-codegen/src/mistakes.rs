@@ -5,6 +5,7 @@ use std::fmt::Display;
 use proc_macro2::{Ident, Span};
 
 use crate::algebra::{Function, Graph, Notation, Number, Precise, Scalar as _, decimal};
+use crate::error::{Error, Mistakes, Result};
 use crate::kernel::Kernel;
 use crate::mechanics::{
     Coordinate, Elimination, InertialParameter, Method, Obstacle, System, SystemFault, SystemScene,
@@ -18,7 +19,7 @@ use crate::translate::{Given, SpeedName};
 const LIMIT: usize = 50_000;
 
 /// Rates that are not affine in the speeds.
-pub fn refuse_curved_kinematics(model: &Model, scene: &SystemScene<'_>) -> syn::Result<()> {
+pub fn refuse_curved_kinematics(model: &Model, scene: &SystemScene<'_>) -> Result<()> {
     let mut mistakes = Mistakes::default();
     let mut curved: Vec<usize> =
         scene.rates_not_affine().into_iter().map(|k| Coordinate::of_component(&scene.coordinates, k)).collect();
@@ -39,7 +40,7 @@ pub fn refuse_curved_kinematics(model: &Model, scene: &SystemScene<'_>) -> syn::
 }
 
 /// Motions without a power series in time that can be written beforehand.
-pub fn refuse_series(taylor: Option<&Ident>, has_inputs: bool, kernel: &Kernel<'_>) -> syn::Result<()> {
+pub fn refuse_series(taylor: Option<&Ident>, has_inputs: bool, kernel: &Kernel<'_>) -> Result<()> {
     let Some(taylor) = taylor else { return Ok(()) };
     let mut mistakes = Mistakes::default();
     if has_inputs {
@@ -64,7 +65,7 @@ pub fn refuse_series(taylor: Option<&Ident>, has_inputs: bool, kernel: &Kernel<'
 }
 
 /// Speeds that nothing with mass moves with.
-pub fn refuse_idle_speeds(given: &Given<'_, '_>, system: &System<'_>) -> syn::Result<()> {
+pub fn refuse_idle_speeds(given: &Given<'_, '_>, system: &System<'_>) -> Result<()> {
     let mut mistakes = Mistakes::default();
     for k in system.idle_speeds() {
         let SpeedName { text: name, span } = &given.speeds[k];
@@ -77,7 +78,7 @@ pub fn refuse_idle_speeds(given: &Given<'_, '_>, system: &System<'_>) -> syn::Re
 }
 
 /// Derivatives of functions of the user's own that no clause says.
-pub fn refuse_unknown_derivatives(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
+pub fn refuse_unknown_derivatives(model: &Model, kernel: &Kernel<'_>) -> Result<()> {
     let mut mistakes = Mistakes::default();
     for (index, clause) in model.functions.iter().enumerate() {
         let orders =
@@ -108,11 +109,11 @@ pub fn most_operations(model: &Model) -> usize {
 }
 
 /// Equations of more expressions than memory and patience are enough for.
-pub fn refuse_exhausted(model: &Model, graph: &Graph) -> syn::Result<()> {
+pub fn refuse_exhausted(model: &Model, graph: &Graph) -> Result<()> {
     if !graph.is_exhausted() {
         return Ok(());
     }
-    Err(syn::Error::new(
+    Err(Error::new(
         model.ident.span(),
         format!(
             "the equations are made of more expressions than {} operations can come of; model less: fewer bodies, shorter \
@@ -123,14 +124,14 @@ pub fn refuse_exhausted(model: &Model, graph: &Graph) -> syn::Result<()> {
 }
 
 /// More code than the compiler should be given without being asked.
-pub fn refuse_too_much(model: &Model, kernel: &Kernel<'_>) -> syn::Result<()> {
+pub fn refuse_too_much(model: &Model, kernel: &Kernel<'_>) -> Result<()> {
     let operations = kernel.written().map(|program| program.instructions.len()).sum::<usize>();
     let limit = most_operations(model);
     if operations <= limit {
         return Ok(());
     }
     let rounded = operations.div_ceil(1000) * 1000;
-    Err(syn::Error::new(
+    Err(Error::new(
         model.ident.span(),
         format!(
             "the generated code has {operations} operations, more than {limit}; write `limit = {rounded}` to have it all \
@@ -144,7 +145,7 @@ pub fn refuse_regressor(
     clause: Option<&Ident>,
     parameters: &[InertialParameter<'_>],
     kernel: &Kernel<'_>,
-) -> syn::Result<()> {
+) -> Result<()> {
     let (Some(clause), Some(regressor)) = (clause, kernel.derivative(DerivativeKind::Regressor)) else {
         return Ok(());
     };
@@ -156,8 +157,8 @@ pub fn refuse_regressor(
 }
 
 /// A mass that is something else besides.
-pub fn not_linear(clause: &Ident, mass: &str) -> syn::Error {
-    syn::Error::new(
+pub fn not_linear(clause: &Ident, mass: &str) -> Error {
+    Error::new(
         clause.span(),
         format!(
             "the forces of inertia are not linear in `{mass}`, because more than the mass of something depends on it; \
@@ -167,19 +168,19 @@ pub fn not_linear(clause: &Ident, mass: &str) -> syn::Error {
 }
 
 /// Solves the constraints for the speeds that are not named.
-pub fn eliminate<'g>(model: &Model, whole: System<'g>, kept: &[usize]) -> syn::Result<Elimination<'g>> {
+pub fn eliminate<'g>(model: &Model, whole: System<'g>, kept: &[usize]) -> Result<Elimination<'g>> {
     let clauses: Vec<Span> =
         whole.scene.constraints.iter().map(|c| model.constraints[c.clause].expression.span).collect();
     let (total, count) = (whole.scene.speeds.len(), clauses.len());
     let named = model.independent.iter().flatten().next();
     let named = named.map_or(model.ident.span(), |speed| speed.ident.span());
     Elimination::new(whole, kept).map_err(|obstacle| match obstacle {
-        Obstacle::NotAffine(k) => syn::Error::new(
+        Obstacle::NotAffine(k) => Error::new(
             clauses[k],
             "this constraint is not affine in the speeds, so it cannot be solved for some of them when the code is written; \
              remove `independent` to have it kept with a multiplier",
         ),
-        Obstacle::Count(wanted) => syn::Error::new(
+        Obstacle::Count(wanted) => Error::new(
             named,
             format!(
                 "{total} speeds and {count} scalar constraint{} leave {wanted} independent; `independent` names {}",
@@ -187,7 +188,7 @@ pub fn eliminate<'g>(model: &Model, whole: System<'g>, kept: &[usize]) -> syn::R
                 kept.len()
             ),
         ),
-        Obstacle::Undetermined => syn::Error::new(
+        Obstacle::Undetermined => Error::new(
             named,
             "the constraints do not determine the other speeds: their matrix of partial derivatives is singular; name \
              other speeds, or remove a constraint that follows from the rest",
@@ -196,7 +197,7 @@ pub fn eliminate<'g>(model: &Model, whole: System<'g>, kept: &[usize]) -> syn::R
 }
 
 /// What the check of a system finds, each at the token that is wrong.
-pub fn system_faults<'g>(given: &Given<'_, 'g>, system: &System<'g>, faults: &[SystemFault]) -> syn::Error {
+pub fn system_faults<'g>(given: &Given<'_, 'g>, system: &System<'g>, faults: &[SystemFault]) -> Error {
     let model = given.model;
     let clause = |k: usize, text: &str| {
         let clause = &model.constraints[system.scene.constraints[k].clause];
@@ -235,34 +236,14 @@ pub fn system_faults<'g>(given: &Given<'_, 'g>, system: &System<'g>, faults: &[S
     mistakes.finish().err().unwrap_or_else(|| bug(&model.ident, &"a fault without a name"))
 }
 
-/// Mistakes that only the derivation sees, all reported at once.
-#[derive(Default)]
-pub struct Mistakes(Option<syn::Error>);
-
-impl Mistakes {
-    /// Notes one.
-    pub fn push(&mut self, span: Span, message: String) {
-        let error = syn::Error::new(span, message);
-        match &mut self.0 {
-            Some(all) => all.combine(error),
-            none => *none = Some(error),
-        }
-    }
-
-    /// All of them.
-    pub fn finish(&mut self) -> syn::Result<()> {
-        self.0.take().map_or(Ok(()), Err)
-    }
-}
-
 /// A check that failed: what in the scene is the cause, or a mistake of this crate.
-pub fn failed<'g>(given: &Given<'_, 'g>, system: &System<'g>, what: &impl Display) -> syn::Error {
+pub fn failed<'g>(given: &Given<'_, 'g>, system: &System<'g>, what: &impl Display) -> Error {
     given.cause_of_failure(&system.scene.tree).unwrap_or_else(|| bug(&given.model.ident, what))
 }
 
 /// A mistake of this crate, said as such at the name of the struct.
-pub fn bug(ident: &Ident, what: &impl Display) -> syn::Error {
-    syn::Error::new(ident.span(), format!("bug in gauss-derive: {what}; please report it together with this struct"))
+pub fn bug(ident: &Ident, what: &impl Display) -> Error {
+    Error::new(ident.span(), format!("bug in gauss-derive: {what}; please report it together with this struct"))
 }
 
 /// Constants of the equations that are beyond the range of the scalar although the numbers that they are made of are
@@ -270,7 +251,7 @@ pub fn bug(ident: &Ident, what: &impl Display) -> syn::Error {
 ///
 /// # Errors
 /// The first of the extreme numbers, or the name of the struct where there are none.
-pub fn refuse_lost<'g>(given: &Given<'_, 'g>, kernel: &Kernel<'g>) -> syn::Result<()> {
+pub fn refuse_lost<'g>(given: &Given<'_, 'g>, kernel: &Kernel<'g>) -> Result<()> {
     let single = matches!(given.model.scalar, Scalar::F32);
     let [least, most] = match single {
         true => [f32::MIN_POSITIVE, f32::MAX].map(f64::from),
@@ -300,5 +281,5 @@ pub fn refuse_lost<'g>(given: &Given<'_, 'g>, kernel: &Kernel<'g>) -> syn::Resul
         "a constant of the equations{of} is beyond the range of {precision} precision; choose units in which the numbers \
          are nearer to 1"
     );
-    Err(syn::Error::new(span, message))
+    Err(Error::new(span, message))
 }

@@ -13,14 +13,16 @@ use std::fmt;
 
 use proc_macro2::TokenStream;
 use syn::DeriveInput;
-use syn::ext::IdentExt;
 
 use crate::algebra::Notation;
 use crate::emit::{Derived, Equations, emit, figures};
+use crate::error::Result;
 use crate::expand::derive;
 use crate::mistakes::bug;
+use crate::model::struct_in;
 use crate::program::Program;
 use crate::scene::{Mistake, Scene};
+use crate::words::Unraw;
 
 use methods::programs;
 use signature::Signature;
@@ -51,23 +53,18 @@ impl Derivation {
     /// # Errors
     /// What is no Rust; the name, if there is no such struct; every mistake of the struct.
     pub fn of_source(source: &str, name: &str) -> syn::Result<Self> {
-        let file = syn::parse_file(source)?;
-        let Some(item) = find(&file.items, name) else {
-            let message = format!("there is no struct `{name}` in this file");
-            return Err(syn::Error::new(proc_macro2::Span::call_site(), message));
-        };
-        Self::new(&item.clone().into())
+        Self::new(&struct_in(source, name)?)
     }
 
     /// The same of a scene that is written in Rust.
     ///
     /// # Errors
     /// Every mistake of the scene, each with the clause or the field that is wrong.
-    pub fn of_scene(scene: &Scene) -> Result<Self, Vec<Mistake>> {
+    pub fn of_scene(scene: &Scene) -> std::result::Result<Self, Vec<Mistake>> {
         Self::new(&scene.item()?).map_err(|mistakes| scene.located(&mistakes))
     }
 
-    fn of(derived: &Derived<'_, '_>) -> syn::Result<Self> {
+    fn of(derived: &Derived<'_, '_>) -> Result<Self> {
         let ident = derived.item().ident;
         let signature = Signature::new(derived);
         let refused = |malformed: &dyn fmt::Display| bug(ident, &malformed);
@@ -125,12 +122,4 @@ impl Derivation {
     pub fn rust(&self) -> &TokenStream {
         &self.rust
     }
-}
-
-fn find<'a>(items: &'a [syn::Item], name: &str) -> Option<&'a syn::ItemStruct> {
-    items.iter().find_map(|item| match item {
-        syn::Item::Struct(item) if item.ident.unraw() == name => Some(item),
-        syn::Item::Mod(module) => find(&module.content.as_ref()?.1, name),
-        _ => None,
-    })
 }

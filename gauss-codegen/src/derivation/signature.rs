@@ -2,12 +2,11 @@
 
 use std::fmt;
 
-use syn::ext::IdentExt;
-
 use crate::algebra::{Expr, Map, Notation, Rational, print};
 use crate::emit::Derived;
 use crate::kernel;
 use crate::program::{Argument, ArgumentKind, Input, Malformed, Operand, Program, Results};
+use crate::words::Unraw;
 
 /// All arguments that methods of a kernel have, and the symbols of their components.
 pub struct Signature<'g> {

@@ -9,11 +9,10 @@ use crate::algebra::{Expr, Map, Rational, Set};
 use crate::formulation::{Formulation, Printed};
 use crate::kernel::{Counts, Function, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, InertialParameter, Method};
-use crate::model::Scalar;
+use crate::model::{GenericsOfImpl, Scalar};
 use crate::program::ArgumentKind;
 use crate::translate::{DragMatrix, Law, Parameter};
-use syn::ext::IdentExt;
-use syn::{Generics, Path, Visibility};
+use crate::words::Unraw;
 
 use super::arguments::{Argument, arguments_of, declare, declared, variable};
 use super::packs::{Packs, Sources, are_wanted};
@@ -56,10 +55,10 @@ pub struct Derived<'a, 'g> {
 /// What the struct says of itself, whatever it describes.
 pub struct Item<'a> {
     pub ident: &'a Ident,
-    pub visibility: &'a Visibility,
-    pub generics: &'a Generics,
+    pub visibility: &'a dyn ToTokens,
+    pub generics: GenericsOfImpl,
     pub scalar: &'a Scalar,
-    pub runtime: &'a Path,
+    pub runtime: &'a dyn ToTokens,
 }
 
 /// Type parameters of the kernel; nothing where the scalar is a type.
@@ -124,7 +123,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         Item {
             ident: &model.ident,
             visibility: &model.visibility,
-            generics: &model.generics,
+            generics: model.generics_of_impl(),
             scalar: &model.scalar,
             runtime: &model.runtime,
         }

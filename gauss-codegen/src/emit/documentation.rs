@@ -1,7 +1,5 @@
 //! Equations and costs as text, LaTeX and rustdoc.
 
-use syn::ext::IdentExt;
-
 use crate::accuracy::Figure;
 use crate::algebra::Notation;
 use crate::formulation::Printed;
@@ -9,6 +7,7 @@ use crate::kernel::{Counts, Function};
 use crate::mathml;
 use crate::mechanics::Method;
 use crate::model::{InChart, InputKind, Role};
+use crate::words::Unraw;
 
 use super::chart::{chart_name, motion_name};
 use super::derived::Derived;

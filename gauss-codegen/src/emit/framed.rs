@@ -2,9 +2,9 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use syn::ext::IdentExt;
 
 use crate::mechanics::{FrameQuantity, Method};
+use crate::words::Unraw;
 
 use super::arguments::{arguments_of, declared};
 use super::derived::Derived;

@@ -2,9 +2,9 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use syn::ext::IdentExt;
 
 use crate::model::Shape;
+use crate::words::Unraw;
 
 use super::derived::Derived;
 

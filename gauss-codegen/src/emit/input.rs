@@ -2,11 +2,11 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use syn::ext::IdentExt;
 
 use super::derived::{Derived, KernelGenerics};
 use super::record::{Part, PartKind, from_numbers, record, to_numbers};
 use crate::model::{InputKind, InputName};
+use crate::words::Unraw;
 
 /// The name of the type.
 pub fn input_name(derived: &Derived<'_, '_>) -> Ident {

@@ -2,14 +2,13 @@
 
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
-use syn::spanned::Spanned;
 
 use super::derived::{Derived, Item, KernelGenerics};
 use super::documentation::{Documentation, Equations, rustdoc};
 use super::laws::warnings;
 use super::parameters::kernel_body;
 use super::program::table_name;
-use crate::model::{FunctionClause, FunctionKind};
+use crate::model::{FunctionClause, FunctionKind, GenericsOfImpl};
 
 /// The struct: the constants that `kernel()` computes.
 pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
@@ -37,11 +36,7 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
     let Item { ident, visibility, generics, .. } = derived.item();
     let private = derived.private();
     let (name, KernelGenerics { used, .. }) = (derived.kernel_name(), derived.kernel_generics());
-    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
-    let predicates = where_clause.map(|w| {
-        let predicates = w.predicates.iter();
-        quote!(#(#predicates,)*)
-    });
+    let GenericsOfImpl { declared, used: own, predicates } = generics;
     let bound = bound(derived);
     let documentation = format!(
         "Checks the parameters and computes once whatever depends on them alone: the kernel of [`{ident}`].\n\n\
@@ -51,7 +46,7 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
     let warnings = warnings(derived);
     quote! {
         #[allow(clippy::all, clippy::pedantic)]
-        impl #impl_generics #ident #type_generics where #predicates #bound {
+        impl #declared #ident #own where #predicates #bound {
             #[doc = #documentation]
             #visibility fn kernel(&self) -> ::core::result::Result<#name #used, #private::ParameterError> {
                 #body
@@ -73,7 +68,7 @@ pub fn tables(derived: &Derived<'_, '_>) -> TokenStream {
         };
         let name = table_name(index as u16);
         // What is wrong with the points is shown where they are named.
-        let at = points.span().resolved_at(Span::mixed_site());
+        let at = clause.kind.span().resolved_at(Span::mixed_site());
         Some(quote_spanned!(at=> const #name: #private::#kind<{ #points.len() }> = #private::#kind::through(&#points);))
     };
     derived.subject.model.functions.iter().enumerate().filter_map(table).collect()

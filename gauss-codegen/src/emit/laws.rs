@@ -2,12 +2,12 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
 use crate::model::{Role, Shape};
 use crate::translate::{Law, LawKind};
+use crate::words::Unraw;
 
 use super::derived::Derived;
 use super::locals::{local_of, parameters_read, symbols_of_parameters};

@@ -2,9 +2,9 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use syn::ext::IdentExt;
 
-use crate::model::{BodyOfFile, Field, Scalar, Shape, StateOfFile, ValueOfState, exact};
+use crate::model::{BodyOfFile, Field, GenericsOfImpl, Scalar, Shape, StateOfFile, ValueOfState, exact};
+use crate::words::Unraw;
 
 use super::derived::{Derived, Item, KernelGenerics};
 use super::input::input_name;
@@ -23,11 +23,7 @@ pub fn of_file(derived: &Derived<'_, '_>) -> TokenStream {
 /// The struct with the mass data of the file; what it does not say are arguments.
 fn constructor(derived: &Derived<'_, '_>, bodies: &[BodyOfFile]) -> TokenStream {
     let Item { ident, visibility, generics, .. } = derived.item();
-    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
-    let predicates = where_clause.map(|w| {
-        let predicates = w.predicates.iter();
-        quote!(#(#predicates,)*)
-    });
+    let GenericsOfImpl { declared, used, predicates } = generics;
     let bound = bound(derived);
     let of_field = |field: &Field| bodies.iter().find(|body| body.field.unraw() == field.ident.unraw());
     let (own, others): (Vec<&Field>, Vec<&Field>) =
@@ -42,7 +38,7 @@ fn constructor(derived: &Derived<'_, '_>, bodies: &[BodyOfFile]) -> TokenStream 
     let documentation = format!("The bodies as `{file}` has them, with the other fields.");
     quote! {
         #[allow(clippy::all, clippy::pedantic)]
-        impl #impl_generics #ident #type_generics where #predicates #bound {
+        impl #declared #ident #used where #predicates #bound {
             #[doc = #documentation]
             #[allow(dead_code, clippy::too_many_arguments, clippy::excessive_precision)]
             #visibility fn from_file(#(#arguments),*) -> Self {

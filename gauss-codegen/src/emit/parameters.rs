@@ -2,12 +2,12 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
 use crate::mechanics::Matter;
 use crate::model::{BodyClause, ExpressionKind, Field, Model, Motion, ParticleClause, Role, Shape};
+use crate::words::Unraw;
 
 use super::derived::{Derived, KernelGenerics};
 use super::inertia::{in_sum, inertia_rows, named_body, own_matrix, waived};

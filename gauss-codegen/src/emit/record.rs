@@ -2,9 +2,9 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use syn::ext::IdentExt;
 
 use super::derived::{Derived, KernelGenerics};
+use crate::words::Unraw;
 
 /// One field.
 pub struct Part {

@@ -2,9 +2,9 @@
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
-use syn::ext::IdentExt;
 
 use crate::model::{Chart, CoordinateKind, InChart, Motion, SpeedKind};
+use crate::words::Unraw;
 
 use super::derived::{Derived, KernelGenerics};
 use super::record::{Part, PartKind, from_numbers, record, to_numbers};

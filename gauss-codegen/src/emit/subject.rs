@@ -1,14 +1,13 @@
 //! What is derived: its configuration as a product, its constraints, and where what its author wrote is read.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use syn::Ident;
-use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Rational};
 use crate::mechanics::{Constraints, Coordinate, Method, QuantityValues, System};
 use crate::model::{BodyClause, Model, Role};
 use crate::translate::Source;
+use crate::words::Unraw;
 
 use super::arguments::Argument;
 use super::chart::chart_tokens;

@@ -28,7 +28,7 @@ mod units;
 
 pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
 pub use language::number::exact as literal;
-pub use parse::{item, parse};
+pub use parse::{item, parse, struct_in};
 pub use robots::exact;
 pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
@@ -37,5 +37,5 @@ pub use scene::clauses::{
 };
 pub use scene::described::{BodyOfFile, Described, Remark, StateOfFile, ValueOfState};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
-pub use scene::model::{Field, Model, Scalar, Wanted, WantedMethod};
+pub use scene::model::{Field, GenericsOfImpl, Model, Scalar, Wanted, WantedMethod};
 pub use scene::roles::{Role, Shape};

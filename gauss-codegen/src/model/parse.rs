@@ -7,6 +7,7 @@ use crate::model::names::inputs;
 use crate::model::robots;
 use crate::model::scene::model::Model;
 use proc_macro2::TokenStream;
+use syn::ext::IdentExt;
 use syn::punctuated::Punctuated;
 use syn::token::Brace;
 use syn::{Data, DeriveInput, Error, Fields, FieldsNamed, GenericParam, Generics};
@@ -94,5 +95,37 @@ fn check_generics(generics: &Generics, context: &mut Context) {
                 ),
             ),
         }
+    }
+}
+
+/// The struct of that name in the text of a Rust file, wherever in its modules it is.
+///
+/// # Errors
+/// What is no Rust; the name, if there is no such struct.
+pub fn struct_in(source: &str, name: &str) -> syn::Result<DeriveInput> {
+    let file = syn::parse_file(source)?;
+    let Some(item) = find(&file.items, name) else {
+        let message = format!("there is no struct `{name}` in this file");
+        return Err(syn::Error::new(proc_macro2::Span::call_site(), message));
+    };
+    Ok(item.clone().into())
+}
+
+fn find<'a>(items: &'a [syn::Item], name: &str) -> Option<&'a syn::ItemStruct> {
+    items.iter().find_map(|item| match item {
+        syn::Item::Struct(item) if item.ident.unraw() == name => Some(item),
+        syn::Item::Mod(module) => find(&module.content.as_ref()?.1, name),
+        _ => None,
+    })
+}
+
+impl From<crate::error::Error> for syn::Error {
+    fn from(mistakes: crate::error::Error) -> Self {
+        let mistakes = mistakes.into_iter().map(|(span, message)| syn::Error::new(span, message));
+        let all = mistakes.reduce(|mut all, mistake| {
+            all.combine(mistake);
+            all
+        });
+        all.unwrap_or_else(|| syn::Error::new(proc_macro2::Span::call_site(), "a mistake without a name"))
     }
 }

@@ -1,6 +1,7 @@
 //! Which part of a scene is to blame where a check fails that no mistake of this crate makes fail.
 
 use crate::algebra::{Expr, Notation, Number, Precise, Scalar, decimal};
+use crate::error::Error;
 use crate::mechanics::{Body, Tree};
 use crate::model::Role;
 
@@ -26,13 +27,13 @@ fn is_indefinite(a: &[[Precise; 3]; 3]) -> bool {
 
 impl<'g> Given<'_, 'g> {
     /// Why a check fails that no mistake of this crate makes fail: bodies that none can be, numbers out of its reach.
-    pub fn cause_of_failure(&self, tree: &Tree<'g>) -> Option<syn::Error> {
+    pub fn cause_of_failure(&self, tree: &Tree<'g>) -> Option<Error> {
         self.impossible_body(tree).or_else(|| {
             let (span, _) = self.extreme.first()?;
             let list: Vec<String> =
                 self.extreme.iter().map(|(_, value)| format!("`{}`", decimal(*value, Notation::Text))).collect();
             let (are, they) = if list.len() == 1 { ("is", "it is") } else { ("are", "they are") };
-            Some(syn::Error::new(
+            Some(Error::new(
                 *span,
                 format!(
                     "{} {are} out of reach: not even numbers of 256 binary digits tell whether the equations are right; \
@@ -44,7 +45,7 @@ impl<'g> Given<'_, 'g> {
     }
 
     /// A body whose mass data are literals and that has a negative moment of inertia about its centre of mass.
-    fn impossible_body(&self, tree: &Tree<'g>) -> Option<syn::Error> {
+    fn impossible_body(&self, tree: &Tree<'g>) -> Option<Error> {
         let clauses = self.model.bodies.iter().zip(&self.links);
         let (clause, _) = clauses.into_iter().find(|(_, link)| {
             let body = tree.links.get(**link).and_then(|link| link.body());
@@ -63,7 +64,7 @@ impl<'g> Given<'_, 'g> {
         };
         let message =
             format!("no body has this `{word}`: about its centre of mass a moment of inertia is negative{rule}");
-        Some(syn::Error::new(span, message))
+        Some(Error::new(span, message))
     }
 
     /// I_O − m(|c|² 1 − c cᵀ), where literals alone determine it.

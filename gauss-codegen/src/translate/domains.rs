@@ -3,7 +3,7 @@
 use proc_macro2::Span;
 
 use crate::algebra::{Evaluation, Expr, Map, NodeView, Number, Precise, Rational, Scalar};
-use crate::mistakes::Mistakes;
+use crate::error::{Mistakes, Result};
 use crate::model::{Expression, FunctionName, LARGEST_EXPONENT, too_many_factors};
 
 use super::translator::Translator;
@@ -144,7 +144,7 @@ impl<'g> Translator<'_, 'g> {
     ///
     /// # Errors
     /// Each at the expression that has no value.
-    pub(super) fn refuse_mistakes(&self) -> syn::Result<()> {
+    pub(super) fn refuse_mistakes(&self) -> Result<()> {
         let mut mistakes = Mistakes::default();
         self.notes.read().mistakes.iter().for_each(|(span, message)| mistakes.push(*span, message.clone()));
         mistakes.finish()

@@ -3,16 +3,16 @@
 
 use std::collections::HashSet;
 
-use proc_macro2::Span;
-use syn::Ident;
-use syn::ext::IdentExt;
+use proc_macro2::{Ident, Span};
 
 use crate::algebra::Expr;
+use crate::error::Result;
 use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, common, entrained};
 use crate::model::{
     BinaryOperator, Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceAxes, ForceClause,
     ForceKind, Property,
 };
+use crate::words::Unraw;
 
 use super::drag::DragMatrix;
 use super::laws::{Law, LawKind};
@@ -39,7 +39,7 @@ impl Names {
 
 impl<'g> Translator<'_, 'g> {
     /// Everything that acts beside weight and buoyancy, each with where it is written.
-    pub(super) fn elements(&self, tree: &Tree<'g>) -> syn::Result<Vec<(Span, Element<'g>)>> {
+    pub(super) fn elements(&self, tree: &Tree<'g>) -> Result<Vec<(Span, Element<'g>)>> {
         let model = self.model;
         let given = model.forces.iter().filter_map(|clause| clause.name.as_ref());
         let given = given.chain(model.attractions.iter().filter_map(|clause| clause.name.as_ref()));
@@ -76,7 +76,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// How a clause acts: a spring with a damper is one element that acts in two ways.
-    fn actions(&self, clause: &ForceClause, name: &str, tree: &Tree<'g>) -> syn::Result<Vec<Action<'g>>> {
+    fn actions(&self, clause: &ForceClause, name: &str, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
         let none = [self.graph.zero(); 3];
         let vector = |e: &Option<Expression>| e.as_ref().map_or(Ok(none), |e| self.vector(e, tree));
         let forces = match &clause.kind {
@@ -102,11 +102,11 @@ impl<'g> Translator<'_, 'g> {
                 }
             }
             ForceKind::Drive { rates } => {
-                let drive = |(coordinate, force): &(Ident, Expression)| -> syn::Result<Force<'g>> {
+                let drive = |(coordinate, force): &(Ident, Expression)| -> Result<Force<'g>> {
                     let rate = self.rate_of_coordinate(coordinate)?;
                     Ok(Force::OnRate { rate, force: self.scalar(force, tree)? })
                 };
-                rates.iter().map(drive).collect::<syn::Result<_>>()?
+                rates.iter().map(drive).collect::<Result<_>>()?
             }
             ForceKind::Drag { body, linear, quadratic } => {
                 vec![self.drag(name, body, [linear.as_ref(), quadratic.as_ref()], tree)?]
@@ -138,7 +138,7 @@ impl<'g> Translator<'_, 'g> {
         written: [Option<&Expression>; 2],
         axes: ForceAxes,
         tree: &Tree<'g>,
-    ) -> syn::Result<(Axes, [Triple<'g>; 2])> {
+    ) -> Result<(Axes, [Triple<'g>; 2])> {
         let none = [self.graph.zero(); 3];
         let (mut own, mut given) = ([Some(none); 2], [none; 2]);
         for (k, e) in written.into_iter().enumerate() {
@@ -154,14 +154,14 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// A vector in the axes of a link, where a link of its tree knows it.
-    fn seen_by(&self, link: usize, e: &Expression, tree: &Tree<'g>) -> syn::Result<Option<Triple<'g>>> {
+    fn seen_by(&self, link: usize, e: &Expression, tree: &Tree<'g>) -> Result<Option<Triple<'g>>> {
         Ok(match self.value(e, tree)? {
             Value::Local(local) => local.seen_by(link, tree),
             _ => None,
         })
     }
 
-    fn force_at(&self, at: &Expression, value: &Expression, tree: &Tree<'g>) -> syn::Result<Force<'g>> {
+    fn force_at(&self, at: &Expression, value: &Expression, tree: &Tree<'g>) -> Result<Force<'g>> {
         let none = [self.graph.zero(); 3];
         if let Value::Local(point) = self.value(at, tree)?
             && let Some(force) = self.seen_by(point.link, value, tree)?.filter(|_| point.is_point)
@@ -204,22 +204,22 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// A constant of the element `name`, of which note is taken.
-    fn constant(&self, kind: LawKind, of: (&str, &str), e: &Expression, tree: &Tree<'g>) -> syn::Result<Expr<'g>> {
+    fn constant(&self, kind: LawKind, of: (&str, &str), e: &Expression, tree: &Tree<'g>) -> Result<Expr<'g>> {
         let value = self.scalar(e, tree)?;
         self.note(kind, of, e, vec![value]);
         Ok(value)
     }
 
-    fn damping(&self, name: &str, e: Option<&Expression>, tree: &Tree<'g>) -> syn::Result<Option<Expr<'g>>> {
+    fn damping(&self, name: &str, e: Option<&Expression>, tree: &Tree<'g>) -> Result<Option<Expr<'g>>> {
         e.map(|e| self.constant(LawKind::Damping, (name, "damping"), e, tree)).transpose()
     }
 
-    fn optional(&self, e: Option<&Expression>, tree: &Tree<'g>) -> syn::Result<Option<Expr<'g>>> {
+    fn optional(&self, e: Option<&Expression>, tree: &Tree<'g>) -> Result<Option<Expr<'g>>> {
         e.map(|e| self.scalar(e, tree)).transpose()
     }
 
     /// The length of what is extended, and its square where no root is needed for that.
-    fn extent(&self, extent: &Extent, tree: &Tree<'g>) -> syn::Result<(Expr<'g>, Expr<'g>)> {
+    fn extent(&self, extent: &Extent, tree: &Tree<'g>) -> Result<(Expr<'g>, Expr<'g>)> {
         Ok(match extent {
             Extent::Along(e) => {
                 let length = self.scalar(e, tree)?;
@@ -245,7 +245,7 @@ impl<'g> Translator<'_, 'g> {
         stiffness: &Expression,
         [rest, damping]: [Option<&Expression>; 2],
         tree: &Tree<'g>,
-    ) -> syn::Result<Vec<Action<'g>>> {
+    ) -> Result<Vec<Action<'g>>> {
         let (length, square) = self.extent(extent, tree)?;
         let stretched = self.optional(rest, tree)?.map_or(square, |rest| (length - rest).powi(2));
         let stiffness = self.constant(LawKind::Stiffness, (name, "stiffness"), stiffness, tree)?;
@@ -271,7 +271,7 @@ impl<'g> Translator<'_, 'g> {
         [stiffness, width]: [&Expression; 2],
         damping: Option<&Expression>,
         tree: &Tree<'g>,
-    ) -> syn::Result<Vec<Action<'g>>> {
+    ) -> Result<Vec<Action<'g>>> {
         let (length, _) = self.extent(extent, tree)?;
         let stiffness = self.constant(LawKind::Stiffness, (name, "stiffness"), stiffness, tree)?;
         let width = self.constant(LawKind::Width, (name, "width"), width, tree)?;
@@ -306,7 +306,7 @@ impl<'g> Translator<'_, 'g> {
         body: &Ident,
         [linear, quadratic]: [Option<&Coefficients>; 2],
         tree: &Tree<'g>,
-    ) -> syn::Result<Force<'g>> {
+    ) -> Result<Force<'g>> {
         let link = self.link(body)?;
         let twist = self.velocity_of(link, Property::RelativeVelocity, tree).into_iter();
         let twist: Vec<Expr<'g>> =
@@ -331,10 +331,10 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// Six by six.
-    pub(super) fn coefficients(&self, coefficients: &Coefficients, tree: &Tree<'g>) -> syn::Result<Vec<Vec<Expr<'g>>>> {
+    pub(super) fn coefficients(&self, coefficients: &Coefficients, tree: &Tree<'g>) -> Result<Vec<Vec<Expr<'g>>>> {
         match coefficients {
             Coefficients::Diagonal(entries) => {
-                let entries = entries.iter().map(|e| self.scalar(e, tree)).collect::<syn::Result<Vec<_>>>()?;
+                let entries = entries.iter().map(|e| self.scalar(e, tree)).collect::<Result<Vec<_>>>()?;
                 let zero = self.graph.zero();
                 Ok((0..6).map(|i| (0..6).map(|j| if i == j { entries[i] } else { zero }).collect()).collect())
             }
@@ -355,7 +355,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// What the velocity of the medium changes beside drag.
-    fn medium(&self, tree: &Tree<'g>) -> syn::Result<Vec<Force<'g>>> {
+    fn medium(&self, tree: &Tree<'g>) -> Result<Vec<Force<'g>>> {
         let Some(stream) = self.stream(tree)? else { return Ok(Vec::new()) };
         let rate = stream.map(|e| e.derivative(&self.rates));
         let mut forces = Vec::new();
@@ -377,16 +377,16 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// The velocity of the medium, observer's components.
-    pub(super) fn stream(&self, tree: &Tree<'g>) -> syn::Result<Option<Triple<'g>>> {
+    pub(super) fn stream(&self, tree: &Tree<'g>) -> Result<Option<Triple<'g>>> {
         self.model.medium.as_ref().map(|e| self.vector(e, tree)).transpose()
     }
 
-    fn link(&self, name: &Ident) -> syn::Result<usize> {
+    fn link(&self, name: &Ident) -> Result<usize> {
         self.links.get(&name.unraw().to_string()).copied().ok_or_else(|| bug(name.span()))
     }
 
     /// Inertia of rates, of which note is taken.
-    pub(super) fn rotors(&self, tree: &Tree<'g>) -> syn::Result<Vec<Rotor<'g>>> {
+    pub(super) fn rotors(&self, tree: &Tree<'g>) -> Result<Vec<Rotor<'g>>> {
         let mut rotors = Vec::new();
         for (coordinate, inertia) in &self.model.armatures {
             let label = coordinate.unraw().to_string();
@@ -406,7 +406,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// The angular velocity of a coordinate, in its own axes.
-    fn turning(&self, label: &str, name: &Ident) -> syn::Result<Triple<'g>> {
+    fn turning(&self, label: &str, name: &Ident) -> Result<Triple<'g>> {
         self.velocity_of_coordinate(label, Property::BodyAngularVelocity).ok_or_else(|| bug(name.span()))
     }
 
@@ -417,7 +417,7 @@ impl<'g> Translator<'_, 'g> {
         extent: &Extent,
         [viscous, dry, width]: [Option<&Expression>; 3],
         tree: &Tree<'g>,
-    ) -> syn::Result<Force<'g>> {
+    ) -> Result<Force<'g>> {
         let rate = self.extent(extent, tree)?.0.derivative(&self.rates).group();
         let mut force = self.graph.zero();
         if let Some(viscous) = viscous {
@@ -433,12 +433,12 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// ψ of a scalar coordinate.
-    fn coordinate(&self, name: &Ident) -> syn::Result<(usize, CoordinateKind)> {
+    fn coordinate(&self, name: &Ident) -> Result<(usize, CoordinateKind)> {
         let index = self.model.coordinates.iter().position(|q| q.ident == *name).ok_or_else(|| bug(name.span()))?;
         Ok((index, self.model.coordinates[index].kind))
     }
 
-    fn rate_of_coordinate(&self, name: &Ident) -> syn::Result<Expr<'g>> {
+    fn rate_of_coordinate(&self, name: &Ident) -> Result<Expr<'g>> {
         let (index, _) = self.coordinate(name)?;
         Ok(self.declared.rate_of(self.declared.before + index, &self.kinematics)[0])
     }

@@ -1,10 +1,10 @@
 //! ψ, and the rates of everything that it moves.
 
-use syn::ext::IdentExt;
-
 use crate::algebra::{Expr, Map};
+use crate::error::Result;
 use crate::mechanics::{ChartedBody, Coordinate, Tree, poisson};
 use crate::model::{self, BinaryOperator, ExpressionKind, FunctionName, Property};
+use crate::words::Unraw;
 
 use super::translator::{ObservedRates, Translator, bug};
 use super::value::Value;
@@ -12,7 +12,7 @@ use super::value::Value;
 impl<'g> Translator<'_, 'g> {
     /// ψ, in the order of the coordinates; ḃ and ω̂ of each that is a pose or a rotation, where the kinematics give them
     /// rather than u and ω.
-    pub(super) fn kinematics(&self) -> syn::Result<(Vec<Expr<'g>>, Vec<ObservedRates<'g>>)> {
+    pub(super) fn kinematics(&self) -> Result<(Vec<Expr<'g>>, Vec<ObservedRates<'g>>)> {
         let mut rates = self.chart().map(ChartedBody::coordinate_rates).unwrap_or_default();
         let mut observed = vec![[None; 2]; self.model.coordinates.len()];
         if self.model.speeds.is_none() {
@@ -39,9 +39,9 @@ impl<'g> Translator<'_, 'g> {
         coordinate: usize,
         rate: &model::Expression,
         nothing: &Tree<'g>,
-    ) -> syn::Result<ObservedRates<'g>> {
+    ) -> Result<ObservedRates<'g>> {
         let own = &self.model.coordinates[coordinate].ident;
-        let turned_back = |e: &model::Expression| -> syn::Result<Option<[Expr<'g>; 3]>> {
+        let turned_back = |e: &model::Expression| -> Result<Option<[Expr<'g>; 3]>> {
             let ExpressionKind::Binary(BinaryOperator::Multiply, turned, v) = &e.kind else { return Ok(None) };
             let ExpressionKind::Call(FunctionName::Inverse, rotation) = &turned.kind else { return Ok(None) };
             let Some(rotation) = rotation.first() else { return Ok(None) };

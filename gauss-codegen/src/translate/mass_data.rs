@@ -1,5 +1,6 @@
 //! What clauses say of bodies and of gravity, in the place of symbols.
 
+use crate::error::Result;
 use crate::mechanics::QuantityValues;
 use crate::model::{BodyClause, Model, Role, RoleClause, RoleValue, Shape};
 
@@ -11,17 +12,17 @@ use super::value::Value;
 impl<'g> Translator<'_, 'g> {
     /// # Errors
     /// Only what the model should have refused: a bug of this crate.
-    pub(super) fn mass_data(&self) -> syn::Result<MassData<'g>> {
+    pub(super) fn mass_data(&self) -> Result<MassData<'g>> {
         let unnamed = self.quantity_values(&self.model.role_clauses)?;
         let own = |clause: &BodyClause| self.quantity_values(&clause.role_clauses);
-        Ok(MassData { unnamed, named: self.model.bodies.iter().map(own).collect::<syn::Result<_>>()? })
+        Ok(MassData { unnamed, named: self.model.bodies.iter().map(own).collect::<Result<_>>()? })
     }
 
     /// The values of mass data in clauses.
     ///
     /// # Errors
     /// Only what the model should have refused: a bug of this crate.
-    fn quantity_values(&self, clauses: &[RoleClause]) -> syn::Result<Vec<QuantityValues<'g>>> {
+    fn quantity_values(&self, clauses: &[RoleClause]) -> Result<Vec<QuantityValues<'g>>> {
         let nothing = self.no_links();
         let value = |clause: &RoleClause| {
             let values = match &clause.value {

@@ -1,9 +1,8 @@
 //! The parameters of a scene, number by number: the symbol of each, and what its author calls it.
 
-use syn::ext::IdentExt;
-
 use crate::algebra::Expr;
 use crate::model::{Field, Role};
+use crate::words::Unraw;
 
 use super::symbols::{Part, Source};
 

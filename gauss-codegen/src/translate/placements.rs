@@ -1,11 +1,12 @@
 //! Where bodies, frames and points are.
 
-use syn::Ident;
-use syn::ext::IdentExt;
+use proc_macro2::Ident;
 
 use crate::algebra::Expr;
+use crate::error::Result;
 use crate::mechanics::{Body, Matter, Placement, Tree, Vector};
 use crate::model::{BodyClause, ExpressionKind, Property};
+use crate::words::Unraw;
 
 use super::kinematics::name_of_property;
 use super::translator::{Translator, bug};
@@ -13,7 +14,7 @@ use super::value::{Local, Value};
 
 impl<'g> Translator<'_, 'g> {
     /// Bodies and frames, parents before children.
-    pub(super) fn placements(&mut self) -> syn::Result<Vec<Placement<'g>>> {
+    pub(super) fn placements(&mut self) -> Result<Vec<Placement<'g>>> {
         let clauses = &self.model.bodies;
         let mut placements = Vec::with_capacity(clauses.len());
         let mut open: Vec<usize> = (0..clauses.len()).collect();
@@ -30,7 +31,7 @@ impl<'g> Translator<'_, 'g> {
         Ok(placements)
     }
 
-    fn placement(&self, index: usize, clause: &BodyClause) -> syn::Result<Placement<'g>> {
+    fn placement(&self, index: usize, clause: &BodyClause) -> Result<Placement<'g>> {
         let nothing = self.no_links();
         let zero = self.graph.zero();
         let matter = match &self.declared.bodies[index] {
@@ -84,7 +85,7 @@ impl<'g> Translator<'_, 'g> {
         [velocity, angular.map(in_space)]
     }
 
-    pub(super) fn name_points(&mut self, tree: &Tree<'g>) -> syn::Result<()> {
+    pub(super) fn name_points(&mut self, tree: &Tree<'g>) -> Result<()> {
         for clause in &self.model.points {
             let at = self.vector(&clause.at, tree)?;
             let index = *self.links.get(&clause.body.unraw().to_string()).ok_or_else(|| bug(clause.span))?;

@@ -1,11 +1,11 @@
 //! Symbols of everything that is declared, and where the value of each is read.
 
 use proc_macro2::Ident;
-use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Rational};
 use crate::mechanics::{Body, BodyShape, ChartedBody, Coordinate, Name, ParameterSymbol};
 use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
+use crate::words::Unraw;
 
 use super::value::Value;
 

@@ -4,14 +4,15 @@ use std::collections::HashMap;
 
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
-use syn::ext::IdentExt;
 
 use crate::algebra::{Expr, Graph, Map, OwnFunction};
+use crate::error::{Error, Result};
 use crate::mechanics::{
     ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Lettering, Matter, Observed, Placement, SystemScene,
     Tree, Turn,
 };
 use crate::model::{self, FunctionClause, InChart, Model, SpeedPart};
+use crate::words::Unraw;
 
 use super::notes::Notes;
 use super::parameters::parameters;
@@ -23,7 +24,7 @@ use super::value::{Piece, Value};
 ///
 /// # Errors
 /// Expressions without a value, each where it stands; what the model should have refused: a bug of this crate.
-pub fn translate<'a, 'g>(graph: &'g Graph, model: &'a Model) -> syn::Result<Translated<'a, 'g>> {
+pub fn translate<'a, 'g>(graph: &'g Graph, model: &'a Model) -> Result<Translated<'a, 'g>> {
     let mut declared = Declared::new(graph, model);
     let function = |clause: &FunctionClause| {
         let name = clause.name.unraw().to_string();
@@ -157,7 +158,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         self.declared.chart.as_ref()
     }
 
-    fn scene(&mut self) -> syn::Result<SystemScene<'g>> {
+    fn scene(&mut self) -> Result<SystemScene<'g>> {
         let (graph, model) = (self.graph, self.model);
         self.name_everything();
         (self.kinematics, self.observed_rates) = self.kinematics()?;
@@ -207,7 +208,7 @@ impl<'a, 'g> Translator<'a, 'g> {
 
     /// What acts on the only body, whose motion a chart describes: translated in terms of symbols for it, so that each part of a
     /// wrench stays in the axes where it arises.
-    fn elements_on(&self, chart: &ChartedBody<'g>) -> syn::Result<Vec<Element<'g>>> {
+    fn elements_on(&self, chart: &ChartedBody<'g>) -> Result<Vec<Element<'g>>> {
         if !self.model.is_acted_upon() {
             return Ok(Vec::new());
         }
@@ -303,7 +304,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         Tree::new(self.graph, Vec::new(), Vec::new(), Map::default(), None)
     }
 
-    fn constraints(&self, tree: &Tree<'g>) -> syn::Result<Vec<Constraint<'g>>> {
+    fn constraints(&self, tree: &Tree<'g>) -> Result<Vec<Constraint<'g>>> {
         let mut constraints = Vec::new();
         for (clause, written) in self.model.constraints.iter().enumerate() {
             let kind = match written.kind {
@@ -329,8 +330,8 @@ impl<'a, 'g> Translator<'a, 'g> {
 /// Terms that a component of a constraint may have while it is seen whether it vanishes.
 const LIMIT: usize = 400;
 
-pub(super) fn bug(span: Span) -> syn::Error {
-    syn::Error::new(
+pub(super) fn bug(span: Span) -> Error {
+    Error::new(
         span,
         "bug in gauss-derive: an expression passed its checks but cannot be translated; please report it together with \
          this struct",

@@ -1,11 +1,12 @@
 //! Expressions as the user wrote them, as values of the algebra.
 
 use proc_macro2::Span;
-use syn::ext::IdentExt;
 
 use crate::algebra::{BinaryFunction, Expr, Function, Notation, Rational, decimal};
+use crate::error::Result;
 use crate::mechanics::{Axes, Tree, Turn, dot, subtract};
 use crate::model::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+use crate::words::Unraw;
 
 use super::translator::{Translator, bug};
 use super::value::{Local, Piece, Value};
@@ -38,14 +39,14 @@ fn clamped<'g>(x: Expr<'g>, [low, high]: [Expr<'g>; 2]) -> Expr<'g> {
 }
 
 impl<'g> Translator<'_, 'g> {
-    pub(super) fn scalar(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Expr<'g>> {
+    pub(super) fn scalar(&self, e: &Expression, tree: &Tree<'g>) -> Result<Expr<'g>> {
         match self.value(e, tree)? {
             Value::Scalar(value) => Ok(value),
             _ => Err(bug(e.span)),
         }
     }
 
-    pub(super) fn vector(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Triple<'g>> {
+    pub(super) fn vector(&self, e: &Expression, tree: &Tree<'g>) -> Result<Triple<'g>> {
         match self.value(e, tree)?.observed() {
             Value::Vector(value) => Ok(value),
             _ => Err(bug(e.span)),
@@ -53,7 +54,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// The value of an expression; links that it names are those of the tree.
-    pub(super) fn value(&self, e: &Expression, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
+    pub(super) fn value(&self, e: &Expression, tree: &Tree<'g>) -> Result<Value<'g>> {
         Ok(match &e.kind {
             ExpressionKind::Number { value } => {
                 self.note_extreme(*value, e.span);
@@ -132,7 +133,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// Two vectors in axes that are theirs both: those of a link where it knows them, else the observer's.
-    fn in_common_axes(&self, [a, b]: [&Expression; 2], tree: &Tree<'g>) -> syn::Result<[Triple<'g>; 2]> {
+    fn in_common_axes(&self, [a, b]: [&Expression; 2], tree: &Tree<'g>) -> Result<[Triple<'g>; 2]> {
         if let (Value::Local(a), Value::Local(b)) = (self.value(a, tree)?, self.value(b, tree)?)
             && let Some((_, both)) = a.together(&b, tree)
         {
@@ -141,7 +142,7 @@ impl<'g> Translator<'_, 'g> {
         Ok([self.vector(a, tree)?, self.vector(b, tree)?])
     }
 
-    fn property(&self, owner: &Expression, property: Property, tree: &Tree<'g>) -> syn::Result<Value<'g>> {
+    fn property(&self, owner: &Expression, property: Property, tree: &Tree<'g>) -> Result<Value<'g>> {
         let ExpressionKind::Name(name) = &owner.kind else { return Err(bug(owner.span)) };
         let word = name.unraw().to_string();
         match self.names.get(&word) {
@@ -319,20 +320,14 @@ impl<'g> Translator<'_, 'g> {
         s.powi(2) * (three - s.scale(Rational::from_integer(2))).group()
     }
 
-    fn call(
-        &self,
-        function: FunctionName,
-        arguments: &[Expression],
-        span: Span,
-        tree: &Tree<'g>,
-    ) -> syn::Result<Value<'g>> {
+    fn call(&self, function: FunctionName, arguments: &[Expression], span: Span, tree: &Tree<'g>) -> Result<Value<'g>> {
         let scalar = |e: &Expression| self.scalar(e, tree);
         let turn = |axis, angle: &Expression| {
             let piece = match quarter_turns(angle) {
                 Some(quarters) => Piece::quarters(self.graph, axis, quarters),
                 None => Piece::About(axis, scalar(angle)?),
             };
-            syn::Result::Ok(Value::Rotation(vec![piece]))
+            Result::Ok(Value::Rotation(vec![piece]))
         };
         Ok(match (function, arguments) {
             (function, [a]) if function.is_elementary() => Value::Scalar(self.elementary(function, scalar(a)?, a)),

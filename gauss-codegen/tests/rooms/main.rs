@@ -1,4 +1,5 @@
-//! No two files import each other, by whatever way round; no function is longer than a screen.
+//! No two files import each other, by whatever way round; `syn` is named where structs are read; no function is longer
+//! than a screen.
 //!
 //! Of every file the names are looked up that it takes from others: in `use` declarations and in paths, through
 //! re-exports to the file that defines them. A module that only hands on is seen through; tests do not count.
@@ -14,8 +15,8 @@ use std::path::{Path, PathBuf};
 
 use components::components;
 use functions::{Function, functions, functions_below};
-use modules::Modules;
-use references::imports;
+use modules::{Module, Modules};
+use references::{imports, paths};
 
 fn here() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
@@ -57,6 +58,18 @@ fn no_files_import_each_other_in_a_circle() {
         }
     }
     assert!(found.is_empty(), "\n{found}");
+}
+
+/// Files beside those of `model` that name `syn`: what is handed a struct, or the text of one.
+const ENTRANCES: [&str; 4] = ["derivation/mod.rs", "emit/fallback.rs", "expand.rs", "scene.rs"];
+
+#[test]
+fn syn_is_named_where_structs_are_read() {
+    let modules = Modules::of(&here().join("src"));
+    let of_syn = |module: &Module| paths(module).iter().any(|path| path.first().is_some_and(|root| root == "syn"));
+    let named = modules.iter().map(|(_, module)| module).filter(|module| of_syn(module)).map(|module| &module.file);
+    let files: BTreeSet<&str> = named.map(String::as_str).filter(|file| !file.starts_with("model/")).collect();
+    assert_eq!(files, BTreeSet::from(ENTRANCES));
 }
 
 /// Lines that a function may have between its braces.

@@ -6,7 +6,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::Item;
 
-use crate::modules::{Modules, leaves};
+use crate::modules::{Module, Modules, leaves};
 
 /// For each pair of files, the names that the first takes from the second.
 pub type Imports = BTreeMap<(String, String), BTreeSet<String>>;
@@ -14,11 +14,7 @@ pub type Imports = BTreeMap<(String, String), BTreeSet<String>>;
 pub fn imports(modules: &Modules) -> Imports {
     let mut imports = Imports::new();
     for (path, module) in modules.iter() {
-        let mut paths: Vec<Vec<String>> = module.imports().into_iter().map(|import| import.path).collect();
-        for item in module.items.iter().filter(|item| !matches!(item, Item::Use(_))) {
-            named(item.to_token_stream(), &mut paths);
-        }
-        for named in paths {
+        for named in paths(module) {
             for file in modules.files(path, &named) {
                 if file != module.file {
                     let name = named.last().cloned().unwrap_or_default();
@@ -28,6 +24,15 @@ pub fn imports(modules: &Modules) -> Imports {
         }
     }
     imports
+}
+
+/// Every path that a module names, in declarations and in code.
+pub fn paths(module: &Module) -> Vec<Vec<String>> {
+    let mut paths: Vec<Vec<String>> = module.imports().into_iter().map(|import| import.path).collect();
+    for item in module.items.iter().filter(|item| !matches!(item, Item::Use(_))) {
+        named(item.to_token_stream(), &mut paths);
+    }
+    paths
 }
 
 /// All paths of some code, names alone among them, and those of `use` declarations within functions.

@@ -3,6 +3,7 @@
 use super::expression::Expression;
 use super::roles::{Role, Shape};
 use proc_macro2::Span;
+use syn::spanned::Spanned;
 use syn::{Ident, Path};
 
 /// One coordinate, or three or six that are an element of a group.
@@ -160,6 +161,14 @@ pub enum FunctionKind {
 }
 
 impl FunctionKind {
+    /// Where the function or its points are named.
+    pub fn span(&self) -> Span {
+        match self {
+            FunctionKind::Rust(paths) => paths.first().map_or_else(Span::call_site, Spanned::span),
+            FunctionKind::Linear(points) | FunctionKind::Cubic(points) => points.span(),
+        }
+    }
+
     /// How often it can be differentiated: of a table, until nothing is left.
     pub fn derivatives(&self) -> u8 {
         match self {

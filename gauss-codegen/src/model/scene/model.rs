@@ -9,6 +9,8 @@ use super::clauses::{
 use super::described::Described;
 use super::expression::Expression;
 use super::roles::{Role, Shape};
+use proc_macro2::TokenStream;
+use quote::quote;
 use syn::ext::IdentExt;
 use syn::{Generics, Ident, Path, Type, Visibility};
 
@@ -74,7 +76,24 @@ pub struct Model {
     pub described: Option<Described>,
 }
 
+/// Type parameters of the struct, as an `impl` writes them.
+pub struct GenericsOfImpl {
+    /// Behind `impl`.
+    pub declared: TokenStream,
+    /// Behind the name of the struct.
+    pub used: TokenStream,
+    /// Behind `where`, each with its comma.
+    pub predicates: TokenStream,
+}
+
 impl Model {
+    pub fn generics_of_impl(&self) -> GenericsOfImpl {
+        let (declared, used, clause) = self.generics.split_for_impl();
+        let predicates = clause.iter().flat_map(|clause| &clause.predicates);
+        let predicates = quote!(#(#predicates,)*);
+        GenericsOfImpl { declared: quote!(#declared), used: quote!(#used), predicates }
+    }
+
     /// The field that plays a role.
     pub fn field(&self, role: Role) -> Option<&Field> {
         self.fields.iter().find(|field| field.role == Some(role))
