@@ -1,21 +1,51 @@
 //! What clauses say of bodies and of gravity, in the place of symbols.
 
+use crate::algebra::Expr;
 use crate::error::Result;
-use crate::mechanics::QuantityValues;
-use crate::model::{BodyClause, Model, Role, RoleClause, RoleValue, Shape};
+use crate::mechanics::{Body, QuantityValues};
+use crate::model::{Role, RoleClause, RoleValue, Shape};
 
-use super::symbols::{Declared, free_fall};
+use super::symbols::free_fall;
 use super::translated::MassData;
 use super::translator::{Translator, bug};
 use super::value::Value;
 
+/// What follows from mass data in clauses.
+pub(super) struct Assigned<'g> {
+    pub mass_data: MassData<'g>,
+    /// Acceleration of free fall, observer's axes.
+    pub gravity: Option<[Expr<'g>; 3]>,
+    /// One for each clause; none for a frame.
+    pub bodies: Vec<Option<Body<'g>>>,
+}
+
 impl<'g> Translator<'_, 'g> {
+    /// What clauses say, in the place of symbols.
+    ///
     /// # Errors
     /// Only what the model should have refused: a bug of this crate.
-    pub(super) fn mass_data(&self) -> Result<MassData<'g>> {
-        let unnamed = self.quantity_values(&self.model.role_clauses)?;
-        let own = |clause: &BodyClause| self.quantity_values(&clause.role_clauses);
-        Ok(MassData { unnamed, named: self.model.bodies.iter().map(own).collect::<Result<_>>()? })
+    pub(super) fn mass_data(&self) -> Result<Assigned<'g>> {
+        let model = self.model;
+        let unnamed = self.quantity_values(&model.role_clauses)?;
+        let gravity = match unnamed.iter().find(|values| values.quantity == Role::Gravity) {
+            None => self.declared.gravity,
+            Some(gravity) => match gravity.values.as_slice() {
+                &[x, y, z] => Some([x, y, z]),
+                values => values.first().map(|&g| free_fall(model, self.graph.zero(), g)),
+            },
+        };
+        let mut bodies = self.declared.bodies.clone();
+        let mut named = Vec::with_capacity(bodies.len());
+        for (body, clause) in bodies.iter_mut().zip(&model.bodies) {
+            let own = self.quantity_values(&clause.role_clauses)?;
+            if let Some(body) = body {
+                let values = if clause.name.is_some() { &own } else { &unnamed };
+                values.iter().for_each(|values| body.assign(values));
+                body.gravity = gravity;
+            }
+            named.push(own);
+        }
+        Ok(Assigned { mass_data: MassData { unnamed, named }, gravity, bodies })
     }
 
     /// The values of mass data in clauses.
@@ -45,24 +75,5 @@ impl<'g> Translator<'_, 'g> {
             Ok(QuantityValues { quantity, values })
         };
         clauses.iter().map(value).collect()
-    }
-}
-
-impl<'g> Declared<'g> {
-    /// Puts what clauses say in the place of symbols.
-    pub(super) fn assign(&mut self, model: &Model, mass_data: &MassData<'g>) {
-        if let Some(gravity) = mass_data.unnamed.iter().find(|values| values.quantity == Role::Gravity) {
-            let zero = self.time.graph().zero();
-            self.gravity = match gravity.values.as_slice() {
-                &[x, y, z] => Some([x, y, z]),
-                values => values.first().map(|&g| free_fall(model, zero, g)),
-            };
-        }
-        for ((body, clause), named) in self.bodies.iter_mut().zip(&model.bodies).zip(&mass_data.named) {
-            let Some(body) = body else { continue };
-            let own = if clause.name.is_some() { named } else { &mass_data.unnamed };
-            own.iter().for_each(|own| body.assign(own));
-            body.gravity = self.gravity;
-        }
     }
 }

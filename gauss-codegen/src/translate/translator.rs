@@ -34,8 +34,8 @@ pub fn translate<'a, 'g>(graph: &'g Graph, model: &'a Model) -> Result<Translate
     let functions: HashMap<String, OwnFunction> = model.functions.iter().map(function).collect();
     let pi = graph.symbol("π", "\\pi", true);
     let notes = Notes::new(vec![(symbols::pi(), pi)]);
-    let mass_data = Translator::new(graph, model, &declared, &functions, pi, &notes).mass_data()?;
-    declared.assign(model, &mass_data);
+    let assigned = Translator::new(graph, model, &declared, &functions, pi, &notes).mass_data()?;
+    (declared.gravity, declared.bodies) = (assigned.gravity, assigned.bodies);
     let mut translator = Translator::new(graph, model, &declared, &functions, pi, &notes);
     let scene = translator.scene()?;
     translator.refuse_mistakes()?;
@@ -55,7 +55,7 @@ pub fn translate<'a, 'g>(graph: &'g Graph, model: &'a Model) -> Result<Translate
             extreme: noted.extreme,
             drags: noted.drags,
             laws: noted.laws,
-            mass_data,
+            mass_data: assigned.mass_data,
             links,
             frames,
             speeds,
