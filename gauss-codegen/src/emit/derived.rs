@@ -94,7 +94,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             literals: &given.literals,
             values: &given.mass_data.unnamed,
             body_values: &given.mass_data.named,
-            kept_speeds: given.independent.clone().unwrap_or_else(|| (0..given.speeds.len()).collect()),
+            state: &given.state,
             links: &given.links,
             quaternions: &formulation.quaternions,
         };

@@ -44,7 +44,7 @@ fn text(derived: &Derived<'_, '_>, printed: &Printed) -> String {
             "with {}{}
 ",
             letters.join(", "),
-            if derived.subject.model.one_body().is_some() { "; x̂ = R x + b" } else { "" }
+            if derived.subject.system.scene.chart().is_some() { "; x̂ = R x + b" } else { "" }
         ));
     }
     for (title, lines) in printed {
@@ -117,7 +117,7 @@ fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
 fn description(derived: &Derived<'_, '_>) -> String {
     let speeds: Vec<String> = derived.speeds().iter().map(|z| crate::algebra::print(*z, Notation::Text)).collect();
     let speeds = speeds.join(", ");
-    if let Some(InChart { chart, motion }) = derived.subject.model.one_body() {
+    if let Some(InChart { chart, motion }) = derived.subject.system.scene.chart() {
         return format!("chart {}, motion {}, z = ({speeds})", chart_name(chart), motion_name(motion));
     }
     let names = &derived.subject.system.scene.coordinate_names;
@@ -208,7 +208,7 @@ fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
     if equations.replace(&format!("x{HAT} = R x + b"), "").contains(HAT) {
         sentences.push("Components with a hat are in the observer's axes k, those without in body axes e.".to_owned());
     }
-    if derived.subject.model.one_body().is_some() {
+    if derived.subject.system.scene.chart().is_some() {
         let hats = ["Q", "Γ"].map(|letter| if has(&format!("{letter}{HAT}")) { "\u{302}" } else { "" });
         let [linear, angular] = hats;
         let both = if angular.is_empty() { "O" } else { "Ω" };

@@ -58,7 +58,7 @@ pub fn waived(derived: &Derived<'_, '_>, body: Option<&Ident>, checks: TokenStre
 
 /// A check of the mass matrix of one body, which says nothing where others make up for what it lacks: their sum is checked then.
 pub fn own_matrix(derived: &Derived<'_, '_>, check: TokenStream) -> TokenStream {
-    match derived.subject.model.one_body() {
+    match derived.subject.system.scene.chart() {
         Some(_) => check,
         None => quote!(if __check.massless().is_none() #check),
     }

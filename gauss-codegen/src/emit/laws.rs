@@ -16,8 +16,21 @@ use super::program::statements;
 /// States at which a dissipation function is looked at.
 const STATES: usize = 4;
 
+/// What must hold of masses of particles.
+pub fn masses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    written(derived, symbols, |kind| kind == LawKind::MassInSum)
+}
+
 /// What must hold of constants of springs and stops.
 pub fn checked(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    written(derived, symbols, |kind| kind != LawKind::MassInSum)
+}
+
+fn written(
+    derived: &Derived<'_, '_>,
+    symbols: &Map<u32, TokenStream>,
+    of_kind: impl Fn(LawKind) -> bool,
+) -> TokenStream {
     let check = |law: &Law<'_>| {
         let label = &law.label;
         let check = match law.kind {
@@ -25,19 +38,20 @@ pub fn checked(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> To
             LawKind::Width => quote!(width),
             LawKind::Limits => quote!(limits),
             LawKind::NonNegative => quote!(non_negative),
+            LawKind::MassInSum => quote!(mass_in_sum),
             LawKind::Damping | LawKind::Attraction => quote!(finite),
             LawKind::Dissipation => return None,
         };
         let (compute, values) = statements(&Program::lower(&law.values), symbols, &derived.scalar());
         Some(match law.kind {
-            LawKind::Stiffness | LawKind::Width | LawKind::NonNegative => {
+            LawKind::Stiffness | LawKind::Width | LawKind::NonNegative | LawKind::MassInSum => {
                 quote!({ #compute __check.#check(#label, #(#values)*); })
             }
             LawKind::Limits => quote!({ #compute __check.#check(#label, [#(#values),*]); }),
             _ => quote!({ #compute __check.#check(#label, &[#(#values),*]); }),
         })
     };
-    derived.laws.iter().filter_map(check).collect()
+    derived.laws.iter().filter(|law| of_kind(law.kind)).filter_map(check).collect()
 }
 
 /// `warnings()`.
@@ -84,7 +98,9 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             LawKind::Damping => (quote!(damping), law.values.clone()),
             LawKind::Attraction => (quote!(center), law.values.clone()),
             LawKind::Dissipation => (quote!(dissipation), in_states(law.values[0], symbols)),
-            LawKind::Stiffness | LawKind::Width | LawKind::Limits | LawKind::NonNegative => return None,
+            LawKind::Stiffness | LawKind::Width | LawKind::Limits | LawKind::NonNegative | LawKind::MassInSum => {
+                return None;
+            }
         };
         let (compute, values) = of_parameters(derived, symbols, &values)?;
         Some(match law.kind {

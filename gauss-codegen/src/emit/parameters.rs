@@ -5,8 +5,7 @@ use quote::quote;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
-use crate::mechanics::Matter;
-use crate::model::{BodyClause, ExpressionKind, Field, Model, Motion, ParticleClause, Role, Shape};
+use crate::model::{Field, Model, Role, Shape};
 use crate::words::Unraw;
 
 use super::derived::{Derived, KernelGenerics};
@@ -30,7 +29,7 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
         role_check(derived, model, clause.role, clause.shape, label, &name)
     }));
     checks.extend(body_clauses(derived, &symbols));
-    checks.extend(particles(derived, &symbols));
+    checks.extend(laws::masses(derived, &symbols));
     checks.extend(fluid(derived, &symbols));
     checks.extend(kinetic_matrix(derived, &symbols));
     checks.extend(laws::checked(derived, &symbols));
@@ -62,24 +61,6 @@ fn field_check(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStrea
     }
 }
 
-/// What must hold of the masses of particles.
-fn particles(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
-    let Subject { model, system, .. } = &derived.subject;
-    let masses = system.scene.tree.links.iter().filter_map(|link| match link.matter {
-        Matter::Particle(mass) => Some(mass),
-        _ => None,
-    });
-    let check = |(clause, mass): (&ParticleClause, Expr<'_>)| {
-        let label = match &clause.mass.kind {
-            ExpressionKind::Name(name) => name.unraw().to_string(),
-            _ => "particle(mass = …)".to_owned(),
-        };
-        let (compute, mass) = evaluate(derived, symbols, mass);
-        quote!({ #compute __check.mass_in_sum(#label, #mass); })
-    };
-    model.particles.iter().zip(masses).map(check).collect()
-}
-
 /// The constants computed and checked: together, parameters that are fine one by one can overflow. `label` is the field that
 /// speaks for them.
 pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, label: &str) -> TokenStream {
@@ -99,7 +80,7 @@ pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, lab
 
 /// Bodies some of which have no mass have a mass matrix all the same; where there is one body alone that is checked of it.
 fn sum(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    if derived.subject.model.one_body().is_some() {
+    if derived.subject.system.scene.chart().is_some() {
         return None;
     }
     let (private, kernel) = (derived.private(), derived.kernel_name());
@@ -123,7 +104,7 @@ fn role_check(
     name: &Ident,
 ) -> TokenStream {
     match (role, shape) {
-        (Role::Mass, _) if model.one_body().is_some() => quote!(__check.mass(#label, #name);),
+        (Role::Mass, _) if derived.subject.system.scene.chart().is_some() => quote!(__check.mass(#label, #name);),
         (Role::Mass, _) => quote!(__check.mass_in_sum(#label, #name);),
         (Role::DisplacedMass, _) => quote!(__check.non_negative(#label, #name);),
         (Role::Inertia | Role::CentralInertia, shape) => {
@@ -143,22 +124,19 @@ fn role_check(
 fn inertia_check(derived: &Derived<'_, '_>, model: &Model, role: Role, label: &str) -> TokenStream {
     let zero = derived.scalar().number(&Rational::zero());
     let local = |role: Role| local_of(model, role).map(|name| quote!(#name));
-    let motion = model.in_chart.map(|own| own.motion);
+    let (scene, link) = (&derived.subject.system.scene, derived.subject.link(None));
     // Where O is held at Ω only m·c and I_O enter, and m by itself says nothing.
-    let placed = |body: &BodyClause| body.name.is_none() && body.position.is_none() && body.parent.is_none();
-    let held = match motion {
-        Some(motion) => motion == Motion::FixedPoint,
-        None => model.bodies.iter().any(placed),
-    };
+    let held = link.is_some_and(|link| scene.is_held(link));
     let mass = local(Role::Mass).filter(|_| !held).unwrap_or_else(|| zero.clone());
     let central = role == Role::CentralInertia;
     let center = local(Role::CenterOfMass).filter(|_| !held && !central).unwrap_or_else(|| quote!([#zero; 3]));
-    if model.one_body().is_none() {
+    if scene.chart().is_none() {
         return in_sum(derived, None, label, [&mass, &center, &quote!(__inertia)]);
     }
-    let checks = match motion {
+    let twist = link.map(|link| scene.twist_of(link)).unwrap_or_default();
+    let checks = match twist.as_slice() {
         // In the plane only the moment about k₃ enters, but all that is given is that of a body.
-        Some(Motion::Planar) => quote! {
+        [0, 1, 5] => quote! {
             let __moment = __inertia[2usize][2usize];
             __check.inertia(#label, &[[__moment, #zero, #zero], [#zero, __moment, #zero], [#zero, #zero, __moment]]);
             __check.inertia_about_axis(#label, 2usize, (#mass, #center), &__inertia);
@@ -167,7 +145,7 @@ fn inertia_check(derived: &Derived<'_, '_>, model: &Model, role: Role, label: &s
             let mass = local(Role::Mass);
             quote!(__check.central_inertia(#label, #mass, [#zero; 3], &__inertia);)
         }
-        Some(Motion::Free) if local(Role::CenterOfMass).is_some() => quote! {
+        _ if !held && local(Role::CenterOfMass).is_some() => quote! {
             __check.inertia(#label, &__inertia);
             __check.central_inertia(#label, #mass, #center, &__inertia);
         },
@@ -191,11 +169,6 @@ fn finite_value(shape: Shape, label: &str, name: &Ident) -> TokenStream {
         Shape::Vector3 | Shape::Vector6 => quote!(__check.finite(#label, &#name);),
         _ => quote!(for __row in &#name { __check.finite(#label, __row); }),
     }
-}
-
-fn evaluate(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, e: Expr<'_>) -> (TokenStream, TokenStream) {
-    let (compute, outputs) = statements(&Program::lower(&[e]), symbols, &derived.scalar());
-    (compute, quote!(#(#outputs)*))
 }
 
 /// The matrix of the kinetic energy of the body without a name, on the axes of its motion: with a centre of mass off O its parts can be

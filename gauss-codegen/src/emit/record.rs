@@ -7,34 +7,9 @@ use super::derived::{Derived, KernelGenerics};
 use crate::words::Unraw;
 
 /// One field.
-pub struct Part {
-    pub ident: Ident,
-    pub kind: PartKind,
-    /// What it is, in words.
-    pub label: String,
-}
-
-/// What a field is.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum PartKind {
-    Scalar,
-    /// This many numbers.
-    Vector(usize),
-    Rotation,
-    Pose,
-    Plane,
-}
+pub use crate::translate::{Quantity as Part, QuantityKind as PartKind};
 
 impl Part {
-    pub fn new(ident: Ident, kind: PartKind, label: impl Into<String>) -> Self {
-        Self { ident, kind, label: label.into() }
-    }
-
-    /// How many numbers of a vector it is.
-    pub fn size(&self) -> usize {
-        if let PartKind::Vector(size) = self.kind { size } else { 1 }
-    }
-
     fn ty(&self, private: &TokenStream, ty: &TokenStream) -> TokenStream {
         match self.kind {
             PartKind::Scalar => ty.clone(),

@@ -20,8 +20,9 @@ pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 
 /// Of one body in a chart, or where its pose is the only coordinate: both ways are known.
 fn placed_by_chart(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    derived.subject.system.rigid_body()?;
-    let (pose, configuration) = pose_bodies(derived, derived.subject.model.one_body())?;
+    let system = derived.subject.system;
+    system.rigid_body()?;
+    let (pose, configuration) = pose_bodies(derived, system.scene.chart())?;
     let private = derived.private();
     let speeds = derived.function(Method::Speeds, quote!(Self::Speeds));
     let pose = pose_function(derived, pose);

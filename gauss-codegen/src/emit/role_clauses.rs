@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use crate::algebra::Map;
 use crate::kernel::Program;
 use crate::mechanics::{KineticMatrix, QuantityValues};
-use crate::model::{Motion, Role, Shape};
+use crate::model::{Role, Shape};
 
 use super::derived::Derived;
 use super::inertia::{inertia_rows, named_body, own_matrix};
@@ -58,16 +58,10 @@ pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> Toke
             };
             checks.extend(quote!({ #value #check }));
         }
-        let link = &subject.system.scene.tree.links[subject.links[clause]];
+        let (scene, number) = (&subject.system.scene, subject.links[clause]);
+        let link = &scene.tree.links[number];
         let Some(body) = link.body().filter(|body| body.added_mass.is_some()) else { continue };
-        let active = match model.in_chart.filter(|_| model.is_in_chart(written)).map(|own| own.motion) {
-            Some(Motion::Planar) => vec![0, 1, 5],
-            Some(Motion::FixedPoint) => vec![3, 4, 5],
-            _ => match link.only_axis() {
-                Some(axis) => vec![(axis + 1) % 3, (axis + 2) % 3, 3 + axis],
-                None => (0..6).collect(),
-            },
-        };
+        let active = scene.twist_of(number);
         let matrix = KineticMatrix::new(link.frame.graph, body, &[0, 1, 2], &[3, 4, 5]);
         let entries: Vec<_> = active
             .iter()

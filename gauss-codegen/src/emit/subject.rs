@@ -6,7 +6,7 @@ use quote::quote;
 use crate::algebra::{Expr, Rational};
 use crate::mechanics::{Constraints, Coordinate, Method, QuantityValues, System};
 use crate::model::{BodyClause, Model, Role};
-use crate::translate::Source;
+use crate::translate::{Quantity, Source};
 use crate::words::Unraw;
 
 use super::arguments::Argument;
@@ -26,8 +26,8 @@ pub struct Subject<'a, 'g> {
     /// Mass data that are written in clauses: of the body without a name, and of each of the others.
     pub values: &'a [QuantityValues<'g>],
     pub body_values: &'a [Vec<QuantityValues<'g>>],
-    /// Which of the speeds that are declared are speeds of the system: not those that constraints determine.
-    pub kept_speeds: Vec<usize>,
+    /// Coordinates and speeds, as their author calls them.
+    pub state: &'a [Vec<Quantity>; 2],
     /// Which link each clause of a body or frame became.
     pub links: &'a [usize],
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate.
@@ -177,16 +177,21 @@ impl<'g> Subject<'_, 'g> {
 
     /// The chart that the speeds belong to.
     pub fn chart_tokens(&self, private: &TokenStream) -> TokenStream {
-        match self.model.one_body() {
+        match self.system.scene.chart() {
             Some(own) => chart_tokens(private, own.chart),
             None => quote!(#private::Chart::Own),
         }
     }
 
+    /// The link of the body of that name (the unnamed one).
+    pub fn link(&self, name: Option<&Ident>) -> Option<usize> {
+        let clause = self.model.bodies.iter().position(|body| body.name.as_ref() == name)?;
+        Some(self.links[clause])
+    }
+
     /// The only body axis that the body of that name (the unnamed one) turns about.
     pub fn only_axis(&self, name: Option<&Ident>) -> Option<usize> {
-        let clause = self.model.bodies.iter().position(|body| body.name.as_ref() == name)?;
-        self.system.scene.tree.links[self.links[clause]].only_axis()
+        self.system.scene.tree.links[self.link(name)?].only_axis()
     }
 
     /// What a role of a body is called: by its field, or by its word after the name of the body.

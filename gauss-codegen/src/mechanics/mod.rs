@@ -71,5 +71,5 @@ pub use loads::observed::Observed;
 pub use matter::body::{Body, BodyShape, ParameterSymbol, QuantityValues};
 pub use matter::rotor::Rotor;
 pub use print::names::Name;
-pub use scene::{Coordinate, Lettering, SystemScene};
+pub use scene::{Charted, Coordinate, SystemScene};
 pub use system::System;

@@ -1,8 +1,10 @@
 //! A system as it is given: coordinates, speeds, ψ, links, constraints and loads, in symbols.
 
 use crate::algebra::{Expr, Graph, Map, Substitution};
+use crate::model::{InChart, Motion};
+
 use crate::mechanics::constraints::constraint::Constraint;
-use crate::mechanics::kinematics::vector::Triple;
+use crate::mechanics::kinematics::vector::{Triple, is_zero};
 use crate::mechanics::links::link::{Matter, Placement};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::Element;
@@ -58,13 +60,13 @@ impl<'g> Coordinate<'g> {
     }
 }
 
-/// How a system's equations are written for people.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lettering {
-    /// With (u, ω), (Q, Γ) and (R, M) of its only body, after the textbooks.
-    Textbook,
-    /// With p and F of what its author named.
-    Declared,
+/// A body whose pose is given in a chart of its own.
+#[derive(Clone, Copy)]
+pub struct Charted {
+    pub link: usize,
+    pub own: InChart,
+    /// Nothing else has matter or coordinates and nothing constrains it: the configuration is its pose.
+    pub alone: bool,
 }
 
 /// A system as it is given: every expression in terms of t, q, z and parameters.
@@ -74,7 +76,7 @@ pub struct SystemScene<'g> {
     pub coordinates: Vec<Coordinate<'g>>,
     pub coordinate_names: Vec<Name>,
     pub speeds: Vec<Expr<'g>>,
-    pub lettering: Lettering,
+    pub charted: Option<Charted>,
     /// What the momenta and the forces are called.
     pub momentum_names: Vec<Name>,
     pub force_names: Vec<Name>,
@@ -136,7 +138,7 @@ impl<'g> SystemScene<'g> {
             time: self.time,
             coordinates: self.coordinates.clone(),
             coordinate_names: self.coordinate_names.clone(),
-            lettering: self.lettering,
+            charted: self.charted,
             momentum_names: names(&self.momentum_names),
             force_names: names(&self.force_names),
             speed_rates: pick(&self.speed_rates),
@@ -148,6 +150,35 @@ impl<'g> SystemScene<'g> {
             constraints: Vec::new(),
             inputs: self.inputs.clone(),
             elements,
+        }
+    }
+
+    /// The chart that the configuration is, where it is the pose of the only body.
+    pub fn chart(&self) -> Option<InChart> {
+        self.charted.filter(|charted| charted.alone).map(|charted| charted.own)
+    }
+
+    fn motion_of(&self, link: usize) -> Option<Motion> {
+        self.charted.filter(|charted| charted.link == link).map(|charted| charted.own.motion)
+    }
+
+    /// Components of the twist (u, ω) that a link can have, body axes.
+    pub fn twist_of(&self, link: usize) -> Vec<usize> {
+        match self.motion_of(link) {
+            Some(Motion::Planar) => vec![0, 1, 5],
+            Some(Motion::FixedPoint) => vec![3, 4, 5],
+            Some(Motion::Free) | None => match self.tree.links[link].only_axis() {
+                Some(axis) => vec![(axis + 1) % 3, (axis + 2) % 3, 3 + axis],
+                None => (0..6).collect(),
+            },
+        }
+    }
+
+    /// Whether O of a link stays at Ω: its mass enters by m c and I_O alone.
+    pub fn is_held(&self, link: usize) -> bool {
+        match self.motion_of(link) {
+            Some(motion) => motion == Motion::FixedPoint,
+            None => self.tree.links[link].parent.is_none() && is_zero(&self.tree.links[link].position),
         }
     }
 

@@ -17,7 +17,7 @@ use crate::mechanics::links::tree::{Tree, UnderWay};
 use crate::mechanics::links::working::Working;
 use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
-use crate::mechanics::scene::{Coordinate, Lettering, SystemScene};
+use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::tidy::{compact, sums, tidy};
 
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
@@ -125,7 +125,7 @@ impl<'g> System<'g> {
             [coordinate] => body.is_placed_by(coordinate),
             _ => false,
         };
-        (placed || self.scene.lettering == Lettering::Textbook).then_some(body)
+        (placed || self.scene.chart().is_some()).then_some(body)
     }
 
     pub fn formulas(&self) -> Formulas<'g> {

@@ -1,7 +1,7 @@
 //! Every formula of every chart, motion and body against the literal Gauss condition at random states.
 
 use crate::algebra::{Evaluation, Expr, Graph, Map};
-use crate::model::{Chart, Motion, Role, RotationChart, Shape};
+use crate::model::{Chart, InChart, Motion, Role, RotationChart, Shape};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::check::definition::gauss_condition;
@@ -13,7 +13,7 @@ use crate::mechanics::links::link::Matter;
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::Element;
 use crate::mechanics::matter::body::{Body, BodyShape};
-use crate::mechanics::scene::{Coordinate, Lettering, SystemScene};
+use crate::mechanics::scene::{Charted as InScene, Coordinate, SystemScene};
 use crate::mechanics::system::System;
 
 pub fn rotation_charts() -> Vec<RotationChart> {
@@ -99,6 +99,7 @@ impl<'g> Charted<'g> {
     ) -> Self {
         let body = Body::new(graph, shape, if motion == Motion::Planar { 1 } else { 2 });
         let time = graph.symbol("t", "t", false);
+        let own = InChart { chart, motion };
         let chart = ChartedBody::new(graph, motion, chart);
         let kinematics = &chart.kinematics;
         let placement = chart.placement(Matter::Body(Box::new(body.clone())), true);
@@ -114,7 +115,7 @@ impl<'g> Charted<'g> {
             coordinates: chart.coordinates.clone(),
             coordinate_names: chart.coordinate_names.clone(),
             speeds,
-            lettering: Lettering::Textbook,
+            charted: Some(InScene { link: 0, own, alone: true }),
             momentum_names: chart.momentum_names.clone(),
             force_names: chart.force_names.clone(),
             speed_rates: kinematics.speed_rates.clone(),

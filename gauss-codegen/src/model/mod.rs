@@ -33,7 +33,7 @@ pub use robots::exact;
 pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceAxes, ForceClause, ForceKind,
-    FunctionClause, FunctionKind, InputKind, InputName, ParticleClause, RoleClause, RoleValue, SpeedKind, SpeedPart,
+    FunctionClause, FunctionKind, InputKind, InputName, RoleClause, RoleValue, SpeedKind, SpeedPart,
 };
 pub use scene::described::{BodyOfFile, Described, Remark, StateOfFile, ValueOfState};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};

@@ -1,4 +1,4 @@
-//! Constants of springs, stops and other elements, for what `kernel()` checks and `warnings()` finds.
+//! Constants of springs, stops and other elements, and masses of particles, for what `kernel()` checks and `warnings()` finds.
 
 use crate::algebra::Expr;
 
@@ -25,6 +25,8 @@ pub enum LawKind {
     Damping,
     /// An armature, or the level of dry friction.
     NonNegative,
+    /// The mass of a particle.
+    MassInSum,
     /// A whole dissipation function, of the state too.
     Dissipation,
     /// A gravitational parameter.

@@ -11,7 +11,7 @@
 //! - `domains`: expressions without a value; `notes`: what is noted on the way.
 //! - `forces`: what acts.
 //! - `laws`, `drag`: constants of what acts, for checks and warnings.
-//! - `parameters`: what the numbers of fields are called.
+//! - `parameters`: what the numbers of fields are called; `state`: what coordinates and speeds are called.
 //! - `placements`: where bodies, frames and points are.
 
 mod blame;
@@ -24,6 +24,7 @@ mod mass_data;
 mod notes;
 mod parameters;
 mod placements;
+mod state;
 mod symbols;
 mod translated;
 mod translator;
@@ -33,6 +34,7 @@ mod values;
 pub use drag::DragMatrix;
 pub use laws::{Law, LawKind};
 pub use parameters::Parameter;
+pub use state::{Quantity, QuantityKind};
 pub use symbols::{Part, Source};
 pub use translated::{Given, SpeedName, Translated};
 pub use translator::translate;

@@ -9,6 +9,7 @@ use crate::model::Model;
 use super::drag::DragMatrix;
 use super::laws::Law;
 use super::parameters::Parameter;
+use super::state::Quantity;
 use super::symbols::Source;
 
 /// A system in symbols.
@@ -40,6 +41,8 @@ pub struct Given<'a, 'g> {
     pub frames: Vec<usize>,
     /// What the speeds are called.
     pub speeds: Vec<SpeedName>,
+    /// Coordinates and speeds of a state.
+    pub state: [Vec<Quantity>; 2],
     /// Indices of the speeds that stay where constraints are solved for the others.
     pub independent: Option<Vec<usize>>,
 }

@@ -8,14 +8,16 @@ use quote::format_ident;
 use crate::algebra::{Expr, Graph, Map, OwnFunction};
 use crate::error::{Error, Result};
 use crate::mechanics::{
-    ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Lettering, Matter, Observed, Placement, SystemScene,
+    Charted, ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Matter, Observed, Placement, SystemScene,
     Tree, Turn,
 };
-use crate::model::{self, FunctionClause, InChart, Model, SpeedPart};
+use crate::model::{self, ExpressionKind, FunctionClause, InChart, Model, SpeedPart};
 use crate::words::Unraw;
 
+use super::laws::{Law, LawKind};
 use super::notes::Notes;
 use super::parameters::parameters;
+use super::state::quantities;
 use super::symbols::{self, Declared};
 use super::translated::{Given, SpeedName, Translated};
 use super::value::{Piece, Value};
@@ -59,6 +61,7 @@ pub fn translate<'a, 'g>(graph: &'g Graph, model: &'a Model) -> Result<Translate
             links,
             frames,
             speeds,
+            state: quantities(model, independent.as_deref()),
             independent,
         },
     })
@@ -169,9 +172,15 @@ impl<'a, 'g> Translator<'a, 'g> {
         let mut tree = Tree::new(graph, placements, speeds.clone(), self.rates.clone(), self.declared.gravity);
         self.name_points(&tree)?;
         for clause in &model.particles {
+            let mass = self.scalar(&clause.mass, &tree)?;
+            let label = match &clause.mass.kind {
+                ExpressionKind::Name(name) => name.unraw().to_string(),
+                _ => "particle(mass = …)".to_owned(),
+            };
+            self.notes.add().laws.push(Law { label, kind: LawKind::MassInSum, values: vec![mass] });
             let parent = clause.parent.as_ref().and_then(|name| self.links.get(&name.unraw().to_string()).copied());
             tree.hang(Placement {
-                matter: Matter::Particle(self.scalar(&clause.mass, &tree)?),
+                matter: Matter::Particle(mass),
                 parent,
                 position: self.vector(&clause.position, &tree)?,
                 velocity: None,
@@ -191,7 +200,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             time: self.declared.time,
             coordinates: self.declared.coordinates.clone(),
             coordinate_names: self.declared.coordinate_names.clone(),
-            lettering: if model.one_body().is_some() { Lettering::Textbook } else { Lettering::Declared },
+            charted: self.charted(),
             momentum_names: self.declared.momentum_names.clone(),
             force_names: self.declared.force_names.clone(),
             speed_rates: self.declared.speed_rates.clone(),
@@ -204,6 +213,13 @@ impl<'a, 'g> Translator<'a, 'g> {
             inputs: self.declared.inputs.clone(),
             elements,
         })
+    }
+
+    /// The body in the chart.
+    fn charted(&self) -> Option<Charted> {
+        let clause = self.model.bodies.iter().position(|body| self.model.is_in_chart(body))?;
+        let alone = self.model.one_body().is_some();
+        Some(Charted { link: self.links_of_clauses[clause], own: self.model.in_chart?, alone })
     }
 
     /// What acts on the only body, whose motion a chart describes: translated in terms of symbols for it, so that each part of a

@@ -1,5 +1,5 @@
-//! No two files import each other, by whatever way round; `syn` is named where structs are read; no function is longer
-//! than a screen.
+//! No two files import each other, by whatever way round; `syn` is named where structs are read; `emit` does not ask how
+//! a scene was written; no function is longer than a screen.
 //!
 //! Of every file the names are looked up that it takes from others: in `use` declarations and in paths, through
 //! re-exports to the file that defines them. A module that only hands on is seen through; tests do not count.
@@ -70,6 +70,46 @@ fn syn_is_named_where_structs_are_read() {
     let named = modules.iter().map(|(_, module)| module).filter(|module| of_syn(module)).map(|module| &module.file);
     let files: BTreeSet<&str> = named.map(String::as_str).filter(|file| !file.starts_with("model/")).collect();
     assert_eq!(files, BTreeSet::from(ENTRANCES));
+}
+
+/// What `emit` takes from `model`: names of things, shapes of fields, and what is written down as it is.
+const WRITTEN_DOWN: [&str; 17] = [
+    "BodyClause",
+    "BodyOfFile",
+    "Described",
+    "Field",
+    "FunctionClause",
+    "FunctionKind",
+    "GenericsOfImpl",
+    "InputKind",
+    "InputName",
+    "Model",
+    "Remark",
+    "Role",
+    "Scalar",
+    "Shape",
+    "StateOfFile",
+    "ValueOfState",
+    "exact",
+];
+/// Files of `emit` that name the chart of a scene: for people, and where the runtime has functions for each.
+const OF_CHARTS: [&str; 3] = ["emit/chart.rs", "emit/documentation.rs", "emit/pose.rs"];
+const CHARTS: [&str; 4] = ["Chart", "InChart", "Motion", "RotationChart"];
+
+#[test]
+fn emission_does_not_ask_how_a_scene_was_written() {
+    let modules = Modules::of(&here().join("src"));
+    let mut found = String::new();
+    for module in modules.iter().map(|(_, module)| module).filter(|module| module.file.starts_with("emit/")) {
+        let charts: &[&str] = if OF_CHARTS.contains(&module.file.as_str()) { &CHARTS } else { &[] };
+        for path in paths(module).iter().filter(|path| path.len() > 1 && path[..2] == ["crate", "model"]) {
+            let name = path.get(2).map_or("all of it", String::as_str);
+            if !charts.contains(&name) && !WRITTEN_DOWN.contains(&name) {
+                found += &format!("{} names {name}\n", module.file);
+            }
+        }
+    }
+    assert!(found.is_empty(), "\n{found}");
 }
 
 /// Lines that a function may have between its braces.

@@ -6,7 +6,6 @@ use crate::mechanics::tidy::{LIMIT, legible, readable};
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::print::names::Name;
-use crate::mechanics::scene::Lettering;
 use crate::mechanics::system::System;
 
 /// One line.
@@ -119,8 +118,8 @@ fn element_section<'g>(account: &Account<'g>, names: &[Name]) -> Option<Section<
 impl<'g> System<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
     pub fn equations(&self) -> Page<'g> {
-        let textbook = self.scene.lettering == Lettering::Textbook;
-        let mut sections = match self.only_body().filter(|_| textbook) {
+        // One body in a chart has the letters of textbooks, everything else those of its author.
+        let mut sections = match self.only_body().filter(|_| self.scene.chart().is_some()) {
             Some(body) => Textbook { system: self, body }.sections(),
             None => self.sections(),
         };

@@ -10,7 +10,7 @@ use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::{Action, Element};
 use crate::mechanics::matter::body::{Body, BodyShape};
 use crate::mechanics::print::names::Name;
-use crate::mechanics::scene::{Coordinate, Lettering, SystemScene};
+use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::model::{Role, Shape};
 
 use super::plan::{ConstraintPlan, CoordinateKind, LinkPlan, MatterPlan, Place, Plan, Solid, TurnPlan};
@@ -160,7 +160,7 @@ impl<'g> Symbols<'g> {
             time: self.time,
             coordinate_names: names("q", coordinates.len()),
             speeds: pick(&self.speeds),
-            lettering: Lettering::Declared,
+            charted: None,
             momentum_names: names("p", kept.len()),
             force_names: names("F", kept.len()),
             speed_rates: pick(&self.speed_rates),
