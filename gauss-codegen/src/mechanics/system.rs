@@ -79,7 +79,7 @@ impl<'g> System<'g> {
         let at_rest = system.at_rest();
         let mut velocities = system.constraints.on_velocities.clone();
         // The velocities of a free link are homogeneous in its speeds.
-        if system.only_body().is_none() {
+        if system.lone_link().is_none() {
             velocities.extend(system.momentum());
             velocities.push(system.scene.tree.twice_kinetic_energy());
         }
@@ -97,7 +97,7 @@ impl<'g> System<'g> {
     }
 
     fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
-        if let Some(body) = self.only_body().filter(|_| self.constraints.is_empty()) {
+        if let Some(body) = self.lone_link().filter(|_| self.constraints.is_empty()) {
             let entries = body.mass_matrix(&body.momentum());
             return entries.chunks(self.scene.speeds.len()).map(<[Expr<'g>]>::to_vec).collect();
         }
@@ -110,7 +110,7 @@ impl<'g> System<'g> {
     }
 
     /// The free link that is all of the system.
-    pub fn only_body(&self) -> Option<&FreeLink<'g>> {
+    pub fn lone_link(&self) -> Option<&FreeLink<'g>> {
         match self.free.as_slice() {
             [body] if body.block.len() == self.scene.speeds.len() && self.scene.tree.links.len() == 1 => Some(body),
             _ => None,
@@ -120,7 +120,7 @@ impl<'g> System<'g> {
     /// The body that is all of the system, where the configuration is known to be its pose: in a chart, or with the pose or the rotation for
     /// its only coordinate.
     pub fn rigid_body(&self) -> Option<&FreeLink<'g>> {
-        let body = self.only_body().filter(|_| self.constraints.is_empty())?;
+        let body = self.lone_link().filter(|_| self.constraints.is_empty())?;
         let placed = match self.scene.coordinates.as_slice() {
             [coordinate] => body.is_placed_by(coordinate),
             _ => false,
@@ -238,7 +238,7 @@ impl<'g> System<'g> {
 
     /// `∫∂v_P/∂z·dF` of the elements alone.
     pub fn element_forces(&self) -> Vec<Expr<'g>> {
-        if let Some(body) = self.only_body() {
+        if let Some(body) = self.lone_link() {
             return body.load_forces();
         }
         self.element_forces_in_general()
@@ -250,7 +250,7 @@ impl<'g> System<'g> {
 
     /// ∂C/∂ż of the unconstrained C without the elements of what acts: inertia, weight and buoyancy.
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
-        if let Some(body) = self.only_body() {
+        if let Some(body) = self.lone_link() {
             return body.inertial_residuals();
         }
         let tree = self.tree();
@@ -386,7 +386,7 @@ impl<'g> System<'g> {
     }
 
     fn elements_of<'a>(&self, tree: &'a Tree<'g>) -> Option<Elements<'a, 'g>> {
-        let several = self.scene.speeds.len() > 1 && self.only_body().is_none();
+        let several = self.scene.speeds.len() > 1 && self.lone_link().is_none();
         let lengths = if several { self.lengths() } else { Vec::new() };
         let far = |a: &Vector<'g>| {
             let mut parts = a.body.iter().chain(&a.space);

@@ -217,7 +217,7 @@ impl<'g> Declared<'g> {
         for (field, Field { ident, role, shape, .. }) in model.fields.iter().enumerate() {
             // Of a body without a name gravity is among its symbols.
             let known = role.is_some() && self.gravity.is_some();
-            let unread = role.is_none() && model.one_body().is_some() && !model.has_expressions();
+            let unread = role.is_none() && model.chart_of_all().is_some() && !model.has_expressions();
             if known || unread || !matches!(role, None | Some(Role::Gravity)) {
                 continue;
             }

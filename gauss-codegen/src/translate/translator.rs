@@ -189,7 +189,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             });
         }
         tree.rotors = self.rotors(&tree)?;
-        let elements = match (model.one_body(), self.chart()) {
+        let elements = match (model.chart_of_all(), self.chart()) {
             (Some(_), Some(chart)) => self.elements_on(chart)?,
             _ => self.elements(&tree)?.into_iter().map(|(_, element)| element).collect(),
         };
@@ -218,7 +218,7 @@ impl<'a, 'g> Translator<'a, 'g> {
     /// The body in the chart.
     fn charted(&self) -> Option<Charted> {
         let clause = self.model.bodies.iter().position(|body| self.model.is_in_chart(body))?;
-        let alone = self.model.one_body().is_some();
+        let alone = self.model.chart_of_all().is_some();
         Some(Charted { link: self.links_of_clauses[clause], own: self.model.in_chart?, alone })
     }
 

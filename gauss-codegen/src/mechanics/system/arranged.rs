@@ -1,35 +1,107 @@
-//! Every method in the arrangements that are worth trying.
+//! Every method in the arrangements that are worth trying: each says when it applies, and gives candidates.
 
 use crate::algebra::{Expr, Map};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
-use crate::mechanics::formula::Formulas;
+use crate::mechanics::formula::{Arrangements, Formulas};
 use crate::mechanics::links::tree::Tree;
 
 use super::{System, tidied};
 
-impl<'g> System<'g> {
-    /// Everything in the arrangements that are worth trying.
-    pub(super) fn arranged(&self) -> Formulas<'g> {
-        let Some(body) = self.only_body() else {
-            let mut general = self.arranged_in_general();
-            if self.constraints.is_empty() && !self.free.is_empty() {
-                self.put_free_links(&mut general);
-            }
-            return general;
+/// A way to form the methods of a system.
+trait Arrangement<'g> {
+    fn applies(&self, system: &System<'g>) -> bool;
+
+    /// Candidates of each method, beside those of the arrangements before; none of a method that is not formed so.
+    fn candidates(&self, system: &System<'g>, before: &Formulas<'g>) -> Formulas<'g>;
+
+    /// Whether its candidates are listed first, as those are from which others take rows.
+    fn leads(&self) -> bool {
+        false
+    }
+}
+
+/// Sums over links, A factored densely, link by link or by squares.
+struct OverLinks;
+
+/// The same with the rows of each free link as its own balance has them.
+struct RowsOfFreeLinks;
+
+/// The balance of the free link that is all of the system.
+struct BalanceOfAll;
+
+impl<'g> Arrangement<'g> for OverLinks {
+    fn applies(&self, system: &System<'g>) -> bool {
+        system.lone_link().is_none() || !system.constraints.is_empty()
+    }
+
+    fn candidates(&self, system: &System<'g>, _: &Formulas<'g>) -> Formulas<'g> {
+        system.arranged_over_links()
+    }
+
+    fn leads(&self) -> bool {
+        true
+    }
+}
+
+impl<'g> Arrangement<'g> for RowsOfFreeLinks {
+    fn applies(&self, system: &System<'g>) -> bool {
+        system.lone_link().is_none() && system.constraints.is_empty() && !system.free.is_empty()
+    }
+
+    fn candidates(&self, system: &System<'g>, before: &Formulas<'g>) -> Formulas<'g> {
+        let balances: Vec<_> = system.free.iter().map(|free| (free, free.balances())).collect();
+        let of_all = |f: &dyn Fn(&FreeLink<'g>) -> Arrangements<'g>| -> Vec<Arrangements<'g>> {
+            system.free.iter().map(f).collect()
         };
-        let of_body = self.arranged_as_body(body);
-        if self.constraints.is_empty() {
+        let accelerations = balances.iter().map(|(free, b)| b.iter().map(|b| free.acceleration(b)).collect()).collect();
+        let residuals = of_all(&|free| free.residuals().into());
+        let mut formulas = Formulas {
+            acceleration: system.with_rows(&before.acceleration, accelerations),
+            gauss_residual: system.with_rows(&before.gauss_residual, residuals),
+            momentum: system.with_rows(&before.momentum, of_all(&|free| vec![free.momentum()])),
+            velocity: system.with_rows(&before.velocity, of_all(&|free| free.velocities_of_momentum())),
+            ..Formulas::none()
+        };
+        if let Some(velocity) = formulas.velocity.last() {
+            let speeds = system.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
+            let rates = of_all(&|free| free.momentum_rates(&speeds));
+            formulas.momentum_rate = system.with_rows(&before.momentum_rate, rates);
+        }
+        formulas
+    }
+}
+
+impl<'g> Arrangement<'g> for BalanceOfAll {
+    fn applies(&self, system: &System<'g>) -> bool {
+        system.lone_link().is_some()
+    }
+
+    fn candidates(&self, system: &System<'g>, _: &Formulas<'g>) -> Formulas<'g> {
+        let Some(body) = system.lone_link() else { return Formulas::none() };
+        let of_body = system.arranged_as_body(body);
+        if system.constraints.is_empty() {
             return of_body;
         }
         // Multipliers are found together with the accelerations.
-        let mut arranged = self.arranged_in_general();
-        arranged.momentum.extend(of_body.momentum);
-        arranged.velocity.extend(of_body.velocity);
-        arranged.mass_matrix.extend(of_body.mass_matrix);
-        arranged.kinetic_energy.extend(of_body.kinetic_energy);
-        arranged.potential_energy.extend(of_body.potential_energy);
-        arranged
+        let Formulas { momentum, velocity, mass_matrix, kinetic_energy, potential_energy, .. } = of_body;
+        Formulas { momentum, velocity, mass_matrix, kinetic_energy, potential_energy, ..Formulas::none() }
+    }
+}
+
+impl<'g> System<'g> {
+    /// Everything in the arrangements that are worth trying.
+    pub(super) fn arranged(&self) -> Formulas<'g> {
+        let all: [&dyn Arrangement<'g>; 3] = [&BalanceOfAll, &OverLinks, &RowsOfFreeLinks];
+        let mut formulas = Formulas::none();
+        for arrangement in all.into_iter().filter(|arrangement| arrangement.applies(self)) {
+            let mut candidates = arrangement.candidates(self, &formulas);
+            if arrangement.leads() {
+                std::mem::swap(&mut candidates, &mut formulas);
+            }
+            formulas.add(candidates);
+        }
+        formulas
     }
 
     /// Of the only body, which is free.
@@ -61,7 +133,7 @@ impl<'g> System<'g> {
         }
     }
 
-    fn arranged_in_general(&self) -> Formulas<'g> {
+    fn arranged_over_links(&self) -> Formulas<'g> {
         let arrangements = self.arrangements();
         let momentum = self.momentum();
         let velocity = self.velocities(&momentum);
@@ -92,34 +164,17 @@ impl<'g> System<'g> {
         compact.iter().chain([&self.matrix]).flat_map(|matrix| self.solutions(matrix, &right)).collect()
     }
 
-    /// In the place of the rows of free links what they are in their arrangements.
-    fn put_free_links(&self, arranged: &mut Formulas<'g>) {
-        let balances: Vec<_> = self.free.iter().map(|free| (free, free.balances())).collect();
-        let of_all = |f: &dyn Fn(&FreeLink<'g>) -> Vec<Vec<Expr<'g>>>| -> Vec<Vec<Vec<Expr<'g>>>> {
-            self.free.iter().map(f).collect()
-        };
-        let accelerations = balances.iter().map(|(free, b)| b.iter().map(|b| free.acceleration(b)).collect()).collect();
-        let residuals = self.free.iter().map(|free| free.residuals().into()).collect();
-        self.put(&mut arranged.acceleration, accelerations);
-        self.put(&mut arranged.gauss_residual, residuals);
-        self.put(&mut arranged.momentum, of_all(&|free| vec![free.momentum()]));
-        self.put(&mut arranged.velocity, of_all(&|free| free.velocities_of_momentum()));
-        let velocity = arranged.velocity.last().expect("a way at least");
-        let speeds = self.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
-        self.put(&mut arranged.momentum_rate, of_all(&|free| free.momentum_rates(&speeds)));
-    }
-
-    /// Adds arrangements of the first one with rows of free links replaced.
-    fn put(&self, arrangements: &mut Vec<Vec<Expr<'g>>>, of_free: Vec<Vec<Vec<Expr<'g>>>>) {
-        let base = arrangements[0].clone();
+    /// The first of the arrangements, with the rows of free links as these have them.
+    fn with_rows(&self, before: &Arrangements<'g>, of_free: Vec<Arrangements<'g>>) -> Arrangements<'g> {
         let most = of_free.iter().map(Vec::len).max().unwrap_or(0);
-        for k in 0..most {
-            let mut rows = base.clone();
+        let with_way = |k: usize| {
+            let mut rows = before[0].clone();
             for (free, ways) in self.free.iter().zip(&of_free) {
                 let way = &ways[k.min(ways.len() - 1)];
                 free.block.iter().zip(way).for_each(|(&z, e)| rows[z] = *e);
             }
-            arrangements.push(rows);
-        }
+            rows
+        };
+        (0..most).map(with_way).collect()
     }
 }

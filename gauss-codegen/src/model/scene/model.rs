@@ -106,7 +106,7 @@ impl Model {
     }
 
     /// One body in a chart, which nothing is attached to and nothing constrains.
-    pub fn one_body(&self) -> Option<InChart> {
+    pub fn chart_of_all(&self) -> Option<InChart> {
         let alone = self.bodies.len() == 1
             && self.coordinates.is_empty()
             && self.particles.is_empty()

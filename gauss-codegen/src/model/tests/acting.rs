@@ -52,7 +52,7 @@ fn the_same_body_as_a_system() {
     );
     assert_eq!(model.points[0].body, "body");
     assert!(model.coordinates.is_empty() && model.speeds.is_none() && model.kinematics.is_empty());
-    assert_eq!(model.one_body().map(|own| own.chart), Some(Chart::Jet(RotationChart::Euler([2, 1, 0]))));
+    assert_eq!(model.chart_of_all().map(|own| own.chart), Some(Chart::Jet(RotationChart::Euler([2, 1, 0]))));
     let [only] = model.bodies.as_slice() else { panic!("{} bodies", model.bodies.len()) };
     assert!(only.name.is_none() && !only.massless && only.parent.is_none());
     assert!(model.is_in_chart(only) && only.position.is_none() && only.rotation.is_none());

@@ -20,7 +20,7 @@ fn a_chart_with_all_that_systems_have() {
          independent(b_dot, omega, w), drive(bend = -bend), limit = 1000",
     ));
     assert_eq!(model.in_chart, Some(InChart { chart: Chart::Hybrid, motion: Motion::Free }));
-    assert!(model.one_body().is_none());
+    assert!(model.chart_of_all().is_none());
     let kinds: Vec<CoordinateKind> = model.coordinates.iter().map(|coordinate| coordinate.kind).collect();
     assert_eq!(kinds, [CoordinateKind::Scalar, CoordinateKind::Rotation]);
     let own: Vec<bool> = model.bodies.iter().map(|body| model.is_in_chart(body)).collect();
