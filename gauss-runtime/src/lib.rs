@@ -26,6 +26,20 @@
 //! Mathematics and numbers of equations: Massa & Vignolo, *Newton–Euler, Lagrange and Kirchhoff formulations of rigid body
 //! dynamics: a unified approach*.
 //!
+//! # Crates around this one
+//!
+//! Each has the version of this crate, and a page of its own.
+//!
+//! | crate | for |
+//! |---|---|
+//! | `gauss-batch` | many states of one scene at once: packs, threads, ensembles |
+//! | `gauss-tables` | runs as tables, plots and files (CSV, Arrow, Parquet) |
+//! | `gauss-playback`, `gauss-rerun` | motions as a page that plays; in the viewer Rerun |
+//! | `gauss-exact` | exact motions of free bodies and tops, splitting methods |
+//! | `gauss-adapters` | integrators, dual numbers and vectors of other crates |
+//! | `gauss-bounded` | a scalar that knows how many of its digits are right |
+//! | `gauss-tune` | the cheapest method for a scene, measured on it |
+//!
 //! # Features
 //!
 //! - `std` (default): elementary functions of the standard library; implies `alloc`.

@@ -9,8 +9,26 @@ use std::path::{Path, PathBuf};
 use gauss_tests::pages::{keep, repository};
 
 /// Folders whose Markdown pages are read.
-const FOLDERS: [&str; 8] =
-    ["", "docs", "guide/src", "tests", "tests/references", "gauss-codegen", "gauss-runtime/src", "examples"];
+const FOLDERS: [&str; 18] = [
+    "",
+    "docs",
+    "guide/src",
+    "tests",
+    "tests/references",
+    "gauss-codegen",
+    "gauss-runtime/src",
+    "examples",
+    "crates/gauss-adapters",
+    "crates/gauss-batch",
+    "crates/gauss-bounded",
+    "crates/gauss-exact",
+    "crates/gauss-files",
+    "crates/gauss-playback",
+    "crates/gauss-rerun",
+    "crates/gauss-tables",
+    "crates/gauss-tune",
+    "tools/cargo-gauss",
+];
 
 /// Columns of a line outside tables.
 const WIDTH: usize = 120;

@@ -190,7 +190,12 @@ impl Modules {
             }
         }
         if !module.names.contains_key(first) {
-            for glob in &module.globs {
+            // What other crates hand out is not defined here.
+            let is_here = |glob: &&Vec<String>| match glob[0].as_str() {
+                "crate" | "$crate" | "self" | "super" => true,
+                first => module.names.contains_key(first),
+            };
+            for glob in module.globs.iter().filter(is_here) {
                 self.follow(from, &[glob, path].concat(), seen, found);
             }
         }
