@@ -293,8 +293,8 @@ impl fmt::Display for ParameterWarning {
             ),
             Finding::GravityUpward => write!(
                 f,
-                "`{field}` is {value}: a gravity of one number is how fast things fall, so these fall upward; write its \
-                 magnitude, or a vector"
+                "`{field}` is {value}: a gravity of one number is how fast things fall, and a negative one makes them \
+                 fall upward; write its magnitude, or a vector"
             ),
             Finding::CenterRepels => write!(
                 f,

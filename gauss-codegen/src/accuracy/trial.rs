@@ -158,8 +158,9 @@ impl Trial {
         self.tried(programs).losses
     }
 
-    /// Programs that should compute the same, beside the best of them in 106 binary digits: what it loses of 53 it has to
-    /// spare there, unless that is nearly all.
+    /// Compares programs that should compute the same functions with a reference: the best of these programs, run in
+    /// 106 binary digits. The reference has 53 digits more than the programs, so it may lose nearly 53 before its error
+    /// counts; where it loses more, another program becomes the reference.
     pub fn tried(&self, programs: &[&Code<Expr<'_>>]) -> Tried {
         let tapes: Vec<Tape> = programs.iter().map(|program| Tape::new(program)).collect();
         let mut best = 0;

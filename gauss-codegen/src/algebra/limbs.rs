@@ -52,7 +52,7 @@ pub fn raised(mantissa: [u64; MANTISSA], by: usize) -> [u64; RAISED] {
     digits
 }
 
-/// Adds a mantissa to what has a word to spare or is raised so far that both do not overlap.
+/// Adds a mantissa to `digits`, which have a word to spare or are raised so far that both do not overlap.
 pub fn add(digits: &mut [u64; RAISED], mantissa: [u64; MANTISSA]) {
     let (mut carry, mut k) = (false, 0);
     while k < MANTISSA || carry && k < RAISED {
@@ -64,7 +64,7 @@ pub fn add(digits: &mut [u64; RAISED], mantissa: [u64; MANTISSA]) {
     }
 }
 
-/// Subtracts a mantissa, or from it where that is larger: whether it was.
+/// Replaces `digits` by |`digits` − `mantissa`|. True where the mantissa is larger, so that the caller turns the sign.
 pub fn subtract(digits: &mut [u64; RAISED], mantissa: [u64; MANTISSA]) -> bool {
     let (mut borrow, mut k) = (false, 0);
     while k < MANTISSA || borrow && k < RAISED {

@@ -105,7 +105,8 @@ pub struct Link<'g> {
     pub moments_in_body: Moments<'g>,
 }
 
-/// By what pole and in what axes a link is described, beside those that it is given by.
+/// The working pole and the working axes of a link, in which its sums are formed. The scene gives the link about its O
+/// and in body axes.
 pub struct Description<'g> {
     /// From O to the pole, body axes.
     pub shift: Triple<'g>,

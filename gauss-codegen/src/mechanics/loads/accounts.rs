@@ -9,7 +9,7 @@ use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::system::System;
 use crate::mechanics::tidy::sums;
 
-/// What is called that moves coordinates or constraints as a function of time.
+/// The name of the account of prescribed motion: coordinates and constraints that are given functions of time.
 const GUIDES: &str = "guides";
 
 /// One account of a name: what acts by a potential and by forces, as a spring with a damper does, is in the energy by the first.

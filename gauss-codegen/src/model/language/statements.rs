@@ -54,9 +54,9 @@ pub struct Statements {
     pub formal: Vec<Option<Ident>>,
     /// `damping = …` is written.
     damped: bool,
-    /// Some clause could not be read: what seems to be missing may be what it says.
+    /// Some clause could not be read. Then nothing is refused as missing, because the unread clause may declare it.
     pub missed: bool,
-    /// What clauses that could not be read were to say.
+    /// The kinds of the clauses that could not be read.
     unread: Vec<Statement>,
 }
 
@@ -141,7 +141,8 @@ pub fn form(word: &str) -> Option<String> {
 }
 
 impl Statement {
-    /// It says what moves: what it stands in is a system. The others are about whatever there is already.
+    /// Whether the clause declares a moving part: a struct with such a clause is a system. The other clauses add to a
+    /// system or to the one body of a chart, so they decide nothing.
     pub fn makes_system(self) -> bool {
         matches!(
             self,

@@ -255,7 +255,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Notes what is not in what it must be in: of a vector that is written out, component by component.
+    /// Compares the unit of an expression with the unit that its place needs, and notes a mistake where they differ. A
+    /// vector that is written out is compared component by component, so that the mistake is at the component.
     fn require(&mut self, expression: &Expression, need: &Need) {
         match &expression.kind {
             ExpressionKind::Vector(components) => {

@@ -30,7 +30,7 @@ pub type Emit<'a, S> = dyn FnMut(&State<S>, &Rates<S>, Taken) -> ControlFlow<()>
 
 /// A method with its choice of steps, which carries a state to the end of an interval.
 #[diagnostic::on_unimplemented(
-    message = "it is not said how the simulation steps",
+    message = "the steps of the simulation are not chosen",
     label = "`{Self}` chooses no steps",
     note = "add `.adaptive(1e-9, 1e-9)`, `.fixed_step(1e-3)` or `.control(…)` before the run"
 )]

@@ -97,7 +97,8 @@ pub enum Verdict {
     Gave(Gave),
 }
 
-/// Lanes on their way from one time to another. Those that are not hold a good state, from which they make steps of length zero.
+/// Runs in lockstep, one in each lane, each from its own time to a common end. A lane without a run holds a valid state
+/// and makes steps of length zero from it.
 #[doc(hidden)]
 pub struct Group<S: BatchSystem> {
     pub(crate) state: State<S>,
