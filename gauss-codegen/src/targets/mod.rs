@@ -1,4 +1,4 @@
-//! Programs in other languages than that of the macro. A target is a module that reads [`Program`]s and writes code.
+//! Programs as source text, in Rust and in C99. A target is a module that reads [`Program`]s and writes code.
 
 use std::fmt::Write;
 

@@ -1,9 +1,9 @@
 //! Gauss' principle (3.1) and the condition (3.4), word for word: v_P, its derivatives, integrals over the body by
 //! moments.
 //!
-//! This is the definition that everything else is checked against: the equations that kernels are made from
-//! (`momentum`, `methods`) are arranged for speed, and must give the same residual. The macro itself checks with the
-//! stationarity of C, which is cheaper to form than (3.4); that the two are one is proven in the tests.
+//! Tests check everything else against this definition: the equations that kernels are made from (`links`,
+//! `arrangements`) are arranged for speed, and must give the same residual. The macro itself checks with the
+//! stationarity of C (`faults`), which is cheaper to form than (3.4); tests prove that the two are equal.
 
 use crate::algebra::{Expr, Graph, Map};
 
