@@ -1,4 +1,4 @@
-//! What double precision loses in the methods of a kernel, measured when it was derived.
+//! The rounding errors of the methods of a kernel in double precision, measured when it was derived.
 
 use core::fmt;
 
@@ -41,16 +41,16 @@ impl fmt::Display for Loss {
 }
 
 by_method! {
-    /// The losses of the methods of a kernel; nothing of what it does not offer.
+    /// The losses of the methods of a kernel; zero for a method that the kernel does not have.
     ///
     /// A search of bounded length looks for the states at which each method loses most. It begins at sample states and
     /// moves on by what makes digits cancel: parameters, speeds, rates and inputs of sizes up to 10⁹ apart, coordinates
-    /// from 10⁻⁹ to 10⁷, angles near quarter turns, sums of the scene and of momenta as near zero as 10⁻⁹ of their terms.
-    /// Masses are positive and moments of inertia those of a body. A scene of ordinary numbers loses what `median` says;
-    /// the kernel's documentation names what `worst` takes. Derivatives and `evaluate` are tried where the other methods
-    /// lose most. A figure is an estimate to first order of the largest loss at the states that the search came by: right
-    /// within ten where it was compared with 106 digits, and other states may be worse. What a certain state loses is
-    /// said by the scalar of the crate `gauss-bounded`.
+    /// from 10⁻⁹ to 10⁷, angles near quarter turns, sums of the scene and of momenta as near zero as 10⁻⁹ of their
+    /// terms. Masses are positive and moments of inertia those of a body. A scene of ordinary numbers has a loss of
+    /// about `median`; the kernel's documentation names the numbers that lead to `worst`. Derivatives and `evaluate`
+    /// are tried where the other methods lose most. A figure is an estimate to first order of the largest loss at the
+    /// states that the search tried: right within a factor of ten where it was compared with 106 digits, and other
+    /// states may be worse. The scalar of the crate `gauss-bounded` bounds the loss at a given state.
     ///
     /// Of the arrangements of a method the cheapest is taken that loses little more than the best of them at every sample
     /// state.

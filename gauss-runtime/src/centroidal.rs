@@ -10,7 +10,7 @@ use nalgebra::{SVector, Vector3};
 use crate::system::GaussSystem;
 use crate::triple::{add, cross, sub, triple};
 
-/// A system that says where its centre of mass G is, and its momenta about G: `methods(centroidal)`.
+/// A system that gives its centre of mass G and its momenta about G: `methods(centroidal)`.
 ///
 /// Components are the observer's, of momenta linear then angular. All bodies and particles count, the fluid around bodies does not.
 /// Without mass there is no centre, and the numbers are not finite.
@@ -106,10 +106,10 @@ pub trait CentroidalSystem: GaussSystem {
     }
 }
 
-/// A system that says what holds its weight: `methods(gravity_torques)`.
+/// A system that gives the generalised forces that balance its weight: `methods(gravity_torques)`.
 pub trait GravityTorques: GaussSystem {
-    /// The generalised forces g(q) that must act for weight and buoyancy to move nothing: minus those of weight and buoyancy, zero
-    /// without the role `gravity`. Springs, other potentials and `central_gravity` are not in them:
+    /// The generalised forces g(q) that balance weight and buoyancy: minus those of weight and buoyancy, zero without
+    /// the role `gravity`. Springs, other potentials and `central_gravity` are not in them:
     /// [`nonlinear_effects`](GaussSystem::nonlinear_effects) at z = 0 has everything.
     fn gravity_torques(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Speeds;
 }

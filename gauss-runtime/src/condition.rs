@@ -9,10 +9,11 @@ use crate::system::GaussSystem;
 /// The condition number of A at a configuration, 1 at best: accelerations lose some log₁₀ of it in digits, beyond what parameters and
 /// forces have lost already. Infinite where A is not positive definite up to rounding.
 ///
-/// It is the ratio of the extreme eigenvalues of `D^−½ A D^−½`, D the diagonal of A: units, and how masses compare with moments of
-/// inertia, do not matter to it, as they do not to the generated code. It is large for a light body in a heavy fluid that couples
-/// its motions, for a centre of mass that is far from O beside the size of the body, and near a singularity of the coordinates. Where A is
-/// constant – one body in the left-invariant chart – any configuration will do. Of lanes the worst.
+/// It is the ratio of the extreme eigenvalues of `D^−½ A D^−½`, D the diagonal of A: units, and how masses compare with
+/// moments of inertia, do not matter to it, as they do not to the generated code. It is large for a light body in a
+/// heavy fluid that couples its motions, for a centre of mass whose distance from O is large compared with the body,
+/// and near a singularity of the coordinates. Where A is constant (one body in the left-invariant chart) any
+/// configuration gives the same number. For packs of numbers it is the worst of the lanes.
 ///
 #[cfg_attr(
     feature = "derive",

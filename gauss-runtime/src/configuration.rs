@@ -103,13 +103,14 @@ pub trait Configuration: Copy + Debug {
     /// The components.
     fn components(&self) -> Self::Components;
 
-    /// The configuration of the components as they are, also beside the group: [`renormalise`](Self::renormalise) brings it back.
+    /// The configuration with these components, even where they are off the group: [`renormalise`](Self::renormalise)
+    /// brings them back.
     fn from_components(components: &Self::Components) -> Self;
 
     /// The time derivatives of the components when the configuration moves with the left-trivialised `velocity`:
     /// `d/dt components(q ∘ exp(t·velocity))` at t = 0.
     ///
-    /// Stages of a step lie beside the group by a little. There any smooth continuation will do, whose flow stays on the group
+    /// Stages of a step are slightly off the group. There any smooth continuation will do whose flow stays on the group
     /// when it starts there; a product of the components and the velocity, as for quaternions `½ q ∘ (ω, 0)`, is one.
     fn component_rates(&self, velocity: &Self::Tangent) -> Self::Components;
 

@@ -1,13 +1,13 @@
-//! What a generated kernel says of itself: its equations as text, what its methods cost, and what they lose to rounding.
+//! The description of a generated kernel: its equations as text, the costs of its methods, their losses to rounding.
 
 use core::fmt;
 
 use crate::accuracy::Accuracy;
 use crate::methods::by_method;
 
-/// A system that says what its equations are, what its methods cost and what they lose. Generated for every kernel; nothing is computed
-/// with it, and a system that is written by hand needs it only to be tuned (crate `gauss-tune`):
-/// `impl Described for MySystem {}`.
+/// The equations of a system, the costs of its methods and their losses to rounding, as constants. Generated for every
+/// kernel. No computation uses them; a system that is written by hand needs the trait only to be tuned (crate
+/// `gauss-tune`): `impl Described for MySystem {}`.
 pub trait Described {
     /// The equations, as they were derived.
     const EQUATIONS: Equations = Equations::new("", "");
@@ -103,7 +103,7 @@ impl fmt::Display for OperationCount {
 }
 
 by_method! {
-    /// The cost of every method of a kernel; nothing of what it does not offer.
+    /// The cost of every method of a kernel; zero for a method that the kernel does not have.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     #[non_exhaustive]
     Operations of OperationCount = OperationCount::new(0, 0, 0, 0, 0);
@@ -178,7 +178,7 @@ pub struct FrameOperations {
     pub jacobian: OperationCount,
     /// Of `bias_of`.
     pub bias: OperationCount,
-    /// Of `jacobian_rate_of`, where that is asked for.
+    /// Of `jacobian_rate_of`, with `methods(jacobian_rates)`.
     pub jacobian_rate: OperationCount,
 }
 
@@ -201,7 +201,7 @@ impl FrameOperations {
 const ALWAYS: usize = 12;
 
 impl fmt::Display for Operations {
-    /// Other rows only where there are constraints, where something acts, and of what was asked for.
+    /// A row for each method that every kernel has, and for each other method that this kernel has.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (n, (name, count)) in self.rows().enumerate() {
             if n < ALWAYS || count.total() > 0 {

@@ -247,8 +247,8 @@ pub enum Finding {
         /// Linear or quadratic.
         kind: DragKind,
     },
-    /// The damping of a spring or a stop, a Rayleigh dissipation function delivers energy. The value is the coefficient, or
-    /// what the function is in the state where it was found to be negative.
+    /// The damping of a spring or a stop, or a Rayleigh dissipation function, delivers energy. The value is the
+    /// coefficient, or the value of the function at the state where it was found to be negative.
     DampingFeedsEnergy,
     /// A gravity of one number is negative: bodies fall upward. The value is that number.
     GravityUpward,
@@ -263,7 +263,7 @@ pub enum Finding {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ParameterWarning {
-    /// The field of the struct of parameters, or what is written in its place.
+    /// The field of the struct of parameters, or the text that is written in its place.
     pub field: &'static str,
     /// The number that the finding is about: see the finding for what it is.
     pub value: f64,
@@ -386,7 +386,7 @@ impl<I: Copy> BoundedList<I> {
         &self.items[..self.count]
     }
 
-    /// Adds an item; what does not fit is dropped, the list says enough by then.
+    /// Adds an item; where the list is full, the item is dropped.
     pub(crate) fn push(&mut self, item: I) {
         if let Some(slot) = self.items.get_mut(self.count) {
             *slot = item;

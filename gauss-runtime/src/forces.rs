@@ -1,4 +1,4 @@
-//! What acts on a system, element by element: generalised forces and powers by name, and the balance of energy.
+//! Forces on a system, element by element: generalised forces and powers by name, and the balance of energy.
 //!
 //! With E the kinetic and potential energy, and P_e the power of element e, `dE/dt = Σ P_e + ∂U/∂t`, summed over the elements
 //! whose work the potential energy U does not count already: [`ForcedSystem::supplied_power`].
@@ -11,10 +11,11 @@ use crate::configuration::VectorSpace;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// What acts on a system, element by element: the right-hand side of (3.4).
+/// A system whose forces are known element by element: the right-hand side of (3.4).
 ///
-/// An element is one clause of the scene that says what acts: gravity, a spring, drag on a body, a motor. Units are those of
-/// the user's parameters: powers in energy per time; component α of a generalised force in power per unit of z_α.
+/// An element is one clause of the scene that makes a force: gravity, a spring, drag on a body, a motor. Units are
+/// those of the user's parameters: powers in energy per time; component α of a generalised force in power per unit of
+/// z_α.
 pub trait ForcedSystem: GaussSystem {
     /// `SVector<Scalar, E>` with `E = ELEMENTS.len()`: one component for each element.
     type Powers: VectorSpace<Self::Scalar>;
@@ -25,8 +26,8 @@ pub trait ForcedSystem: GaussSystem {
     /// The elements in the order of [`Powers`](Self::Powers): those in the potential energy first. Names are unique.
     const ELEMENTS: &'static [Element];
 
-    /// The power that each element delivers to the system (negative: takes from it): its forces and torques paired with the
-    /// velocities of what they act on, as the observer sees these.
+    /// The power that each element delivers to the system (negative: takes from it): its forces and torques times the
+    /// velocities, relative to the observer, of the points and bodies on which they act.
     fn powers(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds, input: &Self::Input) -> Self::Powers;
 
     /// Column e: `∫ ∂v_P/∂z · dF` of element e. The sum of the columns is the right-hand side of (3.4).
@@ -38,8 +39,8 @@ pub trait ForcedSystem: GaussSystem {
         input: &Self::Input,
     ) -> Self::ElementForces;
 
-    /// dE/dt by what acts, E = T + U: the powers of the elements that are not in the potential energy, and of dampers of springs and
-    /// stops that are, plus ∂U/∂t.
+    /// dE/dt by the elements, E = T + U: the powers of those that are not in the potential energy, and of the dampers
+    /// of springs and stops that are, plus ∂U/∂t.
     ///
     /// It is all of dE/dt. Where something is moved as a function of time (a prescribed coordinate, a constraint that depends
     /// on t), whatever moves it does work as well: that is the last element, `guides`, which has no generalised force.
@@ -85,7 +86,7 @@ fn position<S: ForcedSystem + ?Sized>(name: &str) -> Option<usize> {
     S::ELEMENTS.iter().position(|element| element.name == name)
 }
 
-/// One element of what acts on a system.
+/// One element of the forces on a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct Element {

@@ -19,10 +19,10 @@ use crate::triple::{Triple, add, cross};
 /// R and b of a frame, nalgebra's type with a matrix for the rotation: `x̂ = R x + b`.
 pub type FramePose<T> = IsometryMatrix3<T>;
 
-/// A system that says where some of its frames are, and how they move.
+/// A system that gives poses, twists and Jacobians of the frames that the scene names.
 ///
-/// With the Jacobian J of a frame, its twist is `J z` and its acceleration `J ż + bias`, if nothing is moved as a function of time;
-/// of frames that are, the twist at z = 0 comes besides.
+/// With the Jacobian J of a frame, its twist is `J z` and its acceleration `J ż + bias`. The twist of a frame whose
+/// motion is partly a function of time is `J z` plus its twist at z = 0.
 ///
 /// | of a frame | here | Pinocchio | Drake |
 /// |---|---|---|---|
@@ -85,7 +85,8 @@ pub trait FramedSystem: GaussSystem {
     /// The pose (R, b): `x̂ = R x + b` takes coordinates in the frame to the observer's. R is a matrix, as it is computed.
     fn pose_of(&self, frame: Self::Frame, t: Self::Scalar, q: &Self::Configuration) -> FramePose<Self::Scalar>;
 
-    /// The twist (u, ω): velocity of the origin and angular velocity, both beside the observer, components in the frame's axes.
+    /// The twist (u, ω): velocity of the origin and angular velocity, both relative to the observer, components in the
+    /// frame's axes.
     fn twist_of(
         &self,
         frame: Self::Frame,
@@ -114,7 +115,7 @@ pub trait FramedSystem: GaussSystem {
     fn frames(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Frames;
 }
 
-/// A system that says how the Jacobians of its frames change: `frames(tool), methods(jacobian_rates)`.
+/// A system that gives the time derivatives of the Jacobians of its frames: `frames(tool), methods(jacobian_rates)`.
 ///
 /// The rate is the one that the observer sees, with components in the axes of the frame: `J̇ = Rᵀ d(R J)/dt`. So the
 /// acceleration of a frame is `J ż + J̇ z`, and `J̇ z` is [`bias_of`](FramedSystem::bias_of) where nothing is moved as
@@ -144,7 +145,7 @@ pub trait FrameName: Copy + Debug + PartialEq + 'static {
     /// Its place in [`ALL`](Self::ALL).
     fn index(self) -> usize;
 
-    /// The frame of that name; `None` if there is none, or it is not asked for.
+    /// The frame of that name; `None` if `frames(…)` of the scene does not name it.
     #[must_use]
     fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|frame| frame.name() == name)

@@ -84,8 +84,8 @@ pub trait LinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>
 /// | V | σ, then δz | ∂V/∂σ, ∂V/∂z |
 /// | ż | σ, then δz | ∂ż/∂σ, ∂ż/∂z |
 ///
-/// V and σ have the components of the increments of the configuration ([`Configuration::Tangent`]). For how a small (σ, δz) beside a
-/// motion changes with time see [`error_matrix`].
+/// V and σ have the components of the increments of the configuration ([`Configuration::Tangent`]). The time derivative
+/// of a small deviation (σ, δz) from a motion is given by [`error_matrix`].
 ///
 /// [`Configuration::Tangent`]: crate::configuration::Configuration::Tangent
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,7 +166,8 @@ impl<T: Real, const D: usize, const U: usize> LinearModel<T> for Linearization<T
     }
 }
 
-/// The matrix F of `d(σ, δz)/dt = F (σ, δz)`, for what is a small increment away from a motion: what regulators and filters use.
+/// The matrix F of `d(σ, δz)/dt = F (σ, δz)`, for states a small increment away from a motion, as regulators and
+/// filters need them.
 ///
 /// The neighbour `q(t) ∘ exp(σ)` has the velocity V + ∂V/∂σ σ + ∂V/∂z δz, and its increment changes by what that is more than V
 /// and by [σ, V], because it is seen in axes that move. So F is [`Linearization::by_state`] and, where the configuration is a
@@ -194,7 +195,7 @@ pub(crate) fn brackets<S: LinearizedSystem>(linear: &S::Linearization) -> impl F
         axis.set_component(k, S::Scalar::one());
         S::Configuration::bracket(&axis, &velocity).scale(S::Scalar::ratio(1, 2))
     };
-    // Entries are asked for in any order; the last column is kept.
+    // The closure may be called for entries in any order; the last column is kept.
     let mut known = (usize::MAX, Velocity::<S>::zero());
     move |row, column| {
         if row >= components || column >= components {

@@ -1,9 +1,9 @@
 //! First integrals watched over a run: energy always, the momentum in space for a rigid body; and energy against the work
 //! supplied.
 //!
-//! What should be constant says how good a simulation is without a reference solution. Three numbers tell apart what can go
-//! wrong: the largest deviation (accuracy), the slope of a least-squares line (a drift grows without bound; a geometric
-//! method oscillates about slope 0), and the initial value that they are relative to.
+//! A first integral measures the accuracy of a simulation without a reference solution. Three numbers describe its
+//! error: the largest deviation (accuracy), the slope of a least-squares line (a drift grows without bound; a geometric
+//! method oscillates about slope 0), and the initial value that both are relative to.
 
 use core::fmt;
 

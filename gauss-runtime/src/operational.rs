@@ -13,7 +13,7 @@ use crate::real::Real;
 /// A = L Lᵀ, L lower triangular with positive diagonal: a mass matrix, factored once for many right-hand sides.
 ///
 /// Accelerations do not need it: [`acceleration`](crate::system::GaussSystem::acceleration) solves with what it knows of the
-/// structure. This is for what is made of A by whoever uses it.
+/// structure. This is for computations of your own with A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factor<T, const N: usize> {
     lower: SMatrix<T, N, N>,

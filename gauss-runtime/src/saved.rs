@@ -2,7 +2,7 @@
 //!
 //! | type | is written as |
 //! |---|---|
-//! | the struct of parameters | what `#[derive(Serialize, Deserialize)]` beside `GaussDynamics` makes of it |
+//! | the struct of parameters | by `#[derive(Serialize, Deserialize)]`, which the user adds to `GaussDynamics` |
 //! | [`Coordinates`], [`Speeds`] | numbers by the [names](Described::COORDINATE_NAMES) of the scene, `{"turn_i": 0.1, …}`; a list where it has none |
 //! | [`Sample`] | `t`, `q`, `z`, `p` |
 //! | [`Trajectory`], [`Record`] | `samples`, `events`, `stopped_by` |
@@ -240,7 +240,7 @@ pub mod checked {
     /// As it is.
     ///
     /// # Errors
-    /// What the format says.
+    /// The error of the format.
     pub fn serialize<Q: Serialize, W: Serializer>(q: &Q, serializer: W) -> Result<W::Ok, W::Error> {
         q.serialize(serializer)
     }
@@ -248,7 +248,7 @@ pub mod checked {
     /// As it is, and checked.
     ///
     /// # Errors
-    /// What the format says, and what [`check`] does.
+    /// The error of the format, and that of [`check`].
     pub fn deserialize<'de, Q: Configuration + Deserialize<'de>, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<Q, D::Error> {

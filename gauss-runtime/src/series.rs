@@ -88,7 +88,7 @@ pub trait PowerSeries<T: Real> {
 #[repr(align(64))]
 struct Row<T, const L: usize>([T; L]);
 
-/// The series of V variables, and of the D factors of L products of what is computed from them.
+/// The power series of V variables, and of the D factors of L products that are computed from these variables.
 ///
 /// Of numbers both factors of each product are kept, row by row, so that products lie side by side in vectors. Packs are vectors
 /// themselves: of them each factor is kept once, in all its orders one after the other, which is a fraction of the memory.
@@ -143,8 +143,8 @@ impl<T: Real, const V: usize, const D: usize, const L: usize> Series<T, V, D, L>
         }
     }
 
-    /// `Σ_{0 < j < k} leftⱼ rightₖ₋ⱼ` of every product: all but the first and the last term of the coefficient of order k. Orders
-    /// are to be asked for one after the other, from 1. `pairs`: which factors those of each product are.
+    /// `Σ_{0 < j < k} leftⱼ rightₖ₋ⱼ` of every product: all but the first and the last term of the coefficient of order
+    /// k. Call it for k = 1, 2, … in this order. `pairs` has the numbers of the two factors of each product.
     // Inlined, its packs would be taken apart to suit what their elements are added to.
     #[inline(never)]
     pub fn convolution(&mut self, k: usize, pairs: &[[usize; 2]; L]) -> [T; L] {

@@ -16,14 +16,15 @@ use crate::triple::{add, cross, quaternion, rotate, triple};
 
 /// A mechanical system whose equations of motion come from the Gauss condition (3.4).
 ///
-/// Implemented by the kernels that `#[derive(GaussDynamics)]` generates, and by whoever writes equations by hand: what a kernel
-/// says of itself is in [`Described`](crate::description::Described). Units are the user's, consistent ones; angles are
-/// in radians. No method panics, and non-finite input gives non-finite output: the integrators look at it.
+/// Implemented by the kernels that `#[derive(GaussDynamics)]` generates, and by systems whose equations are written by
+/// hand. The equations and costs of a kernel are in [`Described`](crate::description::Described). Units are the user's,
+/// consistent ones; angles are in radians. No method panics, and non-finite input gives non-finite output, which the
+/// integrators look for.
 pub trait GaussSystem {
     /// The number type.
     type Scalar: Real;
 
-    /// Where the system is.
+    /// The configuration q: positions and rotations.
     type Configuration: Configuration<Scalar = Self::Scalar>;
 
     /// `SVector<Scalar, DOF>`: quasi-velocities, momenta and generalised forces alike.
@@ -119,13 +120,14 @@ pub trait GaussSystem {
         input: &Self::Input,
     ) -> Self::Speeds;
 
-    /// Inverse dynamics: the generalised force, in components dual to z, that must act beside everything that the scene models for the
-    /// motion to have the given ż.
+    /// Inverse dynamics: the generalised force, in components dual to z, that must be added to all forces of the scene
+    /// for the motion to have the given ż.
     ///
-    /// It is A (ż − ż₀), with ż₀ the [`acceleration`](Self::acceleration) without it, and costs what
-    /// [`gauss_residual`](Self::gauss_residual) costs, which it is: no factorisation. Its power on the motion is its product with z: of
-    /// a coordinate whose rate is a speed it is the force or the torque along that coordinate, of a twist (u, ω) a wrench about O in
-    /// body axes. What recursive Newton–Euler gives for the joints of an arm is this, with inputs of the joints at zero.
+    /// It is A (ż − ż₀), with ż₀ the [`acceleration`](Self::acceleration) without it, and equals
+    /// [`gauss_residual`](Self::gauss_residual), so it costs no factorisation. Its power is its product with z: for a
+    /// coordinate whose rate is a speed it is the force or the torque along that coordinate, for a twist (u, ω) a
+    /// wrench about O in body axes. For the joints of an arm it is the result of recursive Newton–Euler, with inputs of
+    /// the joints at zero.
     ///
     /// Under constraints ż must satisfy them, or no force makes it. Forces of constraints are then those of the motion without the
     /// force: of all generalised forces with the same motion, which differ by Jᵀμ, this is the one that leaves the multipliers as
@@ -142,10 +144,11 @@ pub trait GaussSystem {
         self.gauss_residual(t, q, z, acceleration, input)
     }
 
-    /// Inverse dynamics at ż = 0: the generalised force beside everything that the scene models with which no speed changes, weight,
-    /// centrifugal and Coriolis forces among it. So `A ż + nonlinear_effects` is the force that must act besides.
+    /// Inverse dynamics at ż = 0: the generalised force that must be added to all forces of the scene for no speed to
+    /// change. It balances weight, centrifugal and Coriolis forces among others, and `A ż + nonlinear_effects` is
+    /// [`inverse_dynamics`](Self::inverse_dynamics) at any ż.
     ///
-    /// With `methods(nonlinear_effects)` it is a program of its own, cheaper than that at any ż.
+    /// With `methods(nonlinear_effects)` it is a program of its own, cheaper than inverse dynamics at any ż.
     #[inline]
     fn nonlinear_effects(
         &self,
@@ -259,13 +262,13 @@ impl<S: GaussSystem + ?Sized> Evaluated<S> {
 /// How smooth the accelerations of a system are as functions of time and state. The least smooth element decides: the order
 /// is that of growing roughness.
 ///
-/// A method of order p has local errors of order h^(p+1) only where p derivatives of the acceleration exist. On a step across
-/// a kink they are of order h², across a jump of order h, whatever the method, and so is the error of what is interpolated
-/// within that step.
+/// A method of order p has local errors of order h^(p+1) only where p derivatives of the acceleration exist. On a step
+/// across a kink they are of order h², across a jump of order h, whatever the method, and so are the errors of states
+/// that are interpolated within that step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Smoothness {
-    /// As many derivatives as a method asks for, away from singularities of the coordinates.
+    /// As many derivatives as a method needs, away from singularities of the coordinates.
     #[default]
     Smooth,
     /// Accelerations are continuous, derivatives jump: `abs`, `min`, `max`, `clamp`; of `smooth_step` the second ones.

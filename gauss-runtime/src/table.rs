@@ -64,7 +64,7 @@ impl<const N: usize> Linear<N> {
         T::fma(h, slope, y)
     }
 
-    /// The slope at x; at a point that of what follows.
+    /// The slope at x; at a point of the table the slope to its right.
     #[inline]
     pub fn slope<T: Real>(&self, x: T) -> T {
         self.0.at(x).1[1]
@@ -119,7 +119,7 @@ impl<const N: usize> Cubic<N> {
         T::fma(h, T::ratio(6, 1) * c, b + b)
     }
 
-    /// The third derivative at x, which jumps at the points; there that of what follows.
+    /// The third derivative at x, which jumps at the points of the table; there the value to the right.
     #[inline]
     pub fn third<T: Real>(&self, x: T) -> T {
         T::ratio(6, 1) * self.0.at(x).1[3]
@@ -144,7 +144,7 @@ impl<const N: usize> Pieces<N> {
     }
 }
 
-/// Refuses what is no table.
+/// Refuses points that make no table.
 const fn check<const N: usize>(points: &[[f64; 2]; N]) {
     assert!(N >= 2, "a table has two points or more");
     let mut i = 0;

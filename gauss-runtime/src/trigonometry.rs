@@ -81,7 +81,7 @@ trait Pack: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> 
     /// Whether each remainder is not too close to zero, or nothing was subtracted.
     fn is_far_from(self, multiple: Self) -> bool;
 
-    /// Sine and cosine from those of what is left in the quadrant that the last digits of `shifted` give.
+    /// Sine and cosine of an angle from those of its remainder; the last digits of `shifted` have the quadrant.
     fn in_quadrant(shifted: Self, sine: Self, cosine: Self) -> (Self, Self);
 }
 
@@ -201,7 +201,7 @@ fn of_small_angle<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> (P
     (sine, cosine, holds)
 }
 
-/// `(sin x, cos x)` of what is left of an angle.
+/// `(sin x, cos x)` of the remainder of an angle.
 #[inline(always)]
 fn of_reduced<const FUSED: bool, P: Pack>(left: Reduced<P>, fma: impl MultiplyAdd) -> (P, P) {
     let (Reduced { shifted, y, excess }, number, one) = (left, P::splat, P::splat(1.0));
@@ -413,7 +413,7 @@ mod vectors {
     }
 }
 
-/// `(sin x, cos x)` of an angle that is large or near a multiple of π/2; NaN of what is not finite.
+/// `(sin x, cos x)` of an angle that is large or near a multiple of π/2; NaN for an angle that is not finite.
 #[cold]
 #[inline(never)]
 fn of_any_angle(x: f64) -> (f64, f64) {

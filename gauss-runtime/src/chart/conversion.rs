@@ -12,10 +12,10 @@ use crate::triple::norm;
 /// The state (q, z) of one kernel in the variables of another: same pose, same body twist of O, up to rounding (divided by
 /// the distance from a singularity of the coordinates, which at √ε is refused).
 ///
-/// Both kernels should describe the same body with the same O; nothing else is asked of them, so this also converts between
-/// a velocity chart of the free motion and any chart of a planar motion or of one with a fixed point, and between charts and
-/// coordinates of a scene's own. At t = 0, which only matters where something is moved as a function of time:
-/// [`convert_at`].
+/// Both kernels should describe the same body with the same O. They may differ in all else, so this also converts
+/// between a velocity chart of the free motion and any chart of a planar motion or of one with a fixed point, and
+/// between charts and coordinates of a scene's own. At t = 0, which only matters where something is moved as a function
+/// of time: [`convert_at`].
 ///
 /// # Errors
 /// - [`ChartError::Singular`] and [`ChartError::Undetermined`] when the pose is a singular point of the target's coordinates;

@@ -57,9 +57,9 @@ pub enum MotionRule {
         /// 0 … 5.
         index: usize,
     },
-    /// The coordinates of the target must have the pose; the value is what is left, an angle or a length.
+    /// The coordinates of the target must have the pose; the value is the difference, an angle or a length.
     Pose,
-    /// The constraints of the target must hold; the value is what is left of them, or how far the state is from where they do.
+    /// The constraints of the target must hold; the value is their residual, or the distance of the state from them.
     Constraints,
 }
 

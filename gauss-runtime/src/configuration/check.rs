@@ -36,9 +36,9 @@ impl fmt::Display for StateError {
 
 impl core::error::Error for StateError {}
 
-/// Refuses components that are not finite, and those that lie beside the group by more than the root of the rounding
-/// unit: what is nearer a single step brings back to rounding, because the norm is held to second order
-/// ([`renormalise`](Configuration::renormalise)). So what was written with all digits is not touched.
+/// Refuses components that are not finite, and those that are off the group by more than the root of the rounding unit.
+/// Nearer components are brought back to rounding by a single step, because the norm is held to second order
+/// ([`renormalise`](Configuration::renormalise)). So components that were written with all digits are not touched.
 ///
 /// ```
 /// use gauss_runtime::configuration::{StateError, check};
@@ -51,11 +51,11 @@ impl core::error::Error for StateError {}
 /// ```
 ///
 /// # Errors
-/// [`StateError`] says what is wrong.
+/// A [`StateError`]: components that are not finite, or off the group.
 pub fn check<Q: Configuration>(q: &Q) -> Result<(), StateError> {
     all_finite::<Q::Scalar, _>(&q.components())?;
-    // On the group the tangent of what a velocity does to the components is that velocity; beside it their norm is
-    // left.
+    // On the group `tangent` of the rates of the components is the velocity; off the group the norm of the components
+    // remains as a factor.
     let mut excess: f64 = 0.0;
     for i in 0..Q::Tangent::DIM {
         let mut unit = Q::Tangent::zero();

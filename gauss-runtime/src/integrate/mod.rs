@@ -8,7 +8,7 @@
 //! | [`lie_group`] | [`rkmk`](lie_group::rkmk): Runge–Kutta–Munthe-Kaas steps; [`commutator_free`](lie_group::commutator_free): a method of order 4; [`discrete`](lie_group::discrete): exact derivatives of its steps, transition matrices for filters and regulators |
 //! | [`structure`] | [`collocation`](structure::collocation): Gauss' implicit methods of orders 2, 4, 6, symmetric; [`composition`](structure::composition): symmetric methods composed to higher orders; [`variational`](structure::variational): symplectic in the left-invariant chart; [`energy_momentum`](structure::energy_momentum): energy and momenta of bodies at once |
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
-//! | [`adams`] | multistep methods: of what earlier steps knew |
+//! | [`adams`] | multistep methods: from the derivatives of earlier steps |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
 //! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
 //! | `lanes` | many runs in lockstep, each with steps of its own |

@@ -229,8 +229,8 @@ impl<S: LinearizedSystem> Start<S> {
         rates
     }
 
-    /// ∂(V, ż)/∂t, that through the input included: its derivative is that of the polynomial through five points of the step, so
-    /// that no table is asked for times outside the run.
+    /// ∂(V, ż)/∂t, that through the input included. The derivative of the input is that of the polynomial through five
+    /// points of the step, so that no input is evaluated at times outside the run.
     fn by_time<P: Problem<System = S>>(
         &self,
         problem: &P,
@@ -259,8 +259,8 @@ fn through_input<S: LinearizedSystem>(linear: &Model<S>, row: usize, rate: &S::I
     (0..S::Input::DIM).fold(onto, |sum, k| linear.by_input(row, k).fma(rate.component(k), sum))
 }
 
-/// Entries of what an input that depends on the state adds to ∂(V, ż)/∂(σ, z), column by column: by central differences over a
-/// distance of ε^⅓, where what they neglect and what they lose by rounding are about the same.
+/// The contribution of an input that depends on the state to ∂(V, ż)/∂(σ, z), entry by entry, column after column: by
+/// central differences over a distance of ε^⅓, where truncation and rounding errors are about equal.
 fn feedback<S: LinearizedSystem, P: Problem<System = S>>(
     problem: &P,
     start: &Start<S>,

@@ -1,9 +1,10 @@
 //! Taylor's method: each step sums the power series of the solution, as far as the tolerance asks for.
 //!
-//! The coefficients come from the derive (`#[gauss(taylor)]`, [`TaylorSystem`]), exact up to rounding at any order, so a step may be
-//! nearly as long as the radius of convergence allows: at tolerances of 1e-9 and less the cheapest way to a trajectory of a smooth
-//! system. Order and step are those of Jorba & Zou (Experimental Mathematics 14, 2005): the last two terms of the series are to
-//! be as small as the tolerance. No step is rejected, but for what the projection onto constraints says of it.
+//! The coefficients come from the derive (`#[gauss(taylor)]`, [`TaylorSystem`]), exact up to rounding at any order, so
+//! a step may be nearly as long as the radius of convergence allows: at tolerances of 1e-9 and less the cheapest way to
+//! a trajectory of a smooth system. Order and step are those of Jorba & Zou (Experimental Mathematics 14, 2005): the
+//! last two terms of the series are to be as small as the tolerance. A step is rejected only where the projection onto
+//! constraints fails or moves it too far.
 
 use core::ops::Range;
 
@@ -77,7 +78,7 @@ impl Taylor {
         self
     }
 
-    /// About the last term of the series beside the first.
+    /// About the ratio of the last term of the series to the first.
     fn tolerance(&self) -> f64 {
         (LEFT_OUT * self.relative.max(self.absolute)).clamp(1e-18, 0.1)
     }
@@ -87,8 +88,8 @@ impl Taylor {
         self.order.unwrap_or((order as usize).clamp(LOWEST, MAX_ORDER))
     }
 
-    /// ln of what a series leaves out beside its last term: terms fall to the tolerance at a ratio r in each order, and those left
-    /// out are r/(1 − r) of the last one together.
+    /// ln of the ratio of the remainder of a series to its last term: terms fall to the tolerance by a ratio r in each
+    /// order, and the terms of the remainder are r/(1 − r) of the last one together.
     fn tail(&self, order: usize) -> f64 {
         let ratio = Real::exp(Real::ln(self.tolerance()) / order as f64);
         Real::ln(ratio / (1.0 - ratio))

@@ -94,7 +94,7 @@ pub fn power_balance<S: ForcedSystem>(
         let input = input(sample.t, &sample.q, &sample.z);
         system.supplied_power(sample.t, &sample.q, &sample.z, &input).lane(0)
     };
-    // Every time that is asked for lies between two samples.
+    // The times of the quadrature lie between two samples, so the trajectory covers them.
     let power = |t: S::Scalar| trajectory.at(t).map_or(f64::NAN, |sample| power_of(&sample));
     let energy = |sample: &Sample<S>| system.energy(sample.t, &sample.q, &sample.z).lane(0);
 

@@ -14,7 +14,7 @@ pub struct ParameterCheck<T> {
     violations: BoundedList<Violation>,
     /// The first field with a mass or a principal moment of zero: others must make up for it.
     massless: Option<&'static str>,
-    /// The triangle inequality of principal moments is not asked for.
+    /// Principal moments need not satisfy the triangle inequality.
     formal: bool,
     scalar: PhantomData<T>,
 }
@@ -90,7 +90,7 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
-    /// The limits of a stop, the lower one first. `field` is what says the lower one.
+    /// The limits of a stop, the lower one first. `field` is the one that gives the lower limit.
     pub fn limits(&mut self, field: &'static str, [least, most]: [T; 2]) {
         if self.finite_so_far(field, &[least, most]) {
             self.each_lane(field, |lane| {
@@ -387,7 +387,7 @@ fn about_center_of_mass(about_o: &[[f64; 3]; 3], mass: f64, c: [f64; 3]) -> ([[f
     (central, square)
 }
 
-/// Squares of what is finite can overflow.
+/// Squares of finite numbers can overflow.
 fn out_of_range(tensor: &[[f64; 3]; 3]) -> Option<(f64, Rule)> {
     let value = tensor.iter().flatten().find(|entry| !f64::is_finite(**entry));
     value.map(|&value| (value, Rule::OutOfRange))

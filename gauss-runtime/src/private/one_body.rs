@@ -195,7 +195,7 @@ where
         Found { off: self.off(&q, missing), q, far: S::Scalar::select_lt(u, omega, omega, u) }
     }
 
-    /// What is missing, in roundings of what the pose is made of: b, and what each coordinate has in it.
+    /// The difference from the pose in units of rounding of its terms: b, and the contribution of each coordinate.
     fn off(&self, q: &S::Configuration, missing: Twist<S::Scalar>) -> S::Scalar {
         let norm = |a: &[S::Scalar]| a.iter().fold(S::Scalar::zero(), |sum, &x| x.fma(x, sum)).sqrt();
         let mut scales = [norm(&self.pose.translation.vector.data.0[0]), S::Scalar::one()];

@@ -25,8 +25,9 @@ use crate::system::GaussSystem;
 /// Steps that keep the estimated error of each within a tolerance: an embedded pair, or any other [`EstimatingStep`], with a PI
 /// controller (Gustafsson; Hairer, Nørsett & Wanner II.4).
 ///
-/// Where the tolerance is less than what rounding does to a step, it is rounding that is tolerated, measured at the state:
-/// shorter steps would be no better. A [`Summary`](crate::integrate::Summary) says where and by how much.
+/// Where the tolerance is smaller than the rounding error of a step, the rounding error, measured at the state, is the
+/// tolerance: shorter steps would be no better. [`Summary`](crate::integrate::Summary) counts these steps, and has the
+/// largest ratio of the two.
 #[derive(Clone, Copy, Debug)]
 pub struct Adaptive<M = RungeKutta<DormandPrince8, 12>> {
     pub(in crate::integrate) method: M,
@@ -91,9 +92,9 @@ struct Drive<'a, S: GaussSystem, P, M> {
     /// The length to try next.
     length: f64,
     lengths: StepLength,
-    /// Known where it was asked for.
+    /// The rounding error of a step, once it has been measured.
     floor: Option<Floor<S>>,
-    /// The longest step since it was asked for, or the one for which it was.
+    /// The longest step since the rounding error was measured, or the step for which it was measured.
     looked: f64,
     rejected: u32,
 }
@@ -244,7 +245,7 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         // Well below what rounding does there is nothing to be learnt of the step.
         let told = if excess > 0.0 && error < 0.5 { error.min(ROUNDED) } else { error };
         self.length = (used * self.lengths.accept(told)).min(self.longest);
-        // Where rounding is in the way it is asked for again, elsewhere when steps have become short.
+        // Measured again where rounding limits the step, elsewhere when steps have become short.
         let short = self.length < 0.5 * self.looked;
         if excess > 0.0 || short || self.floor.is_some() {
             self.look(excess > 0.0 || short);

@@ -154,7 +154,7 @@ fn fastest<S: GaussSystem, P: Problem<System = S>>(
     rate.is_finite().then_some(Fastest { rate, decays: along < -0.5 && back > 0.5 })
 }
 
-/// How fast the state changes beside its own size, per unit of time: the largest of the components.
+/// How fast the state changes relative to its own size, per unit of time: the largest of the components.
 pub(in crate::integrate) fn change<S: GaussSystem>(state: &State<S>, rates: &Rates<S>, lanes: &Range<usize>) -> f64 {
     let relative = scaled(rates, &sizes(state, lanes), |rate, size| rate / size);
     largest(&relative.configuration, lanes).max(largest(&relative.variables, lanes))
@@ -166,7 +166,7 @@ fn largest<T: Real, V: VectorSpace<T>>(vector: &V, lanes: &Range<usize>) -> f64 
     all.fold(0.0, worst)
 }
 
-/// The sizes of the components; those that are nearly nothing beside the others count as a millionth of these.
+/// The sizes of the components. A component that is less than a millionth of the others counts as a millionth of them.
 fn sizes<S: GaussSystem>(state: &State<S>, lanes: &Range<usize>) -> Rates<S> {
     let mut sizes: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
     let of = |sizes: S::Scalar| lanes.clone().map(|lane| sizes.lane(lane).abs()).fold(0.0, f64::max);

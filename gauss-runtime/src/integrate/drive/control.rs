@@ -12,7 +12,7 @@ use crate::integrate::step::one_step::OneStep;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// The most steps of a run that is not told how many it may make: more would take minutes, and whoever wants them says so.
+/// The largest number of steps of a run unless the user sets another limit: more steps would take minutes.
 pub const DEFAULT_LIMIT: u64 = 100_000_000;
 
 /// How the step to a state came about: what a run adds up to its [`Summary`](crate::integrate::Summary).
@@ -80,8 +80,8 @@ pub trait Control<S: GaussSystem> {
         move |h| self.within(problem, &state, &rates, h)
     }
 
-    /// Whether steps are so long that the cubic between their ends says nothing about the states within: events are then looked
-    /// for among states of [`along`](Self::along).
+    /// Whether steps are so long that the cubic between their ends is no approximation of the states within: events are
+    /// then looked for among states of [`along`](Self::along).
     const LONG_STEPS: bool = false;
 }
 
@@ -107,8 +107,8 @@ pub(in crate::integrate) fn check_tolerances(relative: f64, absolute: f64) -> Re
     }
 }
 
-/// The longest step of a run over a span: what was asked for, or all of it. What could not reach the end within the limit is
-/// refused before the first step.
+/// The longest step of a run over a span: the length that the user set, or the whole span. A length with which the run
+/// could not reach its end within the limit of steps is refused before the first step.
 pub(in crate::integrate) fn longest(asked: Option<f64>, span: f64, limit: u64) -> Result<f64, IntegrationErrorKind> {
     let length = asked.unwrap_or(span.abs());
     if length.is_nan() || length <= 0.0 {
@@ -136,8 +136,8 @@ pub(in crate::integrate) fn smallest<T: Real>(t: f64, span: f64) -> f64 {
     0.5 * unit * t.abs().max(unit * span.abs())
 }
 
-/// What is said of a step that does not change the time t: of a run that is short beside its distance from zero, where
-/// less than half of the digits of times are left to it, that times are too coarse.
+/// The error for a step that does not change the time t. A run whose span is so short compared with t that less than
+/// half of the digits of t resolve it gets [`IntegrationErrorKind::TimeTooCoarse`].
 pub(in crate::integrate) fn unresolved<T: Real>(step: f64, time: f64, span: f64) -> IntegrationErrorKind {
     if span.abs() < Real::sqrt(T::EPSILON) * time.abs() {
         IntegrationErrorKind::TimeTooCoarse { step, time }

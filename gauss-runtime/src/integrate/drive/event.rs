@@ -1,7 +1,7 @@
 //! Events: where a function of the state passes through zero during a run, and jumps of the state there.
 //!
-//! **What is an event.** A function passes from one side of zero to zero or to the other side, in a direction that is asked for, in
-//! the order of integration.
+//! **What is an event.** A function passes from one side of zero to zero or to the other side, in the chosen direction
+//! ([`Crossing`](crate::integrate::Crossing)), in the order of integration.
 //!
 //! - *A zero at the start* is none: what starts on zero is on the side to which it leaves zero at first, and passes when it comes
 //!   back. So a run goes on from where another one ended.
@@ -18,9 +18,9 @@
 //! of the curve.
 //!
 //! **Jumps.** [`Simulation::then`](crate::integrate::Simulation::then) changes the state at an event, and the run goes
-//! on from there: a jump of velocities, as at an impact, or of the configuration. After it the function is on zero, to
-//! rounding, and its sign is rounding too; it is on the side to which the motion leads, however short the flight is
-//! beside the step. So a ball that bounces has not fallen through the floor.
+//! on from there: a jump of velocities, as at an impact, or of the configuration. After the jump the function is zero
+//! up to rounding, so its sign means nothing; the function counts as being on the side to which the motion leads, even
+//! where the flight is much shorter than the step. So a ball that bounces has not fallen through the floor.
 //!
 //! - *A jump has to lead back.* Where a function of the configuration goes on through zero, the run ends with
 //!   [`IntegrationErrorKind::NotTurnedBack`]: the velocity that was turned is not the one along which the function
@@ -89,7 +89,7 @@ struct BeforeJump {
     beyond: f64,
 }
 
-/// The events of a run, in the order in which they were asked for.
+/// The events of a run, in the order in which they were added to the simulation.
 pub trait Events<S: GaussSystem> {
     /// Their number.
     const COUNT: usize;
@@ -317,7 +317,7 @@ where
         self.each(|_, function, mark| mark.begin((problem, lane), function, start))
     }
 
-    /// Whether the step may have the event of this number, as what is seen of its function from the last value says.
+    /// Whether the event with this number may lie in the step, judged by its function from the last value on.
     #[cfg(feature = "alloc")]
     pub(in crate::integrate) fn may_pass(
         &mut self,

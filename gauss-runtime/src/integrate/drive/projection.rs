@@ -178,7 +178,8 @@ pub(in crate::integrate) fn check_jump<S: GaussSystem>(
     Ok(())
 }
 
-/// So many trials of a step are moved too far before it is asked whether the constraints have become dependent at its start.
+/// After this many trials of a step that the projection moved too far, the start of the step is examined: its
+/// constraints may have become dependent.
 const TRIALS: u32 = 4;
 
 /// Whether a step that the projection moved too far, so many times shortened, starts next to a position where the constraints are dependent,
@@ -255,11 +256,12 @@ pub(in crate::integrate) fn on_constraints<S: GaussSystem, P: Problem<System = S
     Ok(State { t, q, y: problem.variables(t, &q, &z) })
 }
 
-/// The initial state, rid of the rounding of what was typed; an error when it is not on the constraints otherwise.
+/// The initial state projected onto the constraints, which removes the rounding of the given numbers; an error when the
+/// state violates the constraints by more than that.
 ///
 /// The bound is √ε of the largest component of the configuration, of z respectively: a state that agrees with the
-/// constraints in half of the digits was meant to satisfy them, and with less than half it is another state, which nobody
-/// asked to run from.
+/// constraints in half of the digits was meant to satisfy them. With less than half of the digits the projected state
+/// would be another one than the user gave.
 #[inline(always)]
 pub(in crate::integrate) fn consistent_start<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,

@@ -78,7 +78,7 @@ impl Jumps {
     }
 }
 
-/// How a part of a run between two jumps ended, beside by itself.
+/// How a part of a run between two jumps ended, unless it reached its end.
 enum Cut<S: GaussSystem> {
     Stopped(State<S>),
     Jumped(State<S>),
@@ -170,7 +170,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                 Some(Cut::Failed(kind)) => return (reached, failed(kind)),
                 None => {
                     let outcome = outcome.map_err(|mut error| {
-                        // What was left of the limit says nothing to whoever set it.
+                        // The user set the limit of the whole run, not what was left of it for this part.
                         if let IntegrationErrorKind::TooManySteps { limit } = &mut error.kind {
                             *limit = self.limit;
                         }

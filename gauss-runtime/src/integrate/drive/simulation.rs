@@ -61,8 +61,8 @@ assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
 /// Initial values are always quasi-velocities z, and samples hold both z and p.
 ///
 /// Constraints that coordinates and speeds do not solve by themselves hold up to rounding in every sample, because each step
-/// ends with a projection ([`GaussSystem::project`]). Initial values must satisfy them as well, up to the rounding
-/// of what was typed.
+/// ends with a projection ([`GaussSystem::project`]). Initial values must satisfy them as well, up to the rounding of
+/// the numbers that were given.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a simulation does nothing before `run`"]
 pub struct Simulation<P, C = Undecided, O = Unobserved, E = NoEvents> {
@@ -198,7 +198,7 @@ assert_eq!(run.events().len(), (10.0 / (0.5 * period)) as usize);
 }
 
 impl<'k, S: GaussSystem, F, I, C, O, E, G> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G>> {
-    /// Changes the state at the event that was asked for last, before the run goes on from there, or ends there
+    /// Changes the state at the event that was added last, before the run goes on from there, or ends there
     /// ([`until`](Self::until)). What may be set is `q`, and `z` or `p`; the other follows. Under constraints the state
     /// is brought onto them, with velocities as an impact makes them.
     ///

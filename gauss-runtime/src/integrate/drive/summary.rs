@@ -15,9 +15,9 @@ pub struct Summary {
     pub steps: u64,
     /// Steps that were tried and rejected.
     pub rejected: u64,
-    /// Steps in which rounding is more than the tolerance asked for: they are as accurate as these numbers allow.
+    /// Steps in which rounding is larger than the tolerance: these steps are as accurate as the number type allows.
     pub rounded: u64,
-    /// How many times the tolerance rounding was, the most in any step; 0 where it never was more.
+    /// The largest ratio of rounding to tolerance in any step; 0 where rounding never was larger.
     pub excess: f64,
     /// Jumps at events.
     pub jumps: u64,

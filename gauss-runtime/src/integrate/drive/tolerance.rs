@@ -1,4 +1,4 @@
-//! Errors of steps in units of what is tolerated, and what rounding alone does to them.
+//! Errors of steps in units of the tolerance, and the part of them that is rounding.
 //!
 //! **Rounding.** Stages of a step are rounded, so derivatives are evaluated at states that are off by about ε of their sizes: an
 //! error estimate, which is h times a sum of derivatives, never falls below h times what that changes. Where a tolerance asks for

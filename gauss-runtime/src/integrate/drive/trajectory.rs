@@ -27,7 +27,7 @@ use crate::system::GaussSystem;
 )]
 #[non_exhaustive]
 pub struct EventSample<S: GaussSystem> {
-    /// Which event, counted from 0 in the order in which they were asked for.
+    /// The number of the event, counted from 0 in the order in which events were added to the simulation.
     pub number: usize,
     /// The state; where it jumps, the one before.
     pub sample: Sample<S>,
@@ -104,7 +104,7 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
         self.stopped_by
     }
 
-    /// The steps of the run in numbers, and where rounding did not let them be as accurate as was asked for.
+    /// The number of steps, and of those in which rounding was larger than the tolerance.
     #[must_use]
     pub fn summary(&self) -> &Summary {
         &self.summary
@@ -158,7 +158,8 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
     /// For packs of numbers the first lane of the times decides from which sample to start.
     ///
     /// # Errors
-    /// [`IntegrationErrorKind::OutsideRun`] when the run does not cover `t`, else what the step says.
+    /// [`IntegrationErrorKind::OutsideRun`] when the run does not cover `t`; the error of the step to `t` when that
+    /// step cannot be made.
     pub fn at(&self, t: S::Scalar) -> Result<Sample<S>, IntegrationError> {
         let Some(before) = self.last_before(t) else {
             return Err(self.between.refuse(self.last(), IntegrationErrorKind::OutsideRun { time: t.lane(0) }));
@@ -171,7 +172,7 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
     /// The states at given times, in any order: [`at`](Self::at) each of them.
     ///
     /// # Errors
-    /// What [`at`](Self::at) says of the first that is not to be had.
+    /// The error of [`at`](Self::at) for the first time whose state cannot be found.
     pub fn at_times(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Vec<Sample<S>>, IntegrationError> {
         times.into_iter().map(|t| self.at(t)).collect()
     }
@@ -202,7 +203,7 @@ trait Between<S: GaussSystem> {
     /// The state at a time, from the sample before it.
     fn reach(&self, from: &Sample<S>, t: S::Scalar) -> Result<Sample<S>, IntegrationError>;
 
-    /// The error of what cannot be found.
+    /// The error for a state that cannot be found.
     fn refuse(&self, near: &Sample<S>, kind: IntegrationErrorKind) -> IntegrationError;
 }
 

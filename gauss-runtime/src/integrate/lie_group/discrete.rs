@@ -93,8 +93,9 @@ impl<S: GaussSystem, const D: usize, const U: usize> DiscreteLinearization<S, D,
 }
 
 impl CommutatorFree4 {
-    /// One step of length h from (q, z) with the input held, and the exact derivatives of that step itself: of what
-    /// [`Fixed`](crate::integrate::Fixed) runs of this method make, which agree with those of the motion up to the order of the method.
+    /// One step of length h from (q, z) with the input held, and the exact derivatives of that step itself, as
+    /// [`Fixed`](crate::integrate::Fixed) makes it. They agree with the derivatives of the motion up to the order of
+    /// the method.
     ///
     /// Each exponential of the step passes on what its start moves by (by the adjoint) and what its velocity changes by (by the
     /// differential of exp), so nothing but the derivatives of the equations at the four stages is needed. It costs four calls of

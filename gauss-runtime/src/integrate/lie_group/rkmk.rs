@@ -62,7 +62,8 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         self.order
     }
 
-    /// The derivatives at the stages in the algebra, and those of the last stage as they are. `increment` says where stage i is.
+    /// The derivatives at the stages in the algebra, and those of the last stage as they are. `increment` gives the
+    /// place of stage i.
     #[inline(always)]
     fn stages<Sys: GaussSystem<Scalar = T>, P: Problem<System = Sys>>(
         &self,

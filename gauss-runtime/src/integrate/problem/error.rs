@@ -93,8 +93,8 @@ pub enum IntegrationErrorKind {
         /// The time between the last two.
         interval: f64,
     },
-    /// Something decays so fast beside the rest of the motion that an explicit method cannot make longer steps, or could not make
-    /// those that it was to make.
+    /// A part of the motion decays so much faster than the rest that an explicit method cannot make longer steps, or
+    /// could not make the steps that it was given.
     Stiff {
         /// The rate of the decay, per unit of time.
         rate: f64,
@@ -155,7 +155,7 @@ pub enum IntegrationErrorKind {
     },
     /// The state cannot be brought back onto the constraints.
     Projection {
-        /// What the projection says.
+        /// The error of the projection.
         error: ProjectionError,
     },
     /// The projection onto the constraints would move the end of a step farther than its error can be, or what a jump sets farther than
@@ -168,7 +168,7 @@ pub enum IntegrationErrorKind {
         /// What is allowed of it.
         allowed: f64,
     },
-    /// The initial state violates the constraints by more than the rounding of what was typed:
+    /// The initial state violates the constraints by more than the rounding of its numbers:
     /// [`GaussSystem::project`] makes it consistent.
     InconsistentStart {
         /// Whether the configuration is wrong, or the velocity only.
@@ -176,7 +176,7 @@ pub enum IntegrationErrorKind {
         /// How far the nearest state is that satisfies them: the largest component of the increment.
         distance: f64,
     },
-    /// A step that is zero or not finite was asked for.
+    /// The given step is zero or not finite.
     InvalidStep {
         /// The step.
         step: f64,
@@ -190,7 +190,7 @@ pub enum IntegrationErrorKind {
     },
     /// An end of the interval of time is not finite.
     InvalidInterval,
-    /// A state was asked for at a time that the run does not cover.
+    /// The run does not cover the time of the requested state.
     OutsideRun {
         /// The time.
         time: f64,

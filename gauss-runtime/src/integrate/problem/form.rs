@@ -7,7 +7,7 @@ use super::input::InputSource;
 use super::state::{Rates, State};
 use crate::system::GaussSystem;
 
-/// Which variables y are integrated beside the configuration.
+/// The variables y that are integrated together with the configuration: speeds or momenta.
 pub trait Form<S: GaussSystem>: Copy {
     /// y of a state given by its quasi-velocities.
     fn variables(self, system: &S, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds;

@@ -2,9 +2,10 @@
 
 use crate::system::GaussSystem;
 
-/// Where the values of the input come from during a run: a closure ([`Simulation::input`](crate::integrate::Simulation::input)), or a type
-/// of your own ([`Simulation::input_from`](crate::integrate::Simulation::input_from)). It is asked at every stage of every step, also of
-/// steps that are rejected: the answer should depend on the arguments only, and smoothly.
+/// Where the values of the input come from during a run: a closure
+/// ([`Simulation::input`](crate::integrate::Simulation::input)), or a type of your own
+/// ([`Simulation::input_from`](crate::integrate::Simulation::input_from)). It is called at every stage of every step,
+/// also of steps that are rejected: its value should depend on the arguments only, and smoothly.
 ///
 #[cfg_attr(
     feature = "derive",
@@ -28,7 +29,7 @@ struct Vehicle {
     hull: RigidBody<f64>,
 }
 
-/// Draws O to a place and stops turning. Components in the observer's axes k, pole O, as the scene says.
+/// Draws O to a place and stops turning. Components in the observer's axes k, pole O, as declared in the scene.
 struct StationKeeping {
     place: Vector3<f64>,
     stiffness: f64,

@@ -15,8 +15,8 @@ use crate::system::GaussSystem;
 /// in the left-invariant chart: held at a point or free, added mass and all (J. E. Marsden & M. West, Acta Numerica 10, 2001;
 /// N. Bou-Rabee & J. E. Marsden, *Hamilton–Pontryagin integrators on Lie groups*, Found. Comput. Math. 9, 2009).
 ///
-/// With p the momenta in body axes, f what acts, and D± the maps `w ↦ dexp_inv(±hξ, w)`, a step is
-/// `p⁺ = p₀ + ½h f(q₀, p₀)`, ξ from `D₋ᵀ M ξ = p⁺`, `q₁ = q₀ ∘ exp(hξ)`, `p₁ = D₊ᵀ M ξ + ½h f(q₁, p₁)`.
+/// With p the momenta and f the generalised forces, both in body axes, and D± the maps `w ↦ dexp_inv(±hξ, w)`, a step
+/// is `p⁺ = p₀ + ½h f(q₀, p₀)`, ξ from `D₋ᵀ M ξ = p⁺`, `q₁ = q₀ ∘ exp(hξ)`, `p₁ = D₊ᵀ M ξ + ½h f(q₁, p₁)`.
 ///
 /// Where forces have a potential it is symplectic and keeps the momenta of the scene's symmetries to rounding: P and L in space
 /// without forces, the angular momentum about the vertical of a top. Energy oscillates and does not drift. Forces of any
