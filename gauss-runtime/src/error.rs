@@ -288,8 +288,8 @@ impl fmt::Display for ParameterWarning {
             ),
             Finding::DampingFeedsEnergy => write!(
                 f,
-                "damping feeds energy: `{field}` is {value}, and what is damped loses energy where that is positive; check \
-                 its sign"
+                "damping feeds energy: `{field}` is {value}, and damping takes energy out where that is positive; \
+                 check its sign"
             ),
             Finding::GravityUpward => write!(
                 f,

@@ -59,7 +59,7 @@ impl fmt::Display for TopError {
             Self::NotABody(error) => error.fmt(f),
             Self::Free => f.write_str("nothing acts on the body: its motion is `FreeFlow`"),
             Self::NotAWeight => {
-                f.write_str("what acts is not a constant force at one point of the body; use `Splitting`, or order 8")
+                f.write_str("the load is not one constant force at one point of the body; use `Splitting`, or order 8")
             }
             Self::NotOfRevolution => f.write_str(
                 "the weight does not act on an axis across which all moments of inertia are equal; use `Splitting`, or order 8",

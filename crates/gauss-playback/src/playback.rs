@@ -167,7 +167,7 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     #[must_use]
     pub fn up(mut self, direction: [f64; 3]) -> Self {
         if !page::can_be_shown(&direction) || direction == [0.0; 3] {
-            self.mistakes.push("what is up has no direction".to_owned());
+            self.mistakes.push("the direction that is up is zero or cannot be shown".to_owned());
         }
         self.page.up = direction;
         self

@@ -18,7 +18,7 @@ pub enum TableError {
     },
     /// A picture is SVG: the name of the file ends otherwise.
     NotSvg(PathBuf),
-    /// There are fewer than two rows, or no column beside the first.
+    /// There are fewer than two rows, or fewer than two columns.
     NothingToPlot,
     /// The picture cannot be laid out.
     Plot(String),
@@ -33,7 +33,7 @@ impl fmt::Display for TableError {
             Self::NotSvg(file) => {
                 write!(f, "pictures are SVG, so a file should be called `….svg`, not `{}`", file.display())
             }
-            Self::NothingToPlot => f.write_str("a plot needs two rows, and a column beside the first"),
+            Self::NothingToPlot => f.write_str("a plot needs two rows and two columns"),
             Self::Plot(reason) => write!(f, "the plot cannot be laid out: {reason}"),
             Self::Format(error) => write!(f, "the table cannot be written: {error}"),
         }

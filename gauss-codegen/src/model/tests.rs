@@ -60,8 +60,8 @@ fn check_body(attributes: &str, expected: &[Mistake<'_>]) {
 const INERTIA: &str = "the inertia about O is one number, three principal moments or a tensor: \
     expected `f64` (spherical), `Vector3<f64>` (principal) or `Matrix3<f64>` (full)";
 
-const ALL_CLAUSES: &str = "what moves is said by `chart`, `motion`, `coordinates`, `speeds`, `kinematics`, `body`, `frame`, \
-    `particle`, `constraint` or `independent`, what acts and more by `point`, `potential`, `input`, `force`, `torque`, \
-    `wrench`, `drive`, `spring`, `stop`, `drag`, `friction`, `armature`, `damping`, `medium`, `central_gravity`, `define`, \
-    `function`, `table`, `waive` or `limit`, and what is wanted by `crate`, `taylor`, `linearize`, `regressor`, `frames` or \
-    `methods`";
+const ALL_CLAUSES: &str = "motion is declared by `chart`, `motion`, `coordinates`, `speeds`, `kinematics`, `body`, \
+    `frame`, `particle`, `constraint` or `independent`, forces and more by `point`, `potential`, `input`, `force`, \
+    `torque`, `wrench`, `drive`, `spring`, `stop`, `drag`, `friction`, `armature`, `damping`, `medium`, \
+    `central_gravity`, `define`, `function`, `table`, `waive` or `limit`, and generated code is chosen by `crate`, `taylor`, `linearize`, \
+    `regressor`, `frames` or `methods`";

@@ -80,7 +80,7 @@ impl fmt::Display for MotionRule {
                 f.write_str("no coordinates of the target with this pose were found, so the distance from it must be 0")
             }
             Self::Constraints => {
-                f.write_str("the state must satisfy the constraints of the target, so what is left of them must be 0")
+                f.write_str("the state must satisfy the constraints of the target, so their residual must be 0")
             }
         }
     }

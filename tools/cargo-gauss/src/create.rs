@@ -29,7 +29,7 @@ fn impossible(name: &str) -> Option<&'static str> {
     } else if TAKEN.contains(&krate.as_str()) {
         Some("a crate of this name is there already, of Rust or of Gauss")
     } else if FOLDERS.contains(&name) {
-        Some("Cargo has folders of this name beside what it builds")
+        Some("Cargo makes folders of this name next to programs that it builds")
     } else if DEVICES.contains(&small.as_str()) || numbered("com") || numbered("lpt") {
         Some("Windows has no such files")
     } else {

@@ -22,7 +22,7 @@ pub fn target_is_there() -> bool {
 /// When they cannot be compiled.
 pub fn kernels(options: &[&str]) -> Result<Vec<u8>, Box<dyn Error>> {
     if !target_is_there() {
-        return Err(format!("`rustup target add {TARGET}` brings what is missing").into());
+        return Err(format!("`rustup target add {TARGET}` installs the missing target").into());
     }
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());

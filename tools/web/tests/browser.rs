@@ -14,7 +14,7 @@ const PICTURES: u32 = 30;
 #[test]
 fn scenes_move_in_the_browser_as_they_do_here() -> Result<(), Box<dyn Error>> {
     if !build::target_is_there() {
-        println!("`rustup target add {}` brings what is missing: nothing was tried", build::TARGET);
+        println!("`rustup target add {}` installs the missing target: nothing was tried", build::TARGET);
         return Ok(());
     }
     // Seven scenes are expanded: a macro that is optimised costs more than it saves. Debug information would be the

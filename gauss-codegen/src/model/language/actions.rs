@@ -180,7 +180,7 @@ impl Element {
         match (self.find("along"), self.find("from").or(self.find("to"))) {
             (Some(_), Some(end)) => {
                 let message = format!(
-                    "`along` says already what the {} acts along; remove it, or remove `{}`",
+                    "`along` already gives the coordinate of the {}; remove it, or remove `{}`",
                     self.noun, end.name
                 );
                 context.error(end.name.span(), message);

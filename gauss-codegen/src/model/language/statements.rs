@@ -397,7 +397,7 @@ fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintC
         context.error(
             expression.first().map_or(clause.name.span(), attributes::start),
             format!(
-                "it is not said what is constrained; write `constraint(position = {written})` or \
+                "a constraint is one of positions or of velocities; write `constraint(position = {written})` or \
                  `constraint(velocity = {written})`"
             ),
         );

@@ -211,10 +211,7 @@ impl Topics {
         if let Some(span) =
             self.methods.filter(|_| !framed && self.wanted.methods.contains(&WantedMethod::JacobianRates))
         {
-            context.error(
-                span,
-                "`jacobian_rates` are those of the frames that are asked for; add `frames(…)` with their names",
-            );
+            context.error(span, "`jacobian_rates` are those of the frames in `frames(…)`; add it with their names");
         }
     }
 }
@@ -266,7 +263,7 @@ fn all_clauses() -> String {
     let moves = [topics(&of_motion), names(&Statement::makes_system)].concat();
     let (acts, wanted) = (names(&|statement| !statement.makes_system()), topics(&|topic| !of_motion(topic)));
     let [moves, acts, wanted] = [moves, acts, wanted].map(|table| words::list(&table));
-    format!("what moves is said by {moves}, what acts and more by {acts}, and what is wanted by {wanted}")
+    format!("motion is declared by {moves}, forces and more by {acts}, and generated code is chosen by {wanted}")
 }
 
 fn read_chart(clause: &Clause, context: &mut Context) -> Option<Written> {

@@ -54,7 +54,7 @@ const GEAR: &str = "a gear is one coordinate for both: `rotation = rotation_z(n 
 const ROTOR: &str = "a wheel is a body that a coordinate turns: `coordinates(angle), body(wheel, parent = hull, \
                      rotation = rotation_z(angle), mass = m, inertia = [a, a, c])`";
 const ENERGY: &str = "the kinetic energy follows from what has mass; a potential is `potential = …`";
-const INTEGRATOR: &str = "how to integrate is said at run time: `Simulation::new(&kernel).adaptive(1e-9, 1e-12)`";
+const INTEGRATOR: &str = "the integrator is chosen at run time: `Simulation::new(&kernel).adaptive(1e-9, 1e-12)`";
 const PARAMETER: &str = "the fields of the struct are its parameters, by their names";
 const DAMPED: &str = "a robot's joints are damped as its file says; others by `friction(along = angle, viscous = c)`";
 const DERIVATIVES: &str = "derivatives of the equations are `linearize`; Jacobians of bodies and frames `frames(…)`";

@@ -263,7 +263,10 @@ impl Checker<'_> {
         let word = property.word();
         let ExpressionKind::Name(name) = &base.kind else {
             self.kind(base)?;
-            return self.note(span, format!("`.{word}` is asked of bodies, frames and poses by their names"));
+            return self.note(
+                span,
+                format!("`.{word}` is a property of bodies, frames and poses; write it after their names"),
+            );
         };
         let place = self.place;
         let pose = Meaning::Coordinate(CoordinateKind::Pose);

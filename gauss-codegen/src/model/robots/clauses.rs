@@ -37,7 +37,7 @@ pub fn compose(
 ) -> Option<Described> {
     let file = clauses.file.as_ref()?;
     if file.format == Format::Mjcf && clauses.base.is_some() {
-        context.error(file.span, "an MJCF file says by <freejoint/> what moves freely; remove `base`");
+        context.error(file.span, "in an MJCF file <freejoint/> marks bodies that move freely; remove `base`");
     }
     let path = source::path(file);
     let read = source::text(file, &path).and_then(|text| {

@@ -31,8 +31,8 @@ fn a_chart_with_all_that_systems_have() {
 
 #[test]
 fn what_the_chart_says_already() {
-    let own = "and `speeds` is of coordinates beside it; add `coordinates(…)` of what else moves, remove `speeds`, or \
-               remove `chart` and `motion`";
+    let own = "and `speeds` is for coordinates besides those of the chart; add `coordinates(…)` of what else moves, \
+               remove `speeds`, or remove `chart` and `motion`";
     check(
         &body("chart = hybrid, speeds(u: Vector3)"),
         &[("speeds", &format!("the chart has speeds and kinematics of its own, {own}"))],

@@ -221,7 +221,7 @@ impl Checker<'_> {
                 } else if dimension == LENGTH.1 {
                     "a length".into()
                 } else {
-                    format!("what is in {dimension}")
+                    format!("a coordinate in {dimension}")
                 };
                 let own = if dimension == Dimension::NONE { "rad".into() } else { dimension.to_string() };
                 let stiffness = ENERGY.1.over(dimension)?.over(dimension)?;

@@ -341,7 +341,7 @@ impl fmt::Display for IntegrationErrorKind {
             Self::Projection { .. } | Self::ProjectionTooFar { .. } | Self::InconsistentStart { .. } => {
                 self.of_constraints(f)
             }
-            Self::InvalidStep { step } => write!(f, "a step of {step} was asked for; it must be finite and not zero"),
+            Self::InvalidStep { step } => write!(f, "the step is {step}; it must be finite and not zero"),
             Self::InvalidTolerance { relative, absolute } => write!(
                 f,
                 "tolerances {relative:e} (relative) and {absolute:e} (absolute) must be finite, not negative, not both 0"

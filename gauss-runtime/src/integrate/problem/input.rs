@@ -83,7 +83,7 @@ impl<S: GaussSystem<Input: Absent>> InputSource<S> for NoInput {
 
 /// The inputs of a scene that has none.
 #[diagnostic::on_unimplemented(
-    message = "it is not said what the inputs are: the scene has some, and they have no source",
+    message = "the inputs of the scene have no source in this run",
     label = "this run has no `.input(…)`",
     note = "add `.input(|t, q, z| SVector::from([…]))` before the run, with a number for each input in the order of the scene"
 )]

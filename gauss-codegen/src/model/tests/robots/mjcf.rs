@@ -104,7 +104,7 @@ fn what_is_told_and_refused() {
         (
             "<freejoint/></body></worldbody>".to_owned(),
             ", base = floating",
-            Some("an MJCF file says by <freejoint/> what moves freely; remove `base`"),
+            Some("in an MJCF file <freejoint/> marks bodies that move freely; remove `base`"),
         ),
         (
             format!("{hinge}<equality><weld site1=\"arm\"/></equality>"),

@@ -59,7 +59,8 @@ fn clauses() {
             ("(", "`constraint()` says nothing; write `constraint(velocity = …)` or remove it"),
             (
                 "x",
-                "it is not said what is constrained; write `constraint(position = x-y)` or `constraint(velocity = x-y)`",
+                "a constraint is one of positions or of velocities; write `constraint(position = x-y)` or \
+                 `constraint(velocity = x-y)`",
             ),
             ("acceleration", "unknown argument of `constraint`: `acceleration`; expected `position` or `velocity`"),
             ("positon", "unknown argument of `constraint`: `positon`; did you mean `position`?"),
@@ -69,7 +70,7 @@ fn clauses() {
             ("positin", "unknown argument of `constraint`: `positin`; did you mean `position`?"),
             (
                 "[",
-                "it is not said what is constrained; write `constraint(position = [v, w, s])` or \
+                "a constraint is one of positions or of velocities; write `constraint(position = [v, w, s])` or \
                  `constraint(velocity = [v, w, s])`",
             ),
         ],

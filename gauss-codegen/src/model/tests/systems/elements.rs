@@ -253,7 +253,7 @@ fn stops_and_springs() {
         &[
             ("stop", "a stop needs a limit; add `least = …`, `most = …` or both"),
             ("stop", "a stop needs the distance over which it sets in smoothly; add `width = e`"),
-            ("from", "`along` says already what the stop acts along; remove it, or remove `from`"),
+            ("from", "`along` already gives the coordinate of the stop; remove it, or remove `from`"),
             ("stop", "a stop needs its force by distance beyond the limit; add `stiffness = k`"),
             (
                 "stop",

@@ -162,7 +162,11 @@ fn properties() {
         "position",
         "`x` is a scalar and has no `.position`; bodies and frames have, by their names",
     );
-    mistake("(a + a).position.x", "position", "`.position` is asked of bodies, frames and poses by their names");
+    mistake(
+        "(a + a).position.x",
+        "position",
+        "`.position` is a property of bodies, frames and poses; write it after their names",
+    );
     mistake(
         "arm.velocity.x",
         "velocity",
