@@ -1,8 +1,7 @@
 //! Formulas in MathML, which browsers and rustdoc set without scripts, fonts or a network.
 //!
-//! Read from the LaTeX that the printer writes, so that every name and every formula has one form for people beside plain
-//! text: braces, scripts, fractions, roots, accents, brackets that grow, and letters. What else there may be is shown as it is
-//! written.
+//! Read from the LaTeX that the printer writes, so that names and formulas have one typeset form: braces, scripts,
+//! fractions, roots, accents, brackets that grow, and letters. Any other LaTeX is shown as it is written.
 
 /// The elements of a formula of `latex`, in math mode: what stands in `<math>…</math>`.
 pub fn mathml(latex: &str) -> String {

@@ -1,8 +1,8 @@
 //! Scenes that are written in Rust rather than in attributes: for tools that read a file or ask a user.
 //!
-//! A [`Scene`] says what `#[gauss(…)]` and the fields of a struct say, in the same words; it becomes the same struct
-//! ([`Scene::source`]), which is read as any other. So whatever the language has can be said here, and whatever is refused
-//! there is refused here, by the name of the clause where an attribute would be underlined.
+//! A [`Scene`] holds the clauses of `#[gauss(…)]` and the fields of a struct, with the same words; it becomes that
+//! struct ([`Scene::source`]), which is read as any other. So a `Scene` can have every clause of the language, and is
+//! refused for the same mistakes; a mistake has the name of its clause where an attribute would be underlined.
 //!
 //! ```
 //! use gauss_codegen::{Clause, Derivation, Field, Notation, Scene};
@@ -311,7 +311,7 @@ impl Scene {
         self.clause(Clause::new("linearize"))
     }
 
-    /// The struct that says the same in Rust: one line a clause and a field.
+    /// The struct with the same clauses and fields in Rust, each on a line.
     pub fn source(&self) -> String {
         self.lines().into_iter().map(|(_, line)| line + "\n").collect()
     }

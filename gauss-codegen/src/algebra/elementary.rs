@@ -176,7 +176,7 @@ fn powf<N: ManyDigits>(base: N, exponent: N) -> N {
     }
 }
 
-/// By Newton's iteration on the tangent of what is left.
+/// By Newton's iteration on the tangent of the remaining angle.
 fn atan2<N: ManyDigits>(y: N, x: N) -> N {
     let zero = N::number(0.0);
     if y == zero && x >= zero {

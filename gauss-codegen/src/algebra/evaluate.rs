@@ -155,7 +155,7 @@ impl Function {
 pub struct Evaluation<'a, N = f64> {
     symbols: &'a Map<u32, N>,
     values: Map<u32, N>,
-    /// Functions of the user's own have the values of what stands in for them.
+    /// Functions of the user's own have the values of their stand-ins.
     stand_ins: bool,
 }
 

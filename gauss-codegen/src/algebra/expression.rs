@@ -1,4 +1,4 @@
-//! What can be asked of an expression, and made of one.
+//! Properties of an expression, and expressions made from it.
 
 use super::function::{BinaryFunction, Function};
 use super::graph::{Expr, Graph, NodeView, ZERO};

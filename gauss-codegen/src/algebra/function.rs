@@ -49,8 +49,8 @@ impl OwnFunction {
         Self { order: self.order + 1, ..self }
     }
 
-    /// Another smooth function in its place, for checks of what holds whatever the function is: the angle by which the sine of
-    /// its argument is shifted, and how often that is differentiated.
+    /// Another smooth function in its place, for checks of identities that hold for every function: the angle by which
+    /// the sine of its argument is shifted, and the number of times that sine is differentiated.
     pub(crate) fn stand_in(self) -> (f64, u8) {
         (0.3 + 0.7 * f64::from(self.index), self.order % 4)
     }

@@ -1,5 +1,5 @@
-//! Arithmetic of integers of a few words of 64 bits, the least significant first: plain loops, for numbers of 256 digits are
-//! computed with where nothing is optimised.
+//! Arithmetic of integers of a few words of 64 bits, the least significant first: plain loops, because numbers of 256
+//! bits are used in unoptimised builds of the macro.
 
 /// Words of a mantissa.
 pub const MANTISSA: usize = 4;

@@ -7,7 +7,7 @@ use std::ops::Index;
 /// Any odd number whose digits look random.
 const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// What a map can be asked by.
+/// The keys of a map.
 pub trait Key: Eq {
     /// A number that differs where keys do, nearly always.
     fn word(&self) -> u64;
@@ -54,7 +54,7 @@ impl<A: Key, B: Key, C: Key> Key for (A, B, C) {
     }
 }
 
-/// Places in a list, found by words of what is there: open addressing with at least half of the slots free.
+/// Places in a list, found by the words of the keys there: open addressing with at least half of the slots free.
 #[derive(Clone, Default)]
 pub(super) struct Places {
     /// The first half of the spread word, then one more than the place; zero where free.
@@ -68,7 +68,7 @@ pub(super) struct Places {
 const TAG: u64 = !0 << 32;
 
 impl Places {
-    /// The place of what has the word and is the `same`.
+    /// The place of the key that has this word and is the `same`.
     pub fn find(&self, word: u64, same: impl Fn(usize) -> bool) -> Option<usize> {
         let slots = &*self.slots;
         if slots.is_empty() {

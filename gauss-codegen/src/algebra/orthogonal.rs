@@ -6,10 +6,10 @@ use super::graph::Expr;
 /// forming `Bᵀ W B`: modified Gram–Schmidt on the columns, those with the fewest entries first, which for trees fills
 /// nothing.
 ///
-/// What a heavy row leaves of a column, once a column with a large entry there is taken out of it, is small as it
-/// should be, and light rows keep their digits beside it; in a sum over all rows they are lost (Björck, Numerical
-/// Methods for Least Squares Problems, 1996, 4.4). Forces g on rows are held against w a of the same row for the same
-/// reason: heavy ones leave a light rest there.
+/// Once a column with a large entry in a heavy row is taken out of another column, the remainder in that row is small,
+/// as it should be, and light rows keep their digits; in a sum over all rows these digits are lost (Björck, Numerical
+/// Methods for Least Squares Problems, 1996, 4.4). Forces g on rows are compared with w a of the same row for the same
+/// reason: in a heavy row their difference is small.
 pub struct LeastSquares<'g> {
     rows: Vec<Vec<Expr<'g>>>,
     steps: Vec<Step<'g>>,

@@ -11,8 +11,8 @@ const WORTH: u64 = 4;
 /// Letters for the names; the first that no symbol has with an index.
 const LETTERS: [&str; 4] = ["s", "h", "c", "k"];
 
-/// Names for parts of long expressions: of what is defined in the same place its own, of what else occurs more than once
-/// a letter with a number. Short expressions are printed without.
+/// Names for parts of long expressions: a part that is defined in the same place keeps its name, any other part that
+/// occurs more than once gets a letter with a number. Short parts are printed in full.
 #[derive(Default)]
 pub struct Parts<'g> {
     long: Map<Id, ()>,

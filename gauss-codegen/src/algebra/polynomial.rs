@@ -159,7 +159,7 @@ impl<'g> Expr<'g> {
         Some(Rc::unwrap_or_clone(polynomial))
     }
 
-    /// The normal form written back as an expression: constants gathered in front of each monomial of what varies.
+    /// The normal form written back as an expression: constants gathered in front of each monomial of variables.
     /// Stays as it is when more than `limit` terms would be needed.
     pub fn collected(self, limit: usize) -> Self {
         self.expand(limit).map_or(self, |p| p.collect())
@@ -479,7 +479,7 @@ impl<'g> Polynomial<'g> {
         self.graph.sum(self.terms.iter().map(|(m, c)| (*c, self.monomial_expr(m))))
     }
 
-    /// Splits off the constants: a list of (coefficient made of constants, monomial of what varies), highest first.
+    /// Splits off the constants: a list of (coefficient made of constants, monomial of variables), highest first.
     pub fn by_variable_monomials(&self) -> Vec<(Polynomial<'g>, Expr<'g>)> {
         let mut groups: BTreeMap<Monomial, Polynomial<'g>> = BTreeMap::new();
         for (monomial, c) in &self.terms {
@@ -493,7 +493,7 @@ impl<'g> Polynomial<'g> {
         groups.into_iter().rev().map(|(m, p)| (p, self.monomial_expr(&m))).collect()
     }
 
-    /// Back to an expression with the constants gathered in front of each monomial of what varies.
+    /// Back to an expression with the constants gathered in front of each monomial of variables.
     pub fn collect(&self) -> Expr<'g> {
         let one = Rational::one();
         self.graph.sum(

@@ -52,8 +52,9 @@ impl Graph {
         self.reached(&roots, children).into_iter().map(|id| children(self, id).len()).sum()
     }
 
-    /// What recursions over deep expressions visit first, parts before what is made of them, so that none goes down more
-    /// than some levels at once and overflows the stack; nothing of what is `known`. Empty for what is not deep.
+    /// The parts of a deep expression that a recursion visits first, inner parts before outer ones, so that it never
+    /// goes down more than some levels at once and overflows the stack. `known` parts are left out. Empty for an
+    /// expression that is not deep.
     fn stages(&self, root: Id, known: impl Fn(Id) -> bool) -> Vec<Id> {
         let band = |id: Id| self.depth(id) / BAND;
         if band(root) == 0 || known(root) {

@@ -88,8 +88,9 @@ impl Derivation {
         &self.constants
     }
 
-    /// One program a method of the kernel, then `evaluate`, and `linearize`, `by_parameters`, `linearize_inverse`,
-    /// `regressor` and `hessian` where they are asked for. Arguments are those of the method: constants, time and configuration first.
+    /// One program for each method of the kernel, then `evaluate`, and `linearize`, `by_parameters`,
+    /// `linearize_inverse`, `regressor` and `hessian` if the struct has their clauses. Arguments are those of the
+    /// method: constants, time and configuration first.
     pub fn programs(&self) -> &[Program] {
         &self.programs
     }
@@ -99,13 +100,13 @@ impl Derivation {
         self.programs.iter().find(|program| program.name == method)
     }
 
-    /// What each method loses to rounding at the worst state that a search finds, and in the middle of sample states, in
-    /// units of what a change of every parameter and argument in its last place does.
+    /// The rounding error of each method at the worst state that a search finds, and the median at sample states, in
+    /// units of the change of the result when every parameter and argument changes in its last place.
     pub fn accuracy(&self) -> &[(String, [f64; 2])] {
         &self.accuracy
     }
 
-    /// Of a robot from a file what is to be known of it: names that are changed, what does not act.
+    /// Remarks about a robot from a file: names that were changed, and elements that do not act in the equations.
     pub fn remarks(&self) -> &[String] {
         &self.remarks
     }
@@ -118,7 +119,7 @@ impl Derivation {
         }
     }
 
-    /// The kernel in Rust: what `#[derive(GaussDynamics)]` puts beside the struct.
+    /// The kernel in Rust: the items that `#[derive(GaussDynamics)]` adds to the struct.
     pub fn rust(&self) -> &TokenStream {
         &self.rust
     }

@@ -41,7 +41,7 @@ impl Loss {
         Self { rounded, errors, excused }
     }
 
-    /// The largest error in units of what is excused.
+    /// The largest ratio of an error to the error that is excused.
     pub fn worst(&self) -> f64 {
         self.errors.iter().zip(&self.excused).map(|(e, x)| if *e == 0.0 { 0.0 } else { e / x }).fold(0.0, f64::max)
     }

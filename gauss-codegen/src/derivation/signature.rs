@@ -11,7 +11,7 @@ use crate::words::Unraw;
 /// All arguments that methods of a kernel have, and the symbols of their components.
 pub struct Signature<'g> {
     arguments: Vec<(Argument, Vec<Expr<'g>>)>,
-    /// Symbols of literals, and of what literals determine.
+    /// Symbols of literals, and of constants that literals determine.
     literals: Map<u32, Rational>,
     known: Map<u32, f64>,
     /// Names of functions of the user's own.

@@ -57,7 +57,7 @@ pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, cont
     assembled(input, (runtime, wanted, scalar, in_chart), fields, statements)
 }
 
-/// The body without a name, where a chart says where it is.
+/// The body without a name, whose place is given by the chart.
 fn body_in_chart() -> BodyClause {
     BodyClause {
         name: None,

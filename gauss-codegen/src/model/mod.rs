@@ -11,7 +11,7 @@
 //! | `language` | tokens → clauses: `attributes` cuts them, `struct_clauses` and `statements` read those of the struct, `fields` those of the fields, `arithmetic` expressions |
 //! | `names` | `declared` names and their meanings, the `places` of expressions and the `kinds` of their values, definitions written out |
 //! | `units` | dimensions of expressions, and which are needed where |
-//! | `checks` | what must hold between fields, of mass data, of coordinates and speeds, bodies, constraints and what acts |
+//! | `checks` | rules among fields, mass data, coordinates and speeds, bodies, constraints and forces |
 //! | `robots` | files that describe robots → clauses |
 //! | `assembly` | clauses and fields put together: every check in order, then the model |
 

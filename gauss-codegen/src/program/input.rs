@@ -17,14 +17,14 @@ pub struct Argument {
     pub components: Vec<String>,
 }
 
-/// What an argument is.
+/// The meaning of an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ArgumentKind {
     /// The numbers of the fields of a struct, in their units.
     Parameters,
-    /// What a kernel computes once of its parameters.
+    /// The constants of a kernel, which it computes once from its parameters.
     Constants,
     /// Time, in seconds: one number.
     Time,
@@ -39,11 +39,11 @@ pub enum ArgumentKind {
     Accelerations,
     /// The twist of a body: velocity of O, angular velocity, both in body axes.
     Twist,
-    /// What is left of the constraints.
+    /// The residuals of the constraints.
     Residuals,
     /// Values that arrive at run time.
     Inputs,
-    /// What the rates (V, ż) are multiplied by and summed, before second derivatives are taken.
+    /// The weights of the sum of the rates (V, ż) whose second derivatives are taken.
     Weights,
 }
 

@@ -22,16 +22,17 @@
 //! ```
 //!
 //! # How to write a pass
-//! A pass is a function from [`Code`] to `Code`: it maps instructions with [`Instruction::map`], renumbers what it moved with
-//! [`Operand::moved`], and leaves what became idle to [`Code::without_idle`]. Code is generic over what its inputs are called, so
-//! that one pass serves while symbols are still symbols and afterwards; `Code::with_signs_led_back` is one of 60 lines.
-//! [`Program::with_code`] verifies the shape of what a pass made; whether it still computes the same is seen by running both
-//! ([`Program::run`]). Inside this crate every pass ends in `Code::verified`, which checks the shape in debug builds, and every
-//! kernel is compared with its expressions where it is made.
+//! A pass is a function from [`Code`] to `Code`: it maps instructions with [`Instruction::map`], renumbers what it
+//! moved with [`Operand::moved`], and leaves what became idle to [`Code::without_idle`]. Code is generic over what its
+//! inputs are called, so that one pass serves while symbols are still symbols and afterwards;
+//! `Code::with_signs_led_back` is one of 60 lines. [`Program::with_code`] verifies the shape of the code that a pass
+//! made; run both programs ([`Program::run`]) to see whether they compute the same. Inside this crate every pass ends
+//! in `Code::verified`, which checks the shape in debug builds, and every kernel is compared with its expressions where
+//! it is made.
 //!
 //! # How to write a target
-//! A target is a function from programs to text. It says how an argument is declared, how each of the ten instructions and five
-//! operands is written, and how results are handed back; [`targets::c`](crate::targets::c) is the shortest example.
+//! A target is a function from programs to text. It declares arguments, writes each of the ten instructions and five
+//! operands, and hands results back; [`targets::c`](crate::targets::c) is the shortest example.
 
 mod angles;
 mod beginnings;

@@ -56,7 +56,8 @@ impl<S: Copy> Code<S> {
         (0..added.len()).map(|k| added[k] && uses[k] == 1 && adds(&self.instructions[k])).collect()
     }
 
-    /// What one order of the power series of the outputs costs, roughly: products of what changes are sums over all lower orders.
+    /// The approximate cost of one order of the power series of the outputs: a product of two values that vary is a sum
+    /// over all lower orders.
     pub fn series_cost(&self, constant: impl Fn(S) -> bool) -> u32 {
         let moving = self.moving(&constant);
         let cost = |(instruction, &moves): (&Instruction<S>, &bool)| {

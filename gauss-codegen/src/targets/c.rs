@@ -118,7 +118,7 @@ fn calls_signum(program: &Program) -> bool {
     program.code.instructions.iter().any(signum)
 }
 
-/// The declaration of what an instruction computes; of a pair only what is read.
+/// The declaration of the results of an instruction; of a pair only those that are read.
 fn statement(program: &Program, k: usize, instruction: &Instruction, operands: &[Operand]) -> String {
     let of = |o: &Operand| operand(program, o);
     let value = match instruction {

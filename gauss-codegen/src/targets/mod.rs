@@ -17,7 +17,7 @@ fn only_scalar(program: &Program) -> bool {
     matches!(program.results.as_slice(), [result] if result.is_scalar())
 }
 
-/// What a function takes, gives and costs, in words. `name` says what a result is called.
+/// A function's arguments, results and costs in words. `name` gives the name of a result.
 fn header(program: &Program, name: impl Fn(&Results) -> String) -> String {
     let mut out = String::new();
     for argument in program.arguments.iter().filter(|argument| is_handed_over(argument)) {

@@ -143,8 +143,8 @@ fn places(bodies: &[BodyClause]) -> HashMap<String, usize> {
     places
 }
 
-/// Parents, the bodies that points are fixed in, those that forces act on, and `frames` whose motion is asked for, are
-/// bodies and frames of the system.
+/// Refuses names of parents, of bodies with points, of bodies with forces and in `frames(…)` that are no bodies or
+/// frames of the system.
 fn check_references(statements: &Statements, frames: &[Ident], context: &mut Context) {
     if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;

@@ -11,7 +11,8 @@ use crate::model::names::scope::Scope;
 use crate::model::scene::clauses::{ConstraintClause, ConstraintKind, SpeedKind};
 use proc_macro2::Ident;
 
-/// Checks names and kinds in the constraints, and says which are vectors; and which are without mistakes.
+/// Checks names and kinds in the constraints, and notes which of them are vectors. Returns for each whether it is
+/// without mistakes.
 pub fn check_kinds(statements: &mut Statements, scope: &Scope, context: &mut Context) -> Vec<bool> {
     let check = |constraint: &mut ConstraintClause| {
         let place = Place::Constraint(constraint.kind);
@@ -60,7 +61,7 @@ fn check_independent(statements: &Statements, uncertain: bool, context: &mut Con
         );
     }
     let own = statements.speeds.as_ref();
-    // Coordinates beside a chart whose rates are the speeds leave some without a name.
+    // Beside a chart, coordinates whose rates are the speeds leave some speeds without a name.
     let unnamed = own.is_none() && statements.coordinates.is_some();
     if unnamed || (own.is_none() && !statements.in_chart) {
         if !uncertain {

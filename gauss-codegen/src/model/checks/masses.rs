@@ -84,7 +84,8 @@ fn check_unnamed(
     }
 }
 
-/// Nothing in the system has mass. Of a field without its clause, or a role without its body, it is said there what to add.
+/// Refuses a system in which nothing has mass. A field without its clause and a role without its body have messages of
+/// their own, with what to add.
 fn refuse_massless(input: &DeriveInput, statements: &Statements, reader: &Reader<'_>, context: &mut Context) {
     let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
     if !reader.fields.iter().any(|field| field.role.as_ref().is_some_and(|claim| claim.role == Role::Body)) {

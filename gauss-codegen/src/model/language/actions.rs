@@ -1,4 +1,4 @@
-//! Clauses of what acts: forces, torques, wrenches, drags, springs, stops, drives, central gravity and the medium.
+//! Clauses of force elements: forces, torques, wrenches, drags, springs, stops, drives, central gravity and the medium.
 
 use super::arguments::{self, brackets, equals, known, value};
 use super::arithmetic;
@@ -10,7 +10,7 @@ use crate::model::scene::clauses::{Attraction, Coefficients, Extent, ForceAxes, 
 use crate::model::scene::expression::Expression;
 use proc_macro2::{Ident, Span};
 
-/// How an element of what acts is written.
+/// How a force element is written.
 struct Form {
     /// What it is called in messages.
     noun: &'static str,

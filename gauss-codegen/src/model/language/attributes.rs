@@ -28,7 +28,7 @@ pub enum Owner {
     Constraint,
     /// In the brackets of `define(…)`.
     Define,
-    /// In the brackets of a clause of what acts, which begins with this word.
+    /// In the brackets of a clause of a force element, which begins with this word.
     Action {
         word: &'static str,
         example: &'static str,

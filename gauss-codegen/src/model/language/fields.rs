@@ -1,4 +1,4 @@
-//! The clauses of the fields: the role that each one plays, the word that says its shape, and its unit.
+//! The clauses of the fields: the role of each field, the word for its shape, and its unit.
 
 use super::arguments::{self, UNIT};
 use super::attributes::{self, Clause, Content, Owner};
@@ -31,7 +31,7 @@ pub struct Claim {
     pub span: Span,
     /// The word after `=`, when there is a valid one.
     pub form: Option<Form>,
-    /// The word after `=` was refused: then the shape is not asked for once more.
+    /// The word after `=` was refused: then a missing shape is not a second mistake.
     pub malformed: bool,
 }
 
@@ -123,7 +123,7 @@ impl Reader<'_> {
         (role, unit)
     }
 
-    /// A field plays one role, and says so once.
+    /// Refuses a second role of a field, and a role that is written twice.
     fn refuse_second(&mut self, ident: &Ident, first: &Claim, claim: &Claim, context: &mut Context) {
         let [earlier, word] = [first.role.word(), claim.role.word()];
         if first.role == claim.role {

@@ -181,7 +181,7 @@ impl FunctionName {
     }
 }
 
-/// What can be asked of bodies, by its word.
+/// The properties of bodies by their words.
 pub const PROPERTIES: &Table<Property> = &[
     ("position", Property::Position),
     ("rotation", Property::Rotation),

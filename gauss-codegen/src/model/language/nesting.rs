@@ -77,7 +77,7 @@ impl Level {
     }
 }
 
-/// Whether syn reads what an attribute says: `#[name = …]`, whose value is an expression.
+/// Whether syn reads the contents of an attribute: `#[name = …]`, whose value is an expression.
 fn is_parsed(attribute: &Group) -> bool {
     attribute.stream().into_iter().any(|token| matches!(token, TokenTree::Punct(sign) if sign.as_char() == '='))
 }
@@ -119,7 +119,7 @@ pub fn item_too_deep(tokens: TokenStream) -> Option<Span> {
     too_deep(tokens)
 }
 
-/// Levels of an expression, where `named` says how many stand behind a name.
+/// The number of nested levels of an expression; `named` gives that of a name.
 pub fn depth(expression: &Expression, named: &dyn Fn(&Expression) -> usize) -> usize {
     let mut deepest = 0;
     expression.parts(&mut |part| deepest = deepest.max(depth(part, named)));

@@ -119,7 +119,7 @@ const SATURATION: &Table<Saturation> = &[("clamp", Saturation::Clamp), ("none", 
 const STOP: &Table<()> = &[("stiffness", ()), ("width", ()), ("damping", ())];
 const PARAMETERS: &Table<()> = &[("inertial", ())];
 
-/// The clause that a word is, if it is one of these: of options only beside a file.
+/// The clause with this word, if it is one of these; options are clauses only where the struct names a file.
 pub fn topic(word: &str, beside_file: bool) -> Option<RobotTopic> {
     let options = if beside_file { OPTIONS } else { &[] };
     FILES.iter().chain(options).find(|(name, _)| *name == word).map(|&(_, topic)| topic)

@@ -13,7 +13,7 @@ pub fn role(word: &str) -> Option<Role> {
     ROLES.iter().find(|(name, _)| *name == word).map(|&(_, role)| role)
 }
 
-/// Reads `role = value` into the list; of what is given twice the first counts.
+/// Reads `role = value` into the list; where a role is given twice, the first value counts.
 pub fn read(role: Role, clause: &Clause, list: &mut Vec<RoleClause>, context: &mut Context) {
     let word = role.word();
     let example = match role {

@@ -1,7 +1,7 @@
 //! The written type of a field → its shape and its scalar.
 //!
 //! A derive sees tokens, not types, so the last segment of the path decides: `nalgebra::Vector3<f64>` is a vector of
-//! three whatever `nalgebra` is. A name that says nothing is taken for an alias, and the role must say the shape.
+//! three whatever `nalgebra` is. An unknown name is taken for an alias, and the word of the role must give the shape.
 
 use crate::model::scene::model::Scalar;
 use crate::model::scene::roles::Shape;

@@ -15,12 +15,12 @@ use crate::model::scene::expression::{Expression, ExpressionKind};
 use proc_macro2::{Group, Ident, TokenTree};
 use syn::LitInt;
 
-/// What the clauses of a system say, before their names are checked.
+/// The contents of the clauses of a system, before their names are checked.
 #[derive(Default)]
 pub struct Statements {
-    /// A body without a name moves in a chart: what is said without a body is about this one.
+    /// A body without a name moves in a chart: clauses without a body are about this one.
     pub in_chart: bool,
-    /// `chart` or `motion`, beside clauses that say what else moves.
+    /// `chart` or `motion`, where other clauses declare moving parts as well.
     pub of_chart: Option<Ident>,
     /// What the speeds of the chart are called, one by one.
     pub speeds_of_chart: Vec<String>,
@@ -217,7 +217,7 @@ impl Statements {
         }
     }
 
-    /// Names, and what they stand for; of what is given twice the first counts.
+    /// Reads names with their meanings; where a name is given twice, the first counts.
     fn read_declaration(&mut self, statement: Statement, clause: &Clause, context: &mut Context) {
         match statement {
             Statement::Coordinates => {
@@ -355,7 +355,7 @@ impl Statements {
         self.missed || self.unread.iter().any(|unread| statements.contains(unread))
     }
 
-    /// Something is written besides the chart: of what moves, of what acts, or of mass data.
+    /// Whether nothing is declared besides the chart: no moving part, no force and no mass data.
     pub fn is_empty(&self) -> bool {
         self.first.is_none() && self.role_clauses.is_empty()
     }

@@ -1,4 +1,4 @@
-//! The clauses of the struct: which equations are wanted. Those of what moves and acts are read by `statements`.
+//! The clauses of the struct that choose a chart and methods. Clauses of motion and forces are read by `statements`.
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
 //! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `regressor` alone;
@@ -21,18 +21,18 @@ use syn::ext::IdentExt;
 use syn::parse::Parser;
 use syn::{Attribute, Path, PathSegment};
 
-/// What the clauses of the struct say.
+/// The contents of the clauses of the struct.
 pub struct Clauses {
     /// The chart of the body without a name, unless the scene has coordinates of its own only.
     pub in_chart: Option<InChart>,
     pub runtime: Path,
-    /// What is wanted beside the equations.
+    /// The methods and derivatives to generate besides the equations.
     pub wanted: Wanted,
-    /// What moves, what has mass and what acts.
+    /// Coordinates, bodies and forces.
     pub statements: Statements,
-    /// Some clause says what else moves than the body of a chart.
+    /// Some clause declares a moving part besides the body of a chart.
     pub own: bool,
-    /// A file that says so, and what is made of it.
+    /// The clause that names a robot's file, and the clauses made from the file.
     pub robot: RobotClauses,
 }
 
@@ -98,8 +98,8 @@ enum Written {
     },
 }
 
-/// Reads the attributes of the struct. `chart` or `motion` says that a body without a name moves in a chart; so does it if no
-/// clause and no field, as with `has_body`, says what moves.
+/// Reads the attributes of the struct. A body without a name moves in a chart where `chart` or `motion` is written, and
+/// where neither a clause nor a field (`has_body`) declares a moving part.
 pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> Clauses {
     let clauses = attributes::clauses(attributes, Owner::Struct, context);
     // A clause of its own is no misspelling of another: `frames` is not `frame`.
@@ -155,7 +155,7 @@ struct Topics {
     wanted: Wanted,
     /// The topics of clauses so far, each with the clause.
     first: Vec<(Topic, String)>,
-    /// Where methods are asked for.
+    /// The place of `methods(…)`.
     methods: Option<Span>,
 }
 
@@ -205,7 +205,7 @@ impl Topics {
         }
     }
 
-    /// Rates of Jacobians are those of frames that are asked for.
+    /// Refuses rates of Jacobians without `frames(…)`.
     fn check(&self, context: &mut Context) {
         let framed = self.first.iter().any(|(topic, _)| *topic == Topic::Frames);
         if let Some(span) =
@@ -390,7 +390,7 @@ fn read_motion(clause: &Clause, context: &mut Context) -> Option<Motion> {
     Some(motion)
 }
 
-/// A clause that says all there is to say by its name.
+/// Refuses a value of a clause that is written as its name alone.
 fn check_alone(clause: &Clause, context: &mut Context) {
     let name = &clause.name;
     let span = match &clause.value {

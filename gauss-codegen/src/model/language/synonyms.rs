@@ -1,4 +1,4 @@
-//! Words of the field that the language does not have, and what says the same in it.
+//! Words of the field that the language does not have, and the clauses of the language with the same meaning.
 
 use super::words::Table;
 use crate::model::scene::roles::Role;

@@ -9,7 +9,7 @@ use std::fmt;
 use std::iter::Peekable;
 use std::str::Chars;
 
-/// Powers of kg, m and s, doubled: roots of what is squared stay whole. A radian is 1.
+/// Powers of kg, m and s, doubled, so that a square root has whole powers. A radian is 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dimension([i32; 3]);
 

@@ -43,7 +43,7 @@ pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {
         let on = clause.kind.body();
         for (place, expression) in clause.expressions() {
             match place {
-                // What a point of the body itself is called says where that is in the body.
+                // The name of a point of the same body stands for its place in the body.
                 Place::ForceAt { .. } if on.is_some_and(|body| statements.own_point(body, expression).is_some()) => {}
                 Place::ForceAt { .. } if statements.in_chart => all.push((Place::ForceAt { bound: true }, expression)),
                 place => all.push((place, expression)),

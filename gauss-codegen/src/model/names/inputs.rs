@@ -43,7 +43,7 @@ pub fn name(statements: &mut Statements, fields: &[ReadField<'_>], context: &mut
 fn replace(expression: &mut Expression, inputs: &[(String, Ident)], own_meaning: bool, unknown: &mut Vec<Ident>) {
     let asked = match &expression.kind {
         ExpressionKind::Input(name) => Some(name.unraw().to_string()),
-        // Words that are asked of other things as well.
+        // Words that are properties of bodies and vectors as well.
         ExpressionKind::Component(base, index) if is_input(base) => {
             ["x", "y", "z"].get(*index).map(|w| (*w).to_owned())
         }

@@ -47,12 +47,12 @@ impl Moving {
         self.places.contains(&word(name))
     }
 
-    /// Whether some part of it is the name of what moves.
+    /// Whether some part of an expression is the name of something that moves.
     pub fn in_place(&self, expression: &Expression) -> bool {
         names_any(expression, &self.places)
     }
 
-    /// Whether some part of it is a velocity of what moves.
+    /// Whether some part of an expression is a velocity of something that moves.
     pub fn in_velocity(&self, expression: &Expression) -> bool {
         let mut found = names_any(expression, &self.speeds);
         expression.walk(&mut |part| {

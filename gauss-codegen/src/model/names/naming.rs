@@ -13,10 +13,10 @@ use syn::ext::IdentExt;
 /// A name, and what it names.
 type Named<'a> = (&'a Ident, &'static str);
 
-/// Fields, coordinates, speeds, inputs, definitions, functions, bodies, frames and points have different names, elements of what acts
-/// too among themselves, and none a name that expressions use already.
+/// Refuses names that are used twice, among fields, coordinates, speeds, inputs, definitions, functions, bodies, frames
+/// and points, and among force elements; and names that expressions use already.
 pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Context) {
-    // Expressions do not name what acts: a force may have the name of its input.
+    // Expressions do not name force elements: a force may have the name of its input.
     let acting = acting(statements);
     let nouns: HashSet<&str> = acting.iter().map(|(_, noun)| *noun).collect();
     let is_element = |noun: &str| nouns.contains(noun);

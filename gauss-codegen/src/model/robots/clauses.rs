@@ -363,7 +363,7 @@ impl<'a> Robot<'a> {
         all
     }
 
-    /// The acceleration of free fall, where neither a field nor a clause of the struct says it.
+    /// The acceleration of free fall, where neither a field nor a clause of the struct gives it.
     fn gravity(&self) -> Option<RoleClause> {
         let writer = self.writer;
         let value = match self.description.gravity? {

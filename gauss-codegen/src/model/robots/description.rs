@@ -1,4 +1,4 @@
-//! What a file says of a robot, whatever its format: plain data in SI units.
+//! The description of a robot, the same for every format of files: plain data in SI units.
 
 use std::path::PathBuf;
 
@@ -88,13 +88,13 @@ pub struct Description {
     pub drives: Vec<Drive>,
     /// The others are driven by nothing.
     pub only_driven: bool,
-    /// Links that are joined beside the tree.
+    /// Links that are joined by more than the tree: loops.
     pub closures: Vec<Closure>,
     pub polynomials: Vec<Polynomial>,
     pub tendons: Vec<Tendon>,
     pub cables: Vec<Cable>,
     pub postures: Vec<Posture>,
-    /// The acceleration of free fall in observer's axes, where the file says so.
+    /// The acceleration of free fall in observer's axes, if the file gives one.
     pub gravity: Option<Triple>,
     pub notes: Vec<Note>,
     /// Files beside those of the text, whose numbers are in it.

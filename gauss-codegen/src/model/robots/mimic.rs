@@ -12,7 +12,7 @@ pub struct Coupling {
     pub offset: f64,
 }
 
-/// A joint that mimics a fixed one, or one that is fixed by that, is held where its offset says.
+/// A joint that mimics a fixed one, or one that is fixed by that, is held at its offset.
 pub fn hold_followers_of_fixed(description: &mut Description) {
     for joint in description.joints.iter_mut().filter(|joint| joint.kind == JointKind::Fixed) {
         // It is where its origin is, whatever it mimics.

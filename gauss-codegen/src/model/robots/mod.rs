@@ -11,7 +11,7 @@
 //! | `joints` | a joint → position and rotation of its link |
 //! | `clauses` | a description → clauses, before those of the struct |
 //! | `drives`, `efforts`, `ranges` | inputs; what they do; how much of it at most |
-//! | `laws`, `springs`, `relations` | what else acts in joints; springs of all kinds; what joins links beside the tree |
+//! | `laws`, `springs`, `relations` | other forces in joints; springs of all kinds; relations of links besides the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
 //! | `mesh`, `hull` | surfaces from STL and OBJ files, and their masses; convex hulls |

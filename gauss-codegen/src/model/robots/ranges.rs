@@ -1,4 +1,4 @@
-//! Controls, forces and efforts within their ranges: what is beyond is cut off where the struct says so.
+//! Controls, forces and efforts within their ranges: with `saturation = clamp` values beyond are cut off.
 
 use std::collections::HashSet;
 

@@ -1,4 +1,4 @@
-//! What joins links beside the tree: points and rotations in common, coordinates that are polynomials of others.
+//! Relations of links besides the tree: points and rotations in common, coordinates that are polynomials of others.
 
 use super::clauses::Robot;
 use super::description::{At, Closure, Polynomial, Turn};

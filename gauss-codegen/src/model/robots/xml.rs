@@ -136,7 +136,7 @@ impl<'a> Reading<'a> {
         self.notes.push(Note::told(self.at(node), text.to_string()));
     }
 
-    /// Notes what acts in the file and not in the equations.
+    /// Notes an element or attribute that acts in the file and not in the equations.
     pub fn ignored(&mut self, node: Node<'a, 'a>, text: impl std::fmt::Display) {
         self.notes.push(Note::ignored(self.at(node), node.tag_name().name(), text.to_string()));
     }

@@ -1,4 +1,4 @@
-//! The clauses of a scene, checked: coordinates and speeds, what has mass, and what acts.
+//! The clauses of a scene, checked: coordinates and speeds, bodies and particles, and forces.
 
 use super::expression::Expression;
 use super::roles::{Role, Shape};
@@ -72,9 +72,9 @@ pub struct BodyClause {
     pub massless: bool,
     /// The body or frame whose O and axes position and rotation are relative to; `None`: Ω and k.
     pub parent: Option<Ident>,
-    /// Where O is; `None`: at the parent's O, or at Ω, or where the chart says.
+    /// The position of O; `None`: at the parent's O, or at Ω, or given by the chart.
     pub position: Option<Expression>,
-    /// How the axes e are turned; `None`: like the parent's, or like k, or as the chart says.
+    /// The rotation of the axes e; `None`: like the parent's, or like k, or given by the chart.
     pub rotation: Option<Expression>,
     /// Mass, centre of mass and inertia where the body has no field; what the fluid about it does, in any case.
     pub role_clauses: Vec<RoleClause>,
@@ -231,8 +231,8 @@ pub struct Attraction {
     pub center: Option<Expression>,
 }
 
-/// `force(…)`, `torque(…)`, `wrench(…)`, `drive(…)`, `spring(…)`, `stop(…)`, `drag(…)` or `damping = …`: an element of
-/// what acts.
+/// `force(…)`, `torque(…)`, `wrench(…)`, `drive(…)`, `spring(…)`, `stop(…)`, `drag(…)` or `damping = …`: a force
+/// element.
 #[derive(Clone)]
 pub struct ForceClause {
     /// What its generalised force is called, different from those of the other elements; `None` if it has no name.

@@ -71,9 +71,9 @@ pub enum FunctionName {
     Cos,
     /// Tangent of an angle in radians.
     Tan,
-    /// Inverse sine in radians, of what lies between −1 and 1.
+    /// Inverse sine in radians, of a number between −1 and 1.
     Asin,
-    /// Inverse cosine in radians, of what lies between −1 and 1.
+    /// Inverse cosine in radians, of a number between −1 and 1.
     Acos,
     /// Inverse tangent in radians.
     Atan,
@@ -122,8 +122,8 @@ pub enum FunctionName {
     Hypot,
 }
 
-/// What can be asked of a body or a frame, in observer axes unless it is said; of a coordinate that is a pose, the first
-/// two; of an input that is a wrench, the last two.
+/// A property of a body or a frame, with components in observer axes unless the variant names others. A coordinate that
+/// is a pose has the first two, an input that is a wrench the last two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Property {
     /// O from Ω.

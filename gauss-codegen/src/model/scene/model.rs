@@ -1,5 +1,5 @@
-//! A scene as the user wrote it, checked: coordinates and speeds, or the chart of a body; bodies, particles, constraints and
-//! what acts.
+//! A scene as the user wrote it, checked: coordinates and speeds, or the chart of a body; bodies, particles,
+//! constraints and forces.
 
 use super::charts::InChart;
 use super::clauses::{
@@ -25,9 +25,9 @@ pub struct Model {
     pub generics: Generics,
     /// The one scalar of every field with a role and of every field that an expression names; `f64` if there are none.
     pub scalar: Scalar,
-    /// Where the generated code finds the runtime: `::gauss_runtime`, or what `crate = path` says.
+    /// Where the generated code finds the runtime: `::gauss_runtime`, or the path of `crate = path`.
     pub runtime: Path,
-    /// What is wanted beside the equations.
+    /// The methods and derivatives to generate besides the equations.
     pub wanted: Wanted,
     /// Every field of the struct, in order.
     pub fields: Vec<Field>,
@@ -99,7 +99,7 @@ impl Model {
         self.fields.iter().find(|field| field.role == Some(role))
     }
 
-    /// The shape of what plays a role, a field or a clause; without it the body without a name has no such thing.
+    /// The shape of the field or the clause that plays a role; `None` where neither does.
     pub fn shape(&self, role: Role) -> Option<Shape> {
         let clause = || self.role_clauses.iter().find(|clause| clause.role == role);
         self.field(role).map(|field| field.shape).or_else(|| clause().map(|clause| clause.shape))
@@ -120,7 +120,7 @@ impl Model {
         by_elements || self.potential.is_some() || self.medium.is_some() || !self.inputs.is_empty()
     }
 
-    /// Some expression is written, of what acts or of mass data.
+    /// Whether there is any expression, of forces or of mass data.
     pub fn has_expressions(&self) -> bool {
         self.is_acted_upon() || !self.role_clauses.is_empty() || !self.points.is_empty()
     }
@@ -138,7 +138,7 @@ impl Model {
         self.formal.iter().any(|formal| formal.as_ref().is_none_or(same))
     }
 
-    /// Whether the model itself says where the body is: in a chart.
+    /// Whether the body is the one that moves in the chart of the model.
     pub fn is_in_chart(&self, body: &BodyClause) -> bool {
         self.in_chart.is_some() && body.name.is_none()
     }
@@ -161,7 +161,7 @@ pub struct Field {
     pub documentation: String,
 }
 
-/// What is wanted beside the equations.
+/// The methods and derivatives that a kernel has on request.
 #[derive(Clone, Default)]
 pub struct Wanted {
     /// `taylor`, where it is written: power series of the motion.
@@ -178,7 +178,7 @@ pub struct Wanted {
     pub regressor: Option<Ident>,
     /// `frames(…)`: bodies and frames whose poses and velocities are methods, by their names, each once.
     pub frames: Vec<Ident>,
-    /// `methods(…)`: what is asked of the system as a whole, each once.
+    /// `methods(…)`: quantities of the system as a whole, each once.
     pub methods: Vec<WantedMethod>,
 }
 
@@ -189,9 +189,9 @@ pub enum WantedMethod {
     Centroidal,
     /// Inverse dynamics at ż = 0.
     NonlinearEffects,
-    /// What holds weight and buoyancy.
+    /// The generalised forces that balance weight and buoyancy.
     GravityTorques,
-    /// d/dt of the Jacobians of the frames that are asked for.
+    /// d/dt of the Jacobians of the frames in `frames(…)`.
     JacobianRates,
 }
 

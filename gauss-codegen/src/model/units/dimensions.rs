@@ -1,5 +1,5 @@
 //! Dimensions of expressions, as far as they follow from the units of fields and inputs, from roles, from `t` in s, and from the
-//! positions and velocities of bodies. Nothing is asked of a scene in which no unit is written.
+//! positions and velocities of bodies. A scene in which no unit is written is not checked.
 //!
 //! What has no unit, such as scalar coordinates and speeds, agrees with everything, and so does its product with anything. A
 //! literal agrees with everything too, in a sum or alone; as a factor it has no dimension, unless it is zero.
@@ -160,7 +160,8 @@ impl Checker<'_> {
         format!("{what} {} and {}: {why}; {remedy}", shown[0], shown[1])
     }
 
-    /// The dimensions of an expression; what is wrong within it is noted, and not told again of what is around it.
+    /// The dimensions of an expression. A mistake in a part is noted at the part, and not again at the expressions
+    /// around it.
     pub fn value(&mut self, expression: &Expression) -> Dimensions {
         let earlier = self.context.count();
         let value = self.inferred(expression);

@@ -232,7 +232,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A constant of a spring or a stop, which is the one at `index` of what [`Self::extent`] gives.
+    /// A constant of a spring or a stop, whose unit is the one at `index` of the list that [`Self::extent`] gives.
     fn constant(
         &mut self,
         value: Option<&Expression>,

@@ -5,7 +5,7 @@ use roxmltree::Node;
 use crate::model::robots::names::unknown;
 use crate::model::robots::xml::{Reading, own_descendants};
 
-/// The class of what names none.
+/// The class of elements that name none.
 const MAIN: &str = "main";
 
 /// A class of defaults.

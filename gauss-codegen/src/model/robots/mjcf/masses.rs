@@ -1,4 +1,4 @@
-//! Mass data of bodies: what `<inertial>` says, or what the volumes of geoms make.
+//! Mass data of bodies: from `<inertial>`, or from the volumes of geoms.
 
 use std::f64::consts::PI;
 

@@ -39,7 +39,7 @@ impl Angles {
         angles
     }
 
-    /// The rotation of an element, none if nothing says one.
+    /// The rotation of an element, the identity if the element gives none.
     pub fn of<'a>(&self, node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Rotation {
         let matrix = if let Some(quaternion) = reading.numbers::<4>(node, "quat") {
             of_quaternion(quaternion)
