@@ -37,7 +37,7 @@
 /// | `displaced_mass` | scalar | mass of the displaced fluid: buoyancy; needs `gravity` |
 /// | `center_of_buoyancy` | `Vector3` | from O, body axes; without it buoyancy acts at O |
 ///
-/// The last segment of the written type decides the shape. Behind an alias the role says it: `inertia = spherical |
+/// The last segment of the written type decides the shape. Behind an alias the role gives it: `inertia = spherical |
 /// principal | full` (of `inertia_about_center_of_mass` too), `added_mass = diagonal | full`, `gravity = vertical | vector`.
 /// The scalar is `f32`, `f64`, or a type parameter of the struct (`struct Body<T> { … }`; the kernel is then generic over
 /// `T: Real`). Fields without a role are left alone.
@@ -89,10 +89,11 @@
 /// let all = kernel.frames(t, &q, &z);                          // of all frames at once: all[ArmFrame::tool].twist
 /// ```
 ///
-/// Components are in the axes of the frame, the pole is its origin; `gauss_runtime::frames` turns them into observer's axes and moves
-/// the pole. Each method is a program of its own, `OPERATIONS.of_frames` says what it costs. Forces at a frame that arrive at run
-/// time are a wrench on it, one element with its power: `input(contact: Wrench), wrench(ground, body = left_foot, force =
-/// contact.force, torque = contact.torque)`, in the axes of the frame at its origin.
+/// Components are in the axes of the frame, the pole is its origin; `gauss_runtime::frames` turns them into observer's
+/// axes and moves the pole. Each method is a program of its own, with its cost in `OPERATIONS.of_frames`. Forces at a
+/// frame that arrive at run time are a wrench on it, one element with its power:
+/// `input(contact: Wrench), wrench(ground, body = left_foot, force = contact.force, torque = contact.torque)`, in the
+/// axes of the frame at its origin.
 ///
 /// # What kernels refuse, and warnings
 ///
@@ -102,8 +103,9 @@
 /// regular. Of a body that turns about one axis alone the other moments may be all zero, for "not stated". `waive(triangle_inequality)`
 /// waives that rule for all bodies, `waive(triangle_inequality = arm)` for one.
 ///
-/// `warnings()` says what is likely not meant: drag and damping that feed energy, a `gravity` below zero, a center that pushes away,
-/// added mass with the sign of the derivatives X_u̇ … N_ṙ. `for warning in body.warnings() { println!("{warning}") }`.
+/// `warnings()` lists likely mistakes: drag and damping that feed energy, a `gravity` below zero, a center that pushes
+/// away, added mass with the sign of the derivatives X_u̇ … N_ṙ.
+/// `for warning in body.warnings() { println!("{warning}") }`.
 ///
 /// # Systems
 ///
@@ -138,7 +140,8 @@
 ///
 /// # Robots from their files
 ///
-/// With the features `urdf` and `mjcf` of gauss-runtime a file says what moves, and the struct needs no fields:
+/// With the features `urdf` and `mjcf` of gauss-runtime a file declares joints and links, and the struct needs no
+/// fields:
 ///
 /// ```text
 /// #[derive(GaussDynamics)]
@@ -176,35 +179,40 @@
 ///
 /// In expressions `input.elbow` is this input, also where `elbow` is the coordinate: `drive(wrist = 0.1 * input.elbow)`.
 ///
-/// What acts is called `efforts`, `joint_damping`, `joint_friction`, and `elbow_limits`. A URDF says nothing of `gravity`: without the
-/// clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures, with the square of `mechanicalReduction`.
+/// The force elements are called `efforts`, `joint_damping`, `joint_friction`, and `elbow_limits`. A URDF has no
+/// `gravity`: without the clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures,
+/// with the square of `mechanicalReduction`.
 ///
-/// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references, damping, dry
-/// friction, springs (`elbow_spring`), also of balls and free joints, `springdamper` of joints that move alone, armature and ranges; inertials, and the masses of geoms, of shells as well, of meshes in STL and
-/// OBJ files (by `inertia="exact"`, `legacy`, `convex` or `shell`), of the groups in `inertiagrouprange`, within bounds, scaled to
-/// `settotalmass`; classes of defaults; what a body's `gravcomp` holds of its weight; what flags switch off;
-/// angles and Euler sequences of the compiler; sites as frames; gravity, where the struct says none; equalities of joints, linear ones
-/// as coupled joints, others and those of fixed tendons as constraints; points in common and welds as constraints; springs and
-/// dampers of tendons, fixed ones and spatial ones through sites and pulleys, slack over a range; actuators along joints and fixed tendons that are linear in their control, with
-/// gains that may depend on length and rate, and at sites, without `refsite`: those are wrenches, each with its
-/// control for an input whatever `inputs` asks for. A ball is a `Rotation`, a free joint a `Pose`; armature, damping and springs act in
-/// both. The spring of a turn is a torque −k φ n, MuJoCo's: no potential energy counts it, and it jumps where φ is half a revolution.
-/// Keyframes are functions `ArmState::home()`, by their names, and `ArmInput::home()` where inputs are controls;
-/// `ArmState::start()` is where the file has everything at first, if that is not zero. `<include>` puts what is in the root of another
-/// file in its place: its path is relative to the folder of the first, or else to that of the file that includes it, and no file is
-/// included twice. `<replicate>` copies what is in it, and what refers to that; `<attach>` hangs a body of another model, with what
-/// refers to it. An edit of any of these files, and of meshes, compiles the struct anew; mistakes are shown where they are written.
+/// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references,
+/// damping, dry friction, springs (`elbow_spring`), also of balls and free joints, `springdamper` of joints that move
+/// alone, armature and ranges; inertials, and the masses of geoms, of shells as well, of meshes in STL and OBJ files
+/// (by `inertia="exact"`, `legacy`, `convex` or `shell`), of the groups in `inertiagrouprange`, within bounds, scaled
+/// to `settotalmass`; classes of defaults; what a body's `gravcomp` holds of its weight; what flags switch off; angles
+/// and Euler sequences of the compiler; sites as frames; gravity, where the struct has none; equalities of joints,
+/// linear ones as coupled joints, others and those of fixed tendons as constraints; points in common and welds as
+/// constraints; springs and dampers of tendons, fixed ones and spatial ones through sites and pulleys, slack over a
+/// range; actuators along joints and fixed tendons that are linear in their control, with gains that may depend on
+/// length and rate, and at sites, without `refsite`: those are wrenches, each with its control for an input whatever
+/// `inputs` asks for. A ball is a `Rotation`, a free joint a `Pose`; armature, damping and springs act in both. The
+/// spring of a turn is a torque −k φ n, MuJoCo's: no potential energy counts it, and it jumps where φ is half a
+/// revolution. Keyframes are functions `ArmState::home()`, by their names, and `ArmInput::home()` where inputs are
+/// controls; `ArmState::start()` is where the file has everything at first, if that is not zero. `<include>` puts what
+/// is in the root of another file in its place: its path is relative to the folder of the first, or else to that of the
+/// file that includes it, and no file is included twice. `<replicate>` copies what is in it, and what refers to that;
+/// `<attach>` hangs a body of another model, with what refers to it. An edit of any of these files, and of meshes,
+/// compiles the struct anew; mistakes are shown where they are written.
 ///
 /// Files may be anywhere, also behind links, as for `include_str!`. They are regular files, of 16 MiB at most with all that they
 /// include, a mesh of 64 MiB; elements are nested 256 deep at most, includes 32; a file attaches 32 models, and replicates 100 times, a
 /// thousand copies each. What is beyond is a mistake with its place.
 ///
-/// Nothing is left out in silence: every element and attribute of both formats is in a table of what acts, what is warned of, and
-/// what is harmless. What acts in the file and not in the equations (elements and attributes that are not known, laws of
-/// joints with several speeds, actuators with states) is a warning of the compiler with its line, one for all of a kind. The page of
-/// the kernel lists these, names that are no identifiers or taken and have been changed, and what says nothing of the motion, such as
-/// looks and shapes for contacts. Numbers of the file are literals. Mistakes in it are shown at its name, with line and column:
-/// `robots/arm.urdf:12:3: …`; so are inertias that no body has, unless `waive(triangle_inequality = arm)` says that they are meant.
+/// Nothing is left out in silence: a table has every element and attribute of both formats, as one that acts, that is
+/// warned of, or that is harmless. Whatever acts in the file and not in the equations (elements and attributes that are
+/// not known, laws of joints with several speeds, actuators with states) is a warning of the compiler with its line,
+/// one for all of a kind. The page of the kernel lists these, names that are no identifiers or taken and have been
+/// changed, and elements without effect on the motion, such as looks and shapes for contacts. Numbers of the file are
+/// literals. Mistakes in it are shown at its name, with line and column: `robots/arm.urdf:12:3: …`; so are inertias
+/// that no body has, unless `waive(triangle_inequality = arm)` allows them.
 ///
 /// # What acts
 ///

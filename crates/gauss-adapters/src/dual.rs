@@ -42,7 +42,7 @@ pub trait Parts: DualNum<InnerDual = f64> + Copy + PartialEq + Debug + Send + Sy
     fn are_finite(&self) -> bool;
 }
 
-/// Parts of a dual number beside its value.
+/// The derivative parts of a dual number, all but its value.
 macro_rules! implement_parts {
     ($([$($generics:tt)*] $dual:ty: $number:ident, $($finite:expr),+;)+) => {$(
         impl<$($generics)*> sealed::Sealed for $dual {}

@@ -13,15 +13,15 @@ use gauss_runtime::system::GaussSystem;
 /// A kernel, a form and an input as `ẋ = f(t, x)`, with x the components of the configuration
 /// ([`Configuration::Components`]) and then those of y: quasi-velocities z, or momenta p in the momentum form.
 ///
-/// A rotation's components may have any length: the equations of motion look at the rotation that they are in the direction of, and
-/// change in proportion to their length, which the exact solution then keeps. What an integrator adds to the length is no error of
-/// the rotation; to the velocity of O it is one, of the order of the tolerance.
+/// A rotation's components may have any length: the equations of motion use the normalised components, and their rates
+/// are proportional to the length, so the exact solution keeps it. When an integrator changes the length, the rotation
+/// has no error from that; the velocity of O has one of the order of the tolerance.
 ///
 /// Made like a [`Simulation`](gauss_runtime::integrate::Simulation). It does not bring a state back onto constraints while it runs, as those
 /// do: accelerations satisfy constraints that were differentiated, so states leave them slowly, and
-/// [`GaussSystem::project`] of what comes back repairs a short run. `f` never fails; what is undefined is NaN.
+/// [`GaussSystem::project`] of the final state repairs a short run. `f` never fails; undefined results are NaN.
 ///
-/// J says how ∂f/∂x is found where an implicit method asks for it.
+/// J is the way in which ∂f/∂x is computed for implicit methods.
 ///
 /// One step by hand:
 ///

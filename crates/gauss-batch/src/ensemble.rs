@@ -143,7 +143,7 @@ impl<'k, K: ?Sized, F, I, M, E> Ensemble<'k, K, F, I, Adaptive<M>, E> {
 }
 
 impl<'k, K: ?Sized, F, I, C, E, G> Ensemble<'k, K, F, I, C, Watched<E, G>> {
-    /// Changes the state at the event that was asked for last, as
+    /// Changes the state at the event that was added last, as
     /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then) does. The function sees a whole pack; what it makes of the lanes of
     /// other runs is dropped.
     pub fn then<S, J>(self, jump: J) -> Ensemble<'k, K, F, I, C, Watched<E, G, Then<J>>>
@@ -168,8 +168,8 @@ impl<'k, K: ?Sized, F, I, C, E, G> Ensemble<'k, K, F, I, C, Watched<E, G>> {
 }
 
 impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
-    /// Carries all states over the interval, which may run backwards, and says how each of them ended, in their order. The states are
-    /// then the last good ones.
+    /// Carries all states over the interval, which may run backwards. The result has the end of each run, in the order
+    /// of the states, which are then the last good ones.
     ///
     /// # Panics
     /// When there are fewer kernels than blocks.

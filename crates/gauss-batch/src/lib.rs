@@ -184,8 +184,8 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
         accelerations
     }
 
-    /// [`accelerations`](Self::accelerations) in the place of others, which need not be as many: without new memory where it is asked for
-    /// again and again. Of more states than the caches hold new memory costs more than the accelerations.
+    /// [`accelerations`](Self::accelerations) written over earlier ones, whose number may differ: repeated calls need
+    /// no new memory. For more states than the caches hold, new memory costs more than the accelerations.
     ///
     /// # Panics
     /// When there are fewer kernels than blocks.

@@ -15,7 +15,7 @@ pub trait Lift {
     /// The same of bounded numbers.
     type Lifted;
 
-    /// Each number as `bounded` says.
+    /// Each number turned into a bounded one by `bounded`.
     #[must_use]
     fn lift(&self, bounded: &impl Fn(Self::Number) -> Bounded<Self::Number>) -> Self::Lifted;
 }

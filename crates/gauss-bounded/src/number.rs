@@ -1,4 +1,4 @@
-//! A value and its bound: how it is made, and what it says.
+//! A value and its bound: construction, and the number of right digits.
 
 use core::fmt;
 
@@ -49,8 +49,8 @@ impl<T: Float> Bounded<T> {
         self.digits_beside(self.value)
     }
 
-    /// The digits that are right in numbers of the size of `scale`: of one component of an acceleration, beside the
-    /// largest of them.
+    /// The digits that are right relative to `scale`: for one component of an acceleration, say, relative to the
+    /// largest component.
     #[must_use]
     pub fn digits_beside(self, scale: T) -> f64 {
         let most = -log10(T::UNIT.lane(0));

@@ -1,4 +1,4 @@
-//! What a splitting needs to know of a body: how attitudes and poses drift, and what the mass matrix says.
+//! The data of a body for splitting methods: the drift of attitudes and poses, and inertia read off the mass matrix.
 
 use core::fmt;
 

@@ -1,9 +1,9 @@
 //! The exact motion of a free rigid body, over any span of time in one call.
 //!
-//! Momentum: with e and o the principal axes across, and a the axis about which y runs, all of
-//! `y = (E cn, O sn, A dn)` or, shifted by a quarter of the period, `y = (E cd, O sd, A′ nd)`. The first form is taken when
-//! a has the smallest moment and the second when it has the largest, so that e is the axis with the larger of the other two
-//! moments when a is the smallest: every amplitude is a sum of squares then, and the modulus a difference of what was given.
+//! Momentum: with e and o the principal axes across, and a the axis about which y runs, all of `y = (E cn, O sn, A dn)`
+//! or, shifted by a quarter of the period, `y = (E cd, O sd, A′ nd)`. The first form is taken when a has the smallest
+//! moment and the second when it has the largest, so that e is the axis with the larger of the other two moments when a
+//! is the smallest: every amplitude is a sum of squares then, and the modulus a difference of given numbers.
 //!
 //! Attitude: R = R_ℓ(ψ) R_y(−β) R_a(−θ), with θ, β the direction of y seen from a and ψ the angle about the constant momentum ℓ
 //! in space. ψ̇ = |y| (y_e²/I_e + y_o²/I_o)/(y_e² + y_o²), an average of two rates: the integral of the third kind enters as a

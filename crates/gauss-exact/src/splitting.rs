@@ -18,12 +18,14 @@ use crate::scheme::Scheme;
 
 /// A splitting method for one body, for [`Fixed::by`](gauss_runtime::integrate::Fixed::by).
 ///
-/// For kernels whose quasi-velocities are the body's in its own axes (`chart = left_invariant`), about a fixed point, or free
-/// with O in the centre of mass; inertia with products too. What acts may depend on time and configuration, not on velocities:
-/// an input is asked with velocities zero. Symmetric; with exact free motion symplectic; momenta that belong to a symmetry of
-/// the forces, such as that about gravity, are kept up to rounding, and so is the energy of a free body.
+/// For kernels whose quasi-velocities are the body's in its own axes (`chart = left_invariant`), about a fixed point,
+/// or free with O in the centre of mass; inertia with products too. Forces may depend on time and configuration, not on
+/// velocities: an input is called with velocities zero. Symmetric; with exact free motion symplectic; momenta that
+/// belong to a symmetry of the forces, such as that about gravity, are kept up to rounding, and so is the energy of a
+/// free body.
 ///
-/// A step makes as many forces as [`Scheme`] says and one more, and belongs to the kernel that it was made for.
+/// A step evaluates the forces as many times as its [`Scheme`] gives, and once more. It belongs to the kernel that it
+/// was made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Splitting<T, M> {
     body: DriftingBody<T, M>,

@@ -11,7 +11,7 @@ use std::path::Path;
 /// replaced. Pipes and devices are written to directly.
 ///
 /// # Errors
-/// What the system says. The file that was there before is then unchanged.
+/// The error of the operating system. The file that was there before is then unchanged.
 pub fn write(file: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> io::Result<()> {
     let file = file.as_ref();
     if let Some(folder) = file.parent() {
@@ -39,7 +39,7 @@ fn replace(file: &Path, contents: &[u8]) -> io::Result<()> {
     let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".gauss-");
-    // Otherwise nobody but the owner could read it: the system takes away what its mask says.
+    // By default only the owner could read a temporary file; the system still applies its umask to these permissions.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut new = builder.tempfile_in(folder)?;

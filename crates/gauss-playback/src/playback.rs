@@ -30,7 +30,7 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     /// Of a run, at 600 times equally far apart; the states between its samples are those of [`Trajectory::at`].
     ///
     /// # Errors
-    /// What [`Trajectory::at`] says.
+    /// The error of [`Trajectory::at`].
     pub fn new(title: &str, path: &Trajectory<'_, S>) -> Result<Self, IntegrationError> {
         Self::with_pictures(title, path, PICTURES)
     }
@@ -38,7 +38,7 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     /// The same with another number of pictures, at least two: more for long runs with fast turns, fewer for small files.
     ///
     /// # Errors
-    /// What [`Trajectory::at`] says.
+    /// The error of [`Trajectory::at`].
     pub fn with_pictures(title: &str, path: &Trajectory<'_, S>, pictures: u32) -> Result<Self, IntegrationError> {
         let (first, last) = (path.first().t, path.last().t);
         let gaps = pictures.max(2) - 1;

@@ -91,7 +91,7 @@ impl Shape {
         Self::ellipsoid(semi_axes.into()).at(&place)
     }
 
-    /// Moved: its O and its axes are where this pose says, in body axes from O.
+    /// The shape with its O and its axes at this pose, in body axes from O of the body.
     #[must_use]
     pub fn at(mut self, place: &Isometry3<f64>) -> Self {
         self.pose = pose(place);

@@ -10,11 +10,11 @@ use rerun::RecordingStreamError;
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum RecordError {
-    /// A state between the samples is not to be had.
+    /// A state between the samples cannot be computed.
     State(IntegrationError),
     /// No body has this name yet.
     UnknownBody(String),
-    /// What the SDK says.
+    /// The error of the SDK.
     Stream(RecordingStreamError),
 }
 

@@ -23,7 +23,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
     /// Of a run, at 600 times equally far apart; the states between its samples are those of [`Trajectory::at`].
     ///
     /// # Errors
-    /// What [`Trajectory::at`] says, and the SDK.
+    /// The error of [`Trajectory::at`], or that of the SDK.
     pub fn new(stream: &'r RecordingStream, path: &Trajectory<'_, S>) -> Result<Self, RecordError> {
         let (first, last, gaps) = (path.first().t, path.last().t, PICTURES - 1);
         // The last time is that of the last sample itself: rounding must not leave the run.
@@ -34,7 +34,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
     /// Of samples as they are.
     ///
     /// # Errors
-    /// What the SDK says.
+    /// The error of the SDK.
     pub fn of_samples(stream: &'r RecordingStream, samples: Vec<Sample<S>>) -> Result<Self, RecordError> {
         stream.log_static("world", &ViewCoordinates::RIGHT_HAND_Z_UP())?;
         Ok(Self { stream, samples, bodies: Vec::new() })
@@ -43,7 +43,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
     /// A body: its pose, by the observer.
     ///
     /// # Errors
-    /// What the SDK says.
+    /// The error of the SDK.
     pub fn body(mut self, name: &str, pose: impl Fn(&Sample<S>) -> Isometry3<f64>) -> Result<Self, RecordError> {
         let poses: Vec<Isometry3<f64>> = self.samples.iter().map(pose).collect();
         for (sample, pose) in self.samples.iter().zip(&poses) {
@@ -60,7 +60,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
     /// All frames that the kernel has methods for, `frames(…)`, by their names.
     ///
     /// # Errors
-    /// What the SDK says.
+    /// The error of the SDK.
     pub fn frames(mut self, kernel: &S) -> Result<Self, RecordError>
     where
         S: FramedSystem,
@@ -75,7 +75,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
     /// `Cylinders3D`, `Asset3D` of a mesh.
     ///
     /// # Errors
-    /// [`RecordError::UnknownBody`], and what the SDK says.
+    /// [`RecordError::UnknownBody`], or the error of the SDK.
     pub fn shape(self, body: &str, shape: &impl AsComponents) -> Result<Self, RecordError> {
         self.poses(body)?;
         self.stream.log_static(entity(body), shape)?;
@@ -85,7 +85,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
     /// The path of a point of a body, body axes from O.
     ///
     /// # Errors
-    /// [`RecordError::UnknownBody`], and what the SDK says.
+    /// [`RecordError::UnknownBody`], or the error of the SDK.
     pub fn trace(self, body: &str, name: &str, point: [f64; 3]) -> Result<Self, RecordError> {
         let poses = self.poses(body)?;
         let places: Vec<[f32; 3]> =
@@ -98,7 +98,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
     /// A vector at a point, both by the observer: a force, a momentum. `scale` is its length in the scene per unit.
     ///
     /// # Errors
-    /// What the SDK says.
+    /// The error of the SDK.
     pub fn arrow(
         self,
         name: &str,
@@ -117,7 +117,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
     /// A number over time; those of one `panel` stand together.
     ///
     /// # Errors
-    /// What the SDK says.
+    /// The error of the SDK.
     pub fn scalar(self, panel: &str, name: &str, value: impl Fn(&Sample<S>) -> f64) -> Result<Self, RecordError> {
         for sample in &self.samples {
             self.at(sample);
@@ -129,7 +129,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
     /// Kinetic energy, potential energy and their sum.
     ///
     /// # Errors
-    /// What the SDK says.
+    /// The error of the SDK.
     pub fn energy(self, kernel: &S) -> Result<Self, RecordError> {
         self.scalar("energy", "kinetic", |s| kernel.kinetic_energy(s.t, &s.q, &s.z))?
             .scalar("energy", "potential", |s| kernel.potential_energy(s.t, &s.q))?

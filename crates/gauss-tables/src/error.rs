@@ -13,7 +13,7 @@ pub enum TableError {
     Io {
         /// Which.
         file: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// A picture is SVG: the name of the file ends otherwise.
@@ -22,7 +22,7 @@ pub enum TableError {
     NothingToPlot,
     /// The picture cannot be laid out.
     Plot(String),
-    /// What the writer of Arrow or Parquet says.
+    /// The error of the writer of Arrow or Parquet.
     Format(Box<dyn Error + Send + Sync>),
 }
 

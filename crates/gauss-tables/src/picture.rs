@@ -20,7 +20,7 @@ const LABELS: (u32, u32) = (84, 26);
 const NAME: u32 = 24;
 const MARGIN: u32 = 14;
 const TEXT: u32 = 15;
-/// Letters that have room beside the lowest panel.
+/// The number of letters that fit next to the lowest panel.
 const LETTERS: usize = 20;
 
 /// From the palette of Okabe and Ito, told apart by every kind of colour vision.

@@ -52,7 +52,7 @@ pub trait Tabulate<S: GaussSystem> {
     /// A table with a row for every given time, which is its first column.
     ///
     /// # Errors
-    /// What [`Trajectory::at`] says of the first time that is not to be had.
+    /// The error of [`Trajectory::at`] for the first time whose state cannot be computed.
     fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Table<S>, IntegrationError>;
 }
 
@@ -128,7 +128,7 @@ impl std::error::Error for UnknownColumns {}
 struct Stored {
     name: String,
     unit: Option<String>,
-    /// What the unit is in the SI, where the column says so by itself; else empty.
+    /// The unit in the SI, where the kind of column determines it; else empty.
     si: &'static str,
     values: Vec<f64>,
 }

@@ -137,7 +137,7 @@ impl fmt::Display for TuneError {
 
 impl core::error::Error for TuneError {}
 
-/// Counts how often the source is asked: once an evaluation.
+/// Counts the calls of the source: one for each evaluation.
 struct Counted<'a, I> {
     source: &'a I,
     count: &'a Cell<u64>,
@@ -429,14 +429,15 @@ pub trait Tune<S: GaussSystem>: Sized {
     /// A simulation by a candidate.
     type Chosen;
 
-    /// Measures methods on this scene, with its input, from this state and over this interval, and says which one is the cheapest that
-    /// keeps the error of the whole run within `absolute + relative·size`, component by component, where sizes are the largest
-    /// over the run: 1 for a rotation, |b| for a translation, |q| and |z| for a plain coordinate and a quasi-velocity.
+    /// Measures methods on this scene, with its input, from this state and over this interval. The result is the
+    /// cheapest one that keeps the error of the whole run within `absolute + relative·size`, component by component,
+    /// where sizes are the largest over the run: 1 for a rotation, |b| for a translation, |q| and |z| for a plain
+    /// coordinate and a quasi-velocity.
     ///
-    /// What is tried is every [`Method`]: Dormand and Prince's pairs, Verner's, Gauss' collocation alone and composed, Runge–Kutta 4 and the
-    /// commutator-free method. Methods that not every scene admits – splitting, exact free motion, variational – have to be known to
-    /// fit when the program is compiled, which a function for any scene cannot: [`tune_steps`](Self::tune_steps) measures
-    /// one of them in the same way.
+    /// Every [`Method`] is tried: Dormand and Prince's pairs, Verner's, Gauss' collocation alone and composed,
+    /// Runge–Kutta 4 and the commutator-free method. Methods that not every scene admits – splitting, exact free
+    /// motion, variational – have to be known to fit when the program is compiled, which a function for any scene
+    /// cannot: [`tune_steps`](Self::tune_steps) measures one of them in the same way.
     ///
     /// Runs the scene some eighty times, and gives up runs of more than 100,000 steps: shorten the interval where that is too long,
     /// but keep what is typical of the motion in it.
@@ -483,8 +484,9 @@ pub trait Tune<S: GaussSystem>: Sized {
     where
         S: Described;
 
-    /// Measures a method of your own that has a step, in the form that was set and against the same reference as [`tune`](Self::tune): the
-    /// longest step that meets the relative and absolute tolerance, and what it costs. `make` gives the method of a step, `order` says how its error goes.
+    /// Measures a method of your own that has a step, in the form that was set and against the same reference as
+    /// [`tune`](Self::tune): the longest step that meets the relative and absolute tolerance, and its cost. `make`
+    /// gives the method for a length of step, `order` is the order of its error.
     ///
     /// For methods that not every scene admits, and that [`tune`](Self::tune), which is for any scene, cannot try:
     ///

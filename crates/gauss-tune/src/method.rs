@@ -85,7 +85,7 @@ impl<T> Method<T> {
     ];
 }
 
-/// Calls a method of [`Control`] of what is meant by a [`Method`].
+/// Calls a method of [`Control`] of the integrator that a [`Method`] stands for.
 macro_rules! dispatch {
     ($method:expr, $control:ident => $call:expr) => {
         match *$method {

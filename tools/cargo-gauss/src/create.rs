@@ -7,10 +7,10 @@ use crate::New;
 
 const MAIN: &str = include_str!("template.rs.txt");
 
-/// Crates that a program has without asking, and the one that the package depends on.
+/// Crates that every program has, and the one that the package depends on.
 const TAKEN: [&str; 6] = ["std", "core", "alloc", "proc_macro", "test", "gauss_runtime"];
 
-/// Folders that Cargo makes beside programs.
+/// Folders that Cargo makes next to the programs that it builds.
 const FOLDERS: [&str; 4] = ["build", "deps", "examples", "incremental"];
 
 /// Files that Windows has not.
@@ -40,7 +40,7 @@ fn impossible(name: &str) -> Option<&'static str> {
 /// Makes the folder with its manifest and its program.
 ///
 /// # Errors
-/// A name that no package can have, a folder that exists, what the system says.
+/// A name that no package can have, a folder that exists, an error of the operating system.
 pub fn create(wanted: &New) -> Result<(), String> {
     let folder = &wanted.folder;
     let name = folder.file_name().and_then(|name| name.to_str()).unwrap_or_default();

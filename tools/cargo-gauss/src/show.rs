@@ -13,7 +13,7 @@ use crate::{Form, Show, page, robots, structs};
 
 /// A struct in a chart, and what is derived from it.
 pub struct Shown {
-    /// The name of the struct, and the chart if one was asked for.
+    /// The name of the struct, and the chart if the user chose one.
     pub title: String,
     pub derivation: Derivation,
 }

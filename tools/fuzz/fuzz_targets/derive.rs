@@ -15,7 +15,7 @@ use proc_macro2::TokenStream;
 use shared::mutate::{Tree, mutated};
 use shared::random::Random;
 
-/// Sanitizers make frames several times as large; the test says what the library needs without them.
+/// Sanitizers make frames several times as large; the test has the stack that the library needs without them.
 const STACK: usize = 256 << 20;
 
 fuzz_target!(|data: &[u8]| -> Corpus {

@@ -1,4 +1,4 @@
-//! What a scene is.
+//! Scenes of the page: their sliders, camera and motion.
 
 use gauss_playback::Shape;
 use gauss_runtime::prelude::*;
@@ -15,7 +15,7 @@ pub struct Slider {
     pub range: [f64; 2],
     /// Where it is at first.
     pub value: f64,
-    /// Whether it is a parameter, which may change while the scene runs; otherwise it says how the motion starts.
+    /// Whether it is a parameter, which may change while the scene runs; otherwise it is part of the initial state.
     pub parameter: bool,
 }
 
@@ -68,7 +68,7 @@ pub struct View {
     pub up: [f64; 3],
     /// What the eye looks at, observer's axes; a scene whose camera goes with a body: from its origin.
     pub target: [f64; 3],
-    /// The radius of what is seen.
+    /// The radius of the visible region.
     pub radius: f64,
     /// The squares behind the motion.
     pub backdrop: Backdrop,

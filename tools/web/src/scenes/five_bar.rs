@@ -1,4 +1,4 @@
-//! A robot from its file: the leg of `tests/robots/five_bar.urdf`, which says where it is from.
+//! A robot from its file: the leg of `tests/robots/five_bar.urdf`. The file names its source.
 
 use gauss_playback::Shape;
 use gauss_runtime::prelude::*;
