@@ -82,7 +82,7 @@ impl OperationCount {
 }
 
 impl fmt::Display for OperationCount {
-    /// `12 add, 9 mul`: what is zero is left out; `0` when everything is.
+    /// `12 add, 9 mul`: counts of zero are left out; `0` when all are.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let parts = [
             (self.additions, "add"),

@@ -5,13 +5,14 @@ use core::fmt;
 /// The most violations that one error lists, and the most warnings; a scene has a handful of fields, and each reports once.
 pub const MOST_VIOLATIONS: usize = 8;
 
-/// What a parameter of a body has to satisfy.
+/// A rule that parameters of bodies satisfy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Rule {
     /// Every number is finite.
     Finite,
-    /// What is made of the parameters stays within the range of the scalar. The value is the infinite or undefined result.
+    /// Constants that are computed from the parameters stay within the range of the scalar. The value is the infinite
+    /// or undefined result.
     OutOfRange,
     /// A mass is greater than zero.
     PositiveMass,
@@ -189,7 +190,7 @@ pub struct ParameterError {
 }
 
 impl ParameterError {
-    /// What is wrong, at least one violation and at most [`MOST_VIOLATIONS`].
+    /// The violations: at least one, at most [`MOST_VIOLATIONS`].
     #[must_use]
     pub fn violations(&self) -> &[Violation] {
         self.list.as_slice()
@@ -235,7 +236,7 @@ impl fmt::Display for DragKind {
     }
 }
 
-/// What is not wrong with a parameter, but is likely not meant.
+/// A value of a parameter that is valid, but likely a mistake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {

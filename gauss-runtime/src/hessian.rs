@@ -61,8 +61,8 @@ pub trait HessianSystem: LinearizedSystem {
     /// The second derivatives of `weights · (V, ż)`, exact up to rounding; under constraints those of the accelerations that satisfy
     /// them.
     ///
-    /// What has a kink (`abs`, `min`, `max`, `clamp`) is taken for as straight as on both sides of it. Where a root is 0 they are of no use.
-    /// Non-finite input gives non-finite output.
+    /// At a kink (`abs`, `min`, `max`, `clamp`) second derivatives are those of its two sides; the kink itself adds
+    /// nothing. Where a root is 0 they are of no use. Non-finite input gives non-finite output.
     fn hessian(
         &self,
         t: Self::Scalar,

@@ -70,8 +70,8 @@ pub trait ParametricSystem: LinearizedSystem {
     ) -> Self::ByParameters;
 }
 
-/// A system whose forces of inertia come as a linear function `Y π` of its inertial parameters: what a motion and the forces that made
-/// it say about masses.
+/// A system whose forces of inertia come as a linear function `Y π` of its inertial parameters, so that masses can be
+/// identified from a motion and its forces.
 ///
 /// The equations of motion are `Y(t, q, z, ż) π = other_forces + Jᵀλ`, and without constraints
 /// `gauss_residual = Y π − other_forces` at any ż. A row of Y pairs with a component of z, its unit is that of the generalised
@@ -81,12 +81,12 @@ pub trait ParametricSystem: LinearizedSystem {
 /// principal moments, or one, by the type of the field) and the added mass, as far as they are fields; for every particle its
 /// mass, if that is a field. All of it is linear at once because moments are about O, not about the centre of mass.
 ///
-/// `Y π` is what inertia needs and uniform gravity gives: the `gravity` of the struct belongs to the masses. Buoyancy and all other
-/// elements (springs, drag, the motion of a medium, central gravity, forces) are in [`other_forces`](Self::other_forces), also
-/// where they are made of a mass.
+/// `Y π` has the forces of inertia less those of uniform gravity: the `gravity` of the struct belongs to the masses.
+/// Buoyancy and all other elements (springs, drag, the motion of a medium, central gravity, forces) are in
+/// [`other_forces`](Self::other_forces), also where they are made of a mass.
 ///
-/// Y has dependent columns as soon as some parameters have no effect by themselves: what is identified then is a combination of them
-/// (base parameters; W. Khalil & E. Dombre, *Modeling, Identification and Control of Robots*, chapter 9).
+/// Y has dependent columns as soon as some parameters have no effect by themselves: only combinations of them can be
+/// identified (base parameters; W. Khalil & E. Dombre, *Modeling, Identification and Control of Robots*, chapter 9).
 #[cfg_attr(
     feature = "derive",
     doc = r##"

@@ -12,8 +12,8 @@ use crate::real::Real;
 
 /// A = L Lᵀ, L lower triangular with positive diagonal: a mass matrix, factored once for many right-hand sides.
 ///
-/// Accelerations do not need it: [`acceleration`](crate::system::GaussSystem::acceleration) solves with what it knows of the
-/// structure. This is for computations of your own with A.
+/// Accelerations do not need it: [`acceleration`](crate::system::GaussSystem::acceleration) uses the
+/// structure of the system. This is for computations of your own with A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factor<T, const N: usize> {
     lower: SMatrix<T, N, N>,
@@ -96,10 +96,11 @@ pub struct OperationalSpace<T, const K: usize, const N: usize> {
 }
 
 impl<T: Real, const K: usize, const N: usize> OperationalSpace<T, K, N> {
-    /// Of a mass matrix and the Jacobian of a task: of a frame all six rows, or only the upper three for its origin.
+    /// From a mass matrix and the Jacobian of a task: all six rows of that of a frame, or the upper three for its
+    /// origin.
     ///
-    /// `J A⁻¹ Jᵀ` is not formed: `L⁻¹ Jᵀ` is orthogonalised, so that what is lost near a singularity is the conditioning of J and not
-    /// its square.
+    /// `J A⁻¹ Jᵀ` is not formed: `L⁻¹ Jᵀ` is orthogonalised, so that errors near a singularity grow with the condition
+    /// number of J and not with its square.
     ///
     /// # Errors
     /// [`OperationalError::Singular`] where a row of J depends on those before it up to rounding, or K > N;
@@ -131,7 +132,7 @@ impl<T: Real, const K: usize, const N: usize> OperationalSpace<T, K, N> {
         SVector::from(core::array::from_fn(|k| (0..K).fold(T::zero(), |sum, i| jacobian[(i, k)].fma(force[i], sum))))
     }
 
-    /// What is left of generalised forces when what accelerates the task is taken away: `τ − Jᵀ J̄ᵀ τ`.
+    /// The part of generalised forces that does not accelerate the task: `τ − Jᵀ J̄ᵀ τ`.
     #[must_use]
     pub fn null_space(&self, jacobian: &SMatrix<T, K, N>, forces: &SVector<T, N>) -> SVector<T, N> {
         let seen: [T; K] =

@@ -1,5 +1,6 @@
-//! What most simulations need: `use gauss_runtime::prelude::*;`. The other methods are in [`integrate`](crate::integrate), many states
-//! at once in the crate `gauss-batch`, reports on energy and momenta in [`monitor`](mod@crate::monitor).
+//! The items that most simulations need: `use gauss_runtime::prelude::*;`. The other methods are in
+//! [`integrate`](crate::integrate), many states at once in the crate `gauss-batch`, reports on energy and momenta in
+//! [`monitor`](mod@crate::monitor).
 
 #[cfg(feature = "derive")]
 pub use gauss_derive::GaussDynamics;

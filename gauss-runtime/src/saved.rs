@@ -73,7 +73,7 @@ use crate::real::Real;
 use crate::system::GaussSystem;
 use numbers::{Names, Numbers};
 
-/// Where a system is, written by the names of its coordinates.
+/// The configuration of a system, written by the names of its coordinates.
 pub struct Coordinates<S: GaussSystem>(pub S::Configuration);
 
 /// Quasi-velocities, or momenta, written by the names of the speeds.

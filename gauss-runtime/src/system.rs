@@ -207,7 +207,7 @@ pub trait GaussSystem {
     }
 }
 
-/// What [`GaussSystem::evaluate`] gives.
+/// The result of [`GaussSystem::evaluate`].
 #[non_exhaustive]
 pub struct Evaluated<S: GaussSystem + ?Sized> {
     /// q̇ as seen from the body: what [`GaussSystem::kinematics`] gives.

@@ -87,7 +87,7 @@ impl<T: Real, const N: usize> VectorSpace<T> for SVector<T, N> {
     }
 }
 
-/// `(x + carried) + increment` to nearest, and exactly what is missing there.
+/// `(x + carried) + increment` rounded to nearest, and the exact rounding error of that sum.
 #[inline(always)]
 pub(crate) fn add_carrying<T: Real, V: VectorSpace<T>>(x: &V, increment: &V, carried: &V) -> (V, V) {
     let (mut sum, mut rest) = (*x, *carried);

@@ -29,7 +29,7 @@ pub enum SplittingError {
     AnisotropicMass,
     /// A moment of inertia is not positive, or not finite.
     NotPositive,
-    /// What acts depends on velocities: drag, or forces that velocities enter.
+    /// The forces depend on velocities: drag, or forces that velocities enter.
     ForcesDependOnVelocity {
         /// The largest component of the difference that was seen.
         difference: f64,

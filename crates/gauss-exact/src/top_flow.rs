@@ -47,7 +47,7 @@ pub enum TopError {
     NotABody(SplittingError),
     /// Nothing acts: a free body has a motion of its own ([`FreeFlow`](crate::free_flow::FreeFlow)).
     Free,
-    /// What acts is not the moment of one constant force at one point of the body.
+    /// The load is not the moment of one constant force at one point of the body.
     NotAWeight,
     /// The moments of inertia across the line from O to the weight differ, or it is no principal axis.
     NotOfRevolution,

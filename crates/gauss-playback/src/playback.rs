@@ -27,7 +27,8 @@ pub struct Playback<S: GaussSystem<Scalar = f64>> {
 }
 
 impl<S: GaussSystem<Scalar = f64>> Playback<S> {
-    /// Of a run, at 600 times equally far apart; the states between its samples are those of [`Trajectory::at`].
+    /// The playback of a run, at 600 times equally far apart; states between its samples are those of
+    /// [`Trajectory::at`].
     ///
     /// # Errors
     /// The error of [`Trajectory::at`].
@@ -47,7 +48,7 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         Ok(Self::of_samples(title, path.at_times((0..=gaps).map(time))?))
     }
 
-    /// Of samples in the order of time; what plays them runs evenly in time, whatever their distance.
+    /// The playback of samples in the order of time. The page plays evenly in time, whatever the distances of samples.
     #[must_use]
     pub fn of_samples(title: &str, samples: Vec<Sample<S>>) -> Self {
         let times = samples.iter().map(|sample| sample.t).collect();

@@ -20,7 +20,8 @@ pub struct Recorder<'r, S: GaussSystem<Scalar = f64>> {
 }
 
 impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
-    /// Of a run, at 600 times equally far apart; the states between its samples are those of [`Trajectory::at`].
+    /// The recorder of a run, at 600 times equally far apart; states between its samples are those of
+    /// [`Trajectory::at`].
     ///
     /// # Errors
     /// The error of [`Trajectory::at`], or that of the SDK.
@@ -31,7 +32,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
         Self::of_samples(stream, path.at_times((0..=gaps).map(time))?)
     }
 
-    /// Of samples as they are.
+    /// The recorder of given samples.
     ///
     /// # Errors
     /// The error of the SDK.

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 pub enum TableError {
     /// The file cannot be written.
     Io {
-        /// Which.
+        /// The file.
         file: PathBuf,
         /// The error of the operating system.
         source: io::Error,

@@ -70,7 +70,7 @@ pub struct Measured<C> {
     pub seconds: Option<f64>,
 }
 
-/// What [`Tune::tune`] found.
+/// The result of [`Tune::tune`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Tuned<T> {

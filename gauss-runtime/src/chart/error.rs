@@ -24,7 +24,7 @@ pub enum ChartError {
     },
     /// The target motion cannot have this state.
     Inexpressible {
-        /// What the motion demands.
+        /// The condition of the motion.
         rule: MotionRule,
         /// The quantity that should vanish: a length, a sine, or a component of the twist, in the user's units.
         value: f64,
@@ -38,7 +38,7 @@ pub enum ChartError {
     NonFinite,
 }
 
-/// What a motion demands of a state.
+/// A condition that a motion sets on a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MotionRule {

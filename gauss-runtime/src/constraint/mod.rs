@@ -81,7 +81,7 @@ const OTHER_STARTS: [f64; 10] = [-0.5, 2.0, -1.0, 3.0, -2.0, 5.0, -4.0, 9.0, -8.
 /// derivatives that dual numbers carry satisfy the differentiated constraints also where the values do by themselves.
 ///
 /// Where the search ends without a state (constraints that curve back before they vanish), it begins anew some corrections
-/// away on either side; what is found then need not be the nearest.
+/// away on either side; the state that is found then need not be the nearest.
 ///
 /// # Errors
 /// [`ProjectionError`] when corrections are undefined, or none of the starts leads to the constraints: with the residual of the
@@ -113,7 +113,7 @@ pub fn project<S: ConstrainedSystem>(
     Ok((q, z))
 }
 
-/// Damped Newton's method on one level: what is left, what cancels it, and how a point moves.
+/// Damped Newton's method on one level: functions for the residual, for the correction, and for moving a point.
 struct Search<T, R, C, M, F> {
     level: ConstraintLevel,
     residual: R,

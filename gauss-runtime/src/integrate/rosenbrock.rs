@@ -62,8 +62,9 @@ const TIME_SLOPES: [f64; STAGES] = [0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0];
 
 /// RODAS of Hairer and Wanner on the group: six stages, order 4 with an estimate of order 3, L-stable, stiffly accurate.
 ///
-/// For kernels with `#[gauss(linearize)]`. A step costs a linearisation, a factorisation of the size of the state (twice the degrees of
-/// freedom) and five more evaluations. It keeps no integral, and damps what is faster than the step: not for conservative scenes.
+/// For kernels with `#[gauss(linearize)]`. A step costs a linearisation, a factorisation of the size of the state
+/// (twice the degrees of freedom) and five more evaluations. It keeps no integral, and damps motions faster than the
+/// step: not for conservative scenes.
 ///
 /// Both forms of the equations are integrated in z: the derivatives are those of ż. Derivatives of the equations by time
 /// are exact. Those of an input that depends on time or state are differences: by time over points within the step, of order

@@ -16,7 +16,7 @@ use super::{coefficients, se2, se3};
 use crate::real::Real;
 use crate::triple::{add, compose, conjugate, cross, quaternion, rotate, rotate_back, scaled, triple, unit_quaternion};
 
-/// a + b to nearest, and exactly what is missing there (Knuth).
+/// a + b rounded to nearest, and the exact rounding error of that sum (Knuth).
 #[inline(always)]
 pub fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
     let sum = a + b;
@@ -35,7 +35,7 @@ pub(crate) fn two_sums<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> ([T; N]
     (sums, rest)
 }
 
-/// A quaternion turned on by exp(σ), and what is carried then.
+/// A quaternion turned on by exp(σ), and the rounding error that is carried to the next turn.
 #[inline(always)]
 fn turn<T: Real>(q: [T; 4], sigma: [T; 3], carried: [T; 3]) -> ([T; 4], [T; 3]) {
     let half = T::ratio(1, 2);

@@ -15,17 +15,18 @@ use crate::system::GaussSystem;
 /// The largest number of steps of a run unless the user sets another limit: more steps would take minutes.
 pub const DEFAULT_LIMIT: u64 = 100_000_000;
 
-/// How the step to a state came about: what a run adds up to its [`Summary`](crate::integrate::Summary).
+/// Rejected trials and rounding of the step to a state; a run sums them up in its
+/// [`Summary`](crate::integrate::Summary).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Taken {
     /// Trials of that step that were rejected.
     pub rejected: u32,
-    /// Where rounding alone is larger than the tolerance: how many times, at least 1. 0 where it is not.
+    /// The ratio of rounding to tolerance where rounding alone is larger; 0 elsewhere.
     pub excess: f64,
 }
 
-/// What takes the states of a run, with the derivatives there and how they came about, as they are reached; it breaks to end
-/// the run.
+/// A function that a run calls with each state that it reaches, the derivatives there, and a [`Taken`] about the step.
+/// It breaks to end the run.
 pub type Emit<'a, S> = dyn FnMut(&State<S>, &Rates<S>, Taken) -> ControlFlow<()> + 'a;
 
 /// A method with its choice of steps, which carries a state to the end of an interval.

@@ -55,7 +55,7 @@ use crate::integrate::problem::state::{Sample, State, TangentOf};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// What is remembered of one event from step to step.
+/// The state of one event from step to step.
 #[derive(Clone, Copy, Debug)]
 pub struct Mark {
     crossing: Crossing,
@@ -152,7 +152,7 @@ impl<E, G> Watched<E, G> {
     }
 }
 
-/// What becomes of the state at an event.
+/// The effect of an event on the state.
 pub trait Jump<S: GaussSystem> {
     /// Changes it; whether it does.
     fn jump(&mut self, state: &mut Sample<S>) -> bool;
@@ -524,8 +524,8 @@ fn differs<T: Real, V: VectorSpace<T>>(a: &V, b: &V, lanes: &Range<usize>, part:
     })
 }
 
-/// The state after a jump, on the constraints where there are any: what is nearest by the kinetic energy is what an impact makes
-/// of the velocities.
+/// The state after a jump, on the constraints where there are any. The nearest velocities, as the kinetic energy
+/// measures them, are those after an impact.
 fn consistent<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     (given, set): (&Sample<S>, &Sample<S>),

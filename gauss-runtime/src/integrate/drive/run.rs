@@ -23,7 +23,7 @@ pub(in crate::integrate) enum Seen<'a, S: GaussSystem> {
     Event(usize, &'a State<S>),
 }
 
-/// What stays the same during a run.
+/// The data of a run that stay the same during it.
 pub(in crate::integrate) struct Run<'a, P, C> {
     pub(in crate::integrate) control: &'a C,
     pub(in crate::integrate) problem: &'a P,

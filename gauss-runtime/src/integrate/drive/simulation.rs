@@ -121,10 +121,10 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C
         self.observe_by(Callback(observer))
     }
 
-    /// Finds the states in which a function of time and state, of its first lane where numbers are packs, passes through
-    /// zero. They are numbered in the order of these calls and of [`until`](Self::until), from 0, and are found in
-    /// [`Trajectory::events`], and by an [`Observer`]; [`then`](Simulation::then) changes the state there. How they are found, and what is
-    /// not seen: [`event`](crate::integrate::drive::event).
+    /// Finds the states in which a function of time and state, of its first lane where numbers are packs, passes
+    /// through zero. They are numbered in the order of these calls and of [`until`](Self::until), from 0, and are found
+    /// in [`Trajectory::events`], and by an [`Observer`]; [`then`](Simulation::then) changes the state there. How
+    /// events are found, and which are missed: [`event`](crate::integrate::drive::event).
     ///
     #[cfg_attr(
         feature = "derive",

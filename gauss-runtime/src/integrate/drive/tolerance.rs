@@ -222,7 +222,8 @@ impl Tolerance {
         self.of(size, trial.length, trial.floor.map(noise))
     }
 
-    /// What is tolerated of a component of some size. Purely relative control of a null component asks for what is null too.
+    /// The tolerance for a component of some size. With a relative tolerance alone it is the smallest number where the
+    /// component is zero.
     #[inline(always)]
     fn of<T: Real>(&self, size: T, length: T, noise: Option<(T, T)>) -> T {
         let asked = T::from_f64(self.absolute) + T::from_f64(self.relative) * size;

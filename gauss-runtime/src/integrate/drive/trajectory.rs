@@ -198,7 +198,7 @@ impl<'a, S: GaussSystem> IntoIterator for &'a Trajectory<'_, S> {
     }
 }
 
-/// What finds states between samples.
+/// The computation of states between samples.
 trait Between<S: GaussSystem> {
     /// The state at a time, from the sample before it.
     fn reach(&self, from: &Sample<S>, t: S::Scalar) -> Result<Sample<S>, IntegrationError>;

@@ -60,7 +60,7 @@ pub struct SystemProblem<'k, S, F = VelocityForm, I = NoInput> {
     pub system: &'k S,
     /// Velocity or momentum form.
     pub form: F,
-    /// Where inputs come from.
+    /// The source of the inputs.
     pub input: I,
 }
 

@@ -18,7 +18,7 @@ use crate::system::GaussSystem;
 pub struct IntegrationError {
     /// The last time that was reached with a good state.
     pub time: f64,
-    /// What went wrong in the step from there.
+    /// The cause of the failure in the step from there.
     pub kind: IntegrationErrorKind,
     #[cfg(feature = "alloc")]
     state: Box<str>,
@@ -57,13 +57,13 @@ impl IntegrationError {
     }
 }
 
-/// What went wrong in a step.
+/// The cause of a failed step or run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum IntegrationErrorKind {
     /// A number became infinite or undefined, or so large that its square is infinite.
     NonFinite {
-        /// Where it was seen first.
+        /// The part of the step in which the number was seen first.
         part: Part,
     },
     /// Steps shrink until they no longer change the time, and neither the coordinates nor rounding are to blame: the motion itself is
@@ -127,11 +127,11 @@ pub enum IntegrationErrorKind {
         /// The rate after it.
         after: f64,
     },
-    /// The jump at an event sets what a jump does not change.
+    /// The jump at an event sets another time, or speeds and momenta that disagree.
     InvalidJump {
         /// The number of the event.
         event: usize,
-        /// What it sets.
+        /// Which of the two.
         mistake: JumpMistake,
     },
     /// The rotation in one step exceeds half a turn, beyond which its logarithm is not the shortest and the method's
@@ -165,7 +165,7 @@ pub enum IntegrationErrorKind {
         level: ConstraintLevel,
         /// How far: a component of the increment.
         distance: f64,
-        /// What is allowed of it.
+        /// The largest distance that is allowed.
         allowed: f64,
     },
     /// The initial state violates the constraints by more than the rounding of its numbers:
@@ -197,7 +197,7 @@ pub enum IntegrationErrorKind {
     },
 }
 
-/// What a jump sets and does not change: see [`Simulation::then`](crate::integrate::Simulation::then).
+/// A mistake in the state that a jump sets: see [`Simulation::then`](crate::integrate::Simulation::then).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum JumpMistake {

@@ -64,7 +64,7 @@ pub(in crate::integrate) fn worst(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
 
-/// The largest change between two numbers over their lanes, relative to a size. Nothing changes by what is nothing beside it,
+/// The largest change between two numbers over their lanes, relative to a size. It is 0 where both numbers are equal,
 /// also where the size is 0.
 pub(in crate::integrate) fn relative_change<T: Real>(old: T, new: T, size: f64) -> f64 {
     (0..T::LANES).fold(0.0, |result, lane| {

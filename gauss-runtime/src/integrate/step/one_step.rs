@@ -5,7 +5,7 @@ use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State};
 use crate::system::GaussSystem;
 
-/// What a method keeps, and how accurate it is: stated, and tested.
+/// The integrals that a method keeps, and its order, as stated by the method and tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Properties {
@@ -46,7 +46,7 @@ pub struct Step<S: GaussSystem> {
 ///
 /// A method of your own needs [`step`](Self::step) alone.
 pub trait OneStep<S: GaussSystem> {
-    /// What the method keeps, and its order.
+    /// The integrals that the method keeps, and its order.
     fn properties(&self) -> Properties;
 
     /// One step of length `h` from `state`, where the derivatives are `rates`. The end is not brought back onto
@@ -87,8 +87,8 @@ pub trait EstimatingStep<S: GaussSystem>: OneStep<S> {
     }
 }
 
-/// A method whose step is one increment, `q₁ = q₀ ∘ exp(σ)` and `y₁ = y₀ + Δy`: it can be run with what is rounded off carried from
-/// step to step ([`Compensated`](crate::integrate::drive::compensated::Compensated)).
+/// A method whose step is one increment, `q₁ = q₀ ∘ exp(σ)` and `y₁ = y₀ + Δy`. It can be run with the rounding error
+/// of each sum carried to the next step ([`Compensated`](crate::integrate::drive::compensated::Compensated)).
 pub trait IncrementStep<S: GaussSystem>: OneStep<S> {
     /// (σ, Δy) of the step that [`OneStep::step`] makes, up to rounding that is relative to the increment. What it is added to, and
     /// the result, are not checked.

@@ -21,7 +21,7 @@ pub struct Composition<const N: usize> {
     pub order: u32,
 }
 
-/// The middle weight takes what is left of 1; 18 decimals.
+/// The middle weight makes the sum 1; 18 decimals.
 const fn symmetric<const N: usize>(first: &[i64], order: u32) -> Composition<N> {
     let mut weights = [(0, 1); N];
     let mut left = 10_i64.pow(18);

@@ -128,9 +128,10 @@ impl<T: Real> CoadjointAction for Isometry2<T> {
 /// - [`with_points`](Self::with_points): Gauss' rule, whose error in energy is of order h^(2N): from four to six points on it
 ///   is below rounding for steps that turn the body by half a radian.
 ///
-/// Symmetric; [`Composed`](crate::integrate::Composed) raises the order, and keeps what is kept. Not symplectic. Forces of any other kind are
-/// taken at the mean velocity of the step: their work over the step is that of their mean. Run it in the momentum form, or by
-/// [`Compensated`](crate::integrate::Compensated), where every digit of a long run counts.
+/// Symmetric; [`Composed`](crate::integrate::Composed) raises the order, and keeps the same integrals. Not symplectic.
+/// Forces of any other kind are taken at the mean velocity of the step: their work over the step is that of their mean.
+/// Run it in the momentum form, or by [`Compensated`](crate::integrate::Compensated), where every digit of a long run
+/// counts.
 ///
 /// z₁ is found by fixed-point iteration down to rounding; beyond a turn of about 2 rad in a step, less for slender bodies, that ends with
 /// [`IntegrationErrorKind::NotConverged`]. Other charts, where momenta are not those of the group, are refused when the
