@@ -27,8 +27,8 @@ use crate::model::scene::roles::{Role, Shape};
 /// What the free root of a robot moves by.
 const BASE: &str = "base";
 
-/// Puts what the file of the clauses says before what the struct says; `None` without a file, or where it is wrong,
-/// which is noted.
+/// Puts the clauses made from the file before those of the struct. `None` without a file, or where the file has a
+/// mistake, which is noted.
 pub fn compose(
     clauses: &RobotClauses,
     reader: &Reader<'_>,
@@ -126,12 +126,13 @@ impl<'a> Robot<'a> {
         self.base.is_some() || self.structure.owner_of[link] != self.structure.root
     }
 
-    /// Its mass data are not added to those of what it moves as one with: one of the two is a field.
+    /// Whether the mass data of a link are not added to those of the link that it is fixed to: one of the two is a
+    /// field.
     fn is_apart(&self, link: usize) -> bool {
         self.in_field[link] || self.in_field[self.structure.owner_of[link]]
     }
 
-    /// The mass data of what moves as one with a link, unless fields have them.
+    /// The mass data of a link and of all links fixed to it, but for those in fields.
     pub fn merged(&self, link: usize) -> Option<Inertial> {
         self.structure.merged(self.description, link, |link| self.is_apart(link))
     }

@@ -14,7 +14,7 @@ pub struct At {
 }
 
 impl At {
-    /// The line, as it is said at another place.
+    /// The line in the words of a message about another place.
     pub fn line_from(self, other: At) -> String {
         if self.file == other.file { self.line.to_string() } else { format!("{} of another file", self.line) }
     }
@@ -70,7 +70,7 @@ impl Note {
     }
 }
 
-/// `lines 12, 30, 31, 44 and 4 more`, as it is said at a place.
+/// `lines 12, 30, 31, 44 and 4 more`, in the words of a message about the place `here`.
 pub fn lines(here: At, places: &[At]) -> String {
     const SHOWN: usize = 4;
     let lines: Vec<String> = places.iter().take(SHOWN).map(|at| at.line_from(here)).collect();
@@ -97,7 +97,7 @@ pub struct Description {
     /// The acceleration of free fall in observer's axes, if the file gives one.
     pub gravity: Option<Triple>,
     pub notes: Vec<Note>,
-    /// Files beside those of the text, whose numbers are in it.
+    /// Files besides those of the text, such as meshes, whose numbers the description holds.
     pub files: Vec<PathBuf>,
 }
 
@@ -223,7 +223,7 @@ impl Drive {
         self.gain == Drive::DIRECT && self.bias == [0.0; 3]
     }
 
-    /// The gain of what has none.
+    /// The gain of a control that acts directly.
     pub const DIRECT: Triple = [1.0, 0.0, 0.0];
 }
 

@@ -61,7 +61,7 @@ impl Robot<'_> {
         })
     }
 
-    /// Σ ½ d (m q̇)², of balls Σ ½ d ω², of what moves freely Σ ½ d (v² + ω²).
+    /// Σ ½ d (m q̇)² over joints, Σ ½ d ω² over balls, Σ ½ d (v² + ω²) over free joints.
     fn damping(&self) -> Option<Expression> {
         let writer = self.writer;
         let terms =

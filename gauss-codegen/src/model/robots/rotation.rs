@@ -113,8 +113,8 @@ pub fn direction(v: Triple) -> Option<Triple> {
     Some(scaled.map(|c| c / length).map(|c| if c.abs() <= RESIDUE { 0.0 } else { c }))
 }
 
-/// The eigenvalues of a symmetric matrix with their directions, the columns of a matrix, by turns that bring its entries
-/// beside the diagonal to zero (Jacobi).
+/// The eigenvalues of a symmetric matrix with their directions, the columns of a matrix, by turns that bring the
+/// entries off the diagonal to zero (Jacobi).
 pub fn principal(mut a: Matrix) -> (Triple, Matrix) {
     let mut axes = Rotation::none().matrix;
     // Each round squares what is left of them.

@@ -33,7 +33,7 @@ impl Robot<'_> {
             let find =
                 |all: &[(String, Vec<f64>)]| all.iter().find(|(name, _)| *name == joint.name).map(|(_, v)| v.clone());
             let [q] = own.as_slice() else { continue };
-            // What says nothing of a place has everything where it is at first.
+            // A posture without a value for a joint has the joint at its start.
             let place = find(&posture.values).unwrap_or_else(|| at_start(joint.kind, joint.reference, &joint.start));
             let speed = |end: &str| format_ident!("{}_{}", q.ident.unraw(), end, span = q.ident.span());
             let rate = find(&posture.rates);
@@ -79,7 +79,7 @@ impl Robot<'_> {
     }
 }
 
-/// What says where a joint is while nothing is turned or moved.
+/// The coordinates of a joint at the start, where nothing is turned or moved.
 fn at_start(kind: JointKind, reference: f64, (position, rotation): &(Triple, Rotation)) -> Vec<f64> {
     match kind {
         JointKind::Turning | JointKind::Sliding => vec![reference],

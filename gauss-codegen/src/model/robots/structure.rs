@@ -121,7 +121,7 @@ impl Structure {
         std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| r[k][i] * s[k][j]).sum()))
     }
 
-    /// The mass data of what moves as one with a link, but for the links that are `apart`; `None` without any.
+    /// The mass data of a link and of all links fixed to it, but for the links that are `apart`; `None` without any.
     pub fn merged(&self, description: &Description, owner: usize, apart: impl Fn(usize) -> bool) -> Option<Inertial> {
         let own = self.owned_by[owner].iter().filter(|link| !apart(**link));
         let all: Vec<Inertial> = own

@@ -208,7 +208,7 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     }
     let file = std::fs::File::open(path).map_err(|error| cannot(error.to_string()))?;
     let mut bytes = Vec::new();
-    // Some files of the system have more in them than their length says.
+    // Some files of the system hold more bytes than their length in the metadata.
     file.take(most + 1).read_to_end(&mut bytes).map_err(|error| cannot(error.to_string()))?;
     if bytes.len() as u64 > most {
         return Err(cannot(format!("it is larger than {} MiB", most >> 20)));
@@ -234,7 +234,7 @@ fn prolog(text: &str) -> (Vec<Range<usize>>, Option<usize>) {
 }
 
 /// Blanks in the place of a declaration that does not stand at the very beginning, as XML has it and other readers do not:
-/// it says nothing that matters, and what follows keeps its lines and columns.
+/// the declaration has no effect here, and the text after it keeps its lines and columns.
 fn without_late_declaration(mut text: String) -> String {
     let is_declaration = |range: &Range<usize>| text[range.clone()].starts_with("<?xml ");
     let late = prolog(&text).0.into_iter().find(is_declaration).filter(|range| range.start > 0);

@@ -63,7 +63,7 @@ fn beyond<'a>(document: &'a Document<'a>) -> Option<Node<'a, 'a>> {
     })
 }
 
-/// It is written with a prefix, or of another language by other means: what it is called says nothing.
+/// Whether an element belongs to another language, by a prefix or by other means: then its name has no meaning here.
 pub fn is_foreign(node: Node<'_, '_>) -> bool {
     let own = node.document().root_element().tag_name().namespace();
     node.is_element() && node.tag_name().namespace() != own

@@ -97,8 +97,8 @@ impl<'a> File<'a> {
         [ranges[0].filter(|_| !self.disabled.clamps), ranges[1]]
     }
 
-    /// A range, if it limits: where nothing says so, if it is not empty. MuJoCo takes what is exchanged for empty, too
-    /// (`islimited` of `src/user/user_objects.cc`).
+    /// A range, if it limits. Without `limited` a range limits if it is not empty; MuJoCo takes one with exchanged ends
+    /// for empty, too (`islimited` of `src/user/user_objects.cc`).
     pub fn limited(&mut self, node: Node<'a, 'a>, range: [f64; 2], word: Option<&str>) -> Option<[f64; 2]> {
         let limits = match word {
             Some("true") => true,

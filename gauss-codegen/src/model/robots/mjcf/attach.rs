@@ -85,7 +85,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// A place in that of what it is in.
+/// A pose that is given relative to another one, composed with that.
 fn put((at, matrix): &Place, (position, rotation): (Triple, Rotation)) -> (Triple, Rotation) {
     let moved = turned(matrix, &position);
     let turn = Rotation::from_matrix(&multiply(matrix, &rotation.matrix));
@@ -327,7 +327,7 @@ mod tests {
         assert_eq!(told(&leg.replace("<!--", "<keyframe><key/></keyframe><!--")), 1);
     }
 
-    /// `qpos0` of MuJoCo 4.0.0: the pose of what moves freely is that in the world.
+    /// `qpos0` of MuJoCo 4.0.0: the pose of a free body is that in the world.
     #[test]
     fn what_moves_freely() {
         let leg = "<mujoco model=\"leg\"><worldbody><body name=\"hip\" pos=\"0 0 1\"><freejoint/><geom size=\"1\"/></body>\

@@ -75,7 +75,7 @@ impl<'a> Gains<'a> {
         if gain[0] == -bias[1] { self.inherited } else { 0.0 }
     }
 
-    /// What an element says.
+    /// Sets the gains that an element gives.
     fn set(&mut self, node: Node<'a, 'a>, reading: &mut Reading<'a>) {
         start_of(node, "gear", &mut self.gear, reading);
         for (range, [word, limited]) in

@@ -34,7 +34,7 @@ impl<'a> File<'a> {
         for (index, node) in self.reading.children(section, "key").into_iter().enumerate() {
             let name = self.reading.text(node, "name").map_or(format!("key_{index}"), str::to_owned);
             let [values, rates] = [("qpos", 0), ("qvel", 1)].map(|(word, which)| {
-                // Without numbers it says nothing.
+                // An attribute without numbers is as good as none.
                 let numbers = self.reading.list(node, word).filter(|numbers| !numbers.is_empty())?;
                 let joints = &self.description.joints;
                 let expected: usize = joints.iter().map(|joint| sizes(joint.kind)[which]).sum();

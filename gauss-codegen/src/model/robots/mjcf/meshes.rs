@@ -43,7 +43,7 @@ impl<'a> File<'a> {
     }
 
     fn solid(&mut self, node: Node<'a, 'a>) -> Option<Inertial> {
-        // In earlier versions of MuJoCo the compiler says it for all meshes.
+        // In earlier versions of MuJoCo an attribute of `<compiler>` chooses this for all meshes.
         let compilers = self.reading.children(node.document().root_element(), "compiler");
         let is_exact = |node: &Node<'a, 'a>| self.reading.text(*node, "exactmeshinertia") == Some("true");
         let usual = if compilers.iter().any(is_exact) { "exact" } else { "legacy" };

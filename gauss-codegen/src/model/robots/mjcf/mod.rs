@@ -54,10 +54,10 @@ use super::xml::{Reading, own_descendants, own_elements, parse, shown};
 /// The link that holds all others.
 const WORLD: &str = "world";
 
-/// Where something is in the axes of what it is in.
+/// The pose of an element relative to the element around it: position and rotation.
 type Place = (Triple, Matrix);
 
-/// An element, the class around it, and the place of what it is in.
+/// An element, the class around it, and the pose of the element around it.
 type Framed<'a> = (Node<'a, 'a>, Option<&'a str>, Place);
 
 /// # Errors
@@ -66,7 +66,7 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
     model(text, None).map(|model| model.description)
 }
 
-/// What a file says, with what those need that attach it.
+/// The description in a file, with the data that a file needs which attaches it.
 struct Model {
     description: Description,
     sites: Vec<(String, String)>,
@@ -122,7 +122,7 @@ fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fa
     file.add_drives_of_attached();
     file.reading.children(root, "keyframe").into_iter().for_each(|section| file.keys(section));
     file.switch_off();
-    // Masses and attached models look for what they need; the rest says nothing of the motion.
+    // Masses and attached models look for the assets they need; the other assets have no effect on the motion.
     for asset in file.reading.children(root, "asset") {
         for tag in ["mesh", "model"] {
             file.reading.children(asset, tag);
@@ -250,7 +250,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// The place of an element in that of what it is in.
+    /// The pose of an element, from that of the element around it.
     fn placed(&mut self, node: Node<'a, 'a>, tag: &'static str, class: Option<&'a str>, (at, matrix): &Place) -> Place {
         let position = self.triple(node, tag, "pos", class);
         let rotation = self.rotation(node, &[tag], class);

@@ -7,8 +7,8 @@ use super::disabled::Disabled;
 use crate::model::robots::xml::shown;
 
 impl<'a> File<'a> {
-    /// Gravity in observer's axes, m/s², that of the earth where the file says nothing; what does not act. Those of the
-    /// file that attaches this one act on both, as MuJoCo has it.
+    /// Reads gravity in observer's axes, m/s² (that of the earth where the file gives none), and the options that
+    /// switch forces off. The options of a file that attaches this one act on both, as in MuJoCo.
     pub fn options(&mut self, root: Node<'a, 'a>, around: Option<&File<'_>>) {
         let mut gravity = [0.0, 0.0, -9.81];
         let mut is_off = false;

@@ -1,4 +1,4 @@
-//! `<replicate count="3" …>`: copies of what is in it, each in a frame, with numbers after the names.
+//! `<replicate count="3" …>`: copies of the elements in it, each in a frame, with numbers after the names.
 //!
 //! As `mjXReader::Body` of MuJoCo's `src/xml/xml_native_reader.cc` has it: copy i is turned by i times the angles, and
 //! moved from the one before by the offset in the axes of that. What refers to a copied element is copied with it, and
@@ -79,7 +79,7 @@ fn once(text: &Text) -> Result<Option<Text>, Fault> {
     Ok(Some(copies.written(text, (root, node), &named, &referring)))
 }
 
-/// What the element says.
+/// The attributes of the element.
 struct Copies<'a> {
     count: usize,
     separator: &'a str,

@@ -15,7 +15,7 @@ pub struct Format {
     pub samples: &'static [(&'static str, &'static str, &'static str)],
 }
 
-/// What was read: the description without notes, and the notes of what does not act.
+/// The result of reading: the description without notes, and the notes of elements that do not act.
 type Read = (String, Vec<Note>);
 
 impl Format {
