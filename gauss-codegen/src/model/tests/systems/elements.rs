@@ -97,8 +97,8 @@ fn friction_and_armatures() {
             ("v", "`v` varies, and the inertia of an armature is constant; write numbers and fields only"),
             (
                 "c",
-                "the extent of a friction law is a scalar, found a vector; write one number such as an angle, or `from = …` \
-                 and `to = …` for the distance of two points",
+                "the extent of a friction law is a scalar, found a vector; write one number such as an angle, or \
+                 `from = …` and `to = …` for the distance of two points",
             ),
             ("v", "`v` varies, and the viscous part of friction is constant; write numbers and fields only"),
             ("top", "`top` varies, and the dry part of friction is constant; write numbers and fields only"),
