@@ -60,8 +60,8 @@ impl fmt::Display for SplittingError {
             Self::NotPositive => f.write_str("the moments of inertia are not positive"),
             Self::ForcesDependOnVelocity { difference } => write!(
                 f,
-                "the forces depend on velocities (by {difference:e} where it was tried), which kicks between free motions \
-                 cannot follow; use a Runge–Kutta method"
+                "the forces depend on velocities (by {difference:e} where it was tried), which kicks between free \
+                 motions cannot follow; use a Runge–Kutta method"
             ),
             Self::NonFinite => f.write_str("the equations are infinite or undefined wherever they were tried"),
         }

@@ -34,8 +34,8 @@ fn refuse_beside_chart(statements: &Statements, context: &mut Context) {
         context.error(
             clause.span(),
             format!(
-                "the chart has speeds and kinematics of its own, and `{clause}` is for coordinates besides those of the \
-                 chart; add `coordinates(…)` of what else moves, remove `{clause}`, or remove `chart` and `motion`"
+                "the chart has speeds and kinematics of its own, and `{clause}` is for coordinates besides those of \
+                 the chart; add `coordinates(…)` of what else moves, remove `{clause}`, or remove `chart` and `motion`"
             ),
         );
     }

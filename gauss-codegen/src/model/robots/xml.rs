@@ -240,7 +240,7 @@ impl<'a> Reading<'a> {
         self.number(node, name)
     }
 
-    /// One number that is not negative, zero where it is not said.
+    /// One number that is not negative, zero where the file gives none.
     pub fn amount(&mut self, node: Node<'a, 'a>, name: &'static str) -> f64 {
         match self.number(node, name) {
             Some(number) if number < 0.0 => {
