@@ -1,6 +1,6 @@
 //! Four-bar linkages in a row, which pass positions where their constraints depend on one another.
 
-use gauss_runtime::batch::{Batch, HowItEnded, States};
+use gauss_batch::{Batch, HowItEnded, States};
 use gauss_runtime::integrate::Control;
 use gauss_runtime::prelude::*;
 
